@@ -1,0 +1,89 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "hamjet/algebra/truncated_power_series.hpp"
+
+namespace hamjet {
+
+/// Partial derivative by x_i. Exact up to degree N-1; the slice of degree N is unknown to a truncated
+/// series and is left zero.
+template <class T>
+Series<T> derivative(const Series<T>& u, std::size_t i) {
+  const SeriesSpace& space = u.space();
+  Series<T> result(u.space_pointer());
+  std::vector<std::uint8_t> exponents;
+  for (std::size_t k = 1; k < space.size(); ++k) {
+    const auto from = space.exponents(k);
+    if (from[i] == 0) continue;
+    exponents.assign(from.begin(), from.end());
+    --exponents[i];
+    result[space.index(exponents)] = u[k] * T(static_cast<double>(from[i]));
+  }
+  return result;
+}
+
+/// Integral by x_i from 0: the antiderivative without terms free of x_i. The degree-N slice of `u`
+/// would give degree N+1 and is dropped.
+template <class T>
+Series<T> integral(const Series<T>& u, std::size_t i) {
+  const SeriesSpace& space = u.space();
+  Series<T> result(u.space_pointer());
+  std::vector<std::uint8_t> exponents;
+  for (std::size_t k = 0; k < space.first(space.order()); ++k) {
+    const auto from = space.exponents(k);
+    exponents.assign(from.begin(), from.end());
+    ++exponents[i];
+    result[space.index(exponents)] = u[k] / T(static_cast<double>(exponents[i]));
+  }
+  return result;
+}
+
+/// Poisson bracket {f, g} = sum over i of df/dq_i dg/dp_i - df/dp_i dg/dq_i, the space's variables
+/// being (q_1..q_n, p_1..p_n). Exact up to degree N-1.
+template <class T>
+Series<T> poisson_bracket(const Series<T>& f, const Series<T>& g) {
+  require_same_space(f.space(), g.space());
+  const std::size_t variables = f.space().variables();
+  if (variables % 2 != 0) {
+    throw Error(ErrorKind::usage, "Poisson bracket: the number of variables is odd");
+  }
+  const std::size_t n = variables / 2;
+  Series<T> result(f.space_pointer());
+  for (std::size_t i = 0; i < n; ++i) {
+    result += derivative(f, i) * derivative(g, n + i);
+    result -= derivative(f, n + i) * derivative(g, i);
+  }
+  for (auto& c : result.slice(f.order())) c = T(0);
+  return result;
+}
+
+/// The value at a point, one number per variable: sum over monomials of coefficient times powers.
+/// Slices are summed from the highest degree down, so that small terms are not lost.
+template <class T>
+T evaluate(const Series<T>& u, std::span<const T> point) {
+  const SeriesSpace& space = u.space();
+  if (point.size() != space.variables()) {
+    throw Error(ErrorKind::usage, "evaluate: the point has not one number per variable");
+  }
+  std::vector<std::vector<T>> powers(point.size());
+  for (std::size_t i = 0; i < point.size(); ++i) {
+    powers[i].assign(static_cast<std::size_t>(space.order()) + 1, T(1));
+    for (std::size_t e = 1; e < powers[i].size(); ++e) powers[i][e] = powers[i][e - 1] * point[i];
+  }
+  T sum(0);
+  for (std::size_t k = space.size(); k-- > 0;) {
+    const auto exponents = space.exponents(k);
+    T term = u[k];
+    for (std::size_t i = 0; i < point.size(); ++i) {
+      if (exponents[i] > 0) term *= powers[i][exponents[i]];
+    }
+    sum += term;
+  }
+  return sum;
+}
+
+}  // namespace hamjet

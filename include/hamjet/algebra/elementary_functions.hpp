@@ -1,0 +1,120 @@
+#pragma once
+
+#include <cmath>
+#include <utility>
+
+#include "hamjet/algebra/slice_recurrences.hpp"
+#include "hamjet/algebra/truncated_power_series.hpp"
+
+// Elementary functions of truncated power series by the recurrences of slice_recurrences.hpp. The
+// constant term must lie where the function is analytic: where it does not (division by a series
+// with constant term 0, logarithm of a negative one) the result holds values that are not finite,
+// as in real arithmetic.
+
+namespace hamjet {
+
+namespace detail {
+
+/// Completes w = f(u) degree by degree, given f(u_0), f'(u_0) and the interior part.
+template <class T, class Interior>
+Series<T> complete_function(const Series<T>& u, const T& value, const T& derivative,
+                            Interior interior) {
+  const SeriesSpace& space = u.space();
+  Series<T> w(u.space_pointer(), value);
+  for (int d = 1; d <= space.order(); ++d) {
+    interior(d, w.coefficients().data());
+    for (std::size_t k = space.first(d); k < space.first(d + 1); ++k) w[k] += derivative * u[k];
+  }
+  return w;
+}
+
+}  // namespace detail
+
+template <class T>
+Series<T> operator/(const Series<T>& u, const Series<T>& v) {
+  require_same_space(u.space(), v.space());
+  const SeriesSpace& space = u.space();
+  Series<T> w(u.space_pointer(), T(u[0] / v[0]));
+  for (int d = 1; d <= space.order(); ++d) {
+    quotient_interior(space, d, v.coefficients().data(), w.coefficients().data());
+    for (std::size_t k = space.first(d); k < space.first(d + 1); ++k) {
+      w[k] += (u[k] - w[0] * v[k]) / v[0];
+    }
+  }
+  return w;
+}
+
+template <class T>
+Series<T> operator/(const std::type_identity_t<T>& a, const Series<T>& u) {
+  const T value = T(1) / u[0];
+  return a * detail::complete_function(u, value, T(-value * value), [&](int d, T* w) {
+           reciprocal_interior(u.space(), d, u.coefficients().data(), w);
+         });
+}
+
+template <class T>
+Series<T> sqrt(const Series<T>& u) {
+  using std::sqrt;
+  const T value(sqrt(u[0]));
+  return detail::complete_function(u, value, T(T(1) / (T(2) * value)), [&](int d, T* w) {
+    square_root_interior(u.space(), d, w);
+  });
+}
+
+/// u^exponent for any real exponent; the constant term must not be zero (nor negative unless the
+/// exponent is an integer). Non-negative integer powers of a series without constant term are
+/// products: use square and *.
+template <class T, class Real>
+Series<T> pow(const Series<T>& u, const Real& exponent) {
+  const T value = power(u[0], exponent);
+  std::vector<T> scratch(u.size(), T(0));
+  return detail::complete_function(u, value, T(T(exponent) * value / u[0]), [&](int d, T* w) {
+    power_interior(u.space(), d, exponent, u.coefficients().data(), w, scratch.data());
+  });
+}
+
+template <class T>
+Series<T> exp(const Series<T>& u) {
+  using std::exp;
+  const T value(exp(u[0]));
+  std::vector<T> scratch(u.size(), T(0));
+  return detail::complete_function(u, value, value, [&](int d, T* w) {
+    exponential_interior<T>(u.space(), d, u.coefficients().data(), w, scratch.data());
+  });
+}
+
+template <class T>
+Series<T> log(const Series<T>& u) {
+  using std::log;
+  std::vector<T> scratch(u.size(), T(0));
+  return detail::complete_function(u, T(log(u[0])), T(T(1) / u[0]), [&](int d, T* w) {
+    logarithm_interior<T>(u.space(), d, u.coefficients().data(), w, scratch.data());
+  });
+}
+
+/// Sine and cosine together, for each needs the other.
+template <class T>
+std::pair<Series<T>, Series<T>> sin_cos(const Series<T>& u) {
+  using std::cos;
+  using std::sin;
+  const SeriesSpace& space = u.space();
+  Series<T> s(u.space_pointer(), T(sin(u[0])));
+  Series<T> c(u.space_pointer(), T(cos(u[0])));
+  std::vector<T> scratch(u.size(), T(0));
+  for (int d = 1; d <= space.order(); ++d) {
+    sine_cosine_interior<T>(space, d, u.coefficients().data(), s.coefficients().data(),
+                            c.coefficients().data(), scratch.data());
+    for (std::size_t k = space.first(d); k < space.first(d + 1); ++k) {
+      s[k] += c[0] * u[k];
+      c[k] -= s[0] * u[k];
+    }
+  }
+  return {std::move(s), std::move(c)};
+}
+
+template <class T>
+Series<T> sin(const Series<T>& u) { return sin_cos(u).first; }
+template <class T>
+Series<T> cos(const Series<T>& u) { return sin_cos(u).second; }
+
+}  // namespace hamjet

@@ -1,0 +1,144 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <experimental/simd>
+#include <type_traits>
+
+namespace hamjet {
+
+namespace detail {
+
+/// The vector type for `Lanes` numbers: for double the machine's native width, or narrower if fewer
+/// lanes are wanted, never wider (a vector wider than the machine's compiles to poor code).
+template <class Real, int Lanes>
+struct VectorFor {
+  using type = Real;
+  static constexpr int width = 1;
+};
+
+template <int Lanes>
+  requires(Lanes > 1)
+struct VectorFor<double, Lanes> {
+  static constexpr int native = static_cast<int>(std::experimental::native_simd<double>::size());
+  static constexpr int width = Lanes < native ? Lanes : native;
+  using type =
+      std::experimental::simd<double, std::experimental::simd_abi::deduce_t<double, width>>;
+};
+
+}  // namespace detail
+
+/// A fixed number of reals that go through the same arithmetic together: the stages of an implicit
+/// Runge-Kutta method. An array of vectors of the machine's width; for extended precision the same
+/// class over an array of scalars. Forms a commutative ring componentwise (a field where no
+/// component is zero).
+template <class Real, int Lanes>
+struct Pack {
+  using real_type = Real;
+  using Vector = typename detail::VectorFor<Real, Lanes>::type;
+  static constexpr int lanes = Lanes;
+  static constexpr int width = detail::VectorFor<Real, Lanes>::width;
+  static constexpr int parts = Lanes / width;
+
+  std::array<Vector, parts> part;
+
+  Pack() : part{} {}
+  /// All lanes equal.
+  Pack(const Real& value) {  // NOLINT(google-explicit-constructor): reals embed in packs
+    for (auto& v : part) v = Vector(value);
+  }
+
+  Real lane(int i) const {
+    if constexpr (width == 1) {
+      return part[static_cast<std::size_t>(i)];
+    } else {
+      return part[static_cast<std::size_t>(i / width)][static_cast<std::size_t>(i % width)];
+    }
+  }
+  void set_lane(int i, const Real& value) {
+    if constexpr (width == 1) {
+      part[static_cast<std::size_t>(i)] = value;
+    } else {
+      part[static_cast<std::size_t>(i / width)][static_cast<std::size_t>(i % width)] = value;
+    }
+  }
+
+  Pack& operator+=(const Pack& o) {
+    for (std::size_t i = 0; i < parts; ++i) part[i] += o.part[i];
+    return *this;
+  }
+  Pack& operator-=(const Pack& o) {
+    for (std::size_t i = 0; i < parts; ++i) part[i] -= o.part[i];
+    return *this;
+  }
+  Pack& operator*=(const Pack& o) {
+    for (std::size_t i = 0; i < parts; ++i) part[i] *= o.part[i];
+    return *this;
+  }
+  Pack& operator/=(const Pack& o) {
+    for (std::size_t i = 0; i < parts; ++i) part[i] /= o.part[i];
+    return *this;
+  }
+  friend Pack operator+(Pack a, const Pack& b) { return a += b; }
+  friend Pack operator-(Pack a, const Pack& b) { return a -= b; }
+  friend Pack operator*(Pack a, const Pack& b) { return a *= b; }
+  friend Pack operator/(Pack a, const Pack& b) { return a /= b; }
+  friend Pack operator-(const Pack& a) {
+    Pack result;
+    for (std::size_t i = 0; i < parts; ++i) result.part[i] = -a.part[i];
+    return result;
+  }
+};
+
+template <class T>
+inline constexpr bool is_pack = false;
+template <class Real, int Lanes>
+inline constexpr bool is_pack<Pack<Real, Lanes>> = true;
+
+/// Applies a scalar function lane by lane.
+template <class Real, int Lanes, class Function>
+Pack<Real, Lanes> map_lanes(const Pack<Real, Lanes>& x, Function function) {
+  Pack<Real, Lanes> result;
+  for (int i = 0; i < Lanes; ++i) result.set_lane(i, function(x.lane(i)));
+  return result;
+}
+
+template <class Real, int Lanes>
+Pack<Real, Lanes> sqrt(const Pack<Real, Lanes>& x) {
+  if constexpr (Pack<Real, Lanes>::width > 1) {
+    Pack<Real, Lanes> result;
+    for (std::size_t i = 0; i < x.parts; ++i) result.part[i] = std::experimental::sqrt(x.part[i]);
+    return result;
+  } else {
+    return map_lanes(x, [](const Real& v) {
+      using std::sqrt;
+      return Real(sqrt(v));
+    });
+  }
+}
+
+// The transcendental functions are evaluated at degree 0 alone, once an operation: no need for speed.
+#define HAMJET_PACK_FUNCTION(name)                        \
+  template <class Real, int Lanes>                        \
+  Pack<Real, Lanes> name(const Pack<Real, Lanes>& x) {    \
+    return map_lanes(x, [](const Real& v) {               \
+      using std::name;                                    \
+      return Real(name(v));                               \
+    });                                                   \
+  }
+HAMJET_PACK_FUNCTION(exp)
+HAMJET_PACK_FUNCTION(log)
+HAMJET_PACK_FUNCTION(sin)
+HAMJET_PACK_FUNCTION(cos)
+#undef HAMJET_PACK_FUNCTION
+
+template <class Real, int Lanes>
+Pack<Real, Lanes> pow(const Pack<Real, Lanes>& x, const Real& exponent) {
+  return map_lanes(x, [&](const Real& v) {
+    using std::pow;
+    return Real(pow(v, exponent));
+  });
+}
+
+}  // namespace hamjet

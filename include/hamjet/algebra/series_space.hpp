@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "hamjet/algebra/product_schedule.hpp"
+
+namespace hamjet {
+
+/// The truncated polynomial ring R[x_1..x_v] / (monomials of degree > N): its monomials in a fixed
+/// order, and the schedule by which two of its elements are multiplied.
+///
+/// Monomials are graded: by degree first, and within a degree lexicographically with the exponent of
+/// x_1 falling first (x^2, xy, y^2). Number of monomials: C(v + N, N).
+///
+/// A space is an immutable object; several of different order or number of variables live side by
+/// side. Series hold a shared pointer to theirs, and operations on two different spaces throw.
+class SeriesSpace {
+ public:
+  /// `variables` in 1..64, `order` in 0..60. Throws Error(usage) outside, and Error(too_large) if
+  /// the monomials cannot be counted in 32 bits.
+  static std::shared_ptr<const SeriesSpace> create(std::size_t variables, int order);
+
+  std::size_t variables() const noexcept { return variables_; }
+  int order() const noexcept { return order_; }
+  /// Number of monomials of degree 0..N.
+  std::size_t size() const noexcept { return offsets_.back(); }
+  /// Index of the first monomial of this degree; `first(order() + 1)` is `size()`.
+  std::size_t first(int degree) const { return offsets_[static_cast<std::size_t>(degree)]; }
+  std::size_t count(int degree) const { return first(degree + 1) - first(degree); }
+  int degree(std::size_t monomial) const { return degrees_[monomial]; }
+  /// The exponents of a monomial, one per variable.
+  std::span<const std::uint8_t> exponents(std::size_t monomial) const {
+    return {exponents_.data() + monomial * variables_, variables_};
+  }
+  /// Index of the monomial with these exponents, whose sum must not exceed the order.
+  std::size_t index(std::span<const std::uint8_t> exponents) const;
+  /// Index of x_i.
+  std::size_t linear_index(std::size_t variable) const { return 1 + variable; }
+
+  /// The products that make up the slice of one degree; see ProductSchedule.
+  const ProductSchedule& products(int degree) const {
+    return schedules_[static_cast<std::size_t>(degree)];
+  }
+
+  /// Multiply-adds of one product of two series, degree by degree with the constant terms.
+  std::size_t product_cost() const;
+
+  bool operator==(const SeriesSpace& other) const noexcept {
+    return variables_ == other.variables_ && order_ == other.order_;
+  }
+
+  /// Number of monomials in `variables` variables up to `order`, as a real number so that it cannot
+  /// overflow.
+  static double monomial_count(std::size_t variables, int order);
+
+ private:
+  SeriesSpace(std::size_t variables, int order);
+
+  std::size_t variables_;
+  int order_;
+  std::vector<std::size_t> offsets_;
+  std::vector<std::uint8_t> exponents_;
+  std::vector<std::uint8_t> degrees_;
+  std::vector<ProductSchedule> schedules_;
+};
+
+using SpacePointer = std::shared_ptr<const SeriesSpace>;
+
+/// Throws Error(usage) unless both spaces have the same number of variables and order.
+void require_same_space(const SeriesSpace& a, const SeriesSpace& b);
+
+}  // namespace hamjet

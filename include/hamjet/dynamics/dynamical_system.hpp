@@ -1,0 +1,81 @@
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "hamjet/dynamics/expression.hpp"
+#include "hamjet/dynamics/operation_list.hpp"
+
+namespace hamjet {
+
+/// The second-order structure q' = M^-1 p, p' = F(q) with a constant mass matrix M.
+struct SecondOrderForm {
+  std::vector<Extended> inverse_mass;  ///< n x n, by rows
+  OperationList force;                 ///< n inputs q, n outputs F(q)
+};
+
+/// A Hamiltonian system with n degrees of freedom, z = (q_1..q_n, p_1..p_n) and
+/// z' = J grad H(z), J = [[0, I], [-I, 0]].
+struct DynamicalSystem {
+  std::string name;
+  std::size_t degrees_of_freedom = 0;
+  OperationList hamiltonian;   ///< 2n inputs, 1 output
+  OperationList vector_field;  ///< 2n inputs, 2n outputs
+  std::optional<SecondOrderForm> second_order;  ///< set where the vector field has this structure
+
+  std::size_t dimension() const noexcept { return 2 * degrees_of_freedom; }
+};
+
+/// A Hamiltonian written as a template over its number type: `h(q, p)` with spans of n numbers.
+template <class Function>
+concept HamiltonianFunction = requires(const Function& h, std::span<const Expression> x) {
+  { h(x, x) } -> std::convertible_to<Expression>;
+};
+
+/// Builds a system from the list of its Hamiltonian; the vector field is derived from it unless it
+/// is given. Throws Error(usage) if the numbers of inputs or outputs do not fit.
+DynamicalSystem make_system(std::string name, OperationList hamiltonian,
+                            std::optional<OperationList> vector_field = std::nullopt);
+
+/// Records the Hamiltonian and derives the vector field.
+template <HamiltonianFunction Function>
+DynamicalSystem make_system(std::string name, std::size_t degrees_of_freedom, const Function& h) {
+  const std::size_t n = degrees_of_freedom;
+  return make_system(std::move(name), record(2 * n, [&](std::span<const Expression> z) {
+                       return std::vector<Expression>{h(z.first(n), z.last(n))};
+                     }));
+}
+
+/// Records the Hamiltonian and a hand-written force F(q) = -dV/dq for H = p^2/2 + V(q).
+template <HamiltonianFunction Function, class Force>
+DynamicalSystem make_system(std::string name, std::size_t degrees_of_freedom, const Function& h,
+                            const Force& force) {
+  const std::size_t n = degrees_of_freedom;
+  return make_system(std::move(name),
+                     record(2 * n,
+                            [&](std::span<const Expression> z) {
+                              return std::vector<Expression>{h(z.first(n), z.last(n))};
+                            }),
+                     record(2 * n, [&](std::span<const Expression> z) {
+                       std::vector<Expression> field(z.begin() + static_cast<std::ptrdiff_t>(n),
+                                                     z.end());
+                       const std::vector<Expression> f = force(z.first(n));
+                       field.insert(field.end(), f.begin(), f.end());
+                       return field;
+                     }));
+}
+
+/// The degrees of freedom that a scene needs: those of the variables to expand in, those in which the
+/// nominal is not exactly at rest in the origin, and all that these drive. Ascending.
+std::vector<std::size_t> needed_degrees_of_freedom(const DynamicalSystem& system,
+                                                   std::span<const double> nominal,
+                                                   std::span<const std::size_t> variables);
+
+/// The system on the subspace where the other degrees of freedom vanish, which must be invariant.
+DynamicalSystem restrict_system(const DynamicalSystem& system, std::span<const std::size_t> kept);
+
+}  // namespace hamjet

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <hamjet/algebra/extended.hpp>
+#include <optional>
+
+namespace hamjet {
+
+/// Osculating Kepler elements of an elliptic orbit: the ellipse on which the body would go on if
+/// every force but the central one vanished at that instant.
+struct OsculatingElements {
+  double semi_major_axis_km = 0;       ///< a > 0
+  double eccentricity = 0;             ///< e in [0, 1)
+  double inclination_deg = 0;          ///< i, from the equatorial plane
+  double ascending_node_deg = 0;       ///< right ascension of the ascending node, from the x axis
+  double argument_of_perigee_deg = 0;  ///< from the ascending node, along the motion
+  double true_anomaly_deg = 0;         ///< from perigee, along the motion
+};
+
+/// Cartesian state in the inertial axes x, y (equatorial plane) and z (north).
+struct CartesianState {
+  std::array<Extended, 3> position_km;
+  std::array<Extended, 3> velocity_km_s;
+};
+
+/// Sine and cosine of one angle.
+struct SineCosine {
+  Extended sine;
+  Extended cosine;
+};
+
+/// Sine and cosine of an angle in degrees (any finite value). The angle is reduced to at most 45
+/// degrees exactly, before the conversion to radians, so that multiples of 90 degrees give exactly
+/// 0, 1 or -1.
+SineCosine sine_cosine_of_degrees(const Extended& angle_deg);
+
+/// State of a body with the given elements about a centre of gravitational parameter `mu_km3_s2`.
+/// The elements count as exact; the result is good to about 33 digits. Components that vanish for
+/// angles which are multiples of 90 degrees are exactly +0: with i = 0 z and its velocity, with
+/// i = 90 and node 0 y and its velocity.
+///
+/// Throws Error(usage) unless a > 0, 0 <= e < 1, mu > 0 and every number is finite.
+///
+/// Source: D. A. Vallado, Fundamentals of Astrodynamics and Applications, 4th ed. (2013), section
+/// 2.6 (algorithm COE2RV), its rotation written out with the argument of latitude.
+CartesianState state_from_elements(const OsculatingElements& elements, double mu_km3_s2);
+
+/// Period of the osculating Kepler ellipse in seconds, or nothing where there is none: on a
+/// parabola or a hyperbola, and on a straight line through the centre.
+///
+/// Precondition: the position is not the origin, mu > 0.
+///
+/// Source: the vis-viva integral 1/a = 2/r - v^2/mu and Kepler's third law; R. H. Battin, An
+/// Introduction to the Mathematics and Methods of Astrodynamics, revised ed. (1999), chapter 3.
+std::optional<Extended> osculating_period_s(const CartesianState& state, double mu_km3_s2);
+
+}  // namespace hamjet

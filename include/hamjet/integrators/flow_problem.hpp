@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "hamjet/algebra/truncated_power_series.hpp"
+#include "hamjet/dynamics/dynamical_system.hpp"
+
+namespace hamjet {
+
+/// What every integrator is asked for: the Taylor expansion of the flow over a duration about one
+/// nominal trajectory. Real is double or Extended; all numbers are in the system's own units.
+template <class Real>
+struct FlowProblem {
+  const DynamicalSystem* system = nullptr;
+  SpacePointer space;                  ///< as many variables as are expanded in
+  std::vector<std::size_t> variables;  ///< index in z = (q, p) of each variable of the space
+  std::vector<Real> initial_state;     ///< 2n numbers
+  Real duration = 0;                   ///< negative: backwards; zero: the identity, exactly
+};
+
+/// The flow's jet: component i of the final state as a series in the initial deviations. The
+/// constant terms are the nominal's final state.
+template <class Real>
+using FlowJet = std::vector<Series<Real>>;
+
+/// What an integration took. Evaluations are counted on series: one stage of one step.
+struct IntegrationStatistics {
+  long steps = 0;
+  long rejected_steps = 0;
+  long vector_field_evaluations = 0;
+  long nominal_evaluations = 0;  ///< on plain numbers, of all stages at once for implicit methods
+  double wall_seconds = 0;       ///< of the integration alone
+};
+
+/// Called after every accepted step with the time and the jet so far. May throw to stop.
+template <class Real>
+using StepObserver = std::function<void(const Real& time, const FlowJet<Real>& jet)>;
+
+/// The jet at time zero: the nominal's initial state plus the deviations themselves.
+template <class Real>
+FlowJet<Real> identity_jet(const FlowProblem<Real>& problem) {
+  FlowJet<Real> jet;
+  for (const Real& value : problem.initial_state) jet.emplace_back(problem.space, value);
+  if (problem.space->order() >= 1) {
+    for (std::size_t k = 0; k < problem.variables.size(); ++k) {
+      jet[problem.variables[k]][problem.space->linear_index(k)] = Real(1);
+    }
+  }
+  return jet;
+}
+
+/// The highest degree whose slices are not zero throughout: a linear system has none above 1.
+template <class Real>
+int working_order(const FlowProblem<Real>& problem) {
+  const int order = problem.space->order();
+  return problem.system->vector_field.is_linear_system() ? std::min(order, 1) : order;
+}
+
+/// Throws Error(usage) if the sizes of a problem do not fit, Error(numerical) if a number is not
+/// finite.
+template <class Real>
+void validate(const FlowProblem<Real>& problem);
+
+/// Throws Error(numerical), naming the time, unless every coefficient is finite.
+template <class Real>
+void require_finite(const FlowJet<Real>& jet, const Real& time, const char* method);
+
+}  // namespace hamjet

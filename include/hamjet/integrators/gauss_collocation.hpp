@@ -1,0 +1,50 @@
+#pragma once
+
+#include <optional>
+
+#include "hamjet/integrators/flow_problem.hpp"
+
+namespace hamjet {
+
+/// Seconds spent in the parts of a Gauss integration, for benchmarks.
+struct GaussProfile {
+  double nominal = 0;        ///< Newton's iteration on plain numbers and the step size control
+  double factorisation = 0;  ///< of the stage system, once a step
+  double series = 0;         ///< products of series: the remainders
+  double linear_solves = 0;  ///< the stage slices from the remainders
+  double update = 0;         ///< linear parts of the intermediates and the new state
+};
+
+/// How a Gauss collocation method integrates.
+struct GaussSettings {
+  int stages = 8;                   ///< 1 (the implicit midpoint rule) to 16; the order is 2 stages
+  std::optional<double> step;       ///< fixed: the span is cut into equal steps not longer than this
+  std::optional<double> tolerance;  ///< adaptive: relative local error of the nominal
+  GaussProfile* profile = nullptr;  ///< filled where given; costs a few clock readings a step
+};
+
+/// Integrates the flow's jet with a Gauss collocation method, exactly as the method acts on series:
+/// the result is the jet of the numerical map, which is symplectic, so its generating functions exist
+/// to round-off whatever the step (but exactness is not accuracy).
+///
+/// A step solves degree 0 by Newton's method, then each degree by one evaluation on series and one
+/// linear solve (see SliceEvaluator, StageSystem). Step sizes depend on the nominal alone and are
+/// constants with respect to the deviations, so variable steps keep the map symplectic. A step is
+/// accepted when
+///
+///   (defect / largest slope)^2 <= tolerance ,
+///
+/// defect being the distance, at the ends of the step, between the slope and the collocation
+/// polynomial that was fitted to it inside: about the first neglected Legendre mode, whose square has
+/// the order 2s of the method. The update is summed with compensation.
+///
+/// Source: Hairer, Lubich and Wanner, Geometric Numerical Integration, sections II.1 and VIII.6.
+/// Throws Error(usage) for settings out of range, Error(numerical) if the stage equations have no
+/// solution connected to the start of the step (with fixed steps), if the step size underflows, or if
+/// a coefficient is not finite; the message names time and step.
+template <class Real>
+FlowJet<Real> integrate_gauss(const FlowProblem<Real>& problem, const GaussSettings& settings,
+                              IntegrationStatistics& statistics,
+                              const StepObserver<Real>& observer = {});
+
+}  // namespace hamjet

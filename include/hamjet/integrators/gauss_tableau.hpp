@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "hamjet/algebra/extended.hpp"
+
+namespace hamjet {
+
+/// Coefficients of the s-stage Gauss collocation method of order 2s on [0, 1]: nodes c (zeros of the
+/// shifted Legendre polynomial), weights b and the matrix A. Source: Hairer, Lubich and Wanner,
+/// Geometric Numerical Integration, section II.1.3. Computed in extended precision, not tabulated.
+struct GaussTableau {
+  std::size_t stages = 0;
+  std::vector<Extended> nodes;
+  std::vector<Extended> weights;
+  std::vector<Extended> matrix;  ///< s x s by rows, a_ij = integral of l_j from 0 to c_i
+
+  const Extended& a(std::size_t i, std::size_t j) const { return matrix[i * stages + j]; }
+};
+
+/// Throws Error(usage) unless 1 <= stages <= 16.
+GaussTableau gauss_tableau(std::size_t stages);
+
+/// Legendre polynomials P_0..P_count-1 at x in [-1, 1].
+std::vector<Extended> legendre(const Extended& x, std::size_t count);
+
+}  // namespace hamjet

@@ -1,0 +1,103 @@
+#include <boost/math/constants/constants.hpp>
+#include <cmath>
+#include <hamjet/dynamics/osculating_elements.hpp>
+#include <hamjet/error.hpp>
+
+namespace hamjet {
+namespace {
+
+Extended pi() { return boost::math::constants::pi<Extended>(); }
+
+/// The same angle within (-360, 360): std::fmod is exact, so nothing is rounded, and the sum of two
+/// such angles keeps at least 100 bits below the degree.
+Extended within_one_turn(double angle_deg) { return Extended(std::fmod(angle_deg, 360.0)); }
+
+/// A zero with a minus sign, which the products below may leave, is the same state as +0, but would
+/// be printed differently.
+Extended without_sign_of_zero(const Extended& value) { return value == 0 ? Extended(0) : value; }
+
+Extended norm_squared(const std::array<Extended, 3>& v) {
+  return v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+}
+
+void check(const OsculatingElements& elements, double mu_km3_s2) {
+  const bool finite =
+      std::isfinite(elements.semi_major_axis_km) && std::isfinite(elements.eccentricity) &&
+      std::isfinite(elements.inclination_deg) && std::isfinite(elements.ascending_node_deg) &&
+      std::isfinite(elements.argument_of_perigee_deg) && std::isfinite(elements.true_anomaly_deg) &&
+      std::isfinite(mu_km3_s2);
+  if (!finite || elements.semi_major_axis_km <= 0 || elements.eccentricity < 0 ||
+      elements.eccentricity >= 1 || mu_km3_s2 <= 0) {
+    throw Error(ErrorKind::usage,
+                "osculating elements must be finite, with a > 0, 0 <= e < 1 and mu > 0");
+  }
+}
+
+}  // namespace
+
+SineCosine sine_cosine_of_degrees(const Extended& angle_deg) {
+  const Extended turn = fmod(angle_deg, Extended(360));
+  // 90 * quadrant is a small integer, and the difference of two numbers this close is exact.
+  const int quadrant = static_cast<int>(floor(turn / 90 + Extended(0.5)));
+  const Extended remainder_rad = (turn - 90 * quadrant) * pi() / 180;
+  const Extended s = sin(remainder_rad);
+  const Extended c = cos(remainder_rad);
+  switch (((quadrant % 4) + 4) % 4) {
+    case 0:
+      return {s, c};
+    case 1:
+      return {c, -s};
+    case 2:
+      return {-s, -c};
+    default:
+      return {-c, s};
+  }
+}
+
+CartesianState state_from_elements(const OsculatingElements& elements, double mu_km3_s2) {
+  check(elements, mu_km3_s2);
+  const Extended a = elements.semi_major_axis_km;
+  const Extended e = elements.eccentricity;
+  const Extended perigee_deg = within_one_turn(elements.argument_of_perigee_deg);
+  const Extended anomaly_deg = within_one_turn(elements.true_anomaly_deg);
+  const auto [sin_node, cos_node] =
+      sine_cosine_of_degrees(within_one_turn(elements.ascending_node_deg));
+  const auto [sin_i, cos_i] = sine_cosine_of_degrees(within_one_turn(elements.inclination_deg));
+  const auto [sin_perigee, cos_perigee] = sine_cosine_of_degrees(perigee_deg);
+  const auto [sin_anomaly, cos_anomaly] = sine_cosine_of_degrees(anomaly_deg);
+  // Argument of latitude. The angles are added in degrees, where 45 + 45 is 90 exactly.
+  const auto [sin_latitude, cos_latitude] = sine_cosine_of_degrees(perigee_deg + anomaly_deg);
+
+  const Extended semi_latus_rectum = a * (1 - e) * (1 + e);
+  const Extended r = semi_latus_rectum / (1 + e * cos_anomaly);
+  const Extended speed_scale = sqrt(Extended(mu_km3_s2) / semi_latus_rectum);
+  // Velocity along the line of nodes, and at right angles to it in the orbit's plane.
+  const Extended along_node = -speed_scale * (sin_latitude + e * sin_perigee);
+  const Extended across_node = speed_scale * (cos_latitude + e * cos_perigee);
+
+  CartesianState state;
+  state.position_km = {r * (cos_node * cos_latitude - sin_node * sin_latitude * cos_i),
+                       r * (sin_node * cos_latitude + cos_node * sin_latitude * cos_i),
+                       r * sin_latitude * sin_i};
+  state.velocity_km_s = {cos_node * along_node - sin_node * across_node * cos_i,
+                         sin_node * along_node + cos_node * across_node * cos_i,
+                         across_node * sin_i};
+  for (Extended& x : state.position_km) x = without_sign_of_zero(x);
+  for (Extended& v : state.velocity_km_s) v = without_sign_of_zero(v);
+  return state;
+}
+
+std::optional<Extended> osculating_period_s(const CartesianState& state, double mu_km3_s2) {
+  const Extended mu = mu_km3_s2;
+  const auto& [x, y, z] = state.position_km;
+  const auto& [vx, vy, vz] = state.velocity_km_s;
+  const std::array<Extended, 3> angular_momentum = {y * vz - z * vy, z * vx - x * vz,
+                                                    x * vy - y * vx};
+  const Extended inverse_a =
+      2 / sqrt(norm_squared(state.position_km)) - norm_squared(state.velocity_km_s) / mu;
+  if (inverse_a <= 0 || norm_squared(angular_momentum) == 0) return std::nullopt;
+  const Extended a = 1 / inverse_a;
+  return 2 * pi() * sqrt(a * a * a / mu);
+}
+
+}  // namespace hamjet

@@ -1,0 +1,65 @@
+#include "hamjet/integrators/flow_problem.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "hamjet/algebra/extended.hpp"
+
+namespace hamjet {
+namespace {
+
+template <class Real>
+bool is_finite(const Real& x) {
+  using std::isfinite;
+  return isfinite(x);
+}
+
+}  // namespace
+
+template <class Real>
+void validate(const FlowProblem<Real>& problem) {
+  if (problem.system == nullptr || problem.space == nullptr) {
+    throw Error(ErrorKind::usage, "flow problem: no system or no series space");
+  }
+  const std::size_t dimension = problem.system->dimension();
+  if (problem.initial_state.size() != dimension) {
+    throw Error(ErrorKind::usage, fmt::format("flow problem: the initial state has {} numbers, "
+                                              "the system {}",
+                                              problem.initial_state.size(), dimension));
+  }
+  if (problem.variables.size() != problem.space->variables()) {
+    throw Error(ErrorKind::usage, "flow problem: the space has another number of variables");
+  }
+  for (const std::size_t v : problem.variables) {
+    if (v >= dimension) throw Error(ErrorKind::usage, "flow problem: no such variable");
+  }
+  for (const Real& x : problem.initial_state) {
+    if (!is_finite(x)) {
+      throw Error(ErrorKind::numerical, "flow problem: the initial state is not finite");
+    }
+  }
+  if (!is_finite(problem.duration)) {
+    throw Error(ErrorKind::numerical, "flow problem: the duration is not finite");
+  }
+}
+
+template <class Real>
+void require_finite(const FlowJet<Real>& jet, const Real& time, const char* method) {
+  for (std::size_t i = 0; i < jet.size(); ++i) {
+    for (std::size_t k = 0; k < jet[i].size(); ++k) {
+      if (is_finite(jet[i][k])) continue;
+      throw Error(
+          ErrorKind::numerical,
+          fmt::format("{}: a coefficient of degree {} of component {} is not finite at t = {:.10g}",
+                      method, jet[i].space().degree(k), i, static_cast<double>(time)));
+    }
+  }
+}
+
+template void validate(const FlowProblem<double>&);
+template void validate(const FlowProblem<Extended>&);
+template void require_finite(const FlowJet<double>&, const double&, const char*);
+template void require_finite(const FlowJet<Extended>&, const Extended&, const char*);
+
+}  // namespace hamjet

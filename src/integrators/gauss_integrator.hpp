@@ -1,0 +1,388 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <vector>
+
+#include "hamjet/error.hpp"
+#include "hamjet/integrators/gauss_collocation.hpp"
+#include "stage_slopes.hpp"
+
+namespace hamjet {
+
+/// One Gauss integration; Lanes >= stages.
+template <class Real, int Lanes>
+class GaussIntegrator {
+ public:
+  using P = Pack<Real, Lanes>;
+
+  GaussIntegrator(const FlowProblem<Real>& problem, const GaussSettings& settings,
+                  IntegrationStatistics& statistics)
+      : problem_(problem),
+        settings_(settings),
+        statistics_(statistics),
+        order_(working_order(problem)),
+        tableau_(gauss_tableau(static_cast<std::size_t>(settings.stages))),
+        stages_(*problem.system, tableau_, problem.space, order_),
+        point_(stage_list(), problem.space, 0),
+        jet_(identity_jet(problem)),
+        lost_(jet_.size(), std::vector<Real>(problem.space->size(), Real(0))) {
+    for (const auto& component : jet_) state_.push_back(component.coefficients().data());
+    const std::size_t s = tableau_.stages;
+    for (std::size_t i = 0; i < s; ++i) {
+      const Extended value = legendre(2 * tableau_.nodes[i] - 1, s).back();
+      last_mode_.set_lane(static_cast<int>(i),
+                          convert<Real>(Extended((2 * s - 1) * tableau_.weights[i] * value)));
+    }
+  }
+
+  FlowJet<Real> run(const StepObserver<Real>& observer) {
+    const auto start = std::chrono::steady_clock::now();
+    double in_observer = 0;
+    begin();
+    while (time_ != problem_.duration) {
+      step();
+      if (observer) {
+        const auto before = std::chrono::steady_clock::now();
+        observer(time_, jet_);
+        in_observer += seconds_since(before);
+      }
+    }
+    statistics_.wall_seconds = seconds_since(start) - in_observer;
+    require_finite(jet_, time_, "Gauss");
+    return std::move(jet_);
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  static double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+  }
+
+  /// Adds the time since `mark` to one entry of the profile and moves the mark.
+  void account(double GaussProfile::* entry, Clock::time_point& mark) {
+    if (settings_.profile == nullptr) return;
+    const auto now = Clock::now();
+    settings_.profile->*entry += std::chrono::duration<double>(now - mark).count();
+    mark = now;
+  }
+
+  const OperationList& stage_list() const {
+    const DynamicalSystem& system = *problem_.system;
+    return system.second_order ? system.second_order->force : system.vector_field;
+  }
+
+  void begin() {
+    if (problem_.duration == 0) return;
+    evaluate_end_slope(end_slope_);
+    if (settings_.step) {
+      const double count = static_cast<double>(magnitude(problem_.duration)) / *settings_.step;
+      remaining_steps_ = std::max(1L, static_cast<long>(std::ceil(count * (1 - 1e-12))));
+      proposed_ = problem_.duration / Real(remaining_steps_);
+    } else {
+      proposed_ = first_step();
+    }
+  }
+
+  /// The slopes g at the state's constant terms.
+  void evaluate_end_slope(std::vector<Real>& slope) {
+    const std::size_t m = stages_.system().components();
+    for (std::size_t c = 0; c < m; ++c) *point_.input(c) = jet_[c][0];
+    point_.evaluate_constant_terms();
+    slope.assign(m, Real(0));
+    for (std::size_t c = 0; c < m; ++c) {
+      if (stages_.system().unit_mass()) {
+        slope[c] = *point_.output(c);
+      } else {
+        for (std::size_t k = 0; k < m; ++k) {
+          slope[c] += stages_.system().inverse_mass(c, k) * *point_.output(k);
+        }
+      }
+      if (!is_finite(slope[c])) {
+        throw Error(ErrorKind::numerical,
+                    fmt::format("Gauss: the vector field is not finite at t = {:.10g}: a collision, "
+                                "or a point outside its domain",
+                                static_cast<double>(time_)));
+      }
+    }
+  }
+
+  /// The time in which the slopes change by about their own size, from the gradient at the start; for
+  /// an orbit it is proportional to r^(3/2).
+  Real first_step() {
+    const std::size_t m = stages_.system().components();
+    double norm = 0;
+    for (std::size_t c = 0; c < m; ++c) {
+      double row = 0;
+      for (std::size_t k = 0; k < m; ++k) {
+        row += std::abs(static_cast<double>(point_.output_gradient(c, k)));
+      }
+      norm = std::max(norm, row);
+    }
+    const double span = static_cast<double>(magnitude(problem_.duration));
+    double h = span;
+    if (norm > 0) h = (stages_.system().second_order() ? 1 / std::sqrt(norm) : 1 / norm);
+    h *= 2 * std::pow(*settings_.tolerance, 0.5 / settings_.stages) * settings_.stages;
+    h = std::min(h, span);
+    return problem_.duration < 0 ? Real(-h) : Real(h);
+  }
+
+  void step() {
+    auto mark = Clock::now();
+    const Real remaining = problem_.duration - time_;
+    Real h = proposed_;
+    double growth = 1;
+    while (true) {
+      if (!settings_.step) h = fit_to_span(h, remaining);
+      if (time_ + h == time_) {
+        throw Error(ErrorKind::numerical,
+                    fmt::format("Gauss: the step size fell to {:.3g} at t = {:.15g}: a collision or "
+                                "another singularity lies ahead",
+                                static_cast<double>(h), static_cast<double>(time_)));
+      }
+      const bool is_solved = solve_nominal(h);
+      account(&GaussProfile::nominal, mark);
+      if (settings_.step) {
+        if (!is_solved) fail_fixed_step(h);
+        break;
+      }
+      const double error = is_solved ? error_estimate() : std::numeric_limits<double>::infinity();
+      growth = is_solved ? step_factor(error) : 0.5;
+      if (error <= *settings_.tolerance) break;
+      ++statistics_.rejected_steps;
+      h *= Real(std::min(growth, 0.9));
+    }
+    if (!stages_.factorise()) fail_fixed_step(h);
+    account(&GaussProfile::factorisation, mark);
+    advance_jet(h, mark);
+    previous_step_ = h;
+    ++statistics_.steps;
+    statistics_.vector_field_evaluations += settings_.stages;
+    if (settings_.step) {
+      --remaining_steps_;
+      time_ = remaining_steps_ == 0 ? problem_.duration
+                                    : problem_.duration - proposed_ * Real(remaining_steps_);
+    } else {
+      time_ = h == remaining ? problem_.duration : Real(time_ + h);
+      proposed_ = h * Real(std::min(growth, 2.0));
+    }
+    account(&GaussProfile::update, mark);
+  }
+
+  /// The last steps share what is left, so that none is tiny.
+  static Real fit_to_span(const Real& h, const Real& remaining) {
+    const double ratio = static_cast<double>(Real(remaining / h));
+    if (ratio <= 1) return remaining;
+    return ratio < 2 ? Real(remaining / 2) : h;
+  }
+
+  [[noreturn]] void fail_fixed_step(const Real& h) const {
+    throw Error(ErrorKind::numerical,
+                fmt::format("Gauss with {} stages: the implicit equations of the step of {:.6g} from "
+                            "t = {:.10g} have no solution connected to its start; a smaller step is "
+                            "needed",
+                            settings_.stages, static_cast<double>(h), static_cast<double>(time_)));
+  }
+
+  /// Degree 0 of a step: Newton from the extrapolated slopes, from constant slopes if that fails, and
+  /// along growing step sizes where the solution found might not be the one connected to the start.
+  bool solve_nominal(const Real& h) {
+    if (statistics_.steps > 0) {
+      extrapolate_slopes(h);
+      if (try_step(h) && !is_suspicious()) return true;
+    }
+    set_constant_slopes();
+    if (try_step(h) && !is_suspicious()) return true;
+    return settings_.step && continue_from_start(h);
+  }
+
+  bool try_step(const Real& h) {
+    stages_.system().set_step(h);
+    const auto state = [&](std::size_t k) -> const Real& { return jet_[k][0]; };
+    return stages_.solve_constant_terms(state, statistics_.nominal_evaluations);
+  }
+
+  void set_constant_slopes() {
+    for (std::size_t c = 0; c < end_slope_.size(); ++c) stages_.slopes()[c] = P(end_slope_[c]);
+  }
+
+  /// Newton can converge to a detached root of the stage equations, whose map is symplectic and wrong.
+  /// The slopes then have nothing to do with the slope at the start of the step.
+  bool is_suspicious() { return start_defect() > 0.5 * largest_slope(); }
+
+  bool continue_from_start(const Real& h) {
+    constexpr int parts = 32;
+    set_constant_slopes();
+    for (int i = 1; i <= parts; ++i) {
+      if (!try_step(Real(h * Real(i) / Real(parts)))) return false;
+    }
+    return true;
+  }
+
+  /// Lagrange extrapolation of the last step's slopes: node i lies at 1 + (h/h_previous) c_i there.
+  void extrapolate_slopes(const Real& h) {
+    const std::size_t s = tableau_.stages;
+    const P x = P(Real(1)) + P(Real(h / previous_step_)) * stages_.system().nodes();
+    const std::vector<P> old = stages_.slopes();
+    for (auto& slope : stages_.slopes()) slope = P(Real(0));
+    for (std::size_t j = 0; j < s; ++j) {
+      P basis(Real(1));
+      for (std::size_t k = 0; k < s; ++k) {
+        if (k != j) basis *= (x - P(node(k))) * P(Real(1 / (node(j) - node(k))));
+      }
+      for (std::size_t c = 0; c < old.size(); ++c) {
+        stages_.slopes()[c] += basis * P(old[c].lane(static_cast<int>(j)));
+      }
+    }
+  }
+
+  Real node(std::size_t j) { return stages_.system().nodes().lane(static_cast<int>(j)); }
+
+  /// The collocation polynomial of the slopes at x, one number per component.
+  Real slope_polynomial(std::size_t c, const Real& x) {
+    const std::size_t s = tableau_.stages;
+    Real sum = 0;
+    for (std::size_t j = 0; j < s; ++j) {
+      Real basis = 1;
+      for (std::size_t k = 0; k < s; ++k) {
+        if (k != j) basis *= (x - node(k)) / (node(j) - node(k));
+      }
+      sum += basis * stages_.slopes()[c].lane(static_cast<int>(j));
+    }
+    return sum;
+  }
+
+  double largest_slope() {
+    double result = 0;
+    for (const P& slope : stages_.slopes()) {
+      for (int i = 0; i < settings_.stages; ++i) {
+        result = std::max(result, std::abs(static_cast<double>(slope.lane(i))));
+      }
+    }
+    return result;
+  }
+
+  double start_defect() {
+    double result = 0;
+    for (std::size_t c = 0; c < end_slope_.size(); ++c) {
+      const Real difference = slope_polynomial(c, Real(0)) - end_slope_[c];
+      result = std::max(result, std::abs(static_cast<double>(difference)));
+    }
+    return result;
+  }
+
+  /// The square of the first neglected Legendre mode of the slopes, relative to the slopes. That mode
+  /// shows as the defect at the start of the step; where it happens to vanish, the last mode kept,
+  /// which has the other parity, does not.
+  double error_estimate() {
+    const double slope = largest_slope();
+    if (slope == 0) return 0;
+    double ratio = start_defect() / slope;
+    const double s = settings_.stages;
+    if (s > 1) ratio = std::max(ratio, std::pow(last_mode() / slope, s / (s - 1)));
+    return ratio * ratio;
+  }
+
+  /// The largest component of the Legendre mode of degree s - 1 of the slopes.
+  double last_mode() {
+    double result = 0;
+    for (const P& slope : stages_.slopes()) {
+      result = std::max(result, std::abs(static_cast<double>(dot(last_mode_, slope))));
+    }
+    return result;
+  }
+
+  double step_factor(double error) const {
+    if (error <= 0) return 4;
+    const double factor =
+        0.95 * std::pow(*settings_.tolerance / error, 0.5 / settings_.stages);
+    return std::clamp(factor, 0.1, 4.0);
+  }
+
+  /// The degrees 1..N of the stages, then the new state.
+  void advance_jet(const Real& h, Clock::time_point& mark) {
+    auto& evaluator = stages_.evaluator();
+    for (int d = 1; d <= order_; ++d) {
+      evaluator.evaluate_remainder(d);
+      account(&GaussProfile::series, mark);
+      stages_.solve_degree(d, state_);
+      account(&GaussProfile::linear_solves, mark);
+      evaluator.complete(d);
+      account(&GaussProfile::update, mark);
+    }
+    for (int d = 0; d <= order_; ++d) update_state(h, d);
+    evaluate_end_slope(end_slope_);
+  }
+
+  static Real dot(const P& weights, const P& values) {
+    if constexpr (P::width == 1) {
+      Real sum(0);
+      for (std::size_t i = 0; i < P::parts; ++i) sum += weights.part[i] * values.part[i];
+      return sum;
+    } else {
+      auto sum = weights.part[0] * values.part[0];
+      for (std::size_t i = 1; i < P::parts; ++i) sum += weights.part[i] * values.part[i];
+      return std::experimental::reduce(sum);
+    }
+  }
+
+  /// z_(n+1) = z_n + h sum b_j f_j, and with the second-order form
+  /// q_(n+1) = q_n + h M^-1 p_n + h^2 sum b_j (1 - c_j) M^-1 F_j.
+  void update_state(const Real& h, int d) {
+    const auto& system = stages_.system();
+    const auto& evaluator = stages_.evaluator();
+    const std::size_t m = system.components();
+    for (std::size_t k = problem_.space->first(d); k < problem_.space->first(d + 1); ++k) {
+      if (!system.second_order()) {
+        for (std::size_t c = 0; c < m; ++c) {
+          add(c, k, Real(h * dot(system.weights(), evaluator.output(c)[k])));
+        }
+        continue;
+      }
+      for (std::size_t c = 0; c < m; ++c) {
+        Real velocity = jet_[m + c][k];
+        if (!system.unit_mass()) {
+          velocity = Real(0);
+          for (std::size_t i = 0; i < m; ++i) velocity += system.inverse_mass(c, i) * jet_[m + i][k];
+        }
+        add(c, k, Real(h * (velocity + h * dot(system.position_weights(), stages_.slope(c, k)))));
+      }
+      for (std::size_t c = 0; c < m; ++c) {
+        add(m + c, k, Real(h * dot(system.weights(), evaluator.output(c)[k])));
+      }
+    }
+  }
+
+  /// Compensated (Kahan) addition to one coefficient of the state.
+  void add(std::size_t component, std::size_t k, const Real& increment) {
+    Real& value = jet_[component][k];
+    Real& lost = lost_[component][k];
+    const Real corrected = increment - lost;
+    const Real sum = value + corrected;
+    lost = (sum - value) - corrected;
+    value = sum;
+  }
+
+  const FlowProblem<Real>& problem_;
+  const GaussSettings& settings_;
+  IntegrationStatistics& statistics_;
+  int order_;
+  GaussTableau tableau_;
+  StageSlopes<Real, Lanes> stages_;
+  SliceEvaluator<Real, Real> point_;  ///< the vector field at one point
+  FlowJet<Real> jet_;
+  std::vector<std::vector<Real>> lost_;
+  std::vector<const Real*> state_;
+  Real time_ = 0;
+  Real proposed_ = 0;
+  Real previous_step_ = 0;
+  long remaining_steps_ = 0;
+  std::vector<Real> end_slope_;  ///< at the end of the last step, where the next one starts
+  P last_mode_{Real(0)};         ///< weights of the Legendre mode of degree s - 1
+};
+
+}  // namespace hamjet

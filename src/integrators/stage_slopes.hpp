@@ -1,0 +1,199 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "hamjet/dynamics/slice_evaluator.hpp"
+#include "stage_system.hpp"
+
+namespace hamjet {
+
+/// The stages of one step: degree 0 by Newton's method on the slopes G, the higher degrees through
+/// the same linearisation. Y_c are the inputs of the evaluator, G_c the slopes g(Y)_c.
+template <class Real, int Lanes>
+class StageSlopes {
+ public:
+  using P = Pack<Real, Lanes>;
+
+  StageSlopes(const DynamicalSystem& system, const GaussTableau& tableau, SpacePointer space,
+              int working_order)
+      : system_(system, tableau),
+        list_(system_.second_order() ? system.second_order->force : system.vector_field),
+        evaluator_(list_, space, working_order),
+        space_(std::move(space)),
+        slopes_(system_.components()) {}
+
+  StageSystem<Real, Lanes>& system() { return system_; }
+  SliceEvaluator<P, Real>& evaluator() { return evaluator_; }
+  std::vector<P>& slopes() { return slopes_; }
+
+  /// Slope g_c = (M^-1 F)_c, or z'_c, from the evaluator's outputs of one monomial.
+  P slope(std::size_t c, std::size_t monomial = 0) const {
+    if (!system_.second_order() || system_.unit_mass()) return evaluator_.output(c)[monomial];
+    P sum(Real(0));
+    for (std::size_t k = 0; k < system_.components(); ++k) {
+      sum += P(system_.inverse_mass(c, k)) * evaluator_.output(k)[monomial];
+    }
+    return sum;
+  }
+
+  /// Newton's method from the slopes that stand in slopes(); true if it converged to round-off.
+  /// With rho = g(Y) - G and Y = base + W G:  dY = K rho,  dG = rho + Dg dY.
+  template <class State>
+  bool solve_constant_terms(const State& state, long& evaluations) {
+    const std::size_t m = system_.components();
+    std::vector<P> residual(m);
+    std::vector<P> change(m);
+    Real previous = std::numeric_limits<Real>::max();
+    const Real epsilon = std::numeric_limits<Real>::epsilon();
+    bool is_factorised = false;
+    for (int iteration = 0; iteration < largest_iteration_count; ++iteration) {
+      place_stages(state);
+      evaluator_.evaluate_constant_terms();
+      ++evaluations;
+      if (!is_factorised) {
+        if (!factorise()) return false;
+        is_factorised = true;
+      }
+      for (std::size_t c = 0; c < m; ++c) residual[c] = slope(c) - slopes_[c];
+      apply_response(residual, change);
+      const Real size = relative_size(change);
+      if (!is_finite(size)) return false;
+      for (std::size_t c = 0; c < m; ++c) {
+        slopes_[c] += residual[c];
+        for (std::size_t k = 0; k < m; ++k) slopes_[c] += slope_gradient(c, k) * change[k];
+      }
+      const bool is_small = size <= 1000 * epsilon;
+      // Below a thousand units in the last place nothing but round-off is left once the correction
+      // stops shrinking.
+      if (size <= 2 * epsilon || (is_small && size >= previous / 4)) {
+        place_stages(state);
+        evaluator_.evaluate_constant_terms();
+        ++evaluations;
+        return true;
+      }
+      // The old linearisation serves as long as it contracts well.
+      if (size > previous / 20) is_factorised = false;
+      previous = size;
+    }
+    return false;
+  }
+
+  /// K and B at the stages as they stand.
+  bool factorise() {
+    return system_.factorise(
+        [&](std::size_t c, std::size_t from) { return slope_gradient(c, from); });
+  }
+
+  /// The degree-d slices of the stages from those of the outputs' remainders and of the state:
+  /// Y_d = K R_d + B z_d. `state[k]` points to the coefficients of the k-th component.
+  void solve_degree(int d, const std::vector<const Real*>& state) {
+    const std::size_t first = space_->first(d);
+    const std::size_t last = space_->first(d + 1);
+    if (system_.second_order() && !system_.unit_mass() && d >= 2) apply_inverse_mass(d);
+    for (std::size_t c = 0; c < system_.components(); ++c) {
+      std::size_t k = first;
+      for (; k + tile <= last; k += tile) solve_tile<tile>(c, d, k, state);
+      for (; k < last; ++k) solve_tile<1>(c, d, k, state);
+    }
+  }
+
+ private:
+  static constexpr int largest_iteration_count = 40;
+  static constexpr std::size_t tile = 6;
+
+  template <class State>
+  void place_stages(const State& state) {
+    for (std::size_t c = 0; c < system_.components(); ++c) {
+      evaluator_.input(c)[0] = system_.base(c, state) + system_.couple(slopes_[c]);
+    }
+  }
+
+  P slope_gradient(std::size_t c, std::size_t from) const {
+    if (!system_.second_order() || system_.unit_mass()) return evaluator_.output_gradient(c, from);
+    P sum(Real(0));
+    for (std::size_t k = 0; k < system_.components(); ++k) {
+      sum += P(system_.inverse_mass(c, k)) * evaluator_.output_gradient(k, from);
+    }
+    return sum;
+  }
+
+  void apply_response(const std::vector<P>& residual, std::vector<P>& change) const {
+    const std::size_t m = system_.components();
+    for (std::size_t c = 0; c < m; ++c) {
+      P sum(Real(0));
+      for (std::size_t from = 0; from < m; ++from) {
+        for (std::size_t j = 0; j < system_.stages(); ++j) {
+          sum += system_.response(from, j, c) * P(residual[from].lane(static_cast<int>(j)));
+        }
+      }
+      change[c] = sum;
+    }
+  }
+
+  /// Largest change of a stage relative to the largest stage value of the same component.
+  Real relative_size(const std::vector<P>& change) {
+    Real result = 0;
+    for (std::size_t c = 0; c < change.size(); ++c) {
+      Real largest = 0;
+      Real scale = 0;
+      for (int i = 0; i < static_cast<int>(system_.stages()); ++i) {
+        const Real moved = magnitude(change[c].lane(i));
+        if (!is_finite(moved)) return moved;
+        largest = std::max(largest, moved);
+        scale = std::max(scale, magnitude(evaluator_.input(c)[0].lane(i)));
+      }
+      if (largest > 0) result = std::max(result, Real(largest / std::max(scale, largest)));
+    }
+    return result;
+  }
+
+  void apply_inverse_mass(int d) {
+    mapped_.resize(system_.components());
+    for (std::size_t c = 0; c < system_.components(); ++c) {
+      mapped_[c].resize(space_->size());
+      for (std::size_t k = space_->first(d); k < space_->first(d + 1); ++k) {
+        mapped_[c][k] = slope(c, k);
+      }
+    }
+  }
+
+  const P* remainder(std::size_t c) const {
+    const bool is_mapped = system_.second_order() && !system_.unit_mass();
+    return is_mapped ? mapped_[c].data() : evaluator_.output(c);
+  }
+
+  /// Y_c for `Width` monomials at once: each entry of K is loaded once for all of them.
+  template <std::size_t Width>
+  void solve_tile(std::size_t c, int d, std::size_t monomial, const std::vector<const Real*>& state) {
+    std::array<P, Width> sum;
+    for (std::size_t t = 0; t < Width; ++t) sum[t] = P(Real(0));
+    for (std::size_t k = 0; k < state.size(); ++k) {
+      const P b = system_.base_response(k, c);
+      for (std::size_t t = 0; t < Width; ++t) sum[t] += b * P(state[k][monomial + t]);
+    }
+    for (std::size_t from = 0; from < system_.components(); ++from) {
+      if (!evaluator_.has_remainder(from, d)) continue;
+      const P* r = remainder(from) + monomial;
+      for (std::size_t j = 0; j < system_.stages(); ++j) {
+        const P entry = system_.response(from, j, c);
+        for (std::size_t t = 0; t < Width; ++t) {
+          sum[t] += entry * P(r[t].lane(static_cast<int>(j)));
+        }
+      }
+    }
+    P* target = evaluator_.input(c) + monomial;
+    for (std::size_t t = 0; t < Width; ++t) target[t] = sum[t];
+  }
+
+  StageSystem<Real, Lanes> system_;
+  OperationList list_;
+  SliceEvaluator<P, Real> evaluator_;
+  SpacePointer space_;
+  std::vector<P> slopes_;
+  std::vector<std::vector<P>> mapped_;
+};
+
+}  // namespace hamjet

@@ -1,0 +1,274 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "hamjet/algebra/pack.hpp"
+#include "hamjet/dynamics/dynamical_system.hpp"
+#include "hamjet/integrators/gauss_tableau.hpp"
+
+namespace hamjet {
+
+/// Real-valued absolute value and finiteness for double and Extended alike.
+template <class Real>
+Real magnitude(const Real& x) {
+  return x < 0 ? Real(-x) : x;
+}
+template <class Real>
+bool is_finite(const Real& x) {
+  using std::isfinite;
+  return isfinite(x);
+}
+
+/// The linear system of the stage equations of one step, and its solution operator.
+///
+/// Unknown are m components Y_c, each a pack over the stages i, with
+///
+///   Y = base + (W (x) I) G,   G_j = g(Y_j),
+///
+/// where for a general system Y = z, g = z', W = h A and base_i = z_n; and for a second-order system
+/// Y = q, g = M^-1 F(q), W = h^2 A^2 and base_i = q_n + h c_i M^-1 p_n (elimination of p). One
+/// linearisation serves Newton's iteration and every monomial of every degree:
+///
+///   (I - W (x) Dg) Y_d = base_d + W R_d   =>   Y_d = K R_d + B z_d .
+///
+/// K and B are kept as packs over the output stage i, so that applying them to a monomial is a run
+/// of broadcast multiply-adds.
+template <class Real, int Lanes>
+class StageSystem {
+ public:
+  using P = Pack<Real, Lanes>;
+
+  StageSystem(const DynamicalSystem& system, const GaussTableau& tableau)
+      : stages_(tableau.stages),
+        second_order_(system.second_order.has_value()),
+        components_(second_order_ ? system.degrees_of_freedom : system.dimension()),
+        state_size_(system.dimension()) {
+    const std::size_t s = stages_;
+    weights_ = pack_of([&](std::size_t i) { return tableau.weights[i]; }, false);
+    nodes_ = pack_of([&](std::size_t i) { return tableau.nodes[i]; }, true);
+    position_weights_ = pack_of(
+        [&](std::size_t i) { return Extended(tableau.weights[i] * (1 - tableau.nodes[i])); }, false);
+    for (std::size_t j = 0; j < s; ++j) {
+      coupling_.push_back(pack_of(
+          [&](std::size_t i) {
+            if (!second_order_) return tableau.a(i, j);
+            Extended sum = 0;
+            for (std::size_t k = 0; k < s; ++k) sum += tableau.a(i, k) * tableau.a(k, j);
+            return sum;
+          },
+          true));
+    }
+    if (second_order_) {
+      for (const Extended& x : system.second_order->inverse_mass) {
+        inverse_mass_.push_back(convert<Real>(x));
+      }
+      for (std::size_t c = 0; c < components_; ++c) {
+        for (std::size_t k = 0; k < components_; ++k) {
+          if (inverse_mass(c, k) != Real(c == k ? 1 : 0)) unit_mass_ = false;
+        }
+      }
+    }
+    unknowns_ = components_ * s;
+    matrix_.resize(unknowns_ * components_);
+    response_.resize(unknowns_ * components_);
+    base_.resize(state_size_ * components_);
+    pivot_row_.resize(unknowns_);
+    used_.resize(unknowns_);
+  }
+
+  std::size_t stages() const { return stages_; }
+  std::size_t components() const { return components_; }
+  bool second_order() const { return second_order_; }
+  bool unit_mass() const { return unit_mass_; }
+  const Real& inverse_mass(std::size_t c, std::size_t k) const {
+    return inverse_mass_[c * components_ + k];
+  }
+  const P& weights() const { return weights_; }
+  const P& nodes() const { return nodes_; }
+  const P& position_weights() const { return position_weights_; }
+
+  void set_step(const Real& h) {
+    step_ = h;
+    scale_ = second_order_ ? Real(h * h) : h;
+  }
+  const Real& step() const { return step_; }
+
+  /// sum over j of W_ij G_j, for one component.
+  P couple(const P& slopes) const {
+    P sum(Real(0));
+    for (std::size_t j = 0; j < stages_; ++j) {
+      sum += coupling_[j] * P(slopes.lane(static_cast<int>(j)));
+    }
+    return sum * P(scale_);
+  }
+
+  /// base for one component, from the state's coefficients of one monomial.
+  template <class State>
+  P base(std::size_t c, const State& state) const {
+    if (!second_order_) return P(state(c));
+    Real velocity = state(components_ + c);
+    if (!unit_mass_) {
+      velocity = Real(0);
+      for (std::size_t k = 0; k < components_; ++k) {
+        velocity += inverse_mass(c, k) * state(components_ + k);
+      }
+    }
+    return P(state(c)) + P(Real(step_ * velocity)) * nodes_;
+  }
+
+  /// K_(c, (from, stage)) as a pack over the stages of component c.
+  const P& response(std::size_t from, std::size_t stage, std::size_t c) const {
+    return response_[(from * stages_ + stage) * components_ + c];
+  }
+  /// B_(c, k), k an index into the state.
+  const P& base_response(std::size_t k, std::size_t c) const { return base_[k * components_ + c]; }
+
+  /// Forms K and B from the slopes' gradients Dg_(c, from), packs over the stages. False if the
+  /// matrix is singular or not finite.
+  template <class Gradient>
+  bool factorise(const Gradient& gradient) {
+    fill(gradient);
+    if (!eliminate()) return false;
+    undo_pivoting(response_);
+    undo_pivoting(base_);
+    return true;
+  }
+
+ private:
+  /// A pack from a function of the stage. Lanes beyond the last stage repeat the first stage where
+  /// `repeat` is set (so that they hold finite numbers) and are zero elsewhere.
+  template <class Function>
+  P pack_of(Function f, bool repeat) const {
+    P result(Real(0));
+    for (int i = 0; i < Lanes; ++i) {
+      const auto stage = static_cast<std::size_t>(i);
+      if (stage < stages_) {
+        result.set_lane(i, convert<Real>(Extended(f(stage))));
+      } else if (repeat) {
+        result.set_lane(i, convert<Real>(Extended(f(0))));
+      }
+    }
+    return result;
+  }
+
+  template <class Gradient>
+  void fill(const Gradient& gradient) {
+    const P zero(Real(0));
+    for (std::size_t from = 0; from < components_; ++from) {
+      for (std::size_t j = 0; j < stages_; ++j) {
+        const P column = coupling_[j] * P(scale_);
+        P* m = &matrix_[(from * stages_ + j) * components_];
+        P* r = &response_[(from * stages_ + j) * components_];
+        for (std::size_t c = 0; c < components_; ++c) {
+          m[c] = column * P(Real(-gradient(c, from).lane(static_cast<int>(j))));
+          r[c] = c == from ? column : zero;
+        }
+        m[from].set_lane(static_cast<int>(j), m[from].lane(static_cast<int>(j)) + Real(1));
+      }
+    }
+    for (std::size_t k = 0; k < state_size_; ++k) {
+      for (std::size_t c = 0; c < components_; ++c) {
+        P& entry = base_[k * components_ + c];
+        if (k < components_) {
+          entry = c == k ? P(Real(1)) : zero;
+        } else {
+          entry = nodes_ * P(Real(step_ * inverse_mass(c, k - components_)));
+        }
+      }
+    }
+  }
+
+  Real row_of(const P* column, std::size_t row) const {
+    return column[row / stages_].lane(static_cast<int>(row % stages_));
+  }
+  void set_row(P* column, std::size_t row, const Real& value) const {
+    column[row / stages_].set_lane(static_cast<int>(row % stages_), value);
+  }
+
+  /// The row to eliminate with: the diagonal unless another one is ten times larger (threshold
+  /// pivoting: the order of rows then rarely changes).
+  std::optional<std::size_t> choose_pivot(std::size_t column) const {
+    const P* m = &matrix_[column * components_];
+    std::size_t best = unknowns_;
+    Real largest = 0;
+    for (std::size_t row = 0; row < unknowns_; ++row) {
+      const Real value = magnitude(row_of(m, row));
+      if (!is_finite(value)) return std::nullopt;
+      if (!used_[row] && value > largest) {
+        largest = value;
+        best = row;
+      }
+    }
+    if (best == unknowns_) return std::nullopt;
+    if (!used_[column] && 10 * magnitude(row_of(m, column)) >= largest) best = column;
+    return best;
+  }
+
+  /// Gauss-Jordan elimination by columns: rows are lanes, so every update is a run of packs.
+  bool eliminate() {
+    std::fill(used_.begin(), used_.end(), false);
+    for (std::size_t r = 0; r < unknowns_; ++r) {
+      const auto pivot = choose_pivot(r);
+      if (!pivot) return false;
+      pivot_row_[r] = *pivot;
+      used_[*pivot] = true;
+      P* factor = &matrix_[r * components_];
+      const Real inverse = 1 / row_of(factor, *pivot);
+      set_row(factor, *pivot, Real(0));
+      for (std::size_t q = r + 1; q < unknowns_; ++q) {
+        reduce(&matrix_[q * components_], factor, *pivot, inverse);
+      }
+      for (std::size_t q = 0; q < response_.size(); q += components_) {
+        reduce(&response_[q], factor, *pivot, inverse);
+      }
+      for (std::size_t q = 0; q < base_.size(); q += components_) {
+        reduce(&base_[q], factor, *pivot, inverse);
+      }
+    }
+    return true;
+  }
+
+  void reduce(P* column, const P* factor, std::size_t pivot, const Real& inverse) const {
+    const Real x = row_of(column, pivot) * inverse;
+    const P broadcast(x);
+    for (std::size_t c = 0; c < components_; ++c) column[c] -= factor[c] * broadcast;
+    set_row(column, pivot, x);
+  }
+
+  void undo_pivoting(std::vector<P>& columns) const {
+    bool in_order = true;
+    for (std::size_t r = 0; r < unknowns_; ++r) in_order = in_order && pivot_row_[r] == r;
+    if (in_order) return;
+    std::vector<P> copy(components_);
+    for (std::size_t q = 0; q < columns.size(); q += components_) {
+      std::copy_n(&columns[q], components_, copy.begin());
+      for (std::size_t r = 0; r < unknowns_; ++r) {
+        set_row(&columns[q], r, row_of(copy.data(), pivot_row_[r]));
+      }
+    }
+  }
+
+  std::size_t stages_;
+  bool second_order_;
+  std::size_t components_;
+  std::size_t state_size_;
+  std::size_t unknowns_ = 0;
+  bool unit_mass_ = true;
+  Real step_ = 0;
+  Real scale_ = 0;
+  P weights_;
+  P nodes_;
+  P position_weights_;
+  std::vector<P> coupling_;
+  std::vector<Real> inverse_mass_;
+  std::vector<P> matrix_;
+  std::vector<P> response_;
+  std::vector<P> base_;
+  std::vector<std::size_t> pivot_row_;
+  std::vector<char> used_;
+};
+
+}  // namespace hamjet

@@ -1,0 +1,120 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <hamjet/io/scene.hpp>
+
+#include "scene_document.hpp"
+#include "scene_message.hpp"
+#include "scene_sections.hpp"
+#include "scene_text.hpp"
+
+namespace hamjet::io {
+namespace {
+
+const std::vector<std::string_view> top_keys = {
+    "schema",     "title",     "precision",           "system",   "nominal", "jet",
+    "integrator", "formation", "generating_function", "reference"};
+
+/// The stem of the file's name, made fit for the name of a directory.
+std::string scene_name(const std::string& file_name) {
+  std::string name = std::filesystem::path(file_name).stem().string();
+  for (char& c : name) {
+    const bool allowed = (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') ||
+                         (c >= '0' && c <= '9') || c == '.' || c == '_' || c == '-';
+    if (!allowed) c = '_';
+  }
+  name.erase(0, name.find_first_not_of('.'));
+  return name.empty() ? "scene" : name;
+}
+
+void check_schema(const TableReader& root) {
+  // A newer schema may have other keys, so that its number comes before theirs; but a misspelt
+  // `schema` is named.
+  if (!root.has("schema")) root.check_keys({top_keys});
+  root.integer_between("schema", 1, 1);
+  root.check_keys({top_keys});
+}
+
+Precision read_precision(const TableReader& root) {
+  if (!root.has("precision")) return Precision::double_precision;
+  return root.choice("precision", {"double", "extended"}) == 0 ? Precision::double_precision
+                                                               : Precision::extended;
+}
+
+Scene read_tables(const TableReader& root) {
+  check_schema(root);
+  Scene scene;
+  scene.title = root.text("title");
+  scene.precision = read_precision(root);
+  scene.system = read_system(root.table("system"));
+
+  const Nominal nominal = read_nominal(root.table("nominal"), scene.system);
+  const CanonicalScale& scale = nominal.scale;
+  scene.nominal = nominal.state;
+  scene.units = {convert<double>(scale.length_km), convert<double>(scale.time_s)};
+  scene.canonical_radius = scale.length_of_km(scene.system.radius_km);
+  if (!std::isfinite(scene.canonical_radius)) {
+    root.table("system").fail(
+        "radius_km", fmt::format("out of range, got {:.3g} times the nominal's distance of {:.3g} "
+                                 "km from the centre, must be within binary64",
+                                 scene.canonical_radius, scene.units.length_km));
+  }
+
+  const JetSettings jet = read_jet(root.table("jet"), scene.system.model, scene.precision, nominal);
+  scene.order = jet.order;
+  scene.variables = jet.variables;
+  scene.duration = jet.duration;
+
+  scene.integrators =
+      read_integrators(root.tables("integrator"), scene.precision, scene.duration, scale);
+  if (root.has("formation")) {
+    scene.separation = read_formation(root.table("formation"), scene.system.model, scale);
+  }
+  if (root.has("generating_function")) {
+    scene.kinds = read_generating_function(root.table("generating_function"), scene);
+  }
+  if (root.has("reference")) scene.reference = read_reference(root.table("reference"));
+  return scene;
+}
+
+}  // namespace
+
+double read_formation(const TableReader& formation, SystemModel model,
+                      const CanonicalScale& scale) {
+  const bool orbit = model != SystemModel::harmonic_oscillator;
+  const std::string_view key = orbit ? "separation_km" : "separation_m";
+  formation.check_keys(
+      {{key}, {"separation_km", "separation_m"}, "the model " + std::string(model_name(model))});
+  const double given = formation.positive_number(key);
+  const double separation = orbit ? scale.length_of_km(given) : given;
+  if (!std::isfinite(separation) || separation == 0) {
+    formation.fail(key, fmt::format("out of range, got {}, which is {} in canonical units, must be "
+                                    "within binary64 there",
+                                    formation.found(key), separation));
+  }
+  return separation;
+}
+
+ReferenceSettings read_reference(const TableReader& reference) {
+  reference.check_keys({{"tolerance"}});
+  ReferenceSettings settings;
+  if (reference.has("tolerance")) {
+    settings.tolerance = reference.number_between("tolerance", 1e-28, 1e-16);
+  }
+  return settings;
+}
+
+Scene parse_scene(std::string_view text, const std::string& file_name,
+                  const std::vector<Override>& overrides) {
+  const std::string source = printable(file_name, std::string::npos);
+  const toml::table document = parse_document(text, source, overrides);
+  Scene scene = read_tables(TableReader(document, "", source));
+  scene.name = scene_name(file_name);
+  return scene;
+}
+
+Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides) {
+  return parse_scene(read_scene_file(file), file.string(), overrides);
+}
+
+}  // namespace hamjet::io

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <hamjet/io/scene.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hamjet::io {
+
+/// The TOML tables of a scene with the overrides applied; nothing is known here of what the keys
+/// mean. `source` is the name for messages, already printable.
+///
+/// An override's key is a dotted path; an element of an array is named by its index from 0, or, if
+/// it is a table, by its label: `integrator.0.tolerance`, `integrator.gauss8.tolerance`. Missing
+/// tables on the way are added. The value is TOML; what is not valid TOML is taken as a string.
+///
+/// Throws Error(scene) if the text is not valid TOML (see also `check_scene_text`), and
+/// Error(usage) if an override's key leads nowhere.
+toml::table parse_document(std::string_view text, const std::string& source,
+                           const std::vector<Override>& overrides);
+
+}  // namespace hamjet::io

@@ -1,0 +1,147 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <hamjet/error.hpp>
+#include <map>
+
+#include "scene_message.hpp"
+#include "scene_sections.hpp"
+
+namespace hamjet::io {
+namespace {
+
+/// Names in the order of the enumeration.
+const std::vector<std::string_view> method_names = {"gauss", "fehlberg78", "cvode-adams",
+                                                    "cvode-bdf"};
+
+const std::vector<std::string_view> all_keys = {
+    "label",  "method",    "stages",        "require_relative_error", "require_symplecticity",
+    "step_s", "tolerance", "step_canonical"};
+
+constexpr std::int64_t most_stages = 12;
+constexpr double most_steps = 1e9;
+constexpr std::size_t longest_label = 100;
+/// The file that stands beside the integrators' directories in the output.
+constexpr std::string_view reserved_label = "summary.json";
+
+bool is_cvode(IntegrationMethod method) {
+  return method == IntegrationMethod::cvode_adams || method == IntegrationMethod::cvode_bdf;
+}
+
+std::vector<std::string_view> keys_of(IntegrationMethod method) {
+  std::vector<std::string_view> keys = {"label", "method"};
+  if (method == IntegrationMethod::gauss) keys.push_back("stages");
+  if (!is_cvode(method)) keys.insert(keys.end(), {"step_canonical", "step_s"});
+  keys.insert(keys.end(), {"tolerance", "require_relative_error", "require_symplecticity"});
+  return keys;
+}
+
+/// A label becomes the name of a directory, so that it must neither lead out of the output
+/// directory nor need quotes in a shell.
+std::string read_label(const TableReader& integrator) {
+  const std::string label = integrator.text("label");
+  const auto allowed = [](char c) {
+    return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '.' ||
+           c == '_' || c == '-';
+  };
+  if (label.empty() || label.size() > longest_label || label[0] == '.' || label == reserved_label ||
+      !std::all_of(label.begin(), label.end(), allowed)) {
+    integrator.fail("label", fmt::format("not usable as the name of a directory, got {}, must be 1 "
+                                         "to {} of the characters A-Z a-z 0-9 . _ - without a dot "
+                                         "at the start, and not {}",
+                                         in_quotes(label), longest_label, reserved_label));
+  }
+  return label;
+}
+
+double read_step(const TableReader& integrator, std::string_view key, double duration,
+                 const CanonicalScale& scale) {
+  const double given = integrator.positive_number(key);
+  const double step = key == "step_s" ? scale.time_of_s(given) : given;
+  if (!std::isfinite(step) || step == 0) {
+    integrator.fail(key, fmt::format("out of range, got {}, which is {} in canonical units, must "
+                                     "be within binary64 there",
+                                     integrator.found(key), step));
+  }
+  // In the unit of the key, so that the user can copy the figure.
+  const double span = std::abs(duration) * (given / step);
+  const double smallest_step = span * 0x1p-52;
+  if (given < smallest_step) {
+    integrator.fail(
+        key, fmt::format("too small to advance the time, got {}, must be at least "
+                         "{:.3g}, and at least {:.3g} to keep within {:.0e} steps",
+                         integrator.found(key), smallest_step, span / most_steps, most_steps));
+  }
+  const double steps = std::ceil(std::abs(duration) / step);
+  if (steps > most_steps) {
+    throw Error(ErrorKind::too_large,
+                fmt::format("{}: {}: too many steps, got {}, which takes {:.3g} steps, must be at "
+                            "least {:.3g} to keep within {:.0e}",
+                            integrator.where(key), integrator.dotted(key), integrator.found(key),
+                            steps, span / most_steps, most_steps));
+  }
+  return step;
+}
+
+double read_tolerance(const TableReader& integrator, Precision precision) {
+  const double least = precision == Precision::double_precision ? 1e-15 : 1e-30;
+  return integrator.number_between("tolerance", least, 1e-1);
+}
+
+IntegratorSettings read_integrator(const TableReader& integrator, Precision precision,
+                                   double duration, const CanonicalScale& scale) {
+  if (!integrator.has("method")) integrator.check_keys({all_keys});  // a misspelt `method` is named
+  IntegratorSettings settings;
+  settings.method = static_cast<IntegrationMethod>(integrator.choice("method", method_names));
+  const std::string_view method = method_names[static_cast<std::size_t>(settings.method)];
+  integrator.check_keys({keys_of(settings.method), all_keys, "the method " + std::string(method)});
+  if (is_cvode(settings.method) && precision == Precision::extended) {
+    integrator.fail("method", fmt::format("not available in extended precision, got {}, must be "
+                                          "gauss or fehlberg78, or precision = \"double\": CVODE "
+                                          "computes in double precision only",
+                                          in_quotes(method)));
+  }
+  settings.label = read_label(integrator);
+  if (integrator.has("stages")) {
+    settings.stages = static_cast<int>(integrator.integer_between("stages", 1, most_stages));
+  }
+  const std::string_view size_key =
+      is_cvode(settings.method)
+          ? "tolerance"
+          : integrator.exactly_one_of({"step_canonical", "step_s", "tolerance"});
+  if (size_key == "tolerance") {
+    settings.tolerance = read_tolerance(integrator, precision);
+  } else {
+    settings.step_canonical = read_step(integrator, size_key, duration, scale);
+  }
+  if (integrator.has("require_relative_error")) {
+    settings.require_relative_error = integrator.positive_number("require_relative_error");
+  }
+  if (integrator.has("require_symplecticity")) {
+    settings.require_symplecticity = integrator.positive_number("require_symplecticity");
+  }
+  return settings;
+}
+
+}  // namespace
+
+std::vector<IntegratorSettings> read_integrators(const std::vector<TableReader>& integrators,
+                                                 Precision precision, double duration,
+                                                 const CanonicalScale& scale) {
+  std::vector<IntegratorSettings> all_settings;
+  std::map<std::string, std::string> places;  // of the labels so far
+  for (const TableReader& integrator : integrators) {
+    const IntegratorSettings settings = read_integrator(integrator, precision, duration, scale);
+    const auto [first, is_new] = places.emplace(settings.label, integrator.where("label"));
+    if (!is_new) {
+      integrator.fail("label", fmt::format("duplicate label, got {}, which is already at {}, must "
+                                           "be unique",
+                                           in_quotes(settings.label), first->second));
+    }
+    all_settings.push_back(settings);
+  }
+  return all_settings;
+}
+
+}  // namespace hamjet::io

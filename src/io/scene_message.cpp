@@ -1,0 +1,130 @@
+#include "scene_message.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <hamjet/error.hpp>
+#include <limits>
+
+namespace hamjet::io {
+namespace {
+
+constexpr std::string_view override_prefix = "--set ";
+
+/// C0 and C1 control characters, delete, and the line and paragraph separators: whatever could
+/// break the line or drive a terminal. `sequence` is one well-formed UTF-8 sequence.
+bool breaks_line(std::string_view sequence) {
+  const auto first = static_cast<unsigned char>(sequence[0]);
+  if (sequence.size() == 1) return first < 0x20 || first == 0x7f;
+  const auto second = static_cast<unsigned char>(sequence[1]);
+  if (sequence.size() == 2) return first == 0xc2 && second < 0xa0;
+  return sequence == "\u2028" || sequence == "\u2029";
+}
+
+/// Damerau's distance in its restricted form: insertions, deletions, substitutions and swaps of
+/// neighbours. Source: G. Navarro, A guided tour to approximate string matching, ACM Computing
+/// Surveys 33 (2001).
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> before_last, last(b.size() + 1), row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    before_last = last;
+    last = row;
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t substitution = last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, substitution});
+      const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+      if (swapped) row[j] = std::min(row[j], before_last[j - 2] + 1);
+    }
+  }
+  return row[b.size()];
+}
+
+}  // namespace
+
+std::string printable(std::string_view text, std::size_t most_characters) {
+  std::string result;
+  for (std::size_t count = 0; !text.empty(); ++count) {
+    if (count == most_characters) return result + "...";
+    const std::size_t length = utf8_sequence_length(text);
+    const std::string_view sequence = text.substr(0, std::max<std::size_t>(length, 1));
+    if (length == 0 || breaks_line(sequence)) {
+      for (const char c : sequence) {
+        result += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
+      }
+    } else {
+      result += sequence;
+    }
+    text.remove_prefix(sequence.size());
+  }
+  return result;
+}
+
+std::string in_quotes(std::string_view text) { return fmt::format("\"{}\"", printable(text)); }
+
+std::optional<std::string_view> nearest(std::string_view name,
+                                        const std::vector<std::string_view>& candidates) {
+  // No key is near anything this long, and the distance costs time in proportion to the length.
+  if (name.size() > 80) return std::nullopt;
+  std::optional<std::string_view> best;
+  std::size_t best_distance = std::numeric_limits<std::size_t>::max();
+  for (const std::string_view candidate : candidates) {
+    const bool unit_left_off = candidate.starts_with(std::string(name) + '_');
+    const std::size_t distance = unit_left_off ? 0 : edit_distance(name, candidate);
+    // At least half of the letters must be right.
+    if (2 * distance <= std::max(name.size(), candidate.size()) && distance < best_distance) {
+      best = candidate;
+      best_distance = distance;
+    }
+  }
+  return best;
+}
+
+std::string listed(const std::vector<std::string_view>& names) {
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+std::string suggestion(std::string_view name, const std::vector<std::string_view>& candidates) {
+  const auto near = nearest(name, candidates);
+  if (near) return fmt::format("did you mean {}?", *near);
+  return fmt::format("must be one of: {}", listed(candidates));
+}
+
+std::string location(std::string_view source, std::size_t line, std::size_t column) {
+  if (source.starts_with(override_prefix)) return std::string(source);
+  return fmt::format("{}:{}:{}", source, line, column);
+}
+
+std::string override_source(std::string_view key) {
+  return fmt::format("{}{}", override_prefix, printable(key));
+}
+
+void throw_scene_error(std::string_view where, std::string_view key, std::string_view problem) {
+  if (key.empty()) throw Error(ErrorKind::scene, fmt::format("{}: {}", where, problem));
+  throw Error(ErrorKind::scene, fmt::format("{}: {}: {}", where, key, problem));
+}
+
+std::size_t utf8_sequence_length(std::string_view text) {
+  const auto byte = [text](std::size_t i) -> unsigned {
+    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
+  };
+  const auto continues = [&byte](std::size_t i) { return (byte(i) & 0xc0U) == 0x80U; };
+  const unsigned first = byte(0);
+  if (text.empty()) return 0;
+  if (first < 0x80) return 1;
+  if (first >= 0xc2 && first <= 0xdf) return continues(1) ? 2 : 0;
+  if (first >= 0xe0 && first <= 0xef) {
+    const bool overlong = first == 0xe0 && byte(1) < 0xa0;
+    const bool surrogate = first == 0xed && byte(1) > 0x9f;
+    return continues(1) && continues(2) && !overlong && !surrogate ? 3 : 0;
+  }
+  if (first >= 0xf0 && first <= 0xf4) {
+    const bool overlong = first == 0xf0 && byte(1) < 0x90;
+    const bool beyond_unicode = first == 0xf4 && byte(1) > 0x8f;
+    return continues(1) && continues(2) && continues(3) && !overlong && !beyond_unicode ? 4 : 0;
+  }
+  return 0;
+}
+
+}  // namespace hamjet::io

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hamjet::io {
+
+/// `text` on one line and in valid UTF-8: control characters, line separators and bytes that are
+/// not UTF-8 are escaped, and what goes beyond `most_characters` is cut off with "...".
+std::string printable(std::string_view text, std::size_t most_characters = 80);
+
+/// The printable form in double quotes.
+std::string in_quotes(std::string_view text);
+
+/// The candidate nearest to a misspelt `name` (an edit distance that counts a swap of neighbours as
+/// one, or a name whose unit was left off), or nothing if none is near.
+std::optional<std::string_view> nearest(std::string_view name,
+                                        const std::vector<std::string_view>& candidates);
+
+/// "a, b, c"
+std::string listed(const std::vector<std::string_view>& names);
+
+/// Says what was meant: the nearest of `candidates`, or the list of all.
+std::string suggestion(std::string_view name, const std::vector<std::string_view>& candidates);
+
+/// Where a value stands: `source:line:column`, or `source` alone for a command-line override,
+/// which has no lines (see `override_source`).
+std::string location(std::string_view source, std::size_t line, std::size_t column);
+
+/// The source name of values that come from `--set key=value`.
+std::string override_source(std::string_view key);
+
+/// Throws Error(scene) with the message `where: key: problem`; `key` may be empty.
+[[noreturn]] void throw_scene_error(std::string_view where, std::string_view key,
+                                    std::string_view problem);
+
+/// Length of the well-formed UTF-8 sequence at the start of `text`, or 0 if there is none. (The
+/// Unicode Standard, table 3-7: no overlong forms, no surrogates, nothing above U+10FFFF.)
+std::size_t utf8_sequence_length(std::string_view text);
+
+}  // namespace hamjet::io

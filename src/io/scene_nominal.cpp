@@ -1,0 +1,119 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <hamjet/dynamics/osculating_elements.hpp>
+
+#include "scene_message.hpp"
+#include "scene_sections.hpp"
+
+namespace hamjet::io {
+namespace {
+
+const std::vector<std::string_view> cartesian_keys = {"position_km", "velocity_km_s"};
+const std::vector<std::string_view> element_keys = {"a_km",     "e",        "i_deg",
+                                                    "raan_deg", "argp_deg", "ta_deg"};
+const std::vector<std::string_view> oscillator_keys = {"position_m", "momentum_kg_m_s"};
+
+std::vector<std::string_view> joined(std::vector<std::string_view> a,
+                                     const std::vector<std::string_view>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+double rounded(const Extended& value) { return convert<double>(value); }
+
+CartesianState read_elements(const TableReader& nominal, double mu_km3_s2) {
+  OsculatingElements elements;
+  elements.semi_major_axis_km = nominal.positive_number("a_km");
+  elements.eccentricity = nominal.number("e");
+  if (elements.eccentricity < 0 || elements.eccentricity >= 1) {
+    nominal.fail("e", fmt::format("out of range, got {}, must be at least 0 and below 1 (other "
+                                  "orbits are given by position_km and velocity_km_s)",
+                                  nominal.found("e")));
+  }
+  elements.inclination_deg = nominal.number("i_deg");
+  elements.ascending_node_deg = nominal.number("raan_deg");
+  elements.argument_of_perigee_deg = nominal.number("argp_deg");
+  elements.true_anomaly_deg = nominal.number("ta_deg");
+  return state_from_elements(elements, mu_km3_s2);
+}
+
+CartesianState read_position_and_velocity(const TableReader& nominal) {
+  CartesianState state;
+  const std::vector<double> position = nominal.numbers("position_km", 3);
+  const std::vector<double> velocity = nominal.numbers("velocity_km_s", 3);
+  std::copy(position.begin(), position.end(), state.position_km.begin());
+  std::copy(velocity.begin(), velocity.end(), state.velocity_km_s.begin());
+  if (std::all_of(position.begin(), position.end(), [](double x) { return x == 0; })) {
+    nominal.fail("position_km",
+                 "at the centre of attraction, got [0, 0, 0], must be any other point");
+  }
+  return state;
+}
+
+CartesianState read_orbit(const TableReader& nominal, const SystemSettings& system) {
+  const auto given = [&nominal](std::string_view key) { return nominal.has(key); };
+  const auto cartesian = std::find_if(cartesian_keys.begin(), cartesian_keys.end(), given);
+  const auto element = std::find_if(element_keys.begin(), element_keys.end(), given);
+  const std::string right = fmt::format("either {} or all of {}",
+                                        fmt::join(cartesian_keys, " and "), listed(element_keys));
+  if (cartesian != cartesian_keys.end() && element != element_keys.end()) {
+    nominal.fail(*element, fmt::format("both forms of an orbit, got {} and {}, must be {}",
+                                       *cartesian, *element, right));
+  }
+  if (cartesian != cartesian_keys.end()) return read_position_and_velocity(nominal);
+  if (element != element_keys.end()) return read_elements(nominal, system.mu_km3_s2);
+  throw_scene_error(nominal.where(""), "nominal",
+                    fmt::format("no orbit, got neither of its forms, must be {}", right));
+}
+
+Nominal canonical_orbit(const TableReader& nominal, const CartesianState& orbit, double mu_km3_s2) {
+  const auto& [x, y, z] = orbit.position_km;
+  Nominal result;
+  CanonicalScale& scale = result.scale;
+  scale.length_km = sqrt(x * x + y * y + z * z);
+  scale.time_s = sqrt(scale.length_km * scale.length_km * scale.length_km / mu_km3_s2);
+  for (const Extended& q : orbit.position_km) result.state.push_back(rounded(q / scale.length_km));
+  for (const Extended& v : orbit.velocity_km_s) {
+    result.state.push_back(rounded(v * scale.time_s / scale.length_km));
+  }
+  const double units[] = {rounded(scale.length_km), rounded(scale.time_s)};
+  const auto usable = [](double unit) { return std::isnormal(unit); };
+  const auto finite = [](double value) { return std::isfinite(value); };
+  if (!std::all_of(std::begin(units), std::end(units), usable) ||
+      !std::all_of(result.state.begin(), result.state.end(), finite)) {
+    throw_scene_error(
+        nominal.where(""), "nominal",
+        fmt::format("out of range in canonical units, got a unit of length of {:.3g} km and a unit "
+                    "of time of {:.3g} s, must leave units and state within binary64",
+                    units[0], units[1]));
+  }
+  result.period_s = osculating_period_s(orbit, mu_km3_s2);
+  return result;
+}
+
+}  // namespace
+
+double CanonicalScale::length_of_km(double km) const { return rounded(Extended(km) / length_km); }
+
+double CanonicalScale::time_of_s(double seconds) const {
+  return rounded(Extended(seconds) / time_s);
+}
+
+Nominal read_nominal(const TableReader& nominal, const SystemSettings& system) {
+  const std::vector<std::string_view> orbit_keys = joined(cartesian_keys, element_keys);
+  const std::string owner = "the model " + std::string(model_name(system.model));
+  if (system.model != SystemModel::harmonic_oscillator) {
+    nominal.check_keys({orbit_keys, oscillator_keys, owner});
+    return canonical_orbit(nominal, read_orbit(nominal, system), system.mu_km3_s2);
+  }
+  nominal.check_keys({oscillator_keys, orbit_keys, owner});
+  Nominal result;
+  result.scale = {Extended(1) / 1000, Extended(1)};
+  result.state = {nominal.numbers("position_m", 1)[0], nominal.numbers("momentum_kg_m_s", 1)[0]};
+  return result;
+}
+
+}  // namespace hamjet::io

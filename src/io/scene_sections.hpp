@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cstddef>
+#include <hamjet/algebra/extended.hpp>
+#include <hamjet/io/scene.hpp>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "scene_table.hpp"
+
+// One function for each table of a scene, in the order in which they are read: a later one may need
+// what an earlier one found. Each reads, checks and converts all keys of its table, in a file of
+// its own, scene_<table>.cpp (the two tables of one key in scene.cpp). All throw Error(scene), or
+// Error(too_large) where said.
+
+namespace hamjet::io {
+
+/// The model's name in scenes.
+std::string_view model_name(SystemModel model);
+
+/// Names of the variables (q, p), in the order of the state: x, y, z, px, py, pz for an orbit.
+std::vector<std::string_view> variable_names(SystemModel model);
+
+/// Table `[system]`.
+SystemSettings read_system(const TableReader& system);
+
+/// Canonical units before they are rounded: SI value = canonical value times these.
+struct CanonicalScale {
+  Extended length_km;
+  Extended time_s;
+
+  /// A length in km, or a time in seconds, in canonical units, rounded once.
+  double length_of_km(double km) const;
+  double time_of_s(double seconds) const;
+};
+
+/// What the table `[nominal]` holds.
+struct Nominal {
+  CanonicalScale scale;
+  std::vector<double> state;         ///< (q, p), canonical, 2n numbers
+  std::optional<Extended> period_s;  ///< of the osculating Kepler ellipse, if there is one
+};
+
+/// Table `[nominal]`. For an orbit the unit of length is the distance from the centre, and the unit
+/// of time sqrt(length^3 / mu), so that mu = 1 and a momentum (per unit of mass) is a velocity over
+/// sqrt(mu / length). For the oscillator metre, second and kilogram stay.
+Nominal read_nominal(const TableReader& nominal, const SystemSettings& system);
+
+/// What the table `[jet]` holds.
+struct JetSettings {
+  int order = 1;
+  std::vector<std::size_t> variables;  ///< indices into (q, p), ascending
+  double duration = 0;                 ///< canonical
+};
+
+/// Table `[jet]`. Throws Error(too_large) for an order above the largest.
+JetSettings read_jet(const TableReader& jet, SystemModel model, Precision precision,
+                     const Nominal& nominal);
+
+/// The tables `[[integrator]]`. Throws Error(too_large) for too many steps.
+std::vector<IntegratorSettings> read_integrators(const std::vector<TableReader>& integrators,
+                                                 Precision precision, double duration,
+                                                 const CanonicalScale& scale);
+
+/// Table `[formation]`: the separation in canonical units.
+double read_formation(const TableReader& formation, SystemModel model, const CanonicalScale& scale);
+
+/// Table `[generating_function]`: the kinds as the scene names them, checked against what `scene`
+/// already holds.
+std::vector<std::string> read_generating_function(const TableReader& generating_function,
+                                                  const Scene& scene);
+
+/// Table `[reference]`.
+ReferenceSettings read_reference(const TableReader& reference);
+
+}  // namespace hamjet::io

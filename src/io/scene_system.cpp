@@ -1,0 +1,66 @@
+#include "scene_sections.hpp"
+
+namespace hamjet::io {
+namespace {
+
+/// Names in the order of the enumeration.
+const std::vector<std::string_view> model_names = {"zonal-gravity", "kepler",
+                                                   "harmonic-oscillator"};
+
+const std::vector<std::string_view> all_keys = {"model", "mu_km3_s2", "radius_km",        "J2",
+                                                "J3",    "mass_kg",   "stiffness_N_per_m"};
+
+std::vector<std::string_view> keys_of(SystemModel model) {
+  switch (model) {
+    case SystemModel::zonal_gravity:
+      return {"model", "mu_km3_s2", "radius_km", "J2", "J3"};
+    case SystemModel::kepler:
+      return {"model", "mu_km3_s2"};
+    default:
+      return {"model", "mass_kg", "stiffness_N_per_m"};
+  }
+}
+
+/// A zonal coefficient. |J| <= 1 is far beyond every planet (Saturn, the most oblate, has J2 =
+/// 0.016); what is larger was meant in other units.
+double zonal_coefficient(const TableReader& system, std::string_view key) {
+  return system.has(key) ? system.number_between(key, -1, 1) : 0.0;
+}
+
+}  // namespace
+
+std::string_view model_name(SystemModel model) {
+  return model_names[static_cast<std::size_t>(model)];
+}
+
+std::vector<std::string_view> variable_names(SystemModel model) {
+  if (model == SystemModel::harmonic_oscillator) return {"q", "p"};
+  return {"x", "y", "z", "px", "py", "pz"};
+}
+
+SystemSettings read_system(const TableReader& system) {
+  if (!system.has("model")) system.check_keys({all_keys});  // a misspelt `model` is named
+  SystemSettings settings;
+  settings.model = static_cast<SystemModel>(system.choice("model", model_names));
+  system.check_keys(
+      {keys_of(settings.model), all_keys, "the model " + std::string(model_name(settings.model))});
+  if (settings.model == SystemModel::harmonic_oscillator) {
+    if (system.has("mass_kg")) settings.mass_kg = system.positive_number("mass_kg");
+    if (system.has("stiffness_N_per_m")) {
+      settings.stiffness_N_per_m = system.positive_number("stiffness_N_per_m");
+    }
+    return settings;
+  }
+  settings.mu_km3_s2 = system.positive_number("mu_km3_s2");
+  if (settings.model == SystemModel::zonal_gravity) {
+    settings.J2 = zonal_coefficient(system, "J2");
+    settings.J3 = zonal_coefficient(system, "J3");
+    // Without J2 and J3 nothing refers to the radius.
+    if (system.has("J2") || system.has("J3") || system.has("radius_km")) {
+      settings.radius_km = system.positive_number("radius_km");
+    }
+  }
+  return settings;
+}
+
+}  // namespace hamjet::io

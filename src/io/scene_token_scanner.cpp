@@ -1,0 +1,197 @@
+#include "scene_token_scanner.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "scene_message.hpp"
+
+namespace hamjet::io {
+namespace {
+
+/// Deepest nesting of tables, arrays and dotted keys; a scene needs 4.
+constexpr std::size_t deepest_nesting = 32;
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+bool is_bare(char c) {
+  return is_digit(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == '-' ||
+         c == '+' || c == '.' || c == ':';
+}
+
+class TokenScanner {
+ public:
+  TokenScanner(std::string_view text, std::string_view source) : text_(text), source_(source) {}
+
+  void scan() {
+    while (position_ < text_.size()) {
+      const char c = text_[position_];
+      if (c == '#') {
+        skip_to_line_end();
+      } else if (c == '"' || c == '\'') {
+        skip_string(c);
+      } else if (is_bare(c)) {
+        take_bare_token();
+      } else {
+        take_punctuation(c);
+        advance(1);
+      }
+    }
+  }
+
+ private:
+  void advance(std::size_t bytes) {
+    for (const std::size_t end = std::min(position_ + bytes, text_.size()); position_ < end;
+         ++position_) {
+      if (text_[position_] == '\n') {
+        ++line_;
+        column_ = 1;
+      } else if ((static_cast<unsigned char>(text_[position_]) & 0xc0U) != 0x80U) {
+        ++column_;  // continuation bytes of UTF-8 take no column
+      }
+    }
+  }
+
+  void skip_to_line_end() {
+    const std::size_t end = text_.find('\n', position_);
+    advance(std::min(end, text_.size()) - position_);
+  }
+
+  /// Skips a string with its quotes. One that is not closed is the parser's to report: skipping
+  /// ends with the line (or with the text, for the form of several lines).
+  void skip_string(char quote) {
+    const std::string three_quotes(3, quote);
+    const bool several_lines = text_.substr(position_).starts_with(three_quotes);
+    const std::string_view end = std::string_view(three_quotes).substr(0, several_lines ? 3 : 1);
+    advance(end.size());
+    const std::size_t begin = position_;
+    while (position_ < text_.size() && !text_.substr(position_).starts_with(end)) {
+      if (text_[position_] == '\n' && !several_lines) return;
+      advance(quote == '"' && text_[position_] == '\\' ? 2 : 1);
+    }
+    last_word_ = text_.substr(begin, position_ - begin);
+    advance(end.size());
+    // In the form of several lines, one or two quotes before the closing three belong to the text.
+    for (int i = 0; several_lines && i < 2 && text_.substr(position_).starts_with(quote); ++i) {
+      advance(1);
+    }
+  }
+
+  void take_bare_token() {
+    std::size_t length = 0;
+    while (position_ + length < text_.size() && is_bare(text_[position_ + length])) ++length;
+    const std::string_view token = text_.substr(position_, length);
+    for (const char c : token) {
+      if (c == '.') deepen_by_dot();
+    }
+    check_number(token);
+    last_word_ = token;
+    advance(length);
+  }
+
+  void take_punctuation(char c) {
+    switch (c) {
+      case '=':
+        key_ = last_word_;
+        break;
+      case '[':
+      case '{':
+        ++depth_;
+        dots_.push_back(0);
+        check_depth();
+        break;
+      case ']':
+      case '}':
+        end_of_item();
+        if (dots_.size() > 1) {
+          dots_.pop_back();
+          --depth_;
+        }
+        break;
+      case ',':
+      case '\n':
+        end_of_item();
+        break;
+      default:
+        break;
+    }
+  }
+
+  /// Every dot of a dotted key is a table within a table. (That of a decimal number counts too,
+  /// which does no harm.)
+  void deepen_by_dot() {
+    ++dots_.back();
+    ++depth_;
+    check_depth();
+  }
+
+  void end_of_item() {
+    depth_ -= dots_.back();
+    dots_.back() = 0;
+  }
+
+  void check_depth() const {
+    if (depth_ <= deepest_nesting) return;
+    throw_scene_error(here(), "",
+                      fmt::format("nested too deeply, got more than {0} levels of tables and "
+                                  "arrays, must be at most {0}",
+                                  deepest_nesting));
+  }
+
+  void check_number(std::string_view token) const {
+    if (!is_digit(token[0]) && token[0] != '-' && token[0] != '+') return;
+    std::string digits(token);
+    std::erase(digits, '_');
+    if (digits[0] == '+') digits.erase(0, 1);  // std::from_chars does not know it
+    const char* const end = digits.data() + digits.size();
+    if (std::all_of(digits.begin() + (digits[0] == '-' ? 1 : 0), digits.end(), is_digit)) {
+      std::int64_t integer = 0;
+      if (std::from_chars(digits.data(), end, integer).ec == std::errc::result_out_of_range) {
+        throw_scene_error(here(), printable(key_),
+                          fmt::format("integer out of range, got {}, must be between {} and {}",
+                                      printable(token), std::numeric_limits<std::int64_t>::min(),
+                                      std::numeric_limits<std::int64_t>::max()));
+      }
+      return;
+    }
+    // Unlike other ways to read a number this one depends on no locale, and it reports a literal
+    // that rounds to 0 just as one that rounds to infinity.
+    double number = 0;
+    const auto [rest, error] = std::from_chars(digits.data(), end, number);
+    if (rest == end && error == std::errc::result_out_of_range) {
+      throw_scene_error(
+          here(), printable(key_),
+          fmt::format("number out of range, got {}, must be 0 or between {:.2g} and {:.2g} in "
+                      "magnitude",
+                      printable(token), std::numeric_limits<double>::denorm_min(),
+                      std::numeric_limits<double>::max()));
+    }
+  }
+
+  std::string here() const { return location(source_, line_, column_); }
+
+  std::string_view text_;
+  std::string_view source_;
+  std::size_t position_ = 0;
+  std::size_t line_ = 1;
+  std::size_t column_ = 1;
+  std::size_t depth_ = 0;                ///< open brackets, and dots in the keys that lead to them
+  std::vector<std::size_t> dots_ = {0};  ///< dots of the unfinished item within each open bracket
+  std::string_view last_word_;
+  std::string_view key_;  ///< the last word before an equals sign
+};
+
+}  // namespace
+
+void check_tokens(std::string_view text, std::string_view source) {
+  TokenScanner(text, source).scan();
+}
+
+}  // namespace hamjet::io

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string_view>
+
+namespace hamjet::io {
+
+/// Goes through the text's tokens outside strings and comments, and throws Error(scene) with line
+/// and column for a number out of range or for nesting that is too deep (see `check_scene_text`).
+/// Other errors of syntax are left to the TOML parser. `source` is the name for messages.
+void check_tokens(std::string_view text, std::string_view source);
+
+}  // namespace hamjet::io
