@@ -18,12 +18,14 @@ template <class Real, int Lanes>
 class GaussIntegrator {
  public:
   using P = Pack<Real, Lanes>;
+  using Clock = std::chrono::steady_clock;
 
   GaussIntegrator(const FlowProblem<Real>& problem, const GaussSettings& settings,
                   IntegrationStatistics& statistics)
       : problem_(problem),
         settings_(settings),
         statistics_(statistics),
+        start_(Clock::now()),
         order_(working_order(problem)),
         tableau_(gauss_tableau(static_cast<std::size_t>(settings.stages))),
         stages_(*problem.system, tableau_, problem.space, order_),
@@ -40,7 +42,6 @@ class GaussIntegrator {
   }
 
   FlowJet<Real> run(const StepObserver<Real>& observer) {
-    const auto start = std::chrono::steady_clock::now();
     double in_observer = 0;
     begin();
     while (time_ != problem_.duration) {
@@ -51,13 +52,15 @@ class GaussIntegrator {
         in_observer += seconds_since(before);
       }
     }
-    statistics_.wall_seconds = seconds_since(start) - in_observer;
+    statistics_.wall_seconds = seconds_since(start_) - in_observer;
     require_finite(jet_, time_, "Gauss");
     return std::move(jet_);
   }
 
  private:
-  using Clock = std::chrono::steady_clock;
+  /// A step is repeated if its error estimate exceeds the tolerance more than this: the estimate goes
+  /// as h^(2s), so that a step hardly too long is not worth repeating.
+  static constexpr double largest_excess = 10;
 
   static double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
@@ -152,7 +155,10 @@ class GaussIntegrator {
       }
       const double error = is_solved ? error_estimate() : std::numeric_limits<double>::infinity();
       growth = is_solved ? step_factor(error) : 0.5;
-      if (error <= *settings_.tolerance) break;
+      if (error <= largest_excess * *settings_.tolerance) {
+        growth *= time_scale_ratio();
+        break;
+      }
       ++statistics_.rejected_steps;
       h *= Real(std::min(growth, 0.9));
     }
@@ -168,7 +174,7 @@ class GaussIntegrator {
                                     : problem_.duration - proposed_ * Real(remaining_steps_);
     } else {
       time_ = h == remaining ? problem_.duration : Real(time_ + h);
-      proposed_ = h * Real(std::min(growth, 2.0));
+      proposed_ = h * Real(std::clamp(growth, 0.1, 4.0));
     }
     account(&GaussProfile::update, mark);
   }
@@ -298,9 +304,27 @@ class GaussIntegrator {
 
   double step_factor(double error) const {
     if (error <= 0) return 4;
-    const double factor =
-        0.95 * std::pow(*settings_.tolerance / error, 0.5 / settings_.stages);
+    const double factor = 0.95 * std::pow(*settings_.tolerance / error, 0.5 / settings_.stages);
     return std::clamp(factor, 0.1, 4.0);
+  }
+
+  /// How the time scale of the dynamics changes over the step, from the slopes' gradients at its
+  /// first and last stage: the next step starts where this one ends, and an orbit's time scale,
+  /// which goes as r^(3/2), changes much from one step to the next.
+  double time_scale_ratio() {
+    double first = 0;
+    double last = 0;
+    const std::size_t m = stages_.system().components();
+    for (std::size_t c = 0; c < m; ++c) {
+      for (std::size_t k = 0; k < m; ++k) {
+        const P gradient = stages_.slope_gradient(c, k);
+        first = std::max(first, std::abs(static_cast<double>(gradient.lane(0))));
+        last = std::max(last, std::abs(static_cast<double>(gradient.lane(settings_.stages - 1))));
+      }
+    }
+    if (first == 0 || last == 0) return 1;
+    const double ratio = stages_.system().second_order() ? std::sqrt(first / last) : first / last;
+    return std::clamp(ratio, 0.25, 4.0);
   }
 
   /// The degrees 1..N of the stages, then the new state.
@@ -370,6 +394,7 @@ class GaussIntegrator {
   const FlowProblem<Real>& problem_;
   const GaussSettings& settings_;
   IntegrationStatistics& statistics_;
+  Clock::time_point start_;
   int order_;
   GaussTableau tableau_;
   StageSlopes<Real, Lanes> stages_;

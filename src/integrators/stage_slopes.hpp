@@ -39,6 +39,16 @@ class StageSlopes {
     return sum;
   }
 
+  /// d g_c / d Y_from at the stages.
+  P slope_gradient(std::size_t c, std::size_t from) const {
+    if (!system_.second_order() || system_.unit_mass()) return evaluator_.output_gradient(c, from);
+    P sum(Real(0));
+    for (std::size_t k = 0; k < system_.components(); ++k) {
+      sum += P(system_.inverse_mass(c, k)) * evaluator_.output_gradient(k, from);
+    }
+    return sum;
+  }
+
   /// Newton's method from the slopes that stand in slopes(); true if it converged to round-off.
   /// With rho = g(Y) - G and Y = base + W G:  dY = K rho,  dG = rho + Dg dY.
   template <class State>
@@ -109,15 +119,6 @@ class StageSlopes {
     for (std::size_t c = 0; c < system_.components(); ++c) {
       evaluator_.input(c)[0] = system_.base(c, state) + system_.couple(slopes_[c]);
     }
-  }
-
-  P slope_gradient(std::size_t c, std::size_t from) const {
-    if (!system_.second_order() || system_.unit_mass()) return evaluator_.output_gradient(c, from);
-    P sum(Real(0));
-    for (std::size_t k = 0; k < system_.components(); ++k) {
-      sum += P(system_.inverse_mass(c, k)) * evaluator_.output_gradient(k, from);
-    }
-    return sum;
   }
 
   void apply_response(const std::vector<P>& residual, std::vector<P>& change) const {

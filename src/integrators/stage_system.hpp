@@ -194,15 +194,17 @@ class StageSystem {
     const P* m = &matrix_[column * components_];
     std::size_t best = unknowns_;
     Real largest = 0;
-    for (std::size_t row = 0; row < unknowns_; ++row) {
-      const Real value = magnitude(row_of(m, row));
-      if (!is_finite(value)) return std::nullopt;
-      if (!used_[row] && value > largest) {
-        largest = value;
-        best = row;
+    std::size_t row = 0;
+    for (std::size_t c = 0; c < components_; ++c) {
+      for (std::size_t i = 0; i < stages_; ++i, ++row) {
+        const Real value = magnitude(m[c].lane(static_cast<int>(i)));
+        if (!(value <= largest) && !used_[row]) {
+          largest = value;
+          best = row;
+        }
       }
     }
-    if (best == unknowns_) return std::nullopt;
+    if (best == unknowns_ || !is_finite(largest)) return std::nullopt;
     if (!used_[column] && 10 * magnitude(row_of(m, column)) >= largest) best = column;
     return best;
   }

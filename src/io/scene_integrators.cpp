@@ -15,10 +15,6 @@ namespace {
 const std::vector<std::string_view> method_names = {"gauss", "fehlberg78", "cvode-adams",
                                                     "cvode-bdf"};
 
-const std::vector<std::string_view> all_keys = {
-    "label",  "method",    "stages",        "require_relative_error", "require_symplecticity",
-    "step_s", "tolerance", "step_canonical"};
-
 constexpr std::int64_t most_stages = 12;
 constexpr double most_steps = 1e9;
 constexpr std::size_t longest_label = 100;
@@ -30,11 +26,26 @@ bool is_cvode(IntegrationMethod method) {
 }
 
 std::vector<std::string_view> keys_of(IntegrationMethod method) {
-  std::vector<std::string_view> keys = {"label", "method"};
-  if (method == IntegrationMethod::gauss) keys.push_back("stages");
-  if (!is_cvode(method)) keys.insert(keys.end(), {"step_canonical", "step_s"});
-  keys.insert(keys.end(), {"tolerance", "require_relative_error", "require_symplecticity"});
-  return keys;
+  if (is_cvode(method)) {
+    return {"label", "method", "tolerance", "require_relative_error", "require_symplecticity"};
+  }
+  if (method == IntegrationMethod::fehlberg78) {
+    return {"label",
+            "method",
+            "step_canonical",
+            "step_s",
+            "tolerance",
+            "require_relative_error",
+            "require_symplecticity"};
+  }
+  return {"label",
+          "method",
+          "stages",
+          "step_canonical",
+          "step_s",
+          "tolerance",
+          "require_relative_error",
+          "require_symplecticity"};
 }
 
 /// A label becomes the name of a directory, so that it must neither lead out of the output
@@ -91,6 +102,7 @@ double read_tolerance(const TableReader& integrator, Precision precision) {
 
 IntegratorSettings read_integrator(const TableReader& integrator, Precision precision,
                                    double duration, const CanonicalScale& scale) {
+  const std::vector<std::string_view> all_keys = keys_of(IntegrationMethod::gauss);
   if (!integrator.has("method")) integrator.check_keys({all_keys});  // a misspelt `method` is named
   IntegratorSettings settings;
   settings.method = static_cast<IntegrationMethod>(integrator.choice("method", method_names));

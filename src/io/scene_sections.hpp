@@ -4,6 +4,7 @@
 #include <hamjet/algebra/extended.hpp>
 #include <hamjet/io/scene.hpp>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 

@@ -16,8 +16,11 @@ std::string describe(const toml::node& node) {
       return fmt::format("the string {}", in_quotes(node.as_string()->get()));
     case toml::node_type::integer:
       return fmt::format("{}", node.as_integer()->get());
-    case toml::node_type::floating_point:
-      return fmt::format("{:#}", node.as_floating_point()->get());  // 4.0, not 4: it is no integer
+    case toml::node_type::floating_point: {
+      const std::string number = fmt::format("{}", node.as_floating_point()->get());
+      const bool like_integer = number.find_first_not_of("-0123456789") == std::string::npos;
+      return like_integer ? number + ".0" : number;
+    }
     case toml::node_type::boolean:
       return node.as_boolean()->get() ? "true" : "false";
     case toml::node_type::array:

@@ -88,8 +88,8 @@ TEST(StateFromElements, GivesCircularEquatorialOrbit) {
 // after the point in km; its semi-latus rectum of 11067.790 km is a (1 - e^2).
 TEST(StateFromElements, AgreesWithPublishedExample) {
   const double e = 0.83285;
-  const CartesianState state = state_from_elements(
-      {11067.790 / (1 - e * e), e, 87.87, 227.89, 53.38, 92.335}, 398600.4418);
+  const CartesianState state =
+      state_from_elements({11067.790 / (1 - e * e), e, 87.87, 227.89, 53.38, 92.335}, 398600.4418);
   const double position[] = {6525.344, 6861.535, 6449.125};
   const double velocity[] = {4.902276, 5.533124, -1.975709};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -157,8 +157,8 @@ TEST(StateFromElements, KeepsExactZeros) {
 
 TEST(StateFromElements, RefusesWhatIsNoEllipse) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const OsculatingElements bad[] = {{0, 0.1, 0, 0, 0, 0},    {-7000, 0.1, 0, 0, 0, 0},
-                                    {7000, 1, 0, 0, 0, 0},   {7000, -0.1, 0, 0, 0, 0},
+  const OsculatingElements bad[] = {{0, 0.1, 0, 0, 0, 0},      {-7000, 0.1, 0, 0, 0, 0},
+                                    {7000, 1, 0, 0, 0, 0},     {7000, -0.1, 0, 0, 0, 0},
                                     {7000, 0.1, nan, 0, 0, 0}, {7000, 0.1, 0, nan, 0, 0},
                                     {7000, 0.1, 0, 0, nan, 0}, {7000, 0.1, 0, 0, 0, nan}};
   for (const OsculatingElements& elements : bad) {

@@ -126,9 +126,9 @@ TEST(Scene, TakesEachFormOfDuration) {
 }
 
 // Expected: the state of the reference case SEED-10PI, computed apart from this program in 60
-// decimal digits: sqrt(1.3)/2 and sqrt(1.3) sqrt(3)/2 lie 0.35 and 0.19 units in the last place from
-// these, so that they are the nearest binary64 numbers. So are the units: 7000 km,
-// sqrt(7000^3 / mu) s, and 2 pi (1/0.7)^(3/2) for the period.
+// decimal digits: sqrt(1.3)/2 and sqrt(1.3) sqrt(3)/2 lie 0.35 and 0.19 units in the last place
+// from these, so that they are the nearest binary64 numbers. So are the units: 7000 km, sqrt(7000^3
+// / mu) s, and 2 pi (1/0.7)^(3/2) for the period.
 TEST(Scene, ConvertsThePapersOrbitToTheLastBit) {
   const auto file = scenes / "paper/earth-orbit.toml";
   const Scene scene = read_scene(file);
@@ -160,15 +160,15 @@ TEST(Scene, IsTheSameAtEveryScale) {
       text << std::setprecision(17) << std::ldexp(value, power * k);
       return text.str();
     };
-    const Scene scaled = parse_scene(
-        orbit, "x",
-        {{"nominal.position_km",
-          "[" + number(3, 2) + ", " + number(-1.25, 2) + ", " + number(0.3, 2) + "]"},
-         {"nominal.velocity_km_s",
-          "[" + number(0.1, -1) + ", " + number(0.4, -1) + ", " + number(0.2, -1) + "]"},
-         {"system.radius_km", number(2, 2)},
-         {"jet.duration_s", number(-16, 3)},
-         {"integrator.a.step_s", number(4, 3)}});
+    const Scene scaled =
+        parse_scene(orbit, "x",
+                    {{"nominal.position_km",
+                      "[" + number(3, 2) + ", " + number(-1.25, 2) + ", " + number(0.3, 2) + "]"},
+                     {"nominal.velocity_km_s", "[" + number(0.1, -1) + ", " + number(0.4, -1) +
+                                                   ", " + number(0.2, -1) + "]"},
+                     {"system.radius_km", number(2, 2)},
+                     {"jet.duration_s", number(-16, 3)},
+                     {"integrator.a.step_s", number(4, 3)}});
     EXPECT_EQ(scaled.nominal, expected.nominal) << k;
     EXPECT_EQ(scaled.duration, expected.duration) << k;
     EXPECT_EQ(scaled.canonical_radius, expected.canonical_radius) << k;
@@ -181,9 +181,8 @@ TEST(Scene, IsTheSameAtEveryScale) {
 // Expected: the definitions; an equatorial orbit without J3 has a plane subsystem of 4 variables.
 TEST(Scene, TakesKindsOfGeneratingFunctions) {
   const auto kinds = [](const std::string& list, const std::string& variables) {
-    return parse_scene(
-               orbit, "x",
-               {{"generating_function.kinds", list}, {"jet.variables", variables}})
+    return parse_scene(orbit, "x",
+                       {{"generating_function.kinds", list}, {"jet.variables", variables}})
         .kinds.value();
   };
   const std::string all = R"(["pz", "x", "y", "z", "px", "py"])";
@@ -219,16 +218,17 @@ TEST(Scene, NamesItselfAfterTheFile) {
 
 TEST(Scene, AcceptsWindowsLineEndsAndByteOrderMark) {
   std::string text = "\xef\xbb\xbf";
-  for (const char c : std::string(orbit)) text += c == '\n' ? std::string("\r\n") : std::string(1, c);
+  for (const char c : std::string(orbit))
+    text += c == '\n' ? std::string("\r\n") : std::string(1, c);
   EXPECT_EQ(parse_scene(text, "x").nominal, parse_scene(orbit, "x").nominal);
 }
 
 TEST(Scene, IsNotMisledByStringsAndComments) {
   const std::string nested(100, '[');
   const std::string text = std::string(orbit) + "# 1e999 " + nested + "\n[reference] # \"\n";
-  const std::vector<Override> titles = {
-      {"title", "'1e999" + nested + "'"}, {"title", "\"a\\\"" + nested + "\""},
-      {"title", "\"\"\"1e999\n" + nested + "\"\"\"\""}};
+  const std::vector<Override> titles = {{"title", "'1e999" + nested + "'"},
+                                        {"title", "\"a\\\"" + nested + "\""},
+                                        {"title", "\"\"\"1e999\n" + nested + "\"\"\"\""}};
   for (const Override& title : titles) {
     EXPECT_EQ(parse_scene(text, "x", {title}).order, 3) << title.value;
   }

@@ -53,10 +53,11 @@ template <std::size_t MA, std::size_t MB, class T, class Sums>
                                                    std::size_t part) {
   constexpr std::size_t na = block_size(MA);
   constexpr std::size_t nb = block_size(MB);
-  [&]<std::size_t... I>(std::index_sequence<I...>) {
+  [&]<std::size_t... I>(std::index_sequence<I...>) __attribute__((always_inline)) {
     (
         [&]<std::size_t Row, std::size_t... J>(std::integral_constant<std::size_t, Row>,
-                                               std::index_sequence<J...>) {
+                                               std::index_sequence<J...>)
+            __attribute__((always_inline)) {
           const auto factor = Parts<T>::get(a[Row], part);
           ((sums[product_position(Row, J)] += factor * Parts<T>::get(b[J], part)), ...);
         }(std::integral_constant<std::size_t, I>{}, std::make_index_sequence<nb>{}),
@@ -92,9 +93,10 @@ void form_block(const ProductSchedule::Output& output, const ProductSchedule::Pa
   for (std::size_t part = 0; part < Parts<T>::count; ++part) {
     std::array<Vector, block_size(M)> sums{};
     std::size_t pair = output.first_pair;
-    [&]<std::size_t... MA>(std::index_sequence<MA...>) {
+    [&]<std::size_t... MA>(std::index_sequence<MA...>) __attribute__((always_inline)) {
       (
-          [&]<std::size_t Ma>(std::integral_constant<std::size_t, Ma>) {
+          [&]<std::size_t Ma>(std::integral_constant<std::size_t, Ma>)
+              __attribute__((always_inline)) {
             for (const std::size_t end = run_ends[output.first_run + Ma]; pair < end; ++pair) {
               multiply_blocks<Ma, M - Ma>(sums, a + pairs[pair].a, b + pairs[pair].b, part);
             }

@@ -29,12 +29,12 @@ struct GaussSettings {
 ///
 /// A step solves degree 0 by Newton's method, then each degree by one evaluation on series and one
 /// linear solve (see SliceEvaluator, StageSystem). Step sizes depend on the nominal alone and are
-/// constants with respect to the deviations, so variable steps keep the map symplectic. A step is
-/// accepted when
+/// constants with respect to the deviations, so variable steps keep the map symplectic. They are
+/// chosen to make
 ///
-///   (defect / largest slope)^2 <= tolerance ,
+///   (defect / largest slope)^2 = tolerance ,
 ///
-/// defect being the distance, at the ends of the step, between the slope and the collocation
+/// defect being the distance, at the start of the step, between the slope and the collocation
 /// polynomial that was fitted to it inside: about the first neglected Legendre mode, whose square has
 /// the order 2s of the method. The update is summed with compensation.
 ///

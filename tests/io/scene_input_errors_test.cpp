@@ -1,0 +1,163 @@
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "scene_samples.hpp"
+
+// Bad input before the schema is looked at: files, bytes, TOML syntax, overrides. What is expected
+// is the documentation of read_scene, with offsets, lines and columns counted by hand.
+
+namespace hamjet::io {
+namespace {
+
+TEST(SceneInputErrors, Syntax) {
+  expect_scene_error("title = \"abc\n", {"file.toml:1:", "not valid TOML"});
+  expect_scene_error("a = [1,\n2", {"file.toml:2:", "not valid TOML"});
+  expect_scene_error("schema = 1\n\nschema = 1\n", {"file.toml:3:", "redefine", "schema"});
+  expect_scene_error("[jet]\norder = 1\n[jet]\n", {"file.toml:3:", "redefine", "jet"});
+  expect_scene_error("schema = \n", {"file.toml:1:", "not valid TOML"});
+  expect_scene_error("\"a\x1b\" = 1\n", {"file.toml:1:", "not valid TOML"});
+}
+
+TEST(SceneInputErrors, Text) {
+  expect_scene_error(std::string("schema = 1\n# ") + std::string(1, '\0'),
+                     {"file.toml: ", "NUL", "offset 13"});
+  expect_scene_error("# caf\xe9\n", {"not UTF-8", "0xe9", "offset 5"});
+  expect_scene_error("# \xc0\xaf\n", {"not UTF-8", "offset 2"});
+  expect_scene_error("# \xed\xa0\x80\n", {"not UTF-8", "offset 2"});
+  expect_scene_error("# \xf4\x90\x80\x80\n", {"not UTF-8", "offset 2"});
+  expect_scene_error("# \xe2\x82", {"not UTF-8", "offset 2"});
+  expect_scene_error("\xff\xfes\0", {"UTF-16", "offset 0"});
+  expect_scene_error("\xfe\xff", {"UTF-16", "offset 0"});
+  expect_scene_error(std::string((1U << 20) + 1, '#'), {"too large, got 1048577", "1048576"});
+  // No UTF-8 character, nor the column, is split by what comes after it on the line.
+  expect_scene_error("\"\xc3\xa9\" = 1e999\n", {"file.toml:1:7: \xc3\xa9: number out of range"});
+}
+
+TEST(SceneInputErrors, DeepNesting) {
+  std::string dots = "a";
+  for (int i = 0; i < 100000; ++i) dots += ".a";
+  expect_scene_error(dots + " = 1\n", {"file.toml:1:", "nested too deeply", "32"});
+  expect_scene_error("[" + dots + "]\n", {"nested too deeply"});
+  expect_scene_error("a = " + std::string(100000, '['), {"file.toml:1:", "nested too deeply"});
+  expect_scene_error("a = {" + dots + " = 1}\n", {"nested too deeply"});
+  expect_scene_error("a = [\"\"\"x\"\"\"\", " + std::string(100000, '['), {"nested too deeply"});
+  std::string braces = "a = ";
+  for (int i = 0; i < 1000; ++i) braces += "{a = ";
+  expect_scene_error(braces, {"nested too deeply"});
+}
+
+TEST(SceneInputErrors, QuotesStayShort) {
+  expect_scene_error(std::string(5000, 'k') + " = 1\n", {std::string(80, 'k') + "..."});
+  expect_scene_error(changed(orbit, "gauss8", std::string(5000, '?')),
+                     {std::string(80, '?') + "..."});
+  expect_scene_error(changed(orbit, "\"gauss8\"", "\"\\u0085\\u2028\""),
+                     {"\"\\xc2\\x85\\xe2\\x80\\xa8\""});
+  expect_error([] { parse_scene("", "a\nb"); }, ErrorKind::scene, {"a\\x0ab:1:1: schema"}, "name");
+}
+
+void expect_override_error(const Override& change, ErrorKind kind,
+                           const std::vector<std::string>& words) {
+  expect_error([&] { parse_scene(orbit, "file.toml", {change}); }, kind, words,
+               change.key + "=" + change.value);
+}
+
+TEST(SceneInputErrors, Overrides) {
+  const auto scene = ErrorKind::scene;
+  const auto usage = ErrorKind::usage;
+  expect_override_error({"jet.order", "0"}, scene, {"--set jet.order: jet.order: out of range"});
+  expect_override_error({"jet.order", "99"}, ErrorKind::too_large,
+                        {"--set jet.order", "1609344100"});
+  expect_override_error({"jet.order", "1e400"}, scene, {"the string \"1e400\""});
+  expect_override_error({"jet.order", "3\nvariables=[]"}, scene, {"the string \"3\\x0avariables"});
+  expect_override_error({"system.J2", "1e-400"}, scene, {"J2: wrong type, got the string"});
+  expect_override_error({"jet.ordre", "3"}, scene, {"--set jet.ordre: ", "did you mean order?"});
+  expect_override_error({"a.b", "3"}, scene, {"--set a.b: a: unknown key"});
+  expect_override_error({"reference", "{tol = 1}"}, scene, {"--set reference: reference.tol"});
+  expect_override_error({"integrator.gauss8.stages", "13"}, scene,
+                        {"--set integrator.gauss8.stages: integrator.0.stages: out of range"});
+  expect_override_error({"integrator.1.label", "gauss8"}, scene, {"duplicate", "file.toml:15:9"});
+  expect_override_error({"", "3"}, usage, {"--set", "empty name"});
+  expect_override_error({"jet..order", "3"}, usage, {"empty name", "\"jet..order\""});
+  expect_override_error({"jet.", "3"}, usage, {"empty name"});
+  expect_override_error({"title.x", "3"}, usage, {"no such key", "below a value"});
+  expect_override_error({"integrator.2.stages", "3"}, usage, {"no such element", "below 2"});
+  expect_override_error({"integrator.-1.stages", "3"}, usage, {"no such element"});
+  expect_override_error({"integrator.guass8.stages", "3"}, usage, {"no such element", "guass8"});
+  expect_override_error({"title", "\xff"}, usage, {"not UTF-8"});
+  std::string dots = "a";
+  for (int i = 0; i < 100000; ++i) dots += ".a";
+  expect_override_error({dots, "3"}, usage, {"too long"});
+  const std::string brackets(100000, '[');  // not nested TOML, but a string
+  EXPECT_EQ(parse_scene(orbit, "x", {{"title", brackets}}).title, brackets);
+}
+
+/// An empty directory of its own, removed at the end.
+class SceneFileErrors : public ::testing::Test {
+ protected:
+  SceneFileErrors() {
+    std::string name = (std::filesystem::temp_directory_path() / "hamjet-scene-XXXXXX").string();
+    directory_ = ::mkdtemp(name.data());
+  }
+  ~SceneFileErrors() override { std::filesystem::remove_all(directory_); }
+
+  static void expect_unreadable(const std::filesystem::path& file, const std::string& reason) {
+    expect_error([&] { read_scene(file); }, ErrorKind::input_output, {file.string(), reason},
+                 file.string());
+  }
+
+  std::filesystem::path directory_;
+};
+
+TEST_F(SceneFileErrors, NamesPathAndReason) {
+  expect_unreadable(directory_ / "missing.toml", "No such file");
+  expect_unreadable(directory_, "directory");
+  expect_unreadable("/dev/zero", "device");
+  const auto pipe = directory_ / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  expect_unreadable(pipe, "pipe");
+  const auto loop = directory_ / "loop";
+  std::filesystem::create_symlink(loop, loop);
+  expect_unreadable(loop, "symbolic links");
+}
+
+TEST_F(SceneFileErrors, NamesMissingPermission) {
+  const auto file = directory_ / "secret.toml";
+  std::ofstream(file) << orbit;
+  std::filesystem::permissions(file, std::filesystem::perms::none);
+  // The superuser may read everything, and is somebody else for a moment.
+  const uid_t user = ::geteuid();
+  constexpr uid_t nobody = 65534;
+  if (user == 0) {
+    ASSERT_EQ(::seteuid(nobody), 0);
+  }
+  expect_unreadable(file, "Permission denied");
+  if (user == 0) {
+    ASSERT_EQ(::seteuid(user), 0);
+  }
+}
+
+TEST_F(SceneFileErrors, RefusesLargeFilesUnread) {
+  const auto file = directory_ / "large.toml";
+  std::ofstream(file) << orbit;
+  std::filesystem::resize_file(file, std::uintmax_t{1} << 30);
+  expect_error([&] { read_scene(file); }, ErrorKind::scene,
+               {file.string(), "too large, got 1073741824"}, "large");
+}
+
+TEST_F(SceneFileErrors, NamesFileAndLineOfAnError) {
+  const auto file = directory_ / "scene.toml";
+  std::ofstream(file) << changed(orbit, "order = 4", "order = 0");
+  expect_error([&] { read_scene(file); }, ErrorKind::scene, {file.string() + ":12:9: jet.order: "},
+               "location");
+  std::ofstream(file) << orbit;
+  EXPECT_EQ(read_scene(file).name, "scene");
+}
+
+}  // namespace
+}  // namespace hamjet::io
