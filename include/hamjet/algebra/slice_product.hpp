@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <utility>
@@ -189,6 +190,27 @@ void interior_square(const SeriesSpace& space, int d, const T* a, T* c) {
   const ProductSchedule& s = space.products(d);
   detail::form_slice<true>(s.square_outputs, s.square_pairs.data(), s.square_run_ends.data(),
                            s.diagonal.data(), a, a, c);
+}
+
+/// c_d = sum over lowest <= i <= d-1 of a_i b_(d-i): the interior product where `a` is known to have
+/// no terms below degree `lowest`, at the cost of the terms that are left.
+template <class T>
+void interior_product_from(const SeriesSpace& space, int d, int lowest, const T* a, const T* b,
+                           T* c) {
+  const ProductSchedule& s = space.products(d);
+  const std::size_t first = space.first(lowest);
+  for (const ProductSchedule::Output& output : s.outputs) {
+    T* sums = c + output.offset;
+    std::fill_n(sums, block_size(output.block_degree), T(0));
+    std::size_t pair = output.first_pair;
+    for (std::size_t m_a = 0; m_a <= output.block_degree; ++m_a) {
+      for (const std::size_t end = s.run_ends[output.first_run + m_a]; pair < end; ++pair) {
+        if (s.pairs[pair].a < first) continue;
+        detail::multiply_blocks(sums, a + s.pairs[pair].a, b + s.pairs[pair].b, m_a,
+                                output.block_degree - m_a, 0);
+      }
+    }
+  }
 }
 
 }  // namespace hamjet

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "hamjet/algebra/composition.hpp"
+#include "hamjet/algebra/truncated_power_series.hpp"
+#include "hamjet/maps/generating_function_kind.hpp"
+
+namespace hamjet {
+
+/// A jet solved for the variables that a generating function does not take.
+///
+/// The 2n variables w are the chosen final ones (w_1..w_n, one per degree of freedom), then the
+/// chosen initial ones (w_(n+1)..w_2n); all are deviations from the nominal.
+template <class T>
+struct PartialInversion {
+  GeneratingFunctionKind kind;
+  double condition = 0;                     ///< of the matrix inverted, in the 2-norm
+  std::vector<Series<T>> remaining_final;   ///< n series in w
+  std::vector<Series<T>> remaining_initial;  ///< n series in w
+};
+
+/// The linear part that a kind inverts: d(chosen final) / d(remaining initial), n x n. For F1 it is
+/// dq/dp0, for F2 dq/dq0, for F3 dp/dp0, for F4 dp/dq0.
+template <class T>
+Matrix<double> inverted_block(std::span<const Series<T>> jet, const GeneratingFunctionKind& kind);
+
+/// Condition number in the 2-norm: ratio of the largest to the smallest singular value; infinite for
+/// a singular matrix.
+double condition_number(const Matrix<double>& matrix);
+
+/// Inverts a jet of 2n components in all 2n initial deviations; its constant terms are ignored.
+/// Throws Error(numerical), naming kind and smallest singular value, where the condition exceeds
+/// 1/(100 eps) (eps of double): the generating function does not exist there to any useful accuracy.
+/// Throws Error(usage) if the jet is not 2n components in 2n variables.
+template <class T>
+PartialInversion<T> invert_partially(std::span<const Series<T>> jet,
+                                     const GeneratingFunctionKind& kind);
+
+/// The kind whose linear part has the smallest condition number.
+template <class T>
+GeneratingFunctionKind best_conditioned_kind(std::span<const Series<T>> jet);
+
+}  // namespace hamjet

@@ -1,0 +1,115 @@
+#include "hamjet/maps/partial_inversion.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/SVD>
+#include <limits>
+
+#include "hamjet/error.hpp"
+
+namespace hamjet {
+namespace {
+
+/// Beyond this condition number a linear part counts as singular: with rounded inputs it never is
+/// exactly (at a full period of Kepler's problem F1 has a condition near 3e17).
+constexpr double largest_condition = 1 / (100 * std::numeric_limits<double>::epsilon());
+
+template <class T>
+void require_full_jet(std::span<const Series<T>> jet, const GeneratingFunctionKind& kind) {
+  const std::size_t n = kind.degrees_of_freedom();
+  if (jet.size() != 2 * n || jet[0].space().variables() != 2 * n) {
+    throw Error(ErrorKind::usage,
+                fmt::format("partial inversion {}: a jet of {} components in {} variables is needed",
+                            kind.name(), 2 * n, 2 * n));
+  }
+}
+
+}  // namespace
+
+template <class T>
+Matrix<double> inverted_block(std::span<const Series<T>> jet, const GeneratingFunctionKind& kind) {
+  require_full_jet(jet, kind);
+  const std::size_t n = kind.degrees_of_freedom();
+  Matrix<double> block(n, n);
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j < n; ++j) {
+      const Series<T>& component = jet[kind.final_variable(i)];
+      const std::size_t k = component.space().linear_index(kind.initial_variable(j, false));
+      block(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
+          static_cast<double>(component[k]);
+    }
+  }
+  return block;
+}
+
+double condition_number(const Matrix<double>& matrix) {
+  const Eigen::VectorXd values = Eigen::JacobiSVD<Matrix<double>>(matrix).singularValues();
+  const double smallest = values(values.size() - 1);
+  return smallest > 0 ? values(0) / smallest : std::numeric_limits<double>::infinity();
+}
+
+template <class T>
+PartialInversion<T> invert_partially(std::span<const Series<T>> jet,
+                                     const GeneratingFunctionKind& kind) {
+  const Matrix<double> block = inverted_block(jet, kind);
+  PartialInversion<T> result;
+  result.kind = kind;
+  result.condition = condition_number(block);
+  if (!(result.condition < largest_condition)) {
+    const Eigen::VectorXd values = Eigen::JacobiSVD<Matrix<double>>(block).singularValues();
+    throw Error(ErrorKind::numerical,
+                fmt::format("generating function {}: it does not exist at this time, the smallest "
+                            "singular value of its linear part is {:.3g} (condition {:.3g}); another "
+                            "kind, or 'auto', may",
+                            kind.name(), values(values.size() - 1), result.condition));
+  }
+  // The map w(initial deviations) is inverted as a whole: its last n rows are single variables.
+  const std::size_t n = kind.degrees_of_freedom();
+  const SpacePointer& space = jet[0].space_pointer();
+  std::vector<Series<T>> chosen;
+  for (std::size_t i = 0; i < n; ++i) {
+    chosen.push_back(jet[kind.final_variable(i)]);
+    chosen.back()[0] = T(0);
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    chosen.push_back(Series<T>::variable(space, kind.initial_variable(i)));
+  }
+  const std::vector<Series<T>> initial = inverse(std::span<const Series<T>>(chosen));
+  std::vector<Series<T>> final_rest;
+  for (std::size_t i = 0; i < n; ++i) {
+    final_rest.push_back(jet[kind.final_variable(i, false)]);
+    final_rest.back()[0] = T(0);
+    result.remaining_initial.push_back(initial[kind.initial_variable(i, false)]);
+  }
+  result.remaining_final = compose(std::span<const Series<T>>(final_rest),
+                                   std::span<const Series<T>>(initial));
+  return result;
+}
+
+template <class T>
+GeneratingFunctionKind best_conditioned_kind(std::span<const Series<T>> jet) {
+  const auto kinds = all_kinds(jet.size() / 2);
+  double smallest = std::numeric_limits<double>::infinity();
+  GeneratingFunctionKind best = kinds.front();
+  for (const auto& kind : kinds) {
+    const double condition = condition_number(inverted_block(jet, kind));
+    if (condition < smallest) {
+      smallest = condition;
+      best = kind;
+    }
+  }
+  return best;
+}
+
+template Matrix<double> inverted_block(std::span<const Series<double>>,
+                                       const GeneratingFunctionKind&);
+template Matrix<double> inverted_block(std::span<const Series<Extended>>,
+                                       const GeneratingFunctionKind&);
+template PartialInversion<double> invert_partially(std::span<const Series<double>>,
+                                                   const GeneratingFunctionKind&);
+template PartialInversion<Extended> invert_partially(std::span<const Series<Extended>>,
+                                                     const GeneratingFunctionKind&);
+template GeneratingFunctionKind best_conditioned_kind(std::span<const Series<double>>);
+template GeneratingFunctionKind best_conditioned_kind(std::span<const Series<Extended>>);
+
+}  // namespace hamjet
