@@ -2,7 +2,7 @@
 
 #include <toml++/toml.h>
 
-#include <hamjet/io/scene.hpp>
+#include <hamjet/io/scene_reader.hpp>
 #include <string>
 #include <string_view>
 #include <vector>

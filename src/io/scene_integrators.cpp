@@ -11,10 +11,6 @@
 namespace hamjet::io {
 namespace {
 
-/// Names in the order of the enumeration.
-const std::vector<std::string_view> method_names = {"gauss", "fehlberg78", "cvode-adams",
-                                                    "cvode-bdf"};
-
 constexpr std::int64_t most_stages = 12;
 constexpr double most_steps = 1e9;
 constexpr std::size_t longest_label = 100;
@@ -105,8 +101,8 @@ IntegratorSettings read_integrator(const TableReader& integrator, Precision prec
   const std::vector<std::string_view> all_keys = keys_of(IntegrationMethod::gauss);
   if (!integrator.has("method")) integrator.check_keys({all_keys});  // a misspelt `method` is named
   IntegratorSettings settings;
-  settings.method = static_cast<IntegrationMethod>(integrator.choice("method", method_names));
-  const std::string_view method = method_names[static_cast<std::size_t>(settings.method)];
+  settings.method = static_cast<IntegrationMethod>(integrator.choice("method", method_names()));
+  const std::string_view method = method_names()[static_cast<std::size_t>(settings.method)];
   integrator.check_keys({keys_of(settings.method), all_keys, "the method " + std::string(method)});
   if (is_cvode(settings.method) && precision == Precision::extended) {
     integrator.fail("method", fmt::format("not available in extended precision, got {}, must be "

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 #include <hamjet/algebra/extended.hpp>
-#include <hamjet/io/scene.hpp>
+#include <hamjet/io/scene_reader.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,16 +12,15 @@
 
 // One function for each table of a scene, in the order in which they are read: a later one may need
 // what an earlier one found. Each reads, checks and converts all keys of its table, in a file of
-// its own, scene_<table>.cpp (the two tables of one key in scene.cpp). All throw Error(scene), or
+// its own, scene_<table>.cpp (tables of one key in scene_reader.cpp). All throw Error(scene), or
 // Error(too_large) where said.
 
 namespace hamjet::io {
 
 /// The model's name in scenes.
-std::string_view model_name(SystemModel model);
-
-/// Names of the variables (q, p), in the order of the state: x, y, z, px, py, pz for an orbit.
-std::vector<std::string_view> variable_names(SystemModel model);
+inline std::string_view model_name(SystemModel model) {
+  return model_names()[static_cast<std::size_t>(model)];
+}
 
 /// Table `[system]`.
 SystemSettings read_system(const TableReader& system);
@@ -74,5 +73,8 @@ std::vector<std::string> read_generating_function(const TableReader& generating_
 
 /// Table `[reference]`.
 ReferenceSettings read_reference(const TableReader& reference);
+
+/// Table `[relative_hamiltonian]`: canonical times from the start to the duration.
+std::vector<double> read_relative_hamiltonian(const TableReader& table, double duration);
 
 }  // namespace hamjet::io

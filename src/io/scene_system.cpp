@@ -3,10 +3,6 @@
 namespace hamjet::io {
 namespace {
 
-/// Names in the order of the enumeration.
-const std::vector<std::string_view> model_names = {"zonal-gravity", "kepler",
-                                                   "harmonic-oscillator"};
-
 const std::vector<std::string_view> all_keys = {"model", "mu_km3_s2", "radius_km",        "J2",
                                                 "J3",    "mass_kg",   "stiffness_N_per_m"};
 
@@ -29,19 +25,10 @@ double zonal_coefficient(const TableReader& system, std::string_view key) {
 
 }  // namespace
 
-std::string_view model_name(SystemModel model) {
-  return model_names[static_cast<std::size_t>(model)];
-}
-
-std::vector<std::string_view> variable_names(SystemModel model) {
-  if (model == SystemModel::harmonic_oscillator) return {"q", "p"};
-  return {"x", "y", "z", "px", "py", "pz"};
-}
-
 SystemSettings read_system(const TableReader& system) {
   if (!system.has("model")) system.check_keys({all_keys});  // a misspelt `model` is named
   SystemSettings settings;
-  settings.model = static_cast<SystemModel>(system.choice("model", model_names));
+  settings.model = static_cast<SystemModel>(system.choice("model", model_names()));
   system.check_keys(
       {keys_of(settings.model), all_keys, "the model " + std::string(model_name(settings.model))});
   if (settings.model == SystemModel::harmonic_oscillator) {

@@ -114,6 +114,13 @@ std::vector<double> TableReader::numbers(std::string_view key, std::size_t count
   return values;
 }
 
+std::vector<double> TableReader::numbers(std::string_view key) const {
+  constexpr std::string_view right = "an array of finite numbers, at least one";
+  const std::size_t count = required_array(key, right).size();
+  if (count == 0) fail(key, fmt::format("empty, got [], must be {}", right));
+  return numbers(key, count);
+}
+
 std::string TableReader::text(std::string_view key) const {
   const toml::node& node = required(key, "a string");
   if (!node.is_string()) {

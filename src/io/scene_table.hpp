@@ -47,6 +47,8 @@ class TableReader {
   std::optional<std::int64_t> integer_if_any(std::string_view key) const;
   /// Required: an array of `count` finite numbers.
   std::vector<double> numbers(std::string_view key, std::size_t count) const;
+  /// Required: an array of finite numbers, not empty.
+  std::vector<double> numbers(std::string_view key) const;
   /// Required: a string.
   std::string text(std::string_view key) const;
   /// Required: an array of strings, not empty.

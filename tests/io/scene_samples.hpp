@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <hamjet/error.hpp>
-#include <hamjet/io/scene.hpp>
+#include <hamjet/io/scene_reader.hpp>
 #include <stdexcept>
 #include <string>
 #include <vector>

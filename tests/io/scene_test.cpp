@@ -3,7 +3,7 @@
 #include <cmath>
 #include <filesystem>
 #include <hamjet/error.hpp>
-#include <hamjet/io/scene.hpp>
+#include <hamjet/io/scene_reader.hpp>
 #include <iomanip>
 #include <sstream>
 #include <string>

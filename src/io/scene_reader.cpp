@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <hamjet/io/scene.hpp>
+#include <hamjet/io/scene_reader.hpp>
 
 #include "scene_document.hpp"
 #include "scene_message.hpp"
@@ -12,8 +12,8 @@ namespace hamjet::io {
 namespace {
 
 const std::vector<std::string_view> top_keys = {
-    "schema",     "title",     "precision",           "system",   "nominal", "jet",
-    "integrator", "formation", "generating_function", "reference"};
+    "schema",     "title",     "precision",           "system",    "nominal", "jet",
+    "integrator", "formation", "generating_function", "reference", "relative_hamiltonian"};
 
 /// The stem of the file's name, made fit for the name of a directory.
 std::string scene_name(const std::string& file_name) {
@@ -74,6 +74,10 @@ Scene read_tables(const TableReader& root) {
     scene.kinds = read_generating_function(root.table("generating_function"), scene);
   }
   if (root.has("reference")) scene.reference = read_reference(root.table("reference"));
+  if (root.has("relative_hamiltonian")) {
+    scene.relative_hamiltonian_times =
+        read_relative_hamiltonian(root.table("relative_hamiltonian"), scene.duration);
+  }
   return scene;
 }
 
@@ -102,6 +106,21 @@ ReferenceSettings read_reference(const TableReader& reference) {
     settings.tolerance = reference.number_between("tolerance", 1e-28, 1e-16);
   }
   return settings;
+}
+
+std::vector<double> read_relative_hamiltonian(const TableReader& table, double duration) {
+  table.check_keys({{"times_canonical"}});
+  const std::vector<double> times = table.numbers("times_canonical");
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const bool is_inside = times[i] * duration >= 0 && std::abs(times[i]) <= std::abs(duration);
+    if (!is_inside || (i > 0 && std::abs(times[i]) <= std::abs(times[i - 1]))) {
+      table.fail_element("times_canonical", i,
+                         fmt::format("outside the span or out of order, got {}, must lie between 0 "
+                                     "and the duration of {} and move away from 0",
+                                     times[i], duration));
+    }
+  }
+  return times;
 }
 
 Scene parse_scene(std::string_view text, const std::string& file_name,

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "hamjet/io/output_directory.hpp"
+#include "hamjet/studies/propagation.hpp"
+
+namespace hamjet::io {
+
+/// `summary.json`: scene, units, reference, and for every run its statistics, checks, residuals with
+/// their floors, symplecticity and errors. What was not computed is null.
+std::string summary_json(const PropagationResult& result);
+
+/// `<label>/jet.csv`: one row a coefficient, the row with exponents 0 being the nominal's final state.
+/// 17 digits, or 36 in extended precision; canonical units.
+std::string jet_csv(const PropagationResult& result, const RunResult& run);
+
+/// `<label>/generating_function_<kind>.csv`: exponents of the 2n variables it takes (final ones, then
+/// initial ones with a 0 behind the name) and coefficient.
+std::string generating_function_csv(const PropagationResult& result, const KindResult& kind);
+
+/// `<label>/nominal.csv`: time (canonical and s), state (canonical), relative energy error.
+std::string nominal_csv(const PropagationResult& result, const RunResult& run);
+
+/// `relative_hamiltonian.csv`: time, exponents, coefficient.
+std::string relative_hamiltonian_csv(const PropagationResult& result);
+
+/// All of the above into a directory, the summary last. Throws Error(input_output).
+void write_results(const PropagationResult& result, OutputDirectory& output);
+
+/// The table for the terminal: residual and error of every integrator side by side.
+std::string summary_table(const PropagationResult& result);
+
+}  // namespace hamjet::io

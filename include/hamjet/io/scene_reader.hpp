@@ -1,0 +1,41 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hamjet/studies/scene.hpp"
+
+namespace hamjet::io {
+
+/// One `--set key=value`. The key is a dotted path; an element of an array is named by its index
+/// from 0 or, if it is a table with a label, by that: `jet.order`, `integrator.0.tolerance`,
+/// `integrator.gauss8.tolerance`. Missing tables on the way are added. The value is TOML (`3`,
+/// `[1, 2]`, `{}`); what is not valid TOML is taken as a string. A key of which a table has one of
+/// several forms is changed by giving the whole table: `nominal={a_km=7000, ...}`.
+struct Override {
+  std::string key;
+  std::string value;
+};
+
+/// Reads a scene file and applies the overrides in their order, after which the same rules hold as
+/// if the file had been written so. Throws
+///  - Error(input_output) with the path and the reason if the file cannot be read, or is a
+///    directory, a pipe or a device;
+///  - Error(scene) with `file:line:column: key: what is wrong, got what, what would be right`, on
+///    one line; for a value that an override gave the location is `--set key`. A text that is too
+///    large or not UTF-8 is named by its size or the byte's offset;
+///  - Error(too_large) for an order above 20, or more than 1e9 fixed steps;
+///  - Error(usage) for an override whose key leads nowhere.
+///
+/// A fixed step that is longer than the duration means a single step.
+Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides = {});
+
+/// The same from text; `file_name` is used in messages and for Scene::name. Every number becomes
+/// the nearest binary64; the conversion to canonical units is done in extended precision and
+/// rounded once.
+Scene parse_scene(std::string_view text, const std::string& file_name,
+                  const std::vector<Override>& overrides = {});
+
+}  // namespace hamjet::io

@@ -1,0 +1,122 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hamjet/algebra/extended.hpp"
+#include "hamjet/integrators/flow_problem.hpp"
+#include "hamjet/maps/exactness.hpp"
+#include "hamjet/maps/symplecticity.hpp"
+#include "hamjet/studies/scene.hpp"
+
+namespace hamjet {
+
+/// One point of the nominal trajectory, canonical.
+struct NominalPoint {
+  double time = 0;
+  std::vector<double> state;  ///< all 2n components of the model
+  double energy_error = 0;    ///< (H - H(0)) / |H(0)|; H - H(0) where H(0) = 0
+};
+
+/// One degree of the exactness residual with the floor below which it says nothing: the same
+/// computation on the reference rounded to the precision of the run. No value without a reference.
+struct ExactnessEntry {
+  ExactnessResidual residual;
+  std::optional<ExactnessResidual> floor;
+};
+
+/// A generating function of one kind, and how exact it is.
+struct KindResult {
+  std::string requested;  ///< as in the scene: F1..F4, auto, or explicit
+  GeneratingFunctionKind kind;
+  double condition = 0;
+  std::vector<ExactnessEntry> by_degree;
+  std::optional<Series<Extended>> generating_function;
+  std::string failure;  ///< not empty: the kind does not exist at the final time, and why
+};
+
+/// What one integrator gave.
+struct RunResult {
+  IntegratorSettings settings;
+  IntegrationStatistics statistics;
+  std::vector<std::string> failed_checks;  ///< checks that the scene asked for and that failed
+  std::string failure;                     ///< not empty: no result, and why
+  /// The components of the flow's jet that were computed, exact copies in extended precision.
+  FlowJet<Extended> jet;
+  std::vector<double> nominal_final;
+  double energy_error = 0;  ///< the largest magnitude along the nominal
+  std::vector<NominalPoint> nominal;
+  std::vector<KindResult> kinds;
+  std::vector<SymplecticityDefect> symplecticity;  ///< empty if not all variables are expanded in
+  std::optional<std::vector<double>> error_by_degree;  ///< see relative_error_by_degree
+};
+
+/// The extended-precision reference: two runs of different step size, the finer one kept.
+struct ReferenceResult {
+  FlowJet<Extended> jet;
+  std::vector<double> uncertainty_by_degree;  ///< relative difference of the two runs
+  IntegrationStatistics statistics;           ///< of the finer run
+  int stages = 0;
+  double tolerance = 0;
+};
+
+/// Coefficients of the relative Hamiltonian at one time.
+struct RelativeHamiltonianResult {
+  double time = 0;
+  Series<Extended> hamiltonian;
+};
+
+/// The part of a scene's problem that is computed.
+struct ComputedProblem {
+  std::vector<std::size_t> degrees_of_freedom;  ///< kept; the others vanish identically
+  std::vector<std::size_t> components;  ///< index in the model's state of each component computed
+  std::vector<std::size_t> variables;   ///< index among the components of each variable
+  SpacePointer space;
+  DynamicalSystem system;
+  std::vector<double> nominal;  ///< of the components
+  bool is_full_jet = false;     ///< all components are expanded in: a map of phase space
+};
+
+/// All results of a scene.
+struct PropagationResult {
+  Scene scene;
+  ComputedProblem problem;
+  std::optional<ReferenceResult> reference;
+  std::vector<RunResult> runs;
+  std::vector<RelativeHamiltonianResult> relative_hamiltonians;
+};
+
+/// Told how far the work is: what is being done, and the fraction of it in 0..1. May throw to stop.
+using ProgressCallback = std::function<void(const std::string& task, double fraction)>;
+
+/// The system of a scene in canonical units.
+DynamicalSystem make_system(const Scene& scene);
+
+/// What has to be computed for a scene: degrees of freedom that stay exactly zero and that the scene
+/// does not expand in are left out. Throws Error(too_large), naming the estimate, if the series would
+/// not fit `memory_limit` bytes.
+ComputedProblem make_problem(const Scene& scene, double memory_limit);
+
+/// Bytes that the scene's runs need at most, from the counts of series and coefficients.
+double estimate_memory(const Scene& scene, const DynamicalSystem& system, std::size_t variables);
+
+/// Memory that this machine can give now, in bytes; infinite where that cannot be known.
+double available_memory();
+
+/// Runs a scene: the reference if it asks for one, then each integrator, then the inversions that it
+/// asks for. A numerical failure of one integrator or one kind is recorded in its result and the
+/// others go on; other errors are thrown.
+PropagationResult propagate(const Scene& scene, const ProgressCallback& progress = {});
+
+/// For each degree the largest difference of a coefficient from the reference's, relative to the
+/// reference's largest coefficient of that degree (over all components); 0 where both vanish.
+std::vector<double> relative_error_by_degree(const FlowJet<Extended>& jet,
+                                             const FlowJet<Extended>& reference);
+
+/// The worst outcome of all runs, as an exit code: 0, 1 (a check failed) or 4 (a numerical failure).
+int exit_code(const PropagationResult& result);
+
+}  // namespace hamjet

@@ -1,0 +1,51 @@
+#include "list_command.hpp"
+
+#include <fmt/format.h>
+
+#include "hamjet/integrators/cvode.hpp"
+#include "hamjet/maps/generating_function_kind.hpp"
+
+namespace hamjet::cli {
+namespace {
+
+void list_systems() {
+  fmt::print(
+      "zonal-gravity        Earth orbit with J2 and J3, each optional: mu_km3_s2, radius_km, J2, J3\n"
+      "kepler               Kepler's problem: mu_km3_s2\n"
+      "harmonic-oscillator  one degree of freedom: mass_kg, stiffness_N_per_m\n");
+}
+
+void list_integrators() {
+  const char* cvode = cvode_available() ? "" : "  NOT BUILT: configure with -DHAMJET_CVODE=ON";
+  fmt::print(
+      "gauss        Gauss collocation, 1 (implicit midpoint) to 12 stages, order 2 stages; symplectic; "
+      "step_canonical, step_s or tolerance\n"
+      "fehlberg78   explicit Runge-Kutta-Fehlberg 7(8) of Boost.odeint; not symplectic; "
+      "step_canonical, step_s or tolerance\n"
+      "cvode-adams  Adams method of SUNDIALS CVODE; not symplectic; tolerance{}\n"
+      "cvode-bdf    backward differentiation of SUNDIALS CVODE, for stiff systems; not symplectic; "
+      "tolerance{}\n",
+      cvode, cvode);
+}
+
+void list_kinds() {
+  fmt::print(
+      "A generating function takes one final and one initial variable of each pair (q, p):\n"
+      "F1 (q, q0)   F2 (q, p0)   F3 (p, q0)   F4 (p, p0)   auto (the best conditioned of all)\n"
+      "For an orbit, final choice, hyphen, initial choice for x, y, z:\n");
+  const auto kinds = all_kinds(3);
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    fmt::print("{}{}", kinds[i].name(), i % 8 == 7 ? "\n" : "  ");
+  }
+}
+
+}  // namespace
+
+int list(const std::string& what) {
+  if (what == "systems") list_systems();
+  if (what == "integrators") list_integrators();
+  if (what == "kinds") list_kinds();
+  return 0;
+}
+
+}  // namespace hamjet::cli

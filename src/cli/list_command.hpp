@@ -1,0 +1,10 @@
+#pragma once
+
+#include <string>
+
+namespace hamjet::cli {
+
+/// Prints what scenes may name: `what` is systems, integrators or kinds.
+int list(const std::string& what);
+
+}  // namespace hamjet::cli

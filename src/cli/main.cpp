@@ -1,0 +1,102 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <new>
+
+#include "hamjet/error.hpp"
+#include "hamjet/version.hpp"
+#include "interruption.hpp"
+#include "list_command.hpp"
+#include "run_command.hpp"
+
+namespace {
+
+using hamjet::ErrorKind;
+
+constexpr const char* examples = R"(Examples:
+  hamjet demo                               the paper's Earth orbit; results in out/earth-orbit
+  hamjet run scene.toml                     results in out/scene
+  hamjet run scene.toml -o results --json   summary on standard output as JSON
+  hamjet run scene.toml --set jet.order=6 --set integrator.gauss8.tolerance=1e-13
+  hamjet check scene.toml                   what would be computed, and the memory it takes
+  hamjet list integrators
+
+Exit codes: 0 all well; 1 a check that the scene asks for failed; 2 usage; 3 scene; 4 numerical
+failure; 5 input or output; 6 refused as too large; 130 or 143 interrupted.
+
+Taylor maps and generating functions of Hamiltonian flows.
+)";
+
+void add_run_options(CLI::App& command, hamjet::cli::RunOptions& options) {
+  command.add_option("-o,--output", options.output,
+                     "directory for the results (default: out/<scene name>)");
+  command.add_flag("--json", options.json, "print summary.json instead of the table");
+  command.add_flag("-q,--quiet", options.quiet, "print nothing but errors");
+}
+
+void add_override_option(CLI::App& command, hamjet::cli::RunOptions& options) {
+  command
+      .add_option("--set", options.overrides,
+                  "key=value: change a key of the scene, for example jet.order=3; may be repeated")
+      ->type_size(1)
+      ->allow_extra_args(false);
+}
+
+int dispatch(int argc, char** argv) {
+  CLI::App app(examples, "hamjet");
+  app.set_version_flag("--version", std::string("hamjet ") + hamjet::version);
+  app.require_subcommand(1);
+
+  hamjet::cli::RunOptions options;
+  CLI::App* run = app.add_subcommand("run", "run a scene and write its results");
+  run->add_option("scene", options.scene_file, "scene file (TOML)")->required();
+  add_run_options(*run, options);
+  add_override_option(*run, options);
+
+  CLI::App* check = app.add_subcommand("check", "read a scene and say what would be computed");
+  check->add_option("scene", options.scene_file, "scene file (TOML)")->required();
+  add_override_option(*check, options);
+
+  CLI::App* demo = app.add_subcommand("demo", "run the paper's Earth orbit, which is built in");
+  add_run_options(*demo, options);
+  add_override_option(*demo, options);
+
+  std::string what;
+  CLI::App* list = app.add_subcommand("list", "list systems, integrators or kinds");
+  list->add_option("what", what, "systems, integrators or kinds")
+      ->required()
+      ->check(CLI::IsMember({"systems", "integrators", "kinds"}));
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const bool is_request = error.get_exit_code() == 0;  // --help, --version
+    if (is_request) return app.exit(error);
+    fmt::print(stderr, "hamjet: {}; see hamjet --help\n", error.what());
+    return static_cast<int>(ErrorKind::usage);
+  }
+  if (*list) return hamjet::cli::list(what);
+  if (*check) return hamjet::cli::check(options);
+  return hamjet::cli::run(options);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  hamjet::cli::catch_signals();
+  try {
+    return dispatch(argc, argv);
+  } catch (const hamjet::cli::Interrupted& interrupted) {
+    fmt::print(stderr, "hamjet: interrupted; nothing was written\n");
+    return interrupted.exit_code();
+  } catch (const hamjet::Error& error) {
+    fmt::print(stderr, "hamjet: {}\n", error.what());
+    return error.exit_code();
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "hamjet: out of memory; a lower order or fewer variables would fit\n");
+    return static_cast<int>(ErrorKind::too_large);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "hamjet: {}\n", error.what());
+    return static_cast<int>(ErrorKind::numerical);
+  }
+}

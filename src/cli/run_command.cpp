@@ -1,0 +1,124 @@
+#include "run_command.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <mutex>
+
+#include "demo_scene.hpp"
+#include "hamjet/error.hpp"
+#include "hamjet/io/output_directory.hpp"
+#include "hamjet/io/results.hpp"
+#include "hamjet/io/scene_reader.hpp"
+#include "hamjet/studies/propagation.hpp"
+#include "interruption.hpp"
+#include "progress.hpp"
+
+namespace hamjet::cli {
+namespace {
+
+std::vector<io::Override> parse_overrides(const std::vector<std::string>& texts) {
+  std::vector<io::Override> overrides;
+  for (const std::string& text : texts) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      throw Error(ErrorKind::usage,
+                  fmt::format("--set {}: must be key=value, for example jet.order=3", text));
+    }
+    overrides.push_back({text.substr(0, equals), text.substr(equals + 1)});
+  }
+  return overrides;
+}
+
+Scene read(const RunOptions& options) {
+  const auto overrides = parse_overrides(options.overrides);
+  if (options.scene_file.empty()) return io::parse_scene(demo_scene, "earth-orbit.toml", overrides);
+  return io::read_scene(options.scene_file, overrides);
+}
+
+/// Text to standard output; a reader that went away (`| head`) is no error, a full disk is.
+void print(const std::string& text) {
+  const bool is_written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
+  if (!is_written || std::fflush(stdout) != 0) {
+    if (errno == EPIPE) return;
+    throw Error(ErrorKind::input_output,
+                fmt::format("standard output cannot be written: {}",
+                            std::error_code(errno, std::generic_category()).message()));
+  }
+}
+
+}  // namespace
+
+int run(const RunOptions& options) {
+  const Scene scene = read(options);
+  const std::filesystem::path directory =
+      options.output ? std::filesystem::path(*options.output)
+                     : std::filesystem::path("out") / scene.name;
+  io::OutputDirectory output(directory);
+  PropagationResult result;
+  {
+    Progress progress(!options.quiet);
+    std::mutex guard;
+    result = propagate(scene, [&](const std::string& task, double fraction) {
+      stop_if_interrupted();
+      const std::scoped_lock lock(guard);
+      progress.update(task, fraction);
+    });
+  }
+  stop_if_interrupted();
+  io::write_results(result, output);
+  if (options.json) {
+    print(io::summary_json(result));
+  } else if (!options.quiet) {
+    print(io::summary_table(result) + fmt::format("results: {}\n", directory.string()));
+  }
+  const int code = exit_code(result);
+  if (code != 0) {
+    fmt::print(stderr, "hamjet: {}; see {}\n",
+               code == static_cast<int>(ErrorKind::check_failed)
+                   ? "a check that the scene asks for failed"
+                   : "a numerical failure left part of the results out",
+               (directory / "summary.json").string());
+  }
+  return code;
+}
+
+int check(const RunOptions& options) {
+  const Scene scene = read(options);
+  const ComputedProblem problem = make_problem(scene, available_memory());
+  const auto names = variable_names(scene.system.model);
+  std::string components;
+  for (const std::size_t c : problem.components) components += fmt::format(" {}", names[c]);
+  std::string text = fmt::format(
+      "{}: the scene is good\n"
+      "  title        {}\n"
+      "  units        length {:.10g} km, time {:.10g} s\n"
+      "  nominal     ",
+      options.scene_file, scene.title, scene.units.length_km, scene.units.time_s);
+  for (const double x : scene.nominal) text += fmt::format(" {:.17g}", x);
+  text += fmt::format(
+      "\n  duration     {:.17g} canonical = {:.10g} s\n"
+      "  jet          order {} in {} variables: {} coefficients for each of{}\n"
+      "  memory       about {:.0f} MB\n",
+      scene.duration, scene.duration * scene.units.time_s, scene.order, scene.variables.size(),
+      problem.space->size(), components,
+      estimate_memory(scene, problem.system, scene.variables.size()) / 1e6);
+  for (const IntegratorSettings& settings : scene.integrators) {
+    text += fmt::format("  integrator   {}: {}", settings.label,
+                        method_names()[static_cast<std::size_t>(settings.method)]);
+    if (settings.method == IntegrationMethod::gauss) {
+      text += fmt::format(", {} stages", settings.stages);
+    }
+    if (settings.tolerance) text += fmt::format(", tolerance {:g}", *settings.tolerance);
+    if (settings.step_canonical) text += fmt::format(", step {:g} canonical", *settings.step_canonical);
+    text += "\n";
+  }
+  text += fmt::format("  inversions   {}\n  reference    {}\n",
+                      scene.kinds ? fmt::format("{} kinds", scene.kinds->size()) : "none",
+                      scene.reference ? "in extended precision" : "none");
+  print(text);
+  return 0;
+}
+
+}  // namespace hamjet::cli

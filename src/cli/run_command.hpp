@@ -1,0 +1,24 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hamjet::cli {
+
+/// Options of `run`, `demo` and `check`.
+struct RunOptions {
+  std::string scene_file;  ///< empty: the built-in scene
+  std::optional<std::string> output;
+  std::vector<std::string> overrides;  ///< key=value
+  bool json = false;
+  bool quiet = false;
+};
+
+/// Runs a scene and writes its results; returns the exit code.
+int run(const RunOptions& options);
+
+/// Reads a scene and says what would be computed; returns the exit code.
+int check(const RunOptions& options);
+
+}  // namespace hamjet::cli

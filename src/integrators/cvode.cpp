@@ -1,0 +1,260 @@
+#include "hamjet/integrators/cvode.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <exception>
+#include <limits>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "cvode_block_solver.hpp"
+#include "cvode_handles.hpp"
+#include "hamjet/error.hpp"
+#include "series_vector_field.hpp"
+
+namespace hamjet {
+namespace {
+
+static_assert(std::is_same_v<realtype, double>, "hamjet needs SUNDIALS in double precision");
+
+constexpr long largest_step_count = 100'000'000;
+
+const char* method_name(CvodeMethod method) {
+  return method == CvodeMethod::adams ? "CVODE Adams" : "CVODE BDF";
+}
+
+/// One integration. The static functions are called by CVODE, with this object as user data; no
+/// exception may pass through CVODE, so they are kept and thrown afterwards.
+class CvodeIntegration {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  CvodeIntegration(const FlowProblem<double>& problem, const CvodeSettings& settings,
+                   IntegrationStatistics& statistics, const StepObserver<double>& observer)
+      : problem_(problem),
+        settings_(settings),
+        statistics_(statistics),
+        observer_(observer),
+        start_(Clock::now()),
+        name_(method_name(settings.method)),
+        field_(problem, name_),
+        guard_(problem, settings.tolerance, name_),
+        jet_(identity_jet(problem)) {
+    const std::vector<double> initial = field_.initial_state();
+    state_.reset(
+        sundials::require(N_VNew_Serial(static_cast<sunindextype>(initial.size()), context_)));
+    std::copy(initial.begin(), initial.end(), numbers());
+    const bool is_adams = settings.method == CvodeMethod::adams;
+    memory_.reset(sundials::require(CVodeCreate(is_adams ? CV_ADAMS : CV_BDF, context_)));
+    require(CVodeSetErrHandlerFn(memory_.get(), keep_message, this));
+    require(CVodeInit(memory_.get(), right_hand_side, 0, state_.get()));
+    require(CVodeSetUserData(memory_.get(), this));
+    require(CVodeSStolerances(memory_.get(), settings.tolerance, settings.tolerance));
+    require(CVodeSetMaxHnilWarns(memory_.get(), -1));
+    require(CVodeSetStopTime(memory_.get(), problem.duration));
+    if (is_adams) {
+      nonlinear_solver_.reset(
+          sundials::require(SUNNonlinSol_FixedPoint(state_.get(), 0, context_)));
+      require(CVodeSetNonlinearSolver(memory_.get(), nonlinear_solver_.get()));
+    } else {
+      set_block_solver();
+    }
+  }
+
+  FlowJet<double> run() {
+    while (time_ != problem_.duration) {
+      step();
+      if (!observer_) continue;
+      const auto before = Clock::now();
+      field_.copy_to(jet_, numbers());
+      observer_(time_, jet_);
+      seconds_in_observer_ += seconds_since(before);
+    }
+    field_.copy_to(jet_, numbers());
+    collect_counts();
+    statistics_.wall_seconds = seconds_since(start_) - seconds_in_observer_;
+    return std::move(jet_);
+  }
+
+ private:
+  static double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+  }
+
+  double* numbers() { return N_VGetArrayPointer(state_.get()); }
+
+  /// One step of CVODE, which stops at the stop time exactly.
+  void step() {
+    const double before = time_;
+    require(CVode(memory_.get(), problem_.duration, state_.get(), &time_, CV_ONE_STEP));
+    if (time_ == before) {
+      // CVODE itself goes on with t + h = t, for ever.
+      throw Error(
+          ErrorKind::numerical,
+          fmt::format("{}: the step size underflowed at t = {:.15g}: a collision or another "
+                      "singularity lies ahead",
+                      name_, time_));
+    }
+    if (!field_.is_finite(numbers())) {
+      throw Error(ErrorKind::numerical,
+                  fmt::format("{}: a coefficient is not finite at t = {:.10g}", name_, time_));
+    }
+    guard_.check(numbers(), field_.coefficients(), time_);
+    if (++statistics_.steps > largest_step_count) {
+      throw Error(ErrorKind::too_large,
+                  fmt::format("{}: {} steps were not enough, t = {:.10g} was reached", name_,
+                              largest_step_count, time_));
+    }
+  }
+
+  /// Throws for a negative flag of CVODE, with the exception or the message that led to it.
+  void require(int flag) {
+    if (flag >= 0) return;
+    if (exception_) std::rethrow_exception(exception_);
+    char* flag_name = CVodeGetReturnFlagName(flag);
+    std::string message =
+        fmt::format("{}: CVODE failed with {} at t = {:.10g}", name_, flag_name, time_);
+    std::free(flag_name);
+    const std::string& reason = not_finite_.empty() ? message_ : not_finite_;
+    if (!reason.empty()) message += " (" + reason + ")";
+    throw Error(ErrorKind::numerical, message);
+  }
+
+  /// A direct linear solver for Newton's iteration, with an empty matrix: CVODE then decides, as
+  /// for its own direct solvers, when J is evaluated anew and when I - gamma J is factorised.
+  void set_block_solver() {
+    block_solver_.emplace(problem_);
+    matrix_.reset(sundials::require(SUNMatNewEmpty(context_)));
+    matrix_->ops->getid = [](SUNMatrix) { return SUNMATRIX_CUSTOM; };
+    linear_solver_.reset(sundials::require(SUNLinSolNewEmpty(context_)));
+    linear_solver_->content = this;
+    linear_solver_->ops->gettype = [](SUNLinearSolver) { return SUNLINEARSOLVER_DIRECT; };
+    linear_solver_->ops->getid = [](SUNLinearSolver) { return SUNLINEARSOLVER_CUSTOM; };
+    linear_solver_->ops->solve = solve_linear_system;
+    require(CVodeSetLinearSolver(memory_.get(), linear_solver_.get(), matrix_.get()));
+    require(CVodeSetLinSysFn(memory_.get(), set_up_linear_system));
+  }
+
+  /// Runs a callback's work: 0, or a negative number if it threw.
+  template <class Work>
+  static int call(void* self, const Work& work) noexcept {
+    auto& integration = *static_cast<CvodeIntegration*>(self);
+    try {
+      return work(integration);
+    } catch (...) {
+      integration.exception_ = std::current_exception();
+      return -1;
+    }
+  }
+
+  /// y' = f(y). Where it is not finite CVODE is told to try a smaller step (a positive number).
+  static int right_hand_side(realtype time, N_Vector y, N_Vector derivative, void* self) {
+    return call(self, [&](CvodeIntegration& integration) {
+      try {
+        integration.field_.evaluate(N_VGetArrayPointer(y), N_VGetArrayPointer(derivative), time);
+      } catch (const Error& error) {
+        if (error.kind() != ErrorKind::numerical) throw;
+        integration.not_finite_ = error.what();
+        return 1;
+      }
+      return 0;
+    });
+  }
+
+  /// `*is_new` tells whether J is evaluated here, which `may_keep` leaves open.
+  static int set_up_linear_system(realtype, N_Vector y, N_Vector, SUNMatrix, booleantype may_keep,
+                                  booleantype* is_new, realtype gamma, void* self, N_Vector,
+                                  N_Vector, N_Vector) {
+    return call(self, [&](CvodeIntegration& integration) {
+      CoefficientBlockSolver& solver = *integration.block_solver_;
+      *is_new = may_keep ? SUNFALSE : SUNTRUE;
+      if (!may_keep) {
+        ++integration.counts_.jacobian_evaluations;
+        if (!solver.evaluate(N_VGetArrayPointer(y))) return 1;
+      }
+      ++integration.counts_.factorisations;
+      return solver.factorise(gamma) ? 0 : 1;
+    });
+  }
+
+  static int solve_linear_system(SUNLinearSolver self, SUNMatrix, N_Vector x, N_Vector b,
+                                 realtype) {
+    return call(self->content, [&](CvodeIntegration& integration) {
+      ++integration.counts_.linear_solves;
+      N_VScale(1, b, x);
+      integration.block_solver_->solve(N_VGetArrayPointer(x));
+      return SUNLS_SUCCESS;
+    });
+  }
+
+  /// CVODE would write to standard error. Warnings (positive numbers) are dropped.
+  static void keep_message(int code, const char*, const char*, char* message, void* self) {
+    if (code >= 0) return;
+    call(self, [&](CvodeIntegration& integration) {
+      integration.message_ = message;
+      return 0;
+    });
+  }
+
+  void collect_counts() {
+    long step_failures = 0;
+    require(CVodeGetNumErrTestFails(memory_.get(), &counts_.error_test_failures));
+    require(CVodeGetNumStepSolveFails(memory_.get(), &step_failures));
+    require(CVodeGetNonlinSolvStats(memory_.get(), &counts_.nonlinear_iterations,
+                                    &counts_.nonlinear_failures));
+    statistics_.rejected_steps += counts_.error_test_failures + step_failures;
+    statistics_.vector_field_evaluations += field_.evaluations();
+    if (settings_.counts != nullptr) *settings_.counts = counts_;
+  }
+
+  const FlowProblem<double>& problem_;
+  const CvodeSettings& settings_;
+  IntegrationStatistics& statistics_;
+  const StepObserver<double>& observer_;
+  Clock::time_point start_;
+  double seconds_in_observer_ = 0;
+  std::string name_;
+  SeriesVectorField<double> field_;
+  EnergyGuard<double> guard_;
+  std::optional<CoefficientBlockSolver> block_solver_;  ///< for BDF
+  FlowJet<double> jet_;
+  double time_ = 0;
+  CvodeCounts counts_;
+  std::exception_ptr exception_;
+  std::string not_finite_;
+  std::string message_;
+
+  // In order of construction: CVODE's memory is freed before what it uses, the context last.
+  sundials::Context context_;
+  sundials::Vector state_;
+  sundials::NonlinearSolver nonlinear_solver_;
+  sundials::Matrix matrix_;
+  sundials::LinearSolver linear_solver_;
+  sundials::Memory memory_;
+};
+
+}  // namespace
+
+bool cvode_available() noexcept { return true; }
+
+FlowJet<double> integrate_cvode(const FlowProblem<double>& problem, const CvodeSettings& settings,
+                                IntegrationStatistics& statistics,
+                                const StepObserver<double>& observer) {
+  validate(problem);
+  if (!(settings.tolerance >= std::numeric_limits<double>::epsilon()) ||
+      !(settings.tolerance < 1)) {
+    throw Error(ErrorKind::usage,
+                fmt::format("{}: the tolerance must be between {:.2g}, the "
+                            "rounding of its numbers, and 1",
+                            method_name(settings.method), std::numeric_limits<double>::epsilon()));
+  }
+  if (problem.duration == 0) return identity_jet(problem);
+  return CvodeIntegration(problem, settings, statistics, observer).run();
+}
+
+}  // namespace hamjet

@@ -1,0 +1,249 @@
+#include "hamjet/integrators/explicit_runge_kutta.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/numeric/odeint/algebra/range_algebra.hpp>
+#include <boost/numeric/odeint/stepper/controlled_runge_kutta.hpp>
+#include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "hamjet/algebra/extended.hpp"
+#include "hamjet/error.hpp"
+#include "series_vector_field.hpp"
+
+namespace hamjet {
+namespace {
+
+namespace odeint = boost::numeric::odeint;
+
+constexpr double largest_step_count = 1e8;
+
+/// odeint's algebra on ranges with a norm that takes every number type: its own looks for the type
+/// of the real numbers inside Extended.
+struct CoefficientAlgebra : odeint::range_algebra {
+  template <class State>
+  static typename State::value_type norm_inf(const State& state) {
+    using std::abs;
+    typename State::value_type norm(0);
+    for (const auto& x : state) norm = std::max(norm, typename State::value_type(abs(x)));
+    return norm;
+  }
+};
+
+/// One integration with Fehlberg 7(8). The loop over the steps is our own: odeint's integrate
+/// functions return without moving if the step has the wrong sign, and accept steps to NaN.
+template <class Real>
+class FehlbergIntegration {
+ public:
+  using Clock = std::chrono::steady_clock;
+  using State = std::vector<Real>;
+  using Stepper = odeint::runge_kutta_fehlberg78<State, Real, State, Real, CoefficientAlgebra>;
+  using ControlledStepper = odeint::controlled_runge_kutta<Stepper>;
+
+  FehlbergIntegration(const FlowProblem<Real>& problem, const ExplicitRungeKuttaSettings& settings,
+                      IntegrationStatistics& statistics, const StepObserver<Real>& observer)
+      : problem_(problem),
+        settings_(settings),
+        statistics_(statistics),
+        observer_(observer),
+        start_(Clock::now()),
+        field_(problem, "Fehlberg 7(8)"),
+        guard_(problem, settings.tolerance.value_or(0), "Fehlberg 7(8)"),
+        jet_(identity_jet(problem)),
+        state_(field_.initial_state()),
+        derivative_(state_.size()),
+        trial_(state_.size()) {}
+
+  FlowJet<Real> run() {
+    field_.evaluate(state_.data(), derivative_.data(), time_);
+    if (settings_.step) {
+      run_fixed_steps();
+    } else {
+      run_controlled_steps();
+    }
+    field_.copy_to(jet_, state_.data());
+    statistics_.vector_field_evaluations += field_.evaluations();
+    statistics_.wall_seconds = seconds_since(start_) - seconds_in_observer_;
+    return std::move(jet_);
+  }
+
+ private:
+  static double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+  }
+
+  auto system() {
+    return [this](const State& state, State& derivative, const Real& time) {
+      field_.evaluate(state.data(), derivative.data(), time);
+    };
+  }
+
+  double span() const { return std::abs(static_cast<double>(problem_.duration)); }
+
+  void run_fixed_steps() {
+    const double count = std::ceil(span() / *settings_.step * (1 - 1e-12));
+    if (count > largest_step_count) refuse_step_count(count);
+    const long steps = std::max(1L, static_cast<long>(count));
+    const Real h = problem_.duration / Real(steps);
+    Stepper stepper;
+    for (long left = steps - 1; left >= 0; --left) {
+      if (time_ + h == time_) fail_step_size(h);
+      stepper.do_step(system(), state_, derivative_, time_, trial_, h);
+      time_ = left == 0 ? problem_.duration : Real(problem_.duration - h * Real(left));
+      if (!field_.is_finite(trial_.data())) fail_not_finite();
+      accept();
+    }
+  }
+
+  void run_controlled_steps() {
+    const Real tolerance(*settings_.tolerance);
+    ControlledStepper stepper(typename ControlledStepper::error_checker_type(tolerance, tolerance));
+    Real proposed = first_step();
+    while (time_ != problem_.duration) {
+      const Real remaining = problem_.duration - time_;
+      Real h = fit_to_span(proposed, remaining);
+      while (true) {
+        if (time_ + h == time_) fail_step_size(h);
+        if (attempt(stepper, h, proposed)) break;
+        ++statistics_.rejected_steps;
+        h = proposed;
+      }
+      time_ = h == remaining ? problem_.duration : Real(time_ + h);
+      accept();
+      if (static_cast<double>(statistics_.steps) > largest_step_count) {
+        refuse_step_count(static_cast<double>(statistics_.steps));
+      }
+    }
+  }
+
+  /// One step of size h into `trial_`. Whether it is good, and the size to go on with.
+  bool attempt(ControlledStepper& stepper, const Real& h, Real& proposed) {
+    Real time = time_;
+    proposed = h;
+    try {
+      const auto result = stepper.try_step(system(), state_, derivative_, time, trial_, proposed);
+      if (result == odeint::fail) return false;
+      if (field_.is_finite(trial_.data())) return true;
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::numerical) throw;
+    }
+    // A stage met a singularity: odeint's error estimate, if there is one, says nothing.
+    proposed = h / 4;
+    return false;
+  }
+
+  void accept() {
+    std::swap(state_, trial_);
+    ++statistics_.steps;
+    guard_.check(state_.data(), field_.coefficients(), time_);
+    if (time_ != problem_.duration) {
+      field_.evaluate(state_.data(), derivative_.data(), time_);
+    }
+    if (!observer_) return;
+    const auto before = Clock::now();
+    field_.copy_to(jet_, state_.data());
+    observer_(time_, jet_);
+    seconds_in_observer_ += seconds_since(before);
+  }
+
+  /// A hundredth of the time in which the nominal moves by its own size; the control does the rest.
+  Real first_step() const {
+    double size = 0;
+    double slope = 0;
+    for (std::size_t c = 0; c < field_.dimension(); ++c) {
+      const std::size_t k = c * field_.coefficients();
+      size = std::max(size, std::abs(static_cast<double>(state_[k])));
+      slope = std::max(slope, std::abs(static_cast<double>(derivative_[k])));
+    }
+    double h = span();
+    if (slope > 0) h = std::min(h, 0.01 * (size > 0 ? size : 1) / slope);
+    return problem_.duration < 0 ? Real(-h) : Real(h);
+  }
+
+  /// The last two steps share what is left, so that none is tiny.
+  static Real fit_to_span(const Real& h, const Real& remaining) {
+    const double ratio = static_cast<double>(Real(remaining / h));
+    if (ratio <= 1) return remaining;
+    return ratio < 2 ? Real(remaining / 2) : h;
+  }
+
+  [[noreturn]] void fail_step_size(const Real& h) const {
+    throw Error(
+        ErrorKind::numerical,
+        fmt::format("Fehlberg 7(8): the step size fell to {:.3g} at t = {:.15g}: a collision "
+                    "or another singularity lies ahead",
+                    static_cast<double>(h), static_cast<double>(time_)));
+  }
+
+  [[noreturn]] void fail_not_finite() const {
+    throw Error(ErrorKind::numerical,
+                fmt::format("Fehlberg 7(8): a coefficient is not finite at t = {:.10g}",
+                            static_cast<double>(time_)));
+  }
+
+  [[noreturn]] static void refuse_step_count(double count) {
+    throw Error(ErrorKind::too_large,
+                fmt::format("Fehlberg 7(8): {:.3g} steps, at most {:.0e} are taken", count,
+                            largest_step_count));
+  }
+
+  const FlowProblem<Real>& problem_;
+  const ExplicitRungeKuttaSettings& settings_;
+  IntegrationStatistics& statistics_;
+  const StepObserver<Real>& observer_;
+  Clock::time_point start_;
+  double seconds_in_observer_ = 0;
+  SeriesVectorField<Real> field_;
+  EnergyGuard<Real> guard_;
+  FlowJet<Real> jet_;
+  State state_;
+  State derivative_;  ///< at the start of the step
+  State trial_;
+  Real time_ = 0;
+};
+
+template <class Real>
+void validate_settings(const ExplicitRungeKuttaSettings& settings) {
+  if (settings.step.has_value() == settings.tolerance.has_value()) {
+    throw Error(ErrorKind::usage, "Fehlberg 7(8): exactly one of step and tolerance must be given");
+  }
+  if (!(settings.step.value_or(1) > 0)) {
+    throw Error(ErrorKind::usage, "Fehlberg 7(8): the step must be positive");
+  }
+  const double smallest = static_cast<double>(std::numeric_limits<Real>::epsilon());
+  const double tolerance = settings.tolerance.value_or(0.5);
+  if (!(tolerance >= smallest) || !(tolerance < 1)) {
+    throw Error(ErrorKind::usage,
+                fmt::format("Fehlberg 7(8): the tolerance must be between {:.2g}, the rounding of "
+                            "its numbers, and 1",
+                            smallest));
+  }
+}
+
+}  // namespace
+
+template <class Real>
+FlowJet<Real> integrate_fehlberg78(const FlowProblem<Real>& problem,
+                                   const ExplicitRungeKuttaSettings& settings,
+                                   IntegrationStatistics& statistics,
+                                   const StepObserver<Real>& observer) {
+  validate(problem);
+  validate_settings<Real>(settings);
+  if (problem.duration == 0) return identity_jet(problem);
+  return FehlbergIntegration<Real>(problem, settings, statistics, observer).run();
+}
+
+template FlowJet<double> integrate_fehlberg78(const FlowProblem<double>&,
+                                              const ExplicitRungeKuttaSettings&,
+                                              IntegrationStatistics&, const StepObserver<double>&);
+template FlowJet<Extended> integrate_fehlberg78(const FlowProblem<Extended>&,
+                                                const ExplicitRungeKuttaSettings&,
+                                                IntegrationStatistics&,
+                                                const StepObserver<Extended>&);
+
+}  // namespace hamjet

@@ -1,0 +1,187 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hamjet/dynamics/slice_evaluator.hpp"
+#include "hamjet/error.hpp"
+#include "hamjet/integrators/flow_problem.hpp"
+
+// What the methods that know nothing of series share: the flow's jet as one flat vector of real
+// numbers, its time derivative, and a guard of the nominal's energy.
+
+namespace hamjet {
+
+/// The coefficient equations z' = f(z), z = (q, p) a vector of series, for methods that advance one
+/// flat vector of real numbers.
+///
+/// Layout of the state: component by component, each the coefficients of degree 0 to
+/// working_order(problem) in the order of SeriesSpace. A linear system has no coefficients above
+/// degree 1, and none are integrated. Units are the system's own.
+template <class Real>
+class SeriesVectorField {
+ public:
+  /// `method` opens the messages of errors. The problem must be valid and outlive this object.
+  SeriesVectorField(const FlowProblem<Real>& problem, std::string method)
+      : problem_(&problem),
+        method_(std::move(method)),
+        order_(working_order(problem)),
+        coefficients_(problem.space->first(order_ + 1)),
+        evaluator_(list(), problem.space, order_) {
+    if (!problem.system->second_order) return;
+    for (const Extended& entry : problem.system->second_order->inverse_mass) {
+      inverse_mass_.push_back(convert<Real>(entry));
+    }
+  }
+
+  std::size_t dimension() const noexcept { return problem_->system->dimension(); }
+  /// Coefficients of one component.
+  std::size_t coefficients() const noexcept { return coefficients_; }
+  std::size_t size() const noexcept { return dimension() * coefficients_; }
+  /// Evaluations so far.
+  long evaluations() const noexcept { return evaluations_; }
+
+  /// The state of the identity.
+  std::vector<Real> initial_state() const {
+    std::vector<Real> state(size());
+    const FlowJet<Real> jet = identity_jet(*problem_);
+    for (std::size_t c = 0; c < jet.size(); ++c) {
+      std::copy_n(jet[c].coefficients().data(), coefficients_, state.data() + c * coefficients_);
+    }
+    return state;
+  }
+
+  /// Writes a state into a jet of the problem's space, whose degrees above the working order are
+  /// left alone.
+  void copy_to(FlowJet<Real>& jet, const Real* state) const {
+    for (std::size_t c = 0; c < jet.size(); ++c) {
+      std::copy_n(state + c * coefficients_, coefficients_, jet[c].coefficients().data());
+    }
+  }
+
+  /// derivative = f(state), both of size() numbers. Throws Error(numerical), naming the time, if a
+  /// number of the derivative is not finite.
+  void evaluate(const Real* state, Real* derivative, const Real& time) {
+    ++evaluations_;
+    const std::size_t inputs = list().inputs();
+    for (std::size_t i = 0; i < inputs; ++i) {
+      std::copy_n(state + i * coefficients_, coefficients_, evaluator_.input(i));
+    }
+    evaluator_.evaluate_all();
+    Real* outputs = derivative;
+    if (problem_->system->second_order) {
+      multiply_inverse_mass(state + inputs * coefficients_, derivative);
+      outputs += inputs * coefficients_;
+    }
+    for (std::size_t i = 0; i < list().outputs().size(); ++i) {
+      std::copy_n(evaluator_.output(i), coefficients_, outputs + i * coefficients_);
+    }
+    if (!is_finite(derivative)) {
+      throw Error(
+          ErrorKind::numerical,
+          fmt::format("{}: the vector field is not finite at t = {:.10g}: a collision, or a "
+                      "point outside its domain",
+                      method_, static_cast<double>(time)));
+    }
+  }
+
+  /// Whether all numbers of a state (or derivative) are finite.
+  bool is_finite(const Real* state) const {
+    using std::isfinite;
+    bool result = true;
+    for (std::size_t k = 0; k < size(); ++k) result &= isfinite(state[k]);
+    return result;
+  }
+
+ private:
+  const OperationList& list() const {
+    const DynamicalSystem& system = *problem_->system;
+    return system.second_order ? system.second_order->force : system.vector_field;
+  }
+
+  /// q' = M^-1 p.
+  void multiply_inverse_mass(const Real* p, Real* velocity) const {
+    const std::size_t n = list().inputs();
+    std::fill_n(velocity, n * coefficients_, Real(0));
+    for (std::size_t i = 0; i < n; ++i) {
+      for (std::size_t j = 0; j < n; ++j) {
+        const Real factor = inverse_mass_[i * n + j];
+        if (factor == 0) continue;
+        const Real* from = p + j * coefficients_;
+        Real* to = velocity + i * coefficients_;
+        for (std::size_t k = 0; k < coefficients_; ++k) to[k] += factor * from[k];
+      }
+    }
+  }
+
+  const FlowProblem<Real>* problem_;
+  std::string method_;
+  int order_;
+  std::size_t coefficients_;
+  SliceEvaluator<Real, Real> evaluator_;
+  std::vector<Real> inverse_mass_;
+  long evaluations_ = 0;
+};
+
+/// Refuses a nominal whose energy shows that it has left the solution. A method that controls local
+/// errors alone can step over a collision and report success; the energy then jumps by about its
+/// own size.
+///
+/// The change of H since the start may not exceed (1e-2 + 1e3 tolerance) max(|H|, S/10, tolerance,
+/// 1e-10), where S = sum |z_i dH/dz_i| at the start is the size of the terms that make up H: it
+/// stands in where they cancel, as on a parabola; the last two where all vanish, as at an
+/// equilibrium. A nominal outside is wrong beyond use (1 % in energy is 1.5 % in the period of an
+/// orbit), whatever the reason: a collision, a tolerance too coarse for a close passage, or a drift
+/// over very many periods. The converse does not hold: a kept energy proves nothing.
+template <class Real>
+class EnergyGuard {
+ public:
+  EnergyGuard(const FlowProblem<Real>& problem, double tolerance, std::string method)
+      : method_(std::move(method)),
+        evaluator_(problem.system->hamiltonian, problem.space, 0),
+        dimension_(problem.system->dimension()) {
+    start_ = energy(problem.initial_state.data(), 1);
+    double size = 0;
+    for (std::size_t i = 0; i < dimension_; ++i) {
+      const double slope = static_cast<double>(evaluator_.output_gradient(0, i));
+      size += std::abs(slope * static_cast<double>(problem.initial_state[i]));
+    }
+    const double scale =
+        std::max({std::abs(static_cast<double>(start_)), size / 10, tolerance, 1e-10});
+    limit_ = (1e-2 + 1e3 * tolerance) * scale;
+  }
+
+  /// Throws Error(numerical) if the energy of the constant terms, which stand `stride` apart, is
+  /// not finite or too far from that of the start.
+  void check(const Real* state, std::size_t stride, const Real& time) {
+    const double change = std::abs(static_cast<double>(Real(energy(state, stride) - start_)));
+    if (change <= limit_) return;
+    throw Error(
+        ErrorKind::numerical,
+        fmt::format("{}: the integration left the solution before t = {:.10g}: the energy "
+                    "changed by {:.3g} from {:.6g}; a collision, or too coarse a tolerance "
+                    "or step",
+                    method_, static_cast<double>(time), change, static_cast<double>(start_)));
+  }
+
+ private:
+  Real energy(const Real* state, std::size_t stride) {
+    for (std::size_t i = 0; i < dimension_; ++i) *evaluator_.input(i) = state[i * stride];
+    evaluator_.evaluate_constant_terms();
+    return *evaluator_.output(0);
+  }
+
+  std::string method_;
+  SliceEvaluator<Real, Real> evaluator_;
+  std::size_t dimension_;
+  Real start_ = 0;
+  double limit_ = 0;
+};
+
+}  // namespace hamjet

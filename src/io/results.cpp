@@ -1,0 +1,48 @@
+#include "hamjet/io/results.hpp"
+
+#include "results_names.hpp"
+
+namespace hamjet::io {
+
+std::vector<std::string> generating_function_variables(const PropagationResult& result,
+                                                       const GeneratingFunctionKind& kind) {
+  const auto names = variable_names(result.scene.system.model);
+  std::vector<std::string> variables;
+  for (std::size_t i = 0; i < kind.degrees_of_freedom(); ++i) {
+    variables.emplace_back(names[result.problem.components[kind.final_variable(i)]]);
+  }
+  for (std::size_t i = 0; i < kind.degrees_of_freedom(); ++i) {
+    variables.emplace_back(
+        std::string(names[result.problem.components[kind.initial_variable(i)]]) + "0");
+  }
+  return variables;
+}
+
+std::string kind_name(const KindResult& kind) {
+  return kind.requested == "auto" ? kind.kind.name() : kind.requested;
+}
+
+bool is_at_floor(const ExactnessEntry& entry) {
+  return entry.floor && entry.residual.absolute <= 10 * entry.floor->absolute;
+}
+
+void write_results(const PropagationResult& result, OutputDirectory& output) {
+  for (const RunResult& run : result.runs) {
+    if (!run.failure.empty()) continue;
+    const std::filesystem::path folder = run.settings.label;
+    output.write(folder / "jet.csv", jet_csv(result, run));
+    output.write(folder / "nominal.csv", nominal_csv(result, run));
+    for (const KindResult& kind : run.kinds) {
+      if (!kind.generating_function) continue;
+      output.write(folder / ("generating_function_" + kind_name(kind) + ".csv"),
+                   generating_function_csv(result, kind));
+    }
+  }
+  if (!result.relative_hamiltonians.empty()) {
+    output.write("relative_hamiltonian.csv", relative_hamiltonian_csv(result));
+  }
+  output.write("summary.json", summary_json(result));
+  output.commit();
+}
+
+}  // namespace hamjet::io

@@ -1,0 +1,92 @@
+#include <fmt/format.h>
+
+#include <iterator>
+
+#include "hamjet/io/results.hpp"
+#include "results_names.hpp"
+
+namespace hamjet::io {
+namespace {
+
+/// Digits that bring back the same number: 17 for binary64, 36 for 113 bits.
+std::string number(const Extended& value, Precision precision) {
+  if (precision == Precision::double_precision) {
+    return fmt::format("{:.17g}", static_cast<double>(value));
+  }
+  return value.str(36, std::ios_base::scientific);
+}
+
+}  // namespace
+
+std::string jet_csv(const PropagationResult& result, const RunResult& run) {
+  const auto names = variable_names(result.scene.system.model);
+  const SeriesSpace& space = *result.problem.space;
+  fmt::memory_buffer out;
+  const auto write = std::back_inserter(out);
+  fmt::format_to(write, "component");
+  for (const auto name : names) fmt::format_to(write, ",e_{}", name);
+  fmt::format_to(write, ",coefficient\n");
+  for (std::size_t c = 0; c < run.jet.size(); ++c) {
+    for (std::size_t k = 0; k < space.size(); ++k) {
+      std::vector<int> exponents(names.size(), 0);
+      for (std::size_t v = 0; v < space.variables(); ++v) {
+        exponents[result.problem.components[result.problem.variables[v]]] = space.exponents(k)[v];
+      }
+      fmt::format_to(write, "{}", names[result.problem.components[c]]);
+      for (const int e : exponents) fmt::format_to(write, ",{}", e);
+      fmt::format_to(write, ",{}\n", number(run.jet[c][k], result.scene.precision));
+    }
+  }
+  return fmt::to_string(out);
+}
+
+std::string generating_function_csv(const PropagationResult& result, const KindResult& kind) {
+  fmt::memory_buffer out;
+  const auto write = std::back_inserter(out);
+  for (const std::string& name : generating_function_variables(result, kind.kind)) {
+    fmt::format_to(write, "e_{},", name);
+  }
+  fmt::format_to(write, "coefficient\n");
+  const Series<Extended>& s = *kind.generating_function;
+  for (std::size_t k = s.space().first(2); k < s.size(); ++k) {
+    for (const auto e : s.space().exponents(k)) fmt::format_to(write, "{},", e);
+    fmt::format_to(write, "{}\n", number(s[k], result.scene.precision));
+  }
+  return fmt::to_string(out);
+}
+
+std::string nominal_csv(const PropagationResult& result, const RunResult& run) {
+  fmt::memory_buffer out;
+  const auto write = std::back_inserter(out);
+  fmt::format_to(write, "time_canonical,time_s");
+  for (const auto name : variable_names(result.scene.system.model)) {
+    fmt::format_to(write, ",{}", name);
+  }
+  fmt::format_to(write, ",energy_error\n");
+  for (const NominalPoint& point : run.nominal) {
+    fmt::format_to(write, "{:.17g},{:.17g}", point.time, point.time * result.scene.units.time_s);
+    for (const double x : point.state) fmt::format_to(write, ",{:.17g}", x);
+    fmt::format_to(write, ",{:.6g}\n", point.energy_error);
+  }
+  return fmt::to_string(out);
+}
+
+std::string relative_hamiltonian_csv(const PropagationResult& result) {
+  const auto names = variable_names(result.scene.system.model);
+  fmt::memory_buffer out;
+  const auto write = std::back_inserter(out);
+  fmt::format_to(write, "time_canonical");
+  for (const std::size_t c : result.problem.components) fmt::format_to(write, ",e_{}", names[c]);
+  fmt::format_to(write, ",coefficient\n");
+  for (const RelativeHamiltonianResult& entry : result.relative_hamiltonians) {
+    const SeriesSpace& space = entry.hamiltonian.space();
+    for (std::size_t k = space.first(2); k < space.size(); ++k) {
+      fmt::format_to(write, "{:.17g}", entry.time);
+      for (const auto e : space.exponents(k)) fmt::format_to(write, ",{}", e);
+      fmt::format_to(write, ",{}\n", number(entry.hamiltonian[k], result.scene.precision));
+    }
+  }
+  return fmt::to_string(out);
+}
+
+}  // namespace hamjet::io

@@ -1,0 +1,131 @@
+#include <nlohmann/json.hpp>
+
+#include "hamjet/io/results.hpp"
+#include "hamjet/version.hpp"
+#include "results_names.hpp"
+
+namespace hamjet::io {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <class T>
+Json or_null(const std::optional<T>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
+
+Json exactness_json(const PropagationResult& result, const KindResult& kind) {
+  Json by_degree = Json::array();
+  for (const ExactnessEntry& entry : kind.by_degree) {
+    Json row = {{"degree", entry.residual.degree},
+                {"absolute", entry.residual.absolute},
+                {"scaled", entry.residual.scaled},
+                {"at_formation_scale", or_null(entry.residual.at_formation_scale)},
+                {"floor", nullptr},
+                {"floor_scaled", nullptr},
+                {"floor_at_formation_scale", nullptr},
+                {"at_floor", nullptr}};
+    if (entry.floor) {
+      row["floor"] = entry.floor->absolute;
+      row["floor_scaled"] = entry.floor->scaled;
+      row["floor_at_formation_scale"] = or_null(entry.floor->at_formation_scale);
+      row["at_floor"] = is_at_floor(entry);
+    }
+    by_degree.push_back(row);
+  }
+  return {{"kind", kind_name(kind)},
+          {"requested", kind.requested},
+          {"variables", generating_function_variables(result, kind.kind)},
+          {"condition", kind.condition},
+          {"error", text_or_null(kind.failure)},
+          {"by_degree", kind.failure.empty() ? by_degree : Json(nullptr)}};
+}
+
+Json run_json(const PropagationResult& result, const RunResult& run) {
+  const IntegratorSettings& settings = run.settings;
+  const bool is_gauss = settings.method == IntegrationMethod::gauss;
+  Json json = {{"label", settings.label},
+               {"method", method_names()[static_cast<std::size_t>(settings.method)]},
+               {"stages", is_gauss ? Json(settings.stages) : Json(nullptr)},
+               {"step_canonical", or_null(settings.step_canonical)},
+               {"tolerance", or_null(settings.tolerance)},
+               {"error", text_or_null(run.failure)},
+               {"failed_checks", run.failed_checks}};
+  if (!run.failure.empty()) return json;
+  json["steps"] = run.statistics.steps;
+  json["rejected_steps"] = run.statistics.rejected_steps;
+  json["vector_field_evaluations"] = run.statistics.vector_field_evaluations;
+  json["nominal_evaluations"] = run.statistics.nominal_evaluations;
+  json["wall_seconds"] = run.statistics.wall_seconds;
+  json["nominal_final"] = run.nominal_final;
+  json["energy_error"] = run.energy_error;
+  json["exactness"] = Json::array();
+  for (const KindResult& kind : run.kinds) json["exactness"].push_back(exactness_json(result, kind));
+  if (!result.scene.kinds || !result.problem.is_full_jet) json["exactness"] = nullptr;
+  json["symplecticity_by_degree"] = nullptr;
+  if (!run.symplecticity.empty()) {
+    json["symplecticity_by_degree"] = Json::array();
+    for (const SymplecticityDefect& entry : run.symplecticity) {
+      json["symplecticity_by_degree"].push_back({{"degree", entry.degree},
+                                                 {"absolute", entry.absolute},
+                                                 {"scaled", entry.scaled}});
+    }
+  }
+  json["error_by_degree"] = nullptr;
+  if (run.error_by_degree) {
+    json["error_by_degree"] = Json::array();
+    for (std::size_t d = 0; d < run.error_by_degree->size(); ++d) {
+      json["error_by_degree"].push_back({{"degree", d}, {"relative", (*run.error_by_degree)[d]}});
+    }
+  }
+  return json;
+}
+
+}  // namespace
+
+std::string summary_json(const PropagationResult& result) {
+  const Scene& scene = result.scene;
+  const auto names = variable_names(scene.system.model);
+  Json components = Json::array();
+  for (const std::size_t c : result.problem.components) components.push_back(names[c]);
+  Json variables = Json::array();
+  for (const std::size_t v : scene.variables) variables.push_back(names[v]);
+  Json json = {
+      {"scene", scene.name},
+      {"title", scene.title},
+      {"version", version},
+      {"model", model_names()[static_cast<std::size_t>(scene.system.model)]},
+      {"precision", scene.precision == Precision::extended ? "extended" : "double"},
+      {"units", {{"length_km", scene.units.length_km}, {"time_s", scene.units.time_s}}},
+      {"order", scene.order},
+      {"variables", variables},
+      {"components", components},
+      {"coefficients_per_component", result.problem.space->size()},
+      {"duration_canonical", scene.duration},
+      {"nominal_initial", scene.nominal},
+      {"separation_canonical", or_null(scene.separation)},
+      {"reference", nullptr}};
+  if (result.reference) {
+    const ReferenceResult& reference = *result.reference;
+    std::vector<double> state(scene.nominal.size(), 0);
+    for (std::size_t i = 0; i < reference.jet.size(); ++i) {
+      state[result.problem.components[i]] = static_cast<double>(reference.jet[i][0]);
+    }
+    json["reference"] = {{"method", "gauss"},
+                         {"precision", "extended"},
+                         {"stages", reference.stages},
+                         {"tolerance", reference.tolerance},
+                         {"steps", reference.statistics.steps},
+                         {"wall_seconds", reference.statistics.wall_seconds},
+                         {"nominal_final", state},
+                         {"uncertainty_by_degree", reference.uncertainty_by_degree}};
+  }
+  json["exit_code"] = exit_code(result);
+  json["runs"] = Json::array();
+  for (const RunResult& run : result.runs) json["runs"].push_back(run_json(result, run));
+  return json.dump(2) + "\n";
+}
+
+}  // namespace hamjet::io

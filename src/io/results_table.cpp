@@ -1,0 +1,163 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "hamjet/io/results.hpp"
+#include "results_names.hpp"
+
+namespace hamjet::io {
+namespace {
+
+using Row = std::vector<std::string>;
+
+constexpr const char* not_computed = "-";
+
+std::string duration_text(double seconds) {
+  if (seconds < 1e-3) return fmt::format("{:.1f} us", seconds * 1e6);
+  if (seconds < 1) return fmt::format("{:.2f} ms", seconds * 1e3);
+  return fmt::format("{:.2f} s", seconds);
+}
+
+std::string length_text(double metres) {
+  if (metres >= 1000) return fmt::format("{:.3g} km", metres / 1000);
+  if (metres >= 1 || metres == 0) return fmt::format("{:.3g} m", metres);
+  return fmt::format("{:.2e} m", metres);
+}
+
+/// Distance between the nominal's final position and the reference's.
+std::string position_error(const PropagationResult& result, const RunResult& run) {
+  if (!result.reference) return not_computed;
+  const std::size_t n = result.problem.degrees_of_freedom.size();
+  Extended square = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Extended difference = run.jet[i][0] - result.reference->jet[i][0];
+    square += difference * difference;
+  }
+  const double canonical = static_cast<double>(Extended(sqrt(square)));
+  return length_text(canonical * result.scene.units.length_km * 1000);
+}
+
+template <class Values, class Get>
+std::string largest(const Values& values, Get get) {
+  if (values.empty()) return not_computed;
+  double worst = 0;
+  for (const auto& value : values) worst = std::max(worst, get(value));
+  return fmt::format("{:.1e}", worst);
+}
+
+std::string residual_text(const KindResult& kind, std::size_t degree) {
+  if (!kind.failure.empty()) return "none";
+  if (degree >= kind.by_degree.size()) return not_computed;
+  const ExactnessEntry& entry = kind.by_degree[degree];
+  return fmt::format("{:.1e}{}", entry.residual.absolute, is_at_floor(entry) ? "*" : "");
+}
+
+/// The degrees whose exactness the table shows: the first and the last.
+std::vector<std::size_t> shown_degrees(const Scene& scene) {
+  if (scene.order == 1) return {0};
+  return {0, static_cast<std::size_t>(scene.order) - 1};
+}
+
+Row header(const PropagationResult& result) {
+  Row row = {"integrator",    "steps", "rejected", "time", "position error", "relative error",
+             "symplecticity", "energy error"};
+  if (!result.scene.kinds || !result.problem.is_full_jet) return row;
+  for (const std::string& kind : *result.scene.kinds) {
+    for (const std::size_t d : shown_degrees(result.scene)) {
+      row.push_back(fmt::format("{} degree {}", kind, d));
+    }
+  }
+  return row;
+}
+
+Row run_row(const PropagationResult& result, const RunResult& run) {
+  if (!run.failure.empty()) return {run.settings.label, "FAILED: " + run.failure};
+  Row row = {run.settings.label, std::to_string(run.statistics.steps),
+             std::to_string(run.statistics.rejected_steps),
+             duration_text(run.statistics.wall_seconds), position_error(result, run)};
+  row.push_back(run.error_by_degree ? largest(*run.error_by_degree, [](double x) { return x; })
+                                    : not_computed);
+  row.push_back(largest(run.symplecticity, [](const auto& entry) { return entry.scaled; }));
+  row.push_back(fmt::format("{:.1e}", run.energy_error));
+  for (const KindResult& kind : run.kinds) {
+    for (const std::size_t d : shown_degrees(result.scene)) row.push_back(residual_text(kind, d));
+  }
+  return row;
+}
+
+std::string aligned(const std::vector<Row>& rows) {
+  std::vector<std::size_t> widths;
+  for (const Row& row : rows) {
+    if (row.size() < rows[0].size()) continue;  // a failure's text does not widen the column
+    widths.resize(std::max(widths.size(), row.size()), 0);
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+  }
+  for (const Row& row : rows) widths[0] = std::max(widths[0], row[0].size());
+  std::string text;
+  for (const Row& row : rows) {
+    std::string line = fmt::format("{:<{}}", row[0], widths[0]);
+    for (std::size_t i = 1; i < row.size(); ++i) line += fmt::format("  {:>{}}", row[i], widths[i]);
+    text += line + "\n";
+  }
+  return text;
+}
+
+std::string reference_line(const PropagationResult& result) {
+  if (!result.reference) {
+    return "no reference: the scene has no [reference] table, so errors and floors are not computed\n";
+  }
+  const auto& uncertainty = result.reference->uncertainty_by_degree;
+  return fmt::format(
+      "reference: Gauss, {} stages, 113 bits, {} steps in {}; its own uncertainty is {:.0e} at worst\n",
+      result.reference->stages, result.reference->statistics.steps,
+      duration_text(result.reference->statistics.wall_seconds),
+      *std::max_element(uncertainty.begin(), uncertainty.end()));
+}
+
+std::string explanation(const PropagationResult& result) {
+  std::string text =
+      "position error: of the nominal at the end. relative error: largest over all degrees, relative "
+      "to the\nlargest coefficient of the degree. symplecticity: largest scaled Poisson-bracket "
+      "defect over all degrees.\n";
+  if (result.scene.kinds && result.problem.is_full_jet) {
+    text += "F1, auto, ... degree d: absolute exactness residual";
+    text += result.reference ? "; * at its floor, where round-off hides the integrator.\n" : ".\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string summary_table(const PropagationResult& result) {
+  const Scene& scene = result.scene;
+  std::string text = fmt::format(
+      "{}\norder {} in {} of {} variables, {} coefficients a component; duration {:.10g} canonical = "
+      "{:.10g} s\n",
+      scene.title, scene.order, scene.variables.size(), scene.nominal.size(),
+      result.problem.space->size(), scene.duration, scene.duration * scene.units.time_s);
+  if (result.problem.components.size() < scene.nominal.size()) {
+    text += "the nominal stays in an invariant subspace: the components outside it are not computed\n";
+  }
+  text += reference_line(result) + "\n";
+  std::vector<Row> rows = {header(result)};
+  for (const RunResult& run : result.runs) rows.push_back(run_row(result, run));
+  text += aligned(rows) + "\n" + explanation(result);
+  for (const RunResult& run : result.runs) {
+    for (const std::string& check : run.failed_checks) {
+      text += fmt::format("CHECK FAILED: {}: {}\n", run.settings.label, check);
+    }
+    for (const KindResult& kind : run.kinds) {
+      if (!kind.failure.empty()) {
+        text += fmt::format("NOT COMPUTED: {}: {}\n", run.settings.label, kind.failure);
+      } else if (kind.requested == "auto") {
+        text += fmt::format("{}: auto took {} (condition {:.3g})\n", run.settings.label,
+                            kind.kind.name(), kind.condition);
+      }
+    }
+  }
+  return text;
+}
+
+}  // namespace hamjet::io

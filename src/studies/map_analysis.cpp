@@ -1,0 +1,97 @@
+#include "map_analysis.hpp"
+
+#include <cmath>
+#include <span>
+
+#include "hamjet/error.hpp"
+
+namespace hamjet {
+namespace {
+
+using JetSpan = std::span<const Series<Extended>>;
+
+/// Angular frequency that makes a position deviation into the momentum deviation of the same size:
+/// the mean motion of an elliptic orbit, that of a circular orbit at the initial radius otherwise
+/// (1 in canonical units), sqrt(k m) for the oscillator (momentum per length).
+double momentum_per_length(const Scene& scene) {
+  if (scene.system.model == SystemModel::harmonic_oscillator) {
+    return std::sqrt(scene.system.mass_kg * scene.system.stiffness_N_per_m);
+  }
+  const std::vector<double>& z = scene.nominal;
+  const double radius = std::hypot(z[0], z[1], z[2]);
+  const double speed = std::hypot(z[3], z[4], z[5]);
+  const double inverse_axis = 2 / radius - speed * speed;
+  return inverse_axis > 0 ? std::pow(inverse_axis, 1.5) : 1;
+}
+
+}  // namespace
+
+std::vector<double> MapAnalysis::scales(const GeneratingFunctionKind& kind) const {
+  if (!scene_.separation) return {};
+  const double length = *scene_.separation;
+  const double momentum = length * momentum_per_length(scene_);
+  std::vector<double> result;
+  for (const bool is_momentum : kind.final_is_momentum) {
+    result.push_back(is_momentum ? momentum : length);
+  }
+  for (const bool is_momentum : kind.initial_is_momentum) {
+    result.push_back(is_momentum ? momentum : length);
+  }
+  return result;
+}
+
+const std::vector<ExactnessResidual>* MapAnalysis::floor(const GeneratingFunctionKind& kind) {
+  if (!reference_) return nullptr;
+  const auto [place, is_new] = floors_.try_emplace(kind.name());
+  if (is_new) {
+    FlowJet<Extended> rounded = reference_->jet;
+    if (scene_.precision == Precision::double_precision) {
+      for (auto& component : rounded) {
+        for (auto& c : component.coefficients()) c = Extended(static_cast<double>(c));
+      }
+    }
+    try {
+      const auto inversion = invert_partially<Extended>(JetSpan(rounded), kind);
+      place->second = exactness_residual(one_form(inversion), scales(kind));
+    } catch (const Error&) {
+      // The kind does not exist for the true map: there is no floor to state.
+      place->second.clear();
+    }
+  }
+  return place->second.empty() ? nullptr : &place->second;
+}
+
+KindResult MapAnalysis::invert(const FlowJet<Extended>& jet, const std::string& requested) {
+  KindResult result;
+  result.requested = requested;
+  result.kind = requested == "auto"
+                    ? best_conditioned_kind<Extended>(JetSpan(jet))
+                    : parse_kind(requested, problem_.degrees_of_freedom.size());
+  result.condition = condition_number(inverted_block<Extended>(JetSpan(jet), result.kind));
+  try {
+    const auto inversion = invert_partially<Extended>(JetSpan(jet), result.kind);
+    const auto sigma = one_form(inversion);
+    const auto residuals = exactness_residual(sigma, scales(result.kind));
+    const auto* floors = floor(result.kind);
+    for (std::size_t d = 0; d < residuals.size(); ++d) {
+      ExactnessEntry entry{residuals[d], std::nullopt};
+      if (floors != nullptr) entry.floor = (*floors)[d];
+      result.by_degree.push_back(entry);
+    }
+    result.generating_function = generating_function(sigma);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::numerical) throw;
+    result.failure = error.what();
+  }
+  return result;
+}
+
+void MapAnalysis::analyse(RunResult& run) {
+  if (reference_) run.error_by_degree = relative_error_by_degree(run.jet, reference_->jet);
+  if (!problem_.is_full_jet) return;
+  run.symplecticity = symplecticity_by_degree<Extended>(JetSpan(run.jet));
+  if (!scene_.kinds) return;
+  for (const std::string& kind : *scene_.kinds) run.kinds.push_back(invert(run.jet, kind));
+}
+
+}  // namespace hamjet

@@ -1,0 +1,136 @@
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <numeric>
+
+#include "hamjet/dynamics/harmonic_oscillator.hpp"
+#include "hamjet/dynamics/zonal_gravity.hpp"
+#include "hamjet/studies/propagation.hpp"
+
+namespace hamjet {
+namespace {
+
+constexpr double megabyte = 1e6;
+
+/// Lanes of the pack that holds this many stages.
+int lanes_for(int stages) {
+  int lanes = 1;
+  while (lanes < stages) lanes *= 2;
+  return lanes;
+}
+
+/// Bytes of the product schedules: pairs of blocks, see ProductSchedule.
+double schedule_bytes(std::size_t variables, int order) {
+  const std::size_t outer = variables >= 3 ? variables - 3 : variables;
+  double pairs = 0;
+  for (int d = 0; d <= order; ++d) {
+    for (int s = 0; s <= d; ++s) {
+      if (variables < 3 && s != d) continue;
+      const double splits =
+          outer == 0 ? (s == 0 ? 1 : 0) : SeriesSpace::monomial_count(2 * outer - 1, s);
+      pairs += splits * (variables >= 3 ? d - s + 1 : 1);
+    }
+  }
+  return 1.5 * 8 * pairs;
+}
+
+}  // namespace
+
+DynamicalSystem make_system(const Scene& scene) {
+  switch (scene.system.model) {
+    case SystemModel::zonal_gravity:
+      return zonal_gravity({1.0, scene.canonical_radius, scene.system.J2, scene.system.J3});
+    case SystemModel::kepler:
+      return kepler();
+    case SystemModel::harmonic_oscillator:
+      break;
+  }
+  return harmonic_oscillator(scene.system.mass_kg, scene.system.stiffness_N_per_m);
+}
+
+double available_memory() {
+  double limit = std::numeric_limits<double>::infinity();
+  std::ifstream file("/proc/meminfo");
+  std::string key;
+  double kilobytes = 0;
+  while (file >> key >> kilobytes) {
+    if (key == "MemAvailable:") limit = 1024 * kilobytes;
+    file.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
+  }
+  rlimit address_space{};
+  if (getrlimit(RLIMIT_AS, &address_space) == 0 && address_space.rlim_cur != RLIM_INFINITY) {
+    limit = std::min(limit, static_cast<double>(address_space.rlim_cur));
+  }
+  return limit;
+}
+
+double estimate_memory(const Scene& scene, const DynamicalSystem& system, std::size_t variables) {
+  const OperationList& list = system.second_order ? system.second_order->force : system.vector_field;
+  const double values = static_cast<double>(list.operations().size()) + 2;
+  const double components = static_cast<double>(system.dimension());
+  const int order = list.is_linear_system() ? std::min(scene.order, 1) : scene.order;
+  const double working = SeriesSpace::monomial_count(variables, order);
+  const double coefficients = SeriesSpace::monomial_count(variables, scene.order);
+  const double real = scene.precision == Precision::extended ? sizeof(Extended) : sizeof(double);
+  double largest_run = 0;
+  for (const IntegratorSettings& settings : scene.integrators) {
+    double bytes = 0;
+    if (settings.method == IntegrationMethod::gauss) {
+      bytes = values * lanes_for(settings.stages) * real * working;
+    } else {
+      // The states that odeint's 13 stages, or CVODE's Nordsieck array, hold, and one lane of series.
+      bytes = (values + 20 * components) * real * working;
+    }
+    largest_run = std::max(largest_run, bytes);
+  }
+  double total = largest_run + schedule_bytes(variables, scene.order);
+  const double stored_jets = static_cast<double>(scene.integrators.size()) + 4;
+  total += stored_jets * components * coefficients * sizeof(Extended);
+  if (scene.reference) total += 2 * values * lanes_for(16) * sizeof(Extended) * working;
+  if (variables == system.dimension()) {
+    // Derivatives of all components by all variables, for the Poisson brackets.
+    total += (components * components + 4) * coefficients * (sizeof(Extended) + sizeof(double));
+  }
+  if (scene.kinds) {
+    // Series of the inversion, and a generating function of order N + 1 for every kind and run.
+    total += (10 * components + scene.order) * coefficients * sizeof(Extended);
+    total += static_cast<double>(scene.kinds->size() * scene.integrators.size() + 1) *
+             SeriesSpace::monomial_count(variables, scene.order + 1) *
+             (sizeof(Extended) + static_cast<double>(variables));
+  }
+  return total + 20 * megabyte;
+}
+
+ComputedProblem make_problem(const Scene& scene, double memory_limit) {
+  const DynamicalSystem full = make_system(scene);
+  const std::size_t n = full.degrees_of_freedom;
+  ComputedProblem problem;
+  problem.degrees_of_freedom = needed_degrees_of_freedom(full, scene.nominal, scene.variables);
+  problem.system = restrict_system(full, problem.degrees_of_freedom);
+  problem.components = problem.degrees_of_freedom;
+  for (const std::size_t i : problem.degrees_of_freedom) problem.components.push_back(n + i);
+  for (const std::size_t c : problem.components) problem.nominal.push_back(scene.nominal[c]);
+  for (const std::size_t v : scene.variables) {
+    const auto place = std::find(problem.components.begin(), problem.components.end(), v);
+    problem.variables.push_back(
+        static_cast<std::size_t>(std::distance(problem.components.begin(), place)));
+  }
+  problem.is_full_jet = problem.variables.size() == problem.components.size();
+  const double needed = estimate_memory(scene, problem.system, scene.variables.size());
+  if (needed > memory_limit) {
+    throw Error(ErrorKind::too_large,
+                fmt::format("order {} in {} variables: {:.4g} coefficients a component, about {:.0f} "
+                            "MB in all, but {:.0f} MB are free; a lower order, fewer variables or no "
+                            "reference would fit",
+                            scene.order, scene.variables.size(),
+                            SeriesSpace::monomial_count(scene.variables.size(), scene.order),
+                            needed / megabyte, memory_limit / megabyte));
+  }
+  problem.space = SeriesSpace::create(scene.variables.size(), scene.order);
+  return problem;
+}
+
+}  // namespace hamjet

@@ -1,0 +1,206 @@
+#include "hamjet/studies/propagation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "hamjet/dynamics/relative_hamiltonian.hpp"
+#include "hamjet/integrators/cvode.hpp"
+#include "hamjet/integrators/explicit_runge_kutta.hpp"
+#include "hamjet/integrators/gauss_collocation.hpp"
+#include "map_analysis.hpp"
+#include "nominal_recorder.hpp"
+#include "reference.hpp"
+
+namespace hamjet {
+namespace {
+
+template <class Real>
+FlowProblem<Real> flow_problem(const Scene& scene, const ComputedProblem& problem) {
+  FlowProblem<Real> flow{&problem.system, problem.space, problem.variables, {},
+                         Real(scene.duration)};
+  for (const double x : problem.nominal) flow.initial_state.emplace_back(x);
+  return flow;
+}
+
+template <class Real>
+FlowJet<Real> integrate(const FlowProblem<Real>& flow, const IntegratorSettings& settings,
+                        IntegrationStatistics& statistics, const StepObserver<Real>& observer) {
+  switch (settings.method) {
+    case IntegrationMethod::gauss: {
+      GaussSettings gauss;
+      gauss.stages = settings.stages;
+      gauss.step = settings.step_canonical;
+      gauss.tolerance = settings.tolerance;
+      return integrate_gauss<Real>(flow, gauss, statistics, observer);
+    }
+    case IntegrationMethod::fehlberg78:
+      return integrate_fehlberg78<Real>(flow, {settings.step_canonical, settings.tolerance},
+                                        statistics, observer);
+    case IntegrationMethod::cvode_adams:
+    case IntegrationMethod::cvode_bdf:
+      break;
+  }
+  if constexpr (std::is_same_v<Real, double>) {
+    CvodeSettings cvode;
+    cvode.method = settings.method == IntegrationMethod::cvode_adams ? CvodeMethod::adams
+                                                                     : CvodeMethod::bdf;
+    cvode.tolerance = *settings.tolerance;
+    return integrate_cvode(flow, cvode, statistics, observer);
+  } else {
+    throw Error(ErrorKind::usage, "CVODE computes in double precision only");
+  }
+}
+
+/// The state of the whole model from that of the computed components; the others are zero.
+std::vector<double> full_state(const FlowJet<Extended>& jet, const ComputedProblem& problem,
+                               std::size_t dimension) {
+  std::vector<double> state(dimension, 0);
+  for (std::size_t i = 0; i < jet.size(); ++i) {
+    state[problem.components[i]] = static_cast<double>(jet[i][0]);
+  }
+  return state;
+}
+
+template <class Real>
+void run_integrator(const Scene& scene, const ComputedProblem& problem, RunResult& run,
+                    const std::function<void(double)>& progress) {
+  NominalRecorder recorder(problem, scene.nominal.size());
+  recorder.record(0, problem.nominal);
+  const FlowProblem<Real> flow = flow_problem<Real>(scene, problem);
+  const FlowJet<Real> jet = integrate<Real>(
+      flow, run.settings, run.statistics, [&](const Real& time, const FlowJet<Real>& state) {
+        std::vector<Extended> point;
+        for (const auto& component : state) point.push_back(convert<Extended>(component[0]));
+        recorder.record(static_cast<double>(time), point);
+        progress(static_cast<double>(time) / scene.duration);
+      });
+  run.jet = convert_map<Extended>(jet);
+  run.nominal_final = full_state(run.jet, problem, scene.nominal.size());
+  run.energy_error = recorder.largest_energy_error();
+  run.nominal = recorder.take();
+}
+
+void check(RunResult& run) {
+  if (run.settings.require_relative_error && run.error_by_degree) {
+    const double worst =
+        *std::max_element(run.error_by_degree->begin(), run.error_by_degree->end());
+    if (!(worst <= *run.settings.require_relative_error)) {
+      run.failed_checks.push_back(fmt::format("require_relative_error: {:.3g} exceeds {:.3g}", worst,
+                                              *run.settings.require_relative_error));
+    }
+  }
+  if (run.settings.require_symplecticity) {
+    double worst = 0;
+    for (const auto& entry : run.symplecticity) worst = std::max(worst, entry.scaled);
+    if (run.symplecticity.empty() || !(worst <= *run.settings.require_symplecticity)) {
+      run.failed_checks.push_back(
+          run.symplecticity.empty()
+              ? "require_symplecticity: not computed, the jet has not all variables"
+              : fmt::format("require_symplecticity: {:.3g} exceeds {:.3g}", worst,
+                            *run.settings.require_symplecticity));
+    }
+  }
+}
+
+std::vector<RelativeHamiltonianResult> relative_hamiltonians(const Scene& scene,
+                                                             const ComputedProblem& problem) {
+  std::vector<RelativeHamiltonianResult> results;
+  FlowProblem<Extended> flow = flow_problem<Extended>(scene, problem);
+  flow.space = SeriesSpace::create(problem.variables.size(), 0);  // the nominal alone
+  Extended reached = 0;
+  for (const double time : scene.relative_hamiltonian_times) {
+    flow.duration = Extended(time) - reached;
+    IntegrationStatistics statistics;
+    GaussSettings gauss;
+    gauss.stages = 16;
+    gauss.tolerance = scene.precision == Precision::extended ? 1e-28 : 1e-20;
+    const FlowJet<Extended> nominal = integrate_gauss<Extended>(flow, gauss, statistics);
+    for (std::size_t i = 0; i < nominal.size(); ++i) flow.initial_state[i] = nominal[i][0];
+    reached = Extended(time);
+    results.push_back({time, relative_hamiltonian<Extended>(problem.system, flow.initial_state,
+                                                            scene.order)});
+  }
+  return results;
+}
+
+}  // namespace
+
+PropagationResult propagate(const Scene& scene, const ProgressCallback& progress) {
+  PropagationResult result;
+  result.scene = scene;
+  result.problem = make_problem(scene, available_memory());
+  const auto report = [&](const std::string& task, double fraction) {
+    if (progress) progress(task, fraction);
+  };
+  for (const IntegratorSettings& settings : scene.integrators) {
+    const bool is_cvode = settings.method == IntegrationMethod::cvode_adams ||
+                          settings.method == IntegrationMethod::cvode_bdf;
+    if (is_cvode && !cvode_available()) {
+      throw Error(ErrorKind::usage,
+                  fmt::format("integrator {}: this build has no CVODE; configure with "
+                              "-DHAMJET_CVODE=ON",
+                              settings.label));
+    }
+  }
+  result.relative_hamiltonians = relative_hamiltonians(scene, result.problem);
+  if (scene.reference) {
+    result.reference = compute_reference(result.problem, scene.duration, *scene.reference,
+                                         [&](double done) { report("reference", done); });
+  }
+  MapAnalysis analysis(scene, result.problem, result.reference);
+  for (const IntegratorSettings& settings : scene.integrators) {
+    RunResult run;
+    run.settings = settings;
+    const auto on_step = [&](double done) { report(settings.label, done); };
+    try {
+      if (scene.precision == Precision::extended) {
+        run_integrator<Extended>(scene, result.problem, run, on_step);
+      } else {
+        run_integrator<double>(scene, result.problem, run, on_step);
+      }
+      report(settings.label + ": inversion", 1);
+      analysis.analyse(run);
+      check(run);
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::numerical) throw;
+      run.failure = error.what();
+    }
+    result.runs.push_back(std::move(run));
+  }
+  return result;
+}
+
+std::vector<double> relative_error_by_degree(const FlowJet<Extended>& jet,
+                                             const FlowJet<Extended>& reference) {
+  const SeriesSpace& space = reference[0].space();
+  std::vector<double> errors;
+  for (int d = 0; d <= space.order(); ++d) {
+    Extended difference = 0;
+    Extended largest = 0;
+    for (std::size_t i = 0; i < reference.size(); ++i) {
+      for (std::size_t k = space.first(d); k < space.first(d + 1); ++k) {
+        difference = std::max(difference, Extended(abs(jet[i][k] - reference[i][k])));
+        largest = std::max(largest, Extended(abs(reference[i][k])));
+      }
+    }
+    errors.push_back(static_cast<double>(largest > 0 ? Extended(difference / largest) : difference));
+  }
+  return errors;
+}
+
+int exit_code(const PropagationResult& result) {
+  int code = 0;
+  for (const RunResult& run : result.runs) {
+    if (!run.failure.empty()) return static_cast<int>(ErrorKind::numerical);
+    for (const KindResult& kind : run.kinds) {
+      if (!kind.failure.empty()) return static_cast<int>(ErrorKind::numerical);
+    }
+    if (!run.failed_checks.empty()) code = static_cast<int>(ErrorKind::check_failed);
+  }
+  return code;
+}
+
+}  // namespace hamjet

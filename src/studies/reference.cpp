@@ -1,0 +1,50 @@
+#include "reference.hpp"
+
+#include <atomic>
+#include <future>
+
+#include "hamjet/integrators/gauss_collocation.hpp"
+
+namespace hamjet {
+namespace {
+
+constexpr int reference_stages = 16;
+constexpr double coarser = 1e4;
+
+}  // namespace
+
+ReferenceResult compute_reference(const ComputedProblem& problem, double duration,
+                                  const ReferenceSettings& settings,
+                                  const std::function<void(double)>& keep_going) {
+  FlowProblem<Extended> flow{&problem.system, problem.space, problem.variables, {}, duration};
+  for (const double x : problem.nominal) flow.initial_state.emplace_back(x);
+  std::atomic<bool> stop = false;
+  const auto run = [&](double tolerance, IntegrationStatistics& statistics, bool reports) {
+    GaussSettings gauss;
+    gauss.stages = reference_stages;
+    gauss.tolerance = tolerance;
+    return integrate_gauss<Extended>(
+        flow, gauss, statistics, [&](const Extended& time, const FlowJet<Extended>&) {
+          if (stop) throw Error(ErrorKind::numerical, "reference: stopped with its other run");
+          if (reports) keep_going(static_cast<double>(time) / duration);
+        });
+  };
+  ReferenceResult result;
+  result.stages = reference_stages;
+  result.tolerance = settings.tolerance;
+  IntegrationStatistics coarse_statistics;
+  auto coarse = std::async(std::launch::async, [&] {
+    return run(coarser * settings.tolerance, coarse_statistics, false);
+  });
+  try {
+    result.jet = run(settings.tolerance, result.statistics, true);
+  } catch (...) {
+    stop = true;
+    coarse.wait();
+    throw;
+  }
+  result.uncertainty_by_degree = relative_error_by_degree(coarse.get(), result.jet);
+  return result;
+}
+
+}  // namespace hamjet
