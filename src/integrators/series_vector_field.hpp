@@ -133,12 +133,15 @@ class SeriesVectorField {
 /// errors alone can step over a collision and report success; the energy then jumps by about its
 /// own size.
 ///
-/// The change of H since the start may not exceed (1e-2 + 1e3 tolerance) max(|H|, S/10, tolerance,
-/// 1e-10), where S = sum |z_i dH/dz_i| at the start is the size of the terms that make up H: it
-/// stands in where they cancel, as on a parabola; the last two where all vanish, as at an
-/// equilibrium. A nominal outside is wrong beyond use (1 % in energy is 1.5 % in the period of an
-/// orbit), whatever the reason: a collision, a tolerance too coarse for a close passage, or a drift
-/// over very many periods. The converse does not hold: a kept energy proves nothing.
+/// The change of H since the start may not exceed
+///
+///   min(1e-2 + 1e3 tolerance, 0.1) max(|H|, S/100, tolerance, 1e-10) ,
+///
+/// where S = sum |z_i dH/dz_i| at the start is the size of the terms that make up H: it stands in
+/// where they cancel, as on a parabola; the last two where all vanish, as at an equilibrium. A
+/// nominal outside is wrong beyond use (1 % in energy is 1.5 % in the period of an orbit), whatever
+/// the reason: a collision, a tolerance too coarse for a close passage, or a drift over very many
+/// periods. The converse does not hold: a kept energy proves nothing.
 template <class Real>
 class EnergyGuard {
  public:
@@ -153,8 +156,8 @@ class EnergyGuard {
       size += std::abs(slope * static_cast<double>(problem.initial_state[i]));
     }
     const double scale =
-        std::max({std::abs(static_cast<double>(start_)), size / 10, tolerance, 1e-10});
-    limit_ = (1e-2 + 1e3 * tolerance) * scale;
+        std::max({std::abs(static_cast<double>(start_)), size / 100, tolerance, 1e-10});
+    limit_ = std::min(1e-2 + 1e3 * tolerance, 0.1) * scale;
   }
 
   /// Throws Error(numerical) if the energy of the constant terms, which stand `stride` apart, is

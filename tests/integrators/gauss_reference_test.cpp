@@ -127,13 +127,17 @@ TEST_P(GaussReferenceOrbit, EndsWithinTenTimesTheFloorOfItsInputs) {
   const auto floor = matrix_floor(flow, jet);
   // At this tolerance the steps' own errors are below round-off, of which each adds a few units.
   const double tolerance = 4 * 0x1p-52 * static_cast<double>(statistics.steps);
+  // Over ten close passes the matrices before and behind a step are both large: round-off at half
+  // time is amplified by the product of the two norms, each half of the whole one.
+  const bool many_passes = orbit.field.J2 == 0 && orbit.duration > 60;
+  const double amplified = many_passes ? 0x1p-52 * orbit.matrix_norm * orbit.matrix_norm / 4 : 0;
   for (std::size_t i = 0; i < 6; ++i) {
     EXPECT_LE(magnitude_of(Extended(jet[i][0]) - orbit.state[i]),
               tolerance * std::max(1.0, magnitude_of(orbit.state[i])) + 10 * orbit.floor[i])
         << "component " << i;
     for (std::size_t j = 0; j < 6; ++j) {
       EXPECT_LE(magnitude_of(Extended(jet[i][1 + j]) - orbit.matrix[i][j]),
-                tolerance * orbit.matrix_norm + 10 * floor[i][j])
+                tolerance * orbit.matrix_norm + 10 * floor[i][j] + amplified)
           << "entry " << i << ", " << j;
     }
   }
@@ -199,9 +203,10 @@ TEST(GaussReference, KeplerJetHasItsClosedForm) {
                                 36 * pi3 - 68 * pi,
                                 360 * pi3 - 185 * pi,
                                 2196 * pi3 - 492 * pi - 324 * pi3 * pi2 / 5};
-  const auto extended = test::run_gauss(flow, test::adaptive(16, 1e-26));
+  const auto extended = test::run_gauss(flow, test::adaptive(16, 1e-32));
   test::Flow<double> rounded{kepler(), {1, 0, 0, 0, 1, 0}, static_cast<double>(flow.duration), 5, {4}};
-  const auto jet = test::run_gauss(rounded, test::adaptive(8, 1e-16));
+  // The steps are chosen by the nominal alone, and a circle is easy: degree 5 needs shorter ones.
+  const auto jet = test::run_gauss(rounded, test::adaptive(8, 1e-22));
   for (std::size_t k = 0; k <= 5; ++k) {
     const double scale = std::max({1.0, magnitude_of(x[k]), magnitude_of(y[k])});
     EXPECT_LE(magnitude_of(extended[0][k] - x[k]), 1e-22 * scale) << "x, degree " << k;
@@ -222,7 +227,7 @@ TEST(GaussReference, KeplerMonodromyOverOneRevolution) {
     const Extended e(eccentricity);
     test::Flow<Extended> flow{kepler(), {1 - e, 0, 0, 0, sqrt((1 + e) / (1 - e)), 0},
                               2 * boost::math::constants::pi<Extended>(), 1, {0, 1, 3, 4}};
-    const auto jet = test::run_gauss(flow, test::adaptive(12, 1e-24));
+    const auto jet = test::run_gauss(flow, test::adaptive(16, 1e-27));
     const std::size_t rows[] = {0, 1, 3, 4};
     // Twenty digits are printed.
     double scale = 0;
