@@ -1,20 +1,46 @@
 #include "interruption.hpp"
 
+#include <unistd.h>
+
 #include <csignal>
+#include <string_view>
 
 namespace hamjet::cli {
 namespace {
 
+enum Phase : std::sig_atomic_t { computing, writing, written };
+
 volatile std::sig_atomic_t pending_signal = 0;
+volatile std::sig_atomic_t phase = computing;
+
+constexpr unsigned seconds_to_stop = 1;
+
+/// Ends the program from within a signal handler, where nothing that allocates or locks may be called.
+/// Outside `writing` there is nothing on the disk to clean up.
+[[noreturn]] void end_at_once() {
+  if (phase == computing) {
+    constexpr std::string_view message = "hamjet: interrupted; nothing was written\n";
+    [[maybe_unused]] const auto ignored = ::write(STDERR_FILENO, message.data(), message.size());
+  }
+  ::_exit(128 + pending_signal);
+}
 
 extern "C" void remember_signal(int signal) {
+  const bool is_repeated = pending_signal != 0;
   pending_signal = signal;
-  std::signal(signal, SIG_DFL);
+  if (phase == written || (phase == computing && is_repeated)) end_at_once();
+  ::alarm(seconds_to_stop);
+}
+
+extern "C" void lose_patience(int /*signal*/) {
+  if (phase != writing) end_at_once();
+  ::alarm(seconds_to_stop);
 }
 
 }  // namespace
 
 void catch_signals() {
+  std::signal(SIGALRM, lose_patience);
   std::signal(SIGINT, remember_signal);
   std::signal(SIGTERM, remember_signal);
   std::signal(SIGPIPE, SIG_IGN);
@@ -24,5 +50,15 @@ void catch_signals() {
 void stop_if_interrupted() {
   if (pending_signal != 0) throw Interrupted(pending_signal);
 }
+
+UninterruptedWriting::UninterruptedWriting() {
+  phase = writing;
+  if (pending_signal != 0) {
+    phase = computing;
+    throw Interrupted(pending_signal);
+  }
+}
+
+UninterruptedWriting::~UninterruptedWriting() { phase = written; }
 
 }  // namespace hamjet::cli

@@ -16,11 +16,22 @@ class Interrupted : public std::exception {
   int signal_;
 };
 
-/// Catches SIGINT and SIGTERM from now on: the first asks the work to stop, a second one of the same
-/// kind ends the program at once. SIGPIPE and SIGXFSZ become errors of the write.
+/// Catches SIGINT and SIGTERM from now on: the first asks the work to stop. If it has not done so
+/// within a second, for a single step of high order may take longer, or at a second signal, the
+/// program ends at once. SIGPIPE and SIGXFSZ become errors of the write.
 void catch_signals();
 
 /// Throws Interrupted if a signal has come.
 void stop_if_interrupted();
+
+/// While it lives the results are being written, which takes a moment and is not broken off. Throws
+/// Interrupted at the start if a signal has come.
+class UninterruptedWriting {
+ public:
+  UninterruptedWriting();
+  ~UninterruptedWriting();
+  UninterruptedWriting(const UninterruptedWriting&) = delete;
+  UninterruptedWriting& operator=(const UninterruptedWriting&) = delete;
+};
 
 }  // namespace hamjet::cli

@@ -4,20 +4,21 @@
 
 #include "hamjet/integrators/cvode.hpp"
 #include "hamjet/maps/generating_function_kind.hpp"
+#include "standard_streams.hpp"
 
 namespace hamjet::cli {
 namespace {
 
-void list_systems() {
-  fmt::print(
+std::string systems() {
+  return
       "zonal-gravity        Earth orbit with J2 and J3, each optional: mu_km3_s2, radius_km, J2, J3\n"
       "kepler               Kepler's problem: mu_km3_s2\n"
-      "harmonic-oscillator  one degree of freedom: mass_kg, stiffness_N_per_m\n");
+      "harmonic-oscillator  one degree of freedom: mass_kg, stiffness_N_per_m\n";
 }
 
-void list_integrators() {
+std::string integrators() {
   const char* cvode = cvode_available() ? "" : "  NOT BUILT: configure with -DHAMJET_CVODE=ON";
-  fmt::print(
+  return fmt::format(
       "gauss        Gauss collocation, 1 (implicit midpoint) to 12 stages, order 2 stages; symplectic; "
       "step_canonical, step_s or tolerance\n"
       "fehlberg78   explicit Runge-Kutta-Fehlberg 7(8) of Boost.odeint; not symplectic; "
@@ -28,23 +29,24 @@ void list_integrators() {
       cvode, cvode);
 }
 
-void list_kinds() {
-  fmt::print(
+std::string kinds() {
+  std::string text =
       "A generating function takes one final and one initial variable of each pair (q, p):\n"
       "F1 (q, q0)   F2 (q, p0)   F3 (p, q0)   F4 (p, p0)   auto (the best conditioned of all)\n"
-      "For an orbit, final choice, hyphen, initial choice for x, y, z:\n");
-  const auto kinds = all_kinds(3);
-  for (std::size_t i = 0; i < kinds.size(); ++i) {
-    fmt::print("{}{}", kinds[i].name(), i % 8 == 7 ? "\n" : "  ");
+      "For an orbit, final choice, hyphen, initial choice for x, y, z:\n";
+  const auto all = all_kinds(3);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    text += all[i].name() + (i % 8 == 7 ? "\n" : "  ");
   }
+  return text;
 }
 
 }  // namespace
 
 int list(const std::string& what) {
-  if (what == "systems") list_systems();
-  if (what == "integrators") list_integrators();
-  if (what == "kinds") list_kinds();
+  if (what == "systems") print(systems());
+  if (what == "integrators") print(integrators());
+  if (what == "kinds") print(kinds());
   return 0;
 }
 

@@ -1,13 +1,15 @@
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <new>
+#include <sstream>
 
 #include "hamjet/error.hpp"
 #include "hamjet/version.hpp"
 #include "interruption.hpp"
 #include "list_command.hpp"
 #include "run_command.hpp"
+#include "standard_streams.hpp"
+#include "usage.hpp"
 
 namespace {
 
@@ -67,13 +69,19 @@ int dispatch(int argc, char** argv) {
       ->required()
       ->check(CLI::IsMember({"systems", "integrators", "kinds"}));
 
+  if (argc <= 1) {
+    std::fputs(app.help().c_str(), stderr);
+    return static_cast<int>(ErrorKind::usage);
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     const bool is_request = error.get_exit_code() == 0;  // --help, --version
-    if (is_request) return app.exit(error);
-    fmt::print(stderr, "hamjet: {}; see hamjet --help\n", error.what());
-    return static_cast<int>(ErrorKind::usage);
+    if (!is_request) throw hamjet::Error(ErrorKind::usage, hamjet::cli::usage_message(app, error));
+    std::ostringstream text;
+    app.exit(error, text, text);
+    hamjet::cli::print(text.str());
+    return 0;
   }
   if (*list) return hamjet::cli::list(what);
   if (*check) return hamjet::cli::check(options);
@@ -87,16 +95,16 @@ int main(int argc, char** argv) {
   try {
     return dispatch(argc, argv);
   } catch (const hamjet::cli::Interrupted& interrupted) {
-    fmt::print(stderr, "hamjet: interrupted; nothing was written\n");
+    hamjet::cli::print_error("interrupted; nothing was written");
     return interrupted.exit_code();
   } catch (const hamjet::Error& error) {
-    fmt::print(stderr, "hamjet: {}\n", error.what());
+    hamjet::cli::print_error(error.what());
     return error.exit_code();
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "hamjet: out of memory; a lower order or fewer variables would fit\n");
+    hamjet::cli::print_error("out of memory; a lower order or fewer variables would fit");
     return static_cast<int>(ErrorKind::too_large);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "hamjet: {}\n", error.what());
+    hamjet::cli::print_error(error.what());
     return static_cast<int>(ErrorKind::numerical);
   }
 }

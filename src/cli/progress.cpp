@@ -6,6 +6,16 @@
 #include <cstdio>
 
 namespace hamjet::cli {
+namespace {
+
+/// Puts the text in place of the line; whether that works (the terminal may have gone) is of no
+/// account.
+void show(const std::string& text) {
+  std::fputs(fmt::format("\r{:78}\r{}", "", text).c_str(), stderr);
+  std::fflush(stderr);
+}
+
+}  // namespace
 
 Progress::Progress(bool wanted)
     : is_shown_(wanted && ::isatty(STDERR_FILENO) == 1),
@@ -13,7 +23,7 @@ Progress::Progress(bool wanted)
       last_shown_(task_start_) {}
 
 Progress::~Progress() {
-  if (has_line_) fmt::print(stderr, "\r{:78}\r", "");
+  if (has_line_) show("");
 }
 
 void Progress::update(const std::string& task, double fraction) {
@@ -28,8 +38,7 @@ void Progress::update(const std::string& task, double fraction) {
   const double passed = std::chrono::duration<double>(now - task_start_).count();
   const std::string left =
       fraction > 0 ? fmt::format(", {:.0f} s left", passed * (1 - fraction) / fraction) : "";
-  fmt::print(stderr, "\r{:78}\r{:.40}: {:3.0f} %{}", "", task, 100 * fraction, left);
-  std::fflush(stderr);
+  show(fmt::format("{:.40}: {:3.0f} %{}", task, 100 * fraction, left));
   has_line_ = true;
 }
 

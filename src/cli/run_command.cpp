@@ -2,11 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <filesystem>
 #include <mutex>
 
+#include "../io/scene_message.hpp"
 #include "demo_scene.hpp"
+#include "earlier_results.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/io/output_directory.hpp"
 #include "hamjet/io/results.hpp"
@@ -14,6 +15,7 @@
 #include "hamjet/studies/propagation.hpp"
 #include "interruption.hpp"
 #include "progress.hpp"
+#include "standard_streams.hpp"
 
 namespace hamjet::cli {
 namespace {
@@ -24,7 +26,8 @@ std::vector<io::Override> parse_overrides(const std::vector<std::string>& texts)
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos || equals == 0) {
       throw Error(ErrorKind::usage,
-                  fmt::format("--set {}: must be key=value, for example jet.order=3", text));
+                  fmt::format("--set {}: must be key=value, for example jet.order=3",
+                              io::printable(text)));
     }
     overrides.push_back({text.substr(0, equals), text.substr(equals + 1)});
   }
@@ -32,19 +35,17 @@ std::vector<io::Override> parse_overrides(const std::vector<std::string>& texts)
 }
 
 Scene read(const RunOptions& options) {
+  refuse_empty(options.scene_file, "scene", "a file");
+  refuse_empty(options.output, "--output", "a directory");
   const auto overrides = parse_overrides(options.overrides);
-  if (options.scene_file.empty()) return io::parse_scene(demo_scene, "earth-orbit.toml", overrides);
-  return io::read_scene(options.scene_file, overrides);
+  if (!options.scene_file) return io::parse_scene(demo_scene, "earth-orbit.toml", overrides);
+  return io::read_scene(*options.scene_file, overrides);
 }
 
-/// Text to standard output; a reader that went away (`| head`) is no error, a full disk is.
-void print(const std::string& text) {
-  const bool is_written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
-  if (!is_written || std::fflush(stdout) != 0) {
-    if (errno == EPIPE) return;
-    throw Error(ErrorKind::input_output,
-                fmt::format("standard output cannot be written: {}",
-                            std::error_code(errno, std::generic_category()).message()));
+/// An empty name comes from an unset variable of a script, and must not mean something else.
+void refuse_empty(const std::optional<std::string>& value, const char* option, const char* what) {
+  if (value && value->empty()) {
+    throw Error(ErrorKind::usage, fmt::format("{}: empty, must name {}", option, what));
   }
 }
 
@@ -66,8 +67,11 @@ int run(const RunOptions& options) {
       progress.update(task, fraction);
     });
   }
-  stop_if_interrupted();
-  io::write_results(result, output);
+  {
+    const UninterruptedWriting guard;
+    for (const auto& file : earlier_results(directory)) output.replace(file);
+    io::write_results(result, output);
+  }
   if (options.json) {
     print(io::summary_json(result));
   } else if (!options.quiet) {
@@ -75,11 +79,11 @@ int run(const RunOptions& options) {
   }
   const int code = exit_code(result);
   if (code != 0) {
-    fmt::print(stderr, "hamjet: {}; see {}\n",
-               code == static_cast<int>(ErrorKind::check_failed)
-                   ? "a check that the scene asks for failed"
-                   : "a numerical failure left part of the results out",
-               (directory / "summary.json").string());
+    print_error(fmt::format("{}; see {}",
+                            code == static_cast<int>(ErrorKind::check_failed)
+                                ? "a check that the scene asks for failed"
+                                : "a numerical failure left part of the results out",
+                            (directory / "summary.json").string()));
   }
   return code;
 }
@@ -95,7 +99,7 @@ int check(const RunOptions& options) {
       "  title        {}\n"
       "  units        length {:.10g} km, time {:.10g} s\n"
       "  nominal     ",
-      options.scene_file, scene.title, scene.units.length_km, scene.units.time_s);
+      *options.scene_file, scene.title, scene.units.length_km, scene.units.time_s);
   for (const double x : scene.nominal) text += fmt::format(" {:.17g}", x);
   text += fmt::format(
       "\n  duration     {:.17g} canonical = {:.10g} s\n"

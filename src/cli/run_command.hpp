@@ -8,7 +8,7 @@ namespace hamjet::cli {
 
 /// Options of `run`, `demo` and `check`.
 struct RunOptions {
-  std::string scene_file;  ///< empty: the built-in scene
+  std::optional<std::string> scene_file;  ///< absent: the built-in scene
   std::optional<std::string> output;
   std::vector<std::string> overrides;  ///< key=value
   bool json = false;

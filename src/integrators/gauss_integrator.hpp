@@ -33,11 +33,8 @@ class GaussIntegrator {
         jet_(identity_jet(problem)),
         lost_(jet_.size(), std::vector<Real>(problem.space->size(), Real(0))) {
     for (const auto& component : jet_) state_.push_back(component.coefficients().data());
-    const std::size_t s = tableau_.stages;
-    for (std::size_t i = 0; i < s; ++i) {
-      const Extended value = legendre(2 * tableau_.nodes[i] - 1, s).back();
-      last_mode_.set_lane(static_cast<int>(i),
-                          convert<Real>(Extended((2 * s - 1) * tableau_.weights[i] * value)));
+    for (std::size_t i = 0; i < tableau_.stages; ++i) {
+      last_mode_.set_lane(static_cast<int>(i), convert<Real>(tableau_.last_mode[i]));
     }
   }
 
@@ -362,33 +359,44 @@ class GaussIntegrator {
   /// q_(n+1) = q_n + h M^-1 p_n + h^2 sum b_j (1 - c_j) M^-1 F_j.
   void update_state(const Real& h, int d) {
     const auto& system = stages_.system();
-    const auto& evaluator = stages_.evaluator();
     const std::size_t m = system.components();
-    for (std::size_t k = problem_.space->first(d); k < problem_.space->first(d + 1); ++k) {
-      if (!system.second_order()) {
-        for (std::size_t c = 0; c < m; ++c) {
-          add(c, k, Real(h * dot(system.weights(), evaluator.output(c)[k])));
-        }
-        continue;
-      }
+    const std::size_t first = problem_.space->first(d);
+    const std::size_t last = problem_.space->first(d + 1);
+    if (!system.second_order()) {
       for (std::size_t c = 0; c < m; ++c) {
+        add_slopes(c, first, last, system.weights(), stages_.evaluator().output(c), h);
+      }
+      return;
+    }
+    // Positions first: they need the momenta at the start of the step.
+    for (std::size_t c = 0; c < m; ++c) {
+      for (std::size_t k = first; k < last; ++k) {
         Real velocity = jet_[m + c][k];
         if (!system.unit_mass()) {
           velocity = Real(0);
           for (std::size_t i = 0; i < m; ++i) velocity += system.inverse_mass(c, i) * jet_[m + i][k];
         }
-        add(c, k, Real(h * (velocity + h * dot(system.position_weights(), stages_.slope(c, k)))));
+        add(jet_[c][k], lost_[c][k],
+            Real(h * (velocity + h * dot(system.position_weights(), stages_.slope(c, k)))));
       }
-      for (std::size_t c = 0; c < m; ++c) {
-        add(m + c, k, Real(h * dot(system.weights(), evaluator.output(c)[k])));
-      }
+    }
+    for (std::size_t c = 0; c < m; ++c) {
+      add_slopes(m + c, first, last, system.weights(), stages_.evaluator().output(c), h);
     }
   }
 
-  /// Compensated (Kahan) addition to one coefficient of the state.
-  void add(std::size_t component, std::size_t k, const Real& increment) {
-    Real& value = jet_[component][k];
-    Real& lost = lost_[component][k];
+  /// Adds h sum b_j f_j to a component.
+  void add_slopes(std::size_t component, std::size_t first, std::size_t last, const P& weights,
+                  const P* slopes, const Real& h) {
+    Real* value = jet_[component].coefficients().data();
+    Real* lost = lost_[component].data();
+    for (std::size_t k = first; k < last; ++k) {
+      add(value[k], lost[k], Real(h * dot(weights, slopes[k])));
+    }
+  }
+
+  /// Compensated (Kahan) addition.
+  static void add(Real& value, Real& lost, const Real& increment) {
     const Real corrected = increment - lost;
     const Real sum = value + corrected;
     lost = (sum - value) - corrected;

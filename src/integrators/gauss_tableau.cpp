@@ -1,26 +1,35 @@
 #include "hamjet/integrators/gauss_tableau.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "hamjet/error.hpp"
 
 namespace hamjet {
-
 namespace {
 
+/// P_0..P_s at x, by k P_k = (2k-1) x P_(k-1) - (k-1) P_(k-2); `inverse[k]` is 1/k, for divisions are
+/// slow in extended precision.
 template <class Real>
-std::vector<Real> legendre_values(const Real& x, std::size_t count) {
-  std::vector<Real> p(count, Real(1));
-  if (count > 1) p[1] = x;
-  for (std::size_t k = 2; k < count; ++k) {
-    const Real n(static_cast<double>(k));
-    p[k] = ((2 * n - 1) * x * p[k - 1] - (n - 1) * p[k - 2]) / n;
+std::vector<Real> legendre(const Real& x, const std::vector<Real>& inverse) {
+  std::vector<Real> p(inverse.size(), Real(1));
+  if (p.size() > 1) p[1] = x;
+  for (std::size_t k = 2; k < p.size(); ++k) {
+    const Real product = x * p[k - 1];
+    p[k] = product + (1 - inverse[k]) * (product - p[k - 2]);
   }
   return p;
 }
 
-/// P_s'(x), from P_s and P_(s-1).
+template <class Real>
+std::vector<Real> inverses(std::size_t largest) {
+  std::vector<Real> result(largest + 1, Real(0));
+  for (std::size_t k = 1; k <= largest; ++k) result[k] = 1 / Real(static_cast<double>(k));
+  return result;
+}
+
+/// P_s'(x) from P_s and P_(s-1).
 template <class Real>
 Real legendre_derivative(const std::vector<Real>& p, const Real& x) {
   const std::size_t s = p.size() - 1;
@@ -28,26 +37,22 @@ Real legendre_derivative(const std::vector<Real>& p, const Real& x) {
 }
 
 template <class Real>
-Real newton_step(const Real& x, std::size_t s) {
-  const std::vector<Real> p = legendre_values(x, s + 1);
-  return x - p[s] / legendre_derivative(p, x);
+Real newton_step(const Real& x, const std::vector<Real>& inverse) {
+  const std::vector<Real> p = legendre(x, inverse);
+  return x - p.back() / legendre_derivative(p, x);
 }
 
-/// The i-th zero of P_s, i = 0..s-1, from the largest down.
-Extended legendre_zero(std::size_t s, std::size_t i) {
-  if (2 * i + 1 == s) return 0;
+/// The i-th zero of P_s from the largest down, for the positive ones.
+Extended legendre_zero(std::size_t s, std::size_t i, const std::vector<Extended>& inverse) {
+  const std::vector<double> inverse_double = inverses<double>(s);
   double x = std::cos(std::numbers::pi * (static_cast<double>(i) + 0.75) /
                       (static_cast<double>(s) + 0.5));
   // Newton doubles the digits: the asymptotic guess has 3, binary64 gives 16, two more steps 34.
-  for (int step = 0; step < 4; ++step) x = newton_step(x, s);
-  return newton_step(newton_step(Extended(x), s), s);
+  for (int step = 0; step < 4; ++step) x = newton_step(x, inverse_double);
+  return newton_step(newton_step(Extended(x), inverse), inverse);
 }
 
 }  // namespace
-
-std::vector<Extended> legendre(const Extended& x, std::size_t count) {
-  return legendre_values(x, count);
-}
 
 GaussTableau gauss_tableau(std::size_t stages) {
   if (stages < 1 || stages > 16) {
@@ -58,22 +63,38 @@ GaussTableau gauss_tableau(std::size_t stages) {
   tableau.stages = s;
   tableau.nodes.resize(s);
   tableau.weights.resize(s);
+  tableau.last_mode.resize(s);
   tableau.matrix.resize(s * s);
+  tableau.squared.resize(s * s, 0);
+  const std::vector<Extended> inverse = inverses<Extended>(s);
+  std::vector<std::vector<Extended>> p(s);  // P_0..P_s at the nodes on [-1, 1]
   for (std::size_t i = 0; i < s; ++i) {
-    const Extended x = legendre_zero(s, s - 1 - i);
-    const Extended derivative = legendre_derivative(legendre_values(x, s + 1), x);
+    // The zeros lie symmetrically, and the middle one of an odd number is 0.
+    const std::size_t rank = std::min(i, s - 1 - i);
+    Extended x = 2 * i + 1 == s ? Extended(0) : legendre_zero(s, rank, inverse);
+    if (2 * i + 1 < s) x = -x;
+    p[i] = legendre(x, inverse);
+    const Extended derivative = legendre_derivative(p[i], x);
     tableau.nodes[i] = (1 + x) / 2;
     tableau.weights[i] = 1 / ((1 - x * x) * derivative * derivative);
+    tableau.last_mode[i] = Extended(2 * s - 1) * tableau.weights[i] * p[i][s - 1];
   }
   // l_j(c) = b_j sum_k (2k+1) P_k(c_j) P_k(c) with P_k shifted to [0, 1], and the integral of P_k
   // from 0 to c is (P_(k+1) - P_(k-1)) / (2 (2k+1)).
-  std::vector<std::vector<Extended>> p;
-  for (const Extended& node : tableau.nodes) p.push_back(legendre(2 * node - 1, s + 1));
+  for (std::size_t i = 0; i < s; ++i) {
+    std::vector<Extended> integral(s, tableau.nodes[i]);
+    for (std::size_t k = 1; k < s; ++k) integral[k] = (p[i][k + 1] - p[i][k - 1]) / 2;
+    for (std::size_t j = 0; j < s; ++j) {
+      Extended sum = integral[0];
+      for (std::size_t k = 1; k < s; ++k) sum += p[j][k] * integral[k];
+      tableau.matrix[i * s + j] = tableau.weights[j] * sum;
+    }
+  }
   for (std::size_t i = 0; i < s; ++i) {
     for (std::size_t j = 0; j < s; ++j) {
-      Extended sum = tableau.nodes[i];
-      for (std::size_t k = 1; k < s; ++k) sum += p[j][k] * (p[i][k + 1] - p[i][k - 1]) / 2;
-      tableau.matrix[i * s + j] = tableau.weights[j] * sum;
+      for (std::size_t k = 0; k < s; ++k) {
+        tableau.squared[i * s + j] += tableau.a(i, k) * tableau.a(k, j);
+      }
     }
   }
   return tableau;

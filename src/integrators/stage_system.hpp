@@ -53,12 +53,7 @@ class StageSystem {
         [&](std::size_t i) { return Extended(tableau.weights[i] * (1 - tableau.nodes[i])); }, false);
     for (std::size_t j = 0; j < s; ++j) {
       coupling_.push_back(pack_of(
-          [&](std::size_t i) {
-            if (!second_order_) return tableau.a(i, j);
-            Extended sum = 0;
-            for (std::size_t k = 0; k < s; ++k) sum += tableau.a(i, k) * tableau.a(k, j);
-            return sum;
-          },
+          [&](std::size_t i) { return (second_order_ ? tableau.squared : tableau.matrix)[i * s + j]; },
           true));
     }
     if (second_order_) {
@@ -220,24 +215,25 @@ class StageSystem {
       P* factor = &matrix_[r * components_];
       const Real inverse = 1 / row_of(factor, *pivot);
       set_row(factor, *pivot, Real(0));
-      for (std::size_t q = r + 1; q < unknowns_; ++q) {
-        reduce(&matrix_[q * components_], factor, *pivot, inverse);
-      }
-      for (std::size_t q = 0; q < response_.size(); q += components_) {
-        reduce(&response_[q], factor, *pivot, inverse);
-      }
-      for (std::size_t q = 0; q < base_.size(); q += components_) {
-        reduce(&base_[q], factor, *pivot, inverse);
-      }
+      const std::size_t done = (r + 1) * components_;
+      reduce(matrix_.data() + done, matrix_.data() + matrix_.size(), factor, *pivot, inverse);
+      reduce(response_.data(), response_.data() + response_.size(), factor, *pivot, inverse);
+      reduce(base_.data(), base_.data() + base_.size(), factor, *pivot, inverse);
     }
     return true;
   }
 
-  void reduce(P* column, const P* factor, std::size_t pivot, const Real& inverse) const {
-    const Real x = row_of(column, pivot) * inverse;
-    const P broadcast(x);
-    for (std::size_t c = 0; c < components_; ++c) column[c] -= factor[c] * broadcast;
-    set_row(column, pivot, x);
+  /// Subtracts the pivot row from all others, in every column from `column` to `end`.
+  void reduce(P* column, const P* end, const P* factor, std::size_t pivot,
+              const Real& inverse) const {
+    const std::size_t component = pivot / stages_;
+    const auto lane = static_cast<int>(pivot % stages_);
+    for (; column != end; column += components_) {
+      const Real x = column[component].lane(lane) * inverse;
+      const P broadcast(x);
+      for (std::size_t c = 0; c < components_; ++c) column[c] -= factor[c] * broadcast;
+      column[component].set_lane(lane, x);
+    }
   }
 
   void undo_pivoting(std::vector<P>& columns) const {

@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "hamjet/error.hpp"
 
@@ -60,50 +62,64 @@ void flush_directory(const fs::path& path) {
   if (directory.value() >= 0) ::fsync(directory.value());
 }
 
-}  // namespace
+/// Removes the folders of the list that are empty, the last first; one with files in it stays.
+void remove_empty(const std::vector<fs::path>& folders) {
+  std::error_code ignored;
+  for (auto p = folders.rbegin(); p != folders.rend(); ++p) fs::remove(*p, ignored);
+}
 
-OutputDirectory::OutputDirectory(fs::path path) : path_(std::move(path)) {
+/// Creates the folder with those above it and returns the new ones, outermost first.
+std::vector<fs::path> create_folders(const fs::path& folder, const std::string& problem) {
   std::error_code error;
-  // Folders that did not exist are noted, so that a failure leaves none behind.
   std::vector<fs::path> missing;
-  for (fs::path p = path_; !p.empty() && !fs::exists(p, error); p = p.parent_path()) {
+  for (fs::path p = folder; !p.empty() && !fs::exists(p, error); p = p.parent_path()) {
     missing.insert(missing.begin(), p);
     if (p == p.parent_path()) break;
   }
-  fs::create_directories(path_, error);
-  if (error) fail(path_, "the output directory cannot be created", error.message());
-  if (!fs::is_directory(path_, error)) fail(path_, "the output is not a directory", "choose another");
-  created_directories_ = missing;
+  fs::create_directories(folder, error);
+  if (!error && fs::is_directory(folder, error)) return missing;
+  remove_empty(missing);
+  fail(folder, problem, error ? error.message() : "something else has this name");
+}
+
+}  // namespace
+
+OutputDirectory::OutputDirectory(fs::path path) : path_(std::move(path)) {
+  const auto created = create_folders(path_, "the output directory cannot be created");
   const fs::path probe = path_ / fmt::format(".hamjet-{}.tmp", ::getpid());
   try {
     write_all(probe, "");
   } catch (...) {
-    for (auto p = missing.rbegin(); p != missing.rend(); ++p) fs::remove(*p, error);
+    remove_empty(created);
     throw;
   }
-  fs::remove(probe, error);
+  std::error_code ignored;
+  fs::remove(probe, ignored);
+  remove_empty(created);
 }
 
 OutputDirectory::~OutputDirectory() {
   std::error_code ignored;
   for (const Pending& file : pending_) fs::remove(file.temporary, ignored);
-  // Removes folders that stayed empty; a folder with files in it is not removed by this call.
-  for (auto p = created_directories_.rbegin(); p != created_directories_.rend(); ++p) {
-    fs::remove(*p, ignored);
-  }
+  remove_empty(created_directories_);
 }
 
 void OutputDirectory::write(const fs::path& relative, std::string_view content) {
   const fs::path target = path_ / relative;
-  std::error_code error;
-  if (!fs::exists(target.parent_path(), error)) created_directories_.push_back(target.parent_path());
-  fs::create_directories(target.parent_path(), error);
-  if (error) fail(target.parent_path(), "the directory cannot be created", error.message());
+  const auto created = create_folders(target.parent_path(), "the directory cannot be created");
+  created_directories_.insert(created_directories_.end(), created.begin(), created.end());
+  // A rename over it would fail after others have been done.
+  std::error_code ignored;
+  if (fs::is_directory(target, ignored)) fail(target, "cannot be written", "it is a directory");
   fs::path temporary = target;
   temporary += fmt::format(".{}.tmp", ::getpid());
-  pending_.push_back({temporary, target});
+  const bool is_new = std::none_of(pending_.begin(), pending_.end(),
+                                   [&](const Pending& file) { return file.target == target; });
+  if (is_new) pending_.push_back({temporary, target});
   write_all(temporary, content);
 }
+
+void OutputDirectory::replace(const fs::path& relative) { earlier_.push_back(path_ / relative); }
 
 void OutputDirectory::commit() {
   for (const Pending& file : pending_) {
@@ -111,8 +127,14 @@ void OutputDirectory::commit() {
     fs::rename(file.temporary, file.target, error);
     if (error) fail(file.target, "cannot be put in its place", error.message());
     flush_directory(file.target.parent_path());
+    std::erase(earlier_, file.target);
   }
   pending_.clear();
+  for (const fs::path& file : earlier_) {
+    std::error_code ignored;
+    if (fs::remove(file, ignored)) remove_empty({file.parent_path()});
+  }
+  earlier_.clear();
 }
 
 }  // namespace hamjet::io

@@ -26,6 +26,7 @@ TEST(GaussMidpoint, RefusesTheDetachedRootOfAStepThatIsTooLong) {
   // another one, whose map is symplectic and whose energy is positive (reference_cases.json,
   // midpoint_wrong_root).
   for (const double h : {0.05, 0.08, 0.1, 0.15, 0.2, 0.3, 0.5, 1.0, 2.0, 5.0}) {
+    SCOPED_TRACE(h);
     test::expect_error(ErrorKind::numerical, "no solution connected",
                        [&] { test::run_gauss(eccentric_orbit(h), test::fixed_step(1, h)); });
   }

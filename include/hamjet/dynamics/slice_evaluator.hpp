@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "hamjet/algebra/slice_recurrences.hpp"
@@ -219,46 +221,82 @@ class SliceEvaluator {
       case OperationCode::cosine:
         break;  // its interior part was written with the sine's
     }
-    add_scaled_remainder(o.u, partial_u_[i], d, w);
-    if (has_two_operands(o.code)) add_scaled_remainder(o.v, partial_v_[i], d, w);
+    Terms terms;
+    if (!list_->is_affine(o.u)) terms.add(partial_u_[i], value(o.u));
+    if (has_two_operands(o.code) && !list_->is_affine(o.v)) terms.add(partial_v_[i], value(o.v));
+    add_terms(terms, d, w, true);
   }
 
-  /// w_d += factor times the remainder of another value, if it has one.
-  void add_scaled_remainder(std::size_t from, const T& factor, int d, T* w) {
-    if (list_->is_affine(from)) return;
-    const T* u = value(from);
-    for (std::size_t k = space_->first(d); k < space_->first(d + 1); ++k) w[k] += factor * u[k];
+  /// A sum of factors times series, gathered so that the result is read and written once.
+  struct Terms {
+    static constexpr std::size_t largest_count = 3;
+    std::array<T, largest_count> factors{};
+    std::array<const T*, largest_count> series{};
+    std::size_t count = 0;
+
+    bool is_full() const { return count == largest_count; }
+    void add(const T& factor, const T* values) {
+      factors[count] = factor;
+      series[count] = values;
+      ++count;
+    }
+  };
+
+  /// w_d = (keep ? w_d : 0) + sum of the terms' slices.
+  void add_terms(const Terms& terms, int d, T* w, bool keep) {
+    switch (terms.count) {
+      case 1:
+        keep ? add_terms<1, true>(terms, d, w) : add_terms<1, false>(terms, d, w);
+        break;
+      case 2:
+        keep ? add_terms<2, true>(terms, d, w) : add_terms<2, false>(terms, d, w);
+        break;
+      case 3:
+        keep ? add_terms<3, true>(terms, d, w) : add_terms<3, false>(terms, d, w);
+        break;
+      default:
+        break;
+    }
+  }
+
+  template <std::size_t Count, bool Keep>
+  void add_terms(const Terms& terms, int d, T* w) {
+    const auto factors = terms.factors;
+    const auto series = terms.series;
+    for (std::size_t k = space_->first(d); k < space_->first(d + 1); ++k) {
+      T sum = Keep ? T(w[k] + factors[0] * series[0][k]) : T(factors[0] * series[0][k]);
+      for (std::size_t t = 1; t < Count; ++t) sum += factors[t] * series[t][k];
+      w[k] = sum;
+    }
   }
 
   void form_linear_remainder(std::size_t i, const Operation& o, int d) {
-    T* w = value(i);
-    bool is_first = true;
-    for (std::size_t term = 0; term < o.terms.size(); ++term) {
-      const std::size_t from = o.terms[term].value;
-      if (list_->is_affine(from)) continue;
-      const T factor(coefficients_[first_term_[i] + term]);
-      const T* u = value(from);
-      for (std::size_t k = space_->first(d); k < space_->first(d + 1); ++k) {
-        w[k] = is_first ? factor * u[k] : w[k] + factor * u[k];
-      }
-      is_first = false;
+    Terms terms;
+    bool keep = false;
+    for (std::size_t t = 0; t < o.terms.size(); ++t) {
+      if (list_->is_affine(o.terms[t].value)) continue;
+      if (terms.is_full()) flush(terms, d, value(i), keep);
+      terms.add(T(coefficients_[first_term_[i] + t]), value(o.terms[t].value));
     }
+    flush(terms, d, value(i), keep);
   }
 
   void add_linear_part(std::size_t i, int d) {
     const std::uint64_t mask = list_->dependencies(i);
-    T* w = value(i);
+    Terms terms;
     bool keep = d >= 2 && !list_->is_affine(i);
-    if (mask == 0) return;  // constants have no slices above degree 0
     for (std::size_t j = 0; j < list_->inputs(); ++j) {
       if ((mask >> j & 1) == 0) continue;
-      const T factor = gradient(i, j);
-      const T* x = value(j);
-      for (std::size_t k = space_->first(d); k < space_->first(d + 1); ++k) {
-        w[k] = keep ? w[k] + factor * x[k] : factor * x[k];
-      }
-      keep = true;
+      if (terms.is_full()) flush(terms, d, value(i), keep);
+      terms.add(gradient(i, j), value(j));
     }
+    flush(terms, d, value(i), keep);
+  }
+
+  void flush(Terms& terms, int d, T* w, bool& keep) {
+    add_terms(terms, d, w, keep);
+    keep = keep || terms.count > 0;
+    terms.count = 0;
   }
 
   const OperationList* list_;

@@ -56,7 +56,8 @@ bool cvode_available() noexcept;
 /// Error(too_large) after 1e8 steps, Error(numerical), naming the time and CVODE's own flag, if
 /// CVODE fails, if the vector field is not finite, if the step size underflows, or if the nominal's
 /// energy shows that CVODE stepped over a singularity (which it reports as success): a change by
-/// more than 1 % + 1e3 tolerance of the energy or of a tenth of the terms that cancel in it.
+/// more than 1 % + 1e3 tolerance (at most 10 %), of the energy itself or of a hundredth of the
+/// terms that cancel in it.
 ///
 /// Source: Hindmarsh et al., SUNDIALS, ACM TOMS 31 (2005) 363; CVODE 6 User Documentation.
 FlowJet<double> integrate_cvode(const FlowProblem<double>& problem, const CvodeSettings& settings,

@@ -34,8 +34,9 @@ struct ExplicitRungeKuttaSettings {
 /// Throws Error(usage) for settings out of range (a tolerance below the rounding of Real included),
 /// Error(too_large) for more than 1e8 steps, Error(numerical), naming the time, if the vector field
 /// is not finite, if the step size underflows, or if the nominal's energy shows that the
-/// integration stepped over a singularity: a change by more than 1 % + 1e3 tolerance (1 % with
-/// fixed steps), of the energy itself or of a tenth of the terms that cancel in it.
+/// integration stepped over a singularity: a change by more than 1 % + 1e3 tolerance (at most
+/// 10 %; 1 % with fixed steps), of the energy itself or of a hundredth of the terms that cancel in
+/// it.
 ///
 /// Source: Fehlberg, NASA TR R-287 (1968); Boost.odeint, runge_kutta_fehlberg78.
 template <class Real>

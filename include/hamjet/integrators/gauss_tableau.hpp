@@ -14,15 +14,15 @@ struct GaussTableau {
   std::size_t stages = 0;
   std::vector<Extended> nodes;
   std::vector<Extended> weights;
-  std::vector<Extended> matrix;  ///< s x s by rows, a_ij = integral of l_j from 0 to c_i
+  std::vector<Extended> matrix;   ///< s x s by rows, a_ij = integral of l_j from 0 to c_i
+  std::vector<Extended> squared;  ///< A^2, by rows: couples the stages of a second-order system
+  /// Weights that give, from values at the nodes, their Legendre mode of degree s - 1.
+  std::vector<Extended> last_mode;
 
   const Extended& a(std::size_t i, std::size_t j) const { return matrix[i * stages + j]; }
 };
 
 /// Throws Error(usage) unless 1 <= stages <= 16.
 GaussTableau gauss_tableau(std::size_t stages);
-
-/// Legendre polynomials P_0..P_count-1 at x in [-1, 1].
-std::vector<Extended> legendre(const Extended& x, std::size_t count);
 
 }  // namespace hamjet

@@ -12,8 +12,9 @@ namespace hamjet::io {
 /// Temporary files that were not committed are removed.
 class OutputDirectory {
  public:
-  /// Creates the directory if it is missing and makes sure that it can be written to, so that a
-  /// mistake shows before the computation. Throws Error(input_output) with path and reason.
+  /// Makes sure that the directory can be created and written to, so that a mistake shows before the
+  /// computation; leaves nothing behind, so that a computation that is broken off does not either.
+  /// Throws Error(input_output) with path and reason.
   explicit OutputDirectory(std::filesystem::path path);
   ~OutputDirectory();
   OutputDirectory(const OutputDirectory&) = delete;
@@ -21,9 +22,13 @@ class OutputDirectory {
 
   const std::filesystem::path& path() const noexcept { return path_; }
 
-  /// Stores a file under a relative path; its folder is created. Throws Error(input_output).
+  /// Stores a file under a relative path; its folder is created. A path that was written before gets
+  /// the new content. Throws Error(input_output).
   void write(const std::filesystem::path& relative, std::string_view content);
-  /// Puts all files in their places, in the order in which they were written.
+  /// Names a file of earlier results: it is removed by commit() unless it was written anew.
+  void replace(const std::filesystem::path& relative);
+  /// Puts all files in their places, in the order in which they were written, then removes the
+  /// earlier ones that have no successor.
   void commit();
 
  private:
@@ -34,6 +39,7 @@ class OutputDirectory {
 
   std::filesystem::path path_;
   std::vector<Pending> pending_;
+  std::vector<std::filesystem::path> earlier_;
   std::vector<std::filesystem::path> created_directories_;
 };
 

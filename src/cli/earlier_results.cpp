@@ -1,0 +1,47 @@
+#include "earlier_results.hpp"
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace hamjet::cli {
+namespace {
+
+using Json = nlohmann::json;
+
+/// A text of the summary that names a file or folder; empty if it is none or could lead elsewhere.
+std::string name_in(const Json& object, const char* key) {
+  if (!object.is_object() || !object.contains(key) || !object[key].is_string()) return "";
+  const auto name = object[key].get<std::string>();
+  const bool is_plain = name[0] != '.' && name.find_first_of(std::string("/\0", 2)) == name.npos;
+  return is_plain ? name : "";
+}
+
+const Json& list_in(const Json& object, const char* key) {
+  static const Json none = Json::array();
+  const bool is_there = object.is_object() && object.contains(key) && object[key].is_array();
+  return is_there ? object[key] : none;
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> earlier_results(const std::filesystem::path& directory) {
+  std::ifstream file(directory / "summary.json");
+  if (!file) return {};
+  const Json summary = Json::parse(file, nullptr, false);
+  std::vector<std::filesystem::path> files;
+  for (const Json& run : list_in(summary, "runs")) {
+    const std::filesystem::path folder = name_in(run, "label");
+    if (folder.empty()) continue;
+    files.push_back(folder / "jet.csv");
+    files.push_back(folder / "nominal.csv");
+    for (const Json& entry : list_in(run, "exactness")) {
+      const std::string kind = name_in(entry, "kind");
+      if (!kind.empty()) files.push_back(folder / ("generating_function_" + kind + ".csv"));
+    }
+  }
+  if (!files.empty()) files.emplace_back("relative_hamiltonian.csv");
+  return files;
+}
+
+}  // namespace hamjet::cli

@@ -1,0 +1,29 @@
+#include "standard_streams.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <system_error>
+
+#include "hamjet/error.hpp"
+
+namespace hamjet::cli {
+
+void print(const std::string& text) {
+  const bool is_written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
+  if (is_written && std::fflush(stdout) == 0) return;
+  if (errno == EPIPE) return;
+  throw Error(ErrorKind::input_output,
+              fmt::format("standard output cannot be written: {}",
+                          std::generic_category().message(errno)));
+}
+
+void print_error(const std::string& message) noexcept {
+  // Not fmt::print, which throws if the stream is closed or full.
+  std::fputs("hamjet: ", stderr);
+  std::fputs(message.c_str(), stderr);
+  std::fputs("\n", stderr);
+}
+
+}  // namespace hamjet::cli

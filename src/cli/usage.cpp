@@ -1,0 +1,51 @@
+#include "usage.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include "../io/scene_message.hpp"
+
+namespace hamjet::cli {
+namespace {
+
+/// "did you mean ...?" among the long options of the command, or of the program where there is none.
+std::string option_suggestion(const CLI::App& command, std::string_view word) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  const std::string_view name = word.substr(0, word.find('='));
+  return io::suggestion(name, {names.begin(), names.end()});
+}
+
+std::string command_suggestion(const CLI::App& app, std::string_view word) {
+  std::vector<std::string_view> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  return io::suggestion(word, names);
+}
+
+}  // namespace
+
+std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
+  const auto commands = app.get_subcommands();
+  const std::vector<std::string> unknown = app.remaining(true);
+  // An unknown option first: the words around it may only look wrong because of it.
+  const auto option = std::find_if(unknown.begin(), unknown.end(),
+                                   [](const std::string& word) { return word.starts_with("-"); });
+  std::string problem = io::printable(error.what(), 200);
+  if (option != unknown.end()) {
+    problem = fmt::format("unknown option {}; {}", io::printable(*option),
+                          option_suggestion(commands.empty() ? app : *commands[0], *option));
+  } else if (!unknown.empty() && commands.empty()) {
+    problem = fmt::format("unknown command {}; {}", io::printable(unknown[0]),
+                          command_suggestion(app, unknown[0]));
+  } else if (!unknown.empty()) {
+    problem = fmt::format("unexpected argument {}", io::printable(unknown[0]));
+  }
+  return problem + (problem.ends_with("?") ? " See hamjet --help" : "; see hamjet --help");
+}
+
+}  // namespace hamjet::cli

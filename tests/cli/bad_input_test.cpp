@@ -1,0 +1,205 @@
+#include <sys/stat.h>
+
+#include "command_test.hpp"
+
+// Scenes and places that are wrong: exit code, one line that says where and what, nothing left behind.
+// Lines are those of small_scene, counted by hand.
+
+namespace hamjet::test {
+namespace {
+
+using BadInput = CommandTest;
+
+struct Mistake {
+  const char* from;
+  const char* to;
+  std::vector<std::string> words;
+  int exit_code = 3;
+};
+
+TEST_F(BadInput, ScenesThatBreakARule) {
+  const char* elements =
+      "a_km = 10000\ne = 0.1\ni_deg = 30\nraan_deg = 10\nargp_deg = 20\nta_deg = 30\n";
+  const Mistake mistakes[] = {
+      {"order = 2", "ordre = 2", {":14:1: jet.ordre: unknown key", "did you mean order?"}},
+      {"[formation]", "[formaton]", {":26:2: formaton: unknown key", "did you mean formation?"}},
+      {"order = 2", "order = \"2\"", {":14:9: jet.order: wrong type, got the string \"2\""}},
+      {"order = 2", "order = 2.0", {":14:9: jet.order: wrong type", "integer"}},
+      {"order = 2", "order = 0", {":14:9: jet.order: out of range, got 0"}},
+      {"order = 2", "order = -1", {":14:9: jet.order: out of range, got -1"}},
+      // C(6 + 99, 99) coefficients, by hand 1 609 344 100; 8 bytes each.
+      {"order = 2", "order = 99", {":14:9: jet.order", "1609344100", "12.9 GB"}, 6},
+      {"canonical = 1", "canonical = nan", {":15:22: jet.duration_canonical: not finite"}},
+      {"canonical = 1", "canonical = inf", {":15:22: jet.duration_canonical: not finite"}},
+      {"canonical = 1", "canonical = 1e400", {":15:22", "duration_canonical: number out of range"}},
+      {"a_km = 10000", "a_km = nan", {":7:8: nominal.a_km: not finite"}},
+      {"i_deg = 30", "i_deg = inf", {":9:9: nominal.i_deg: not finite"}},
+      {"e = 0.1", "e = 1", {":8:5: nominal.e: out of range, got 1"}},
+      {"e = 0.1", "e = 1.5", {":8:5: nominal.e: out of range", "position_km"}},
+      {"a_km = 10000",
+       "a_km = 10000\nposition_km = [1, 2, 3]\nvelocity_km_s = [1, 2, 3]",
+       {":7:8: nominal.a_km: both forms"}},
+      {elements, "", {":6:1: nominal: no orbit, got neither"}},
+      {elements,
+       "position_km = [0, 0, 0]\nvelocity_km_s = [0, 1, 0]\n",
+       {":7:15: nominal.position_km: at the centre"}},
+      {elements, "position_km = [1, 0]\nvelocity_km_s = [0, 1, 0]\n", {":7:", "position_km", "3"}},
+      {"step_canonical = 0.01", "step_canonical = -0.01", {":25:18", "step_canonical: not positive"}},
+      {"step_canonical = 0.01", "step_canonical = 0", {":25:18", "step_canonical: not positive"}},
+      {"step_canonical = 0.01", "step_canonical = 1e-17", {":25:18", "too small"}},
+      {"step_canonical = 0.01", "step_canonical = 1e-10", {":25:18", "too many steps"}, 6},
+      {"step_canonical = 0.01", "step_s = 1\ntolerance = 1e-9", {":25:", "exactly one of"}},
+      {"tolerance = 1e-13", "tolerance = 0", {":20:13: integrator.0.tolerance: out of range"}},
+      {"tolerance = 1e-13", "tolerance = -1", {":20:13: integrator.0.tolerance: out of range"}},
+      {"tolerance = 1e-13", "tolerance = 1e-20", {":20:13: integrator.0.tolerance: out of range"}},
+      {"\"midpoint\"", "\"gauss8\"", {":22:9: integrator.1.label: duplicate label", ":17:9"}},
+      {"\"midpoint\"", "\"../up\"", {":22:9: integrator.1.label: not usable"}},
+      {"method = \"gauss\"", "method = \"guass\"", {":18:10", "did you mean gauss?"}},
+      {"stages = 8", "stages = 13", {":19:10: integrator.0.stages: out of range"}},
+      {"\"F2\"", "\"F5\"", {":29:16", "unknown kind, got \"F5\""}},
+      {"separation_km = 1", "separation_km = 0", {":27:17: formation.separation_km"}},
+      {"mu_km3_s2 = 398600.4415", "mu_km3_s2 = 0", {":5:13: system.mu_km3_s2: not positive"}},
+      {"title = \"small\"", "title = \"small", {":2:", "not valid TOML"}},
+      {"title = \"small\"", "schema = 1", {":2:", "not valid TOML"}},
+      {"title = \"small\"", "title = \"\xff\"", {"not UTF-8", "offset 20"}},
+      {"schema = 1\n", "", {":1:1: schema: missing"}},
+      {"schema = 1", "schema = 2", {":1:10: schema"}},
+  };
+  for (const Mistake& mistake : mistakes) {
+    SCOPED_TRACE(mistake.to);
+    write("bad.toml", changed(small_scene, mistake.from, mistake.to));
+    std::vector<std::string> words = mistake.words;
+    words.emplace_back("bad.toml:");
+    expect_error({"run", "bad.toml"}, mistake.exit_code, words);
+  }
+  write("bad.toml", "");
+  expect_error({"run", "bad.toml"}, 3, {"bad.toml:1:1: schema: missing"});
+}
+
+TEST_F(BadInput, OverridesAreNamedInstead) {
+  expect_error({"run", "small.toml", "--set", "jet.order=0"}, 3, {"--set jet.order: jet.order"});
+  expect_error({"run", "small.toml", "--set", "jet.order=x"}, 3, {"the string \"x\""});
+  expect_error({"demo", "--set", "nominal.e=1.5"}, 3, {"--set nominal.e: nominal.e: out of range"});
+  expect_error({"run", "small.toml", "--set", "jet.order=99"}, 6, {"--set jet.order", "1609344100"});
+}
+
+TEST_F(BadInput, ScenesThatCannotBeRead) {
+  expect_error({"run", "missing.toml"}, 5, {"missing.toml: ", "No such file"});
+  std::filesystem::create_directory(directory_ / "folder.toml");
+  expect_error({"run", "folder.toml"}, 5, {"folder.toml: ", "a directory"});
+  expect_error({"run", "small.toml/x"}, 5, {"small.toml/x: ", "Not a directory"});
+  expect_error({"run", "/dev/zero"}, 5, {"/dev/zero: ", "a device"});
+  ASSERT_EQ(::mkfifo((directory_ / "pipe").c_str(), 0600), 0);
+  expect_error({"run", "pipe"}, 5, {"pipe: ", "a pipe"});
+  std::filesystem::resize_file(write("large.toml", ""), std::uintmax_t{1} << 30);
+  expect_error({"run", "large.toml"}, 3, {"large.toml: ", "too large, got 1073741824"});
+}
+
+TEST_F(BadInput, TheMemoryThatASceneWouldTakeIsNamed) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "the address sanitizer reserves more than any limit";
+#else
+  // Order 12 in 6 variables has C(18, 6) = 18564 coefficients; with both integrators, inversions and
+  // reference that takes far more than 200 MB.
+  options_.address_space = 200'000'000;
+  expect_error({"run", "small.toml", "--set", "jet.order=12"}, 6,
+               {"order 12 in 6 variables", "1.856e+04", "MB in all", "200 MB are free"});
+  expect_error({"check", "small.toml", "--set", "jet.order=12"}, 6, {"MB in all"});
+#endif
+}
+
+using BadOutput = CommandTest;
+
+TEST_F(BadOutput, IsAFileOrBelowOne) {
+  expect_error({"run", "small.toml", "-o", "small.toml"}, 5, {"small.toml: the output directory"});
+  expect_error({"run", "small.toml", "-o", "small.toml/x/y"}, 5, {"small.toml/x/y: the output"});
+  expect_error({"run", "small.toml", "-o", "/proc/nothing/here"}, 5, {"/proc/nothing/here: "});
+  EXPECT_EQ(content(directory_ / "small.toml"), small_scene);
+}
+
+TEST_F(BadOutput, HasADirectoryWhereAFileShouldGo) {
+  std::filesystem::create_directories(directory_ / "results/summary.json");
+  expect_error({"run", "quick.toml", "-o", "results"}, 5, {"summary.json: ", "is a directory"});
+}
+
+TEST_F(BadOutput, TakesNoMoreBytes) {
+  // A limit on the size of files stands for a full disk: the write fails in the same place.
+  for (const rlim_t bytes : {rlim_t{0}, rlim_t{1000}, rlim_t{9000}}) {
+    options_.largest_file = bytes;
+    expect_error({"run", "quick.toml", "-o", "a/b"}, 5, {"a/b/", "bytes left", "File too large"});
+  }
+}
+
+TEST_F(BadOutput, StandardOutputIsFull) {
+  if (::access("/dev/full", W_OK) != 0) GTEST_SKIP() << "no /dev/full here";
+  options_.out = Stream::full;
+  const std::vector<std::string> reason = {"standard output cannot be written", "No space left"};
+  for (const char* what : {"systems", "integrators", "kinds"}) {
+    expect_error({"list", what}, 5, reason);
+  }
+  expect_error({"--help"}, 5, reason);
+  expect_error({"--version"}, 5, reason);
+  expect_error({"check", "small.toml"}, 5, reason);
+  EXPECT_EQ(hamjet({"run", "quick.toml", "--json"}).exit_code, 5);
+}
+
+TEST_F(BadOutput, StandardOutputHasNoReader) {
+  options_.out = Stream::reader_gone;
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"list", "kinds"}, {"--help"}, {"run", "quick.toml", "--json"}}) {
+    const CommandResult result = hamjet(arguments);
+    EXPECT_EQ(result.err, "");
+    EXPECT_EQ(result.exit_code, 0);
+  }
+  EXPECT_TRUE(std::filesystem::exists(directory_ / "out/quick/summary.json"));
+}
+
+TEST_F(BadOutput, StandardErrorTakesNothing) {
+  for (const Stream stream : {Stream::closed, Stream::full, Stream::reader_gone}) {
+    options_.err = stream;
+    // The exit code is all that is left to tell.
+    EXPECT_EQ(hamjet({"run", "missing.toml"}).exit_code, 5);
+    EXPECT_EQ(hamjet({"run"}).exit_code, 2);
+    EXPECT_EQ(hamjet({}).exit_code, 2);
+    EXPECT_EQ(hamjet({"run", "quick.toml", "-q"}).exit_code, 0);
+  }
+}
+
+TEST_F(BadOutput, WithBothStreamsClosedTheFilesAreStillRight) {
+  succeed({"run", "quick.toml", "-o", "open", "-q"});
+  options_.out = options_.err = Stream::closed;
+  // The descriptors 1 and 2 are then free for files that the command opens.
+  EXPECT_EQ(hamjet({"run", "quick.toml", "-o", "closed", "-q"}).exit_code, 0);
+  EXPECT_EQ(content(directory_ / "open/gauss8/jet.csv"),
+            content(directory_ / "closed/gauss8/jet.csv"));
+}
+
+/// Permissions keep out everybody but the superuser, who becomes somebody else for these.
+class Permissions : public CommandTest {
+ protected:
+  void SetUp() override {
+    options_.as_nobody = ::geteuid() == 0;
+    std::filesystem::permissions(directory_, std::filesystem::perms(0755));
+    if (hamjet({"--version"}).exit_code == cannot_start) {
+      GTEST_SKIP() << "the command cannot be run by another user here";
+    }
+  }
+};
+
+TEST_F(Permissions, SceneMayNotBeRead) {
+  std::filesystem::permissions(directory_ / "small.toml", std::filesystem::perms::none);
+  expect_error({"run", "small.toml"}, 5, {"small.toml: ", "Permission denied"});
+}
+
+TEST_F(Permissions, OutputMayNotBeWritten) {
+  std::filesystem::permissions(directory_, std::filesystem::perms(0555));
+  expect_error({"run", "quick.toml"}, 5, {"out/quick: the output directory", "Permission denied"});
+  std::filesystem::permissions(directory_, std::filesystem::perms(0755));
+  std::filesystem::create_directory(directory_ / "results");
+  std::filesystem::permissions(directory_ / "results", std::filesystem::perms(0555));
+  expect_error({"run", "quick.toml", "-o", "results"}, 5, {"results", "Permission denied"});
+  std::filesystem::permissions(directory_ / "results", std::filesystem::perms(0755));
+}
+
+}  // namespace
+}  // namespace hamjet::test

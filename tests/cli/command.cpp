@@ -1,0 +1,179 @@
+#include "command.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <stdexcept>
+#include <thread>
+
+namespace hamjet::test {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using std::chrono::milliseconds;
+
+struct Pipe {
+  int read_end = -1;
+  int write_end = -1;
+};
+
+Pipe make_pipe() {
+  std::array<int, 2> ends{};
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
+  return {ends[0], ends[1]};
+}
+
+void close_if_open(int& descriptor) {
+  if (descriptor >= 0) ::close(descriptor);
+  descriptor = -1;
+}
+
+/// In the child: puts the stream in its place.
+void connect(Stream stream, const Pipe& pipe, int descriptor) {
+  switch (stream) {
+    case Stream::captured:
+    case Stream::reader_gone:
+      ::dup2(pipe.write_end, descriptor);
+      break;
+    case Stream::closed:
+      ::close(descriptor);
+      break;
+    case Stream::full: {
+      const int full = ::open("/dev/full", O_WRONLY | O_CLOEXEC);
+      if (full < 0) ::_exit(cannot_start);
+      ::dup2(full, descriptor);
+      break;
+    }
+  }
+}
+
+void limit(decltype(RLIMIT_AS) resource, const std::optional<rlim_t>& most) {
+  if (!most) return;
+  const rlimit value{*most, *most};
+  if (::setrlimit(resource, &value) != 0) ::_exit(cannot_start);
+}
+
+[[noreturn]] void become_command(const std::vector<std::string>& arguments,
+                                 const CommandOptions& options, const Pipe& out, const Pipe& err) {
+  constexpr uid_t nobody = 65534;
+  // A shell that runs tests in the background passes SIGINT on as ignored.
+  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGTERM, SIG_DFL);
+  std::signal(SIGPIPE, SIG_DFL);
+  if (::chdir(options.directory.c_str()) != 0) ::_exit(cannot_start);
+  for (const auto& [name, value] : options.environment) {
+    if (value) {
+      ::setenv(name.c_str(), value->c_str(), 1);
+    } else {
+      ::unsetenv(name.c_str());
+    }
+  }
+  if (options.as_nobody && (::setgid(nobody) != 0 || ::setuid(nobody) != 0)) {
+    ::_exit(cannot_start);
+  }
+  std::vector<char*> pointers;
+  std::string command = HAMJET_COMMAND;
+  std::vector<std::string> copies = arguments;
+  pointers.push_back(command.data());
+  for (std::string& argument : copies) pointers.push_back(argument.data());
+  pointers.push_back(nullptr);
+  connect(options.out, out, STDOUT_FILENO);
+  connect(options.err, err, STDERR_FILENO);
+  limit(RLIMIT_FSIZE, options.largest_file);
+  limit(RLIMIT_AS, options.address_space);
+  ::execv(command.c_str(), pointers.data());
+  ::_exit(cannot_start);
+}
+
+/// Whether the process catches the signal: the bit mask SigCgt of Linux.
+bool catches(pid_t process, int signal) {
+  std::ifstream status("/proc/" + std::to_string(process) + "/status");
+  for (std::string key; status >> key;) {
+    if (key != "SigCgt:") continue;
+    std::string mask;
+    status >> mask;
+    return (std::strtoull(mask.c_str(), nullptr, 16) >> (signal - 1) & 1U) != 0;
+  }
+  return false;
+}
+
+void send(pid_t process, const Signal& signal, Clock::time_point deadline) {
+  while (!catches(process, signal.number) && Clock::now() < deadline) {
+    std::this_thread::sleep_for(milliseconds(5));
+  }
+  for (int i = 0; i < signal.times; ++i) {
+    std::this_thread::sleep_for(milliseconds(200));
+    ::kill(process, signal.number);
+  }
+}
+
+/// Reads both streams until the command has closed them; false when time is up.
+bool read_streams(Pipe& out, Pipe& err, CommandResult& result, Clock::time_point deadline) {
+  while (out.read_end >= 0 || err.read_end >= 0) {
+    std::array<pollfd, 2> waiting = {pollfd{out.read_end, POLLIN, 0},
+                                     pollfd{err.read_end, POLLIN, 0}};
+    const auto left = std::chrono::duration_cast<milliseconds>(deadline - Clock::now()).count();
+    if (left <= 0 || ::poll(waiting.data(), waiting.size(), static_cast<int>(left)) == 0) {
+      return false;
+    }
+    const auto take = [](pollfd& entry, int& descriptor, std::string& text) {
+      if (entry.revents == 0) return;
+      std::array<char, 65536> buffer;
+      const ssize_t count = ::read(descriptor, buffer.data(), buffer.size());
+      if (count < 0 && errno == EINTR) return;
+      if (count <= 0) return close_if_open(descriptor);
+      text.append(buffer.data(), static_cast<std::size_t>(count));
+    };
+    take(waiting[0], out.read_end, result.out);
+    take(waiting[1], err.read_end, result.err);
+  }
+  return true;
+}
+
+/// Waits for the end; false when time is up.
+bool wait_for_end(pid_t process, int& status, Clock::time_point deadline) {
+  while (::waitpid(process, &status, WNOHANG) == 0) {
+    if (Clock::now() >= deadline) return false;
+    std::this_thread::sleep_for(milliseconds(2));
+  }
+  return true;
+}
+
+}  // namespace
+
+CommandResult run_command(const std::vector<std::string>& arguments,
+                          const CommandOptions& options) {
+  Pipe out = make_pipe();
+  Pipe err = make_pipe();
+  if (options.out == Stream::reader_gone) close_if_open(out.read_end);
+  if (options.err == Stream::reader_gone) close_if_open(err.read_end);
+  const pid_t process = ::fork();
+  if (process < 0) throw std::runtime_error("no process");
+  if (process == 0) become_command(arguments, options, out, err);
+  close_if_open(out.write_end);
+  close_if_open(err.write_end);
+  const auto deadline = Clock::now() + options.limit;
+  CommandResult result;
+  int status = 0;
+  if (options.signal) send(process, *options.signal, deadline);
+  result.is_timed_out =
+      !read_streams(out, err, result, deadline) || !wait_for_end(process, status, deadline);
+  if (result.is_timed_out) {
+    ::kill(process, SIGKILL);
+    ::waitpid(process, &status, 0);
+  }
+  close_if_open(out.read_end);
+  close_if_open(err.read_end);
+  if (WIFEXITED(status)) result.exit_code = WEXITSTATUS(status);
+  if (WIFSIGNALED(status)) result.signal = WTERMSIG(status);
+  return result;
+}
+
+}  // namespace hamjet::test

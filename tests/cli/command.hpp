@@ -1,0 +1,58 @@
+#pragma once
+
+#include <sys/resource.h>
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+// Runs the built command as a user does, and says what came of it.
+
+namespace hamjet::test {
+
+/// Where the command's standard output or standard error goes.
+enum class Stream {
+  captured,
+  closed,
+  full,        ///< /dev/full: every write fails as on a full disk
+  reader_gone  ///< a pipe that nobody reads, as after `| head`
+};
+
+struct Signal {
+  int number = 0;
+  int times = 1;
+};
+
+struct CommandOptions {
+  std::filesystem::path directory;  ///< the working directory
+  /// Variables to set, or to remove where the value is absent.
+  std::vector<std::pair<std::string, std::optional<std::string>>> environment;
+  Stream out = Stream::captured;
+  Stream err = Stream::captured;
+  std::optional<rlim_t> largest_file;   ///< bytes
+  std::optional<rlim_t> address_space;  ///< bytes
+  /// As the user nobody, who unlike the superuser is kept out by permissions.
+  bool as_nobody = false;
+  /// Sent when the command is at work.
+  std::optional<Signal> signal;
+  /// After this the command is killed, and the test fails.
+  std::chrono::seconds limit{120};
+};
+
+struct CommandResult {
+  int exit_code = -1;  ///< -1 if the command was ended by a signal
+  int signal = 0;      ///< that ended it
+  bool is_timed_out = false;
+  std::string out;
+  std::string err;
+};
+
+/// The exit code of a child that could not start the command.
+inline constexpr int cannot_start = 126;
+
+CommandResult run_command(const std::vector<std::string>& arguments, const CommandOptions& options);
+
+}  // namespace hamjet::test

@@ -1,0 +1,165 @@
+#pragma once
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "command.hpp"
+
+namespace hamjet::test {
+
+using Json = nlohmann::json;
+
+/// A small scene that takes milliseconds: Kepler's problem, order 2, a seventh of a revolution.
+inline constexpr const char* small_scene = R"(schema = 1
+title = "small"
+[system]
+model = "kepler"
+mu_km3_s2 = 398600.4415
+[nominal]
+a_km = 10000
+e = 0.1
+i_deg = 30
+raan_deg = 10
+argp_deg = 20
+ta_deg = 30
+[jet]
+order = 2
+duration_canonical = 1
+[[integrator]]
+label = "gauss8"
+method = "gauss"
+stages = 8
+tolerance = 1e-13
+[[integrator]]
+label = "midpoint"
+method = "gauss"
+stages = 1
+step_canonical = 0.01
+[formation]
+separation_km = 1
+[generating_function]
+kinds = ["F1", "F2"]
+[reference]
+)";
+
+/// A text in place of another one, which must be there.
+inline std::string changed(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t position = text.find(from);
+  if (position == std::string::npos) throw std::logic_error("not in the scene: " + from);
+  return text.replace(position, from.size(), to);
+}
+
+/// The small scene without the reference, which takes most of its time.
+inline std::string quick_scene() { return changed(small_scene, "[reference]\n", ""); }
+
+inline std::string content(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw std::runtime_error("no file " + file.string());
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+inline Json read_json(const std::filesystem::path& file) { return Json::parse(content(file)); }
+
+/// A CSV file: the names of its columns, and its rows.
+struct Table {
+  std::string header;
+  std::vector<std::vector<std::string>> rows;
+};
+
+inline Table read_table(const std::filesystem::path& file) {
+  std::istringstream text(content(file));
+  Table table;
+  std::getline(text, table.header);
+  for (std::string line; std::getline(text, line);) {
+    std::istringstream fields(line);
+    std::vector<std::string>& row = table.rows.emplace_back();
+    for (std::string field; std::getline(fields, field, ',');) row.push_back(field);
+  }
+  return table;
+}
+
+/// Sum of the exponents of a row whose first field is a name and whose last is a coefficient.
+inline int degree(const std::vector<std::string>& row) {
+  int sum = 0;
+  for (std::size_t i = 1; i + 1 < row.size(); ++i) sum += std::stoi(row[i]);
+  return sum;
+}
+
+/// A test in an empty directory of its own, which is removed at the end.
+class CommandTest : public ::testing::Test {
+ protected:
+  CommandTest() {
+    std::string name = (std::filesystem::temp_directory_path() / "hamjet-cli-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no directory " + name);
+    options_.directory = directory_ = name;
+    write("small.toml", small_scene);
+    write("quick.toml", quick_scene());
+  }
+  ~CommandTest() override {
+    std::error_code ignored;
+    std::filesystem::remove_all(directory_, ignored);
+  }
+
+  std::filesystem::path write(const std::filesystem::path& name, const std::string& text) const {
+    std::ofstream(directory_ / name, std::ios::binary) << text;
+    return directory_ / name;
+  }
+
+  /// Runs the command in the directory; its time must not be up.
+  CommandResult hamjet(const std::vector<std::string>& arguments) const {
+    const CommandResult result = run_command(arguments, options_);
+    EXPECT_FALSE(result.is_timed_out) << result.err;
+    return result;
+  }
+
+  /// Runs the command, which must succeed without a word on standard error.
+  CommandResult succeed(const std::vector<std::string>& arguments) const {
+    const CommandResult result = hamjet(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(result.err, "");
+    return result;
+  }
+
+  /// All that is in the directory (folders too), in order, relative to it.
+  std::vector<std::string> files() const {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(directory_)) {
+      names.push_back(entry.path().lexically_relative(directory_).string());
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+  }
+
+  /// The command must fail with this code and one line on standard error that holds every one of
+  /// `words`, print nothing on standard output, and change nothing in the directory.
+  void expect_error(const std::vector<std::string>& arguments, int exit_code,
+                    const std::vector<std::string>& words) const {
+    SCOPED_TRACE(::testing::PrintToString(arguments));
+    const auto before = files();
+    const CommandResult result = hamjet(arguments);
+    EXPECT_EQ(result.exit_code, exit_code);
+    EXPECT_EQ(result.signal, 0);
+    EXPECT_EQ(result.out, "");
+    EXPECT_EQ(result.err.rfind("hamjet: ", 0), 0U) << result.err;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    for (const std::string& word : words) {
+      EXPECT_NE(result.err.find(word), std::string::npos) << result.err << "lacks " << word;
+    }
+    EXPECT_EQ(files(), before);
+  }
+
+  std::filesystem::path directory_;
+  CommandOptions options_;
+};
+
+}  // namespace hamjet::test

@@ -1,0 +1,107 @@
+#include "command_test.hpp"
+
+// What the command says about itself, and about command lines that are wrong.
+
+namespace hamjet::test {
+namespace {
+
+using Usage = CommandTest;
+
+TEST_F(Usage, HelpBeginsWithExamples) {
+  const CommandResult result = succeed({"--help"});
+  EXPECT_EQ(result.out.rfind("Examples:\n  hamjet demo", 0), 0U) << result.out;
+  for (const char* word : {"hamjet run scene.toml", "Exit codes", "Usage: hamjet", "check", "list"}) {
+    EXPECT_NE(result.out.find(word), std::string::npos) << word;
+  }
+}
+
+TEST_F(Usage, EveryCommandHasHelp) {
+  for (const char* command : {"run", "check", "demo", "list"}) {
+    const CommandResult result = succeed({command, "--help"});
+    EXPECT_NE(result.out.find(std::string("Usage: hamjet ") + command), std::string::npos)
+        << result.out;
+  }
+  const std::string run = succeed({"run", "--help"}).out;
+  for (const char* option : {"--output", "--set", "--json", "--quiet"}) {
+    EXPECT_NE(run.find(option), std::string::npos) << option;
+  }
+}
+
+TEST_F(Usage, Version) {
+  const std::string version = succeed({"--version"}).out;
+  EXPECT_EQ(version.rfind("hamjet ", 0), 0U);
+  const std::string summary = succeed({"run", "quick.toml", "--json"}).out;
+  EXPECT_EQ(version, "hamjet " + Json::parse(summary)["version"].get<std::string>() + "\n");
+}
+
+TEST_F(Usage, Lists) {
+  const std::string systems = succeed({"list", "systems"}).out;
+  for (const char* name : {"zonal-gravity", "kepler", "harmonic-oscillator"}) {
+    EXPECT_NE(systems.find(name), std::string::npos) << name;
+  }
+  const std::string integrators = succeed({"list", "integrators"}).out;
+  for (const char* name : {"gauss ", "fehlberg78", "cvode-adams", "cvode-bdf"}) {
+    EXPECT_NE(integrators.find(name), std::string::npos) << name;
+  }
+  const std::string kinds = succeed({"list", "kinds"}).out;
+  // 2^3 x 2^3 kinds for three degrees of freedom, each with one hyphen between q's and p's.
+  int count = 0;
+  for (std::size_t i = 3; i + 3 < kinds.size(); ++i) {
+    const auto is_choice = [](char c) { return c == 'q' || c == 'p'; };
+    if (kinds[i] == '-' && is_choice(kinds[i - 1]) && is_choice(kinds[i + 1])) ++count;
+  }
+  EXPECT_EQ(count, 64);
+}
+
+TEST_F(Usage, CheckSaysWhatWouldBeComputed) {
+  const auto before = files();
+  const std::string text = succeed({"check", "small.toml", "--set", "jet.order=3"}).out;
+  for (const char* word : {"small.toml: the scene is good", "order 3 in 6 variables",
+                           "84 coefficients", "memory", "gauss8: gauss, 8 stages", "midpoint"}) {
+    EXPECT_NE(text.find(word), std::string::npos) << word << "\n" << text;
+  }
+  EXPECT_EQ(files(), before);
+  expect_error({"check", "small.toml", "--set", "jet.ordre=3"}, 3, {"did you mean order?"});
+  expect_error({"check", "missing.toml"}, 5, {"missing.toml", "No such file"});
+}
+
+TEST_F(Usage, NoArgumentsPrintTheUsage) {
+  const CommandResult result = hamjet({});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(result.out, "");
+  EXPECT_NE(result.err.find("Usage: hamjet"), std::string::npos) << result.err;
+}
+
+TEST_F(Usage, MistakesOnTheCommandLine) {
+  const struct {
+    std::vector<std::string> arguments;
+    std::vector<std::string> words;
+  } mistakes[] = {
+      {{"rnu", "small.toml"}, {"unknown command rnu", "did you mean run?"}},
+      {{"--josn"}, {"unknown option --josn"}},
+      {{"run", "small.toml", "--josn"}, {"unknown option --josn", "did you mean --json?"}},
+      {{"run", "small.toml", "--outptu=x"}, {"--outptu=x", "did you mean --output?"}},
+      {{"run", "small.toml", "other.toml"}, {"unexpected argument other.toml"}},
+      {{"run"}, {"scene"}},
+      {{"run", "small.toml", "-o"}, {"--output"}},
+      {{"run", "small.toml", "-o", "a", "-o", "b"}, {"--output"}},
+      {{"run", "small.toml", "--set"}, {"--set"}},
+      {{"run", "small.toml", "--set", "order"}, {"--set order: must be key=value"}},
+      {{"run", "small.toml", "--set", "=3"}, {"must be key=value"}},
+      {{"run", "small.toml", "--set", "a\nb"}, {"a\\x0ab"}},
+      {{"run", "small.toml", "--set", "jet..order=3"}, {"--set jet..order", "empty name"}},
+      {{"run", "small.toml", "--set", "title.x=3"}, {"--set title.x", "no such key"}},
+      {{"run", "small.toml", "--set", "integrator.guass8.stages=3"}, {"guass8", "no such element"}},
+      // An unset variable of a script must not mean the built-in scene, or the working directory.
+      {{"run", ""}, {"scene: empty"}},
+      {{"check", ""}, {"scene: empty"}},
+      {{"run", "small.toml", "-o", ""}, {"--output: empty"}},
+      {{"list"}, {"what"}},
+      {{"list", "planets"}, {"planets", "systems", "integrators", "kinds"}},
+      {{"demo", "small.toml"}, {"unexpected argument small.toml"}},
+  };
+  for (const auto& mistake : mistakes) expect_error(mistake.arguments, 2, mistake.words);
+}
+
+}  // namespace
+}  // namespace hamjet::test

@@ -1,0 +1,173 @@
+#include "hamjet/dynamics/slice_evaluator.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "hamjet/algebra/elementary_functions.hpp"
+#include "hamjet/dynamics/expression.hpp"
+#include "support/random_series.hpp"
+
+namespace hamjet {
+namespace {
+
+constexpr int order = 5;
+
+/// A function that uses every operation code, as a template over its number type.
+template <class T, class Number>
+std::vector<T> every_operation(const std::vector<T>& x, Number number) {
+  const T a = x[0] * x[1] + number(2) * x[2] - number(1);
+  const T b = square(x[1]) / (x[0] + x[2]);
+  return {exp(a * b * number(0.125)) + log(x[0] + number(2)),
+          pow(x[1] + x[2], number(-1.5)) * sin(a) + cos(b) * cos(a),
+          sqrt(x[0] + square(x[2])) - pow(x[1], number(-1)),
+          pow(square(x[2]) + a * a, number(0.3)) + sin(x[1]),
+          x[0] - number(3) * x[2],
+          T(x[1])};
+}
+
+OperationList recorded() {
+  return record(3, [](std::span<const Expression> x) {
+    return every_operation(std::vector<Expression>(x.begin(), x.end()),
+                           [](double c) { return Expression(c); });
+  });
+}
+
+template <class T>
+std::vector<Series<T>> sample_inputs(const SpacePointer& space) {
+  test::RandomNumbers random(61);
+  std::vector<Series<T>> inputs;
+  for (int i = 0; i < 3; ++i) {
+    inputs.push_back(test::random_series<T>(space, random, {0.8, 1.3}, 0.2));
+  }
+  return inputs;
+}
+
+template <class T, class Real>
+void load(SliceEvaluator<T, Real>& evaluator, const std::vector<Series<T>>& inputs) {
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    std::copy(inputs[i].coefficients().begin(), inputs[i].coefficients().end(), evaluator.input(i));
+  }
+}
+
+TEST(SliceEvaluator, EqualsTheOperatorsOfSeries) {
+  const auto space = SeriesSpace::create(3, order);
+  const auto inputs = sample_inputs<double>(space);
+  const auto expected = every_operation(inputs, [](double c) { return c; });
+  const OperationList list = recorded();
+  SliceEvaluator<double, double> evaluator(list, space, order);
+  load(evaluator, inputs);
+  evaluator.evaluate_all();
+  for (std::size_t o = 0; o < expected.size(); ++o) {
+    const Series<double> value(space, std::vector<double>(evaluator.output(o),
+                                                          evaluator.output(o) + space->size()));
+    for (int d = 0; d <= order; ++d) {
+      // Two arrangements of one expression: dozens of roundings of intermediate slices that are
+      // larger than the result's by a factor of about ten.
+      EXPECT_LE(test::largest_of_degree(value - expected[o], d),
+                1e3 * test::epsilon_of<double>() * (1 + test::largest_of_degree(expected[o], d)))
+          << "output " << o << ", degree " << d;
+    }
+  }
+}
+
+TEST(SliceEvaluator, RunsEveryLaneAlike) {
+  using P = Pack<double, 4>;
+  const auto space = SeriesSpace::create(2, order);
+  const auto packs = sample_inputs<P>(space);
+  const OperationList list = recorded();
+  SliceEvaluator<P, double> together(list, space, order);
+  load(together, packs);
+  together.evaluate_all();
+  for (int lane = 0; lane < 4; ++lane) {
+    std::vector<Series<double>> inputs;
+    for (const auto& u : packs) {
+      inputs.emplace_back(space);
+      for (std::size_t k = 0; k < space->size(); ++k) inputs.back()[k] = u[k].lane(lane);
+    }
+    SliceEvaluator<double, double> alone(list, space, order);
+    load(alone, inputs);
+    alone.evaluate_all();
+    for (std::size_t o = 0; o < list.outputs().size(); ++o) {
+      for (std::size_t k = 0; k < space->size(); ++k) {
+        const double value = alone.output(o)[k];
+        EXPECT_NEAR(together.output(o)[k].lane(lane), value, 1e-13 * (1 + std::abs(value)));
+      }
+    }
+  }
+}
+
+TEST(SliceEvaluator, SplitsEachSliceIntoRemainderAndLinearPart) {
+  const auto space = SeriesSpace::create(3, order);
+  const auto inputs = sample_inputs<double>(space);
+  const OperationList list = recorded();
+  SliceEvaluator<double, double> whole(list, space, order);
+  load(whole, inputs);
+  whole.evaluate_all();
+  SliceEvaluator<double, double> split(list, space, order);
+  for (std::size_t i = 0; i < 3; ++i) *split.input(i) = inputs[i][0];
+  split.evaluate_constant_terms();
+  for (int d = 1; d <= order; ++d) {
+    // What stands in the inputs' slice of this degree must not matter yet.
+    for (std::size_t i = 0; i < 3; ++i) {
+      std::fill_n(split.input(i) + space->first(d), space->count(d), 1e10);
+    }
+    split.evaluate_remainder(d);
+    for (std::size_t o = 0; o < list.outputs().size(); ++o) {
+      for (std::size_t k = space->first(d); k < space->first(d + 1); ++k) {
+        const double remainder = split.has_remainder(o, d) ? split.output(o)[k] : 0;
+        double linear = 0;
+        for (std::size_t j = 0; j < 3; ++j) linear += split.output_gradient(o, j) * inputs[j][k];
+        EXPECT_NEAR(remainder + linear, whole.output(o)[k], 1e-12 * (1 + std::abs(linear)))
+            << "output " << o << ", degree " << d;
+      }
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+      std::copy_n(&inputs[i][space->first(d)], space->count(d), split.input(i) + space->first(d));
+    }
+    split.complete(d);
+  }
+  for (std::size_t o = 0; o < list.outputs().size(); ++o) {
+    for (std::size_t k = 0; k < space->size(); ++k) {
+      EXPECT_EQ(split.output(o)[k], whole.output(o)[k]) << "output " << o;
+    }
+  }
+}
+
+TEST(SliceEvaluator, AffineOutputsHaveNoRemainder) {
+  const auto space = SeriesSpace::create(3, order);
+  const OperationList list = recorded();
+  const SliceEvaluator<double, double> evaluator(list, space, order);
+  for (int d = 1; d <= order; ++d) {
+    EXPECT_EQ(evaluator.has_remainder(0, d), d >= 2);
+    EXPECT_FALSE(evaluator.has_remainder(4, d));
+    EXPECT_FALSE(evaluator.has_remainder(5, d));
+  }
+}
+
+TEST(SliceEvaluator, ALowerWorkingOrderGivesTheBeginning) {
+  const auto space = SeriesSpace::create(3, order);
+  const auto inputs = sample_inputs<double>(space);
+  const OperationList list = recorded();
+  SliceEvaluator<double, double> whole(list, space, order);
+  load(whole, inputs);
+  whole.evaluate_all();
+  for (int highest = 0; highest < order; ++highest) {
+    SliceEvaluator<double, double> part(list, space, highest);
+    for (std::size_t i = 0; i < 3; ++i) {
+      std::copy_n(inputs[i].coefficients().data(), space->first(highest + 1), part.input(i));
+    }
+    part.evaluate_all();
+    for (std::size_t o = 0; o < list.outputs().size(); ++o) {
+      for (std::size_t k = 0; k < space->first(highest + 1); ++k) {
+        EXPECT_EQ(part.output(o)[k], whole.output(o)[k]);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace hamjet

@@ -1,0 +1,239 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "hamjet/algebra/composition.hpp"
+#include "hamjet/dynamics/harmonic_oscillator.hpp"
+#include "support/flow.hpp"
+#include "support/random_series.hpp"
+
+// Identities that the jet of a flow, or of a symmetric one-step method, obeys.
+
+namespace hamjet {
+namespace {
+
+FlowJet<double> paper_jet(double duration, int order, const GaussSettings& settings) {
+  auto flow = test::flow_of(test::paper_orbit(), order);
+  flow.duration = duration;
+  return test::run_gauss(flow, settings);
+}
+
+/// second after first: the deviations of the first are inserted into the second.
+FlowJet<double> chained(const FlowJet<double>& second, const FlowJet<double>& first) {
+  const auto inner = without_constants(first);
+  return compose(std::span<const Series<double>>(second), std::span<const Series<double>>(inner));
+}
+
+/// The largest coefficient of each degree over all components.
+double scale_of(const FlowJet<double>& jet, int degree) {
+  double result = 0;
+  for (const auto& u : jet) {
+    for (const double c : u.slice(degree)) result = std::max(result, std::abs(c));
+  }
+  return result;
+}
+
+TEST(Gauss, ZeroDurationIsTheIdentityExactly) {
+  for (const auto& settings : {test::adaptive(), test::fixed_step(2, 0.1)}) {
+    IntegrationStatistics statistics;
+    auto flow = test::flow_of(test::paper_orbit(), 3);
+    flow.duration = 0;
+    const auto jet = test::run_gauss(flow, settings, &statistics);
+    EXPECT_EQ(statistics.steps, 0);
+    for (std::size_t i = 0; i < 6; ++i) {
+      EXPECT_EQ(jet[i][0], flow.start[i]);
+      for (std::size_t k = 1; k < jet[i].size(); ++k) EXPECT_EQ(jet[i][k], k == i + 1 ? 1 : 0);
+    }
+  }
+}
+
+TEST(Gauss, FixedStepsDivideTheSpan) {
+  const auto steps = [](double duration, double step) {
+    IntegrationStatistics statistics;
+    const test::Flow<double> flow{harmonic_oscillator(), {1, 0}, duration, 1, {}};
+    test::run_gauss(flow, test::fixed_step(2, step), &statistics);
+    EXPECT_EQ(statistics.vector_field_evaluations, 2 * statistics.steps);
+    return statistics.steps;
+  };
+  EXPECT_EQ(steps(test::paper_orbit().duration, 0.01), 3142);  // 10 pi is no multiple of 0.01
+  EXPECT_EQ(steps(1, 0.3), 4);
+  EXPECT_EQ(steps(-1, 0.3), 4);
+  EXPECT_EQ(steps(1, 0.1), 10);
+  EXPECT_EQ(steps(0.1, 1), 1);
+}
+
+TEST(Gauss, ObserverSeesEveryStepAndTheExactEnd) {
+  for (const auto& settings : {test::adaptive(), test::fixed_step(8, 0.3)}) {
+    auto flow = test::flow_of(test::paper_orbit(), 1);
+    flow.duration = -1;
+    const auto problem = test::problem_of(flow);
+    IntegrationStatistics statistics;
+    std::vector<double> times{0};
+    const auto jet = integrate_gauss<double>(problem, settings, statistics,
+                                             [&](const double& t, const FlowJet<double>& now) {
+                                               times.push_back(t);
+                                               EXPECT_EQ(now.size(), 6u);
+                                             });
+    EXPECT_EQ(times.size(), static_cast<std::size_t>(statistics.steps) + 1);
+    EXPECT_EQ(times.back(), -1);
+    EXPECT_TRUE(std::is_sorted(times.rbegin(), times.rend()));
+  }
+}
+
+/// The largest sum of absolute values of the terms of a composition, degree by degree: what its
+/// round-off is relative to.
+double term_scale(FlowJet<double> second, FlowJet<double> first, int degree) {
+  for (auto* jet : {&second, &first}) {
+    for (auto& u : *jet) {
+      for (auto& c : u.coefficients()) c = std::abs(c);
+    }
+  }
+  return scale_of(chained(second, first), degree);
+}
+
+TEST(Gauss, OutAndBackIsTheIdentity) {
+  const auto out = test::flow_of(test::paper_orbit(), 3);
+  const auto there = test::run_gauss(out);
+  auto back = out;
+  back.start = test::final_state(there);
+  back.duration = -out.duration;
+  const auto returned = test::run_gauss(back);
+  const auto both = chained(returned, there);
+  for (int d = 0; d <= 3; ++d) {
+    // 1e-13 is the error of either way; at degree 0 the norm of the way back amplifies it.
+    const double scale = d == 0 ? test::paper_orbit().matrix_norm : term_scale(returned, there, d);
+    const auto identity = identity_jet(test::problem_of(out));
+    for (std::size_t i = 0; i < 6; ++i) {
+      EXPECT_LE(test::largest_of_degree(both[i] - identity[i], d), 1e-13 * scale) << "degree " << d;
+    }
+  }
+}
+
+TEST(Gauss, HalvesComposeToTheWhole) {
+  const double t = test::paper_orbit().duration;
+  const auto whole = paper_jet(t, 4, test::adaptive(8, 1e-16));
+  const auto first = paper_jet(t / 2, 4, test::adaptive(8, 1e-16));
+  auto rest = test::flow_of(test::paper_orbit(), 4);
+  rest.start = test::final_state(first);
+  rest.duration = t / 2;
+  const auto second = test::run_gauss(rest, test::adaptive(8, 1e-16));
+  const auto both = chained(second, first);
+  for (int d = 0; d <= 4; ++d) {
+    const double condition = term_scale(second, first, d) / scale_of(whole, d);
+    EXPECT_LE(test::relative_error(both, whole, d), 1e-13 * (1 + condition)) << "degree " << d;
+  }
+}
+
+TEST(Gauss, MirrorOfTheMotionRunsBackwards) {
+  // H is even in p: with R (q, p) = (q, -p), Phi_-t R = R Phi_t. The method is symmetric, so fixed
+  // steps obey this to round-off even where they are far from the flow.
+  const auto forwards = paper_jet(3, 2, test::fixed_step(2, 0.5));
+  auto flow = test::flow_of(test::paper_orbit(), 2);
+  for (std::size_t i = 3; i < 6; ++i) flow.start[i] = -flow.start[i];
+  flow.duration = -3;
+  const auto backwards = test::run_gauss(flow, test::fixed_step(2, 0.5));
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t k = 0; k < forwards[i].size(); ++k) {
+      const auto e = forwards[i].space().exponents(k);
+      const int sign = ((e[3] + e[4] + e[5]) % 2 == 0) == (i < 3) ? 1 : -1;
+      const double scale = scale_of(forwards, forwards[i].space().degree(k));
+      EXPECT_NEAR(backwards[i][k], sign * forwards[i][k], 1e-14 * scale);
+    }
+  }
+}
+
+TEST(Gauss, FirstOrderFormEqualsSecondOrderForm) {
+  for (const int stages : {1, 3, 8}) {
+    auto flow = test::flow_of(test::paper_orbit(), 3);
+    flow.duration = 5;
+    ASSERT_TRUE(flow.system.second_order.has_value());
+    const auto second = test::run_gauss(flow, test::fixed_step(stages, 0.25));
+    flow.system.second_order.reset();
+    const auto first = test::run_gauss(flow, test::fixed_step(stages, 0.25));
+    // Twenty steps of the same map, solved in two ways, each to round-off.
+    for (int d = 0; d <= 3; ++d) EXPECT_LE(test::relative_error(first, second, d), 1e-13);
+  }
+}
+
+TEST(Gauss, CoupledMassesAgreeInBothForms) {
+  // H = p^T W p / 2 + V(q) with a full matrix W: the mass matrix enters every stage.
+  auto system = make_system("coupled", 2, [](auto q, auto p) {
+    return p[0] * p[0] + p[0] * p[1] / 2 + 2 * p[1] * p[1] + cos(q[0]) * q[1] + square(q[1]) +
+           square(square(q[0])) / 4;
+  });
+  ASSERT_TRUE(system.second_order.has_value());
+  test::Flow<double> flow{system, {0.3, -0.2, 0.5, 0.1}, 2, 4, {}};
+  const auto second = test::run_gauss(flow, test::fixed_step(4, 0.1));
+  flow.system.second_order.reset();
+  const auto first = test::run_gauss(flow, test::fixed_step(4, 0.1));
+  for (int d = 0; d <= 4; ++d) EXPECT_LE(test::relative_error(first, second, d), 1e-13);
+}
+
+TEST(Gauss, LowOrderIsTheBeginningOfHighOrder) {
+  const auto high = paper_jet(10, 4, test::adaptive());
+  for (const int order : {1, 2, 3}) {
+    const auto low = paper_jet(10, order, test::adaptive());
+    for (std::size_t i = 0; i < 6; ++i) {
+      // The same operations in the same order: no rounding apart.
+      for (std::size_t k = 0; k < low[i].size(); ++k) EXPECT_EQ(low[i][k], high[i][k]);
+    }
+  }
+}
+
+TEST(Gauss, FewerVariablesGiveTheSliceOfTheFullJet) {
+  auto flow = test::flow_of(test::paper_orbit(), 3);
+  flow.duration = 10;
+  const auto full = test::run_gauss(flow);
+  flow.variables = {5, 1};  // in any order
+  const auto part = test::run_gauss(flow);
+  const SeriesSpace& space = part[0].space();
+  for (std::size_t k = 0; k < space.size(); ++k) {
+    std::vector<std::uint8_t> exponents(6, 0);
+    exponents[5] = space.exponents(k)[0];
+    exponents[1] = space.exponents(k)[1];
+    const std::size_t same = full[0].space().index(exponents);
+    for (std::size_t i = 0; i < 6; ++i) {
+      // Sums of the same terms, in another order.
+      EXPECT_NEAR(part[i][k], full[i][same], 1e-13 * scale_of(full, space.degree(k)));
+    }
+  }
+}
+
+TEST(Gauss, PlanarSystemEqualsThePlanarPartOfTheFullOne) {
+  const auto orbit = test::reference_orbit("EQ-J2-CIRC");
+  const auto full_flow = test::flow_of(orbit, 3);
+  const auto full = test::run_gauss(full_flow);
+  const std::vector<std::size_t> kept{0, 1};
+  const test::Flow<double> flow{restrict_system(full_flow.system, kept),
+                                {orbit.start[0], orbit.start[1], orbit.start[3], orbit.start[4]},
+                                orbit.duration, 3, {}};
+  const auto planar = test::run_gauss(flow);
+  const SeriesSpace& space = planar[0].space();
+  const std::size_t same_component[] = {0, 1, 3, 4};
+  for (std::size_t k = 0; k < space.size(); ++k) {
+    std::vector<std::uint8_t> exponents(6, 0);
+    for (std::size_t v = 0; v < 4; ++v) exponents[same_component[v]] = space.exponents(k)[v];
+    const std::size_t same = full[0].space().index(exponents);
+    for (std::size_t i = 0; i < 4; ++i) {
+      EXPECT_NEAR(planar[i][k], full[same_component[i]][same],
+                  1e-12 * scale_of(full, space.degree(k)));
+    }
+  }
+}
+
+TEST(Gauss, EverySupportedNumberOfStagesAgrees) {
+  // Sixteen numbers of stages, five widths of a pack, padding included.
+  auto flow = test::flow_of(test::paper_orbit(), 2);
+  flow.duration = 1;
+  const auto expected = test::run_gauss(flow, test::adaptive(8, 1e-18));
+  for (int stages = 4; stages <= 16; ++stages) {
+    const auto jet = test::run_gauss(flow, test::fixed_step(stages, 1.0 / 64));
+    for (int d = 0; d <= 2; ++d) EXPECT_LE(test::relative_error(jet, expected, d), 1e-13) << stages;
+  }
+}
+
+}  // namespace
+}  // namespace hamjet

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "hamjet/maps/exactness.hpp"
+#include "hamjet/maps/symplecticity.hpp"
+#include "support/flow.hpp"
+
+namespace hamjet::test {
+
+template <class T>
+PartialInversion<T> inverted_jet(const FlowJet<T>& jet, const GeneratingFunctionKind& kind) {
+  return invert_partially(std::span<const Series<T>>(jet), kind);
+}
+template <class T>
+PartialInversion<T> inverted_jet(const FlowJet<T>& jet, const char* kind) {
+  return inverted_jet(jet, parse_kind(kind, jet.size() / 2));
+}
+template <class T>
+std::vector<SymplecticityDefect> symplecticity(const FlowJet<T>& jet) {
+  return symplecticity_by_degree(std::span<const Series<T>>(jet));
+}
+
+/// The jet of the paper's orbit after another time than its own.
+template <class Real>
+FlowJet<Real> paper_jet(double duration, int order, const GaussSettings& settings = adaptive()) {
+  auto flow = flow_of<Real>(paper_orbit(), order);
+  flow.duration = duration;
+  return run_gauss(flow, settings);
+}
+
+/// Smallest Kepler period of the paper's orbit over four: every kind is well-conditioned there.
+inline constexpr double quarter_period = 2.6820867274609114512;
+
+}  // namespace hamjet::test
