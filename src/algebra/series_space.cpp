@@ -74,43 +74,40 @@ class ScheduleBuilder {
 
   void add_output(ProductSchedule& schedule, const std::vector<std::uint8_t>& exponents, int degree,
                   int m) const {
-    const std::uint32_t target = offset(exponents, m);
-    const auto block_degree = static_cast<std::uint32_t>(m);
-    schedule.outputs.push_back({target, block_degree,
-                                static_cast<std::uint32_t>(schedule.pairs.size()),
-                                static_cast<std::uint32_t>(schedule.run_ends.size())});
-    schedule.square_outputs.push_back({target, block_degree,
-                                       static_cast<std::uint32_t>(schedule.square_pairs.size()),
-                                       static_cast<std::uint32_t>(schedule.square_run_ends.size())});
-    schedule.diagonal.push_back(ProductSchedule::no_diagonal);
-    for (int m_a = 0; m_a <= m; ++m_a) {
-      add_run(schedule, exponents, degree, m_a, m - m_a);
+    ProductSchedule::Output output{};
+    output.offset = offset(exponents, m);
+    output.block_degree = static_cast<std::uint32_t>(m);
+    output.first_pair = static_cast<std::uint32_t>(schedule.pairs.size());
+    output.first_run = static_cast<std::uint32_t>(schedule.run_ends.size());
+    output.diagonal = ProductSchedule::no_diagonal;
+    schedule.outputs.push_back(output);
+    for (int m_x = 0; 2 * m_x <= m; ++m_x) {
+      add_run(schedule, exponents, degree, m_x, m - m_x);
       schedule.run_ends.push_back(static_cast<std::uint32_t>(schedule.pairs.size()));
-      schedule.square_run_ends.push_back(static_cast<std::uint32_t>(schedule.square_pairs.size()));
     }
   }
 
-  /// All splits of the outer exponents into two factors, for fixed inner degrees.
+  /// All splits of the outer exponents into two factors, for fixed inner degrees m_x <= m_y.
   void add_run(ProductSchedule& schedule, const std::vector<std::uint8_t>& exponents, int degree,
-               int m_a, int m_b) const {
+               int m_x, int m_y) const {
     std::vector<std::uint8_t> part(exponents.size(), 0);
-    const std::size_t cost = size_of_block(m_a) * size_of_block(m_b);
+    const std::size_t cost = size_of_block(m_x) * size_of_block(m_y);
     while (true) {
-      const int degree_a = std::accumulate(part.begin(), part.end(), m_a);
-      if (degree_a >= 1 && degree_a <= degree - 1) {
+      const int degree_x = std::accumulate(part.begin(), part.end(), m_x);
+      if (degree_x >= 1 && degree_x <= degree - 1) {
         std::vector<std::uint8_t> rest(exponents);
         for (std::size_t i = 0; i < rest.size(); ++i) {
           rest[i] = static_cast<std::uint8_t>(rest[i] - part[i]);
         }
-        const std::uint32_t a = offset(part, m_a);
-        const std::uint32_t b = offset(rest, m_b);
-        schedule.pairs.push_back({a, b});
-        schedule.multiply_adds += cost;
-        if (a < b) {
-          schedule.square_pairs.push_back({a, b});
+        const std::uint32_t x = offset(part, m_x);
+        const std::uint32_t y = offset(rest, m_y);
+        if (x == y) {
+          schedule.outputs.back().diagonal = x;
+          schedule.multiply_adds += cost;
           schedule.square_multiply_adds += cost;
-        } else if (a == b) {
-          schedule.diagonal.back() = a;
+        } else if (m_x < m_y || x < y) {
+          schedule.pairs.push_back({x, y});
+          schedule.multiply_adds += 2 * cost;
           schedule.square_multiply_adds += cost;
         }
       }

@@ -3,6 +3,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <system_error>
 
 namespace hamjet::cli {
 namespace {
@@ -26,8 +27,10 @@ const Json& list_in(const Json& object, const char* key) {
 }  // namespace
 
 std::vector<std::filesystem::path> earlier_results(const std::filesystem::path& directory) {
-  std::ifstream file(directory / "summary.json");
-  if (!file) return {};
+  const std::filesystem::path summary_file = directory / "summary.json";
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(summary_file, ignored)) return {};
+  std::ifstream file(summary_file);
   const Json summary = Json::parse(file, nullptr, false);
   std::vector<std::filesystem::path> files;
   for (const Json& run : list_in(summary, "runs")) {

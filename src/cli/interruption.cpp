@@ -15,8 +15,8 @@ volatile std::sig_atomic_t phase = computing;
 
 constexpr unsigned seconds_to_stop = 1;
 
-/// Ends the program from within a signal handler, where nothing that allocates or locks may be called.
-/// Outside `writing` there is nothing on the disk to clean up.
+/// Ends the program from within a signal handler, where nothing that allocates or locks may be
+/// called. Outside `writing` there is nothing on the disk to clean up.
 [[noreturn]] void end_at_once() {
   if (phase == computing) {
     constexpr std::string_view message = "hamjet: interrupted; nothing was written\n";

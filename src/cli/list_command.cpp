@@ -10,16 +10,17 @@ namespace hamjet::cli {
 namespace {
 
 std::string systems() {
-  return
-      "zonal-gravity        Earth orbit with J2 and J3, each optional: mu_km3_s2, radius_km, J2, J3\n"
-      "kepler               Kepler's problem: mu_km3_s2\n"
-      "harmonic-oscillator  one degree of freedom: mass_kg, stiffness_N_per_m\n";
+  return "zonal-gravity        Earth orbit with J2 and J3, each optional: mu_km3_s2, radius_km, "
+         "J2, J3\n"
+         "kepler               Kepler's problem: mu_km3_s2\n"
+         "harmonic-oscillator  one degree of freedom: mass_kg, stiffness_N_per_m\n";
 }
 
 std::string integrators() {
   const char* cvode = cvode_available() ? "" : "  NOT BUILT: configure with -DHAMJET_CVODE=ON";
   return fmt::format(
-      "gauss        Gauss collocation, 1 (implicit midpoint) to 12 stages, order 2 stages; symplectic; "
+      "gauss        Gauss collocation, 1 (implicit midpoint) to 12 stages, order 2 stages; "
+      "symplectic; "
       "step_canonical, step_s or tolerance\n"
       "fehlberg78   explicit Runge-Kutta-Fehlberg 7(8) of Boost.odeint; not symplectic; "
       "step_canonical, step_s or tolerance\n"

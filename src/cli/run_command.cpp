@@ -34,19 +34,19 @@ std::vector<io::Override> parse_overrides(const std::vector<std::string>& texts)
   return overrides;
 }
 
+/// An empty name comes from an unset variable of a script, and must not mean something else.
+void refuse_empty(const std::optional<std::string>& value, const char* option, const char* what) {
+  if (value && value->empty()) {
+    throw Error(ErrorKind::usage, fmt::format("{}: empty, must name {}", option, what));
+  }
+}
+
 Scene read(const RunOptions& options) {
   refuse_empty(options.scene_file, "scene", "a file");
   refuse_empty(options.output, "--output", "a directory");
   const auto overrides = parse_overrides(options.overrides);
   if (!options.scene_file) return io::parse_scene(demo_scene, "earth-orbit.toml", overrides);
   return io::read_scene(*options.scene_file, overrides);
-}
-
-/// An empty name comes from an unset variable of a script, and must not mean something else.
-void refuse_empty(const std::optional<std::string>& value, const char* option, const char* what) {
-  if (value && value->empty()) {
-    throw Error(ErrorKind::usage, fmt::format("{}: empty, must name {}", option, what));
-  }
 }
 
 }  // namespace

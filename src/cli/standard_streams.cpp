@@ -14,9 +14,8 @@ void print(const std::string& text) {
   const bool is_written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
   if (is_written && std::fflush(stdout) == 0) return;
   if (errno == EPIPE) return;
-  throw Error(ErrorKind::input_output,
-              fmt::format("standard output cannot be written: {}",
-                          std::generic_category().message(errno)));
+  throw Error(ErrorKind::input_output, fmt::format("standard output cannot be written: {}",
+                                                   std::generic_category().message(errno)));
 }
 
 void print_error(const std::string& message) noexcept {

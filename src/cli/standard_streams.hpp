@@ -4,8 +4,8 @@
 
 namespace hamjet::cli {
 
-/// Text to standard output, all of it at once. A reader that went away (`| head`) is no error; a full
-/// disk is: throws Error(input_output).
+/// Text to standard output, all of it at once. A reader that went away (`| head`) is no error; a
+/// full disk is: throws Error(input_output).
 void print(const std::string& text);
 
 /// "hamjet: message" as a line of standard error. There is nobody to tell if that fails.

@@ -11,7 +11,8 @@
 namespace hamjet::cli {
 namespace {
 
-/// "did you mean ...?" among the long options of the command, or of the program where there is none.
+/// "did you mean ...?" among the long options of the command, or of the program where there is
+/// none.
 std::string option_suggestion(const CLI::App& command, std::string_view word) {
   std::vector<std::string> names;
   for (const CLI::Option* option : command.get_options()) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -223,15 +225,32 @@ class StageSystem {
     return true;
   }
 
-  /// Subtracts the pivot row from all others, in every column from `column` to `end`.
   void reduce(P* column, const P* end, const P* factor, std::size_t pivot,
               const Real& inverse) const {
+    // The usual numbers of components are unrolled: this is half the time of a step of order 1.
+    if (components_ == 3) return reduce<3>(column, end, factor, pivot, inverse);
+    if (components_ == 2) return reduce<2>(column, end, factor, pivot, inverse);
+    reduce<0>(column, end, factor, pivot, inverse);
+  }
+
+  /// Subtracts the pivot row from all others, in every column from `column` to `end`; Components 0
+  /// means as many as there are.
+  template <std::size_t Components>
+  void reduce(P* column, const P* end, const P* factor, std::size_t pivot,
+              const Real& inverse) const {
+    const std::size_t components = Components == 0 ? components_ : Components;
     const std::size_t component = pivot / stages_;
     const auto lane = static_cast<int>(pivot % stages_);
-    for (; column != end; column += components_) {
+    std::array<P, Components> row;
+    std::copy_n(factor, Components, row.begin());
+    for (; column != end; column += components) {
       const Real x = column[component].lane(lane) * inverse;
       const P broadcast(x);
-      for (std::size_t c = 0; c < components_; ++c) column[c] -= factor[c] * broadcast;
+      if constexpr (Components == 0) {
+        for (std::size_t c = 0; c < components; ++c) column[c] -= factor[c] * broadcast;
+      } else {
+        for (std::size_t c = 0; c < Components; ++c) column[c] -= row[c] * broadcast;
+      }
       column[component].set_lane(lane, x);
     }
   }

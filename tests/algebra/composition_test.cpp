@@ -41,7 +41,8 @@ Map<double> random_integer_map(const SpacePointer& space, std::size_t components
 
 TEST(Compose, IsAssociative) {
   RandomNumbers random(31);
-  // Between spaces of different numbers of variables; whole numbers below 2^53, so without rounding.
+  // Between spaces of different numbers of variables; whole numbers below 2^53, so without
+  // rounding.
   const auto three = SeriesSpace::create(3, 4);
   const auto two = SeriesSpace::create(2, 4);
   const auto four = SeriesSpace::create(4, 4);
@@ -79,9 +80,9 @@ TEST(Compose, TruncatesAtTheLowerOfTheOrders) {
   const auto y = Series<double>::variable(high, 0);
   // (y + y^2) + (y + y^2)^2 = y + 2 y^2 + 2 y^3 + y^4.
   const auto raised = composed<double>({x + x * x}, {y + y * y});
-  EXPECT_EQ(test::largest_difference<double>(raised, {y + 2.0 * y * y + 2.0 * y * y * y +
-                                                      y * y * y * y}),
-            0);
+  EXPECT_EQ(
+      test::largest_difference<double>(raised, {y + 2.0 * y * y + 2.0 * y * y * y + y * y * y * y}),
+      0);
   const auto lowered = composed<double>({y + y * y + y * y * y}, {x + x * x});
   EXPECT_EQ(test::largest_difference<double>(lowered, {x + 2.0 * x * x}), 0);
 }
@@ -90,13 +91,15 @@ TEST(Compose, RefusesConstantTermsAndSizesThatDoNotFit) {
   const auto space = SeriesSpace::create(2, 3);
   const auto x = Series<double>::variable(space, 0);
   const auto y = Series<double>::variable(space, 1);
-  test::expect_error(ErrorKind::usage, "constant term",
-                     [&] { composed<double>({x, y}, {x, y + 1e-300}); });
+  test::expect_error(ErrorKind::usage, "constant term", [&] {
+    composed<double>({x, y}, {x, y + 1e-300});
+  });
   test::expect_error(ErrorKind::usage, "as many components", [&] { composed<double>({x}, {x}); });
   test::expect_error(ErrorKind::usage, "as many components", [&] { composed<double>({x}, {}); });
   const auto other = Series<double>::variable(SeriesSpace::create(2, 4), 0);
-  test::expect_error(ErrorKind::usage, "different spaces",
-                     [&] { composed<double>({x, other}, {x, y}); });
+  test::expect_error(ErrorKind::usage, "different spaces", [&] {
+    composed<double>({x, other}, {x, y});
+  });
 }
 
 TEST(Inverse, OfTheSineIsTheArcSine) {
@@ -132,9 +135,9 @@ TEST(Inverse, ComposesToTheIdentityBothWays) {
     }
     const Map<double> back = inverted(map);
     const auto identity = test::identity_map<double>(space);
-    // Coefficients of degree d of the composition are sums of products of a coefficient of the outer
-    // map and d of the inner one; round-off is epsilon times the sum of their magnitudes, which the
-    // same composition of the maps of absolute values gives.
+    // Coefficients of degree d of the composition are sums of products of a coefficient of the
+    // outer map and d of the inner one; round-off is epsilon times the sum of their magnitudes,
+    // which the same composition of the maps of absolute values gives.
     const auto bound = [](Map<double> outer, Map<double> inner) {
       for (auto* m : {&outer, &inner}) {
         for (auto& u : *m) {
@@ -168,7 +171,7 @@ TEST(Inverse, RefusesASingularLinearPart) {
   const auto refused = [](const Map<double>& map) {
     test::expect_error(ErrorKind::numerical, "singular", [&] { inverted(map); });
   };
-  refused({x, x * y});                    // a row without linear terms
+  refused({x, x * y});                        // a row without linear terms
   refused({x + 2.0 * y, 2.0 * x + 4.0 * y});  // equal directions
   refused({x * x, y});
 }

@@ -21,18 +21,19 @@ TYPED_TEST_SUITE(ElementaryFunctions, Coefficients);
 
 /// |a - b| within the round-off of the products that a sums, degree by degree.
 template <class T>
-void expect_near(const Series<T>& a, const Series<T>& b, const std::vector<const Series<T>*>& factors,
-                 const char* what) {
+void expect_near(const Series<T>& a, const Series<T>& b,
+                 const std::vector<const Series<T>*>& factors, const char* what) {
   const Series<T> difference = a - b;
   for (int d = 0; d <= a.order(); ++d) {
     // The terms that cancel: products of the factors' slices, at most `count` of them a monomial,
     // each rounded a few times; the factor 8 holds their recurrences' own round-off.
     double scale = 0;
     for (int i = 0; i <= d; ++i) {
-      scale += test::largest_of_degree(*factors[0], i) * test::largest_of_degree(*factors[1], d - i);
+      scale +=
+          test::largest_of_degree(*factors[0], i) * test::largest_of_degree(*factors[1], d - i);
     }
-    EXPECT_LE(test::largest_of_degree(difference, d), 8 * test::epsilon_of<T>() * scale *
-                  std::pow(a.space().variables(), d))
+    EXPECT_LE(test::largest_of_degree(difference, d),
+              8 * test::epsilon_of<T>() * scale * std::pow(a.space().variables(), d))
         << what << ", degree " << d;
   }
 }
@@ -147,15 +148,15 @@ TYPED_TEST(ElementaryFunctions, HaveTheirClosedFormCoefficients) {
                       }),
                       "log(1 + x)");
   for (const double a : {0.5, -0.5, -1.5, 2.5, -3.0, 0.375, 5.0}) {
-    expect_coefficients(pow(one_plus_x, Real(a)), coefficients([&](int k) { return binomial(a, k); }),
-                        "(1 + x)^a");
+    expect_coefficients(pow(one_plus_x, Real(a)),
+                        coefficients([&](int k) { return binomial(a, k); }), "(1 + x)^a");
   }
   expect_coefficients(sqrt(one_plus_x), coefficients([&](int k) { return binomial(0.5, k); }),
                       "sqrt(1 + x)");
-  const auto sine = coefficients(
-      [&](int k) { return k % 2 == 1 ? Extended(sign(k / 2) / f(k)) : Extended(0); });
-  const auto cosine = coefficients(
-      [&](int k) { return k % 2 == 0 ? Extended(sign(k / 2) / f(k)) : Extended(0); });
+  const auto sine =
+      coefficients([&](int k) { return k % 2 == 1 ? Extended(sign(k / 2) / f(k)) : Extended(0); });
+  const auto cosine =
+      coefficients([&](int k) { return k % 2 == 0 ? Extended(sign(k / 2) / f(k)) : Extended(0); });
   expect_coefficients(sin(x), sine, "sin x");
   expect_coefficients(cos(x), cosine, "cos x");
   expect_coefficients(T(1) / (T(1) - x), coefficients([](int) { return Extended(1); }),

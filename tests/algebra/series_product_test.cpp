@@ -8,8 +8,9 @@
 #include "support/errors.hpp"
 #include "support/random_series.hpp"
 
-// Products along the schedule against products formed term by term. The coefficients are small whole
-// numbers, so both are exact whatever the order of summation, and the comparison needs no tolerance.
+// Products along the schedule against products formed term by term. The coefficients are small
+// whole numbers, so both are exact whatever the order of summation, and the comparison needs no
+// tolerance.
 
 namespace hamjet {
 namespace {
@@ -28,8 +29,7 @@ Series<T> product_by_definition(const Series<T>& a, const Series<T>& b, int lowe
     for (std::size_t j = 0; j < space.first(space.order() - space.degree(i) + 1); ++j) {
       if (space.degree(i) < lowest) continue;
       for (std::size_t v = 0; v < exponents.size(); ++v) {
-        exponents[v] =
-            static_cast<std::uint8_t>(space.exponents(i)[v] + space.exponents(j)[v]);
+        exponents[v] = static_cast<std::uint8_t>(space.exponents(i)[v] + space.exponents(j)[v]);
       }
       c[space.index(exponents)] += a[i] * b[j];
     }
@@ -54,9 +54,9 @@ struct Shape {
   std::size_t variables;
   int order;
 };
-constexpr Shape shapes[] = {{1, 0}, {1, 1}, {1, 12}, {2, 1}, {2, 2}, {2, 9}, {3, 1}, {3, 2},
-                            {3, 9}, {4, 3}, {4, 8},  {5, 4}, {5, 7}, {6, 1}, {6, 3}, {6, 4},
-                            {6, 7}, {7, 2}, {7, 5}};
+constexpr Shape shapes[] = {{1, 0}, {1, 1}, {1, 12}, {2, 1}, {2, 2}, {2, 9}, {3, 1},
+                            {3, 2}, {3, 9}, {4, 3},  {4, 8}, {5, 4}, {5, 7}, {6, 1},
+                            {6, 3}, {6, 4}, {6, 7},  {7, 2}, {7, 5}};
 
 template <class T>
 class SeriesProduct : public testing::Test {};

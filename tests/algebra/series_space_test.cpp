@@ -27,7 +27,9 @@ TEST(SeriesSpace, HasAsManyMonomialsAsTheBinomialCoefficient) {
     for (int order = 0; order <= 6; ++order) {
       const auto space = SeriesSpace::create(variables, order);
       EXPECT_EQ(space->size(), pascal[variables][static_cast<std::size_t>(order)]);
-      EXPECT_EQ(SeriesSpace::monomial_count(variables, order), static_cast<double>(space->size()));
+      // A quotient of rounded products: a few units in the last place.
+      EXPECT_DOUBLE_EQ(SeriesSpace::monomial_count(variables, order),
+                       static_cast<double>(space->size()));
       EXPECT_EQ(space->first(order + 1), space->size());
       EXPECT_EQ(space->count(0), 1u);
       if (order >= 1) {
@@ -36,10 +38,10 @@ TEST(SeriesSpace, HasAsManyMonomialsAsTheBinomialCoefficient) {
     }
   }
   // Published counts for six variables: 7, 28, 210, 8008 coefficients at orders 1, 2, 4, 10.
-  EXPECT_EQ(SeriesSpace::monomial_count(6, 1), 7);
-  EXPECT_EQ(SeriesSpace::monomial_count(6, 2), 28);
-  EXPECT_EQ(SeriesSpace::monomial_count(6, 4), 210);
-  EXPECT_EQ(SeriesSpace::monomial_count(6, 10), 8008);
+  EXPECT_DOUBLE_EQ(SeriesSpace::monomial_count(6, 1), 7);
+  EXPECT_DOUBLE_EQ(SeriesSpace::monomial_count(6, 2), 28);
+  EXPECT_DOUBLE_EQ(SeriesSpace::monomial_count(6, 4), 210);
+  EXPECT_DOUBLE_EQ(SeriesSpace::monomial_count(6, 10), 8008);
 }
 
 TEST(SeriesSpace, IndexIsTheInverseOfExponents) {
@@ -84,8 +86,8 @@ TEST(SeriesSpace, ProductCostCountsEveryPairOfFactorsOnce) {
   EXPECT_EQ(SeriesSpace::create(6, 10)->product_cost(), 646646u);
   for (std::size_t variables = 1; variables <= 7; ++variables) {
     for (int order = 0; order <= 6; ++order) {
-      EXPECT_EQ(static_cast<double>(SeriesSpace::create(variables, order)->product_cost()),
-                SeriesSpace::monomial_count(2 * variables, order));
+      EXPECT_DOUBLE_EQ(static_cast<double>(SeriesSpace::create(variables, order)->product_cost()),
+                       SeriesSpace::monomial_count(2 * variables, order));
     }
   }
 }
@@ -99,7 +101,7 @@ TEST(SeriesSpace, SquareCostsAreNearHalfOfAProductsCosts) {
       EXPECT_GE(2 * schedule.square_multiply_adds, schedule.multiply_adds);
       if (d % 2 == 1) {
         EXPECT_EQ(2 * schedule.square_multiply_adds, schedule.multiply_adds);
-      } else if (schedule.multiply_adds > 1) {
+      } else if (d >= 4) {  // at degree 2 a block may meet none but itself
         EXPECT_LT(schedule.square_multiply_adds, schedule.multiply_adds);
       }
     }
@@ -130,7 +132,8 @@ TEST(SeriesSpace, SpacesOfOneShapeAreInterchangeableOthersAreNot) {
   const auto a = SeriesSpace::create(3, 4);
   EXPECT_NO_THROW(require_same_space(*a, *SeriesSpace::create(3, 4)));
   for (const auto& other : {SeriesSpace::create(3, 5), SeriesSpace::create(4, 4)}) {
-    test::expect_error(ErrorKind::usage, "different spaces", [&] { require_same_space(*a, *other); });
+    test::expect_error(ErrorKind::usage, "different spaces",
+                       [&] { require_same_space(*a, *other); });
   }
 }
 

@@ -2,8 +2,8 @@
 
 #include "command_test.hpp"
 
-// Scenes and places that are wrong: exit code, one line that says where and what, nothing left behind.
-// Lines are those of small_scene, counted by hand.
+// Scenes and places that are wrong: exit code, one line that says where and what, nothing left
+// behind. Lines are those of small_scene, counted by hand.
 
 namespace hamjet::test {
 namespace {
@@ -44,11 +44,15 @@ TEST_F(BadInput, ScenesThatBreakARule) {
        "position_km = [0, 0, 0]\nvelocity_km_s = [0, 1, 0]\n",
        {":7:15: nominal.position_km: at the centre"}},
       {elements, "position_km = [1, 0]\nvelocity_km_s = [0, 1, 0]\n", {":7:", "position_km", "3"}},
-      {"step_canonical = 0.01", "step_canonical = -0.01", {":25:18", "step_canonical: not positive"}},
+      {"step_canonical = 0.01",
+       "step_canonical = -0.01",
+       {":25:18", "step_canonical: not positive"}},
       {"step_canonical = 0.01", "step_canonical = 0", {":25:18", "step_canonical: not positive"}},
       {"step_canonical = 0.01", "step_canonical = 1e-17", {":25:18", "too small"}},
       {"step_canonical = 0.01", "step_canonical = 1e-10", {":25:18", "too many steps"}, 6},
-      {"step_canonical = 0.01", "step_s = 1\ntolerance = 1e-9", {":25:", "exactly one of"}},
+      {"step_canonical = 0.01",
+       "step_s = 1\ntolerance = 1e-9",
+       {":26:13: integrator.1.tolerance", "exactly one of"}},
       {"tolerance = 1e-13", "tolerance = 0", {":20:13: integrator.0.tolerance: out of range"}},
       {"tolerance = 1e-13", "tolerance = -1", {":20:13: integrator.0.tolerance: out of range"}},
       {"tolerance = 1e-13", "tolerance = 1e-20", {":20:13: integrator.0.tolerance: out of range"}},
@@ -80,7 +84,8 @@ TEST_F(BadInput, OverridesAreNamedInstead) {
   expect_error({"run", "small.toml", "--set", "jet.order=0"}, 3, {"--set jet.order: jet.order"});
   expect_error({"run", "small.toml", "--set", "jet.order=x"}, 3, {"the string \"x\""});
   expect_error({"demo", "--set", "nominal.e=1.5"}, 3, {"--set nominal.e: nominal.e: out of range"});
-  expect_error({"run", "small.toml", "--set", "jet.order=99"}, 6, {"--set jet.order", "1609344100"});
+  expect_error({"run", "small.toml", "--set", "jet.order=99"}, 6,
+               {"--set jet.order", "1609344100"});
 }
 
 TEST_F(BadInput, ScenesThatCannotBeRead) {
@@ -99,8 +104,8 @@ TEST_F(BadInput, TheMemoryThatASceneWouldTakeIsNamed) {
 #if defined(__SANITIZE_ADDRESS__)
   GTEST_SKIP() << "the address sanitizer reserves more than any limit";
 #else
-  // Order 12 in 6 variables has C(18, 6) = 18564 coefficients; with both integrators, inversions and
-  // reference that takes far more than 200 MB.
+  // Order 12 in 6 variables has C(18, 6) = 18564 coefficients; with both integrators, inversions
+  // and reference that takes far more than 200 MB.
   options_.address_space = 200'000'000;
   expect_error({"run", "small.toml", "--set", "jet.order=12"}, 6,
                {"order 12 in 6 variables", "1.856e+04", "MB in all", "200 MB are free"});

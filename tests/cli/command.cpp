@@ -30,6 +30,19 @@ Pipe make_pipe() {
   return {ends[0], ends[1]};
 }
 
+/// A pseudo-terminal: what is written to the one end as to a screen comes out of the other.
+Pipe make_terminal() {
+  const int screen = ::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
+  if (screen < 0 || ::grantpt(screen) != 0 || ::unlockpt(screen) != 0) {
+    throw std::runtime_error("no terminal");
+  }
+  return {screen, ::open(::ptsname(screen), O_RDWR | O_NOCTTY | O_CLOEXEC)};
+}
+
+Pipe make_channel(Stream stream) {
+  return stream == Stream::terminal ? make_terminal() : make_pipe();
+}
+
 void close_if_open(int& descriptor) {
   if (descriptor >= 0) ::close(descriptor);
   descriptor = -1;
@@ -40,6 +53,7 @@ void connect(Stream stream, const Pipe& pipe, int descriptor) {
   switch (stream) {
     case Stream::captured:
     case Stream::reader_gone:
+    case Stream::terminal:
       ::dup2(pipe.write_end, descriptor);
       break;
     case Stream::closed:
@@ -150,8 +164,8 @@ bool wait_for_end(pid_t process, int& status, Clock::time_point deadline) {
 
 CommandResult run_command(const std::vector<std::string>& arguments,
                           const CommandOptions& options) {
-  Pipe out = make_pipe();
-  Pipe err = make_pipe();
+  Pipe out = make_channel(options.out);
+  Pipe err = make_channel(options.err);
   if (options.out == Stream::reader_gone) close_if_open(out.read_end);
   if (options.err == Stream::reader_gone) close_if_open(err.read_end);
   const pid_t process = ::fork();

@@ -17,8 +17,9 @@ namespace hamjet::test {
 enum class Stream {
   captured,
   closed,
-  full,        ///< /dev/full: every write fails as on a full disk
-  reader_gone  ///< a pipe that nobody reads, as after `| head`
+  full,         ///< /dev/full: every write fails as on a full disk
+  reader_gone,  ///< a pipe that nobody reads, as after `| head`
+  terminal      ///< captured, but a terminal as the command sees it
 };
 
 struct Signal {

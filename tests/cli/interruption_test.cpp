@@ -24,10 +24,10 @@ class Interruption : public CommandTest {
 };
 
 // 100 million steps, each short: the command stops between two.
-const std::vector<std::string> many_steps = {"run",   "quick.toml",
-                                             "--set", "integrator.midpoint.step_canonical=1e-8"};
-// A reference of order 9, in which a single step takes a minute.
-const std::vector<std::string> long_steps = {"run", "small.toml", "--set", "jet.order=9"};
+const std::vector<std::string> many_steps = {"run", "quick.toml", "--set",
+                                             "integrator.midpoint.step_canonical=1e-8"};
+// A reference of order 11, in which a single step takes the better part of a minute.
+const std::vector<std::string> long_steps = {"run", "small.toml", "--set", "jet.order=11"};
 
 TEST_F(Interruption, BetweenSteps) {
   expect_interrupted(many_steps, {SIGINT});

@@ -1,10 +1,12 @@
 #include <cmath>
+#include <map>
 
 #include "../support/reference_data.hpp"
 #include "command_test.hpp"
 
-// The paper's Earth orbit as shipped, in full. What is expected is the paper's claim with its missing
-// half: symplectic integrators leave no exactness residual, and that says nothing about their error.
+// The paper's Earth orbit as shipped, in full. What is expected is the paper's claim with its
+// missing half: symplectic integrators leave no exactness residual, and that says nothing about
+// their error.
 
 namespace hamjet::test {
 namespace {
@@ -69,7 +71,8 @@ TEST_F(PaperScene, ShowsExactnessAndErrorSideBySide) {
     }
   }
 
-  // The midpoint run with steps of 0.01 is wrong by 1.8e-3 of 7000 km, 12.5 km, to the digits given.
+  // The midpoint run with steps of 0.01 is wrong by 1.8e-3 of 7000 km, 12.5 km, to the digits
+  // given.
   const Json& reference = summary["reference"]["nominal_final"];
   const double error = position_error(runs.at("midpoint"), reference);
   EXPECT_NEAR(error, 1.8e-3, 5e-5);

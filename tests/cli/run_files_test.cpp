@@ -1,3 +1,4 @@
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -75,18 +76,18 @@ TEST_F(RunFiles, GeneratingFunctionIsNamedByItsVariables) {
 }
 
 TEST_F(RunFiles, OneDegreeOfFreedomHasQAndP) {
-  const std::string scene = std::string(HAMJET_SOURCE_DIR) +
-                            "/data/scenes/paper/harmonic-oscillator.toml";
+  const std::string scene =
+      std::string(HAMJET_SOURCE_DIR) + "/data/scenes/paper/harmonic-oscillator.toml";
   succeed({"run", scene, "-o", "results", "--set",
            "integrator=[{label=\"gauss8\", method=\"gauss\", tolerance=1e-14}]"});
   const Table jet = read_table(directory_ / "results/gauss8/jet.csv");
   EXPECT_EQ(jet.header, "component,e_q,e_p,coefficient");
   // Order 2 in 2 variables: 6 monomials for each of q and p.
   ASSERT_EQ(jet.rows.size(), 12U);
-  // The closed form of the scene at t = 100: q = q0 cos t + p0 sin t, p = p0 cos t - q0 sin t, about
-  // the nominal that starts at (1, 0). Round-off grows with the 100 units of time.
+  // The closed form of the scene at t = 100: q = q0 cos t + p0 sin t, p = p0 cos t - q0 sin t,
+  // about the nominal that starts at (1, 0). Round-off grows with the 100 units of time.
   const double c = std::cos(100.0), s = std::sin(100.0);
-  const std::map<std::string, double> expected = {{"q00", c}, {"q10", c},  {"q01", s},
+  const std::map<std::string, double> expected = {{"q00", c},  {"q10", c},  {"q01", s},
                                                   {"p00", -s}, {"p10", -s}, {"p01", c}};
   for (const auto& row : jet.rows) {
     const auto entry = expected.find(row[0] + row[1] + row[2]);

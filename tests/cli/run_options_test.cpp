@@ -20,6 +20,24 @@ TEST_F(RunOptions, TableComesOnStandardOutput) {
   EXPECT_EQ(result.out.find('\r'), std::string::npos);
 }
 
+TEST_F(RunOptions, ProgressIsShownOnATerminalAndRemoved) {
+  options_.err = Stream::terminal;
+  const std::vector<std::string> arguments = {"run", "quick.toml", "--set",
+                                              "integrator.midpoint.step_canonical=1e-5"};
+  const CommandResult result = hamjet(arguments);
+  EXPECT_EQ(result.exit_code, 0);
+  // The task, how far it is, and the time left; at the end a blank line and the cursor at its
+  // start.
+  EXPECT_NE(result.err.find("midpoint: "), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find(" %, "), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find(" s left"), std::string::npos) << result.err;
+  EXPECT_EQ(result.err.find('\n'), std::string::npos) << result.err;
+  const std::string blank = "\r" + std::string(78, ' ') + "\r";
+  ASSERT_GE(result.err.size(), blank.size());
+  EXPECT_EQ(result.err.substr(result.err.size() - blank.size()), blank);
+  EXPECT_EQ(hamjet({"run", "quick.toml", "-q"}).err, "");
+}
+
 TEST_F(RunOptions, ResultsGoToOutAndTheScenesName) {
   write("my orbit.v2.toml", quick_scene());
   succeed({"run", "my orbit.v2.toml"});
@@ -44,14 +62,14 @@ TEST_F(RunOptions, SetChangesKeysInTheirOrder) {
   const Json summary = read_json(directory_ / "out/quick/summary.json");
   EXPECT_EQ(summary["order"], 3);
   EXPECT_EQ(summary["title"], "another");
-  EXPECT_EQ(summary["runs"][1]["steps"], 20);  // a duration of 1 in steps of 0.05
+  EXPECT_EQ(summary["runs"][1]["steps"], 20);            // a duration of 1 in steps of 0.05
   EXPECT_EQ(summary["coefficients_per_component"], 84);  // C(6 + 3, 3)
 }
 
 TEST_F(RunOptions, DemoNeedsNoFile) {
-  const CommandResult result = succeed(
-      {"demo", "--json", "--set", "jet={order=1, duration_canonical=1}", "--set",
-       "integrator=[{label=\"gauss8\", method=\"gauss\", tolerance=1e-14}]"});
+  const CommandResult result =
+      succeed({"demo", "--json", "--set", "jet={order=1, duration_canonical=1}", "--set",
+               "integrator=[{label=\"gauss8\", method=\"gauss\", tolerance=1e-14}]"});
   const Json summary = Json::parse(result.out);
   EXPECT_EQ(summary["scene"], "earth-orbit");
   EXPECT_TRUE(std::filesystem::exists(directory_ / "out/earth-orbit/gauss8/jet.csv"));
@@ -61,8 +79,11 @@ TEST_F(RunOptions, EnvironmentDoesNotMatter) {
   succeed({"run", "quick.toml", "-o", "plain"});
   // The second locale has a decimal comma; where it is not installed it counts as C.
   for (const char* locale : {"C.UTF-8", "de_DE.UTF-8"}) {
-    options_.environment = {{"LC_ALL", locale}, {"HOME", std::nullopt}, {"TZ", std::nullopt},
-                            {"TERM", std::nullopt}, {"NO_COLOR", "1"}};
+    options_.environment = {{"LC_ALL", locale},
+                            {"HOME", std::nullopt},
+                            {"TZ", std::nullopt},
+                            {"TERM", std::nullopt},
+                            {"NO_COLOR", "1"}};
     succeed({"run", "quick.toml", "-o", locale});
     for (const char* file : {"gauss8/jet.csv", "gauss8/nominal.csv", "midpoint/jet.csv",
                              "gauss8/generating_function_F1.csv"}) {
@@ -77,7 +98,8 @@ TEST_F(RunOptions, ByteOrderMarkAndCarriageReturnsAreAccepted) {
   write("dos.toml", text);
   succeed({"run", "quick.toml", "-o", "unix", "-q"});
   succeed({"run", "dos.toml", "-o", "dos", "-q"});
-  EXPECT_EQ(content(directory_ / "unix/gauss8/jet.csv"), content(directory_ / "dos/gauss8/jet.csv"));
+  EXPECT_EQ(content(directory_ / "unix/gauss8/jet.csv"),
+            content(directory_ / "dos/gauss8/jet.csv"));
 }
 
 using Repetition = CommandTest;
@@ -99,12 +121,12 @@ TEST_F(Repetition, ReplacesOldResultsWhole) {
   succeed({"run", "quick.toml", "-o", "results", "--set",
            "integrator=[{label=\"gauss8\", method=\"gauss\", tolerance=1e-14}]", "--set",
            "generating_function.kinds=[\"F2\"]", "--set", "jet.order=1"});
-  EXPECT_EQ(files(), (std::vector<std::string>{
-                         "quick.toml", "results", "results/gauss8",
-                         "results/gauss8/generating_function_F2.csv", "results/gauss8/jet.csv",
-                         "results/gauss8/nominal.csv", "results/midpoint",
-                         "results/midpoint/notes.txt", "results/notes.txt",
-                         "results/summary.json", "small.toml"}));
+  EXPECT_EQ(files(),
+            (std::vector<std::string>{"quick.toml", "results", "results/gauss8",
+                                      "results/gauss8/generating_function_F2.csv",
+                                      "results/gauss8/jet.csv", "results/gauss8/nominal.csv",
+                                      "results/midpoint", "results/midpoint/notes.txt",
+                                      "results/notes.txt", "results/summary.json", "small.toml"}));
   // C(6 + 1, 1) = 7 monomials for each of 6 components.
   EXPECT_EQ(read_table(directory_ / "results/gauss8/jet.csv").rows.size(), 42U);
 }

@@ -37,8 +37,9 @@ std::vector<double> state_of(const Json& summary, std::size_t run = 0) {
 }
 
 TEST_F(Outcomes, FailedCheck) {
-  const Json summary = run("small.toml", {"integrator.midpoint.require_relative_error=1e-30",
-                                          "integrator.gauss8.require_symplecticity=1e-9"},
+  const Json summary = run("small.toml",
+                           {"integrator.midpoint.require_relative_error=1e-30",
+                            "integrator.gauss8.require_symplecticity=1e-9"},
                            1);
   expect_printed("CHECK FAILED: midpoint: require_relative_error");
   EXPECT_EQ(result_.out.find("CHECK FAILED: gauss8"), std::string::npos);
@@ -50,8 +51,8 @@ TEST_F(Outcomes, FailedCheck) {
 }
 
 TEST_F(Outcomes, FailedCheckIsToldThoughQuiet) {
-  const CommandResult result = hamjet({"run", "small.toml", "-q", "--set",
-                                       "integrator.gauss8.require_symplecticity=1e-30"});
+  const CommandResult result =
+      hamjet({"run", "small.toml", "-q", "--set", "integrator.gauss8.require_symplecticity=1e-30"});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_EQ(result.out, "");
   EXPECT_NE(result.err.find("out/small/summary.json"), std::string::npos) << result.err;
@@ -60,11 +61,11 @@ TEST_F(Outcomes, FailedCheckIsToldThoughQuiet) {
 TEST_F(Outcomes, KindThatDoesNotExistAtTheTime) {
   // After a whole revolution of a Kepler orbit the final position depends on the initial momentum
   // through the period alone: dq/dp0 has rank 1, and F1 does not exist.
-  const Json summary =
-      run("quick.toml", {"jet={order=2, duration_orbits=1}",
-                         "integrator=[{label=\"gauss8\", method=\"gauss\", tolerance=1e-14}]",
-                         "generating_function.kinds=[\"F1\", \"F2\", \"auto\"]"},
-          4);
+  const Json summary = run("quick.toml",
+                           {"jet={order=2, duration_orbits=1}",
+                            "integrator=[{label=\"gauss8\", method=\"gauss\", tolerance=1e-14}]",
+                            "generating_function.kinds=[\"F1\", \"F2\", \"auto\"]"},
+                           4);
   EXPECT_EQ(summary["exit_code"], 4);
   const Json& exactness = summary["runs"][0]["exactness"];
   EXPECT_TRUE(exactness[0]["error"].is_string());
@@ -86,14 +87,13 @@ const std::string fall = "nominal={position_km=[10000, 0, 0], velocity_km_s=[0, 
 
 TEST_F(Outcomes, Collision) {
   // The fall from rest at distance 1 ends at t = pi / (2 sqrt 2) = 1.1107...
-  const Json summary = run(
-      "quick.toml",
-      {fall, "jet.duration_canonical=2",
-       "integrator=[{label=\"adaptive\", method=\"gauss\", tolerance=1e-13},"
-       "{label=\"coarse\", method=\"gauss\", stages=1, step_canonical=0.01},"
-       "{label=\"explicit\", method=\"fehlberg78\", tolerance=1e-10},"
-       "{label=\"blind\", method=\"fehlberg78\", step_canonical=0.01}]"},
-      4);
+  const Json summary = run("quick.toml",
+                           {fall, "jet.duration_canonical=2",
+                            "integrator=[{label=\"adaptive\", method=\"gauss\", tolerance=1e-13},"
+                            "{label=\"coarse\", method=\"gauss\", stages=1, step_canonical=0.01},"
+                            "{label=\"explicit\", method=\"fehlberg78\", tolerance=1e-10},"
+                            "{label=\"blind\", method=\"fehlberg78\", step_canonical=0.01}]"},
+                           4);
   for (const Json& entry : summary["runs"]) {
     const std::string label = entry["label"];
     ASSERT_TRUE(entry["error"].is_string()) << label;
@@ -125,9 +125,7 @@ TEST_F(Outcomes, DurationZeroIsTheIdentity) {
     const Json summary = run("small.toml", {"jet.duration_canonical=" + zero,
                                             "generating_function.kinds=[\"F2\", \"F3\"]"});
     for (const char* label : {"gauss8", "midpoint"}) {
-      const auto names = std::string("x y z px py pz");
-      for (const auto& row :
-           read_table(directory_ / "results" / label / "jet.csv").rows) {
+      for (const auto& row : read_table(directory_ / "results" / label / "jet.csv").rows) {
         const double coefficient = std::stod(row.back());
         const std::vector<std::string> components = {"x", "y", "z", "px", "py", "pz"};
         const auto c = static_cast<std::size_t>(
@@ -155,10 +153,10 @@ TEST_F(Outcomes, NegativeDurationGoesBack) {
     position += nlohmann::json(end[i]).dump() + (i < 2 ? "," : "");
     velocity += nlohmann::json(end[3 + i]).dump() + (i < 2 ? "," : "");
   }
-  const Json back =
-      run("quick.toml", {integrator, "system.mu_km3_s2=1",
-                         "nominal={position_km=[" + position + "], velocity_km_s=[" + velocity + "]}",
-                         "jet={order=2, duration_s=-1}"});
+  const Json back = run(
+      "quick.toml", {integrator, "system.mu_km3_s2=1",
+                     "nominal={position_km=[" + position + "], velocity_km_s=[" + velocity + "]}",
+                     "jet={order=2, duration_s=-1}"});
   for (std::size_t i = 0; i < 6; ++i) {
     const double unit = i < 3 ? radius : 1 / std::sqrt(radius);
     EXPECT_NEAR(state_of(back)[i] * unit, there["nominal_initial"][i], 1e-12);
@@ -174,10 +172,10 @@ std::string scene_of(const ReferenceOrbit& orbit, const std::string& jet) {
            number(orbit.start[first + 2]) + "]";
   };
   return "schema = 1\ntitle = \"" + orbit.id + "\"\n[system]\nmodel = \"zonal-gravity\"\n" +
-         "mu_km3_s2 = 1\nradius_km = " + number(orbit.field.radius) + "\nJ2 = " +
-         number(orbit.field.J2) + "\nJ3 = " + number(orbit.field.J3) + "\n[nominal]\nposition_km = " +
-         triple(0) + "\nvelocity_km_s = " + triple(3) + "\n[jet]\nduration_canonical = " +
-         number(orbit.duration) + "\n" + jet +
+         "mu_km3_s2 = 1\nradius_km = " + number(orbit.field.radius) +
+         "\nJ2 = " + number(orbit.field.J2) + "\nJ3 = " + number(orbit.field.J3) +
+         "\n[nominal]\nposition_km = " + triple(0) + "\nvelocity_km_s = " + triple(3) +
+         "\n[jet]\nduration_canonical = " + number(orbit.duration) + "\n" + jet +
          "\n[[integrator]]\nlabel = \"gauss8\"\nmethod = \"gauss\"\ntolerance = 1e-14\n";
 }
 

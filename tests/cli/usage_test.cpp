@@ -10,7 +10,8 @@ using Usage = CommandTest;
 TEST_F(Usage, HelpBeginsWithExamples) {
   const CommandResult result = succeed({"--help"});
   EXPECT_EQ(result.out.rfind("Examples:\n  hamjet demo", 0), 0U) << result.out;
-  for (const char* word : {"hamjet run scene.toml", "Exit codes", "Usage: hamjet", "check", "list"}) {
+  for (const char* word :
+       {"hamjet run scene.toml", "Exit codes", "Usage: hamjet", "check", "list"}) {
     EXPECT_NE(result.out.find(word), std::string::npos) << word;
   }
 }

@@ -21,9 +21,8 @@ ZonalGravity paper_field() { return test::paper_orbit().field; }
 TEST(ZonalGravity, HandWrittenVectorFieldIsTheHamiltonians) {
   test::RandomNumbers random(51);
   const ZonalGravity strong{.mu = 1.25, .radius = 0.9, .J2 = 0.3, .J3 = -0.2};
-  for (const ZonalGravity& field :
-       {paper_field(), strong, ZonalGravity{.radius = 0.9, .J2 = 0.3},
-        ZonalGravity{.radius = 0.9, .J3 = 0.3}, ZonalGravity{}}) {
+  for (const ZonalGravity& field : {paper_field(), strong, ZonalGravity{.radius = 0.9, .J2 = 0.3},
+                                    ZonalGravity{.radius = 0.9, .J3 = 0.3}, ZonalGravity{}}) {
     const auto written = zonal_gravity(field);
     const auto derived = make_system("derived", written.hamiltonian);
     for (int trial = 0; trial < 10; ++trial) {
@@ -119,9 +118,8 @@ TEST(SecondOrderForm, IsAbsentWhereMomentumAndPositionMix) {
 
 TEST(MakeSystem, TakesAHamiltonianInTenLines) {
   // The pendulum: p' = -sin q.
-  const auto pendulum = make_system("pendulum", 1, [](auto q, auto p) {
-    return p[0] * p[0] / 2 - cos(q[0]);
-  });
+  const auto pendulum =
+      make_system("pendulum", 1, [](auto q, auto p) { return p[0] * p[0] / 2 - cos(q[0]); });
   EXPECT_EQ(pendulum.degrees_of_freedom, 1u);
   const auto field = test::evaluate_list(pendulum.vector_field, std::vector<double>{0.5, 0.25});
   EXPECT_EQ(field[0], 0.25);
@@ -157,7 +155,8 @@ TEST(NeededDegreesOfFreedom, AreThoseOfTheInvariantSubspace) {
   ZonalGravity field = paper_field();
   const std::vector<double> equatorial{1, 0, 0, 0, 1, 0};
   const std::vector<double> polar{1, 0, 0, 0, 0, 1};
-  EXPECT_EQ(needed(field, equatorial, {0, 1, 3, 4}), (Indices{0, 1, 2}));  // J3 pulls out of the plane
+  EXPECT_EQ(needed(field, equatorial, {0, 1, 3, 4}),
+            (Indices{0, 1, 2}));  // J3 pulls out of the plane
   EXPECT_EQ(needed(field, polar, {0, 2, 3, 5}), (Indices{0, 2}));
   field.J3 = 0;
   EXPECT_EQ(needed(field, equatorial, {0, 1, 3, 4}), (Indices{0, 1}));

@@ -1,5 +1,3 @@
-#include "hamjet/dynamics/expression.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,6 +5,7 @@
 #include <vector>
 
 #include "hamjet/algebra/calculus.hpp"
+#include "hamjet/dynamics/expression.hpp"
 #include "support/errors.hpp"
 #include "support/flow.hpp"
 #include "support/random_series.hpp"
@@ -63,8 +62,10 @@ TEST(Recording, RecordsEqualOperationsOnce) {
   const OperationList list = record(1, [](Inputs x) { return Outputs{x[0] * x[0]}; });
   EXPECT_EQ(list.operations()[1].code, OperationCode::square);
   // Sine and cosine of one argument are one pair.
-  EXPECT_EQ(operations_of(record(
-                1, [](Inputs x) { return Outputs{sin(x[0]) + cos(x[0]), cos(x[0])}; })),
+  EXPECT_EQ(operations_of(record(1,
+                                 [](Inputs x) {
+                                   return Outputs{sin(x[0]) + cos(x[0]), cos(x[0])};
+                                 })),
             3u);
 }
 
@@ -81,10 +82,9 @@ TEST(Recording, DropsWhatNoOutputNeeds) {
 TEST(Recording, ZonalGravityCostsLessWithEachTermLeftOut) {
   const auto sizes = [](const ZonalGravity& field) {
     const auto system = zonal_gravity(field);
-    return std::vector<std::size_t>{operations_of(system.hamiltonian),
-                                    operations_of(system.vector_field),
-                                    operations_of(system.second_order->force),
-                                    system.vector_field.nonlinear_operations()};
+    return std::vector<std::size_t>{
+        operations_of(system.hamiltonian), operations_of(system.vector_field),
+        operations_of(system.second_order->force), system.vector_field.nonlinear_operations()};
   };
   const auto both = sizes({.mu = 1, .radius = 0.9, .J2 = 1e-3, .J3 = 2e-6});
   const auto J2_alone = sizes({.mu = 1, .radius = 0.9, .J2 = 1e-3});
@@ -149,8 +149,7 @@ TEST(Jacobian, EqualsDifferenceQuotientsAndGradients) {
     }
     // Reverse accumulation gives the same as forward accumulation.
     for (std::size_t o = 0; o < 4; ++o) {
-      const OperationList one =
-          record(3, [&](Inputs z) { return Outputs{every_operation(z)[o]}; });
+      const OperationList one = record(3, [&](Inputs z) { return Outputs{every_operation(z)[o]}; });
       const auto slopes = test::evaluate_list(gradient(one), x);
       for (std::size_t j = 0; j < 3; ++j) {
         EXPECT_LE(std::abs(static_cast<double>(Extended(slopes[j] - values[o * 3 + j]))), 1e-31);
@@ -162,7 +161,8 @@ TEST(Jacobian, EqualsDifferenceQuotientsAndGradients) {
 TEST(Gradient, EqualsTheDerivativeOfTheSeries) {
   const auto space = SeriesSpace::create(3, 5);
   std::vector<Series<Extended>> x;
-  for (std::size_t i = 0; i < 3; ++i) x.push_back(Series<Extended>::variable(space, i, Extended(8 + i) / 8));
+  for (std::size_t i = 0; i < 3; ++i)
+    x.push_back(Series<Extended>::variable(space, i, Extended(8 + i) / 8));
   const OperationList list = record(3, [](Inputs z) { return Outputs{every_operation(z)[1]}; });
   const std::span<const Series<Extended>> inputs(x);
   const auto value = evaluate_on_series(list, inputs)[0];
@@ -179,9 +179,8 @@ TEST(Gradient, RefusesSeveralOutputs) {
 
 TEST(Replay, RefusesAnotherNumberOfInputs) {
   const OperationList list = record(3, every_operation);
-  test::expect_error(ErrorKind::usage, "wrong number of inputs", [&] {
-    record(2, [&](Inputs x) { return replay(list, x); });
-  });
+  test::expect_error(ErrorKind::usage, "wrong number of inputs",
+                     [&] { record(2, [&](Inputs x) { return replay(list, x); }); });
 }
 
 }  // namespace

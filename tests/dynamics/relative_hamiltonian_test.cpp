@@ -31,9 +31,8 @@ TEST(RelativeHamiltonian, OfTheOscillatorIsTheOscillatorItself) {
 
 TEST(RelativeHamiltonian, OfAQuarticIsItsTaylorExpansion) {
   // H = p^2/2 + q^4 about q = 2: 6 q^2 a^2 = 24 a^2, 4 q a^3 = 8 a^3, a^4.
-  const auto system = make_system("quartic", 1, [](auto q, auto p) {
-    return p[0] * p[0] / 2 + square(square(q[0]));
-  });
+  const auto system = make_system(
+      "quartic", 1, [](auto q, auto p) { return p[0] * p[0] / 2 + square(square(q[0])); });
   const std::vector<double> point{2, 1};
   const auto h = relative_hamiltonian(system, std::span<const double>(point), 3);
   EXPECT_EQ(h[0], 0);
@@ -55,9 +54,8 @@ TEST(RelativeHamiltonian, MovesTheJetAsTheVectorFieldDoes) {
   const auto h = relative_hamiltonian(flow.system, std::span<const Extended>(nominal), order);
   ASSERT_EQ(h.order(), order + 1);
   const auto deviations = without_constants(jet);
-  const auto composed =
-      compose(std::span<const Series<Extended>>(canonical_vector_field(h)),
-              std::span<const Series<Extended>>(deviations));
+  const auto composed = compose(std::span<const Series<Extended>>(canonical_vector_field(h)),
+                                std::span<const Series<Extended>>(deviations));
   const auto direct = without_constants(
       evaluate_on_series(flow.system.vector_field, std::span<const Series<Extended>>(jet)));
   for (std::size_t i = 0; i < 6; ++i) {

@@ -62,8 +62,8 @@ TEST(SliceEvaluator, EqualsTheOperatorsOfSeries) {
   load(evaluator, inputs);
   evaluator.evaluate_all();
   for (std::size_t o = 0; o < expected.size(); ++o) {
-    const Series<double> value(space, std::vector<double>(evaluator.output(o),
-                                                          evaluator.output(o) + space->size()));
+    const Series<double> value(
+        space, std::vector<double>(evaluator.output(o), evaluator.output(o) + space->size()));
     for (int d = 0; d <= order; ++d) {
       // Two arrangements of one expression: dozens of roundings of intermediate slices that are
       // larger than the result's by a factor of about ten.

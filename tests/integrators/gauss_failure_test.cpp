@@ -57,7 +57,8 @@ TEST(Gauss, AdaptiveStepsAvoidTheDetachedRoot) {
 TEST(Gauss, CollisionIsAnError) {
   // From rest at r = 1 the body is in the centre at pi / (2 sqrt 2) = 1.1107.
   const test::Flow<double> fall{kepler(), {1, 0, 0, 0, 0, 0}, 2, 1, {}};
-  for (const auto& settings : {test::adaptive(8), test::adaptive(2, 1e-8), test::adaptive(1, 1e-6)}) {
+  for (const auto& settings :
+       {test::adaptive(8), test::adaptive(2, 1e-8), test::adaptive(1, 1e-6)}) {
     test::expect_error(ErrorKind::numerical, "", [&] { test::run_gauss(fall, settings); });
   }
   test::expect_error(ErrorKind::numerical, "t = 1.11", [&] { test::run_gauss(fall); });
@@ -93,10 +94,10 @@ TEST(Gauss, RefusesNumbersThatAreNotFinite) {
 }
 
 TEST(Gauss, AForceOutsideItsDomainIsAnError) {
-  // H = p^2/2 + (1 - q)^(3/2): the force is not a number for q > 1, where the body arrives by t = 1.
-  const auto system = make_system("wall", 1, [](auto q, auto p) {
-    return p[0] * p[0] / 2 + pow(1 - q[0], Expression(1.5));
-  });
+  // H = p^2/2 + (1 - q)^(3/2): the force is not a number for q > 1, where the body arrives by t
+  // = 1.
+  const auto system = make_system(
+      "wall", 1, [](auto q, auto p) { return p[0] * p[0] / 2 + pow(1 - q[0], Expression(1.5)); });
   const test::Flow<double> flow{system, {0, 4}, 2, 2, {}};
   test::expect_error(ErrorKind::numerical, "", [&] { test::run_gauss(flow); });
   test::expect_error(ErrorKind::numerical, "",
@@ -139,9 +140,8 @@ TEST(Gauss, RefusesProblemsWhoseSizesDoNotFit) {
   const auto refused = [&](auto change) {
     FlowProblem<double> problem = test::problem_of(flow);
     change(problem);
-    test::expect_error(ErrorKind::usage, "flow problem", [&] {
-      integrate_gauss(problem, test::adaptive(), statistics);
-    });
+    test::expect_error(ErrorKind::usage, "flow problem",
+                       [&] { integrate_gauss(problem, test::adaptive(), statistics); });
   };
   refused([](auto& p) { p.system = nullptr; });
   refused([](auto& p) { p.space = nullptr; });

@@ -17,9 +17,12 @@ namespace {
 Extended rotation(int stages, const Extended& y) {
   const Extended y2 = y * y;
   switch (stages) {
-    case 1: return 2 * atan(y / 2);
-    case 2: return 2 * atan2(Extended(y / 2), Extended(1 - y2 / 12));
-    case 3: return 2 * atan2(Extended(y / 2 - y2 * y / 120), Extended(1 - y2 / 10));
+    case 1:
+      return 2 * atan(y / 2);
+    case 2:
+      return 2 * atan2(Extended(y / 2), Extended(1 - y2 / 12));
+    case 3:
+      return 2 * atan2(Extended(y / 2 - y2 * y / 120), Extended(1 - y2 / 10));
     default:
       return 2 * atan2(Extended(y / 2 - y2 * y / 84), Extended(1 - 3 * y2 / 28 + y2 * y2 / 1680));
   }
@@ -28,8 +31,8 @@ Extended rotation(int stages, const Extended& y) {
 /// State after `count` steps of size h from (1, 0).
 void expect_rotation(double omega, double h, long count, int stages, double mass = 1) {
   const double stiffness = omega * omega * mass;
-  const test::Flow<double> flow{harmonic_oscillator(mass, stiffness), {1, 0},
-                                h * static_cast<double>(count), 3, {}};
+  const test::Flow<double> flow{
+      harmonic_oscillator(mass, stiffness), {1, 0}, h * static_cast<double>(count), 3, {}};
   IntegrationStatistics statistics;
   const auto jet = test::run_gauss(flow, test::fixed_step(stages, h), &statistics);
   ASSERT_EQ(statistics.steps, count);
@@ -39,7 +42,8 @@ void expect_rotation(double omega, double h, long count, int stages, double mass
   const double s = static_cast<double>(sin(angle));
   // Each step rounds a few times; the eliminated momentum enters by h^2 A^2 k/m, whose size is the
   // condition number of a step.
-  const double condition = 1 + static_cast<double>(omega * step) * static_cast<double>(omega * step);
+  const double condition =
+      1 + static_cast<double>(omega * step) * static_cast<double>(omega * step);
   const double bound = 0x1p-52 * condition * (8 + static_cast<double>(count));
   const double w = omega * mass;
   const double expected[2][2] = {{c, s / w}, {-w * s, c}};
@@ -67,9 +71,9 @@ TEST(GaussOscillator, HasASolutionHoweverStiff) {
   for (int stages = 1; stages <= 4; ++stages) expect_rotation(1e6, 0.0009765625, 100, stages);
 }
 
-/// reference_cases.json, "linear": 10^2 to 10^4 steps of one to four stages. Their durations are whole
-/// multiples of the step to within the rounding of n h, which shifts the phase by 2^-53 omega n h;
-/// each step rounds the phase by no more.
+/// reference_cases.json, "linear": 10^2 to 10^4 steps of one to four stages. Their durations are
+/// whole multiples of the step to within the rounding of n h, which shifts the phase by 2^-53 omega
+/// n h; each step rounds the phase by no more.
 void expect_printed_answers(double lowest_omega, double highest_omega) {
   for (const auto& entry : test::reference_cases()["linear"]["oscillators"]) {
     const double h = test::from_hex(entry["h_hex"]);
@@ -77,8 +81,8 @@ void expect_printed_answers(double lowest_omega, double highest_omega) {
     if (count > 10000) continue;  // a second each
     const double omega = entry["omega"].get<double>();
     if (omega < lowest_omega || omega > highest_omega) continue;
-    const test::Flow<double> flow{harmonic_oscillator(1, omega * omega), {1, 0},
-                                  h * static_cast<double>(count), 1, {}};
+    const test::Flow<double> flow{
+        harmonic_oscillator(1, omega * omega), {1, 0}, h * static_cast<double>(count), 1, {}};
     for (int stages = 1; stages <= 4; ++stages) {
       const std::string key =
           "GL" + std::to_string(stages) + "(order " + std::to_string(2 * stages) + ")";
@@ -102,7 +106,8 @@ TEST(GaussOscillator, HighOrderGivesTheContinuousRotation) {
   // q(t) = cos t, p(t) = -sin t; ten time units in adaptive steps.
   const test::Flow<double> flow{harmonic_oscillator(), {1, 0}, 10, 2, {}};
   const auto jet = test::run_gauss(flow, test::adaptive(8, 1e-16));
-  const double expected[2][2] = {{std::cos(10.0), std::sin(10.0)}, {-std::sin(10.0), std::cos(10.0)}};
+  const double expected[2][2] = {{std::cos(10.0), std::sin(10.0)},
+                                 {-std::sin(10.0), std::cos(10.0)}};
   for (std::size_t i = 0; i < 2; ++i) {
     EXPECT_NEAR(jet[i][0], expected[i][0], 1e-14);
     for (std::size_t j = 0; j < 2; ++j) EXPECT_NEAR(jet[i][1 + j], expected[i][j], 1e-14);
@@ -111,8 +116,8 @@ TEST(GaussOscillator, HighOrderGivesTheContinuousRotation) {
 }
 
 TEST(GaussOscillator, FallsWhereTheForceIsAttractive) {
-  // p' = -k q: the paper prints +k in the equations of the state transition matrix, which would grow
-  // as cosh (errata.md). dq/dq0 = cos t.
+  // p' = -k q: the paper prints +k in the equations of the state transition matrix, which would
+  // grow as cosh (errata.md). dq/dq0 = cos t.
   const test::Flow<double> flow{harmonic_oscillator(), {0, 0}, 1, 1, {}};
   EXPECT_NEAR(test::run_gauss(flow)[0][1], std::cos(1.0), 1e-14);
 }

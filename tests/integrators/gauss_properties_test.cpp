@@ -209,7 +209,9 @@ TEST(Gauss, PlanarSystemEqualsThePlanarPartOfTheFullOne) {
   const std::vector<std::size_t> kept{0, 1};
   const test::Flow<double> flow{restrict_system(full_flow.system, kept),
                                 {orbit.start[0], orbit.start[1], orbit.start[3], orbit.start[4]},
-                                orbit.duration, 3, {}};
+                                orbit.duration,
+                                3,
+                                {}};
   const auto planar = test::run_gauss(flow);
   const SeriesSpace& space = planar[0].space();
   const std::size_t same_component[] = {0, 1, 3, 4};

@@ -27,9 +27,11 @@ std::size_t index_of(const SeriesSpace& space, const std::string& digits) {
 TEST(GaussReference, PaperOrbitMatchesStateMatrixAndJetOfOrderThree) {
   const ReferenceOrbit& orbit = test::paper_orbit();
   const auto jet = test::run_gauss(test::flow_of(orbit, 3));
-  const auto extended = test::run_gauss(test::flow_of<Extended>(orbit, 3), test::adaptive(16, 1e-24));
+  const auto extended =
+      test::run_gauss(test::flow_of<Extended>(orbit, 3), test::adaptive(16, 1e-24));
   const SeriesSpace& space = jet[0].space();
-  const auto coefficients = test::read_reference_file("paper_orbit_jets_order3.json")["coefficients"];
+  const auto coefficients =
+      test::read_reference_file("paper_orbit_jets_order3.json")["coefficients"];
   ASSERT_EQ(coefficients.size(), space.size());
   FlowJet<Extended> reference;
   for (int i = 0; i < 6; ++i) reference.emplace_back(jet[0].space_pointer());
@@ -72,16 +74,15 @@ TEST(GaussReference, ExtendedRunsReachTheExactRealCase) {
     const Expression r = sqrt(s2);
     const Expression ratio(radius);
     const Expression second = Expression(J2) * square(ratio) / s2 * (3 * sine2 - 1) / 2;
-    const Expression third = Expression(J3) * square(ratio) * ratio / (s2 * s2) * q[2] *
-                             (5 * sine2 - 3) / 2;
+    const Expression third =
+        Expression(J3) * square(ratio) * ratio / (s2 * s2) * q[2] * (5 * sine2 - 3) / 2;
     return (p[0] * p[0] + p[1] * p[1] + p[2] * p[2]) / 2 - (1 - second - third) / r;
   };
-  test::Flow<Extended> flow{
-      make_system("exact decimals", 3, hamiltonian),
-      {1, 0, 0, 0, sqrt(Extended(13) / 10) / 2, sqrt(Extended(39) / 10) / 2},
-      10 * boost::math::constants::pi<Extended>(),
-      1,
-      {}};
+  test::Flow<Extended> flow{make_system("exact decimals", 3, hamiltonian),
+                            {1, 0, 0, 0, sqrt(Extended(13) / 10) / 2, sqrt(Extended(39) / 10) / 2},
+                            10 * boost::math::constants::pi<Extended>(),
+                            1,
+                            {}};
   const auto jet = test::run_gauss(flow, test::adaptive(16, 1e-28));
   const auto state = test::decimals(entry["state"]);
   for (std::size_t i = 0; i < 6; ++i) {
@@ -97,7 +98,8 @@ TEST(GaussReference, ExtendedRunsReachTheExactRealCase) {
 std::vector<std::vector<double>> matrix_floor(const test::Flow<double>& flow,
                                               const FlowJet<double>& jet) {
   const SeriesSpace& space = jet[0].space();
-  const auto gradient = test::evaluate_list(jacobian(flow.system.vector_field), test::final_state(jet));
+  const auto gradient =
+      test::evaluate_list(jacobian(flow.system.vector_field), test::final_state(jet));
   std::vector<std::vector<double>> floor(6, std::vector<double>(6, 0));
   for (std::size_t i = 0; i < 6; ++i) {
     for (std::size_t j = 0; j < 6; ++j) {
@@ -158,13 +160,15 @@ INSTANTIATE_TEST_SUITE_P(
                     "SEED-100REV"),
     [](const auto& orbit) {
       std::string name = orbit.param;
-      std::replace_if(name.begin(), name.end(), [](char c) { return c == '-' || c == '.'; }, '_');
+      std::replace_if(
+          name.begin(), name.end(), [](char c) { return c == '-' || c == '.'; }, '_');
       return name;
     });
 
 TEST(GaussReference, PolarAndEquatorialOrbitsKeepExactZeros) {
-  // y = p_y = 0 is invariant for a polar start, z = p_z = 0 for an equatorial one without J3; of the
-  // coefficients, those odd in the deviations out of the plane vanish in the plane and conversely.
+  // y = p_y = 0 is invariant for a polar start, z = p_z = 0 for an equatorial one without J3; of
+  // the coefficients, those odd in the deviations out of the plane vanish in the plane and
+  // conversely.
   const auto expect_plane = [](const std::string& id, std::size_t normal) {
     const auto jet = test::run_gauss(test::flow_of(test::reference_orbit(id), 3));
     const SeriesSpace& space = jet[0].space();
@@ -194,9 +198,8 @@ TEST(GaussReference, KeplerJetHasItsClosedForm) {
   const Extended pi2 = pi * pi;
   const Extended pi3 = pi2 * pi;
   flow.duration = 2 * pi;
-  const std::vector<Extended> x{1,         0,
-                                -18 * pi2, -108 * pi2,
-                                pi2 * (54 * pi2 - 462), pi2 * (972 * pi2 - 1710)};
+  const std::vector<Extended> x{
+      1, 0, -18 * pi2, -108 * pi2, pi2 * (54 * pi2 - 462), pi2 * (972 * pi2 - 1710)};
   const std::vector<Extended> y{0,
                                 -6 * pi,
                                 -24 * pi,
@@ -204,7 +207,8 @@ TEST(GaussReference, KeplerJetHasItsClosedForm) {
                                 360 * pi3 - 185 * pi,
                                 2196 * pi3 - 492 * pi - 324 * pi3 * pi2 / 5};
   const auto extended = test::run_gauss(flow, test::fixed_step(16, 0.1));
-  test::Flow<double> rounded{kepler(), {1, 0, 0, 0, 1, 0}, static_cast<double>(flow.duration), 5, {4}};
+  test::Flow<double> rounded{
+      kepler(), {1, 0, 0, 0, 1, 0}, static_cast<double>(flow.duration), 5, {4}};
   // The steps are chosen by the nominal alone, and a circle is easy: degree 5 needs shorter ones.
   const auto jet = test::run_gauss(rounded, test::adaptive(8, 1e-22));
   for (std::size_t k = 0; k <= 5; ++k) {
@@ -221,12 +225,14 @@ TEST(GaussReference, KeplerJetHasItsClosedForm) {
 
 TEST(GaussReference, KeplerMonodromyOverOneRevolution) {
   // M = I - 3 T a f (grad H)^T; planar, from perigee, a = 1.
-  const auto& table =
-      test::reference_cases()["linear"]["kepler_monodromy_1rev_planar_perigee_a1"];
+  const auto& table = test::reference_cases()["linear"]["kepler_monodromy_1rev_planar_perigee_a1"];
   for (const auto& [eccentricity, matrix] : table.items()) {
     const Extended e(eccentricity);
-    test::Flow<Extended> flow{kepler(), {1 - e, 0, 0, 0, sqrt((1 + e) / (1 - e)), 0},
-                              2 * boost::math::constants::pi<Extended>(), 1, {0, 1, 3, 4}};
+    test::Flow<Extended> flow{kepler(),
+                              {1 - e, 0, 0, 0, sqrt((1 + e) / (1 - e)), 0},
+                              2 * boost::math::constants::pi<Extended>(),
+                              1,
+                              {0, 1, 3, 4}};
     const auto jet = test::run_gauss(flow, test::adaptive(16, 1e-27));
     const std::size_t rows[] = {0, 1, 3, 4};
     // Twenty digits are printed.

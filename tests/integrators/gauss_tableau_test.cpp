@@ -28,10 +28,9 @@ TEST(GaussTableau, HasTheClosedFormsOfOneTwoAndThreeStages) {
   const Extended c2[2] = {one / 2 - root3 / 6, one / 2 + root3 / 6};
   const Extended root15 = sqrt(Extended(15));
   const GaussTableau three = gauss_tableau(3);
-  const Extended a3[3][3] = {
-      {5 * one / 36, 2 * one / 9 - root15 / 15, 5 * one / 36 - root15 / 30},
-      {5 * one / 36 + root15 / 24, 2 * one / 9, 5 * one / 36 - root15 / 24},
-      {5 * one / 36 + root15 / 30, 2 * one / 9 + root15 / 15, 5 * one / 36}};
+  const Extended a3[3][3] = {{5 * one / 36, 2 * one / 9 - root15 / 15, 5 * one / 36 - root15 / 30},
+                             {5 * one / 36 + root15 / 24, 2 * one / 9, 5 * one / 36 - root15 / 24},
+                             {5 * one / 36 + root15 / 30, 2 * one / 9 + root15 / 15, 5 * one / 36}};
   const Extended c3[3] = {one / 2 - root15 / 10, one / 2, one / 2 + root15 / 10};
   const Extended b3[3] = {5 * one / 18, 4 * one / 9, 5 * one / 18};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -84,8 +83,8 @@ TEST(GaussTableau, IsSymplecticAndSymmetric) {
         EXPECT_GT(t.nodes[i], t.nodes[i - 1]);
       }
       for (std::size_t j = 0; j < s; ++j) {
-        const Extended defect = t.weights[i] * t.a(i, j) + t.weights[j] * t.a(j, i) -
-                                t.weights[i] * t.weights[j];
+        const Extended defect =
+            t.weights[i] * t.a(i, j) + t.weights[j] * t.a(j, i) - t.weights[i] * t.weights[j];
         EXPECT_LE(magnitude_of(defect), roundoff);
         // a_(s-1-i, s-1-j) + a_ij = b_j: the method is its own adjoint.
         EXPECT_LE(magnitude_of(t.a(s - 1 - i, s - 1 - j) + t.a(i, j) - t.weights[j]), roundoff);

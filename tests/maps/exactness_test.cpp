@@ -71,8 +71,8 @@ TEST(Exactness, OfMidpointAndGaussOnThePaperOrbitMeetsTheStatedBounds) {
   // Issue 2: at most 1e-11 absolute at degree 0, at most 1e-10 at degree 1, for F1; inverted in
   // extended precision, so that what is seen is the integrator's.
   const double t = test::paper_orbit().duration;
-  for (const auto& settings : {test::fixed_step(1, 0.01), test::fixed_step(2, 0.01),
-                               test::adaptive()}) {
+  for (const auto& settings :
+       {test::fixed_step(1, 0.01), test::fixed_step(2, 0.01), test::adaptive()}) {
     const auto jet = test::paper_jet<double>(t, 2, settings);
     const auto wide = convert_map<Extended>(jet);
     const auto residual = exactness_residual(one_form(test::inverted_jet(wide, "F1")));
@@ -98,8 +98,8 @@ TEST(Exactness, IsNoAccuracy) {
 
 TEST(Exactness, FallsWithThePrecisionOfTheChain) {
   // Two stages and a step of 0.2: far from right, yet exact to extended round-off.
-  const auto jet = test::paper_jet<Extended>(test::paper_orbit().duration, 4,
-                                             test::fixed_step(2, 0.2));
+  const auto jet =
+      test::paper_jet<Extended>(test::paper_orbit().duration, 4, test::fixed_step(2, 0.2));
   const auto residual = exactness_residual(one_form(test::inverted_jet(jet, "F1")));
   ASSERT_EQ(residual.size(), 4u);
   EXPECT_LE(residual[3].scaled, 1e-16);
@@ -146,9 +146,11 @@ TEST(Exactness, EveryPairSeesAChangeOfOneCoefficient) {
 
 TEST(Exactness, SurvivesAdaptiveStepsOnEccentricOrbits) {
   // Kepler from perigee with e = 0.74 and 0.9 over 0.9 periods: the symplecticity is at round-off
-  // with steps that vary by a factor of a hundred, and the nominal is as right as its tolerance says.
+  // with steps that vary by a factor of a hundred, and the nominal is as right as its tolerance
+  // says.
   for (const double e : {0.74, 0.9}) {
-    test::Flow<double> flow{kepler(), {1 - e, 0, 0, 0, std::sqrt((1 + e) / (1 - e)), 0}, 5.6, 4, {}};
+    test::Flow<double> flow{
+        kepler(), {1 - e, 0, 0, 0, std::sqrt((1 + e) / (1 - e)), 0}, 5.6, 4, {}};
     const auto coarse = test::run_gauss(flow, test::adaptive(8, 1e-10));
     const auto fine = test::run_gauss(flow, test::adaptive(8, 1e-17));
     for (const auto* jet : {&coarse, &fine}) {

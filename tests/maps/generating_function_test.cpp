@@ -17,9 +17,9 @@ std::vector<double> coefficients(const Series<double>& u) {
 }
 
 TEST(GeneratingFunction, OfTheOscillatorHasItsClosedForms) {
-  // F1 = ((q^2 + q0^2) cos t - 2 q q0) / (2 sin t); F2(q, p0) = q p0 / cos t - (q^2 + p0^2) tan t / 2;
-  // F3(p, q0) = -p q0 / cos t - (p^2 + q0^2) tan t / 2;
-  // F4(p, p0) = ((p^2 + p0^2) cos t - 2 p p0) / (2 sin t), each by inserting the rotation.
+  // F1 = ((q^2 + q0^2) cos t - 2 q q0) / (2 sin t); F2(q, p0) = q p0 / cos t - (q^2 + p0^2) tan t /
+  // 2; F3(p, q0) = -p q0 / cos t - (p^2 + q0^2) tan t / 2; F4(p, p0) = ((p^2 + p0^2) cos t - 2 p
+  // p0) / (2 sin t), each by inserting the rotation.
   const double t = 0.7;
   const double s = std::sin(t);
   const double c = std::cos(t);
@@ -56,8 +56,8 @@ TEST(GeneratingFunction, HasTheOneFormAsItsGradient) {
     for (std::size_t i = 0; i < 6; ++i) {
       const auto gradient = derivative(S, i);
       for (std::size_t k = 1; k < sigma[i].size(); ++k) {
-        // The gradient differs from the form by what the form lacks of being closed: round-off of the
-        // jet times the powers of the condition that the inversion costs.
+        // The gradient differs from the form by what the form lacks of being closed: round-off of
+        // the jet times the powers of the condition that the inversion costs.
         const int d = sigma[i].space().degree(k);
         EXPECT_NEAR(static_cast<double>(gradient[k] - sigma[i][k]), 0,
                     1e-14 * std::pow(4 * inversion.condition, d))
@@ -80,7 +80,8 @@ TEST(OneForm, HasTheSignsOfItsKind) {
   const auto space = SeriesSpace::create(4, 1);
   PartialInversion<double> inversion;
   inversion.kind = parse_kind("qp-pq", 2);
-  inversion.remaining_final = {Series<double>::variable(space, 0), Series<double>::variable(space, 1)};
+  inversion.remaining_final = {Series<double>::variable(space, 0),
+                               Series<double>::variable(space, 1)};
   inversion.remaining_initial = {Series<double>::variable(space, 2),
                                  Series<double>::variable(space, 3)};
   const auto sigma = one_form(inversion);

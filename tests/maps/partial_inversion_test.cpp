@@ -35,12 +35,13 @@ TEST(PartialInversion, GivesBackTheDeviationsForAllKinds) {
     if (inversion.condition > 1e4) continue;
     const auto w = chosen_variables(jet, kind);
     const std::span<const Series<Extended>> inner(w);
-    const auto initial = compose(std::span<const Series<Extended>>(inversion.remaining_initial), inner);
+    const auto initial =
+        compose(std::span<const Series<Extended>>(inversion.remaining_initial), inner);
     const auto final_rest =
         compose(std::span<const Series<Extended>>(inversion.remaining_final), inner);
     for (std::size_t i = 0; i < 3; ++i) {
-      const auto x = Series<Extended>::variable(jet[0].space_pointer(),
-                                                kind.initial_variable(i, false));
+      const auto x =
+          Series<Extended>::variable(jet[0].space_pointer(), kind.initial_variable(i, false));
       auto y = jet[kind.final_variable(i, false)];
       y[0] = 0;
       for (int d = 1; d <= 3; ++d) {
@@ -106,7 +107,8 @@ TEST(PartialInversion, RefusesKindsThatDoNotExistAtTheTime) {
   const auto jet = test::run_gauss(flow, test::adaptive(8, 1e-16));
   test::expect_error(ErrorKind::numerical, "qqq-qqq", [&] { test::inverted_jet(jet, "F1"); });
   test::expect_error(ErrorKind::numerical, "ppp-ppp", [&] { test::inverted_jet(jet, "F4"); });
-  test::expect_error(ErrorKind::numerical, "singular value", [&] { test::inverted_jet(jet, "F1"); });
+  test::expect_error(ErrorKind::numerical, "singular value",
+                     [&] { test::inverted_jet(jet, "F1"); });
   EXPECT_NO_THROW(test::inverted_jet(jet, "F2"));
   EXPECT_NO_THROW(test::inverted_jet(jet, "F3"));
   // The identity map: F1 and F4 do not exist, F2 and F3 do.
@@ -123,7 +125,8 @@ TEST(BestConditionedKind, HasTheSmallestCondition) {
     EXPECT_LE(condition_number(inverted_block(map, best)),
               condition_number(inverted_block(map, kind)));
   }
-  EXPECT_LT(condition_number(inverted_block(map, best)), 195.3);  // that of F4, the best of the four
+  EXPECT_LT(condition_number(inverted_block(map, best)),
+            195.3);  // that of F4, the best of the four
 }
 
 TEST(PartialInversion, RefusesJetsInFewerVariables) {

@@ -23,8 +23,8 @@ TEST(Symplecticity, OfGaussIsRoundOffAtEveryDegreeAndStep) {
   const struct {
     int stages;
     double step;
-  } runs[] = {{1, 0.01}, {1, 0.1}, {1, 0.3}, {2, 0.05}, {2, 0.5}, {4, 0.1}, {4, 1.0}, {8, 0.3},
-              {8, 1.5}};
+  } runs[] = {{1, 0.01}, {1, 0.1}, {1, 0.3}, {2, 0.05}, {2, 0.5},
+              {4, 0.1},  {4, 1.0}, {8, 0.3}, {8, 1.5}};
   for (const auto& run : runs) {
     const auto jet = test::paper_jet<double>(test::paper_orbit().duration, 4,
                                              test::fixed_step(run.stages, run.step));
@@ -102,8 +102,8 @@ TEST(Symplecticity, OfExplicitMethodsFollowsTheStep) {
     return worst(test::symplecticity(jet));
   };
   EXPECT_GT(run(50, false), 1e-3);
-  // Classical Runge-Kutta is of order 4, and its defect of symplecticity of order 5 a unit of time or
-  // so: halving the step divides it by 16 to 32.
+  // Classical Runge-Kutta is of order 4, and its defect of symplecticity of order 5 a unit of time
+  // or so: halving the step divides it by 16 to 32.
   const double coarse = run(10, true);
   const double fine = run(20, true);
   EXPECT_GT(coarse, 1e-9);

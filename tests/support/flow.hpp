@@ -26,8 +26,11 @@ struct Flow {
 
 template <class Real = double>
 Flow<Real> flow_of(const ReferenceOrbit& orbit, int order) {
-  return {zonal_gravity(orbit.field), {orbit.start.begin(), orbit.start.end()},
-          Real(orbit.duration), order, {}};
+  return {zonal_gravity(orbit.field),
+          {orbit.start.begin(), orbit.start.end()},
+          Real(orbit.duration),
+          order,
+          {}};
 }
 
 template <class Real>
@@ -66,7 +69,8 @@ FlowJet<Real> run_gauss(const Flow<Real>& flow, const GaussSettings& settings = 
   return integrate_gauss(problem_of(flow), settings, statistics != nullptr ? *statistics : own);
 }
 
-/// The paper's orbit of order 4 in extended precision, by 16 stages: the reference for degrees 0..4.
+/// The paper's orbit of order 4 in extended precision, by 16 stages: the reference for degrees
+/// 0..4.
 inline const FlowJet<Extended>& paper_orbit_reference() {
   static const FlowJet<Extended> jet =
       run_gauss(flow_of<Extended>(paper_orbit(), 4), adaptive(16, 1e-24));

@@ -74,8 +74,8 @@ Series<T> random_series(const SpacePointer& space, RandomNumbers& random,
   Series<T> result(space);
   for (std::size_t k = 0; k < result.size(); ++k) {
     for (int lane = 0; lane < C::lanes; ++lane) {
-      const double value = k == 0 ? random.uniform(constant.first, constant.second)
-                                  : random.uniform(-size, size);
+      const double value =
+          k == 0 ? random.uniform(constant.first, constant.second) : random.uniform(-size, size);
       C::set(result[k], lane, typename C::Real(value));
     }
   }

@@ -37,9 +37,9 @@ inline Extended from_decimal(const nlohmann::json& text) {
 struct ReferenceOrbit {
   std::string id;
   ZonalGravity field;
-  std::vector<double> start;                ///< x, y, z, p_x, p_y, p_z; exact
-  double duration = 0;                      ///< exact
-  std::vector<Extended> state;              ///< at the end
+  std::vector<double> start;                  ///< x, y, z, p_x, p_y, p_z; exact
+  double duration = 0;                        ///< exact
+  std::vector<Extended> state;                ///< at the end
   std::vector<std::vector<Extended>> matrix;  ///< d end_i / d start_j
   /// The error that half a unit in the last place of the start and of the duration causes.
   std::vector<double> floor;

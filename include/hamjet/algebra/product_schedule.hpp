@@ -16,30 +16,27 @@ namespace hamjet {
 /// block of degree m_a and one of degree m_b is a fixed pattern of T(m_a) T(m_b) multiply-adds into
 /// T(m_a + m_b) sums: no index is read inside, the sums stay in registers, and each number that is
 /// loaded serves several times. With fewer than three variables every block has one monomial.
+///
+/// Each unordered pair of different blocks {x, y} is listed once and serves both a_x b_y and a_y b_x;
+/// where a block meets itself it stands in `diagonal`.
 struct ProductSchedule {
-  /// Offsets of the two factors' blocks.
+  /// Offsets of two different blocks, the one of smaller block degree first.
   struct Pair {
-    std::uint32_t a;
-    std::uint32_t b;
+    std::uint32_t x;
+    std::uint32_t y;
   };
   /// One block of the result.
   struct Output {
-    std::uint32_t offset;       ///< of the block in the result
+    std::uint32_t offset;        ///< of the block in the result
     std::uint32_t block_degree;  ///< m
-    std::uint32_t first_pair;   ///< into `pairs`
-    std::uint32_t first_run;    ///< into `run_ends`: m + 1 entries, for m_a = 0..m
+    std::uint32_t first_pair;    ///< into `pairs`
+    std::uint32_t first_run;     ///< into `run_ends`: one entry for each m_x = 0..m/2
+    std::uint32_t diagonal;      ///< block of degree m/2 that meets itself, or no_diagonal
   };
 
-  std::vector<Output> outputs;
+  std::vector<Output> outputs;  ///< those of equal block degree together
   std::vector<Pair> pairs;
-  std::vector<std::uint32_t> run_ends;  ///< end, in `pairs`, of the pairs with this m_a
-
-  /// The same for squares: each unordered pair of different blocks once, to be doubled; where a
-  /// block meets itself its offset stands in `diagonal` (or `no_diagonal`), one entry per output.
-  std::vector<Output> square_outputs;
-  std::vector<Pair> square_pairs;
-  std::vector<std::uint32_t> square_run_ends;
-  std::vector<std::uint32_t> diagonal;
+  std::vector<std::uint32_t> run_ends;  ///< end, in `pairs`, of the pairs with this m_x
 
   static constexpr std::uint32_t no_diagonal = UINT32_MAX;
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <utility>
+#include <vector>
 
 #include "hamjet/algebra/pack.hpp"
 #include "hamjet/algebra/series_space.hpp"
@@ -85,78 +86,81 @@ void multiply_blocks(Vector* sums, const T* a, const T* b, std::size_t m_a, std:
 /// Largest block degree whose sums are kept in registers: 28 of the 32 of AVX-512.
 inline constexpr std::size_t largest_unrolled_block = 6;
 
-/// One block of a product or, with `diagonal`, of a square.
+/// One block of a product, or of a square (where a and b are the same).
 template <std::size_t M, bool Square, class T>
 void form_block(const ProductSchedule::Output& output, const ProductSchedule::Pair* pairs,
-                const std::uint32_t* run_ends, [[maybe_unused]] std::uint32_t diagonal, const T* a,
-                const T* b, T* c) {
+                const std::uint32_t* run_ends, const T* a, const T* b, T* c) {
   using Vector = typename Parts<T>::Vector;
   for (std::size_t part = 0; part < Parts<T>::count; ++part) {
     std::array<Vector, block_size(M)> sums{};
     std::size_t pair = output.first_pair;
-    [&]<std::size_t... MA>(std::index_sequence<MA...>) __attribute__((always_inline)) {
+    [&]<std::size_t... MX>(std::index_sequence<MX...>) __attribute__((always_inline)) {
       (
-          [&]<std::size_t Ma>(std::integral_constant<std::size_t, Ma>)
+          [&]<std::size_t Mx>(std::integral_constant<std::size_t, Mx>)
               __attribute__((always_inline)) {
-            for (const std::size_t end = run_ends[output.first_run + Ma]; pair < end; ++pair) {
-              multiply_blocks<Ma, M - Ma>(sums, a + pairs[pair].a, b + pairs[pair].b, part);
+            for (const std::size_t end = run_ends[output.first_run + Mx]; pair < end; ++pair) {
+              const auto [x, y] = pairs[pair];
+              multiply_blocks<Mx, M - Mx>(sums, a + x, b + y, part);
+              if constexpr (!Square) multiply_blocks<Mx, M - Mx>(sums, b + x, a + y, part);
             }
-          }(std::integral_constant<std::size_t, MA>{}),
+          }(std::integral_constant<std::size_t, MX>{}),
           ...);
-    }(std::make_index_sequence<M + 1>{});
+    }(std::make_index_sequence<M / 2 + 1>{});
     if constexpr (Square) {
       for (auto& sum : sums) sum += sum;
-      if constexpr (M % 2 == 0) {
-        if (diagonal != ProductSchedule::no_diagonal) {
-          multiply_blocks<M / 2, M / 2>(sums, a + diagonal, a + diagonal, part);
-        }
+    }
+    if constexpr (M % 2 == 0) {
+      if (output.diagonal != ProductSchedule::no_diagonal) {
+        multiply_blocks<M / 2, M / 2>(sums, a + output.diagonal, b + output.diagonal, part);
       }
     }
     for (std::size_t i = 0; i < sums.size(); ++i) Parts<T>::get(c[output.offset + i], part) = sums[i];
   }
 }
 
+/// The same for block degrees too large for the registers. Only pairs whose factor from `a` lies at
+/// or behind `first` count.
 template <bool Square, class T>
 void form_large_block(const ProductSchedule::Output& output, const ProductSchedule::Pair* pairs,
-                      const std::uint32_t* run_ends, std::uint32_t diagonal, const T* a, const T* b,
+                      const std::uint32_t* run_ends, std::size_t first, const T* a, const T* b,
                       T* c) {
   using Vector = typename Parts<T>::Vector;
-  constexpr std::size_t largest_order = 60;
   const std::size_t m = output.block_degree;
+  std::vector<Vector> sums(block_size(m));
   for (std::size_t part = 0; part < Parts<T>::count; ++part) {
-    static thread_local std::array<Vector, block_size(largest_order)> sums;
-    std::fill_n(sums.begin(), block_size(m), Vector{});
+    std::fill(sums.begin(), sums.end(), Vector{});
     std::size_t pair = output.first_pair;
-    for (std::size_t m_a = 0; m_a <= m; ++m_a) {
-      for (const std::size_t end = run_ends[output.first_run + m_a]; pair < end; ++pair) {
-        multiply_blocks(sums.data(), a + pairs[pair].a, b + pairs[pair].b, m_a, m - m_a, part);
+    for (std::size_t m_x = 0; 2 * m_x <= m; ++m_x) {
+      for (const std::size_t end = run_ends[output.first_run + m_x]; pair < end; ++pair) {
+        const auto [x, y] = pairs[pair];
+        if (x >= first) multiply_blocks(sums.data(), a + x, b + y, m_x, m - m_x, part);
+        if (!Square && y >= first) multiply_blocks(sums.data(), b + x, a + y, m_x, m - m_x, part);
       }
     }
     if constexpr (Square) {
-      for (std::size_t i = 0; i < block_size(m); ++i) sums[i] += sums[i];
-      if (diagonal != ProductSchedule::no_diagonal) {
-        multiply_blocks(sums.data(), a + diagonal, a + diagonal, m / 2, m / 2, part);
-      }
+      for (auto& sum : sums) sum += sum;
     }
-    for (std::size_t i = 0; i < block_size(m); ++i) {
-      Parts<T>::get(c[output.offset + i], part) = sums[i];
+    if (output.diagonal != ProductSchedule::no_diagonal && output.diagonal >= first) {
+      multiply_blocks(sums.data(), a + output.diagonal, b + output.diagonal, m / 2, m / 2, part);
     }
+    for (std::size_t i = 0; i < sums.size(); ++i) Parts<T>::get(c[output.offset + i], part) = sums[i];
   }
 }
 
 template <bool Square, class T>
-void form_slice(const std::vector<ProductSchedule::Output>& outputs,
-                const ProductSchedule::Pair* pairs, const std::uint32_t* run_ends,
-                const std::uint32_t* diagonals, const T* a, const T* b, T* c) {
+void form_slice(const ProductSchedule& schedule, const T* a, const T* b, T* c) {
+  const ProductSchedule::Output* output = schedule.outputs.data();
+  const ProductSchedule::Output* const end = output + schedule.outputs.size();
+  const ProductSchedule::Pair* const pairs = schedule.pairs.data();
+  const std::uint32_t* const run_ends = schedule.run_ends.data();
   // Outputs of equal block degree stand together: one dispatch for all of them.
-  std::size_t i = 0;
-  while (i < outputs.size()) {
+  while (output != end) {
     const auto run = [&]<std::size_t M>(std::integral_constant<std::size_t, M>) {
-      for (; i < outputs.size() && outputs[i].block_degree == M; ++i) {
-        form_block<M, Square>(outputs[i], pairs, run_ends, diagonals[i], a, b, c);
+      for (; output != end && output->block_degree == M; ++output) {
+        form_block<M, Square>(*output, pairs, run_ends, a, b, c);
       }
     };
-    switch (outputs[i].block_degree) {
+    switch (output->block_degree) {
       case 0: run(std::integral_constant<std::size_t, 0>{}); break;
       case 1: run(std::integral_constant<std::size_t, 1>{}); break;
       case 2: run(std::integral_constant<std::size_t, 2>{}); break;
@@ -167,8 +171,8 @@ void form_slice(const std::vector<ProductSchedule::Output>& outputs,
         run(std::integral_constant<std::size_t, largest_unrolled_block>{});
         break;
       default:
-        form_large_block<Square>(outputs[i], pairs, run_ends, diagonals[i], a, b, c);
-        ++i;
+        form_large_block<Square>(*output, pairs, run_ends, 0, a, b, c);
+        ++output;
     }
   }
 }
@@ -180,16 +184,13 @@ void form_slice(const std::vector<ProductSchedule::Output>& outputs,
 /// or `b`, whose slices of degree d are not read.
 template <class T>
 void interior_product(const SeriesSpace& space, int d, const T* a, const T* b, T* c) {
-  const ProductSchedule& s = space.products(d);
-  detail::form_slice<false>(s.outputs, s.pairs.data(), s.run_ends.data(), s.diagonal.data(), a, b, c);
+  detail::form_slice<false>(space.products(d), a, b, c);
 }
 
 /// The same for a square, at about half the cost.
 template <class T>
 void interior_square(const SeriesSpace& space, int d, const T* a, T* c) {
-  const ProductSchedule& s = space.products(d);
-  detail::form_slice<true>(s.square_outputs, s.square_pairs.data(), s.square_run_ends.data(),
-                           s.diagonal.data(), a, a, c);
+  detail::form_slice<true>(space.products(d), a, a, c);
 }
 
 /// c_d = sum over lowest <= i <= d-1 of a_i b_(d-i): the interior product where `a` is known to have
@@ -198,18 +199,9 @@ template <class T>
 void interior_product_from(const SeriesSpace& space, int d, int lowest, const T* a, const T* b,
                            T* c) {
   const ProductSchedule& s = space.products(d);
-  const std::size_t first = space.first(lowest);
   for (const ProductSchedule::Output& output : s.outputs) {
-    T* sums = c + output.offset;
-    std::fill_n(sums, block_size(output.block_degree), T(0));
-    std::size_t pair = output.first_pair;
-    for (std::size_t m_a = 0; m_a <= output.block_degree; ++m_a) {
-      for (const std::size_t end = s.run_ends[output.first_run + m_a]; pair < end; ++pair) {
-        if (s.pairs[pair].a < first) continue;
-        detail::multiply_blocks(sums, a + s.pairs[pair].a, b + s.pairs[pair].b, m_a,
-                                output.block_degree - m_a, 0);
-      }
-    }
+    detail::form_large_block<false>(output, s.pairs.data(), s.run_ends.data(), space.first(lowest), a,
+                                    b, c);
   }
 }
 

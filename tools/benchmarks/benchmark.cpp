@@ -1,0 +1,22 @@
+#include <fmt/format.h>
+
+#include <string>
+
+#include "cases.hpp"
+
+/// Without arguments all benchmarks; otherwise those named: integrators, products, orders, savings.
+int main(int argc, char** argv) {
+  using namespace hamjet::benchmarks;
+  const auto wanted = [&](const std::string& name) {
+    if (argc == 1) return true;
+    for (int i = 1; i < argc; ++i) {
+      if (name == argv[i]) return true;
+    }
+    return false;
+  };
+  fmt::print("single thread; medians of interleaved repeats: compare ratios within one table\n");
+  if (wanted("products")) benchmark_products();
+  if (wanted("integrators")) benchmark_integrators();
+  if (wanted("orders")) benchmark_orders();
+  if (wanted("savings")) benchmark_savings();
+}
