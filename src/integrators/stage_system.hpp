@@ -245,6 +245,7 @@ class StageSystem {
     std::copy_n(factor, Components, row.begin());
     for (; column != end; column += components) {
       const Real x = column[component].lane(lane) * inverse;
+      if (x == 0) continue;  // the right-hand sides start with blocks of zeros
       const P broadcast(x);
       if constexpr (Components == 0) {
         for (std::size_t c = 0; c < components; ++c) column[c] -= factor[c] * broadcast;

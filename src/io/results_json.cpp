@@ -53,7 +53,14 @@ Json run_json(const PropagationResult& result, const RunResult& run) {
                {"tolerance", or_null(settings.tolerance)},
                {"error", text_or_null(run.failure)},
                {"failed_checks", run.failed_checks}};
-  if (!run.failure.empty()) return json;
+  if (!run.failure.empty()) {
+    for (const char* key : {"steps", "rejected_steps", "vector_field_evaluations",
+                            "nominal_evaluations", "wall_seconds", "nominal_final", "energy_error",
+                            "exactness", "symplecticity_by_degree", "error_by_degree"}) {
+      json[key] = nullptr;
+    }
+    return json;
+  }
   json["steps"] = run.statistics.steps;
   json["rejected_steps"] = run.statistics.rejected_steps;
   json["vector_field_evaluations"] = run.statistics.vector_field_evaluations;

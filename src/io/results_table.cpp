@@ -110,7 +110,7 @@ std::string reference_line(const PropagationResult& result) {
   }
   const auto& uncertainty = result.reference->uncertainty_by_degree;
   return fmt::format(
-      "reference: Gauss, {} stages, 113 bits, {} steps in {}; its own uncertainty is {:.0e} at worst\n",
+      "reference: Gauss, {} stages, 113 bits, steps: {}, time: {}; its own uncertainty is {:.0e} at worst\n",
       result.reference->stages, result.reference->statistics.steps,
       duration_text(result.reference->statistics.wall_seconds),
       *std::max_element(uncertainty.begin(), uncertainty.end()));

@@ -14,8 +14,10 @@ namespace {
 constexpr std::int64_t most_stages = 12;
 constexpr double most_steps = 1e9;
 constexpr std::size_t longest_label = 100;
-/// The file that stands beside the integrators' directories in the output.
-constexpr std::string_view reserved_label = "summary.json";
+/// The files that stand beside the integrators' directories in the output.
+bool is_reserved(std::string_view label) {
+  return label == "summary.json" || label == "relative_hamiltonian.csv";
+}
 
 bool is_cvode(IntegrationMethod method) {
   return method == IntegrationMethod::cvode_adams || method == IntegrationMethod::cvode_bdf;
@@ -52,12 +54,12 @@ std::string read_label(const TableReader& integrator) {
     return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '.' ||
            c == '_' || c == '-';
   };
-  if (label.empty() || label.size() > longest_label || label[0] == '.' || label == reserved_label ||
+  if (label.empty() || label.size() > longest_label || label[0] == '.' || is_reserved(label) ||
       !std::all_of(label.begin(), label.end(), allowed)) {
     integrator.fail("label", fmt::format("not usable as the name of a directory, got {}, must be 1 "
                                          "to {} of the characters A-Z a-z 0-9 . _ - without a dot "
-                                         "at the start, and not {}",
-                                         in_quotes(label), longest_label, reserved_label));
+                                         "at the start, and not the name of a result file",
+                                         in_quotes(label), longest_label));
   }
   return label;
 }

@@ -58,10 +58,10 @@ PartialInversion<T> invert_partially(std::span<const Series<T>> jet,
   if (!(result.condition < largest_condition)) {
     const Eigen::VectorXd values = Eigen::JacobiSVD<Matrix<double>>(block).singularValues();
     throw Error(ErrorKind::numerical,
-                fmt::format("generating function {}: it does not exist at this time, the smallest "
-                            "singular value of its linear part is {:.3g} (condition {:.3g}); another "
-                            "kind, or 'auto', may",
-                            kind.name(), values(values.size() - 1), result.condition));
+                fmt::format("generating function {}: it does not exist at this time: the singular "
+                            "values of its linear part run from {:.3g} down to {:.3g} (condition "
+                            "{:.3g}); another kind, or 'auto', may exist",
+                            kind.name(), values(0), values(values.size() - 1), result.condition));
   }
   // The map w(initial deviations) is inverted as a whole: its last n rows are single variables.
   const std::size_t n = kind.degrees_of_freedom();

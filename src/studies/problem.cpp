@@ -8,6 +8,7 @@
 
 #include "hamjet/dynamics/harmonic_oscillator.hpp"
 #include "hamjet/dynamics/zonal_gravity.hpp"
+#include "hamjet/integrators/cvode.hpp"
 #include "hamjet/studies/propagation.hpp"
 
 namespace hamjet {
@@ -104,7 +105,25 @@ double estimate_memory(const Scene& scene, const DynamicalSystem& system, std::s
   return total + 20 * megabyte;
 }
 
+namespace {
+
+void require_built(const Scene& scene) {
+  for (const IntegratorSettings& settings : scene.integrators) {
+    const bool is_cvode = settings.method == IntegrationMethod::cvode_adams ||
+                          settings.method == IntegrationMethod::cvode_bdf;
+    if (is_cvode && !cvode_available()) {
+      throw Error(ErrorKind::usage,
+                  fmt::format("integrator {}: this build has no CVODE; configure with "
+                              "-DHAMJET_CVODE=ON",
+                              settings.label));
+    }
+  }
+}
+
+}  // namespace
+
 ComputedProblem make_problem(const Scene& scene, double memory_limit) {
+  require_built(scene);
   const DynamicalSystem full = make_system(scene);
   const std::size_t n = full.degrees_of_freedom;
   ComputedProblem problem;

@@ -83,26 +83,30 @@ void run_integrator(const Scene& scene, const ComputedProblem& problem, RunResul
   run.nominal = recorder.take();
 }
 
+/// One check of the scene: a value that was not computed has not passed.
+void check(RunResult& run, const char* key, std::optional<double> limit,
+           std::optional<double> value) {
+  if (!limit) return;
+  if (!value) {
+    run.failed_checks.push_back(fmt::format("{}: not computed, see the scene's [reference] table and "
+                                            "jet.variables",
+                                            key));
+  } else if (!(*value <= *limit)) {
+    run.failed_checks.push_back(fmt::format("{}: {:.3g} exceeds {:.3g}", key, *value, *limit));
+  }
+}
+
 void check(RunResult& run) {
-  if (run.settings.require_relative_error && run.error_by_degree) {
-    const double worst =
-        *std::max_element(run.error_by_degree->begin(), run.error_by_degree->end());
-    if (!(worst <= *run.settings.require_relative_error)) {
-      run.failed_checks.push_back(fmt::format("require_relative_error: {:.3g} exceeds {:.3g}", worst,
-                                              *run.settings.require_relative_error));
-    }
+  std::optional<double> error;
+  if (run.error_by_degree) {
+    error = *std::max_element(run.error_by_degree->begin(), run.error_by_degree->end());
   }
-  if (run.settings.require_symplecticity) {
-    double worst = 0;
-    for (const auto& entry : run.symplecticity) worst = std::max(worst, entry.scaled);
-    if (run.symplecticity.empty() || !(worst <= *run.settings.require_symplecticity)) {
-      run.failed_checks.push_back(
-          run.symplecticity.empty()
-              ? "require_symplecticity: not computed, the jet has not all variables"
-              : fmt::format("require_symplecticity: {:.3g} exceeds {:.3g}", worst,
-                            *run.settings.require_symplecticity));
-    }
+  std::optional<double> symplecticity;
+  for (const auto& entry : run.symplecticity) {
+    symplecticity = std::max(symplecticity.value_or(0), entry.scaled);
   }
+  check(run, "require_relative_error", run.settings.require_relative_error, error);
+  check(run, "require_symplecticity", run.settings.require_symplecticity, symplecticity);
 }
 
 std::vector<RelativeHamiltonianResult> relative_hamiltonians(const Scene& scene,
@@ -135,16 +139,6 @@ PropagationResult propagate(const Scene& scene, const ProgressCallback& progress
   const auto report = [&](const std::string& task, double fraction) {
     if (progress) progress(task, fraction);
   };
-  for (const IntegratorSettings& settings : scene.integrators) {
-    const bool is_cvode = settings.method == IntegrationMethod::cvode_adams ||
-                          settings.method == IntegrationMethod::cvode_bdf;
-    if (is_cvode && !cvode_available()) {
-      throw Error(ErrorKind::usage,
-                  fmt::format("integrator {}: this build has no CVODE; configure with "
-                              "-DHAMJET_CVODE=ON",
-                              settings.label));
-    }
-  }
   result.relative_hamiltonians = relative_hamiltonians(scene, result.problem);
   if (scene.reference) {
     result.reference = compute_reference(result.problem, scene.duration, *scene.reference,

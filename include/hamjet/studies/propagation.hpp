@@ -97,7 +97,7 @@ DynamicalSystem make_system(const Scene& scene);
 
 /// What has to be computed for a scene: degrees of freedom that stay exactly zero and that the scene
 /// does not expand in are left out. Throws Error(too_large), naming the estimate, if the series would
-/// not fit `memory_limit` bytes.
+/// not fit `memory_limit` bytes, Error(usage) if an integrator is not in this build.
 ComputedProblem make_problem(const Scene& scene, double memory_limit);
 
 /// Bytes that the scene's runs need at most, from the counts of series and coefficients.
