@@ -10,7 +10,7 @@ enum class ErrorKind {
   check_failed = 1,  ///< a check that the scene asked for failed
   usage = 2,         ///< the command line, or a call of the library, is wrong
   scene = 3,         ///< the scene is wrong
-  numerical = 4,     ///< no solution, no convergence, a singular matrix, a number that is not finite
+  numerical = 4,  ///< no solution, no convergence, a singular matrix, a number that is not finite
   input_output = 5,  ///< a file could not be read or written
   too_large = 6,     ///< the work asked for does not fit this machine
 };

@@ -10,6 +10,9 @@
 namespace hamjet {
 namespace {
 
+/// Beyond this a single series takes half a gigabyte, and the space itself several.
+constexpr double most_monomials = 5e7;
+
 /// C(n, k) for small arguments.
 std::size_t binomial(std::size_t n, std::size_t k) {
   std::size_t result = 1;
@@ -139,7 +142,7 @@ std::shared_ptr<const SeriesSpace> SeriesSpace::create(std::size_t variables, in
                             "and order 0..60",
                             variables, order));
   }
-  if (monomial_count(variables, order) * static_cast<double>(variables) > 4e9) {
+  if (monomial_count(variables, order) > most_monomials) {
     throw Error(ErrorKind::too_large,
                 fmt::format("series space: order {} in {} variables has {:.3g} coefficients", order,
                             variables, monomial_count(variables, order)));
@@ -168,8 +171,8 @@ std::size_t SeriesSpace::index(std::span<const std::uint8_t> exponents) const {
                             "variables of order {}",
                             exponents.size(), degree, variables_, order_));
   }
-  // Monomials before this one in its degree: those that agree up to variable i - 1 and have a larger
-  // exponent there; with `after` variables behind, C(left - 1 + after, after) of them.
+  // Monomials before this one in its degree: those that agree up to variable i - 1 and have a
+  // larger exponent there; with `after` variables behind, C(left - 1 + after, after) of them.
   std::size_t rank = first(degree);
   auto left = static_cast<std::size_t>(degree);
   for (std::size_t i = 0; i + 1 < variables_; ++i) {
@@ -188,10 +191,11 @@ std::size_t SeriesSpace::product_cost() const {
 
 void require_same_space(const SeriesSpace& a, const SeriesSpace& b) {
   if (!(a == b)) {
-    throw Error(ErrorKind::usage,
-                fmt::format("series of different spaces are combined: {} variables of order {} with "
-                            "{} variables of order {}",
-                            a.variables(), a.order(), b.variables(), b.order()));
+    throw Error(
+        ErrorKind::usage,
+        fmt::format("series of different spaces are combined: {} variables of order {} with "
+                    "{} variables of order {}",
+                    a.variables(), a.order(), b.variables(), b.order()));
   }
 }
 

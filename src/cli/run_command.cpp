@@ -25,9 +25,9 @@ std::vector<io::Override> parse_overrides(const std::vector<std::string>& texts)
   for (const std::string& text : texts) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos || equals == 0) {
-      throw Error(ErrorKind::usage,
-                  fmt::format("--set {}: must be key=value, for example jet.order=3",
-                              io::printable(text)));
+      throw Error(
+          ErrorKind::usage,
+          fmt::format("--set {}: must be key=value, for example jet.order=3", io::printable(text)));
     }
     overrides.push_back({text.substr(0, equals), text.substr(equals + 1)});
   }
@@ -53,9 +53,9 @@ Scene read(const RunOptions& options) {
 
 int run(const RunOptions& options) {
   const Scene scene = read(options);
-  const std::filesystem::path directory =
-      options.output ? std::filesystem::path(*options.output)
-                     : std::filesystem::path("out") / scene.name;
+  const std::filesystem::path directory = options.output
+                                              ? std::filesystem::path(*options.output)
+                                              : std::filesystem::path("out") / scene.name;
   io::OutputDirectory output(directory);
   PropagationResult result;
   {
@@ -115,7 +115,8 @@ int check(const RunOptions& options) {
       text += fmt::format(", {} stages", settings.stages);
     }
     if (settings.tolerance) text += fmt::format(", tolerance {:g}", *settings.tolerance);
-    if (settings.step_canonical) text += fmt::format(", step {:g} canonical", *settings.step_canonical);
+    if (settings.step_canonical)
+      text += fmt::format(", step {:g} canonical", *settings.step_canonical);
     text += "\n";
   }
   text += fmt::format("  inversions   {}\n  reference    {}\n",

@@ -95,8 +95,8 @@ std::vector<std::size_t> needed_degrees_of_freedom(const DynamicalSystem& system
   for (std::size_t i = 0; i < 2 * n; ++i) {
     if (nominal[i] != 0) needed[i % n] = true;
   }
-  // Where the rest is not invariant (its derivatives do not vanish identically on the subspace), the
-  // driven degrees of freedom join, until nothing more does.
+  // Where the rest is not invariant (its derivatives do not vanish identically on the subspace),
+  // the driven degrees of freedom join, until nothing more does.
   while (true) {
     std::vector<std::size_t> kept;
     for (std::size_t i = 0; i < n; ++i) {

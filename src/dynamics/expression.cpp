@@ -52,9 +52,10 @@ Expression operator-(const Expression& a) { return scaled_sum(a, -1, Expression(
 Expression operator*(const Expression& a, const Expression& b) {
   if (a.is_constant()) return scaled_sum(b, a.constant(), Expression(), 0);
   if (b.is_constant()) return scaled_sum(a, b.constant(), Expression(), 0);
+  Recorder& recorder = common_recorder(a, b);
   if (a.value() == b.value()) return square(a);
-  return common_recorder(a, b).operation(OperationCode::product, std::min(a.value(), b.value()),
-                                         std::max(a.value(), b.value()));
+  return recorder.operation(OperationCode::product, std::min(a.value(), b.value()),
+                            std::max(a.value(), b.value()));
 }
 
 Expression operator/(const Expression& a, const Expression& b) {

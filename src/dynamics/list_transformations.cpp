@@ -97,7 +97,8 @@ OperationList gradient(const OperationList& list) {
     adjoint[list.outputs()[0]] = 1;
     for (std::size_t i = values.size(); i-- > 0;) {
       const Operation& o = list.operations()[i];
-      if (o.code == OperationCode::input || (adjoint[i].is_constant() && adjoint[i].constant() == 0)) {
+      if (o.code == OperationCode::input ||
+          (adjoint[i].is_constant() && adjoint[i].constant() == 0)) {
         continue;
       }
       if (o.code == OperationCode::linear) {

@@ -21,7 +21,8 @@ FlowJet<Real> integrate_gauss(const FlowProblem<Real>& problem, const GaussSetti
   }
   if (!(settings.step.value_or(1) > 0) || !(settings.tolerance.value_or(0.5) > 0) ||
       !(settings.tolerance.value_or(0.5) < 1)) {
-    throw Error(ErrorKind::usage, "Gauss: the step must be positive, the tolerance between 0 and 1");
+    throw Error(ErrorKind::usage,
+                "Gauss: the step must be positive, the tolerance between 0 and 1");
   }
   // The stages fill the lanes of a pack; the smallest of five widths that holds them is taken.
   if (settings.stages == 1) return run_gauss<1>(problem, settings, statistics, observer);

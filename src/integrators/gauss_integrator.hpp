@@ -55,8 +55,8 @@ class GaussIntegrator {
   }
 
  private:
-  /// A step is repeated if its error estimate exceeds the tolerance more than this: the estimate goes
-  /// as h^(2s), so that a step hardly too long is not worth repeating.
+  /// A step is repeated if its error estimate exceeds the tolerance more than this: the estimate
+  /// goes as h^(2s), so that a step hardly too long is not worth repeating.
   static constexpr double largest_excess = 10;
   /// Measured: with this factor the global error of all coefficients of degree 0..4 over a few
   /// revolutions comes out near the tolerance, for 4 to 16 stages.
@@ -67,7 +67,7 @@ class GaussIntegrator {
   }
 
   /// Adds the time since `mark` to one entry of the profile and moves the mark.
-  void account(double GaussProfile::* entry, Clock::time_point& mark) {
+  void account(double GaussProfile::*entry, Clock::time_point& mark) {
     if (settings_.profile == nullptr) return;
     const auto now = Clock::now();
     settings_.profile->*entry += std::chrono::duration<double>(now - mark).count();
@@ -106,16 +106,17 @@ class GaussIntegrator {
         }
       }
       if (!is_finite(slope[c])) {
-        throw Error(ErrorKind::numerical,
-                    fmt::format("Gauss: the vector field is not finite at t = {:.10g}: a collision, "
-                                "or a point outside its domain",
-                                static_cast<double>(time_)));
+        throw Error(
+            ErrorKind::numerical,
+            fmt::format("Gauss: the vector field is not finite at t = {:.10g}: a collision, "
+                        "or a point outside its domain",
+                        static_cast<double>(time_)));
       }
     }
   }
 
-  /// The time in which the slopes change by about their own size, from the gradient at the start; for
-  /// an orbit it is proportional to r^(3/2).
+  /// The time in which the slopes change by about their own size, from the gradient at the start;
+  /// for an orbit it is proportional to r^(3/2).
   Real first_step() {
     const std::size_t m = stages_.system().components();
     double norm = 0;
@@ -143,10 +144,11 @@ class GaussIntegrator {
     while (true) {
       if (!settings_.step) h = fit_to_span(h, remaining);
       if (time_ + h == time_) {
-        throw Error(ErrorKind::numerical,
-                    fmt::format("Gauss: the step size fell to {:.3g} at t = {:.15g}: a collision or "
-                                "another singularity lies ahead",
-                                static_cast<double>(h), static_cast<double>(time_)));
+        throw Error(
+            ErrorKind::numerical,
+            fmt::format("Gauss: the step size fell to {:.3g} at t = {:.15g}: a collision or "
+                        "another singularity lies ahead",
+                        static_cast<double>(h), static_cast<double>(time_)));
       }
       const bool is_solved = solve_nominal(h);
       account(&GaussProfile::nominal, mark);
@@ -188,15 +190,17 @@ class GaussIntegrator {
   }
 
   [[noreturn]] void fail_fixed_step(const Real& h) const {
-    throw Error(ErrorKind::numerical,
-                fmt::format("Gauss with {} stages: the implicit equations of the step of {:.6g} from "
-                            "t = {:.10g} have no solution connected to its start; a smaller step is "
-                            "needed",
-                            settings_.stages, static_cast<double>(h), static_cast<double>(time_)));
+    throw Error(
+        ErrorKind::numerical,
+        fmt::format("Gauss with {} stages: the implicit equations of the step of {:.6g} from "
+                    "t = {:.10g} have no solution connected to its start; a smaller step is "
+                    "needed",
+                    settings_.stages, static_cast<double>(h), static_cast<double>(time_)));
   }
 
-  /// Degree 0 of a step: Newton from the extrapolated slopes, from constant slopes if that fails, and
-  /// along growing step sizes where the solution found might not be the one connected to the start.
+  /// Degree 0 of a step: Newton from the extrapolated slopes, from constant slopes if that fails,
+  /// and along growing step sizes where the solution found might not be the one connected to the
+  /// start.
   bool solve_nominal(const Real& h) {
     if (statistics_.steps > 0) {
       extrapolate_slopes(h);
@@ -217,17 +221,44 @@ class GaussIntegrator {
     for (std::size_t c = 0; c < end_slope_.size(); ++c) stages_.slopes()[c] = P(end_slope_[c]);
   }
 
-  /// Newton can converge to a detached root of the stage equations, whose map is symplectic and wrong.
-  /// The slopes then have nothing to do with the slope at the start of the step.
+  /// Newton can converge to a detached root of the stage equations, whose map is symplectic and
+  /// wrong. The slopes then have nothing to do with the slope at the start of the step.
   bool is_suspicious() { return start_defect() > 0.5 * largest_slope(); }
 
+  /// Follows the solution from a tiny step to the full one. Where neighbouring solutions differ
+  /// much the path is refined; a path that ends (a fold) has no continuation, however far it is
+  /// refined.
   bool continue_from_start(const Real& h) {
-    constexpr int parts = 32;
+    constexpr double first = 0x1p-10;
+    constexpr double smallest = 0x1p-16;
     set_constant_slopes();
-    for (int i = 1; i <= parts; ++i) {
-      if (!try_step(Real(h * Real(i) / Real(parts)))) return false;
+    if (!try_step(Real(h * Real(first))) || is_suspicious()) return false;
+    double reached = first;
+    double part = first;
+    while (reached < 1) {
+      const double next = std::min(1.0, reached + part);
+      const std::vector<P> before = stages_.slopes();
+      if (try_step(Real(h * Real(next))) && slope_change(before) <= 0.25 * largest_slope()) {
+        reached = next;
+        part *= 2;
+        continue;
+      }
+      stages_.slopes() = before;
+      part /= 2;
+      if (part < smallest) return false;
     }
     return true;
+  }
+
+  double slope_change(const std::vector<P>& before) {
+    double result = 0;
+    for (std::size_t c = 0; c < before.size(); ++c) {
+      const P difference = stages_.slopes()[c] - before[c];
+      for (int i = 0; i < settings_.stages; ++i) {
+        result = std::max(result, std::abs(static_cast<double>(difference.lane(i))));
+      }
+    }
+    return result;
   }
 
   /// Lagrange extrapolation of the last step's slopes: node i lies at 1 + (h/h_previous) c_i there.
@@ -282,9 +313,9 @@ class GaussIntegrator {
     return result;
   }
 
-  /// The square of the first neglected Legendre mode of the slopes, relative to the slopes. That mode
-  /// shows as the defect at the start of the step; where it happens to vanish, the last mode kept,
-  /// which has the other parity, does not.
+  /// The square of the first neglected Legendre mode of the slopes, relative to the slopes. That
+  /// mode shows as the defect at the start of the step; where it happens to vanish, the last mode
+  /// kept, which has the other parity, does not.
   double error_estimate() {
     const double slope = largest_slope();
     if (slope == 0) return 0;
@@ -374,7 +405,8 @@ class GaussIntegrator {
         Real velocity = jet_[m + c][k];
         if (!system.unit_mass()) {
           velocity = Real(0);
-          for (std::size_t i = 0; i < m; ++i) velocity += system.inverse_mass(c, i) * jet_[m + i][k];
+          for (std::size_t i = 0; i < m; ++i)
+            velocity += system.inverse_mass(c, i) * jet_[m + i][k];
         }
         add(jet_[c][k], lost_[c][k],
             Real(h * (velocity + h * dot(system.position_weights(), stages_.slope(c, k)))));
@@ -408,7 +440,7 @@ class GaussIntegrator {
   IntegrationStatistics& statistics_;
   Clock::time_point start_;
   int order_;
-  GaussTableau tableau_;
+  const GaussTableau& tableau_;
   StageSlopes<Real, Lanes> stages_;
   SliceEvaluator<Real, Real> point_;  ///< the vector field at one point
   FlowJet<Real> jet_;

@@ -1,7 +1,9 @@
 #include "hamjet/integrators/gauss_tableau.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <mutex>
 #include <numbers>
 
 #include "hamjet/error.hpp"
@@ -9,8 +11,8 @@
 namespace hamjet {
 namespace {
 
-/// P_0..P_s at x, by k P_k = (2k-1) x P_(k-1) - (k-1) P_(k-2); `inverse[k]` is 1/k, for divisions are
-/// slow in extended precision.
+/// P_0..P_s at x, by k P_k = (2k-1) x P_(k-1) - (k-1) P_(k-2); `inverse[k]` is 1/k, for divisions
+/// are slow in extended precision.
 template <class Real>
 std::vector<Real> legendre(const Real& x, const std::vector<Real>& inverse) {
   std::vector<Real> p(inverse.size(), Real(1));
@@ -45,20 +47,16 @@ Real newton_step(const Real& x, const std::vector<Real>& inverse) {
 /// The i-th zero of P_s from the largest down, for the positive ones.
 Extended legendre_zero(std::size_t s, std::size_t i, const std::vector<Extended>& inverse) {
   const std::vector<double> inverse_double = inverses<double>(s);
-  double x = std::cos(std::numbers::pi * (static_cast<double>(i) + 0.75) /
-                      (static_cast<double>(s) + 0.5));
+  double x =
+      std::cos(std::numbers::pi * (static_cast<double>(i) + 0.75) / (static_cast<double>(s) + 0.5));
   // Newton doubles the digits: the asymptotic guess has 3, binary64 gives 16, two more steps 34.
   for (int step = 0; step < 4; ++step) x = newton_step(x, inverse_double);
   return newton_step(newton_step(Extended(x), inverse), inverse);
 }
 
-}  // namespace
+constexpr std::size_t most_stages = 16;
 
-GaussTableau gauss_tableau(std::size_t stages) {
-  if (stages < 1 || stages > 16) {
-    throw Error(ErrorKind::usage, "Gauss method: the number of stages must be 1..16");
-  }
-  const std::size_t s = stages;
+GaussTableau compute_tableau(std::size_t s) {
   GaussTableau tableau;
   tableau.stages = s;
   tableau.nodes.resize(s);
@@ -98,6 +96,19 @@ GaussTableau gauss_tableau(std::size_t stages) {
     }
   }
   return tableau;
+}
+
+}  // namespace
+
+const GaussTableau& gauss_tableau(std::size_t stages) {
+  if (stages < 1 || stages > most_stages) {
+    throw Error(ErrorKind::usage, "Gauss method: the number of stages must be 1..16");
+  }
+  // Constants of mathematics, computed when first asked for: that takes longer than a step.
+  static std::array<std::once_flag, most_stages + 1> is_computed;
+  static std::array<GaussTableau, most_stages + 1> tableaux;
+  std::call_once(is_computed[stages], [&] { tableaux[stages] = compute_tableau(stages); });
+  return tableaux[stages];
 }
 
 }  // namespace hamjet

@@ -75,10 +75,10 @@ class StageSlopes {
         slopes_[c] += residual[c];
         for (std::size_t k = 0; k < m; ++k) slopes_[c] += slope_gradient(c, k) * change[k];
       }
-      const bool is_small = size <= 1000 * epsilon;
-      // Below a thousand units in the last place nothing but round-off is left once the correction
-      // stops shrinking.
-      if (size <= 2 * epsilon || (is_small && size >= previous / 4)) {
+      // Once the correction stops shrinking, what is left is round-off if it is no larger than what
+      // the rounding of the slopes alone causes: with stiff systems that is far above epsilon.
+      const bool is_stalled = size >= previous / 4;
+      if (size <= 2 * epsilon || (is_stalled && size <= 100 * epsilon * amplification())) {
         place_stages(state);
         evaluator_.evaluate_constant_terms();
         ++evaluations;
@@ -134,6 +134,29 @@ class StageSlopes {
     }
   }
 
+  /// How much relative changes of the slopes are amplified in the stages: sum of |K| |G| over |Y|,
+  /// at least 1.
+  Real amplification() {
+    Real result = 1;
+    for (std::size_t c = 0; c < system_.components(); ++c) {
+      Real scale = 0;
+      Real largest = 0;
+      for (int i = 0; i < static_cast<int>(system_.stages()); ++i) {
+        Real sum = 0;
+        for (std::size_t from = 0; from < system_.components(); ++from) {
+          for (std::size_t j = 0; j < system_.stages(); ++j) {
+            sum += magnitude(Real(system_.response(from, j, c).lane(i) *
+                                  slopes_[from].lane(static_cast<int>(j))));
+          }
+        }
+        largest = std::max(largest, sum);
+        scale = std::max(scale, magnitude(evaluator_.input(c)[0].lane(i)));
+      }
+      if (scale > 0) result = std::max(result, Real(largest / scale));
+    }
+    return result;
+  }
+
   /// Largest change of a stage relative to the largest stage value of the same component.
   Real relative_size(const std::vector<P>& change) {
     Real result = 0;
@@ -168,7 +191,8 @@ class StageSlopes {
 
   /// Y_c for `Width` monomials at once: each entry of K is loaded once for all of them.
   template <std::size_t Width>
-  void solve_tile(std::size_t c, int d, std::size_t monomial, const std::vector<const Real*>& state) {
+  void solve_tile(std::size_t c, int d, std::size_t monomial,
+                  const std::vector<const Real*>& state) {
     std::array<P, Width> sum;
     for (std::size_t t = 0; t < Width; ++t) sum[t] = P(Real(0));
     for (std::size_t k = 0; k < state.size(); ++k) {

@@ -30,9 +30,9 @@ bool is_finite(const Real& x) {
 ///
 ///   Y = base + (W (x) I) G,   G_j = g(Y_j),
 ///
-/// where for a general system Y = z, g = z', W = h A and base_i = z_n; and for a second-order system
-/// Y = q, g = M^-1 F(q), W = h^2 A^2 and base_i = q_n + h c_i M^-1 p_n (elimination of p). One
-/// linearisation serves Newton's iteration and every monomial of every degree:
+/// where for a general system Y = z, g = z', W = h A and base_i = z_n; and for a second-order
+/// system Y = q, g = M^-1 F(q), W = h^2 A^2 and base_i = q_n + h c_i M^-1 p_n (elimination of p).
+/// One linearisation serves Newton's iteration and every monomial of every degree:
 ///
 ///   (I - W (x) Dg) Y_d = base_d + W R_d   =>   Y_d = K R_d + B z_d .
 ///
@@ -52,10 +52,13 @@ class StageSystem {
     weights_ = pack_of([&](std::size_t i) { return tableau.weights[i]; }, false);
     nodes_ = pack_of([&](std::size_t i) { return tableau.nodes[i]; }, true);
     position_weights_ = pack_of(
-        [&](std::size_t i) { return Extended(tableau.weights[i] * (1 - tableau.nodes[i])); }, false);
+        [&](std::size_t i) { return Extended(tableau.weights[i] * (1 - tableau.nodes[i])); },
+        false);
     for (std::size_t j = 0; j < s; ++j) {
       coupling_.push_back(pack_of(
-          [&](std::size_t i) { return (second_order_ ? tableau.squared : tableau.matrix)[i * s + j]; },
+          [&](std::size_t i) {
+            return (second_order_ ? tableau.squared : tableau.matrix)[i * s + j];
+          },
           true));
     }
     if (second_order_) {

@@ -12,8 +12,8 @@ std::vector<std::string> generating_function_variables(const PropagationResult& 
     variables.emplace_back(names[result.problem.components[kind.final_variable(i)]]);
   }
   for (std::size_t i = 0; i < kind.degrees_of_freedom(); ++i) {
-    variables.emplace_back(
-        std::string(names[result.problem.components[kind.initial_variable(i)]]) + "0");
+    variables.emplace_back(std::string(names[result.problem.components[kind.initial_variable(i)]]) +
+                           "0");
   }
   return variables;
 }

@@ -69,15 +69,15 @@ Json run_json(const PropagationResult& result, const RunResult& run) {
   json["nominal_final"] = run.nominal_final;
   json["energy_error"] = run.energy_error;
   json["exactness"] = Json::array();
-  for (const KindResult& kind : run.kinds) json["exactness"].push_back(exactness_json(result, kind));
+  for (const KindResult& kind : run.kinds)
+    json["exactness"].push_back(exactness_json(result, kind));
   if (!result.scene.kinds || !result.problem.is_full_jet) json["exactness"] = nullptr;
   json["symplecticity_by_degree"] = nullptr;
   if (!run.symplecticity.empty()) {
     json["symplecticity_by_degree"] = Json::array();
     for (const SymplecticityDefect& entry : run.symplecticity) {
-      json["symplecticity_by_degree"].push_back({{"degree", entry.degree},
-                                                 {"absolute", entry.absolute},
-                                                 {"scaled", entry.scaled}});
+      json["symplecticity_by_degree"].push_back(
+          {{"degree", entry.degree}, {"absolute", entry.absolute}, {"scaled", entry.scaled}});
     }
   }
   json["error_by_degree"] = nullptr;
@@ -99,21 +99,20 @@ std::string summary_json(const PropagationResult& result) {
   for (const std::size_t c : result.problem.components) components.push_back(names[c]);
   Json variables = Json::array();
   for (const std::size_t v : scene.variables) variables.push_back(names[v]);
-  Json json = {
-      {"scene", scene.name},
-      {"title", scene.title},
-      {"version", version},
-      {"model", model_names()[static_cast<std::size_t>(scene.system.model)]},
-      {"precision", scene.precision == Precision::extended ? "extended" : "double"},
-      {"units", {{"length_km", scene.units.length_km}, {"time_s", scene.units.time_s}}},
-      {"order", scene.order},
-      {"variables", variables},
-      {"components", components},
-      {"coefficients_per_component", result.problem.space->size()},
-      {"duration_canonical", scene.duration},
-      {"nominal_initial", scene.nominal},
-      {"separation_canonical", or_null(scene.separation)},
-      {"reference", nullptr}};
+  Json json = {{"scene", scene.name},
+               {"title", scene.title},
+               {"version", version},
+               {"model", model_names()[static_cast<std::size_t>(scene.system.model)]},
+               {"precision", scene.precision == Precision::extended ? "extended" : "double"},
+               {"units", {{"length_km", scene.units.length_km}, {"time_s", scene.units.time_s}}},
+               {"order", scene.order},
+               {"variables", variables},
+               {"components", components},
+               {"coefficients_per_component", result.problem.space->size()},
+               {"duration_canonical", scene.duration},
+               {"nominal_initial", scene.nominal},
+               {"separation_canonical", or_null(scene.separation)},
+               {"reference", nullptr}};
   if (result.reference) {
     const ReferenceResult& reference = *result.reference;
     std::vector<double> state(scene.nominal.size(), 0);

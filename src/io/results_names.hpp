@@ -7,7 +7,8 @@
 
 namespace hamjet::io {
 
-/// Names of the 2n variables of a generating function: final ones, then initial ones with a 0 behind.
+/// Names of the 2n variables of a generating function: final ones, then initial ones with a 0
+/// behind.
 std::vector<std::string> generating_function_variables(const PropagationResult& result,
                                                        const GeneratingFunctionKind& kind);
 

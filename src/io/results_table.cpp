@@ -61,8 +61,8 @@ std::vector<std::size_t> shown_degrees(const Scene& scene) {
 }
 
 Row header(const PropagationResult& result) {
-  Row row = {"integrator",    "steps", "rejected", "time", "position error", "relative error",
-             "symplecticity", "energy error"};
+  Row row = {"integrator",     "steps",          "rejected",      "time",
+             "position error", "relative error", "symplecticity", "energy error"};
   if (!result.scene.kinds || !result.problem.is_full_jet) return row;
   for (const std::string& kind : *result.scene.kinds) {
     for (const std::size_t d : shown_degrees(result.scene)) {
@@ -106,11 +106,13 @@ std::string aligned(const std::vector<Row>& rows) {
 
 std::string reference_line(const PropagationResult& result) {
   if (!result.reference) {
-    return "no reference: the scene has no [reference] table, so errors and floors are not computed\n";
+    return "no reference: the scene has no [reference] table, so errors and floors are not "
+           "computed\n";
   }
   const auto& uncertainty = result.reference->uncertainty_by_degree;
   return fmt::format(
-      "reference: Gauss, {} stages, 113 bits, steps: {}, time: {}; its own uncertainty is {:.0e} at worst\n",
+      "reference: Gauss, {} stages, 113 bits, steps: {}, time: {}; its own uncertainty is {:.0e} "
+      "at worst\n",
       result.reference->stages, result.reference->statistics.steps,
       duration_text(result.reference->statistics.wall_seconds),
       *std::max_element(uncertainty.begin(), uncertainty.end()));
@@ -118,7 +120,8 @@ std::string reference_line(const PropagationResult& result) {
 
 std::string explanation(const PropagationResult& result) {
   std::string text =
-      "position error: of the nominal at the end. relative error: largest over all degrees, relative "
+      "position error: of the nominal at the end. relative error: largest over all degrees, "
+      "relative "
       "to the\nlargest coefficient of the degree. symplecticity: largest scaled Poisson-bracket "
       "defect over all degrees.\n";
   if (result.scene.kinds && result.problem.is_full_jet) {
@@ -133,12 +136,14 @@ std::string explanation(const PropagationResult& result) {
 std::string summary_table(const PropagationResult& result) {
   const Scene& scene = result.scene;
   std::string text = fmt::format(
-      "{}\norder {} in {} of {} variables, {} coefficients a component; duration {:.10g} canonical = "
+      "{}\norder {} in {} of {} variables, {} coefficients a component; duration {:.10g} canonical "
+      "= "
       "{:.10g} s\n",
       scene.title, scene.order, scene.variables.size(), scene.nominal.size(),
       result.problem.space->size(), scene.duration, scene.duration * scene.units.time_s);
   if (result.problem.components.size() < scene.nominal.size()) {
-    text += "the nominal stays in an invariant subspace: the components outside it are not computed\n";
+    text +=
+        "the nominal stays in an invariant subspace: the components outside it are not computed\n";
   }
   text += reference_line(result) + "\n";
   std::vector<Row> rows = {header(result)};

@@ -11,9 +11,17 @@
 namespace hamjet::io {
 namespace {
 
-const std::vector<std::string_view> top_keys = {
-    "schema",     "title",     "precision",           "system",    "nominal", "jet",
-    "integrator", "formation", "generating_function", "reference", "relative_hamiltonian"};
+const std::vector<std::string_view> top_keys = {"schema",
+                                                "title",
+                                                "precision",
+                                                "system",
+                                                "nominal",
+                                                "jet",
+                                                "integrator",
+                                                "formation",
+                                                "generating_function",
+                                                "reference",
+                                                "relative_hamiltonian"};
 
 /// The stem of the file's name, made fit for the name of a directory.
 std::string scene_name(const std::string& file_name) {

@@ -36,10 +36,11 @@ GeneratingFunctionKind parse_kind(std::string_view text, std::size_t degrees_of_
     (i < n ? kind.final_is_momentum : kind.initial_is_momentum).push_back(text[i] == 'p');
   }
   if (!is_valid) {
-    throw Error(ErrorKind::usage,
-                fmt::format("generating function kind '{}': allowed are F1, F2, F3, F4 or {} letters "
-                            "q or p, a hyphen and {} more, such as '{}'",
-                            text, n, n, all_kinds(n).back().name()));
+    throw Error(
+        ErrorKind::usage,
+        fmt::format("generating function kind '{}': allowed are F1, F2, F3, F4 or {} letters "
+                    "q or p, a hyphen and {} more, such as '{}'",
+                    text, n, n, all_kinds(n).back().name()));
   }
   return kind;
 }

@@ -18,9 +18,10 @@ template <class T>
 void require_full_jet(std::span<const Series<T>> jet, const GeneratingFunctionKind& kind) {
   const std::size_t n = kind.degrees_of_freedom();
   if (jet.size() != 2 * n || jet[0].space().variables() != 2 * n) {
-    throw Error(ErrorKind::usage,
-                fmt::format("partial inversion {}: a jet of {} components in {} variables is needed",
-                            kind.name(), 2 * n, 2 * n));
+    throw Error(
+        ErrorKind::usage,
+        fmt::format("partial inversion {}: a jet of {} components in {} variables is needed",
+                    kind.name(), 2 * n, 2 * n));
   }
 }
 
@@ -81,8 +82,8 @@ PartialInversion<T> invert_partially(std::span<const Series<T>> jet,
     final_rest.back()[0] = T(0);
     result.remaining_initial.push_back(initial[kind.initial_variable(i, false)]);
   }
-  result.remaining_final = compose(std::span<const Series<T>>(final_rest),
-                                   std::span<const Series<T>>(initial));
+  result.remaining_final =
+      compose(std::span<const Series<T>>(final_rest), std::span<const Series<T>>(initial));
   return result;
 }
 

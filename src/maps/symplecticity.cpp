@@ -65,7 +65,8 @@ std::vector<SymplecticityDefect> symplecticity_by_degree(std::span<const Series<
         terms[0] = 1;
       }
       for (std::size_t v = 0; v < n; ++v) {
-        add_product(bracket, Extended(1), derivatives[i][v], derivatives[j][n + v], highest, scratch);
+        add_product(bracket, Extended(1), derivatives[i][v], derivatives[j][n + v], highest,
+                    scratch);
         add_product(bracket, Extended(-1), derivatives[i][n + v], derivatives[j][v], highest,
                     scratch);
         add_product(terms, 1.0, magnitudes[i][v], magnitudes[j][n + v], highest, double_scratch);

@@ -64,9 +64,8 @@ const std::vector<ExactnessResidual>* MapAnalysis::floor(const GeneratingFunctio
 KindResult MapAnalysis::invert(const FlowJet<Extended>& jet, const std::string& requested) {
   KindResult result;
   result.requested = requested;
-  result.kind = requested == "auto"
-                    ? best_conditioned_kind<Extended>(JetSpan(jet))
-                    : parse_kind(requested, problem_.degrees_of_freedom.size());
+  result.kind = requested == "auto" ? best_conditioned_kind<Extended>(JetSpan(jet))
+                                    : parse_kind(requested, problem_.degrees_of_freedom.size());
   result.condition = condition_number(inverted_block<Extended>(JetSpan(jet), result.kind));
   try {
     const auto inversion = invert_partially<Extended>(JetSpan(jet), result.kind);

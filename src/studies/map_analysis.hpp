@@ -7,9 +7,9 @@
 
 namespace hamjet {
 
-/// Judges the jets of a scene's runs: symplecticity, error against the reference, and the generating
-/// functions that the scene asks for with their exactness. The floors, which depend on the kind and
-/// not on the run, are computed once a kind.
+/// Judges the jets of a scene's runs: symplecticity, error against the reference, and the
+/// generating functions that the scene asks for with their exactness. The floors, which depend on
+/// the kind and not on the run, are computed once a kind.
 class MapAnalysis {
  public:
   MapAnalysis(const Scene& scene, const ComputedProblem& problem,

@@ -47,7 +47,8 @@ class NominalRecorder {
  private:
   static constexpr std::size_t largest_size = 20001;
 
-  /// The energy is evaluated in extended precision: its own rounding would hide a good integrator's.
+  /// The energy is evaluated in extended precision: its own rounding would hide a good
+  /// integrator's.
   template <class Number>
   double energy_error(const std::vector<Number>& state) {
     for (std::size_t i = 0; i < state.size(); ++i) *energy_.input(i) = Extended(state[i]);

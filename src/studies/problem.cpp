@@ -69,7 +69,8 @@ double available_memory() {
 }
 
 double estimate_memory(const Scene& scene, const DynamicalSystem& system, std::size_t variables) {
-  const OperationList& list = system.second_order ? system.second_order->force : system.vector_field;
+  const OperationList& list =
+      system.second_order ? system.second_order->force : system.vector_field;
   const double values = static_cast<double>(list.operations().size()) + 2;
   const double components = static_cast<double>(system.dimension());
   const int order = list.is_linear_system() ? std::min(scene.order, 1) : scene.order;
@@ -82,7 +83,8 @@ double estimate_memory(const Scene& scene, const DynamicalSystem& system, std::s
     if (settings.method == IntegrationMethod::gauss) {
       bytes = values * lanes_for(settings.stages) * real * working;
     } else {
-      // The states that odeint's 13 stages, or CVODE's Nordsieck array, hold, and one lane of series.
+      // The states that odeint's 13 stages, or CVODE's Nordsieck array, hold, and one lane of
+      // series.
       bytes = (values + 20 * components) * real * working;
     }
     largest_run = std::max(largest_run, bytes);
@@ -140,13 +142,14 @@ ComputedProblem make_problem(const Scene& scene, double memory_limit) {
   problem.is_full_jet = problem.variables.size() == problem.components.size();
   const double needed = estimate_memory(scene, problem.system, scene.variables.size());
   if (needed > memory_limit) {
-    throw Error(ErrorKind::too_large,
-                fmt::format("order {} in {} variables: {:.4g} coefficients a component, about {:.0f} "
-                            "MB in all, but {:.0f} MB are free; a lower order, fewer variables or no "
-                            "reference would fit",
-                            scene.order, scene.variables.size(),
-                            SeriesSpace::monomial_count(scene.variables.size(), scene.order),
-                            needed / megabyte, memory_limit / megabyte));
+    throw Error(
+        ErrorKind::too_large,
+        fmt::format("order {} in {} variables: {:.4g} coefficients a component, about {:.0f} "
+                    "MB in all, but {:.0f} MB are free; a lower order, fewer variables or no "
+                    "reference would fit",
+                    scene.order, scene.variables.size(),
+                    SeriesSpace::monomial_count(scene.variables.size(), scene.order),
+                    needed / megabyte, memory_limit / megabyte));
   }
   problem.space = SeriesSpace::create(scene.variables.size(), scene.order);
   return problem;

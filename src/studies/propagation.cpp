@@ -19,8 +19,8 @@ namespace {
 
 template <class Real>
 FlowProblem<Real> flow_problem(const Scene& scene, const ComputedProblem& problem) {
-  FlowProblem<Real> flow{&problem.system, problem.space, problem.variables, {},
-                         Real(scene.duration)};
+  FlowProblem<Real> flow{
+      &problem.system, problem.space, problem.variables, {}, Real(scene.duration)};
   for (const double x : problem.nominal) flow.initial_state.emplace_back(x);
   return flow;
 }
@@ -45,8 +45,8 @@ FlowJet<Real> integrate(const FlowProblem<Real>& flow, const IntegratorSettings&
   }
   if constexpr (std::is_same_v<Real, double>) {
     CvodeSettings cvode;
-    cvode.method = settings.method == IntegrationMethod::cvode_adams ? CvodeMethod::adams
-                                                                     : CvodeMethod::bdf;
+    cvode.method =
+        settings.method == IntegrationMethod::cvode_adams ? CvodeMethod::adams : CvodeMethod::bdf;
     cvode.tolerance = *settings.tolerance;
     return integrate_cvode(flow, cvode, statistics, observer);
   } else {
@@ -70,13 +70,14 @@ void run_integrator(const Scene& scene, const ComputedProblem& problem, RunResul
   NominalRecorder recorder(problem, scene.nominal.size());
   recorder.record(0, problem.nominal);
   const FlowProblem<Real> flow = flow_problem<Real>(scene, problem);
-  const FlowJet<Real> jet = integrate<Real>(
-      flow, run.settings, run.statistics, [&](const Real& time, const FlowJet<Real>& state) {
-        std::vector<Extended> point;
-        for (const auto& component : state) point.push_back(convert<Extended>(component[0]));
-        recorder.record(static_cast<double>(time), point);
-        progress(static_cast<double>(time) / scene.duration);
-      });
+  const FlowJet<Real> jet = integrate<Real>(flow, run.settings, run.statistics,
+                                            [&](const Real& time, const FlowJet<Real>& state) {
+                                              std::vector<Extended> point;
+                                              for (const auto& component : state)
+                                                point.push_back(convert<Extended>(component[0]));
+                                              recorder.record(static_cast<double>(time), point);
+                                              progress(static_cast<double>(time) / scene.duration);
+                                            });
   run.jet = convert_map<Extended>(jet);
   run.nominal_final = full_state(run.jet, problem, scene.nominal.size());
   run.energy_error = recorder.largest_energy_error();
@@ -88,9 +89,10 @@ void check(RunResult& run, const char* key, std::optional<double> limit,
            std::optional<double> value) {
   if (!limit) return;
   if (!value) {
-    run.failed_checks.push_back(fmt::format("{}: not computed, see the scene's [reference] table and "
-                                            "jet.variables",
-                                            key));
+    run.failed_checks.push_back(
+        fmt::format("{}: not computed, see the scene's [reference] table and "
+                    "jet.variables",
+                    key));
   } else if (!(*value <= *limit)) {
     run.failed_checks.push_back(fmt::format("{}: {:.3g} exceeds {:.3g}", key, *value, *limit));
   }
@@ -124,8 +126,8 @@ std::vector<RelativeHamiltonianResult> relative_hamiltonians(const Scene& scene,
     const FlowJet<Extended> nominal = integrate_gauss<Extended>(flow, gauss, statistics);
     for (std::size_t i = 0; i < nominal.size(); ++i) flow.initial_state[i] = nominal[i][0];
     reached = Extended(time);
-    results.push_back({time, relative_hamiltonian<Extended>(problem.system, flow.initial_state,
-                                                            scene.order)});
+    results.push_back(
+        {time, relative_hamiltonian<Extended>(problem.system, flow.initial_state, scene.order)});
   }
   return results;
 }
@@ -180,7 +182,8 @@ std::vector<double> relative_error_by_degree(const FlowJet<Extended>& jet,
         largest = std::max(largest, Extended(abs(reference[i][k])));
       }
     }
-    errors.push_back(static_cast<double>(largest > 0 ? Extended(difference / largest) : difference));
+    errors.push_back(
+        static_cast<double>(largest > 0 ? Extended(difference / largest) : difference));
   }
   return errors;
 }

@@ -41,7 +41,8 @@ void print_parts(const Case& c, double tolerance) {
   }
   const double scale = 1e6 / static_cast<double>(steps);
   fmt::print(
-      "    a step of Gauss takes {:.1f} us: series products {:.1f}, linear solves {:.1f}, linear parts and "
+      "    a step of Gauss takes {:.1f} us: series products {:.1f}, linear solves {:.1f}, linear "
+      "parts and "
       "update {:.1f}, nominal {:.1f}, factorisation {:.1f}; set-up of the whole run {:.0f} us\n",
       least * scale, best.series * scale, best.linear_solves * scale, best.update * scale,
       best.nominal * scale, best.factorisation * scale,
@@ -72,23 +73,23 @@ void benchmark_integrators() {
   const double gauss_error = worst_error(gauss(gauss_tolerance, gauss_statistics), reference);
   const double fehlberg_error =
       worst_error(fehlberg(fehlberg_tolerance, fehlberg_statistics), reference);
-  const auto seconds = median_seconds(
-      {[&] {
-         IntegrationStatistics s;
-         gauss(gauss_tolerance, s);
-       },
-       [&] {
-         IntegrationStatistics s;
-         fehlberg(fehlberg_tolerance, s);
-       }},
-      15);
+  const auto seconds = median_seconds({[&] {
+                                         IntegrationStatistics s;
+                                         gauss(gauss_tolerance, s);
+                                       },
+                                       [&] {
+                                         IntegrationStatistics s;
+                                         fehlberg(fehlberg_tolerance, s);
+                                       }},
+                                      15);
   fmt::print("\n(a) paper's orbit, order 4, error of all degrees at most {:.0e}\n", wanted_error);
-  fmt::print("{:<12} {:>10} {:>7} {:>10} {:>10} {:>8}\n", "method", "tolerance", "steps", "error", "time",
-             "ratio");
+  fmt::print("{:<12} {:>10} {:>7} {:>10} {:>10} {:>8}\n", "method", "tolerance", "steps", "error",
+             "time", "ratio");
   fmt::print("{:<12} {:>10.1e} {:>7} {:>10.1e} {:>7.2f} ms {:>8.1f}\n", "gauss 8", gauss_tolerance,
              gauss_statistics.steps, gauss_error, seconds[0] * 1e3, 1.0);
-  fmt::print("{:<12} {:>10.1e} {:>7} {:>10.1e} {:>7.2f} ms {:>8.1f}\n", "fehlberg78", fehlberg_tolerance,
-             fehlberg_statistics.steps, fehlberg_error, seconds[1] * 1e3, seconds[1] / seconds[0]);
+  fmt::print("{:<12} {:>10.1e} {:>7} {:>10.1e} {:>7.2f} ms {:>8.1f}\n", "fehlberg78",
+             fehlberg_tolerance, fehlberg_statistics.steps, fehlberg_error, seconds[1] * 1e3,
+             seconds[1] / seconds[0]);
   print_parts(c, gauss_tolerance);
 
   const Case first = paper_case(paper_field, 1);
@@ -104,8 +105,8 @@ void benchmark_integrators() {
                                        integrate_gauss<double>(first_problem, settings, s);
                                      }},
                                      51)[0];
-  fmt::print("\n(d) order 1: nominal and 6 x 6 matrix over 10 pi in {:.3f} ms, error {:.1e}\n", time * 1e3,
-             error);
+  fmt::print("\n(d) order 1: nominal and 6 x 6 matrix over 10 pi in {:.3f} ms, error {:.1e}\n",
+             time * 1e3, error);
   print_parts(first, gauss_tolerance);
 }
 

@@ -34,16 +34,17 @@ void benchmark_orders() {
                              coefficients * (3.0 * (3 * 8 + 6) + 3 * values);
     const double count = per_stage * 8 * static_cast<double>(statistics.steps);
     const double memory = values * coefficients * 8 * 8;
-    fmt::print("{:>5} {:>6} {:>9.3f} ms {:>9.2f} MB {:>15.3e} {:>16.1f} {:>12}\n", order, statistics.steps,
-               time * 1e3, memory * 1e-6, count, time / count * 1e12,
+    fmt::print("{:>5} {:>6} {:>9.3f} ms {:>9.2f} MB {:>15.3e} {:>16.1f} {:>12}\n", order,
+               statistics.steps, time * 1e3, memory * 1e-6, count, time / count * 1e12,
                previous_time > 0
                    ? fmt::format("{:.2f}", time / previous_time / (count / previous_count))
                    : "");
     previous_time = time;
     previous_count = count;
   }
-  fmt::print("    memory: the series of all operations on 8 lanes; growth/count: time's growth over the "
-             "count's\n");
+  fmt::print(
+      "    memory: the series of all operations on 8 lanes; growth/count: time's growth over the "
+      "count's\n");
 }
 
 }  // namespace hamjet::benchmarks

@@ -27,7 +27,8 @@ double peak_rate() {
   const auto run = [] {
     const V factor(0.9999999);
     const V term(1e-9);
-    V a(1.0), b(1.1), c(1.2), d(1.3), e(1.4), f(1.5), g(1.6), h(1.7), i(1.8), j(1.9), k(2.0), l(2.1);
+    V a(1.0), b(1.1), c(1.2), d(1.3), e(1.4), f(1.5), g(1.6), h(1.7), i(1.8), j(1.9), k(2.0),
+        l(2.1);
     for (long r = 0; r < rounds; ++r) {
       a = a * factor + term;
       b = b * factor + term;
@@ -53,10 +54,11 @@ double peak_rate() {
 
 void benchmark_products() {
   const double peak = peak_rate();
-  fmt::print("\n(b) products of series on packs of {} lanes, 6 variables; peak {:.1f} Gmultiply-adds/s\n",
-             lanes, peak * 1e-9);
-  fmt::print("{:>5} {:>14} {:>13} {:>10} {:>13} {:>10}\n", "order", "multiply-adds", "product", "of peak",
-             "square", "of peak");
+  fmt::print(
+      "\n(b) products of series on packs of {} lanes, 6 variables; peak {:.1f} Gmultiply-adds/s\n",
+      lanes, peak * 1e-9);
+  fmt::print("{:>5} {:>14} {:>13} {:>10} {:>13} {:>10}\n", "order", "multiply-adds", "product",
+             "of peak", "square", "of peak");
   for (int order = 3; order <= 8; ++order) {
     const SpacePointer space = SeriesSpace::create(6, order);
     std::vector<P> a(space->size(), P(1.5));
@@ -69,25 +71,27 @@ void benchmark_products() {
       square_cost += static_cast<double>(space->products(d).square_multiply_adds);
     }
     const int rounds = std::max(1, static_cast<int>(2e7 / product_cost));
-    const auto seconds = median_seconds(
-        {[&] {
-           for (int r = 0; r < rounds; ++r) {
-             for (int d = 2; d <= order; ++d) interior_product(*space, d, a.data(), b.data(), c.data());
-             forget(*c.data());
-           }
-         },
-         [&] {
-           for (int r = 0; r < rounds; ++r) {
-             for (int d = 2; d <= order; ++d) interior_square(*space, d, a.data(), c.data());
-             forget(*c.data());
-           }
-         }},
-        9);
+    const auto seconds =
+        median_seconds({[&] {
+                          for (int r = 0; r < rounds; ++r) {
+                            for (int d = 2; d <= order; ++d)
+                              interior_product(*space, d, a.data(), b.data(), c.data());
+                            forget(*c.data());
+                          }
+                        },
+                        [&] {
+                          for (int r = 0; r < rounds; ++r) {
+                            for (int d = 2; d <= order; ++d)
+                              interior_square(*space, d, a.data(), c.data());
+                            forget(*c.data());
+                          }
+                        }},
+                       9);
     const double product_rate = product_cost * lanes * rounds / seconds[0];
     const double square_rate = square_cost * lanes * rounds / seconds[1];
-    fmt::print("{:>5} {:>14} {:>10.2f} us {:>8.0f} % {:>10.2f} us {:>8.0f} %\n", order, product_cost * lanes,
-               seconds[0] / rounds * 1e6, 100 * product_rate / peak, seconds[1] / rounds * 1e6,
-               100 * square_rate / peak);
+    fmt::print("{:>5} {:>14} {:>10.2f} us {:>8.0f} % {:>10.2f} us {:>8.0f} %\n", order,
+               product_cost * lanes, seconds[0] / rounds * 1e6, 100 * product_rate / peak,
+               seconds[1] / rounds * 1e6, 100 * square_rate / peak);
   }
 }
 

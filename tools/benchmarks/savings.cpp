@@ -29,7 +29,8 @@ double multiply_adds(const Case& c) {
 Scene paper_scene(bool inversion, bool reference) {
   const Case c = paper_case(paper_field, 4);
   Scene scene;
-  scene.system = {SystemModel::zonal_gravity, 398600.4405, 6378.137, paper_field.J2, paper_field.J3};
+  scene.system = {SystemModel::zonal_gravity, 398600.4405, 6378.137, paper_field.J2,
+                  paper_field.J3};
   scene.units = {7000, 1};
   scene.canonical_radius = paper_field.radius;
   scene.nominal = c.nominal;
@@ -66,7 +67,8 @@ void benchmark_savings() {
   std::vector<std::function<void()>> works;
   for (const auto& entry : cases) works.emplace_back([&entry] { integrate(entry.second); });
   const auto seconds = median_seconds(works, 21);
-  fmt::print("\n(e) what a scene does not need is not computed: integration, Gauss with 8 stages\n");
+  fmt::print(
+      "\n(e) what a scene does not need is not computed: integration, Gauss with 8 stages\n");
   fmt::print("{:<28} {:>9} {:>11} {:>15} {:>12} {:>8}\n", "scene", "variables", "operations",
              "multiply-adds*", "time", "of full");
   for (std::size_t i = 0; i < cases.size(); ++i) {

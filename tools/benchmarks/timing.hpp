@@ -13,8 +13,8 @@ inline double seconds_of(const std::function<void()>& work) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Median times of several pieces of work. The repeats are interleaved, so that a noisy machine hurts
-/// all alike; compare the ratios, not single figures.
+/// Median times of several pieces of work. The repeats are interleaved, so that a noisy machine
+/// hurts all alike; compare the ratios, not single figures.
 inline std::vector<double> median_seconds(const std::vector<std::function<void()>>& works,
                                           int repeats) {
   std::vector<std::vector<double>> times(works.size());

@@ -9,8 +9,8 @@
 
 namespace hamjet {
 
-/// Partial derivative by x_i. Exact up to degree N-1; the slice of degree N is unknown to a truncated
-/// series and is left zero.
+/// Partial derivative by x_i. Exact up to degree N-1; the slice of degree N is unknown to a
+/// truncated series and is left zero.
 template <class T>
 Series<T> derivative(const Series<T>& u, std::size_t i) {
   const SeriesSpace& space = u.space();

@@ -103,15 +103,17 @@ class Composition {
 template <class T>
 void require_composable(std::span<const Series<T>> outer, std::span<const Series<T>> inner) {
   if (outer.empty() || inner.empty() || inner.size() != outer[0].space().variables()) {
-    throw Error(ErrorKind::usage, "composition: the inner map must have as many components as the "
-                                  "outer one has variables");
+    throw Error(ErrorKind::usage,
+                "composition: the inner map must have as many components as the "
+                "outer one has variables");
   }
   for (const auto& series : outer) require_same_space(series.space(), outer[0].space());
   for (const auto& series : inner) {
     require_same_space(series.space(), inner[0].space());
     if (series[0] != T(0)) {
-      throw Error(ErrorKind::usage, "composition: the inner map has a constant term; subtract it "
-                                    "first, for a truncated series knows its function near 0 only");
+      throw Error(ErrorKind::usage,
+                  "composition: the inner map has a constant term; subtract it "
+                  "first, for a truncated series knows its function near 0 only");
     }
   }
 }
@@ -153,7 +155,8 @@ std::vector<Series<T>> inverse(std::span<const Series<T>> map) {
     for (std::size_t i = 0; i < n; ++i) {
       T sum(0);
       for (std::size_t j = 0; j < n; ++j) {
-        sum += inverse_linear(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) * right[j];
+        sum +=
+            inverse_linear(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) * right[j];
       }
       result[i][monomial] = sum;
     }

@@ -56,9 +56,8 @@ template <class T>
 Series<T> sqrt(const Series<T>& u) {
   using std::sqrt;
   const T value(sqrt(u[0]));
-  return detail::complete_function(u, value, T(T(1) / (T(2) * value)), [&](int d, T* w) {
-    square_root_interior(u.space(), d, w);
-  });
+  return detail::complete_function(u, value, T(T(1) / (T(2) * value)),
+                                   [&](int d, T* w) { square_root_interior(u.space(), d, w); });
 }
 
 /// u^exponent for any real exponent; the constant term must not be zero (nor negative unless the
@@ -113,8 +112,12 @@ std::pair<Series<T>, Series<T>> sin_cos(const Series<T>& u) {
 }
 
 template <class T>
-Series<T> sin(const Series<T>& u) { return sin_cos(u).first; }
+Series<T> sin(const Series<T>& u) {
+  return sin_cos(u).first;
+}
 template <class T>
-Series<T> cos(const Series<T>& u) { return sin_cos(u).second; }
+Series<T> cos(const Series<T>& u) {
+  return sin_cos(u).second;
+}
 
 }  // namespace hamjet

@@ -19,8 +19,7 @@ struct VectorFor {
 };
 
 template <int Lanes>
-  requires(Lanes > 1)
-struct VectorFor<double, Lanes> {
+requires(Lanes > 1) struct VectorFor<double, Lanes> {
   static constexpr int native = static_cast<int>(std::experimental::native_simd<double>::size());
   static constexpr int width = Lanes < native ? Lanes : native;
   using type =
@@ -118,14 +117,15 @@ Pack<Real, Lanes> sqrt(const Pack<Real, Lanes>& x) {
   }
 }
 
-// The transcendental functions are evaluated at degree 0 alone, once an operation: no need for speed.
-#define HAMJET_PACK_FUNCTION(name)                        \
-  template <class Real, int Lanes>                        \
-  Pack<Real, Lanes> name(const Pack<Real, Lanes>& x) {    \
-    return map_lanes(x, [](const Real& v) {               \
-      using std::name;                                    \
-      return Real(name(v));                               \
-    });                                                   \
+// The transcendental functions are evaluated at degree 0 alone, once an operation: no need for
+// speed.
+#define HAMJET_PACK_FUNCTION(name)                     \
+  template <class Real, int Lanes>                     \
+  Pack<Real, Lanes> name(const Pack<Real, Lanes>& x) { \
+    return map_lanes(x, [](const Real& v) {            \
+      using std::name;                                 \
+      return Real(name(v));                            \
+    });                                                \
   }
 HAMJET_PACK_FUNCTION(exp)
 HAMJET_PACK_FUNCTION(log)

@@ -17,8 +17,8 @@ namespace hamjet {
 /// T(m_a + m_b) sums: no index is read inside, the sums stay in registers, and each number that is
 /// loaded serves several times. With fewer than three variables every block has one monomial.
 ///
-/// Each unordered pair of different blocks {x, y} is listed once and serves both a_x b_y and a_y b_x;
-/// where a block meets itself it stands in `diagonal`.
+/// Each unordered pair of different blocks {x, y} is listed once and serves both a_x b_y and a_y
+/// b_x; where a block meets itself it stands in `diagonal`.
 struct ProductSchedule {
   /// Offsets of two different blocks, the one of smaller block degree first.
   struct Pair {

@@ -13,15 +13,15 @@ namespace hamjet {
 /// The truncated polynomial ring R[x_1..x_v] / (monomials of degree > N): its monomials in a fixed
 /// order, and the schedule by which two of its elements are multiplied.
 ///
-/// Monomials are graded: by degree first, and within a degree lexicographically with the exponent of
-/// x_1 falling first (x^2, xy, y^2). Number of monomials: C(v + N, N).
+/// Monomials are graded: by degree first, and within a degree lexicographically with the exponent
+/// of x_1 falling first (x^2, xy, y^2). Number of monomials: C(v + N, N).
 ///
 /// A space is an immutable object; several of different order or number of variables live side by
 /// side. Series hold a shared pointer to theirs, and operations on two different spaces throw.
 class SeriesSpace {
  public:
-  /// `variables` in 1..64, `order` in 0..60. Throws Error(usage) outside, and Error(too_large) if
-  /// the monomials cannot be counted in 32 bits.
+  /// `variables` in 1..64, `order` in 0..60. Throws Error(usage) outside, and Error(too_large) for
+  /// more than 5e7 monomials.
   static std::shared_ptr<const SeriesSpace> create(std::size_t variables, int order);
 
   std::size_t variables() const noexcept { return variables_; }

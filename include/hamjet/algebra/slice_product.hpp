@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -60,11 +61,12 @@ template <std::size_t MA, std::size_t MB, class T, class Sums>
         [&]<std::size_t Row, std::size_t... J>(std::integral_constant<std::size_t, Row>,
                                                std::index_sequence<J...>)
             __attribute__((always_inline)) {
-          const auto factor = Parts<T>::get(a[Row], part);
-          ((sums[product_position(Row, J)] += factor * Parts<T>::get(b[J], part)), ...);
-        }(std::integral_constant<std::size_t, I>{}, std::make_index_sequence<nb>{}),
+              const auto factor = Parts<T>::get(a[Row], part);
+              ((sums[product_position(Row, J)] += factor * Parts<T>::get(b[J], part)), ...);
+            }(std::integral_constant<std::size_t, I>{}, std::make_index_sequence<nb>{}),
         ...);
-  }(std::make_index_sequence<na>{});
+  }
+  (std::make_index_sequence<na>{});
 }
 
 /// The same for block degrees known at run time only (blocks too large for the registers).
@@ -83,6 +85,12 @@ void multiply_blocks(Vector* sums, const T* a, const T* b, std::size_t m_a, std:
   }
 }
 
+/// Whether the numbers live in machine registers. The others (extended precision) gain nothing from
+/// unrolled blocks, which would cost minutes of compilation.
+template <class Vector>
+inline constexpr bool is_machine_vector =
+    std::is_arithmetic_v<Vector> || std::experimental::is_simd_v<Vector>;
+
 /// Largest block degree whose sums are kept in registers: 28 of the 32 of AVX-512.
 inline constexpr std::size_t largest_unrolled_block = 6;
 
@@ -98,14 +106,15 @@ void form_block(const ProductSchedule::Output& output, const ProductSchedule::Pa
       (
           [&]<std::size_t Mx>(std::integral_constant<std::size_t, Mx>)
               __attribute__((always_inline)) {
-            for (const std::size_t end = run_ends[output.first_run + Mx]; pair < end; ++pair) {
-              const auto [x, y] = pairs[pair];
-              multiply_blocks<Mx, M - Mx>(sums, a + x, b + y, part);
-              if constexpr (!Square) multiply_blocks<Mx, M - Mx>(sums, b + x, a + y, part);
-            }
-          }(std::integral_constant<std::size_t, MX>{}),
+                for (const std::size_t end = run_ends[output.first_run + Mx]; pair < end; ++pair) {
+                  const auto [x, y] = pairs[pair];
+                  multiply_blocks<Mx, M - Mx>(sums, a + x, b + y, part);
+                  if constexpr (!Square) multiply_blocks<Mx, M - Mx>(sums, b + x, a + y, part);
+                }
+              }(std::integral_constant<std::size_t, MX>{}),
           ...);
-    }(std::make_index_sequence<M / 2 + 1>{});
+    }
+    (std::make_index_sequence<M / 2 + 1>{});
     if constexpr (Square) {
       for (auto& sum : sums) sum += sum;
     }
@@ -114,7 +123,8 @@ void form_block(const ProductSchedule::Output& output, const ProductSchedule::Pa
         multiply_blocks<M / 2, M / 2>(sums, a + output.diagonal, b + output.diagonal, part);
       }
     }
-    for (std::size_t i = 0; i < sums.size(); ++i) Parts<T>::get(c[output.offset + i], part) = sums[i];
+    for (std::size_t i = 0; i < sums.size(); ++i)
+      Parts<T>::get(c[output.offset + i], part) = sums[i];
   }
 }
 
@@ -143,16 +153,15 @@ void form_large_block(const ProductSchedule::Output& output, const ProductSchedu
     if (output.diagonal != ProductSchedule::no_diagonal && output.diagonal >= first) {
       multiply_blocks(sums.data(), a + output.diagonal, b + output.diagonal, m / 2, m / 2, part);
     }
-    for (std::size_t i = 0; i < sums.size(); ++i) Parts<T>::get(c[output.offset + i], part) = sums[i];
+    for (std::size_t i = 0; i < sums.size(); ++i)
+      Parts<T>::get(c[output.offset + i], part) = sums[i];
   }
 }
 
 template <bool Square, class T>
-void form_slice(const ProductSchedule& schedule, const T* a, const T* b, T* c) {
-  const ProductSchedule::Output* output = schedule.outputs.data();
-  const ProductSchedule::Output* const end = output + schedule.outputs.size();
-  const ProductSchedule::Pair* const pairs = schedule.pairs.data();
-  const std::uint32_t* const run_ends = schedule.run_ends.data();
+void form_unrolled_blocks(const ProductSchedule::Output* output, const ProductSchedule::Output* end,
+                          const ProductSchedule::Pair* pairs, const std::uint32_t* run_ends,
+                          const T* a, const T* b, T* c) {
   // Outputs of equal block degree stand together: one dispatch for all of them.
   while (output != end) {
     const auto run = [&]<std::size_t M>(std::integral_constant<std::size_t, M>) {
@@ -161,12 +170,24 @@ void form_slice(const ProductSchedule& schedule, const T* a, const T* b, T* c) {
       }
     };
     switch (output->block_degree) {
-      case 0: run(std::integral_constant<std::size_t, 0>{}); break;
-      case 1: run(std::integral_constant<std::size_t, 1>{}); break;
-      case 2: run(std::integral_constant<std::size_t, 2>{}); break;
-      case 3: run(std::integral_constant<std::size_t, 3>{}); break;
-      case 4: run(std::integral_constant<std::size_t, 4>{}); break;
-      case 5: run(std::integral_constant<std::size_t, 5>{}); break;
+      case 0:
+        run(std::integral_constant<std::size_t, 0>{});
+        break;
+      case 1:
+        run(std::integral_constant<std::size_t, 1>{});
+        break;
+      case 2:
+        run(std::integral_constant<std::size_t, 2>{});
+        break;
+      case 3:
+        run(std::integral_constant<std::size_t, 3>{});
+        break;
+      case 4:
+        run(std::integral_constant<std::size_t, 4>{});
+        break;
+      case 5:
+        run(std::integral_constant<std::size_t, 5>{});
+        break;
       case largest_unrolled_block:
         run(std::integral_constant<std::size_t, largest_unrolled_block>{});
         break;
@@ -177,11 +198,26 @@ void form_slice(const ProductSchedule& schedule, const T* a, const T* b, T* c) {
   }
 }
 
+template <bool Square, class T>
+void form_slice(const ProductSchedule& schedule, const T* a, const T* b, T* c) {
+  const ProductSchedule::Output* output = schedule.outputs.data();
+  const ProductSchedule::Output* const end = output + schedule.outputs.size();
+  const ProductSchedule::Pair* const pairs = schedule.pairs.data();
+  const std::uint32_t* const run_ends = schedule.run_ends.data();
+  if constexpr (!is_machine_vector<typename Parts<T>::Vector>) {
+    for (; output != end; ++output) {
+      form_large_block<Square>(*output, pairs, run_ends, 0, a, b, c);
+    }
+  } else {
+    form_unrolled_blocks<Square>(output, end, pairs, run_ends, a, b, c);
+  }
+}
+
 }  // namespace detail
 
 /// c_d = sum over 1 <= i <= d-1 of a_i b_(d-i): the degree-d slice of the product of two series
-/// without the terms that hold a_0 or b_0. Writes the slice of degree d of `c` alone; `c` may be `a`
-/// or `b`, whose slices of degree d are not read.
+/// without the terms that hold a_0 or b_0. Writes the slice of degree d of `c` alone; `c` may be
+/// `a` or `b`, whose slices of degree d are not read.
 template <class T>
 void interior_product(const SeriesSpace& space, int d, const T* a, const T* b, T* c) {
   detail::form_slice<false>(space.products(d), a, b, c);
@@ -193,15 +229,15 @@ void interior_square(const SeriesSpace& space, int d, const T* a, T* c) {
   detail::form_slice<true>(space.products(d), a, a, c);
 }
 
-/// c_d = sum over lowest <= i <= d-1 of a_i b_(d-i): the interior product where `a` is known to have
-/// no terms below degree `lowest`, at the cost of the terms that are left.
+/// c_d = sum over lowest <= i <= d-1 of a_i b_(d-i): the interior product where `a` is known to
+/// have no terms below degree `lowest`, at the cost of the terms that are left.
 template <class T>
 void interior_product_from(const SeriesSpace& space, int d, int lowest, const T* a, const T* b,
                            T* c) {
   const ProductSchedule& s = space.products(d);
   for (const ProductSchedule::Output& output : s.outputs) {
-    detail::form_large_block<false>(output, s.pairs.data(), s.run_ends.data(), space.first(lowest), a,
-                                    b, c);
+    detail::form_large_block<false>(output, s.pairs.data(), s.run_ends.data(), space.first(lowest),
+                                    a, b, c);
   }
 }
 

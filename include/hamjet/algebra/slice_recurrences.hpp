@@ -7,8 +7,8 @@
 #include "hamjet/algebra/slice_product.hpp"
 
 // Elementary functions of series, one homogeneous slice at a time. With E the Euler operator
-// (E f)_d = d f_d, a function w = f(u) that satisfies a differential equation gives a recurrence for
-// its slices (Knuth, The Art of Computer Programming 2, section 4.7; Griewank and Walther,
+// (E f)_d = d f_d, a function w = f(u) that satisfies a differential equation gives a recurrence
+// for its slices (Knuth, The Art of Computer Programming 2, section 4.7; Griewank and Walther,
 // Evaluating Derivatives, chapter 13). Each is split as
 //
 //     w_d = interior_d(u_1..u_(d-1), w_1..w_(d-1)) + f'(u_0) u_d ,
@@ -58,8 +58,7 @@ void square_root_interior(const SeriesSpace& space, int d, T* w) {
 template <class T, class Real>
 void power_interior(const SeriesSpace& space, int d, const Real& exponent, const T* u, T* w,
                     T* scratch) {
-  scale_slices(space, d, u, scratch,
-               [&](int i) { return Real(exponent * Real(i) - Real(d - i)); });
+  scale_slices(space, d, u, scratch, [&](int i) { return Real(exponent * Real(i) - Real(d - i)); });
   interior_product(space, d, scratch, w, w);
   scale_slice(space, d, w, T(1) / (T(Real(d)) * u[0]));
 }
@@ -89,8 +88,8 @@ void sine_cosine_interior(const SeriesSpace& space, int d, const T* u, T* s, T* 
   scale_slice(space, d, c, T(-1));
 }
 
-/// x^exponent; exact multiplications and one square root where twice the exponent is a small integer
-/// (every power of gravity), the library's pow elsewhere.
+/// x^exponent; exact multiplications and one square root where twice the exponent is a small
+/// integer (every power of gravity), the library's pow elsewhere.
 template <class T, class Real>
 T power(const T& x, const Real& exponent) {
   const double twice = 2 * static_cast<double>(exponent);

@@ -36,7 +36,8 @@ class TruncatedPowerSeries {
   }
 
   /// x_i, shifted: constant + x_i.
-  static TruncatedPowerSeries variable(SpacePointer space, std::size_t i, const T& constant = T(0)) {
+  static TruncatedPowerSeries variable(SpacePointer space, std::size_t i,
+                                       const T& constant = T(0)) {
     if (i >= space->variables()) throw Error(ErrorKind::usage, "series: no such variable");
     TruncatedPowerSeries result(std::move(space), constant);
     if (result.order() >= 1) result[result.space().linear_index(i)] = T(1);
@@ -99,25 +100,45 @@ template <class T>
 using Series = TruncatedPowerSeries<T>;
 
 template <class T>
-Series<T> operator+(Series<T> a, const Series<T>& b) { return a += b; }
+Series<T> operator+(Series<T> a, const Series<T>& b) {
+  return a += b;
+}
 template <class T>
-Series<T> operator-(Series<T> a, const Series<T>& b) { return a -= b; }
+Series<T> operator-(Series<T> a, const Series<T>& b) {
+  return a -= b;
+}
 template <class T>
-Series<T> operator+(Series<T> a, const std::type_identity_t<T>& b) { return a += b; }
+Series<T> operator+(Series<T> a, const std::type_identity_t<T>& b) {
+  return a += b;
+}
 template <class T>
-Series<T> operator+(const std::type_identity_t<T>& a, Series<T> b) { return b += a; }
+Series<T> operator+(const std::type_identity_t<T>& a, Series<T> b) {
+  return b += a;
+}
 template <class T>
-Series<T> operator-(Series<T> a, const std::type_identity_t<T>& b) { return a -= b; }
+Series<T> operator-(Series<T> a, const std::type_identity_t<T>& b) {
+  return a -= b;
+}
 template <class T>
-Series<T> operator*(Series<T> a, const std::type_identity_t<T>& b) { return a *= b; }
+Series<T> operator*(Series<T> a, const std::type_identity_t<T>& b) {
+  return a *= b;
+}
 template <class T>
-Series<T> operator*(const std::type_identity_t<T>& a, Series<T> b) { return b *= a; }
+Series<T> operator*(const std::type_identity_t<T>& a, Series<T> b) {
+  return b *= a;
+}
 template <class T>
-Series<T> operator/(Series<T> a, const std::type_identity_t<T>& b) { return a /= b; }
+Series<T> operator/(Series<T> a, const std::type_identity_t<T>& b) {
+  return a /= b;
+}
 template <class T>
-Series<T> operator-(Series<T> a) { return a *= T(-1); }
+Series<T> operator-(Series<T> a) {
+  return a *= T(-1);
+}
 template <class T>
-Series<T> operator-(const std::type_identity_t<T>& a, Series<T> b) { return -std::move(b) + a; }
+Series<T> operator-(const std::type_identity_t<T>& a, Series<T> b) {
+  return -std::move(b) + a;
+}
 
 template <class T>
 Series<T> operator*(const Series<T>& a, const Series<T>& b) {

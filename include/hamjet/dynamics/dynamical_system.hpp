@@ -23,8 +23,8 @@ struct SecondOrderForm {
 struct DynamicalSystem {
   std::string name;
   std::size_t degrees_of_freedom = 0;
-  OperationList hamiltonian;   ///< 2n inputs, 1 output
-  OperationList vector_field;  ///< 2n inputs, 2n outputs
+  OperationList hamiltonian;                    ///< 2n inputs, 1 output
+  OperationList vector_field;                   ///< 2n inputs, 2n outputs
   std::optional<SecondOrderForm> second_order;  ///< set where the vector field has this structure
 
   std::size_t dimension() const noexcept { return 2 * degrees_of_freedom; }
@@ -69,8 +69,8 @@ DynamicalSystem make_system(std::string name, std::size_t degrees_of_freedom, co
                      }));
 }
 
-/// The degrees of freedom that a scene needs: those of the variables to expand in, those in which the
-/// nominal is not exactly at rest in the origin, and all that these drive. Ascending.
+/// The degrees of freedom that a scene needs: those of the variables to expand in, those in which
+/// the nominal is not exactly at rest in the origin, and all that these drive. Ascending.
 std::vector<std::size_t> needed_degrees_of_freedom(const DynamicalSystem& system,
                                                    std::span<const double> nominal,
                                                    std::span<const std::size_t> variables);

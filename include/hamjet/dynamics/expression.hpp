@@ -24,7 +24,7 @@ class Expression {
   template <std::floating_point F>
   Expression(F value) : constant_(value) {}  // NOLINT: numbers embed in expressions
   template <std::integral I>
-  Expression(I value) : constant_(value) {}  // NOLINT
+  Expression(I value) : constant_(value) {}                // NOLINT
   Expression(const Extended& value) : constant_(value) {}  // NOLINT
 
   bool is_constant() const noexcept { return recorder_ == nullptr; }
@@ -102,11 +102,13 @@ OperationList record(std::size_t inputs, const Function& function) {
 /// Runs a list on expressions: the values of all its operations, re-recorded (and so simplified).
 std::vector<Expression> replay(const OperationList& list, std::span<const Expression> inputs);
 
-/// The gradient of a list with one output, by reverse accumulation (Griewank and Walther, Evaluating
-/// Derivatives, chapter 3): a list with one output per input. Throws Error(usage) for more outputs.
+/// The gradient of a list with one output, by reverse accumulation (Griewank and Walther,
+/// Evaluating Derivatives, chapter 3): a list with one output per input. Throws Error(usage) for
+/// more outputs.
 OperationList gradient(const OperationList& list);
 
-/// The Jacobian of a list, by forward accumulation: output i * inputs + j is d output_i / d input_j.
+/// The Jacobian of a list, by forward accumulation: output i * inputs + j is d output_i / d
+/// input_j.
 OperationList jacobian(const OperationList& list);
 
 /// The list with some inputs set to zero and removed, and only some outputs kept.

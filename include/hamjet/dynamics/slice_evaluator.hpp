@@ -11,17 +11,17 @@
 
 namespace hamjet {
 
-/// Runs an operation list on series, one degree at a time, without knowing the inputs' slice of that
-/// degree: the heart of the implicit integrators.
+/// Runs an operation list on series, one degree at a time, without knowing the inputs' slice of
+/// that degree: the heart of the implicit integrators.
 ///
 /// With v the value of any operation, x the inputs and v_d the slice of degree d,
 ///
 ///   v_d = r_d + grad v(x_0) . x_d ,
 ///
-/// where r_d (the remainder) needs only slices below d. So each product of two series is formed once
-/// in a step, slice by slice: evaluate_remainder(d) forms all r_d; the caller solves for x_d, writes
-/// it into the inputs and calls complete(d), which adds the linear part. T is a real number, or a
-/// Pack whose lanes are the stages of an implicit method.
+/// where r_d (the remainder) needs only slices below d. So each product of two series is formed
+/// once in a step, slice by slice: evaluate_remainder(d) forms all r_d; the caller solves for x_d,
+/// writes it into the inputs and calls complete(d), which adds the linear part. T is a real number,
+/// or a Pack whose lanes are the stages of an implicit method.
 template <class T, class Real>
 class SliceEvaluator {
  public:
@@ -45,7 +45,8 @@ class SliceEvaluator {
     for (std::size_t j = 0; j < list.inputs(); ++j) gradient(j, j) = T(Real(1));
   }
 
-  /// The coefficients of the i-th input, to be written by the caller; inputs stand first in the list.
+  /// The coefficients of the i-th input, to be written by the caller; inputs stand first in the
+  /// list.
   T* input(std::size_t i) { return value(i); }
   /// The coefficients of the i-th output.
   const T* output(std::size_t i) const { return value(list_->outputs()[i]); }

@@ -16,8 +16,9 @@ struct ZonalGravity {
 };
 
 /// H = |p|^2/2 - mu/r [1 - J2 (R/r)^2 P2(z/r) - J3 (R/r)^3 P3(z/r)],
-/// P2(s) = (3 s^2 - 1)/2, P3(s) = (5 s^3 - 3 s)/2, z along the axis of the body. Momenta are per unit
-/// mass. Source: Guibout and Bloch, section "Earth orbit"; sign convention of J3 as printed there.
+/// P2(s) = (3 s^2 - 1)/2, P3(s) = (5 s^3 - 3 s)/2, z along the axis of the body. Momenta are per
+/// unit mass. Source: Guibout and Bloch, section "Earth orbit"; sign convention of J3 as printed
+/// there.
 struct ZonalGravityHamiltonian {
   ZonalGravity field;
 

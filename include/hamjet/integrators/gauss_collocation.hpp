@@ -17,15 +17,15 @@ struct GaussProfile {
 
 /// How a Gauss collocation method integrates.
 struct GaussSettings {
-  int stages = 8;                   ///< 1 (the implicit midpoint rule) to 16; the order is 2 stages
-  std::optional<double> step;       ///< fixed: the span is cut into equal steps not longer than this
+  int stages = 8;              ///< 1 (the implicit midpoint rule) to 16; the order is 2 stages
+  std::optional<double> step;  ///< fixed: the span is cut into equal steps not longer than this
   std::optional<double> tolerance;  ///< adaptive: relative local error of the nominal
   GaussProfile* profile = nullptr;  ///< filled where given; costs a few clock readings a step
 };
 
 /// Integrates the flow's jet with a Gauss collocation method, exactly as the method acts on series:
-/// the result is the jet of the numerical map, which is symplectic, so its generating functions exist
-/// to round-off whatever the step (but exactness is not accuracy).
+/// the result is the jet of the numerical map, which is symplectic, so its generating functions
+/// exist to round-off whatever the step (but exactness is not accuracy).
 ///
 /// A step solves degree 0 by Newton's method, then each degree by one evaluation on series and one
 /// linear solve (see SliceEvaluator, StageSystem). Step sizes depend on the nominal alone and are
@@ -35,15 +35,15 @@ struct GaussSettings {
 ///   100 (defect / largest slope)^2 = tolerance ,
 ///
 /// defect being the distance, at the start of the step, between the slope and the collocation
-/// polynomial that was fitted to it inside: about the first neglected Legendre mode, whose square has
-/// the order 2s of the method. The factor is empirical: the error of the coefficients of degree 0..4,
-/// relative to the largest of their degree, then comes out near the tolerance after a few revolutions
-/// (that of the nominal some 50 times below). The update is summed with compensation.
+/// polynomial that was fitted to it inside: about the first neglected Legendre mode, whose square
+/// has the order 2s of the method. The factor is empirical: the error of the coefficients of degree
+/// 0..4, relative to the largest of their degree, then comes out near the tolerance after a few
+/// revolutions (that of the nominal some 50 times below). The update is summed with compensation.
 ///
 /// Source: Hairer, Lubich and Wanner, Geometric Numerical Integration, sections II.1 and VIII.6.
 /// Throws Error(usage) for settings out of range, Error(numerical) if the stage equations have no
-/// solution connected to the start of the step (with fixed steps), if the step size underflows, or if
-/// a coefficient is not finite; the message names time and step.
+/// solution connected to the start of the step (with fixed steps), if the step size underflows, or
+/// if a coefficient is not finite; the message names time and step.
 template <class Real>
 FlowJet<Real> integrate_gauss(const FlowProblem<Real>& problem, const GaussSettings& settings,
                               IntegrationStatistics& statistics,

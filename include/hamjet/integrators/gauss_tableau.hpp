@@ -7,8 +7,8 @@
 
 namespace hamjet {
 
-/// Coefficients of the s-stage Gauss collocation method of order 2s on [0, 1]: nodes c (zeros of the
-/// shifted Legendre polynomial), weights b and the matrix A. Source: Hairer, Lubich and Wanner,
+/// Coefficients of the s-stage Gauss collocation method of order 2s on [0, 1]: nodes c (zeros of
+/// the shifted Legendre polynomial), weights b and the matrix A. Source: Hairer, Lubich and Wanner,
 /// Geometric Numerical Integration, section II.1.3. Computed in extended precision, not tabulated.
 struct GaussTableau {
   std::size_t stages = 0;
@@ -22,7 +22,8 @@ struct GaussTableau {
   const Extended& a(std::size_t i, std::size_t j) const { return matrix[i * stages + j]; }
 };
 
-/// Throws Error(usage) unless 1 <= stages <= 16.
-GaussTableau gauss_tableau(std::size_t stages);
+/// The tableau, computed once for each number of stages. Throws Error(usage) unless
+/// 1 <= stages <= 16.
+const GaussTableau& gauss_tableau(std::size_t stages);
 
 }  // namespace hamjet

@@ -8,16 +8,16 @@
 
 namespace hamjet::io {
 
-/// `summary.json`: scene, units, reference, and for every run its statistics, checks, residuals with
-/// their floors, symplecticity and errors. What was not computed is null.
+/// `summary.json`: scene, units, reference, and for every run its statistics, checks, residuals
+/// with their floors, symplecticity and errors. What was not computed is null.
 std::string summary_json(const PropagationResult& result);
 
-/// `<label>/jet.csv`: one row a coefficient, the row with exponents 0 being the nominal's final state.
-/// 17 digits, or 36 in extended precision; canonical units.
+/// `<label>/jet.csv`: one row a coefficient, the row with exponents 0 being the nominal's final
+/// state. 17 digits, or 36 in extended precision; canonical units.
 std::string jet_csv(const PropagationResult& result, const RunResult& run);
 
-/// `<label>/generating_function_<kind>.csv`: exponents of the 2n variables it takes (final ones, then
-/// initial ones with a 0 behind the name) and coefficient.
+/// `<label>/generating_function_<kind>.csv`: exponents of the 2n variables it takes (final ones,
+/// then initial ones with a 0 behind the name) and coefficient.
 std::string generating_function_csv(const PropagationResult& result, const KindResult& kind);
 
 /// `<label>/nominal.csv`: time (canonical and s), state (canonical), relative energy error.

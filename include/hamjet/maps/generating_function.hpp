@@ -7,9 +7,9 @@
 namespace hamjet {
 
 /// The one-form sigma with dS = sum of sigma_i dw_i for a generating function S: n entries for the
-/// final pairs, n for the initial pairs. With F1, S = F1(q, q0): sigma = (p, -p0). In general, for a
-/// final pair sigma = p_i if w = q_i and -q_i if w = p_i; for an initial pair -p0_i if w = q0_i and
-/// +q0_i if w = p0_i.
+/// final pairs, n for the initial pairs. With F1, S = F1(q, q0): sigma = (p, -p0). In general, for
+/// a final pair sigma = p_i if w = q_i and -q_i if w = p_i; for an initial pair -p0_i if w = q0_i
+/// and +q0_i if w = p0_i.
 template <class T>
 std::vector<Series<T>> one_form(const PartialInversion<T>& inversion);
 

@@ -16,8 +16,8 @@ namespace hamjet {
 template <class T>
 struct PartialInversion {
   GeneratingFunctionKind kind;
-  double condition = 0;                     ///< of the matrix inverted, in the 2-norm
-  std::vector<Series<T>> remaining_final;   ///< n series in w
+  double condition = 0;                      ///< of the matrix inverted, in the 2-norm
+  std::vector<Series<T>> remaining_final;    ///< n series in w
   std::vector<Series<T>> remaining_initial;  ///< n series in w
 };
 
@@ -26,14 +26,14 @@ struct PartialInversion {
 template <class T>
 Matrix<double> inverted_block(std::span<const Series<T>> jet, const GeneratingFunctionKind& kind);
 
-/// Condition number in the 2-norm: ratio of the largest to the smallest singular value; infinite for
-/// a singular matrix.
+/// Condition number in the 2-norm: ratio of the largest to the smallest singular value; infinite
+/// for a singular matrix.
 double condition_number(const Matrix<double>& matrix);
 
 /// Inverts a jet of 2n components in all 2n initial deviations; its constant terms are ignored.
 /// Throws Error(numerical), naming kind and smallest singular value, where the condition exceeds
-/// 1/(100 eps) (eps of double): the generating function does not exist there to any useful accuracy.
-/// Throws Error(usage) if the jet is not 2n components in 2n variables.
+/// 1/(100 eps) (eps of double): the generating function does not exist there to any useful
+/// accuracy. Throws Error(usage) if the jet is not 2n components in 2n variables.
 template <class T>
 PartialInversion<T> invert_partially(std::span<const Series<T>> jet,
                                      const GeneratingFunctionKind& kind);

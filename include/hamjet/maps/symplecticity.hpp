@@ -7,18 +7,19 @@
 
 namespace hamjet {
 
-/// How far a jet is from symplectic at one degree: the largest coefficient of {z_i, z_j} - J_ij over
-/// all pairs i < j.
+/// How far a jet is from symplectic at one degree: the largest coefficient of {z_i, z_j} - J_ij
+/// over all pairs i < j.
 struct SymplecticityDefect {
   int degree = 0;
   double absolute = 0;
   double scaled = 0;  ///< each coefficient divided by the sum of the absolute values of its terms
 };
 
-/// Defects of the degrees 0..N-1 of a jet of 2n components in all 2n initial deviations. It needs no
-/// inversion and so amplifies no round-off: scaled, a symplectic method stays at the rounding of the
-/// jet's numbers at every degree. For numbers of double precision the brackets are formed in extended
-/// precision, so that what is seen is the jet's own rounding. Throws Error(usage) for other sizes.
+/// Defects of the degrees 0..N-1 of a jet of 2n components in all 2n initial deviations. It needs
+/// no inversion and so amplifies no round-off: scaled, a symplectic method stays at the rounding of
+/// the jet's numbers at every degree. For numbers of double precision the brackets are formed in
+/// extended precision, so that what is seen is the jet's own rounding. Throws Error(usage) for
+/// other sizes.
 template <class T>
 std::vector<SymplecticityDefect> symplecticity_by_degree(std::span<const Series<T>> jet);
 

@@ -95,9 +95,9 @@ using ProgressCallback = std::function<void(const std::string& task, double frac
 /// The system of a scene in canonical units.
 DynamicalSystem make_system(const Scene& scene);
 
-/// What has to be computed for a scene: degrees of freedom that stay exactly zero and that the scene
-/// does not expand in are left out. Throws Error(too_large), naming the estimate, if the series would
-/// not fit `memory_limit` bytes, Error(usage) if an integrator is not in this build.
+/// What has to be computed for a scene: degrees of freedom that stay exactly zero and that the
+/// scene does not expand in are left out. Throws Error(too_large), naming the estimate, if the
+/// series would not fit `memory_limit` bytes, Error(usage) if an integrator is not in this build.
 ComputedProblem make_problem(const Scene& scene, double memory_limit);
 
 /// Bytes that the scene's runs need at most, from the counts of series and coefficients.
@@ -106,8 +106,8 @@ double estimate_memory(const Scene& scene, const DynamicalSystem& system, std::s
 /// Memory that this machine can give now, in bytes; infinite where that cannot be known.
 double available_memory();
 
-/// Runs a scene: the reference if it asks for one, then each integrator, then the inversions that it
-/// asks for. A numerical failure of one integrator or one kind is recorded in its result and the
+/// Runs a scene: the reference if it asks for one, then each integrator, then the inversions that
+/// it asks for. A numerical failure of one integrator or one kind is recorded in its result and the
 /// others go on; other errors are thrown.
 PropagationResult propagate(const Scene& scene, const ProgressCallback& progress = {});
 
@@ -116,7 +116,8 @@ PropagationResult propagate(const Scene& scene, const ProgressCallback& progress
 std::vector<double> relative_error_by_degree(const FlowJet<Extended>& jet,
                                              const FlowJet<Extended>& reference);
 
-/// The worst outcome of all runs, as an exit code: 0, 1 (a check failed) or 4 (a numerical failure).
+/// The worst outcome of all runs, as an exit code: 0, 1 (a check failed) or 4 (a numerical
+/// failure).
 int exit_code(const PropagationResult& result);
 
 }  // namespace hamjet
