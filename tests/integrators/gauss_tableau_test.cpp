@@ -99,13 +99,17 @@ TEST(GaussTableau, RefusesOtherNumbersOfStages) {
   }
 }
 
-TEST(Legendre, HasItsClosedForms) {
-  // P_2 = (3 x^2 - 1)/2, P_3 = (5 x^3 - 3 x)/2; at the binary fraction 3/8 without rounding.
-  const auto p = legendre(Extended(0.375), 4);
-  EXPECT_EQ(p[0], 1);
-  EXPECT_EQ(p[1], Extended(0.375));
-  EXPECT_EQ(p[2], Extended((3 * 0.375 * 0.375 - 1) / 2));
-  EXPECT_LE(magnitude_of(p[3] - Extended((5 * 0.375 * 0.375 * 0.375 - 3 * 0.375) / 2)), roundoff);
+TEST(GaussTableau, LastModeIsTheHighestLegendreMode) {
+  // Two stages: the mode of degree 1 of f(c) = 2 c - 1 = P_1 is 1, that of f = 1 is 0.
+  const GaussTableau t = gauss_tableau(2);
+  Extended of_linear = 0;
+  Extended of_constant = 0;
+  for (std::size_t i = 0; i < 2; ++i) {
+    of_linear += t.last_mode[i] * (2 * t.nodes[i] - 1);
+    of_constant += t.last_mode[i];
+  }
+  EXPECT_LE(magnitude_of(of_linear - 1), roundoff);
+  EXPECT_LE(magnitude_of(of_constant), roundoff);
 }
 
 }  // namespace
