@@ -4,11 +4,13 @@
 
 #include <filesystem>
 #include <mutex>
+#include <vector>
 
 #include "../io/scene_message.hpp"
 #include "demo_scene.hpp"
 #include "earlier_results.hpp"
 #include "hamjet/error.hpp"
+#include "hamjet/integrators/cvode.hpp"
 #include "hamjet/io/output_directory.hpp"
 #include "hamjet/io/results.hpp"
 #include "hamjet/io/scene_reader.hpp"
@@ -41,12 +43,27 @@ void refuse_empty(const std::optional<std::string>& value, const char* option, c
   }
 }
 
+/// The built-in scene names CVODE; a build without it shows the rest. A scene of the user's own is
+/// refused instead: what it asks for must not vanish.
+void leave_out_what_is_not_built(Scene& scene) {
+  if (cvode_available()) return;
+  const auto removed = std::erase_if(scene.integrators, [](const IntegratorSettings& settings) {
+    return settings.method == IntegrationMethod::cvode_adams ||
+           settings.method == IntegrationMethod::cvode_bdf;
+  });
+  if (removed > 0) {
+    print_error(fmt::format("this build has no CVODE: {} runs of the scene are left out", removed));
+  }
+}
+
 Scene read(const RunOptions& options) {
   refuse_empty(options.scene_file, "scene", "a file");
   refuse_empty(options.output, "--output", "a directory");
   const auto overrides = parse_overrides(options.overrides);
-  if (!options.scene_file) return io::parse_scene(demo_scene, "earth-orbit.toml", overrides);
-  return io::read_scene(*options.scene_file, overrides);
+  if (options.scene_file) return io::read_scene(*options.scene_file, overrides);
+  Scene scene = io::parse_scene(demo_scene, "earth-orbit.toml", overrides);
+  leave_out_what_is_not_built(scene);
+  return scene;
 }
 
 }  // namespace
