@@ -10,6 +10,7 @@
 #include "hamjet/error.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
 #include "stage_slopes.hpp"
+#include "summed_jet.hpp"
 
 namespace hamjet {
 
@@ -30,9 +31,8 @@ class GaussIntegrator {
         tableau_(gauss_tableau(static_cast<std::size_t>(settings.stages))),
         stages_(*problem.system, tableau_, problem.space, order_),
         point_(stage_list(), problem.space, 0),
-        jet_(identity_jet(problem)),
-        lost_(jet_.size(), std::vector<Real>(problem.space->size(), Real(0))) {
-    for (const auto& component : jet_) state_.push_back(component.coefficients().data());
+        jet_(problem) {
+    for (const auto& component : jet_.value()) state_.push_back(component.coefficients().data());
     for (std::size_t i = 0; i < tableau_.stages; ++i) {
       last_mode_.set_lane(static_cast<int>(i), convert<Real>(tableau_.last_mode[i]));
     }
@@ -45,13 +45,13 @@ class GaussIntegrator {
       step();
       if (observer) {
         const auto before = std::chrono::steady_clock::now();
-        observer(time_, jet_);
+        observer(time_, jet_.value());
         in_observer += seconds_since(before);
       }
     }
     statistics_.wall_seconds = seconds_since(start_) - in_observer;
-    require_finite(jet_, time_, "Gauss");
-    return std::move(jet_);
+    require_finite(jet_.value(), time_, "Gauss");
+    return jet_.take();
   }
 
  private:
@@ -94,7 +94,7 @@ class GaussIntegrator {
   /// The slopes g at the state's constant terms.
   void evaluate_end_slope(std::vector<Real>& slope) {
     const std::size_t m = stages_.system().components();
-    for (std::size_t c = 0; c < m; ++c) *point_.input(c) = jet_[c][0];
+    for (std::size_t c = 0; c < m; ++c) *point_.input(c) = jet_.value()[c][0];
     point_.evaluate_constant_terms();
     slope.assign(m, Real(0));
     for (std::size_t c = 0; c < m; ++c) {
@@ -213,7 +213,7 @@ class GaussIntegrator {
 
   bool try_step(const Real& h) {
     stages_.system().set_step(h);
-    const auto state = [&](std::size_t k) -> const Real& { return jet_[k][0]; };
+    const auto state = [&](std::size_t k) -> const Real& { return jet_.value()[k][0]; };
     return stages_.solve_constant_terms(state, statistics_.nominal_evaluations);
   }
 
@@ -370,69 +370,8 @@ class GaussIntegrator {
       evaluator.complete(d);
       account(&GaussProfile::update, mark);
     }
-    for (int d = 0; d <= order_; ++d) update_state(h, d);
+    jet_.advance(stages_, h, order_);
     evaluate_end_slope(end_slope_);
-  }
-
-  static Real dot(const P& weights, const P& values) {
-    if constexpr (P::width == 1) {
-      Real sum(0);
-      for (std::size_t i = 0; i < P::parts; ++i) sum += weights.part[i] * values.part[i];
-      return sum;
-    } else {
-      auto sum = weights.part[0] * values.part[0];
-      for (std::size_t i = 1; i < P::parts; ++i) sum += weights.part[i] * values.part[i];
-      return std::experimental::reduce(sum);
-    }
-  }
-
-  /// z_(n+1) = z_n + h sum b_j f_j, and with the second-order form
-  /// q_(n+1) = q_n + h M^-1 p_n + h^2 sum b_j (1 - c_j) M^-1 F_j.
-  void update_state(const Real& h, int d) {
-    const auto& system = stages_.system();
-    const std::size_t m = system.components();
-    const std::size_t first = problem_.space->first(d);
-    const std::size_t last = problem_.space->first(d + 1);
-    if (!system.second_order()) {
-      for (std::size_t c = 0; c < m; ++c) {
-        add_slopes(c, first, last, system.weights(), stages_.evaluator().output(c), h);
-      }
-      return;
-    }
-    // Positions first: they need the momenta at the start of the step.
-    for (std::size_t c = 0; c < m; ++c) {
-      for (std::size_t k = first; k < last; ++k) {
-        Real velocity = jet_[m + c][k];
-        if (!system.unit_mass()) {
-          velocity = Real(0);
-          for (std::size_t i = 0; i < m; ++i)
-            velocity += system.inverse_mass(c, i) * jet_[m + i][k];
-        }
-        add(jet_[c][k], lost_[c][k],
-            Real(h * (velocity + h * dot(system.position_weights(), stages_.slope(c, k)))));
-      }
-    }
-    for (std::size_t c = 0; c < m; ++c) {
-      add_slopes(m + c, first, last, system.weights(), stages_.evaluator().output(c), h);
-    }
-  }
-
-  /// Adds h sum b_j f_j to a component.
-  void add_slopes(std::size_t component, std::size_t first, std::size_t last, const P& weights,
-                  const P* slopes, const Real& h) {
-    Real* value = jet_[component].coefficients().data();
-    Real* lost = lost_[component].data();
-    for (std::size_t k = first; k < last; ++k) {
-      add(value[k], lost[k], Real(h * dot(weights, slopes[k])));
-    }
-  }
-
-  /// Compensated (Kahan) addition.
-  static void add(Real& value, Real& lost, const Real& increment) {
-    const Real corrected = increment - lost;
-    const Real sum = value + corrected;
-    lost = (sum - value) - corrected;
-    value = sum;
   }
 
   const FlowProblem<Real>& problem_;
@@ -443,8 +382,7 @@ class GaussIntegrator {
   const GaussTableau& tableau_;
   StageSlopes<Real, Lanes> stages_;
   SliceEvaluator<Real, Real> point_;  ///< the vector field at one point
-  FlowJet<Real> jet_;
-  std::vector<std::vector<Real>> lost_;
+  SummedJet<Real, Lanes> jet_;
   std::vector<const Real*> state_;
   Real time_ = 0;
   Real proposed_ = 0;

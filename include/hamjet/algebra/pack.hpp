@@ -103,6 +103,18 @@ Pack<Real, Lanes> map_lanes(const Pack<Real, Lanes>& x, Function function) {
   return result;
 }
 
+/// Sum over the lanes of the products.
+template <class Real, int Lanes>
+Real dot(const Pack<Real, Lanes>& a, const Pack<Real, Lanes>& b) {
+  auto sum = a.part[0] * b.part[0];
+  for (std::size_t i = 1; i < a.parts; ++i) sum += a.part[i] * b.part[i];
+  if constexpr (Pack<Real, Lanes>::width > 1) {
+    return std::experimental::reduce(sum);
+  } else {
+    return sum;
+  }
+}
+
 template <class Real, int Lanes>
 Pack<Real, Lanes> sqrt(const Pack<Real, Lanes>& x) {
   if constexpr (Pack<Real, Lanes>::width > 1) {

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "hamjet/integrators/flow_problem.hpp"
+#include "stage_slopes.hpp"
+
+namespace hamjet {
+
+/// The flow's jet as it advances from step to step, with the round-off that each addition lost:
+/// over many steps compensated summation lets the error grow as slowly as it can (Hairer, Lubich
+/// and Wanner, Geometric Numerical Integration, section VIII.5).
+template <class Real, int Lanes>
+class SummedJet {
+ public:
+  using P = Pack<Real, Lanes>;
+
+  explicit SummedJet(const FlowProblem<Real>& problem)
+      : jet_(identity_jet(problem)),
+        lost_(jet_.size(), std::vector<Real>(problem.space->size(), Real(0))) {}
+
+  const FlowJet<Real>& value() const { return jet_; }
+  FlowJet<Real> take() { return std::move(jet_); }
+
+  /// z_(n+1) = z_n + h sum b_j f_j, and with the second-order form
+  /// q_(n+1) = q_n + h M^-1 p_n + h^2 sum b_j (1 - c_j) M^-1 F_j, up to a degree.
+  void advance(StageSlopes<Real, Lanes>& stages, const Real& h, int highest) {
+    const auto& system = stages.system();
+    const std::size_t m = system.components();
+    const std::size_t count = jet_[0].space().first(highest + 1);
+    if (!system.second_order()) {
+      for (std::size_t c = 0; c < m; ++c) {
+        add_slopes(c, count, system.weights(), stages.evaluator().output(c), h);
+      }
+      return;
+    }
+    // Positions first: they need the momenta at the start of the step.
+    for (std::size_t c = 0; c < m; ++c) {
+      for (std::size_t k = 0; k < count; ++k) {
+        Real velocity = jet_[m + c][k];
+        if (!system.unit_mass()) {
+          velocity = Real(0);
+          for (std::size_t i = 0; i < m; ++i) {
+            velocity += system.inverse_mass(c, i) * jet_[m + i][k];
+          }
+        }
+        add(jet_[c][k], lost_[c][k],
+            Real(h * (velocity + h * dot(system.position_weights(), stages.slope(c, k)))));
+      }
+    }
+    for (std::size_t c = 0; c < m; ++c) {
+      add_slopes(m + c, count, system.weights(), stages.evaluator().output(c), h);
+    }
+  }
+
+ private:
+  /// Adds h sum b_j f_j to a component.
+  void add_slopes(std::size_t component, std::size_t count, const P& weights, const P* slopes,
+                  const Real& h) {
+    Real* value = jet_[component].coefficients().data();
+    Real* lost = lost_[component].data();
+    for (std::size_t k = 0; k < count; ++k) {
+      add(value[k], lost[k], Real(h * dot(weights, slopes[k])));
+    }
+  }
+
+  /// Kahan's addition.
+  static void add(Real& value, Real& lost, const Real& increment) {
+    const Real corrected = increment - lost;
+    const Real sum = value + corrected;
+    lost = (sum - value) - corrected;
+    value = sum;
+  }
+
+  FlowJet<Real> jet_;
+  std::vector<std::vector<Real>> lost_;
+};
+
+}  // namespace hamjet
