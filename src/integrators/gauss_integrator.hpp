@@ -28,6 +28,7 @@ class GaussIntegrator {
         statistics_(statistics),
         start_(Clock::now()),
         order_(working_order(problem)),
+        is_linear_(problem.system->vector_field.is_linear_system()),
         tableau_(gauss_tableau(static_cast<std::size_t>(settings.stages))),
         stages_(*problem.system, tableau_, problem.space, order_),
         point_(stage_list(), problem.space, 0),
@@ -223,7 +224,8 @@ class GaussIntegrator {
 
   /// Newton can converge to a detached root of the stage equations, whose map is symplectic and
   /// wrong. The slopes then have nothing to do with the slope at the start of the step.
-  bool is_suspicious() { return start_defect() > 0.5 * largest_slope(); }
+  /// The equations of a linear system have one solution only.
+  bool is_suspicious() { return !is_linear_ && start_defect() > 0.5 * largest_slope(); }
 
   /// Follows the solution from a tiny step to the full one. Where neighbouring solutions differ
   /// much the path is refined; a path that ends (a fold) has no continuation, however far it is
@@ -379,6 +381,7 @@ class GaussIntegrator {
   IntegrationStatistics& statistics_;
   Clock::time_point start_;
   int order_;
+  bool is_linear_;
   const GaussTableau& tableau_;
   StageSlopes<Real, Lanes> stages_;
   SliceEvaluator<Real, Real> point_;  ///< the vector field at one point

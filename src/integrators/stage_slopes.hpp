@@ -78,7 +78,7 @@ class StageSlopes {
       // Once the correction stops shrinking, what is left is round-off if it is no larger than what
       // the rounding of the slopes alone causes: with stiff systems that is far above epsilon.
       const bool is_stalled = size >= previous / 4;
-      if (size <= 2 * epsilon || (is_stalled && size <= 100 * epsilon * amplification())) {
+      if (size <= 2 * epsilon || (is_stalled && size <= 100 * epsilon * amplification(state))) {
         place_stages(state);
         evaluator_.evaluate_constant_terms();
         ++evaluations;
@@ -139,10 +139,11 @@ class StageSlopes {
   Real amplification() {
     Real result = 1;
     for (std::size_t c = 0; c < system_.components(); ++c) {
+      const P base = system_.base(c, state);
       Real scale = 0;
       Real largest = 0;
       for (int i = 0; i < static_cast<int>(system_.stages()); ++i) {
-        Real sum = 0;
+        Real sum = magnitude(base.lane(i));
         for (std::size_t from = 0; from < system_.components(); ++from) {
           for (std::size_t j = 0; j < system_.stages(); ++j) {
             sum += magnitude(Real(system_.response(from, j, c).lane(i) *
