@@ -225,7 +225,20 @@ class GaussIntegrator {
   /// Newton can converge to a detached root of the stage equations, whose map is symplectic and
   /// wrong. The slopes then have nothing to do with the slope at the start of the step.
   /// The equations of a linear system have one solution only.
-  bool is_suspicious() { return !is_linear_ && start_defect() > 0.5 * largest_slope(); }
+  bool is_suspicious() {
+    return !is_linear_ && start_defect() > 0.5 * stages_.largest_slope() + 2 * expected_change();
+  }
+
+  /// By how much the slopes may differ between the start and the stages: |Dg| times the
+  /// displacement.
+  double expected_change() {
+    const auto state = [&](std::size_t k) -> const Real& { return jet_.value()[k][0]; };
+    double gradient = 0;
+    for (int i = 0; i < settings_.stages; ++i) {
+      gradient = std::max(gradient, stages_.largest_gradient(i));
+    }
+    return gradient * stages_.displacement(state);
+  }
 
   /// Follows the solution from a tiny step to the full one. Where neighbouring solutions differ
   /// much the path is refined; a path that ends (a fold) has no continuation, however far it is
@@ -240,7 +253,8 @@ class GaussIntegrator {
     while (reached < 1) {
       const double next = std::min(1.0, reached + part);
       const std::vector<P> before = stages_.slopes();
-      if (try_step(Real(h * Real(next))) && slope_change(before) <= 0.25 * largest_slope()) {
+      if (try_step(Real(h * Real(next))) &&
+          slope_change(before) <= 0.25 * stages_.largest_slope() + expected_change()) {
         reached = next;
         part *= 2;
         continue;
@@ -282,34 +296,26 @@ class GaussIntegrator {
 
   Real node(std::size_t j) { return stages_.system().nodes().lane(static_cast<int>(j)); }
 
-  /// The collocation polynomial of the slopes at x, one number per component.
-  Real slope_polynomial(std::size_t c, const Real& x) {
-    const std::size_t s = tableau_.stages;
-    Real sum = 0;
-    for (std::size_t j = 0; j < s; ++j) {
-      Real basis = 1;
-      for (std::size_t k = 0; k < s; ++k) {
-        if (k != j) basis *= (x - node(k)) / (node(j) - node(k));
-      }
-      sum += basis * stages_.slopes()[c].lane(static_cast<int>(j));
+  /// Size of the slopes, which does not vanish where a single force passes through zero: with a
+  /// second-order system a frequency times the velocity is a slope too.
+  double slope_scale() {
+    const double slope = stages_.largest_slope();
+    if (!stages_.system().second_order()) return slope;
+    const std::size_t m = stages_.system().components();
+    double velocity = 0;
+    for (std::size_t c = 0; c < m; ++c) {
+      velocity = std::max(velocity, std::abs(static_cast<double>(jet_.value()[m + c][0])));
     }
-    return sum;
-  }
-
-  double largest_slope() {
-    double result = 0;
-    for (const P& slope : stages_.slopes()) {
-      for (int i = 0; i < settings_.stages; ++i) {
-        result = std::max(result, std::abs(static_cast<double>(slope.lane(i))));
-      }
+    if (!stages_.system().unit_mass()) {
+      velocity *= std::abs(static_cast<double>(stages_.system().inverse_mass(0, 0)));
     }
-    return result;
+    return std::max(slope, 0.5 * std::sqrt(stages_.largest_gradient(0)) * velocity);
   }
 
   double start_defect() {
     double result = 0;
     for (std::size_t c = 0; c < end_slope_.size(); ++c) {
-      const Real difference = slope_polynomial(c, Real(0)) - end_slope_[c];
+      const Real difference = stages_.slope_polynomial(c, Real(0)) - end_slope_[c];
       result = std::max(result, std::abs(static_cast<double>(difference)));
     }
     return result;
@@ -319,7 +325,7 @@ class GaussIntegrator {
   /// mode shows as the defect at the start of the step; where it happens to vanish, the last mode
   /// kept, which has the other parity, does not.
   double error_estimate() {
-    const double slope = largest_slope();
+    const double slope = slope_scale();
     if (slope == 0) return 0;
     double ratio = start_defect() / slope;
     const double s = settings_.stages;
@@ -346,16 +352,8 @@ class GaussIntegrator {
   /// first and last stage: the next step starts where this one ends, and an orbit's time scale,
   /// which goes as r^(3/2), changes much from one step to the next.
   double time_scale_ratio() {
-    double first = 0;
-    double last = 0;
-    const std::size_t m = stages_.system().components();
-    for (std::size_t c = 0; c < m; ++c) {
-      for (std::size_t k = 0; k < m; ++k) {
-        const P gradient = stages_.slope_gradient(c, k);
-        first = std::max(first, std::abs(static_cast<double>(gradient.lane(0))));
-        last = std::max(last, std::abs(static_cast<double>(gradient.lane(settings_.stages - 1))));
-      }
-    }
+    const double first = stages_.largest_gradient(0);
+    const double last = stages_.largest_gradient(settings_.stages - 1);
     if (first == 0 || last == 0) return 1;
     const double ratio = stages_.system().second_order() ? std::sqrt(first / last) : first / last;
     return std::clamp(ratio, 0.25, 4.0);

@@ -39,6 +39,57 @@ class StageSlopes {
     return sum;
   }
 
+  /// The collocation polynomial of the slopes at x, one number per component.
+  Real slope_polynomial(std::size_t c, const Real& x) const {
+    const std::size_t s = system_.stages();
+    Real sum = 0;
+    for (std::size_t j = 0; j < s; ++j) {
+      Real basis = 1;
+      for (std::size_t k = 0; k < s; ++k) {
+        if (k != j)
+          basis *= (x - system_.nodes().lane(static_cast<int>(k))) /
+                   (system_.nodes().lane(static_cast<int>(j)) -
+                    system_.nodes().lane(static_cast<int>(k)));
+      }
+      sum += basis * slopes_[c].lane(static_cast<int>(j));
+    }
+    return sum;
+  }
+
+  double largest_slope() const {
+    double result = 0;
+    for (const P& slope : slopes_) {
+      for (int i = 0; i < static_cast<int>(system_.stages()); ++i) {
+        result = std::max(result, std::abs(static_cast<double>(slope.lane(i))));
+      }
+    }
+    return result;
+  }
+
+  /// The largest entry of Dg at one stage.
+  double largest_gradient(int stage) const {
+    double result = 0;
+    for (std::size_t c = 0; c < system_.components(); ++c) {
+      for (std::size_t k = 0; k < system_.components(); ++k) {
+        result = std::max(result, std::abs(static_cast<double>(slope_gradient(c, k).lane(stage))));
+      }
+    }
+    return result;
+  }
+
+  /// The largest distance of a stage's component from a point.
+  template <class State>
+  double displacement(const State& state) {
+    double result = 0;
+    for (std::size_t c = 0; c < system_.components(); ++c) {
+      const P moved = evaluator_.input(c)[0] - P(state(c));
+      for (int i = 0; i < static_cast<int>(system_.stages()); ++i) {
+        result = std::max(result, std::abs(static_cast<double>(moved.lane(i))));
+      }
+    }
+    return result;
+  }
+
   /// d g_c / d Y_from at the stages.
   P slope_gradient(std::size_t c, std::size_t from) const {
     if (!system_.second_order() || system_.unit_mass()) return evaluator_.output_gradient(c, from);
@@ -134,9 +185,11 @@ class StageSlopes {
     }
   }
 
-  /// How much relative changes of the slopes are amplified in the stages: sum of |K| |G| over |Y|,
+  /// How much rounding is amplified in the stages: that of the slopes through K, and that of
+  /// Y = base + W G where the two nearly cancel (stiff systems): (|base| + sum of |K| |G|) / |Y|,
   /// at least 1.
-  Real amplification() {
+  template <class State>
+  Real amplification(const State& state) {
     Real result = 1;
     for (std::size_t c = 0; c < system_.components(); ++c) {
       const P base = system_.base(c, state);

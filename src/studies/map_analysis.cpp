@@ -53,7 +53,8 @@ const std::vector<ExactnessResidual>* MapAnalysis::floor(const GeneratingFunctio
     try {
       const auto inversion = invert_partially<Extended>(JetSpan(rounded), kind);
       place->second = exactness_residual(one_form(inversion), scales(kind));
-    } catch (const Error&) {
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::numerical) throw;
       // The kind does not exist for the true map: there is no floor to state.
       place->second.clear();
     }

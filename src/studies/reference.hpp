@@ -8,8 +8,8 @@ namespace hamjet {
 
 /// Runs the extended-precision reference of a problem: Gauss with 16 stages at the scene's
 /// tolerance, and again with 12 stages at 1e4 times that; the difference, by degree, is the stated
-/// uncertainty. The two run side by side in threads of their own. `keep_going` is called after
-/// every step with the fraction of the slower run that is done, from both threads; it may throw.
+/// uncertainty. The two run side by side in threads of their own. `keep_going` is called
+/// after every step of the finer run, with the fraction that is done; it may throw.
 ReferenceResult compute_reference(const ComputedProblem& problem, double duration,
                                   const ReferenceSettings& settings,
                                   const std::function<void(double)>& keep_going);
