@@ -100,6 +100,15 @@ class StageSlopes {
     return sum;
   }
 
+  /// Puts Newton's slopes in the place of the evaluated ones, at degree 0. For unit mass only,
+  /// where slopes and forces are the same.
+  void store_slopes() {
+    for (std::size_t c = 0; c < system_.components(); ++c) {
+      P* target = evaluator_.mutable_output(c);
+      if (target != nullptr) *target = slopes_[c];
+    }
+  }
+
   /// Newton's method from the slopes that stand in slopes(); true if it converged to round-off.
   /// With rho = g(Y) - G and Y = base + W G:  dY = K rho,  dG = rho + Dg dY.
   template <class State>

@@ -29,6 +29,9 @@ class SummedJet {
   void advance(StageSlopes<Real, Lanes>& stages, const Real& h, int highest) {
     const auto& system = stages.system();
     const std::size_t m = system.components();
+    // Newton's slopes are good to round-off where those evaluated at the stages, the small
+    // difference of large terms in a stiff system, are not.
+    if (system.unit_mass()) stages.store_slopes();
     const std::size_t count = jet_[0].space().first(highest + 1);
     if (!system.second_order()) {
       for (std::size_t c = 0; c < m; ++c) {

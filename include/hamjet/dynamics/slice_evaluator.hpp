@@ -50,6 +50,11 @@ class SliceEvaluator {
   T* input(std::size_t i) { return value(i); }
   /// The coefficients of the i-th output.
   const T* output(std::size_t i) const { return value(list_->outputs()[i]); }
+  /// The same to be overwritten, or null where the output is one of the inputs.
+  T* mutable_output(std::size_t i) {
+    const std::size_t place = list_->outputs()[i];
+    return place < list_->inputs() ? nullptr : value(place);
+  }
   /// d output_i / d input_j at the inputs' constant terms.
   const T& output_gradient(std::size_t i, std::size_t j) const {
     return gradients_[list_->outputs()[i] * list_->inputs() + j];
