@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <mutex>
 #include <vector>
 
 #include "../io/scene_message.hpp"
@@ -77,10 +76,8 @@ int run(const RunOptions& options) {
   PropagationResult result;
   {
     Progress progress(!options.quiet);
-    std::mutex guard;
     result = propagate(scene, [&](const std::string& task, double fraction) {
       stop_if_interrupted();
-      const std::scoped_lock lock(guard);
       progress.update(task, fraction);
     });
   }

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <numeric>
 
+#include "hamjet/algebra/composition.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
+#include "hamjet/studies/propagation.hpp"
 
 namespace hamjet::benchmarks {
 namespace {
@@ -36,21 +38,9 @@ Case planar_case(int order) {
 }
 
 double worst_error(const FlowJet<double>& jet, const FlowJet<Extended>& reference) {
-  const SeriesSpace& space = reference[0].space();
-  double worst = 0;
-  for (int d = 0; d <= space.order(); ++d) {
-    double difference = 0;
-    double largest = 0;
-    for (std::size_t i = 0; i < jet.size(); ++i) {
-      for (std::size_t k = space.first(d); k < space.first(d + 1); ++k) {
-        difference = std::max(difference,
-                              std::abs(static_cast<double>(Extended(reference[i][k] - jet[i][k]))));
-        largest = std::max(largest, std::abs(static_cast<double>(reference[i][k])));
-      }
-    }
-    worst = std::max(worst, difference / largest);
-  }
-  return worst;
+  const std::vector<double> errors =
+      relative_error_by_degree(convert_map<Extended>(jet), reference);
+  return *std::max_element(errors.begin(), errors.end());
 }
 
 FlowJet<Extended> reference_jet(const Case& c) {
