@@ -17,13 +17,12 @@
 #include "cvode_handles.hpp"
 #include "hamjet/error.hpp"
 #include "series_vector_field.hpp"
+#include "step_sequence.hpp"
 
 namespace hamjet {
 namespace {
 
 static_assert(std::is_same_v<realtype, double>, "hamjet needs SUNDIALS in double precision");
-
-constexpr long largest_step_count = 100'000'000;
 
 const char* method_name(CvodeMethod method) {
   return method == CvodeMethod::adams ? "CVODE Adams" : "CVODE BDF";
@@ -106,11 +105,8 @@ class CvodeIntegration {
                   fmt::format("{}: a coefficient is not finite at t = {:.10g}", name_, time_));
     }
     guard_.check(numbers(), field_.coefficients(), time_);
-    if (++statistics_.steps > largest_step_count) {
-      throw Error(ErrorKind::too_large,
-                  fmt::format("{}: {} steps were not enough, t = {:.10g} was reached", name_,
-                              largest_step_count, time_));
-    }
+    ++statistics_.steps;
+    limit_step_count(name_.c_str(), statistics_.steps, time_, problem_.duration);
   }
 
   /// Throws for a negative flag of CVODE, with the exception or the message that led to it.

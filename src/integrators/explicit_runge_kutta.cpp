@@ -15,13 +15,14 @@
 #include "hamjet/algebra/extended.hpp"
 #include "hamjet/error.hpp"
 #include "series_vector_field.hpp"
+#include "step_sequence.hpp"
 
 namespace hamjet {
 namespace {
 
 namespace odeint = boost::numeric::odeint;
 
-constexpr double largest_step_count = 1e8;
+constexpr const char* method_name = "Fehlberg 7(8)";
 
 /// odeint's algebra on ranges with a norm that takes every number type: its own looks for the type
 /// of the real numbers inside Extended.
@@ -52,8 +53,8 @@ class FehlbergIntegration {
         statistics_(statistics),
         observer_(observer),
         start_(Clock::now()),
-        field_(problem, "Fehlberg 7(8)"),
-        guard_(problem, settings.tolerance.value_or(0), "Fehlberg 7(8)"),
+        field_(problem, method_name),
+        guard_(problem, settings.tolerance.value_or(0), method_name),
         jet_(identity_jet(problem)),
         state_(field_.initial_state()),
         derivative_(state_.size()),
@@ -86,9 +87,7 @@ class FehlbergIntegration {
   double span() const { return std::abs(static_cast<double>(problem_.duration)); }
 
   void run_fixed_steps() {
-    const double count = std::ceil(span() / *settings_.step * (1 - 1e-12));
-    if (count > largest_step_count) refuse_step_count(count);
-    const long steps = std::max(1L, static_cast<long>(count));
+    const long steps = equal_step_count(problem_.duration, *settings_.step, method_name);
     const Real h = problem_.duration / Real(steps);
     Stepper stepper;
     for (long left = steps - 1; left >= 0; --left) {
@@ -115,9 +114,7 @@ class FehlbergIntegration {
       }
       time_ = h == remaining ? problem_.duration : Real(time_ + h);
       accept();
-      if (static_cast<double>(statistics_.steps) > largest_step_count) {
-        refuse_step_count(static_cast<double>(statistics_.steps));
-      }
+      limit_step_count(method_name, statistics_.steps, static_cast<double>(time_), span());
     }
   }
 
@@ -165,13 +162,6 @@ class FehlbergIntegration {
     return problem_.duration < 0 ? Real(-h) : Real(h);
   }
 
-  /// The last two steps share what is left, so that none is tiny.
-  static Real fit_to_span(const Real& h, const Real& remaining) {
-    const double ratio = static_cast<double>(Real(remaining / h));
-    if (ratio <= 1) return remaining;
-    return ratio < 2 ? Real(remaining / 2) : h;
-  }
-
   [[noreturn]] void fail_step_size(const Real& h) const {
     throw Error(
         ErrorKind::numerical,
@@ -184,12 +174,6 @@ class FehlbergIntegration {
     throw Error(ErrorKind::numerical,
                 fmt::format("Fehlberg 7(8): a coefficient is not finite at t = {:.10g}",
                             static_cast<double>(time_)));
-  }
-
-  [[noreturn]] static void refuse_step_count(double count) {
-    throw Error(ErrorKind::too_large,
-                fmt::format("Fehlberg 7(8): {:.3g} steps, at most {:.0e} are taken", count,
-                            largest_step_count));
   }
 
   const FlowProblem<Real>& problem_;

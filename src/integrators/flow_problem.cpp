@@ -2,20 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "hamjet/algebra/extended.hpp"
+#include "real_number.hpp"
 
 namespace hamjet {
-namespace {
-
-template <class Real>
-bool is_finite(const Real& x) {
-  using std::isfinite;
-  return isfinite(x);
-}
-
-}  // namespace
 
 template <class Real>
 void validate(const FlowProblem<Real>& problem) {

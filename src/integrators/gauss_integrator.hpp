@@ -7,9 +7,11 @@
 #include <cmath>
 #include <vector>
 
+#include "gauss_step_control.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
 #include "stage_slopes.hpp"
+#include "step_sequence.hpp"
 #include "summed_jet.hpp"
 
 namespace hamjet {
@@ -32,11 +34,9 @@ class GaussIntegrator {
         tableau_(gauss_tableau(static_cast<std::size_t>(settings.stages))),
         stages_(*problem.system, tableau_, problem.space, order_),
         point_(stage_list(), problem.space, 0),
-        jet_(problem) {
+        jet_(problem),
+        control_(settings, tableau_, stages_, jet_) {
     for (const auto& component : jet_.value()) state_.push_back(component.coefficients().data());
-    for (std::size_t i = 0; i < tableau_.stages; ++i) {
-      last_mode_.set_lane(static_cast<int>(i), convert<Real>(tableau_.last_mode[i]));
-    }
   }
 
   FlowJet<Real> run(const StepObserver<Real>& observer) {
@@ -59,9 +59,6 @@ class GaussIntegrator {
   /// A step is repeated if its error estimate exceeds the tolerance more than this: the estimate
   /// goes as h^(2s), so that a step hardly too long is not worth repeating.
   static constexpr double largest_excess = 10;
-  /// Measured: with this factor the global error of all coefficients of degree 0..4 over a few
-  /// revolutions comes out near the tolerance, for 4 to 16 stages.
-  static constexpr double error_constant = 100;
 
   static double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
@@ -84,11 +81,10 @@ class GaussIntegrator {
     if (problem_.duration == 0) return;
     evaluate_end_slope(end_slope_);
     if (settings_.step) {
-      const double count = static_cast<double>(magnitude(problem_.duration)) / *settings_.step;
-      remaining_steps_ = std::max(1L, static_cast<long>(std::ceil(count * (1 - 1e-12))));
+      remaining_steps_ = equal_step_count(problem_.duration, *settings_.step, "Gauss");
       proposed_ = problem_.duration / Real(remaining_steps_);
     } else {
-      proposed_ = first_step();
+      proposed_ = control_.first_step(point_, problem_.duration);
     }
   }
 
@@ -116,27 +112,6 @@ class GaussIntegrator {
     }
   }
 
-  /// The time in which the slopes change by about their own size, from the gradient at the start;
-  /// for an orbit it is proportional to r^(3/2).
-  Real first_step() {
-    const std::size_t m = stages_.system().components();
-    double norm = 0;
-    for (std::size_t c = 0; c < m; ++c) {
-      double row = 0;
-      for (std::size_t k = 0; k < m; ++k) {
-        row += std::abs(static_cast<double>(point_.output_gradient(c, k)));
-      }
-      norm = std::max(norm, row);
-    }
-    const double span = static_cast<double>(magnitude(problem_.duration));
-    double h = span;
-    if (norm > 0) h = (stages_.system().second_order() ? 1 / std::sqrt(norm) : 1 / norm);
-    h *= 2 * std::pow(*settings_.tolerance / error_constant, 0.5 / settings_.stages) *
-         settings_.stages;
-    h = std::min(h, span);
-    return problem_.duration < 0 ? Real(-h) : Real(h);
-  }
-
   void step() {
     auto mark = Clock::now();
     const Real remaining = problem_.duration - time_;
@@ -151,16 +126,18 @@ class GaussIntegrator {
                         "another singularity lies ahead",
                         static_cast<double>(h), static_cast<double>(time_)));
       }
+      step_ = h;
       const bool is_solved = solve_nominal(h);
       account(&GaussProfile::nominal, mark);
       if (settings_.step) {
         if (!is_solved) fail_fixed_step(h);
         break;
       }
-      const double error = is_solved ? error_estimate() : std::numeric_limits<double>::infinity();
-      growth = is_solved ? step_factor(error) : 0.5;
+      const double error = is_solved ? control_.error_estimate(step_, end_slope_)
+                                     : std::numeric_limits<double>::infinity();
+      growth = is_solved ? control_.step_factor(error) : 0.5;
       if (error <= largest_excess * *settings_.tolerance) {
-        growth *= time_scale_ratio();
+        growth *= control_.time_scale_ratio();
         break;
       }
       ++statistics_.rejected_steps;
@@ -179,15 +156,10 @@ class GaussIntegrator {
     } else {
       time_ = h == remaining ? problem_.duration : Real(time_ + h);
       proposed_ = h * Real(std::clamp(growth, 0.1, 4.0));
+      limit_step_count("Gauss", statistics_.steps, static_cast<double>(time_),
+                       static_cast<double>(problem_.duration));
     }
     account(&GaussProfile::update, mark);
-  }
-
-  /// The last steps share what is left, so that none is tiny.
-  static Real fit_to_span(const Real& h, const Real& remaining) {
-    const double ratio = static_cast<double>(Real(remaining / h));
-    if (ratio <= 1) return remaining;
-    return ratio < 2 ? Real(remaining / 2) : h;
   }
 
   [[noreturn]] void fail_fixed_step(const Real& h) const {
@@ -226,7 +198,8 @@ class GaussIntegrator {
   /// wrong. The slopes then have nothing to do with the slope at the start of the step.
   /// The equations of a linear system have one solution only.
   bool is_suspicious() {
-    return !is_linear_ && start_defect() > 0.5 * stages_.largest_slope() + 2 * expected_change();
+    return !is_linear_ && control_.start_defect(end_slope_) >
+                              0.5 * stages_.largest_slope() + 2 * expected_change();
   }
 
   /// By how much the slopes may differ between the start and the stages: |Dg| times the
@@ -296,69 +269,6 @@ class GaussIntegrator {
 
   Real node(std::size_t j) { return stages_.system().nodes().lane(static_cast<int>(j)); }
 
-  /// Size of the slopes, which does not vanish where a single force passes through zero: with a
-  /// second-order system a frequency times the velocity is a slope too.
-  double slope_scale() {
-    const double slope = stages_.largest_slope();
-    if (!stages_.system().second_order()) return slope;
-    const std::size_t m = stages_.system().components();
-    double velocity = 0;
-    for (std::size_t c = 0; c < m; ++c) {
-      velocity = std::max(velocity, std::abs(static_cast<double>(jet_.value()[m + c][0])));
-    }
-    if (!stages_.system().unit_mass()) {
-      velocity *= std::abs(static_cast<double>(stages_.system().inverse_mass(0, 0)));
-    }
-    return std::max(slope, 0.5 * std::sqrt(stages_.largest_gradient(0)) * velocity);
-  }
-
-  double start_defect() {
-    double result = 0;
-    for (std::size_t c = 0; c < end_slope_.size(); ++c) {
-      const Real difference = stages_.slope_polynomial(c, Real(0)) - end_slope_[c];
-      result = std::max(result, std::abs(static_cast<double>(difference)));
-    }
-    return result;
-  }
-
-  /// The square of the first neglected Legendre mode of the slopes, relative to the slopes. That
-  /// mode shows as the defect at the start of the step; where it happens to vanish, the last mode
-  /// kept, which has the other parity, does not.
-  double error_estimate() {
-    const double slope = slope_scale();
-    if (slope == 0) return 0;
-    double ratio = start_defect() / slope;
-    const double s = settings_.stages;
-    if (s > 1) ratio = std::max(ratio, std::pow(last_mode() / slope, s / (s - 1)));
-    return error_constant * ratio * ratio;
-  }
-
-  /// The largest component of the Legendre mode of degree s - 1 of the slopes.
-  double last_mode() {
-    double result = 0;
-    for (const P& slope : stages_.slopes()) {
-      result = std::max(result, std::abs(static_cast<double>(dot(last_mode_, slope))));
-    }
-    return result;
-  }
-
-  double step_factor(double error) const {
-    if (error <= 0) return 4;
-    const double factor = 0.95 * std::pow(*settings_.tolerance / error, 0.5 / settings_.stages);
-    return std::clamp(factor, 0.1, 4.0);
-  }
-
-  /// How the time scale of the dynamics changes over the step, from the slopes' gradients at its
-  /// first and last stage: the next step starts where this one ends, and an orbit's time scale,
-  /// which goes as r^(3/2), changes much from one step to the next.
-  double time_scale_ratio() {
-    const double first = stages_.largest_gradient(0);
-    const double last = stages_.largest_gradient(settings_.stages - 1);
-    if (first == 0 || last == 0) return 1;
-    const double ratio = stages_.system().second_order() ? std::sqrt(first / last) : first / last;
-    return std::clamp(ratio, 0.25, 4.0);
-  }
-
   /// The degrees 1..N of the stages, then the new state.
   void advance_jet(const Real& h, Clock::time_point& mark) {
     auto& evaluator = stages_.evaluator();
@@ -384,13 +294,14 @@ class GaussIntegrator {
   StageSlopes<Real, Lanes> stages_;
   SliceEvaluator<Real, Real> point_;  ///< the vector field at one point
   SummedJet<Real, Lanes> jet_;
+  GaussStepControl<Real, Lanes> control_;
   std::vector<const Real*> state_;
   Real time_ = 0;
   Real proposed_ = 0;
   Real previous_step_ = 0;
+  Real step_ = 0;  ///< being tried
   long remaining_steps_ = 0;
   std::vector<Real> end_slope_;  ///< at the end of the last step, where the next one starts
-  P last_mode_{Real(0)};         ///< weights of the Legendre mode of degree s - 1
 };
 
 }  // namespace hamjet

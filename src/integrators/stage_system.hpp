@@ -10,19 +10,9 @@
 #include "hamjet/algebra/pack.hpp"
 #include "hamjet/dynamics/dynamical_system.hpp"
 #include "hamjet/integrators/gauss_tableau.hpp"
+#include "real_number.hpp"
 
 namespace hamjet {
-
-/// Real-valued absolute value and finiteness for double and Extended alike.
-template <class Real>
-Real magnitude(const Real& x) {
-  return x < 0 ? Real(-x) : x;
-}
-template <class Real>
-bool is_finite(const Real& x) {
-  using std::isfinite;
-  return isfinite(x);
-}
 
 /// The linear system of the stage equations of one step, and its solution operator.
 ///

@@ -10,9 +10,14 @@
 namespace hamjet {
 namespace {
 
-/// Beyond this condition number a linear part counts as singular: with rounded inputs it never is
-/// exactly (at a full period of Kepler's problem F1 has a condition near 3e17).
-constexpr double largest_condition = 1 / (100 * std::numeric_limits<double>::epsilon());
+/// Singular values, the largest first.
+template <class T>
+std::vector<double> singular_values(const Matrix<T>& matrix) {
+  const auto values = Eigen::JacobiSVD<Matrix<T>>(matrix).singularValues();
+  std::vector<double> result;
+  for (const T& value : values) result.push_back(static_cast<double>(value));
+  return result;
+}
 
 template <class T>
 void require_full_jet(std::span<const Series<T>> jet, const GeneratingFunctionKind& kind) {
@@ -28,41 +33,41 @@ void require_full_jet(std::span<const Series<T>> jet, const GeneratingFunctionKi
 }  // namespace
 
 template <class T>
-Matrix<double> inverted_block(std::span<const Series<T>> jet, const GeneratingFunctionKind& kind) {
+Matrix<T> inverted_block(std::span<const Series<T>> jet, const GeneratingFunctionKind& kind) {
   require_full_jet(jet, kind);
   const std::size_t n = kind.degrees_of_freedom();
-  Matrix<double> block(n, n);
+  Matrix<T> block(n, n);
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j < n; ++j) {
       const Series<T>& component = jet[kind.final_variable(i)];
       const std::size_t k = component.space().linear_index(kind.initial_variable(j, false));
-      block(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
-          static_cast<double>(component[k]);
+      block(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = component[k];
     }
   }
   return block;
 }
 
-double condition_number(const Matrix<double>& matrix) {
-  const Eigen::VectorXd values = Eigen::JacobiSVD<Matrix<double>>(matrix).singularValues();
-  const double smallest = values(values.size() - 1);
-  return smallest > 0 ? values(0) / smallest : std::numeric_limits<double>::infinity();
+template <class T>
+double condition_number(const Matrix<T>& matrix) {
+  const std::vector<double> values = singular_values(matrix);
+  return values.back() > 0 ? values.front() / values.back()
+                           : std::numeric_limits<double>::infinity();
 }
 
 template <class T>
 PartialInversion<T> invert_partially(std::span<const Series<T>> jet,
-                                     const GeneratingFunctionKind& kind) {
-  const Matrix<double> block = inverted_block(jet, kind);
+                                     const GeneratingFunctionKind& kind, double precision) {
+  const Matrix<T> block = inverted_block(jet, kind);
   PartialInversion<T> result;
   result.kind = kind;
   result.condition = condition_number(block);
-  if (!(result.condition < largest_condition)) {
-    const Eigen::VectorXd values = Eigen::JacobiSVD<Matrix<double>>(block).singularValues();
+  if (!(result.condition < largest_condition(precision))) {
+    const std::vector<double> values = singular_values(block);
     throw Error(ErrorKind::numerical,
                 fmt::format("generating function {}: it does not exist at this time: the singular "
                             "values of its linear part run from {:.3g} down to {:.3g} (condition "
                             "{:.3g}); another kind, or 'auto', may exist",
-                            kind.name(), values(0), values(values.size() - 1), result.condition));
+                            kind.name(), values.front(), values.back(), result.condition));
   }
   // The map w(initial deviations) is inverted as a whole: its last n rows are single variables.
   const std::size_t n = kind.degrees_of_freedom();
@@ -104,12 +109,14 @@ GeneratingFunctionKind best_conditioned_kind(std::span<const Series<T>> jet) {
 
 template Matrix<double> inverted_block(std::span<const Series<double>>,
                                        const GeneratingFunctionKind&);
-template Matrix<double> inverted_block(std::span<const Series<Extended>>,
-                                       const GeneratingFunctionKind&);
+template Matrix<Extended> inverted_block(std::span<const Series<Extended>>,
+                                         const GeneratingFunctionKind&);
+template double condition_number(const Matrix<double>&);
+template double condition_number(const Matrix<Extended>&);
 template PartialInversion<double> invert_partially(std::span<const Series<double>>,
-                                                   const GeneratingFunctionKind&);
+                                                   const GeneratingFunctionKind&, double);
 template PartialInversion<Extended> invert_partially(std::span<const Series<Extended>>,
-                                                     const GeneratingFunctionKind&);
+                                                     const GeneratingFunctionKind&, double);
 template GeneratingFunctionKind best_conditioned_kind(std::span<const Series<double>>);
 template GeneratingFunctionKind best_conditioned_kind(std::span<const Series<Extended>>);
 

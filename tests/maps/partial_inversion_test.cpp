@@ -94,9 +94,10 @@ TEST(ConditionNumber, OfTheClassicalKindsMatchesTheReference) {
 }
 
 TEST(ConditionNumber, OfKnownMatrices) {
-  EXPECT_EQ(condition_number(Matrix<double>::Identity(3, 3)), 1);
-  EXPECT_EQ(condition_number(Matrix<double>::Zero(2, 2)), std::numeric_limits<double>::infinity());
-  EXPECT_DOUBLE_EQ(condition_number((Matrix<double>(2, 2) << 0, 8, 2, 0).finished()), 4);
+  EXPECT_EQ(condition_number<double>(Matrix<double>::Identity(3, 3)), 1);
+  EXPECT_EQ(condition_number<double>(Matrix<double>::Zero(2, 2)),
+            std::numeric_limits<double>::infinity());
+  EXPECT_DOUBLE_EQ(condition_number<double>((Matrix<double>(2, 2) << 0, 8, 2, 0).finished()), 4);
 }
 
 TEST(PartialInversion, RefusesKindsThatDoNotExistAtTheTime) {

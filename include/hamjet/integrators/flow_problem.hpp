@@ -26,10 +26,15 @@ struct FlowProblem {
 template <class Real>
 using FlowJet = std::vector<Series<Real>>;
 
+/// More steps than this are refused with Error(too_large): they would take hours, and their
+/// round-off alone would leave little of a result.
+inline constexpr double largest_step_count = 1e8;
+
 /// What an integration took. Evaluations are counted on series: one stage of one step.
 struct IntegrationStatistics {
   long steps = 0;
   long rejected_steps = 0;
+  /// Gauss tries a step on the nominal first, so that rejected steps cost it none of these.
   long vector_field_evaluations = 0;
   long nominal_evaluations = 0;  ///< on plain numbers, of all stages at once for implicit methods
   double wall_seconds = 0;       ///< of the integration alone

@@ -38,7 +38,9 @@ struct GaussSettings {
 /// polynomial that was fitted to it inside: about the first neglected Legendre mode, whose square
 /// has the order 2s of the method. The factor is empirical: the error of the coefficients of degree
 /// 0..4, relative to the largest of their degree, then comes out near the tolerance after a few
-/// revolutions (that of the nominal some 50 times below). The update is summed with compensation.
+/// revolutions (that of the nominal some 50 times below). A step is also short enough for the
+/// linearised equations (h times their frequency), for a nominal at rest, or one that does not move
+/// where the deviations do, shows nothing of them. The update is summed with compensation.
 ///
 /// Source: Hairer, Lubich and Wanner, Geometric Numerical Integration, sections II.1 and VIII.6.
 /// Throws Error(usage) for settings out of range, Error(numerical) if the stage equations have no

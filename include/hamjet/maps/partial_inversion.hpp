@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -24,19 +25,27 @@ struct PartialInversion {
 /// The linear part that a kind inverts: d(chosen final) / d(remaining initial), n x n. For F1 it is
 /// dq/dp0, for F2 dq/dq0, for F3 dp/dp0, for F4 dp/dq0.
 template <class T>
-Matrix<double> inverted_block(std::span<const Series<T>> jet, const GeneratingFunctionKind& kind);
+Matrix<T> inverted_block(std::span<const Series<T>> jet, const GeneratingFunctionKind& kind);
 
 /// Condition number in the 2-norm: ratio of the largest to the smallest singular value; infinite
 /// for a singular matrix.
-double condition_number(const Matrix<double>& matrix);
+template <class T>
+double condition_number(const Matrix<T>& matrix);
+
+/// Beyond this condition number a linear part that is known to a relative precision counts as
+/// singular: with rounded inputs it never is exactly (at a full period of Kepler's problem F1 has a
+/// condition near 3e17 in double precision).
+constexpr double largest_condition(double precision) { return 1 / (100 * precision); }
 
 /// Inverts a jet of 2n components in all 2n initial deviations; its constant terms are ignored.
+/// `precision` is the rounding of the jet's coefficients, which may be coarser than that of T.
 /// Throws Error(numerical), naming kind and smallest singular value, where the condition exceeds
-/// 1/(100 eps) (eps of double): the generating function does not exist there to any useful
+/// largest_condition(precision): the generating function does not exist there to any useful
 /// accuracy. Throws Error(usage) if the jet is not 2n components in 2n variables.
 template <class T>
-PartialInversion<T> invert_partially(std::span<const Series<T>> jet,
-                                     const GeneratingFunctionKind& kind);
+PartialInversion<T> invert_partially(
+    std::span<const Series<T>> jet, const GeneratingFunctionKind& kind,
+    double precision = static_cast<double>(std::numeric_limits<T>::epsilon()));
 
 /// The kind whose linear part has the smallest condition number.
 template <class T>
