@@ -12,6 +12,7 @@ enum Phase : std::sig_atomic_t { computing, writing, written };
 
 volatile std::sig_atomic_t pending_signal = 0;
 volatile std::sig_atomic_t phase = computing;
+volatile std::sig_atomic_t has_checkpoint = 0;
 
 constexpr unsigned seconds_to_stop = 1;
 
@@ -19,7 +20,10 @@ constexpr unsigned seconds_to_stop = 1;
 /// called. Outside `writing` there is nothing on the disk to clean up.
 [[noreturn]] void end_at_once() {
   if (phase == computing) {
-    constexpr std::string_view message = "hamjet: interrupted; nothing was written\n";
+    const std::string_view message =
+        has_checkpoint != 0
+            ? "hamjet: interrupted; the results hold what was finished shortly before\n"
+            : "hamjet: interrupted; nothing was written\n";
     [[maybe_unused]] const auto ignored = ::write(STDERR_FILENO, message.data(), message.size());
   }
   ::_exit(128 + pending_signal);
@@ -51,14 +55,17 @@ void stop_if_interrupted() {
   if (pending_signal != 0) throw Interrupted(pending_signal);
 }
 
-UninterruptedWriting::UninterruptedWriting() {
+UninterruptedWriting::UninterruptedWriting(Writing what) : what_(what) {
   phase = writing;
-  if (pending_signal != 0) {
+  if (pending_signal != 0 && what != Writing::partial_results) {
     phase = computing;
     throw Interrupted(pending_signal);
   }
 }
 
-UninterruptedWriting::~UninterruptedWriting() { phase = written; }
+UninterruptedWriting::~UninterruptedWriting() {
+  if (what_ == Writing::checkpoint) has_checkpoint = 1;
+  phase = what_ == Writing::checkpoint ? computing : written;
+}
 
 }  // namespace hamjet::cli

@@ -24,14 +24,24 @@ void catch_signals();
 /// Throws Interrupted if a signal has come.
 void stop_if_interrupted();
 
-/// While it lives the results are being written, which takes a moment and is not broken off. Throws
-/// Interrupted at the start if a signal has come.
+/// What is written.
+enum class Writing {
+  results,         ///< the end of the work: afterwards a signal ends the program at once
+  checkpoint,      ///< the work goes on
+  partial_results  ///< a signal has come, and what is finished is kept
+};
+
+/// While it lives something is being written, which takes a moment and is not broken off. Throws
+/// Interrupted at the start if a signal has come, unless partial results are written.
 class UninterruptedWriting {
  public:
-  UninterruptedWriting();
+  explicit UninterruptedWriting(Writing what = Writing::results);
   ~UninterruptedWriting();
   UninterruptedWriting(const UninterruptedWriting&) = delete;
   UninterruptedWriting& operator=(const UninterruptedWriting&) = delete;
+
+ private:
+  Writing what_;
 };
 
 }  // namespace hamjet::cli

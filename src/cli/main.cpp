@@ -1,8 +1,10 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <map>
 #include <new>
 #include <sstream>
 
+#include "compare_command.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/version.hpp"
 #include "interruption.hpp"
@@ -20,6 +22,7 @@ constexpr const char* examples = R"(Examples:
   hamjet run scene.toml                     results in out/scene
   hamjet run scene.toml -o results --json   summary on standard output as JSON
   hamjet run scene.toml --set jet.order=6 --set integrator.gauss8.tolerance=1e-13
+  hamjet compare scene.toml                 error against run time of many integrators; a report
   hamjet check scene.toml                   what would be computed, and the memory it takes
   hamjet list integrators
 
@@ -39,7 +42,8 @@ void add_run_options(CLI::App& command, hamjet::cli::RunOptions& options) {
 void add_override_option(CLI::App& command, hamjet::cli::RunOptions& options) {
   command
       .add_option("--set", options.overrides,
-                  "key=value: change a key of the scene, for example jet.order=3; may be repeated")
+                  "key=value: change a key of the scene, for example jet.order=3 or "
+                  "integrator.gauss8.tolerance=1e-12; key=null removes it; may be repeated")
       ->type_size(1)
       ->allow_extra_args(false);
 }
@@ -63,6 +67,19 @@ int dispatch(int argc, char** argv) {
   add_run_options(*demo, options);
   add_override_option(*demo, options);
 
+  hamjet::cli::CompareOptions comparison;
+  CLI::App* compare =
+      app.add_subcommand("compare", "measure error against run time of many integrators");
+  compare->add_option("scene", comparison.scene.scene_file, "scene file (TOML)")->required();
+  add_run_options(*compare, comparison.scene);
+  add_override_option(*compare, comparison.scene);
+  compare->add_flag("--resume", comparison.resume,
+                    "take up a comparison that was interrupted, from the output directory");
+  const std::map<std::string, hamjet::io::PlotFormat> formats = {
+      {"pdf", hamjet::io::PlotFormat::pdf}, {"png", hamjet::io::PlotFormat::png}};
+  compare->add_option("--plots", comparison.plots, "the report's plots as files too: pdf or png")
+      ->transform(CLI::CheckedTransformer(formats));
+
   std::string what;
   CLI::App* list = app.add_subcommand("list", "list systems, integrators or kinds");
   list->add_option("what", what, "systems, integrators or kinds")
@@ -85,6 +102,10 @@ int dispatch(int argc, char** argv) {
   }
   if (*list) return hamjet::cli::list(what);
   if (*check) return hamjet::cli::check(options);
+  if (*compare) {
+    for (int i = 0; i < argc; ++i) comparison.command += (i == 0 ? "" : " ") + std::string(argv[i]);
+    return hamjet::cli::compare(comparison);
+  }
   return hamjet::cli::run(options);
 }
 

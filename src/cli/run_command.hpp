@@ -1,19 +1,8 @@
 #pragma once
 
-#include <optional>
-#include <string>
-#include <vector>
+#include "scene_options.hpp"
 
 namespace hamjet::cli {
-
-/// Options of `run`, `demo` and `check`.
-struct RunOptions {
-  std::optional<std::string> scene_file;  ///< absent: the built-in scene
-  std::optional<std::string> output;
-  std::vector<std::string> overrides;  ///< key=value
-  bool json = false;
-  bool quiet = false;
-};
 
 /// Runs a scene and writes its results; returns the exit code.
 int run(const RunOptions& options);

@@ -128,6 +128,8 @@ std::string summary_json(const PropagationResult& result) {
                          {"nominal_final", state},
                          {"uncertainty_by_degree", reference.uncertainty_by_degree}};
   }
+  json["reference_error"] = text_or_null(result.reference_failure);
+  json["relative_hamiltonian_error"] = text_or_null(result.relative_hamiltonian_failure);
   json["exit_code"] = exit_code(result);
   json["runs"] = Json::array();
   for (const RunResult& run : result.runs) json["runs"].push_back(run_json(result, run));

@@ -105,6 +105,10 @@ std::string aligned(const std::vector<Row>& rows) {
 }
 
 std::string reference_line(const PropagationResult& result) {
+  if (!result.reference_failure.empty()) {
+    return fmt::format("FAILED: {}; errors and floors are not computed\n",
+                       result.reference_failure);
+  }
   if (!result.reference) {
     return "no reference: the scene has no [reference] table, so errors and floors are not "
            "computed\n";
@@ -149,6 +153,9 @@ std::string summary_table(const PropagationResult& result) {
   std::vector<Row> rows = {header(result)};
   for (const RunResult& run : result.runs) rows.push_back(run_row(result, run));
   text += aligned(rows) + "\n" + explanation(result);
+  if (!result.relative_hamiltonian_failure.empty()) {
+    text += fmt::format("FAILED: {}\n", result.relative_hamiltonian_failure);
+  }
   for (const RunResult& run : result.runs) {
     for (const std::string& check : run.failed_checks) {
       text += fmt::format("CHECK FAILED: {}: {}\n", run.settings.label, check);

@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "scene_first_definition.hpp"
 #include "scene_message.hpp"
 #include "scene_text.hpp"
 
@@ -19,13 +20,21 @@ namespace {
 /// are freed.
 constexpr std::size_t longest_override_key = 1000;
 
+/// The value that removes a key; TOML has none of this name.
+constexpr std::string_view removal = "null";
+
 toml::table parse_toml(std::string_view text, const std::string& source) {
+  text = check_scene_text(text, source);
   try {
-    return toml::parse(check_scene_text(text, source), std::string_view(source));
+    return toml::parse(text, std::string_view(source));
   } catch (const toml::parse_error& error) {
     const auto& begin = error.source().begin;
-    throw_scene_error(location(source, begin.line, begin.column), "",
-                      fmt::format("not valid TOML: {}", printable(error.description(), 300)));
+    std::string problem = fmt::format("not valid TOML: {}", printable(error.description(), 300));
+    if (error.description().find("redefine") != std::string_view::npos) {
+      const auto first = first_definition(text, begin);
+      if (first) problem += ", which is already at " + location(source, first->line, first->column);
+    }
+    throw_scene_error(location(source, begin.line, begin.column), problem);
   }
 }
 
@@ -94,65 +103,114 @@ std::optional<std::size_t> element_named(const toml::array& array, std::string_v
   return is_index && index < array.size() ? std::optional(index) : std::nullopt;
 }
 
-void assign(toml::node& place, std::string_view path, toml::node& value, const Override& change);
+/// An override on its way down the tables to what it changes.
+struct Assignment {
+  const Override& change;
+  toml::node* value;      ///< nothing: what is there is removed
+  std::string path = "";  ///< so far, with indices in place of labels
 
-void assign_in_table(toml::table& table, std::string_view path, toml::node& value,
-                     const Override& change) {
-  const std::string source = override_source(change.key);
+  void descend(const std::string& name) { path += path.empty() ? name : '.' + name; }
+};
+
+[[noreturn]] void throw_nothing_to_remove(const Assignment& assignment, std::string_view name) {
+  throw_usage(assignment.change, fmt::format("nothing to remove, got no key {}", in_quotes(name)));
+}
+
+void assign(toml::node& place, std::string_view path, Assignment& assignment);
+
+void assign_in_table(toml::table& table, std::string_view path, Assignment& assignment) {
+  const std::string source = override_source(assignment.change.key);
   const std::size_t dot = path.find('.');
   const std::string_view name = path.substr(0, dot);
   if (name.empty()) {
-    throw_usage(change, fmt::format("empty name, got the key {}, must be names with single dots "
-                                    "between, as in jet.order",
-                                    in_quotes(change.key)));
+    throw_usage(assignment.change,
+                "empty name, must be names with single dots between, as in jet.order");
   }
-  if (dot == std::string_view::npos) return insert(table, name, value, source);
-  if (!table.contains(name)) insert(table, name, *parse_value("{}", source).get("value"), source);
-  assign(*table.get(name), path.substr(dot + 1), value, change);
+  assignment.descend(printable(name));
+  const bool is_there = table.contains(name);
+  if (!is_there && assignment.value == nullptr) throw_nothing_to_remove(assignment, name);
+  if (dot != std::string_view::npos) {
+    if (!is_there) insert(table, name, *parse_value("{}", source).get("value"), source);
+    assign(*table.get(name), path.substr(dot + 1), assignment);
+  } else if (assignment.value != nullptr) {
+    insert(table, name, *assignment.value, source);
+  } else {
+    table.erase(name);
+  }
 }
 
-void assign_in_array(toml::array& array, std::string_view path, toml::node& value,
-                     const Override& change) {
+/// "gauss8, midpoint or an index below 2"
+std::string elements_of(const toml::array& array) {
+  std::vector<std::string> labels;
+  for (const toml::node& element : array) {
+    const toml::table* table = element.as_table();
+    const auto* label = table != nullptr ? table->get_as<std::string>("label") : nullptr;
+    if (label != nullptr) labels.push_back(printable(label->get()));
+  }
+  const std::string listed_labels = fmt::format("{}", fmt::join(labels, ", "));
+  const bool is_short = !labels.empty() && listed_labels.size() <= 200;
+  return fmt::format("{} or an index below {}", is_short ? listed_labels : "a label", array.size());
+}
+
+void assign_in_array(toml::array& array, std::string_view path, Assignment& assignment) {
   // Labels may hold dots, so the longest name that fits is the one meant.
   for (std::size_t end = path.size();; end = path.rfind('.', end - 1)) {
     if (end == std::string_view::npos || end == 0) break;
     const auto index = element_named(array, path.substr(0, end));
     if (!index) continue;
-    if (end < path.size()) return assign(array[*index], path.substr(end + 1), value, change);
-    value.visit([&](auto& typed) {
-      array.replace(array.cbegin() + static_cast<std::ptrdiff_t>(*index), std::move(typed));
-    });
+    assignment.descend(std::to_string(*index));
+    if (end < path.size()) return assign(array[*index], path.substr(end + 1), assignment);
+    const auto element = array.cbegin() + static_cast<std::ptrdiff_t>(*index);
+    if (assignment.value == nullptr) {
+      array.erase(element);
+    } else {
+      assignment.value->visit([&](auto& typed) { array.replace(element, std::move(typed)); });
+    }
     return;
   }
-  throw_usage(change, fmt::format("no such element, got {}, must be a label or an index below {}",
-                                  in_quotes(path.substr(0, path.find('.'))), array.size()));
+  throw_usage(assignment.change,
+              fmt::format("no such element, got {}, must be {}",
+                          in_quotes(path.substr(0, path.find('.'))), elements_of(array)));
 }
 
-/// Writes `value` to the end of `path`, the part of the override's key that begins at `place`.
-void assign(toml::node& place, std::string_view path, toml::node& value, const Override& change) {
+/// Goes on to the end of `path`, the part of the override's key that begins at `place`.
+void assign(toml::node& place, std::string_view path, Assignment& assignment) {
   if (toml::table* table = place.as_table()) {
-    assign_in_table(*table, path, value, change);
+    assign_in_table(*table, path, assignment);
   } else if (toml::array* array = place.as_array()) {
-    assign_in_array(*array, path, value, change);
+    assign_in_array(*array, path, assignment);
   } else {
-    throw_usage(change, fmt::format("no such key, got {} below a value, must be a key of a "
-                                    "table",
-                                    in_quotes(path)));
+    throw_usage(assignment.change, fmt::format("no such key, got {} below a value, must be a key "
+                                               "of a table",
+                                               in_quotes(path)));
   }
+}
+
+/// Applies the override; returns the path of what it changed.
+std::string apply(const Override& change, toml::table& table) {
+  if (change.key.size() > longest_override_key) {
+    throw_usage(change, fmt::format("the key is too long, got {} bytes, must be at most {}",
+                                    change.key.size(), longest_override_key));
+  }
+  // An empty value comes from an unset variable of a script, and must not mean something else.
+  if (change.value.empty()) {
+    throw_usage(change, "empty, must be a value (null removes the key, \"\" is the empty string)");
+  }
+  toml::table value;
+  if (change.value != removal) value = override_value(change);
+  Assignment assignment{change, value.get("value")};
+  assign(table, change.key, assignment);
+  return assignment.path;
 }
 
 }  // namespace
 
-toml::table parse_document(std::string_view text, const std::string& source,
-                           const std::vector<Override>& overrides) {
-  toml::table document = parse_toml(text, source);
+SceneDocument parse_document(std::string_view text, const std::string& name,
+                             const std::vector<Override>& overrides) {
+  SceneDocument document{parse_toml(text, name), {name, {}}};
   for (const Override& change : overrides) {
-    if (change.key.size() > longest_override_key) {
-      throw_usage(change, fmt::format("the key is too long, got {} bytes, must be at most {}",
-                                      change.key.size(), longest_override_key));
-    }
-    toml::table value = override_value(change);
-    assign(document, change.key, *value.get("value"), change);
+    const std::string path = apply(change, document.table);
+    document.source.override_paths.insert_or_assign(override_source(change.key), path);
   }
   return document;
 }

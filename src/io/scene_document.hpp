@@ -7,18 +7,27 @@
 #include <string_view>
 #include <vector>
 
+#include "scene_message.hpp"
+
 namespace hamjet::io {
 
-/// The TOML tables of a scene with the overrides applied; nothing is known here of what the keys
-/// mean. `source` is the name for messages, already printable.
+/// The TOML tables of a scene, and where they come from.
+struct SceneDocument {
+  toml::table table;
+  SceneSource source;
+};
+
+/// The tables with the overrides applied; nothing is known here of what the keys mean. `name` is
+/// the file's for messages, already printable.
 ///
 /// An override's key is a dotted path; an element of an array is named by its index from 0, or, if
 /// it is a table, by its label: `integrator.0.tolerance`, `integrator.gauss8.tolerance`. Missing
-/// tables on the way are added. The value is TOML; what is not valid TOML is taken as a string.
+/// tables on the way are added. The value is TOML; what is not valid TOML is taken as a string. The
+/// value `null`, which TOML does not know, removes the key.
 ///
 /// Throws Error(scene) if the text is not valid TOML (see also `check_scene_text`), and
-/// Error(usage) if an override's key leads nowhere.
-toml::table parse_document(std::string_view text, const std::string& source,
-                           const std::vector<Override>& overrides);
+/// Error(usage) if an override's key leads nowhere or its value is empty.
+SceneDocument parse_document(std::string_view text, const std::string& name,
+                             const std::vector<Override>& overrides);
 
 }  // namespace hamjet::io

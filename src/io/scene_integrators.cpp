@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <hamjet/error.hpp>
+#include <hamjet/integrators/flow_problem.hpp>
 #include <map>
 
 #include "scene_message.hpp"
@@ -12,7 +13,6 @@ namespace hamjet::io {
 namespace {
 
 constexpr std::int64_t most_stages = 12;
-constexpr double most_steps = 1e9;
 constexpr std::size_t longest_label = 100;
 /// The files that stand beside the integrators' directories in the output.
 bool is_reserved(std::string_view label) {
@@ -80,15 +80,15 @@ double read_step(const TableReader& integrator, std::string_view key, double dur
     integrator.fail(
         key, fmt::format("too small to advance the time, got {}, must be at least "
                          "{:.3g}, and at least {:.3g} to keep within {:.0e} steps",
-                         integrator.found(key), smallest_step, span / most_steps, most_steps));
+                         integrator.found(key), smallest_step, span / largest_step_count, largest_step_count));
   }
   const double steps = std::ceil(std::abs(duration) / step);
-  if (steps > most_steps) {
+  if (steps > largest_step_count) {
     throw Error(ErrorKind::too_large,
-                fmt::format("{}: {}: too many steps, got {}, which takes {:.3g} steps, must be at "
+                fmt::format("{}: too many steps, got {}, which takes {:.3g} steps, must be at "
                             "least {:.3g} to keep within {:.0e}",
-                            integrator.where(key), integrator.dotted(key), integrator.found(key),
-                            steps, span / most_steps, most_steps));
+                            integrator.head(key), integrator.found(key), steps, span / largest_step_count,
+                            largest_step_count));
   }
   return step;
 }

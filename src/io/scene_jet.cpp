@@ -39,10 +39,10 @@ std::string with_unit(double bytes) {
   const std::string count_text =
       count < 0x1p53 ? fmt::format("{:.0f}", count) : fmt::format("{:.3g}", count);
   throw Error(ErrorKind::too_large,
-              fmt::format("{}: {}: too large, got {}, which takes C({}+{}, {}) = {} coefficients, "
+              fmt::format("{}: too large, got {}, which takes C({}+{}, {}) = {} coefficients, "
                           "{} for each series, must be an integer from 1 to {}",
-                          jet.where("order"), jet.dotted("order"), order, variables, order, order,
-                          count_text, with_unit(count * bytes_each), largest_order));
+                          jet.head("order"), order, variables, order, order, count_text,
+                          with_unit(count * bytes_each), largest_order));
 }
 
 int read_order(const TableReader& jet, std::size_t variables, Precision precision) {

@@ -11,6 +11,9 @@ namespace {
 
 constexpr std::string_view override_prefix = "--set ";
 
+/// Room for the longest label and what stands around it in a key.
+constexpr std::size_t longest_shown_key = 200;
+
 /// C0 and C1 control characters, delete, and the line and paragraph separators: whatever could
 /// break the line or drive a terminal. `sequence` is one well-formed UTF-8 sequence.
 bool breaks_line(std::string_view sequence) {
@@ -39,6 +42,11 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     }
   }
   return row[b.size()];
+}
+
+/// Whether one dotted path leads to the other, or is it.
+bool is_path_to(std::string_view outer, std::string_view inner) {
+  return inner.starts_with(outer) && (inner.size() == outer.size() || inner[outer.size()] == '.');
 }
 
 }  // namespace
@@ -97,12 +105,21 @@ std::string location(std::string_view source, std::size_t line, std::size_t colu
 }
 
 std::string override_source(std::string_view key) {
-  return fmt::format("{}{}", override_prefix, printable(key));
+  return fmt::format("{}{}", override_prefix, printable(key, longest_shown_key));
 }
 
-void throw_scene_error(std::string_view where, std::string_view key, std::string_view problem) {
-  if (key.empty()) throw Error(ErrorKind::scene, fmt::format("{}: {}", where, problem));
-  throw Error(ErrorKind::scene, fmt::format("{}: {}: {}", where, key, problem));
+std::string message_head(const SceneSource& source, std::string_view where, std::string_view key) {
+  const auto override_path = source.override_paths.find(where);
+  if (override_path != source.override_paths.end()) {
+    const std::string& changed = override_path->second;
+    if (is_path_to(key, changed)) return std::string(where);
+    if (is_path_to(changed, key)) return fmt::format("{}{}", where, key.substr(changed.size()));
+  }
+  return fmt::format("{}: {}", where, key);
+}
+
+void throw_scene_error(std::string_view head, std::string_view problem) {
+  throw Error(ErrorKind::scene, fmt::format("{}: {}", head, problem));
 }
 
 std::size_t utf8_sequence_length(std::string_view text) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -30,12 +31,23 @@ std::string suggestion(std::string_view name, const std::vector<std::string_view
 /// which has no lines (see `override_source`).
 std::string location(std::string_view source, std::size_t line, std::size_t column);
 
-/// The source name of values that come from `--set key=value`.
+/// The source name of values that come from `--set key=value`: the option with the key as written.
 std::string override_source(std::string_view key);
 
-/// Throws Error(scene) with the message `where: key: problem`; `key` may be empty.
-[[noreturn]] void throw_scene_error(std::string_view where, std::string_view key,
-                                    std::string_view problem);
+/// Where the values of a scene come from.
+struct SceneSource {
+  std::string name;  ///< of the file, printable
+  /// What each override changed: its source name, and the path with indices in place of labels.
+  std::map<std::string, std::string, std::less<>> override_paths;
+};
+
+/// The head of a message about the value of `key` at `where` (see `location`): `where: key`, but
+/// for an override the option and the key once, as the user wrote them, with what lies below:
+/// `--set reference.tol` for a mistake in `--set reference={tol=1}`.
+std::string message_head(const SceneSource& source, std::string_view where, std::string_view key);
+
+/// Throws Error(scene) with the message `head: problem`.
+[[noreturn]] void throw_scene_error(std::string_view head, std::string_view problem);
 
 /// Length of the well-formed UTF-8 sequence at the start of `text`, or 0 if there is none. (The
 /// Unicode Standard, table 3-7: no overlong forms, no surrogates, nothing above U+10FFFF.)

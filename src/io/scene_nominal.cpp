@@ -65,8 +65,7 @@ CartesianState read_orbit(const TableReader& nominal, const SystemSettings& syst
   }
   if (cartesian != cartesian_keys.end()) return read_position_and_velocity(nominal);
   if (element != element_keys.end()) return read_elements(nominal, system.mu_km3_s2);
-  throw_scene_error(nominal.where(""), "nominal",
-                    fmt::format("no orbit, got neither of its forms, must be {}", right));
+  nominal.fail("", fmt::format("no orbit, got neither of its forms, must be {}", right));
 }
 
 Nominal canonical_orbit(const TableReader& nominal, const CartesianState& orbit, double mu_km3_s2) {
@@ -84,8 +83,8 @@ Nominal canonical_orbit(const TableReader& nominal, const CartesianState& orbit,
   const auto finite = [](double value) { return std::isfinite(value); };
   if (!std::all_of(std::begin(units), std::end(units), usable) ||
       !std::all_of(result.state.begin(), result.state.end(), finite)) {
-    throw_scene_error(
-        nominal.where(""), "nominal",
+    nominal.fail(
+        "",
         fmt::format("out of range in canonical units, got a unit of length of {:.3g} km and a unit "
                     "of time of {:.3g} s, must leave units and state within binary64",
                     units[0], units[1]));

@@ -21,7 +21,8 @@ const std::vector<std::string_view> top_keys = {"schema",
                                                 "formation",
                                                 "generating_function",
                                                 "reference",
-                                                "relative_hamiltonian"};
+                                                "relative_hamiltonian",
+                                                "compare"};
 
 /// The stem of the file's name, made fit for the name of a directory.
 std::string scene_name(const std::string& file_name) {
@@ -86,6 +87,9 @@ Scene read_tables(const TableReader& root) {
     scene.relative_hamiltonian_times =
         read_relative_hamiltonian(root.table("relative_hamiltonian"), scene.duration);
   }
+  if (root.has("compare")) {
+    scene.comparison = read_compare(root.table("compare"), scene.order, scene.duration);
+  }
   return scene;
 }
 
@@ -133,9 +137,9 @@ std::vector<double> read_relative_hamiltonian(const TableReader& table, double d
 
 Scene parse_scene(std::string_view text, const std::string& file_name,
                   const std::vector<Override>& overrides) {
-  const std::string source = printable(file_name, std::string::npos);
-  const toml::table document = parse_document(text, source, overrides);
-  Scene scene = read_tables(TableReader(document, "", source));
+  const SceneDocument document =
+      parse_document(text, printable(file_name, std::string::npos), overrides);
+  Scene scene = read_tables(TableReader(document.table, "", document.source));
   scene.name = scene_name(file_name);
   return scene;
 }

@@ -74,6 +74,9 @@ std::vector<std::string> read_generating_function(const TableReader& generating_
 /// Table `[reference]`.
 ReferenceSettings read_reference(const TableReader& reference);
 
+/// Table `[compare]` of a scene with this order and canonical duration.
+ComparisonSettings read_compare(const TableReader& table, int order, double duration);
+
 /// Table `[relative_hamiltonian]`: canonical times from the start to the duration.
 std::vector<double> read_relative_hamiltonian(const TableReader& table, double duration);
 

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <utility>
 
-#include "scene_message.hpp"
-
 namespace hamjet::io {
 
 std::string describe(const toml::node& node) {
@@ -32,8 +30,8 @@ std::string describe(const toml::node& node) {
   }
 }
 
-TableReader::TableReader(const toml::table& table, std::string path, std::string source)
-    : table_(&table), path_(std::move(path)), source_(std::move(source)) {}
+TableReader::TableReader(const toml::table& table, std::string path, const SceneSource& source)
+    : table_(&table), path_(std::move(path)), source_(&source) {}
 
 void TableReader::check_keys(const KnownKeys& known) const {
   const toml::key* unknown = nullptr;
@@ -45,17 +43,17 @@ void TableReader::check_keys(const KnownKeys& known) const {
   const std::string_view name = unknown->str();
   const auto& source = unknown->source();
   const std::string place =
-      location(source.path ? *source.path : source_, source.begin.line, source.begin.column);
+      location(source.path ? *source.path : source_->name, source.begin.line, source.begin.column);
+  const std::string head = message_head(*source_, place, dotted(name));
   const bool elsewhere = std::find(known.keys_elsewhere.begin(), known.keys_elsewhere.end(),
                                    name) != known.keys_elsewhere.end();
   if (elsewhere) {
-    throw_scene_error(
-        place, dotted(name),
-        fmt::format("{} has no key {}, must be one of: {}", known.owner, name, listed(known.keys)));
+    throw_scene_error(head, fmt::format("{} has no key {}, must be one of: {}", known.owner, name,
+                                        listed(known.keys)));
   }
-  throw_scene_error(
-      place, dotted(name),
-      fmt::format("unknown key, got {}, {}", printable(name), suggestion(name, known.keys)));
+  // An override's key may end with the name already.
+  const std::string got = place.ends_with(name) ? "" : fmt::format("got {}, ", printable(name));
+  throw_scene_error(head, fmt::format("unknown key, {}{}", got, suggestion(name, known.keys)));
 }
 
 double TableReader::number(std::string_view key) const {
@@ -162,13 +160,18 @@ std::string_view TableReader::exactly_one_of(const std::vector<std::string_view>
     if (has(key)) given.push_back(key);
   }
   if (given.empty()) {
-    throw_scene_error(
-        where(""), path_,
-        fmt::format("missing, got none of a choice, must be exactly one of: {}", listed(keys)));
+    fail("",
+         fmt::format("missing, got none of a choice, must be exactly one of: {}", listed(keys)));
   }
   if (given.size() > 1) {
-    fail(given[1], fmt::format("more than one key of a choice, got {}, must be exactly one of: {}",
-                               listed(given), listed(keys)));
+    const std::string problem =
+        fmt::format("more than one key of a choice, got {}, must be exactly one of: {}",
+                    listed(given), listed(keys));
+    for (const std::string_view key : given) {
+      const std::string removal = removal_of_others(key, given);
+      if (!removal.empty()) fail(key, problem + removal);
+    }
+    fail(given[1], problem);
   }
   return given[0];
 }
@@ -178,7 +181,7 @@ TableReader TableReader::table(std::string_view key) const {
   if (!node.is_table()) {
     fail(key, fmt::format("wrong type, got {}, must be a table [{}]", found(key), dotted(key)));
   }
-  return TableReader(*node.as_table(), dotted(key), source_);
+  return TableReader(*node.as_table(), dotted(key), *source_);
 }
 
 std::vector<TableReader> TableReader::tables(std::string_view key) const {
@@ -190,19 +193,40 @@ std::vector<TableReader> TableReader::tables(std::string_view key) const {
     if (!array[i].is_table()) {
       fail_element(key, i, fmt::format("wrong type, got {}, must be a table", describe(array[i])));
     }
-    readers.emplace_back(*array[i].as_table(), fmt::format("{}.{}", dotted(key), i), source_);
+    readers.emplace_back(*array[i].as_table(), fmt::format("{}.{}", dotted(key), i), *source_);
   }
   return readers;
 }
 
 void TableReader::fail(std::string_view key, const std::string& problem) const {
-  throw_scene_error(where(key), dotted(key), problem);
+  throw_scene_error(head(key), problem);
 }
 
 void TableReader::fail_element(std::string_view key, std::size_t index,
                                const std::string& problem) const {
   const toml::array& array = *table_->get_as<toml::array>(key);
-  throw_scene_error(location_of(array[index]), fmt::format("{}.{}", dotted(key), index), problem);
+  const std::string place = location_of(array[index]);
+  throw_scene_error(message_head(*source_, place, fmt::format("{}.{}", dotted(key), index)),
+                    problem);
+}
+
+std::string TableReader::head(std::string_view key) const {
+  return message_head(*source_, where(key), key.empty() ? path_ : dotted(key));
+}
+
+std::string TableReader::removal_of_others(std::string_view key,
+                                           const std::vector<std::string_view>& given) const {
+  const std::string place = where(key);
+  const auto override_path = source_->override_paths.find(place);
+  const bool is_named =
+      override_path != source_->override_paths.end() && override_path->second == dotted(key);
+  if (!is_named) return "";
+  const std::string_view parent = std::string_view(place).substr(0, place.size() - key.size());
+  std::string text = "; what is not wanted is removed by";
+  for (const std::string_view other : given) {
+    if (other != key) text += fmt::format(" {}{}=null", parent, other);
+  }
+  return text;
 }
 
 std::string TableReader::dotted(std::string_view key) const {
@@ -244,11 +268,11 @@ double TableReader::finite(const toml::node& node, const std::string& dotted_key
   } else if (node.is_floating_point()) {
     value = node.as_floating_point()->get();
   } else {
-    throw_scene_error(location_of(node), dotted_key,
+    throw_scene_error(message_head(*source_, location_of(node), dotted_key),
                       fmt::format("wrong type, got {}, must be {}", describe(node), right));
   }
   if (!std::isfinite(value)) {
-    throw_scene_error(location_of(node), dotted_key,
+    throw_scene_error(message_head(*source_, location_of(node), dotted_key),
                       fmt::format("not finite, got {}, must be {}", describe(node), right));
   }
   return value;
@@ -256,8 +280,9 @@ double TableReader::finite(const toml::node& node, const std::string& dotted_key
 
 std::string TableReader::location_of(const toml::node& node) const {
   const auto& source = node.source();
-  if (!source.begin) return location(source_, 1, 1);
-  return location(source.path ? *source.path : source_, source.begin.line, source.begin.column);
+  if (!source.begin) return location(source_->name, 1, 1);
+  return location(source.path ? *source.path : source_->name, source.begin.line,
+                  source.begin.column);
 }
 
 }  // namespace hamjet::io

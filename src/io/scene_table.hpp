@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "scene_message.hpp"
+
 namespace hamjet::io {
 
 /// Keys that a table may have, and those that belong to other settings of the same table, so that
@@ -21,13 +23,12 @@ struct KnownKeys {
 
 /// Typed reader of one TOML table. Every function that reads throws Error(scene) with location,
 /// dotted key, what is wrong, what was found and what would be right. "Required" functions take a
-/// missing key for an error too; for an optional key ask `has` first. The table must outlive the
-/// reader.
+/// missing key for an error too; for an optional key ask `has` first.
 class TableReader {
  public:
-  /// `path` is the table's dotted name, empty for the whole scene; `source` names the scene in
-  /// messages about tables that are nowhere in the text.
-  TableReader(const toml::table& table, std::string path, std::string source);
+  /// `path` is the table's dotted name, empty for the whole scene. Table and source must outlive
+  /// the reader.
+  TableReader(const toml::table& table, std::string path, const SceneSource& source);
 
   /// Throws Error(scene) for the first key, in the order of the text, that is not known.
   void check_keys(const KnownKeys& known) const;
@@ -63,15 +64,15 @@ class TableReader {
   /// Required: an array of tables, not empty.
   std::vector<TableReader> tables(std::string_view key) const;
 
-  /// Throws Error(scene): `location: dotted key: problem`, at the key's value if there is one, else
-  /// at the table.
+  /// Throws Error(scene) with the message `head: problem`.
   [[noreturn]] void fail(std::string_view key, const std::string& problem) const;
   /// The same about the element of an array.
   [[noreturn]] void fail_element(std::string_view key, std::size_t index,
                                  const std::string& problem) const;
 
-  /// `key` with the table's dotted name before it.
-  std::string dotted(std::string_view key) const;
+  /// `location: dotted key`, at the key's value if there is one, else at the table; for a value
+  /// that an override gave see `message_head`. An empty key stands for the table itself.
+  std::string head(std::string_view key) const;
   /// Where the key's value stands, or the table if it has no such key.
   std::string where(std::string_view key) const;
   /// The value as messages quote it, for example `the string "4"`.
@@ -82,11 +83,16 @@ class TableReader {
   const toml::array& required_array(std::string_view key, std::string_view right) const;
   double finite(const toml::node& node, const std::string& dotted_key,
                 std::string_view right) const;
+  /// `key` with the table's dotted name before it.
+  std::string dotted(std::string_view key) const;
   std::string location_of(const toml::node& node) const;
+  /// How the other keys of a choice are removed, if an override gave this one.
+  std::string removal_of_others(std::string_view key,
+                                const std::vector<std::string_view>& given) const;
 
   const toml::table* table_;
   std::string path_;
-  std::string source_;
+  const SceneSource* source_;
 };
 
 /// A value as messages quote it.

@@ -46,9 +46,8 @@ std::string printable_path(const std::filesystem::path& file) {
 }
 
 [[noreturn]] void throw_too_long(std::string_view source, std::uintmax_t bytes) {
-  throw_scene_error(source, "",
-                    fmt::format("the scene is too large, got {} bytes, must be at most {}", bytes,
-                                largest_scene_bytes));
+  throw_scene_error(source, fmt::format("the scene is too large, got {} bytes, must be at most {}",
+                                        bytes, largest_scene_bytes));
 }
 
 const char* kind_of_file(mode_t mode) {
@@ -60,20 +59,20 @@ const char* kind_of_file(mode_t mode) {
 
 void check_encoding(std::string_view text, std::string_view source) {
   if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) {
-    throw_scene_error(source, "",
+    throw_scene_error(source,
                       "not UTF-8, got a UTF-16 byte order mark at byte offset 0, must be UTF-8");
   }
   for (std::size_t offset = 0; offset < text.size();) {
     const std::size_t length = utf8_sequence_length(text.substr(offset));
     if (length == 0) {
-      throw_scene_error(source, "",
+      throw_scene_error(source,
                         fmt::format("not UTF-8, got the byte 0x{:02x} at byte offset {}, must be "
                                     "UTF-8",
                                     static_cast<unsigned char>(text[offset]), offset));
     }
     if (text[offset] == '\0') {
       throw_scene_error(
-          source, "",
+          source,
           fmt::format("not a text, got a NUL byte at byte offset {}, must be TOML", offset));
     }
     offset += length;

@@ -139,7 +139,7 @@ class TokenScanner {
 
   void check_depth() const {
     if (depth_ <= deepest_nesting) return;
-    throw_scene_error(here(), "",
+    throw_scene_error(here(),
                       fmt::format("nested too deeply, got more than {0} levels of tables and "
                                   "arrays, must be at most {0}",
                                   deepest_nesting));
@@ -154,7 +154,7 @@ class TokenScanner {
     if (std::all_of(digits.begin() + (digits[0] == '-' ? 1 : 0), digits.end(), is_digit)) {
       std::int64_t integer = 0;
       if (std::from_chars(digits.data(), end, integer).ec == std::errc::result_out_of_range) {
-        throw_scene_error(here(), printable(key_),
+        throw_scene_error(here() + ": " + printable(key_),
                           fmt::format("integer out of range, got {}, must be between {} and {}",
                                       printable(token), std::numeric_limits<std::int64_t>::min(),
                                       std::numeric_limits<std::int64_t>::max()));
@@ -167,7 +167,7 @@ class TokenScanner {
     const auto [rest, error] = std::from_chars(digits.data(), end, number);
     if (rest == end && error == std::errc::result_out_of_range) {
       throw_scene_error(
-          here(), printable(key_),
+          here() + ": " + printable(key_),
           fmt::format("number out of range, got {}, must be 0 or between {:.2g} and {:.2g} in "
                       "magnitude",
                       printable(token), std::numeric_limits<double>::denorm_min(),

@@ -1,8 +1,10 @@
 #include "map_analysis.hpp"
 
 #include <cmath>
+#include <limits>
 #include <span>
 
+#include "formation_scale.hpp"
 #include "hamjet/error.hpp"
 
 namespace hamjet {
@@ -10,18 +12,11 @@ namespace {
 
 using JetSpan = std::span<const Series<Extended>>;
 
-/// Angular frequency that makes a position deviation into the momentum deviation of the same size:
-/// the mean motion of an elliptic orbit, that of a circular orbit at the initial radius otherwise
-/// (1 in canonical units), sqrt(k m) for the oscillator (momentum per length).
-double momentum_per_length(const Scene& scene) {
-  if (scene.system.model == SystemModel::harmonic_oscillator) {
-    return std::sqrt(scene.system.mass_kg * scene.system.stiffness_N_per_m);
-  }
-  const std::vector<double>& z = scene.nominal;
-  const double radius = std::hypot(z[0], z[1], z[2]);
-  const double speed = std::hypot(z[3], z[4], z[5]);
-  const double inverse_axis = 2 / radius - speed * speed;
-  return inverse_axis > 0 ? std::pow(inverse_axis, 1.5) : 1;
+/// To which the coefficients of a scene's jets are known.
+double rounding(const Scene& scene) {
+  return scene.precision == Precision::double_precision
+             ? std::numeric_limits<double>::epsilon()
+             : static_cast<double>(std::numeric_limits<Extended>::epsilon());
 }
 
 }  // namespace
@@ -51,7 +46,7 @@ const std::vector<ExactnessResidual>* MapAnalysis::floor(const GeneratingFunctio
       }
     }
     try {
-      const auto inversion = invert_partially<Extended>(JetSpan(rounded), kind);
+      const auto inversion = invert_partially<Extended>(JetSpan(rounded), kind, rounding(scene_));
       place->second = exactness_residual(one_form(inversion), scales(kind));
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::numerical) throw;
@@ -69,7 +64,7 @@ KindResult MapAnalysis::invert(const FlowJet<Extended>& jet, const std::string& 
                                     : parse_kind(requested, problem_.degrees_of_freedom.size());
   result.condition = condition_number(inverted_block<Extended>(JetSpan(jet), result.kind));
   try {
-    const auto inversion = invert_partially<Extended>(JetSpan(jet), result.kind);
+    const auto inversion = invert_partially<Extended>(JetSpan(jet), result.kind, rounding(scene_));
     const auto sigma = one_form(inversion);
     const auto residuals = exactness_residual(sigma, scales(result.kind));
     const auto* floors = floor(result.kind);

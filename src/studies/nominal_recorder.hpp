@@ -37,6 +37,7 @@ class NominalRecorder {
   }
 
   double largest_energy_error() const { return largest_; }
+  double last_energy_error() const { return last_.energy_error; }
 
   /// The points, the last one always among them.
   std::vector<NominalPoint> take() {

@@ -1,27 +1,18 @@
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <algorithm>
-#include <fstream>
-#include <limits>
 #include <numeric>
 
 #include "hamjet/dynamics/harmonic_oscillator.hpp"
 #include "hamjet/dynamics/zonal_gravity.hpp"
 #include "hamjet/integrators/cvode.hpp"
 #include "hamjet/studies/propagation.hpp"
+#include "integration.hpp"
 
 namespace hamjet {
 namespace {
 
 constexpr double megabyte = 1e6;
-
-/// Lanes of the pack that holds this many stages.
-int lanes_for(int stages) {
-  int lanes = 1;
-  while (lanes < stages) lanes *= 2;
-  return lanes;
-}
 
 /// Bytes of the product schedules: pairs of blocks, see ProductSchedule.
 double schedule_bytes(std::size_t variables, int order) {
@@ -52,22 +43,6 @@ DynamicalSystem make_system(const Scene& scene) {
   return harmonic_oscillator(scene.system.mass_kg, scene.system.stiffness_N_per_m);
 }
 
-double available_memory() {
-  double limit = std::numeric_limits<double>::infinity();
-  std::ifstream file("/proc/meminfo");
-  std::string key;
-  double kilobytes = 0;
-  while (file >> key >> kilobytes) {
-    if (key == "MemAvailable:") limit = 1024 * kilobytes;
-    file.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
-  }
-  rlimit address_space{};
-  if (getrlimit(RLIMIT_AS, &address_space) == 0 && address_space.rlim_cur != RLIM_INFINITY) {
-    limit = std::min(limit, static_cast<double>(address_space.rlim_cur));
-  }
-  return limit;
-}
-
 double estimate_memory(const Scene& scene, const DynamicalSystem& system, std::size_t variables) {
   const OperationList& list =
       system.second_order ? system.second_order->force : system.vector_field;
@@ -79,20 +54,12 @@ double estimate_memory(const Scene& scene, const DynamicalSystem& system, std::s
   const double real = scene.precision == Precision::extended ? sizeof(Extended) : sizeof(double);
   double largest_run = 0;
   for (const IntegratorSettings& settings : scene.integrators) {
-    double bytes = 0;
-    if (settings.method == IntegrationMethod::gauss) {
-      bytes = values * lanes_for(settings.stages) * real * working;
-    } else {
-      // The states that odeint's 13 stages, or CVODE's Nordsieck array, hold, and one lane of
-      // series.
-      bytes = (values + 20 * components) * real * working;
-    }
-    largest_run = std::max(largest_run, bytes);
+    largest_run = std::max(largest_run, integration_memory(settings, system, working, real));
   }
   double total = largest_run + schedule_bytes(variables, scene.order);
   const double stored_jets = static_cast<double>(scene.integrators.size()) + 4;
   total += stored_jets * components * coefficients * sizeof(Extended);
-  if (scene.reference) total += 2 * values * lanes_for(16) * sizeof(Extended) * working;
+  if (scene.reference) total += 2 * values * 16 * sizeof(Extended) * working;
   if (variables == system.dimension()) {
     // Derivatives of all components by all variables, for the Poisson brackets.
     total += (components * components + 4) * coefficients * (sizeof(Extended) + sizeof(double));

@@ -7,52 +7,14 @@
 #include <utility>
 
 #include "hamjet/dynamics/relative_hamiltonian.hpp"
-#include "hamjet/integrators/cvode.hpp"
-#include "hamjet/integrators/explicit_runge_kutta.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
+#include "integration.hpp"
 #include "map_analysis.hpp"
 #include "nominal_recorder.hpp"
 #include "reference.hpp"
 
 namespace hamjet {
 namespace {
-
-template <class Real>
-FlowProblem<Real> flow_problem(const Scene& scene, const ComputedProblem& problem) {
-  FlowProblem<Real> flow{
-      &problem.system, problem.space, problem.variables, {}, Real(scene.duration)};
-  for (const double x : problem.nominal) flow.initial_state.emplace_back(x);
-  return flow;
-}
-
-template <class Real>
-FlowJet<Real> integrate(const FlowProblem<Real>& flow, const IntegratorSettings& settings,
-                        IntegrationStatistics& statistics, const StepObserver<Real>& observer) {
-  switch (settings.method) {
-    case IntegrationMethod::gauss: {
-      GaussSettings gauss;
-      gauss.stages = settings.stages;
-      gauss.step = settings.step_canonical;
-      gauss.tolerance = settings.tolerance;
-      return integrate_gauss<Real>(flow, gauss, statistics, observer);
-    }
-    case IntegrationMethod::fehlberg78:
-      return integrate_fehlberg78<Real>(flow, {settings.step_canonical, settings.tolerance},
-                                        statistics, observer);
-    case IntegrationMethod::cvode_adams:
-    case IntegrationMethod::cvode_bdf:
-      break;
-  }
-  if constexpr (std::is_same_v<Real, double>) {
-    CvodeSettings cvode;
-    cvode.method =
-        settings.method == IntegrationMethod::cvode_adams ? CvodeMethod::adams : CvodeMethod::bdf;
-    cvode.tolerance = *settings.tolerance;
-    return integrate_cvode(flow, cvode, statistics, observer);
-  } else {
-    throw Error(ErrorKind::usage, "CVODE computes in double precision only");
-  }
-}
 
 /// The state of the whole model from that of the computed components; the others are zero.
 std::vector<double> full_state(const FlowJet<Extended>& jet, const ComputedProblem& problem,
@@ -69,7 +31,7 @@ void run_integrator(const Scene& scene, const ComputedProblem& problem, RunResul
                     const std::function<void(double)>& progress) {
   NominalRecorder recorder(problem, scene.nominal.size());
   recorder.record(0, problem.nominal);
-  const FlowProblem<Real> flow = flow_problem<Real>(scene, problem);
+  const FlowProblem<Real> flow = flow_problem<Real>(problem, scene.duration);
   const FlowJet<Real> jet = integrate<Real>(flow, run.settings, run.statistics,
                                             [&](const Real& time, const FlowJet<Real>& state) {
                                               std::vector<Extended> point;
@@ -111,10 +73,11 @@ void check(RunResult& run) {
   check(run, "require_symplecticity", run.settings.require_symplecticity, symplecticity);
 }
 
-std::vector<RelativeHamiltonianResult> relative_hamiltonians(const Scene& scene,
-                                                             const ComputedProblem& problem) {
-  std::vector<RelativeHamiltonianResult> results;
-  FlowProblem<Extended> flow = flow_problem<Extended>(scene, problem);
+void add_relative_hamiltonians(PropagationResult& result,
+                               const std::function<void(double)>& progress) {
+  const Scene& scene = result.scene;
+  const ComputedProblem& problem = result.problem;
+  FlowProblem<Extended> flow = flow_problem<Extended>(problem, scene.duration);
   flow.space = SeriesSpace::create(problem.variables.size(), 0);  // the nominal alone
   Extended reached = 0;
   for (const double time : scene.relative_hamiltonian_times) {
@@ -123,13 +86,26 @@ std::vector<RelativeHamiltonianResult> relative_hamiltonians(const Scene& scene,
     GaussSettings gauss;
     gauss.stages = 16;
     gauss.tolerance = scene.precision == Precision::extended ? 1e-28 : 1e-20;
-    const FlowJet<Extended> nominal = integrate_gauss<Extended>(flow, gauss, statistics);
+    const FlowJet<Extended> nominal = integrate_gauss<Extended>(
+        flow, gauss, statistics, [&](const Extended& since, const FlowJet<Extended>&) {
+          progress(static_cast<double>(Extended(reached + since)) / scene.duration);
+        });
     for (std::size_t i = 0; i < nominal.size(); ++i) flow.initial_state[i] = nominal[i][0];
     reached = Extended(time);
-    results.push_back(
+    result.relative_hamiltonians.push_back(
         {time, relative_hamiltonian<Extended>(problem.system, flow.initial_state, scene.order)});
   }
-  return results;
+}
+
+/// Does one part of a scene, of which a numerical failure does not end the others.
+template <class Work>
+void record_failure(std::string& failure, const char* part, const Work& work) {
+  try {
+    work();
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::numerical) throw;
+    failure = fmt::format("{}: {}", part, error.what());
+  }
 }
 
 }  // namespace
@@ -141,10 +117,14 @@ PropagationResult propagate(const Scene& scene, const ProgressCallback& progress
   const auto report = [&](const std::string& task, double fraction) {
     if (progress) progress(task, fraction);
   };
-  result.relative_hamiltonians = relative_hamiltonians(scene, result.problem);
+  record_failure(result.relative_hamiltonian_failure, "relative Hamiltonian", [&] {
+    add_relative_hamiltonians(result, [&](double done) { report("relative Hamiltonian", done); });
+  });
   if (scene.reference) {
-    result.reference = compute_reference(result.problem, scene.duration, *scene.reference,
-                                         [&](double done) { report("reference", done); });
+    record_failure(result.reference_failure, "reference", [&] {
+      result.reference = compute_reference(result.problem, scene.duration, *scene.reference,
+                                           [&](double done) { report("reference", done); });
+    });
   }
   MapAnalysis analysis(scene, result.problem, result.reference);
   for (const IntegratorSettings& settings : scene.integrators) {
@@ -189,6 +169,9 @@ std::vector<double> relative_error_by_degree(const FlowJet<Extended>& jet,
 }
 
 int exit_code(const PropagationResult& result) {
+  if (!result.reference_failure.empty() || !result.relative_hamiltonian_failure.empty()) {
+    return static_cast<int>(ErrorKind::numerical);
+  }
   int code = 0;
   for (const RunResult& run : result.runs) {
     if (!run.failure.empty()) return static_cast<int>(ErrorKind::numerical);

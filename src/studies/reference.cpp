@@ -1,9 +1,12 @@
 #include "reference.hpp"
 
+#include <fmt/format.h>
+
 #include <atomic>
 #include <future>
 
 #include "hamjet/integrators/gauss_collocation.hpp"
+#include "hamjet/studies/comparison.hpp"
 
 namespace hamjet {
 namespace {
@@ -15,6 +18,20 @@ constexpr int compared_stages = 12;
 constexpr double looser = 1e4;
 
 }  // namespace
+
+std::string reference_key(const Scene& scene, int order) {
+  std::string key = fmt::format(
+      "reference 1; {}; {} and {} stages, factor {}; tolerance {}; J2 {} J3 {} radius {}; mass {} "
+      "stiffness {}; nominal",
+      model_names()[static_cast<std::size_t>(scene.system.model)], reference_stages,
+      compared_stages, looser, scene.reference.value_or(ReferenceSettings{}).tolerance,
+      scene.system.J2, scene.system.J3, scene.canonical_radius, scene.system.mass_kg,
+      scene.system.stiffness_N_per_m);
+  for (const double x : scene.nominal) key += fmt::format(" {}", x);
+  key += fmt::format("; duration {}; order {}; variables", scene.duration, order);
+  for (const std::size_t v : scene.variables) key += fmt::format(" {}", v);
+  return key;
+}
 
 ReferenceResult compute_reference(const ComputedProblem& problem, double duration,
                                   const ReferenceSettings& settings,

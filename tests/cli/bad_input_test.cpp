@@ -81,11 +81,16 @@ TEST_F(BadInput, ScenesThatBreakARule) {
 }
 
 TEST_F(BadInput, OverridesAreNamedInstead) {
-  expect_error({"run", "small.toml", "--set", "jet.order=0"}, 3, {"--set jet.order: jet.order"});
+  expect_error({"run", "small.toml", "--set", "jet.order=0"}, 3, {"--set jet.order: out of range"});
   expect_error({"run", "small.toml", "--set", "jet.order=x"}, 3, {"the string \"x\""});
-  expect_error({"demo", "--set", "nominal.e=1.5"}, 3, {"--set nominal.e: nominal.e: out of range"});
+  expect_error({"demo", "--set", "nominal.e=1.5"}, 3, {"--set nominal.e: out of range"});
   expect_error({"run", "small.toml", "--set", "jet.order=99"}, 6,
                {"--set jet.order", "1609344100"});
+  expect_error({"run", "small.toml", "--set", "integrator.gauss8.tolerance=0"}, 3,
+               {"hamjet: --set integrator.gauss8.tolerance: out of range, got 0"});
+  expect_error({"run", "small.toml", "--set", "jet.duration_orbits=1"}, 3,
+               {"hamjet: --set jet.duration_orbits: more than one key",
+                "--set jet.duration_canonical=null"});
 }
 
 TEST_F(BadInput, ScenesThatCannotBeRead) {

@@ -152,8 +152,8 @@ bool read_streams(Pipe& out, Pipe& err, CommandResult& result, Clock::time_point
 }
 
 /// Waits for the end; false when time is up.
-bool wait_for_end(pid_t process, int& status, Clock::time_point deadline) {
-  while (::waitpid(process, &status, WNOHANG) == 0) {
+bool wait_for_end(pid_t process, int& status, rusage& usage, Clock::time_point deadline) {
+  while (::wait4(process, &status, WNOHANG, &usage) == 0) {
     if (Clock::now() >= deadline) return false;
     std::this_thread::sleep_for(milliseconds(2));
   }
@@ -176,9 +176,10 @@ CommandResult run_command(const std::vector<std::string>& arguments,
   const auto deadline = Clock::now() + options.limit;
   CommandResult result;
   int status = 0;
+  rusage usage{};
   if (options.signal) send(process, *options.signal, deadline);
   result.is_timed_out =
-      !read_streams(out, err, result, deadline) || !wait_for_end(process, status, deadline);
+      !read_streams(out, err, result, deadline) || !wait_for_end(process, status, usage, deadline);
   if (result.is_timed_out) {
     ::kill(process, SIGKILL);
     ::waitpid(process, &status, 0);
@@ -187,6 +188,7 @@ CommandResult run_command(const std::vector<std::string>& arguments,
   close_if_open(err.read_end);
   if (WIFEXITED(status)) result.exit_code = WEXITSTATUS(status);
   if (WIFSIGNALED(status)) result.signal = WTERMSIG(status);
+  result.peak_resident_bytes = usage.ru_maxrss * 1024;
   return result;
 }
 

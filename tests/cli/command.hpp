@@ -47,6 +47,7 @@ struct CommandResult {
   int exit_code = -1;  ///< -1 if the command was ended by a signal
   int signal = 0;      ///< that ended it
   bool is_timed_out = false;
+  long peak_resident_bytes = 0;
   std::string out;
   std::string err;
 };

@@ -66,6 +66,19 @@ TEST_F(RunOptions, SetChangesKeysInTheirOrder) {
   EXPECT_EQ(summary["coefficients_per_component"], 84);  // C(6 + 3, 3)
 }
 
+TEST_F(RunOptions, SetToNullRemoves) {
+  succeed({"run", "small.toml", "-q", "--set", "reference=null", "--set", "integrator.gauss8=null",
+           "--set", "jet.duration_canonical=null", "--set", "jet.duration_orbits=0.5"});
+  const Json summary = read_json(directory_ / "out/small/summary.json");
+  EXPECT_TRUE(summary["reference"].is_null());
+  ASSERT_EQ(summary["runs"].size(), 1U);
+  EXPECT_EQ(summary["runs"][0]["label"], "midpoint");
+  // Half a period of Kepler's third law, pi sqrt(a^3 / mu).
+  EXPECT_NEAR(
+      summary["duration_canonical"].get<double>() * summary["units"]["time_s"].get<double>(),
+      std::acos(-1.0) * std::sqrt(1e12 / 398600.4415), 1e-8);
+}
+
 TEST_F(RunOptions, DemoNeedsNoFile) {
   const CommandResult result =
       succeed({"demo", "--json", "--set", "jet={order=1, duration_canonical=1}", "--set",

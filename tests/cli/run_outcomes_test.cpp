@@ -107,8 +107,22 @@ TEST_F(Outcomes, Collision) {
 }
 
 TEST_F(Outcomes, CollisionAheadOfTheReference) {
-  expect_error({"run", "small.toml", "--set", fall, "--set", "jet.duration_canonical=2"}, 4,
-               {"collision", "t = 1.1107"});
+  // The runs that end before the collision, or all of them, are not lost with the reference.
+  const Json summary = run("small.toml", {fall, "jet.duration_canonical=2"}, 4);
+  const auto failure = summary["reference_error"].get<std::string>();
+  EXPECT_TRUE(failure.starts_with("reference: Gauss: ")) << failure;
+  EXPECT_NE(failure.find("t = 1.1107"), std::string::npos) << failure;  // pi / (2 sqrt 2)
+  EXPECT_TRUE(summary["reference"].is_null());
+  EXPECT_EQ(summary["runs"].size(), 2U);
+}
+
+TEST_F(Outcomes, EndlessDurationIsRefusedSoon) {
+  for (const char* method : {"gauss", "fehlberg78"}) {
+    expect_error({"run", "quick.toml", "--set", "jet.duration_canonical=1e300", "--set",
+                  std::string("integrator.gauss8.method=") + method, "--set",
+                  "integrator.gauss8.stages=null", "--set", "integrator.midpoint=null"},
+                 6, {"steps would be needed", "1e+08"});
+  }
 }
 
 TEST_F(Outcomes, FailedRunLeavesNoOldResultOfItself) {

@@ -26,6 +26,7 @@ TEST_F(Usage, EveryCommandHasHelp) {
   for (const char* option : {"--output", "--set", "--json", "--quiet"}) {
     EXPECT_NE(run.find(option), std::string::npos) << option;
   }
+  EXPECT_NE(run.find("key=null removes it"), std::string::npos) << run;
 }
 
 TEST_F(Usage, Version) {
@@ -90,6 +91,8 @@ TEST_F(Usage, MistakesOnTheCommandLine) {
       {{"run", "small.toml", "--set", "order"}, {"--set order: must be key=value"}},
       {{"run", "small.toml", "--set", "=3"}, {"must be key=value"}},
       {{"run", "small.toml", "--set", "a\nb"}, {"a\\x0ab"}},
+      {{"run", "small.toml", "--set", "system.J2="}, {"--set system.J2: empty"}},
+      {{"run", "small.toml", "--set", "jet.ordre=null"}, {"--set jet.ordre: nothing to remove"}},
       {{"run", "small.toml", "--set", "jet..order=3"}, {"--set jet..order", "empty name"}},
       {{"run", "small.toml", "--set", "title.x=3"}, {"--set title.x", "no such key"}},
       {{"run", "small.toml", "--set", "integrator.guass8.stages=3"}, {"guass8", "no such element"}},

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "scene_samples.hpp"
+#include "support/temporary_directory.hpp"
 
 // Bad input before the schema is looked at: files, bytes, TOML syntax, overrides. What is expected
 // is the documentation of read_scene, with offsets, lines and columns counted by hand.
@@ -18,10 +19,22 @@ namespace {
 TEST(SceneInputErrors, Syntax) {
   expect_scene_error("title = \"abc\n", {"file.toml:1:", "not valid TOML"});
   expect_scene_error("a = [1,\n2", {"file.toml:2:", "not valid TOML"});
-  expect_scene_error("schema = 1\n\nschema = 1\n", {"file.toml:3:", "redefine", "schema"});
-  expect_scene_error("[jet]\norder = 1\n[jet]\n", {"file.toml:3:", "redefine", "jet"});
   expect_scene_error("schema = \n", {"file.toml:1:", "not valid TOML"});
   expect_scene_error("\"a\x1b\" = 1\n", {"file.toml:1:", "not valid TOML"});
+}
+
+TEST(SceneInputErrors, DuplicateKeysAreNamedWithTheirFirstPlace) {
+  expect_scene_error("schema = 1\n\nschema = 1\n",
+                     {"file.toml:3:", "redefine", "'schema'", "already at file.toml:1:10"});
+  expect_scene_error("[jet]\norder = 1\n[jet]\n",
+                     {"file.toml:3:1", "redefine", "'jet'", "already at file.toml:1:1"});
+  expect_scene_error("[[i]]\na = 1\n[[i]]\na = 2\na = 3\n", {":5:", "already at file.toml:4:5"});
+  expect_scene_error("[t]\nb.c = 3\n\"\u00e9\" . d = 4\n\"\u00e9\".d = 5\n",
+                     {":4:", "already at file.toml:3:11"});
+  expect_scene_error("jet = 3\n[jet] # again\n", {":2:1", "already at file.toml:1:7"});
+  expect_scene_error("b = [\n1]\nb = [\n2]\n", {":3:", "already at file.toml:1:5"});
+  // Within an inline table the first place is on the same line.
+  expect_scene_error("y = 1\na = {y = 2, y = 3}\n", {"file.toml:2:", "redefine", "'y'"});
 }
 
 TEST(SceneInputErrors, Text) {
@@ -70,25 +83,26 @@ void expect_override_error(const Override& change, ErrorKind kind,
 TEST(SceneInputErrors, Overrides) {
   const auto scene = ErrorKind::scene;
   const auto usage = ErrorKind::usage;
-  expect_override_error({"jet.order", "0"}, scene, {"--set jet.order: jet.order: out of range"});
+  expect_override_error({"jet.order", "0"}, scene, {"--set jet.order: out of range"});
   expect_override_error({"jet.order", "99"}, ErrorKind::too_large,
                         {"--set jet.order", "1609344100"});
   expect_override_error({"jet.order", "1e400"}, scene, {"the string \"1e400\""});
   expect_override_error({"jet.order", "3\nvariables=[]"}, scene, {"the string \"3\\x0avariables"});
   expect_override_error({"system.J2", "1e-400"}, scene, {"J2: wrong type, got the string"});
   expect_override_error({"jet.ordre", "3"}, scene, {"--set jet.ordre: ", "did you mean order?"});
-  expect_override_error({"a.b", "3"}, scene, {"--set a.b: a: unknown key"});
-  expect_override_error({"reference", "{tol = 1}"}, scene, {"--set reference: reference.tol"});
+  expect_override_error({"a.b", "3"}, scene, {"--set a.b: unknown key, got a,"});
+  expect_override_error({"reference", "{tol = 1}"}, scene, {"--set reference.tol: unknown key"});
   expect_override_error({"integrator.gauss8.stages", "13"}, scene,
-                        {"--set integrator.gauss8.stages: integrator.0.stages: out of range"});
+                        {"--set integrator.gauss8.stages: out of range"});
   expect_override_error({"integrator.1.label", "gauss8"}, scene, {"duplicate", "file.toml:15:9"});
   expect_override_error({"", "3"}, usage, {"--set", "empty name"});
-  expect_override_error({"jet..order", "3"}, usage, {"empty name", "\"jet..order\""});
+  expect_override_error({"jet..order", "3"}, usage, {"--set jet..order: empty name"});
   expect_override_error({"jet.", "3"}, usage, {"empty name"});
   expect_override_error({"title.x", "3"}, usage, {"no such key", "below a value"});
   expect_override_error({"integrator.2.stages", "3"}, usage, {"no such element", "below 2"});
   expect_override_error({"integrator.-1.stages", "3"}, usage, {"no such element"});
-  expect_override_error({"integrator.guass8.stages", "3"}, usage, {"no such element", "guass8"});
+  expect_override_error({"integrator.guass8.stages", "3"}, usage,
+                        {"no such element", "guass8", "must be gauss8, other or an index below 2"});
   expect_override_error({"title", "\xff"}, usage, {"not UTF-8"});
   std::string dots = "a";
   for (int i = 0; i < 100000; ++i) dots += ".a";
@@ -97,21 +111,86 @@ TEST(SceneInputErrors, Overrides) {
   EXPECT_EQ(parse_scene(orbit, "x", {{"title", brackets}}).title, brackets);
 }
 
-/// An empty directory of its own, removed at the end.
+TEST(SceneInputErrors, OverridesAreNamedOnceAsWritten) {
+  const auto message_of = [](const std::string& key, const std::string& value) -> std::string {
+    try {
+      parse_scene(orbit, "file.toml", {{key, value}});
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  const auto starts = [&](const std::string& key, const std::string& value,
+                          const std::string& start) {
+    const std::string message = message_of(key, value);
+    EXPECT_EQ(message.substr(0, start.size()), start);
+    // Neither the option nor the table comes up again.
+    EXPECT_EQ(message.find("integrator.", start.size()), std::string::npos) << message;
+    EXPECT_EQ(message.find("--set", start.size()), std::string::npos) << message;
+  };
+  const std::string label = "--set integrator.gauss8";
+  starts("integrator.gauss8.tolerance", "0", label + ".tolerance: out of range, got 0");
+  starts("integrator.0.tolerance", "0", "--set integrator.0.tolerance: out of range, got 0");
+  starts("integrator.gauss8.tol", "0", label + ".tol: unknown key, must be");
+  starts("integrator.gauss8", "{label=\"a\", method=\"gauss\"}", label + ": missing, got none");
+  starts("integrator.gauss8", "{label=\"a\", method=\"x\"}", label + ".method: unknown value");
+  starts("integrator.other.step_canonical", "1e-10",
+         "--set integrator.other.step_canonical: too many steps");
+  starts("integrator", "[{label=\"a\", method=\"x\"}]", "--set integrator.0.method: unknown");
+  starts("integrator.gauss8.x.y", "1", label + ".x.y: unknown key, got x");
+  starts("jet.variables", "[\"x\", \"w\"]", "--set jet.variables.1: unknown variable");
+  starts("nominal", "{}", "--set nominal: no orbit");
+  starts("nominal.position_km", "[1e300, 0, 0]", "file.toml:8:1: nominal: out of range");
+  // Whole, however long the label is.
+  const std::string longest = "integrator." + std::string(100, 'l') + ".require_relative_error";
+  starts(longest, "0", "--set " + longest + ": no such element");
+}
+
+TEST(SceneInputErrors, OverrideOfAChoiceSaysHowToRemoveTheOther) {
+  expect_override_error({"jet.duration_orbits", "1"}, ErrorKind::scene,
+                        {"--set jet.duration_orbits: more than one key of a choice",
+                         "removed by --set jet.duration_canonical=null"});
+  expect_override_error({"integrator.gauss8.step_s", "1"}, ErrorKind::scene,
+                        {"--set integrator.gauss8.step_s: more than one",
+                         "removed by --set integrator.gauss8.tolerance=null"});
+  // The hint works.
+  const Scene scene =
+      parse_scene(orbit, "x", {{"jet.duration_orbits", "1"}, {"jet.duration_canonical", "null"}});
+  EXPECT_NE(scene.duration, 31.4);
+}
+
+TEST(SceneInputErrors, NullRemovesAKeyOrAnElement) {
+  const Scene scene = parse_scene(orbit, "x",
+                                  {{"integrator.gauss8", "null"},
+                                   {"reference", "null"},
+                                   {"generating_function", "null"},
+                                   {"system.J2", "null"},
+                                   {"system.radius_km", "null"}});
+  ASSERT_EQ(scene.integrators.size(), 1U);
+  EXPECT_EQ(scene.integrators[0].label, "other");
+  EXPECT_FALSE(scene.reference.has_value());
+  EXPECT_FALSE(scene.kinds.has_value());
+  EXPECT_EQ(scene.system.J2, 0);
+  EXPECT_EQ(parse_scene(orbit, "x", {{"title", "\"null\""}}).title, "null");
+  EXPECT_EQ(parse_scene(orbit, "x", {{"title", "\"\""}}).title, "");
+  const auto usage = ErrorKind::usage;
+  expect_override_error({"jet.order", "null"}, ErrorKind::scene,
+                        {"file.toml:11:1: jet.order: missing"});
+  expect_override_error({"jet.duration_s", "null"}, usage, {"nothing to remove", "duration_s"});
+  expect_override_error({"a.b", "null"}, usage, {"--set a.b: nothing to remove, got no key \"a\""});
+  expect_override_error({"integrator.2", "null"}, usage, {"no such element"});
+  expect_override_error({"title", ""}, usage, {"--set title: empty", "null removes"});
+}
+
 class SceneFileErrors : public ::testing::Test {
  protected:
-  SceneFileErrors() {
-    std::string name = (std::filesystem::temp_directory_path() / "hamjet-scene-XXXXXX").string();
-    directory_ = ::mkdtemp(name.data());
-  }
-  ~SceneFileErrors() override { std::filesystem::remove_all(directory_); }
-
   static void expect_unreadable(const std::filesystem::path& file, const std::string& reason) {
     expect_error([&] { read_scene(file); }, ErrorKind::input_output, {file.string(), reason},
                  file.string());
   }
 
-  std::filesystem::path directory_;
+  const test::TemporaryDirectory temporary_directory_;
+  const std::filesystem::path directory_ = temporary_directory_.path();
 };
 
 TEST_F(SceneFileErrors, NamesPathAndReason) {

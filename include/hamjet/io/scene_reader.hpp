@@ -12,8 +12,10 @@ namespace hamjet::io {
 /// One `--set key=value`. The key is a dotted path; an element of an array is named by its index
 /// from 0 or, if it is a table with a label, by that: `jet.order`, `integrator.0.tolerance`,
 /// `integrator.gauss8.tolerance`. Missing tables on the way are added. The value is TOML (`3`,
-/// `[1, 2]`, `{}`); what is not valid TOML is taken as a string. A key of which a table has one of
-/// several forms is changed by giving the whole table: `nominal={a_km=7000, ...}`.
+/// `[1, 2]`, `{}`); what is not valid TOML is taken as a string. The value `null`, which TOML
+/// does not know, removes the key or the element, which must be there; an empty value is an error.
+/// To go from one of several forms of a table to another, remove the keys of the one
+/// (`jet.duration_canonical=null`) or give the whole table: `nominal={a_km=7000, ...}`.
 struct Override {
   std::string key;
   std::string value;
@@ -24,10 +26,10 @@ struct Override {
 ///  - Error(input_output) with the path and the reason if the file cannot be read, or is a
 ///    directory, a pipe or a device;
 ///  - Error(scene) with `file:line:column: key: what is wrong, got what, what would be right`, on
-///    one line; for a value that an override gave the location is `--set key`. A text that is too
-///    large or not UTF-8 is named by its size or the byte's offset;
+///    one line; for a value that an override gave, `--set key` stands in place of location and
+///    key. A text that is too large or not UTF-8 is named by its size or the byte's offset;
 ///  - Error(too_large) for an order above 20, or more than 1e9 fixed steps;
-///  - Error(usage) for an override whose key leads nowhere.
+///  - Error(usage) for an override whose key leads nowhere or whose value is empty.
 ///
 /// A fixed step that is longer than the duration means a single step.
 Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides = {});

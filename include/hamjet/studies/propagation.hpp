@@ -85,8 +85,11 @@ struct PropagationResult {
   Scene scene;
   ComputedProblem problem;
   std::optional<ReferenceResult> reference;
+  std::string
+      reference_failure;  ///< not empty: the scene asks for a reference that failed, and why
   std::vector<RunResult> runs;
   std::vector<RelativeHamiltonianResult> relative_hamiltonians;
+  std::string relative_hamiltonian_failure;  ///< not empty: times are missing above, and why
 };
 
 /// Told how far the work is: what is being done, and the fraction of it in 0..1. May throw to stop.
@@ -107,8 +110,8 @@ double estimate_memory(const Scene& scene, const DynamicalSystem& system, std::s
 double available_memory();
 
 /// Runs a scene: the reference if it asks for one, then each integrator, then the inversions that
-/// it asks for. A numerical failure of one integrator or one kind is recorded in its result and the
-/// others go on; other errors are thrown.
+/// it asks for. A numerical failure of one part (the reference, one integrator, one kind) is
+/// recorded in its result and the others go on; other errors are thrown.
 PropagationResult propagate(const Scene& scene, const ProgressCallback& progress = {});
 
 /// For each degree the largest difference of a coefficient from the reference's, relative to the

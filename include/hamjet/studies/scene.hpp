@@ -60,6 +60,18 @@ struct ReferenceSettings {
   double tolerance = 1e-24;  ///< local tolerance of the finer of the two extended-precision runs
 };
 
+/// Table `[compare]`: what `hamjet compare` sweeps over.
+struct ComparisonSettings {
+  std::vector<IntegrationMethod> methods;  ///< empty: all that are in this build
+  std::vector<int> stages = {1, 2, 4, 8};  ///< of Gauss
+  std::vector<double> steps_canonical;     ///< empty: halved from far too coarse to round-off
+  std::vector<double> tolerances;          ///< empty: by powers of ten from 1e-2 to round-off
+  std::vector<int> orders;                 ///< of the cost against order; empty: 1 to jet.order
+  int repeats = 5;                         ///< timings of each run
+  double time_budget_s = 150;  ///< of all integrations; what would exceed it is left out
+  double wanted_error_m = 1;   ///< at formation scale: of the verdict and the advice
+};
+
 /// A scene, read, checked and converted to canonical units. Lengths of arrays: 2n, with n = 3 for
 /// an orbit and n = 1 for the harmonic oscillator.
 struct Scene {
@@ -82,6 +94,7 @@ struct Scene {
   std::optional<ReferenceSettings> reference;  ///< absent: no reference is run
   /// `[relative_hamiltonian]`, canonical times between 0 and the duration; empty: not computed.
   std::vector<double> relative_hamiltonian_times;
+  ComparisonSettings comparison;
 };
 
 }  // namespace hamjet

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hamjet/io/output_directory.hpp"
+#include "hamjet/studies/comparison.hpp"
+
+namespace hamjet::io {
+
+/// Where a report comes from: what a reader needs to make it again.
+struct ReportOrigin {
+  std::string command;    ///< as it was typed
+  std::string date;       ///< of the run, with time and zone
+  std::string processor;  ///< that the times were taken on
+  /// All that determines the runs, as the caller writes it; a resumption compares it with its own.
+  std::string determinants;
+  std::string gnuplot = "gnuplot";  ///< program that draws the plots: a name on the path, or a path
+};
+
+/// Files of the plots that are wanted beside the page.
+enum class PlotFormat { none, pdf, png };
+
+/// The runs of an earlier comparison, for one that takes it up again.
+struct EarlierRuns {
+  std::string determinants;  ///< ReportOrigin::determinants of the earlier comparison
+  bool is_complete = false;
+  /// As they were written, with those that failed or were left out: see ComparedRun::is_finished.
+  std::vector<ComparedRun> runs;
+  std::vector<ComparedRun> cost_runs;
+  std::vector<RunAlongTime> along_time;
+};
+
+/// `compare.csv`: one row a run, those of the comparison and then those of the cost against order
+/// (column `part`), numbers with 17 digits. A field is empty where nothing was computed: all
+/// figures of a run that failed or was left out, whose reason is in the column `reason`.
+std::string comparison_csv(const ComparisonResult& result);
+
+/// `compare.json`: everything. What was not computed is null. Doubles are written so that the same
+/// ones are read back; JSON has no infinite numbers: they are the strings "inf", "-inf" and "nan".
+std::string comparison_json(const ComparisonResult& result, const ReportOrigin& origin);
+
+/// Reads a `compare.json`: the runs are bit for bit those that were written (of NaN only that it is
+/// one). Throws Error(input_output) in one line that names the place of the mistake.
+EarlierRuns read_comparison_runs(std::string_view text);
+
+/// `report.html`: one page that needs no other file, no network and no script. Where a plot cannot
+/// be drawn the page says why, and `drawing_problem` is set to the first reason, one line.
+std::string comparison_html(const ComparisonResult& result, const ReportOrigin& origin,
+                            std::optional<std::string>& drawing_problem);
+
+/// The table for the terminal: the verdict, and for each series of runs the time to reach relative
+/// errors (largest over all degrees) of 1e-6, 1e-9 and 1e-12 as ratios to the best.
+std::string comparison_table(const ComparisonResult& result);
+
+/// All files into a directory: `compare.csv`, `report.html`, `plots/<name>.pdf` or `.png` if asked
+/// for, `compare.json` last. Plots of an earlier comparison are removed. Gives one line for the
+/// user if gnuplot could not draw; everything else is then written all the same. Throws
+/// Error(input_output).
+std::optional<std::string> write_comparison(const ComparisonResult& result,
+                                            const ReportOrigin& origin, PlotFormat format,
+                                            OutputDirectory& output);
+
+}  // namespace hamjet::io

@@ -1,0 +1,139 @@
+#include "compare_command.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <chrono>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "hamjet/error.hpp"
+#include "hamjet/io/reference_cache.hpp"
+#include "interruption.hpp"
+#include "progress.hpp"
+#include "standard_streams.hpp"
+
+namespace hamjet::cli {
+namespace {
+
+/// What is finished is saved at most this often.
+constexpr std::chrono::seconds checkpoint_interval(5);
+
+std::string processor_name() {
+  std::ifstream file("/proc/cpuinfo");
+  std::string line;
+  while (std::getline(file, line)) {
+    const std::size_t colon = line.find(": ");
+    if (line.starts_with("model name") && colon != std::string::npos) {
+      return line.substr(colon + 2);
+    }
+  }
+  return "unknown processor";
+}
+
+io::ReportOrigin origin_of(const CompareOptions& options, const Scene& scene) {
+  io::ReportOrigin origin;
+  origin.command = options.command;
+  origin.date = fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(std::time(nullptr)));
+  origin.processor = processor_name();
+  origin.determinants = comparison_key(scene);
+  return origin;
+}
+
+/// Puts what an interrupted comparison left into `result`.
+void take_up(const std::filesystem::path& directory, const std::string& determinants,
+             ComparisonResult& result) {
+  const std::filesystem::path file = directory / "compare.json";
+  std::ifstream stream(file);
+  if (!stream) {
+    throw Error(ErrorKind::input_output,
+                fmt::format("{}: cannot be read, so there is nothing to resume; leave --resume out "
+                            "to start",
+                            file.string()));
+  }
+  std::ostringstream text;
+  text << stream.rdbuf();
+  try {
+    io::EarlierRuns earlier = io::read_comparison_runs(text.str());
+    if (earlier.determinants != determinants) {
+      throw Error(ErrorKind::usage,
+                  "is the comparison of another scene or other settings; leave "
+                  "--resume out to start anew, or choose another -o");
+    }
+    result.runs = std::move(earlier.runs);
+    result.cost_runs = std::move(earlier.cost_runs);
+    result.along_time = std::move(earlier.along_time);
+  } catch (const Error& error) {
+    throw Error(error.kind(), fmt::format("{}: {}", file.string(), error.what()));
+  }
+}
+
+/// The runs so far, marked as partial. A page of an earlier comparison would contradict them.
+void write_partial(const ComparisonResult& result, const io::ReportOrigin& origin,
+                   const std::filesystem::path& directory) {
+  io::OutputDirectory output(directory);
+  output.write("compare.csv", io::comparison_csv(result));
+  output.write("compare.json", io::comparison_json(result, origin));
+  output.replace("report.html");
+  output.commit();
+}
+
+}  // namespace
+
+int compare(const CompareOptions& options) {
+  const Scene scene = read_scene(options.scene);
+  const std::filesystem::path directory = output_path(options.scene, scene);
+  const io::ReportOrigin origin = origin_of(options, scene);
+  ComparisonResult result;
+  if (options.resume) take_up(directory, origin.determinants, result);
+  io::OutputDirectory output(directory);
+  io::ReferenceCache cache(io::ReferenceCache::user_directory());
+  auto saved = std::chrono::steady_clock::now();
+  try {
+    Progress progress(!options.scene.quiet);
+    ComparisonOptions work;
+    work.references = &cache;
+    work.progress = [&](const std::string& task, double fraction) {
+      stop_if_interrupted();
+      progress.update(task, fraction);
+    };
+    work.checkpoint = [&] {
+      const auto now = std::chrono::steady_clock::now();
+      if (now - saved < checkpoint_interval) return;
+      saved = now;
+      const UninterruptedWriting guard(Writing::checkpoint);
+      write_partial(result, origin, directory);
+    };
+    compare(scene, work, result);
+  } catch (const Interrupted& interrupted) {
+    const bool has_runs = !result.runs.empty();
+    if (has_runs) {
+      const UninterruptedWriting guard(Writing::partial_results);
+      write_partial(result, origin, directory);
+    }
+    print_error(has_runs
+                    ? fmt::format("interrupted; what was finished is in {}, marked as partial; "
+                                  "the same command with --resume goes on",
+                                  directory.string())
+                    : std::string("interrupted; nothing was written"));
+    return interrupted.exit_code();
+  }
+  std::optional<std::string> drawing_problem;
+  {
+    const UninterruptedWriting guard;
+    drawing_problem = io::write_comparison(result, origin, options.plots, output);
+    output.commit();
+  }
+  if (drawing_problem) print_error(*drawing_problem);
+  if (options.scene.json) {
+    print(io::comparison_json(result, origin));
+  } else if (!options.scene.quiet) {
+    print(io::comparison_table(result) + "\n" + advice(result) +
+          fmt::format("\nreport: {}\n", (directory / "report.html").string()));
+  }
+  return 0;
+}
+
+}  // namespace hamjet::cli

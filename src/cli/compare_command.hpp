@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+#include "hamjet/io/comparison_report.hpp"
+#include "scene_options.hpp"
+
+namespace hamjet::cli {
+
+struct CompareOptions {
+  RunOptions scene;
+  bool resume = false;  ///< take up what an interrupted comparison left in the output directory
+  io::PlotFormat plots = io::PlotFormat::none;
+  std::string command;  ///< the command line, for the report
+};
+
+/// Compares integrators on a scene and writes the report; returns the exit code.
+int compare(const CompareOptions& options);
+
+}  // namespace hamjet::cli

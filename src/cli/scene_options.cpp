@@ -1,0 +1,68 @@
+#include "scene_options.hpp"
+
+#include <fmt/format.h>
+
+#include <vector>
+
+#include "../io/scene_message.hpp"
+#include "demo_scene.hpp"
+#include "hamjet/error.hpp"
+#include "hamjet/integrators/cvode.hpp"
+#include "hamjet/io/scene_reader.hpp"
+#include "standard_streams.hpp"
+
+namespace hamjet::cli {
+namespace {
+
+std::vector<io::Override> parse_overrides(const std::vector<std::string>& texts) {
+  std::vector<io::Override> overrides;
+  for (const std::string& text : texts) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      throw Error(
+          ErrorKind::usage,
+          fmt::format("--set {}: must be key=value, for example jet.order=3", io::printable(text)));
+    }
+    overrides.push_back({text.substr(0, equals), text.substr(equals + 1)});
+  }
+  return overrides;
+}
+
+/// An empty name comes from an unset variable of a script, and must not mean something else.
+void refuse_empty(const std::optional<std::string>& value, const char* option, const char* what) {
+  if (value && value->empty()) {
+    throw Error(ErrorKind::usage, fmt::format("{}: empty, must name {}", option, what));
+  }
+}
+
+/// The built-in scene names CVODE; a build without it shows the rest. A scene of the user's own is
+/// refused instead: what it asks for must not vanish.
+void leave_out_what_is_not_built(Scene& scene) {
+  if (cvode_available()) return;
+  const auto removed = std::erase_if(scene.integrators, [](const IntegratorSettings& settings) {
+    return settings.method == IntegrationMethod::cvode_adams ||
+           settings.method == IntegrationMethod::cvode_bdf;
+  });
+  if (removed > 0) {
+    print_error(fmt::format("this build has no CVODE: {} runs of the scene are left out", removed));
+  }
+}
+
+}  // namespace
+
+Scene read_scene(const RunOptions& options) {
+  refuse_empty(options.scene_file, "scene", "a file");
+  refuse_empty(options.output, "--output", "a directory");
+  const auto overrides = parse_overrides(options.overrides);
+  if (options.scene_file) return io::read_scene(*options.scene_file, overrides);
+  Scene scene = io::parse_scene(demo_scene, "earth-orbit.toml", overrides);
+  leave_out_what_is_not_built(scene);
+  return scene;
+}
+
+std::filesystem::path output_path(const RunOptions& options, const Scene& scene) {
+  return options.output ? std::filesystem::path(*options.output)
+                        : std::filesystem::path("out") / scene.name;
+}
+
+}  // namespace hamjet::cli

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hamjet/studies/scene.hpp"
+
+namespace hamjet::cli {
+
+/// Options of the commands that take a scene.
+struct RunOptions {
+  std::optional<std::string> scene_file;  ///< absent: the built-in scene
+  std::optional<std::string> output;
+  std::vector<std::string> overrides;  ///< key=value
+  bool json = false;
+  bool quiet = false;
+};
+
+/// The scene that the options name, with their changes. Throws Error(usage), Error(scene),
+/// Error(input_output).
+Scene read_scene(const RunOptions& options);
+
+/// Where the results go: as asked for, or `out/<scene name>`.
+std::filesystem::path output_path(const RunOptions& options, const Scene& scene);
+
+}  // namespace hamjet::cli

@@ -1,0 +1,132 @@
+#include "comparison_chart.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace hamjet::io {
+namespace {
+
+struct Range {
+  double least = std::numeric_limits<double>::infinity();
+  double most = -std::numeric_limits<double>::infinity();
+
+  void include(double value) {
+    least = std::min(least, value);
+    most = std::max(most, value);
+  }
+  bool is_empty() const { return least > most; }
+};
+
+bool can_be_drawn(const ChartAxis& axis, double value) {
+  return std::isfinite(value) && (!axis.is_logarithmic || value > 0);
+}
+
+void set_limits(ChartAxis& axis, Range range, bool needs_room_below) {
+  if (!axis.is_logarithmic) {
+    const double width = range.most > range.least ? range.most - range.least : 1;
+    axis.lower = range.least - axis.margin * width;
+    axis.upper = range.most + axis.margin * width;
+    return;
+  }
+  double lower = std::floor(std::log10(range.least) - axis.margin + 1e-9);
+  double upper = std::ceil(std::log10(range.most) + axis.margin - 1e-9);
+  if (upper <= lower) upper = lower + 1;
+  if (needs_room_below) lower -= std::max(1.0, std::round((upper - lower) / 12));
+  axis.lower = std::pow(10, std::max(lower, -300.0));
+  axis.upper = std::pow(10, std::min(upper, 300.0));
+}
+
+/// Splits a curve into what can be drawn and the zeros; returns the number of the others.
+std::size_t split(const Chart& chart, ChartCurve& curve, ChartCurve& zeros) {
+  std::vector<std::pair<double, double>> kept;
+  std::vector<std::size_t> gaps;
+  std::size_t omitted = 0;
+  bool is_broken = false;
+  for (std::size_t i = 0; i < curve.points.size(); ++i) {
+    is_broken |= std::find(curve.gaps.begin(), curve.gaps.end(), i) != curve.gaps.end();
+    const auto& point = curve.points[i];
+    if (can_be_drawn(chart.x, point.first) && can_be_drawn(chart.y, point.second)) {
+      if (is_broken) gaps.push_back(kept.size());
+      is_broken = false;
+      kept.push_back(point);
+      continue;
+    }
+    is_broken = true;
+    if (can_be_drawn(chart.x, point.first) && point.second == 0) {
+      zeros.points.push_back(point);
+    } else {
+      ++omitted;
+    }
+  }
+  curve.points = std::move(kept);
+  curve.gaps = std::move(gaps);
+  return omitted;
+}
+
+}  // namespace
+
+void fit_axes(Chart& chart) {
+  Range x;
+  Range y;
+  std::size_t omitted = 0;
+  bool has_ticks = false;
+  for (ChartCurve& curve : chart.curves) {
+    ChartCurve zeros = curve;
+    zeros.points.clear();
+    zeros.ticks.clear();
+    omitted += split(chart, curve, zeros);
+    for (const auto& point : curve.points) {
+      x.include(point.first);
+      y.include(point.second);
+    }
+    for (const auto& point : zeros.points) x.include(point.first);
+    for (const double tick : curve.ticks) x.include(tick);
+    has_ticks |= !curve.ticks.empty();
+    if (!zeros.points.empty()) chart.at_limit.push_back(std::move(zeros));
+  }
+  if (omitted > 0) {
+    chart.notes.push_back(
+        fmt::format("Values that are not drawn because they are not finite, or zero on a "
+                    "logarithmic horizontal axis: {}.",
+                    omitted));
+  }
+  if (!chart.at_limit.empty()) {
+    chart.notes.emplace_back(
+        "A triangle that points down at the lower edge is a value of exactly zero, which a "
+        "logarithmic axis has no place for.");
+  }
+  if (x.is_empty()) return;
+  // All values are zero, or none exists: some decades to draw the marks in.
+  if (y.is_empty()) y = {1e-16, 1};
+  for (const ChartRule& rule : chart.rules) (rule.is_vertical ? x : y).include(rule.place);
+  set_limits(chart.x, x, false);
+  set_limits(chart.y, y, !chart.at_limit.empty() || has_ticks);
+  for (ChartCurve& zeros : chart.at_limit) {
+    for (auto& point : zeros.points) point.second = chart.y.lower;
+  }
+}
+
+std::vector<Chart> comparison_charts(const ComparisonResult& result) {
+  std::vector<Chart> charts = {work_precision_chart(result),    exactness_chart(result),
+                               symplecticity_chart(result),     exactness_along_time_chart(result),
+                               energy_along_time_chart(result), cost_chart(result),
+                               convergence_chart(result)};
+  for (Chart& chart : charts) {
+    std::erase_if(chart.curves,
+                  [](const ChartCurve& c) { return c.points.empty() && c.ticks.empty(); });
+    fit_axes(chart);
+    std::erase_if(chart.curves,
+                  [](const ChartCurve& c) { return c.points.empty() && c.ticks.empty(); });
+    if (chart.curves.empty() && chart.at_limit.empty() && chart.missing.empty()) {
+      chart.missing = "No run has values for this plot.";
+    }
+    // An empty page says why, and has no marks left to explain.
+    if (!chart.missing.empty()) chart.curves.clear();
+  }
+  return charts;
+}
+
+}  // namespace hamjet::io

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hamjet/studies/comparison.hpp"
+
+namespace hamjet::io {
+
+/// What the numbers along an axis are.
+enum class AxisUnit { none, power, seconds, metres };
+
+/// An axis of a chart. A logarithmic one runs over whole decades.
+struct ChartAxis {
+  std::string label;
+  AxisUnit unit = AxisUnit::none;
+  bool is_logarithmic = false;
+  bool is_reversed = false;
+  double lower = 0;  ///< set by fit_axes
+  double upper = 1;
+  double margin = 0;  ///< decades to leave free at either end
+};
+
+/// A line, a set of markers or both.
+struct ChartCurve {
+  std::string title;      ///< empty: not in the legend
+  std::size_t style = 0;  ///< colour, dashes and marker
+  bool has_line = true;
+  bool has_markers = true;
+  bool is_filled = true;
+  int marker_interval = 1;
+  std::vector<std::pair<double, double>> points;
+  std::vector<std::size_t> gaps;  ///< the line is broken before these points
+  std::vector<double> ticks;      ///< where a short vertical stroke says that there is no value
+};
+
+/// A straight line over the whole chart, or a text in one of its corners.
+struct ChartRule {
+  bool is_vertical = false;
+  double place = 0;
+};
+struct ChartCornerText {
+  bool is_right = false;
+  bool is_top = false;
+  std::string text;
+};
+
+/// A plot before it is drawn.
+struct Chart {
+  std::string name;                ///< of the file; letters, digits and hyphens
+  std::string title;               ///< heading in the page
+  std::string reading;             ///< how to read it, a paragraph of plain text
+  std::vector<std::string> notes;  ///< what is not drawn, or not where it belongs
+  std::string missing;             ///< why there is nothing to draw, where there is nothing
+  ChartAxis x;
+  ChartAxis y;
+  std::vector<ChartCurve> curves;
+  std::vector<ChartCurve> at_limit;  ///< zeros, which a logarithmic axis puts at its lower limit
+  std::vector<ChartRule> rules;
+  std::vector<ChartCornerText> corners;
+};
+
+/// Sets the axes' ranges from the curves; moves zeros of a logarithmic y to `at_limit`, takes out
+/// what cannot be drawn at all, and says both in the notes.
+void fit_axes(Chart& chart);
+
+/// All plots of a comparison, in the order of the page, fitted.
+std::vector<Chart> comparison_charts(const ComparisonResult& result);
+
+// The parts that comparison_charts is made of, not fitted.
+Chart work_precision_chart(const ComparisonResult& result);
+Chart exactness_chart(const ComparisonResult& result);
+Chart symplecticity_chart(const ComparisonResult& result);
+Chart exactness_along_time_chart(const ComparisonResult& result);
+Chart energy_along_time_chart(const ComparisonResult& result);
+Chart cost_chart(const ComparisonResult& result);
+Chart convergence_chart(const ComparisonResult& result);
+
+/// What a chart is drawn as.
+enum class Drawing { wide_svg, narrow_svg, pdf, png };
+
+/// The gnuplot script that draws a fitted chart to the standard output.
+std::string gnuplot_script(const Chart& chart, Drawing drawing);
+
+/// An SVG of gnuplot as a part of a page: without its prologue, its tooltips and its opaque ground,
+/// every id with the prefix, and with a description for those who do not see it.
+std::string inline_svg(const std::string& svg, const std::string& prefix,
+                       const std::string& description);
+
+}  // namespace hamjet::io

@@ -1,0 +1,191 @@
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "hamjet/io/comparison_report.hpp"
+#include "hamjet/version.hpp"
+
+namespace hamjet::io {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double value) {
+  if (std::isfinite(value)) return value;
+  if (std::isnan(value)) return "nan";
+  return value > 0 ? "inf" : "-inf";
+}
+
+Json number(const std::optional<double>& value) { return value ? number(*value) : Json(nullptr); }
+
+Json numbers(const std::vector<double>& values) {
+  Json json = Json::array();
+  for (const double value : values) json.push_back(number(value));
+  return json;
+}
+
+Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
+
+Json settings_json(const IntegratorSettings& settings) {
+  return {{"label", settings.label},
+          {"method", method_names()[static_cast<std::size_t>(settings.method)]},
+          {"stages", settings.stages},
+          {"step_canonical", number(settings.step_canonical)},
+          {"tolerance", number(settings.tolerance)},
+          {"require_relative_error", number(settings.require_relative_error)},
+          {"require_symplecticity", number(settings.require_symplecticity)}};
+}
+
+Json statistics_json(const IntegrationStatistics& statistics) {
+  return {{"steps", statistics.steps},
+          {"rejected_steps", statistics.rejected_steps},
+          {"vector_field_evaluations", statistics.vector_field_evaluations},
+          {"nominal_evaluations", statistics.nominal_evaluations},
+          {"wall_seconds", number(statistics.wall_seconds)}};
+}
+
+Json residual_json(const ExactnessResidual& residual) {
+  return {{"degree", residual.degree},
+          {"absolute", number(residual.absolute)},
+          {"scaled", number(residual.scaled)},
+          {"at_formation_scale", number(residual.at_formation_scale)}};
+}
+
+Json run_json(const ComparedRun& run) {
+  Json json = {{"settings", settings_json(run.settings)},
+               {"series", run.series},
+               {"order", run.order},
+               {"failure", text_or_null(run.failure)},
+               {"left_out", text_or_null(run.left_out)},
+               {"statistics", statistics_json(run.statistics)},
+               {"multiply_adds", number(run.multiply_adds)},
+               {"memory_bytes", number(run.memory_bytes)},
+               {"seconds", numbers(run.seconds)},
+               {"median_seconds", nullptr},
+               {"error_by_degree", numbers(run.error_by_degree)},
+               {"largest_error", nullptr},
+               {"error_at_formation_m", number(run.error_at_formation_m)},
+               {"exactness", Json::array()},
+               {"exactness_failure", text_or_null(run.exactness_failure)},
+               {"symplecticity", Json::array()},
+               {"largest_symplecticity", nullptr},
+               {"energy_error", number(run.energy_error)},
+               {"corner", nullptr}};
+  if (!run.seconds.empty()) json["median_seconds"] = number(run.median_seconds());
+  if (!run.error_by_degree.empty()) json["largest_error"] = number(run.largest_error());
+  for (const ExactnessEntry& entry : run.exactness) {
+    Json row = residual_json(entry.residual);
+    row["floor"] = entry.floor ? residual_json(*entry.floor) : Json(nullptr);
+    json["exactness"].push_back(row);
+  }
+  for (const SymplecticityDefect& entry : run.symplecticity) {
+    json["symplecticity"].push_back({{"degree", entry.degree},
+                                     {"absolute", number(entry.absolute)},
+                                     {"scaled", number(entry.scaled)}});
+  }
+  if (!run.symplecticity.empty()) {
+    json["largest_symplecticity"] = number(run.largest_symplecticity());
+  }
+  if (run.corner) json["corner"] = corner_names()[static_cast<std::size_t>(*run.corner)];
+  return json;
+}
+
+Json along_time_json(const RunAlongTime& run) {
+  Json points = Json::array();
+  for (const RunAlongTime::Point& point : run.points) {
+    points.push_back({{"time_canonical", number(point.time)},
+                      {"exactness", number(point.exactness)},
+                      {"condition", number(point.condition)},
+                      {"energy_error", number(point.energy_error)}});
+  }
+  return {{"label", run.label}, {"failure", text_or_null(run.failure)}, {"points", points}};
+}
+
+Json scene_json(const Scene& scene) {
+  const auto names = variable_names(scene.system.model);
+  Json variables = Json::array();
+  for (const std::size_t v : scene.variables) variables.push_back(names[v]);
+  Json integrators = Json::array();
+  for (const IntegratorSettings& settings : scene.integrators) {
+    integrators.push_back(settings_json(settings));
+  }
+  const ComparisonSettings& comparison = scene.comparison;
+  Json methods = Json::array();
+  for (const IntegrationMethod method : comparison.methods) {
+    methods.push_back(method_names()[static_cast<std::size_t>(method)]);
+  }
+  return {{"name", scene.name},
+          {"title", scene.title},
+          {"model", model_names()[static_cast<std::size_t>(scene.system.model)]},
+          {"precision", scene.precision == Precision::extended ? "extended" : "double"},
+          {"units",
+           {{"length_km", number(scene.units.length_km)}, {"time_s", number(scene.units.time_s)}}},
+          {"nominal_initial", numbers(scene.nominal)},
+          {"duration_canonical", number(scene.duration)},
+          {"order", scene.order},
+          {"variables", variables},
+          {"separation_canonical", number(scene.separation)},
+          {"integrators", integrators},
+          {"compare",
+           {{"methods", methods},
+            {"stages", comparison.stages},
+            {"steps_canonical", numbers(comparison.steps_canonical)},
+            {"tolerances", numbers(comparison.tolerances)},
+            {"orders", comparison.orders},
+            {"repeats", comparison.repeats},
+            {"time_budget_s", number(comparison.time_budget_s)},
+            {"wanted_error_m", number(comparison.wanted_error_m)}}}};
+}
+
+Json reference_json(const ComparisonResult& result) {
+  const ReferenceResult& reference = result.reference;
+  return {{"method", "gauss"},
+          {"precision", "extended"},
+          {"stages", reference.stages},
+          {"tolerance", number(reference.tolerance)},
+          {"statistics", statistics_json(reference.statistics)},
+          {"uncertainty_by_degree", numbers(reference.uncertainty_by_degree)},
+          {"cached", result.is_reference_cached}};
+}
+
+Json fit_json(const ConvergenceFit& fit) {
+  return {{"series", fit.series},
+          {"degree", fit.degree},
+          {"slope", number(fit.slope)},
+          {"expected", number(fit.expected)},
+          {"labels", fit.labels}};
+}
+
+template <class Values, class Convert>
+Json list(const Values& values, Convert convert) {
+  Json json = Json::array();
+  for (const auto& value : values) json.push_back(convert(value));
+  return json;
+}
+
+}  // namespace
+
+std::string comparison_json(const ComparisonResult& result, const ReportOrigin& origin) {
+  const Json json = {{"schema", 1},
+                     {"complete", result.is_complete},
+                     {"version", version},
+                     {"command", origin.command},
+                     {"date", origin.date},
+                     {"processor", origin.processor},
+                     {"determinants", origin.determinants},
+                     {"scene", scene_json(result.scene)},
+                     {"reference", reference_json(result)},
+                     {"kind", result.kind ? Json(result.kind->name()) : Json(nullptr)},
+                     {"kind_condition", number(result.kind_condition)},
+                     {"separation_points", result.separation_points},
+                     {"largest_exact_defect", number(largest_exact_defect)},
+                     {"verdict", verdict(result)},
+                     {"advice", advice(result)},
+                     {"runs", list(result.runs, run_json)},
+                     {"cost_runs", list(result.cost_runs, run_json)},
+                     {"along_time", list(result.along_time, along_time_json)},
+                     {"fits", list(result.fits, fit_json)}};
+  // A text that is not UTF-8 (a command line may hold one) must not cost the results.
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace hamjet::io

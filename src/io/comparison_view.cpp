@@ -1,0 +1,184 @@
+#include "comparison_view.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+namespace hamjet::io {
+namespace {
+
+/// Three digits and the prefix that leaves one to three of them before the point.
+std::string prefixed(double value, std::string_view unit) {
+  static constexpr const char* prefixes[] = {"f", "p", "n", "μ", "m", "", "k", "M", "G", "T"};
+  if (value == 0 || !std::isfinite(value)) return fmt::format("{:g} {}", value, unit);
+  const int thousands = static_cast<int>(std::floor(std::log10(std::abs(value)) / 3 + 1e-12));
+  if (thousands < -5 || thousands > 4) return fmt::format("{:.2e} {}", value, unit);
+  return fmt::format("{:.3g} {}{}", value / std::pow(1000.0, thousands), prefixes[thousands + 5],
+                     unit);
+}
+
+void add_new_names(const std::vector<ComparedRun>& runs, std::vector<std::string>& names) {
+  for (const ComparedRun& run : runs) {
+    if (std::find(names.begin(), names.end(), run.series) == names.end()) {
+      names.push_back(run.series);
+    }
+  }
+}
+
+}  // namespace
+
+double claimed_error(const ComparisonResult& result, int degree) {
+  const auto known = static_cast<int>(result.reference.uncertainty_by_degree.size());
+  return degree < known ? result.smallest_claimed_error(degree) : 0;
+}
+
+double largest_claimed_error(const ComparisonResult& result) {
+  double largest = 0;
+  for (int d = 0; d <= result.scene.order; ++d)
+    largest = std::max(largest, claimed_error(result, d));
+  return largest;
+}
+
+bool has_formation_error(const ComparisonResult& result) {
+  return result.scene.separation.has_value() && result.separation_points > 0;
+}
+
+double shown_error(const ComparisonResult& result, const ComparedRun& run) {
+  return has_formation_error(result) ? run.error_at_formation_m : run.largest_error();
+}
+
+double smallest_shown_error(const ComparisonResult& result) {
+  const int order = result.scene.order;
+  if (!has_formation_error(result)) return largest_claimed_error(result);
+  const double metres = result.scene.units.length_km * 1000;
+  const FlowJet<Extended>& jet = result.reference.jet;
+  if (jet.empty()) return largest_claimed_error(result) * metres;
+  // A coefficient's uncertainty times the deviation's power, summed over the monomials.
+  const SeriesSpace& space = jet.front().space();
+  double canonical = 0;
+  for (int d = 0; d <= std::min(order, space.order()); ++d) {
+    const std::size_t end = space.first(d + 1);
+    double largest = 0;
+    for (const Series<Extended>& component : jet) {
+      for (std::size_t k = space.first(d); k < end; ++k) {
+        largest = std::max(largest, std::abs(static_cast<double>(component[k])));
+      }
+    }
+    canonical += claimed_error(result, d) * largest * std::pow(*result.scene.separation, d) *
+                 static_cast<double>(space.count(d));
+  }
+  return canonical * metres;
+}
+
+std::string shown_error_name(const ComparisonResult& result) {
+  if (!has_formation_error(result)) return "largest relative error";
+  const double metres = *result.scene.separation * result.scene.units.length_km * 1000;
+  return fmt::format("position error at {} separation", length_text(metres));
+}
+
+std::vector<std::string> series_names(const std::vector<ComparedRun>& runs) {
+  std::vector<std::string> names;
+  add_new_names(runs, names);
+  return names;
+}
+
+std::size_t series_index(const ComparisonResult& result, std::string_view series) {
+  std::vector<std::string> names = series_names(result.runs);
+  add_new_names(result.cost_runs, names);
+  return static_cast<std::size_t>(
+      std::distance(names.begin(), std::find(names.begin(), names.end(), series)));
+}
+
+std::string kind_text(const ComparisonResult& result) {
+  if (!result.kind) return "";
+  for (const char* name : {"F1", "F2", "F3", "F4"}) {
+    if (parse_kind(name, result.kind->degrees_of_freedom()) == *result.kind) {
+      return fmt::format("{} ({})", name, result.kind->name());
+    }
+  }
+  return result.kind->name();
+}
+
+std::string_view corner_text(Corner corner) {
+  return corner_names()[static_cast<std::size_t>(corner)];
+}
+
+UnfinishedCount count_unfinished(const ComparisonResult& result) {
+  UnfinishedCount count;
+  for (const auto* runs : {&result.runs, &result.cost_runs}) {
+    for (const ComparedRun& run : *runs) {
+      if (!run.failure.empty()) {
+        ++count.failed;
+      } else if (!run.left_out.empty()) {
+        ++count.left_out;
+      }
+    }
+  }
+  return count;
+}
+
+std::vector<SeriesReach> times_to_reach(const ComparisonResult& result) {
+  const double smallest = largest_claimed_error(result);
+  std::vector<SeriesReach> table;
+  for (const std::string& name : series_names(result.runs)) {
+    SeriesReach row{name, {}};
+    for (const double wanted : reached_errors) {
+      std::optional<double> least;
+      for (const ComparedRun& run : result.runs) {
+        if (run.series != name || !run.is_finished() || run.seconds.empty()) continue;
+        // A reference that is too coarse to tell whether the error is reached claims nothing.
+        if (wanted < smallest || !(run.largest_error() <= wanted)) continue;
+        if (!least || run.median_seconds() < *least) least = run.median_seconds();
+      }
+      row.seconds.push_back(least);
+    }
+    table.push_back(row);
+  }
+  return table;
+}
+
+std::optional<double> best_time(const std::vector<SeriesReach>& series, std::size_t k) {
+  std::optional<double> best;
+  for (const SeriesReach& row : series) {
+    if (row.seconds[k] && (!best || *row.seconds[k] < *best)) best = row.seconds[k];
+  }
+  return best;
+}
+
+std::string duration_text(double seconds) { return prefixed(seconds, "s"); }
+std::string length_text(double metres) { return prefixed(metres, "m"); }
+std::string memory_text(double bytes) { return prefixed(bytes, "B"); }
+
+std::string count_text(double count) {
+  return count < 1e6 ? fmt::format("{:.0f}", count) : fmt::format("{:.2e}", count);
+}
+
+std::string escape_html(std::string_view text) {
+  std::string escaped;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '>':
+        escaped += "&gt;";
+        break;
+      case '"':
+        escaped += "&quot;";
+        break;
+      case '\'':
+        escaped += "&#39;";
+        break;
+      default:
+        escaped += c;
+    }
+  }
+  return escaped;
+}
+
+}  // namespace hamjet::io

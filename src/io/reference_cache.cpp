@@ -1,0 +1,106 @@
+#include "hamjet/io/reference_cache.hpp"
+
+#include <boost/uuid/name_generator_sha1.hpp>
+#include <boost/uuid/uuid_io.hpp>
+#include <cmath>
+#include <cstdlib>
+#include <exception>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "hamjet/error.hpp"
+#include "hamjet/io/output_directory.hpp"
+
+namespace hamjet::io {
+namespace {
+
+using Json = nlohmann::json;
+
+/// 36 significant digits bring back the same number of 113 bits.
+std::string text_of(const Extended& value) { return value.str(36, std::ios_base::scientific); }
+
+Json json_of(const std::string& key, const ReferenceResult& reference) {
+  Json jet = Json::array();
+  for (const auto& component : reference.jet) {
+    Json numbers = Json::array();
+    for (const Extended& c : component.coefficients()) numbers.push_back(text_of(c));
+    jet.push_back(std::move(numbers));
+  }
+  return {{"key", key},
+          {"jet", std::move(jet)},
+          {"uncertainty_by_degree", reference.uncertainty_by_degree},
+          {"steps", reference.statistics.steps},
+          {"wall_seconds", reference.statistics.wall_seconds},
+          {"stages", reference.stages},
+          {"tolerance", reference.tolerance}};
+}
+
+/// Throws if anything is not as it was written.
+ReferenceResult reference_of(const Json& json, const SpacePointer& space) {
+  ReferenceResult result;
+  for (const Json& numbers : json.at("jet")) {
+    std::vector<Extended> coefficients;
+    for (const Json& text : numbers) {
+      coefficients.emplace_back(text.get<std::string>());
+      if (!isfinite(coefficients.back())) {
+        throw Error(ErrorKind::input_output, "a coefficient is not finite");
+      }
+    }
+    result.jet.emplace_back(space, std::move(coefficients));
+  }
+  result.uncertainty_by_degree = json.at("uncertainty_by_degree").get<std::vector<double>>();
+  if (result.jet.empty() ||
+      result.uncertainty_by_degree.size() != static_cast<std::size_t>(space->order()) + 1) {
+    throw Error(ErrorKind::input_output, "the sizes do not fit");
+  }
+  result.statistics.steps = json.at("steps");
+  result.statistics.wall_seconds = json.at("wall_seconds");
+  result.stages = json.at("stages");
+  result.tolerance = json.at("tolerance");
+  return result;
+}
+
+}  // namespace
+
+std::filesystem::path ReferenceCache::user_directory() {
+  // An empty or relative XDG_CACHE_HOME is to be ignored (XDG Base Directory Specification).
+  const char* cache = std::getenv("XDG_CACHE_HOME");
+  if (cache != nullptr && std::filesystem::path(cache).is_absolute()) {
+    return std::filesystem::path(cache) / "hamjet" / "references";
+  }
+  const char* home = std::getenv("HOME");
+  if (home == nullptr || !std::filesystem::path(home).is_absolute()) return {};
+  return std::filesystem::path(home) / ".cache" / "hamjet" / "references";
+}
+
+std::filesystem::path ReferenceCache::file_of(const std::string& key) const {
+  boost::uuids::name_generator_sha1 generator(boost::uuids::ns::url());
+  return directory_ / (boost::uuids::to_string(generator(key)) + ".json");
+}
+
+std::optional<ReferenceResult> ReferenceCache::load(const std::string& key,
+                                                    const SpacePointer& space) {
+  if (directory_.empty()) return std::nullopt;
+  try {
+    std::ifstream file(file_of(key));
+    if (!file) return std::nullopt;
+    const Json json = Json::parse(file);
+    if (json.at("key") != key) return std::nullopt;
+    return reference_of(json, space);
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+}
+
+void ReferenceCache::save(const std::string& key, const ReferenceResult& reference) {
+  if (directory_.empty()) return;
+  try {
+    OutputDirectory output(directory_);
+    output.write(file_of(key).filename(), json_of(key, reference).dump());
+    output.commit();
+  } catch (const Error&) {
+    // A full or read-only disk: the reference is computed again next time.
+  }
+}
+
+}  // namespace hamjet::io

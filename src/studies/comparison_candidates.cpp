@@ -1,0 +1,161 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "hamjet/integrators/cvode.hpp"
+#include "hamjet/studies/comparison.hpp"
+
+namespace hamjet {
+namespace {
+
+/// Six digits, so that what is printed in the advice is what was run.
+double rounded(double value) { return std::stod(fmt::format("{:.6g}", value)); }
+
+/// Shortest text that brings back the number.
+std::string text_of(double value) { return fmt::format("{}", value); }
+
+/// The osculating period of an orbit, that of the oscillator, or the duration.
+double period(const Scene& scene) {
+  const std::vector<double>& z = scene.nominal;
+  if (scene.system.model == SystemModel::harmonic_oscillator) {
+    return 2 * std::numbers::pi * std::sqrt(scene.system.mass_kg / scene.system.stiffness_N_per_m);
+  }
+  const double inverse_axis =
+      2 / std::hypot(z[0], z[1], z[2]) - (z[3] * z[3] + z[4] * z[4] + z[5] * z[5]);
+  if (inverse_axis > 0) return 2 * std::numbers::pi * std::pow(inverse_axis, -1.5);
+  return std::abs(scene.duration);
+}
+
+/// From a few steps a revolution on, refined so that the error falls by 2^4 to 2^8 a time. The
+/// comparison stops where it no longer falls, or where the time runs out.
+std::vector<double> default_steps(const Scene& scene, double order) {
+  constexpr int count = 24;
+  const double largest = std::min(period(scene), std::abs(scene.duration)) * order / 32;
+  const double ratio = std::exp2(std::min(1.0, 8 / order));
+  std::vector<double> steps;
+  for (int k = 0; k < count; ++k) steps.push_back(rounded(largest / std::pow(ratio, k)));
+  return steps;
+}
+
+std::vector<double> default_tolerances() {
+  std::vector<double> tolerances;
+  for (int k = 2; k <= 14; ++k) tolerances.push_back(std::stod(fmt::format("1e-{}", k)));
+  return tolerances;
+}
+
+std::vector<double> coarsest_first(std::vector<double> values) {
+  std::sort(values.rbegin(), values.rend());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  return values;
+}
+
+/// What the series of one comparison are made from.
+class SeriesBuilder {
+ public:
+  explicit SeriesBuilder(const Scene& scene) : scene_(scene), wanted_(scene.comparison) {}
+
+  std::vector<CandidateSeries> build() {
+    std::vector<IntegrationMethod> methods = wanted_.methods;
+    if (methods.empty()) {
+      methods = {IntegrationMethod::gauss, IntegrationMethod::fehlberg78};
+      if (cvode_available()) {
+        methods.push_back(IntegrationMethod::cvode_adams);
+        methods.push_back(IntegrationMethod::cvode_bdf);
+      }
+    }
+    for (const IntegrationMethod method : methods) add_method(method);
+    return std::move(series_);
+  }
+
+ private:
+  void add_method(IntegrationMethod method) {
+    IntegratorSettings settings;
+    settings.method = method;
+    switch (method) {
+      case IntegrationMethod::gauss:
+        for (const int stages : wanted_.stages) {
+          settings.stages = stages;
+          const std::string name = fmt::format("Gauss {}", stages);
+          const std::string label = fmt::format("gauss{}", stages);
+          add_fixed(settings, name, label, 2.0 * stages);
+          add_adaptive(settings, name + " adaptive", label);
+        }
+        break;
+      case IntegrationMethod::fehlberg78:
+        add_fixed(settings, "Fehlberg 7(8)", "fehlberg78", 8);
+        add_adaptive(settings, "Fehlberg 7(8) adaptive", "fehlberg78");
+        break;
+      case IntegrationMethod::cvode_adams:
+        add_adaptive(settings, "CVODE Adams", "cvode-adams");
+        break;
+      case IntegrationMethod::cvode_bdf:
+        add_adaptive(settings, "CVODE BDF", "cvode-bdf");
+        break;
+    }
+  }
+
+  /// Whether a list is to be run as it stands: as soon as the scene gives steps or tolerances, the
+  /// other list is no longer filled in by default.
+  bool uses_defaults() const {
+    return wanted_.steps_canonical.empty() && wanted_.tolerances.empty();
+  }
+
+  void add_fixed(IntegratorSettings settings, const std::string& name, const std::string& label,
+                 double order) {
+    const auto steps =
+        uses_defaults() ? default_steps(scene_, order) : coarsest_first(wanted_.steps_canonical);
+    CandidateSeries series{name, order, uses_defaults(), {}};
+    for (const double step : steps) {
+      settings.step_canonical = step;
+      settings.label = label + "-step-" + text_of(step);
+      series.candidates.push_back({settings});
+    }
+    if (!series.candidates.empty()) series_.push_back(std::move(series));
+  }
+
+  void add_adaptive(IntegratorSettings settings, const std::string& name,
+                    const std::string& label) {
+    const auto tolerances =
+        uses_defaults() ? default_tolerances() : coarsest_first(wanted_.tolerances);
+    CandidateSeries series{name, 0, uses_defaults(), {}};
+    for (const double tolerance : tolerances) {
+      settings.tolerance = tolerance;
+      settings.label = label + "-" + text_of(tolerance);
+      series.candidates.push_back({settings});
+    }
+    if (!series.candidates.empty()) series_.push_back(std::move(series));
+  }
+
+  const Scene& scene_;
+  const ComparisonSettings& wanted_;
+  std::vector<CandidateSeries> series_;
+};
+
+}  // namespace
+
+std::vector<CandidateSeries> candidate_series(const Scene& scene) {
+  return SeriesBuilder(scene).build();
+}
+
+std::string comparison_key(const Scene& scene) {
+  const ComparisonSettings& wanted = scene.comparison;
+  std::string key = fmt::format("comparison 1; {}; separation {}; kind {}; budget {}; candidates",
+                                reference_key(scene, scene.order), scene.separation.value_or(0),
+                                scene.kinds ? scene.kinds->front() : "auto", wanted.time_budget_s);
+  for (const CandidateSeries& series : candidate_series(scene)) {
+    for (const Candidate& candidate : series.candidates) key += " " + candidate.settings.label;
+  }
+  key += "; along time";
+  for (const IntegratorSettings& settings : scene.integrators) {
+    key += fmt::format(" {} {} {} {} {}", settings.label, static_cast<int>(settings.method),
+                       settings.stages, settings.step_canonical.value_or(0),
+                       settings.tolerance.value_or(0));
+  }
+  key += "; orders";
+  for (const int order : wanted.orders) key += fmt::format(" {}", order);
+  return key;
+}
+
+}  // namespace hamjet

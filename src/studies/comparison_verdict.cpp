@@ -1,0 +1,138 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "hamjet/studies/comparison.hpp"
+
+namespace hamjet {
+namespace {
+
+std::string length_text(double metres) {
+  if (metres >= 1000) return fmt::format("{:g} km", metres / 1000);
+  if (metres >= 1) return fmt::format("{:g} m", metres);
+  if (metres >= 1e-3) return fmt::format("{:g} mm", metres * 1e3);
+  return fmt::format("{:.0e} m", metres);
+}
+
+std::string duration_text(double seconds) {
+  if (seconds < 1e-3) return fmt::format("{:.0f} us", seconds * 1e6);
+  if (seconds < 1) return fmt::format("{:.3g} ms", seconds * 1e3);
+  return fmt::format("{:.3g} s", seconds);
+}
+
+/// "Gauss 8 adaptive (tolerance 1e-07)".
+std::string configuration_text(const ComparedRun& run) {
+  if (run.settings.tolerance) {
+    return fmt::format("{} (tolerance {:g})", run.series, *run.settings.tolerance);
+  }
+  return fmt::format("{} (step {:g} canonical)", run.series, *run.settings.step_canonical);
+}
+
+/// Time from the start of the nominal, in words that suit it.
+std::string span_text(const Scene& scene) {
+  const double seconds = std::abs(scene.duration) * scene.units.time_s;
+  if (seconds < 60) return fmt::format("{:.3g} s", seconds);
+  if (seconds < 7200) return fmt::format("{:.3g} min", seconds / 60);
+  return fmt::format("{:.3g} h", seconds / 3600);
+}
+
+double separation_m(const Scene& scene) {
+  return scene.separation.value_or(0) * scene.units.length_km * 1000;
+}
+
+}  // namespace
+
+const std::vector<std::string_view>& corner_names() {
+  static const std::vector<std::string_view> names = {"exact and accurate", "exact but wrong",
+                                                      "accurate though not symplectic", "neither"};
+  return names;
+}
+
+double ComparedRun::median_seconds() const {
+  if (seconds.empty()) return 0;
+  std::vector<double> sorted = seconds;
+  std::sort(sorted.begin(), sorted.end());
+  const std::size_t middle = sorted.size() / 2;
+  return sorted.size() % 2 == 1 ? sorted[middle] : (sorted[middle - 1] + sorted[middle]) / 2;
+}
+
+double ComparedRun::largest_error() const {
+  if (error_by_degree.empty()) return std::numeric_limits<double>::infinity();
+  return *std::max_element(error_by_degree.begin(), error_by_degree.end());
+}
+
+double ComparedRun::largest_symplecticity() const {
+  double largest = 0;
+  for (const auto& entry : symplecticity) largest = std::max(largest, entry.scaled);
+  return largest;
+}
+
+double ComparisonResult::smallest_claimed_error(int degree) const {
+  return 10 * reference.uncertainty_by_degree[static_cast<std::size_t>(degree)];
+}
+
+std::vector<const ComparedRun*> cheapest_runs(const ComparisonResult& result, double error_m) {
+  std::map<std::string, const ComparedRun*> best;
+  for (const ComparedRun& run : result.runs) {
+    if (!run.is_finished() || run.seconds.empty() || run.error_at_formation_m > error_m) continue;
+    const ComparedRun*& place = best[run.series];
+    if (place == nullptr || run.median_seconds() < place->median_seconds()) place = &run;
+  }
+  std::vector<const ComparedRun*> sorted;
+  for (const auto& [series, run] : best) sorted.push_back(run);
+  std::stable_sort(sorted.begin(), sorted.end(), [](const ComparedRun* a, const ComparedRun* b) {
+    return a->median_seconds() < b->median_seconds();
+  });
+  return sorted;
+}
+
+std::string verdict(const ComparisonResult& result) {
+  const Scene& scene = result.scene;
+  const std::string task = fmt::format(
+      "For {} at {} separation after {}, order {}", length_text(scene.comparison.wanted_error_m),
+      length_text(separation_m(scene)), span_text(scene), scene.order);
+  const auto runs = cheapest_runs(result, scene.comparison.wanted_error_m);
+  if (runs.empty()) {
+    return task + (result.is_complete ? ": no integrator that was run reaches it."
+                                      : ": nothing can be said yet, the comparison is partial.");
+  }
+  std::string text = fmt::format("{}: {} needs {}", task, configuration_text(*runs[0]),
+                                 duration_text(runs[0]->median_seconds()));
+  // The next of another method says more than the same method with another number of stages.
+  const auto other = std::find_if(runs.begin(), runs.end(), [&](const ComparedRun* run) {
+    return run->settings.method != runs[0]->settings.method;
+  });
+  if (other == runs.end()) return text + "; no other method that was run reaches it.";
+  return text + fmt::format("; the next method, {}, needs {}, {:.1f} times as long.",
+                            configuration_text(**other), duration_text((*other)->median_seconds()),
+                            (*other)->median_seconds() / runs[0]->median_seconds());
+}
+
+std::string advice(const ComparisonResult& result) {
+  const double wanted = result.scene.comparison.wanted_error_m;
+  const auto runs = cheapest_runs(result, wanted);
+  if (runs.empty()) {
+    return fmt::format("# no configuration that was run is within {} at {} separation\n",
+                       length_text(wanted), length_text(separation_m(result.scene)));
+  }
+  const ComparedRun& run = *runs[0];
+  std::string text = fmt::format(
+      "# error {:.1e} m at {} separation (wanted: {}), {} a run\n[[integrator]]\nlabel = \"{}\"\n"
+      "method = \"{}\"\n",
+      run.error_at_formation_m, length_text(separation_m(result.scene)), length_text(wanted),
+      duration_text(run.median_seconds()), run.settings.label,
+      method_names()[static_cast<std::size_t>(run.settings.method)]);
+  if (run.settings.method == IntegrationMethod::gauss) {
+    text += fmt::format("stages = {}\n", run.settings.stages);
+  }
+  if (run.settings.tolerance) text += fmt::format("tolerance = {}\n", *run.settings.tolerance);
+  if (run.settings.step_canonical) {
+    text += fmt::format("step_canonical = {}\n", *run.settings.step_canonical);
+  }
+  return text;
+}
+
+}  // namespace hamjet

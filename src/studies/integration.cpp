@@ -1,0 +1,76 @@
+#include "integration.hpp"
+
+#include <type_traits>
+
+#include "hamjet/integrators/cvode.hpp"
+#include "hamjet/integrators/explicit_runge_kutta.hpp"
+#include "hamjet/integrators/gauss_collocation.hpp"
+
+namespace hamjet {
+namespace {
+
+/// Lanes of the pack that holds this many stages.
+int lanes_for(int stages) {
+  int lanes = 1;
+  while (lanes < stages) lanes *= 2;
+  return lanes;
+}
+
+}  // namespace
+
+template <class Real>
+FlowProblem<Real> flow_problem(const ComputedProblem& problem, double duration) {
+  FlowProblem<Real> flow{&problem.system, problem.space, problem.variables, {}, Real(duration)};
+  for (const double x : problem.nominal) flow.initial_state.emplace_back(x);
+  return flow;
+}
+
+template <class Real>
+FlowJet<Real> integrate(const FlowProblem<Real>& flow, const IntegratorSettings& settings,
+                        IntegrationStatistics& statistics, const StepObserver<Real>& observer) {
+  switch (settings.method) {
+    case IntegrationMethod::gauss: {
+      GaussSettings gauss;
+      gauss.stages = settings.stages;
+      gauss.step = settings.step_canonical;
+      gauss.tolerance = settings.tolerance;
+      return integrate_gauss<Real>(flow, gauss, statistics, observer);
+    }
+    case IntegrationMethod::fehlberg78:
+      return integrate_fehlberg78<Real>(flow, {settings.step_canonical, settings.tolerance},
+                                        statistics, observer);
+    case IntegrationMethod::cvode_adams:
+    case IntegrationMethod::cvode_bdf:
+      break;
+  }
+  if constexpr (std::is_same_v<Real, double>) {
+    CvodeSettings cvode;
+    cvode.method =
+        settings.method == IntegrationMethod::cvode_adams ? CvodeMethod::adams : CvodeMethod::bdf;
+    cvode.tolerance = *settings.tolerance;
+    return integrate_cvode(flow, cvode, statistics, observer);
+  } else {
+    throw Error(ErrorKind::usage, "CVODE computes in double precision only");
+  }
+}
+
+double integration_memory(const IntegratorSettings& settings, const DynamicalSystem& system,
+                          double coefficients, double real_bytes) {
+  const OperationList& list =
+      system.second_order ? system.second_order->force : system.vector_field;
+  const double values = static_cast<double>(list.operations().size()) + 2;
+  if (settings.method == IntegrationMethod::gauss) {
+    return values * lanes_for(settings.stages) * real_bytes * coefficients;
+  }
+  // The states that odeint's 13 stages, or CVODE's Nordsieck array, hold, and one lane of series.
+  return (values + 20 * static_cast<double>(system.dimension())) * real_bytes * coefficients;
+}
+
+template FlowProblem<double> flow_problem(const ComputedProblem&, double);
+template FlowProblem<Extended> flow_problem(const ComputedProblem&, double);
+template FlowJet<double> integrate(const FlowProblem<double>&, const IntegratorSettings&,
+                                   IntegrationStatistics&, const StepObserver<double>&);
+template FlowJet<Extended> integrate(const FlowProblem<Extended>&, const IntegratorSettings&,
+                                     IntegrationStatistics&, const StepObserver<Extended>&);
+
+}  // namespace hamjet

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "hamjet/integrators/flow_problem.hpp"
+#include "hamjet/studies/propagation.hpp"
+
+namespace hamjet {
+
+/// What an integrator is asked for, in the numbers of a run. The problem must outlive it.
+template <class Real>
+FlowProblem<Real> flow_problem(const ComputedProblem& problem, double duration);
+
+/// Integrates with the method that the settings name. Throws as that method does; Error(usage) for
+/// CVODE with Extended.
+template <class Real>
+FlowJet<Real> integrate(const FlowProblem<Real>& flow, const IntegratorSettings& settings,
+                        IntegrationStatistics& statistics, const StepObserver<Real>& observer);
+
+/// Bytes that the series of one integration take, `coefficients` numbers of `real_bytes` a series.
+double integration_memory(const IntegratorSettings& settings, const DynamicalSystem& system,
+                          double coefficients, double real_bytes);
+
+}  // namespace hamjet

@@ -1,0 +1,43 @@
+#include "command_test.hpp"
+
+// How much memory high orders take. The bounds are the program's promises; what is measured is the
+// largest resident size of the whole process.
+
+namespace hamjet::test {
+namespace {
+
+class Memory : public CommandTest {
+ protected:
+  /// The paper's orbit in all 6 variables over its full time, by gauss8 alone, without reference.
+  CommandResult run_paper_orbit(int order, const std::string& kinds) {
+    options_.limit = std::chrono::seconds(600);
+    return succeed(
+        {"run", std::string(HAMJET_SOURCE_DIR) + "/data/scenes/paper/earth-orbit.toml", "-q",
+         "--set", "jet.order=" + std::to_string(order), "--set", "reference=null", "--set",
+         "generating_function=" + kinds, "--set",
+         "integrator=[{label=\"gauss8\", method=\"gauss\", stages=8, tolerance=1e-13}]"});
+  }
+
+  void expect_peak_below(long bytes, int order, const std::string& kinds) {
+#if defined(__SANITIZE_ADDRESS__)
+    GTEST_SKIP() << "the address sanitizer takes memory of its own";
+#else
+    const CommandResult result = run_paper_orbit(order, kinds);
+    EXPECT_LT(result.peak_resident_bytes, bytes) << "order " << order << ", " << kinds;
+    // The jet that is computed is that large at least: 6 components of C(6 + order, 6) numbers.
+    double coefficients = 6;
+    for (int k = 1; k <= 6; ++k) coefficients *= static_cast<double>(order + k) / k;
+    EXPECT_GT(static_cast<double>(result.peak_resident_bytes), 8 * coefficients);
+    const Json summary = read_json(directory_ / "out/earth-orbit/summary.json");
+    EXPECT_EQ(summary["order"], order);
+    EXPECT_EQ(summary["variables"].size(), 6U);
+#endif
+  }
+};
+
+TEST_F(Memory, Order8IntegrationAlone) { expect_peak_below(200'000'000, 8, "null"); }
+TEST_F(Memory, Order8WithF1) { expect_peak_below(200'000'000, 8, "{kinds=[\"F1\"]}"); }
+TEST_F(Memory, Order10IntegrationAlone) { expect_peak_below(1'000'000'000, 10, "null"); }
+
+}  // namespace
+}  // namespace hamjet::test

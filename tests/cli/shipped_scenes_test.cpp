@@ -1,0 +1,40 @@
+#include "command_test.hpp"
+
+// Every scene that is shipped runs to the end. Order 2 in place of its own keeps the time short;
+// all else is as shipped, its checks (require_...) too.
+
+namespace hamjet::test {
+namespace {
+
+using ShippedScenes = CommandTest;
+
+TEST_F(ShippedScenes, RunToTheEnd) {
+  options_.limit = std::chrono::seconds(300);  // sanitizers make it slow
+  const std::filesystem::path scenes = std::filesystem::path(HAMJET_SOURCE_DIR) / "data/scenes";
+  const std::string integrators = succeed({"list", "integrators"}).out;
+  int count = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(scenes)) {
+    if (entry.path().extension() != ".toml") continue;
+    const std::string scene = entry.path().string();
+    SCOPED_TRACE(scene);
+    const std::string what = succeed({"check", scene}).out;
+    std::vector<std::string> arguments = {"run", scene,   "-o",         std::to_string(++count),
+                                          "-q",  "--set", "jet.order=2"};
+    for (const std::string& label : labels_not_built(integrators, what)) {
+      arguments.emplace_back("--set");
+      arguments.push_back("integrator." + label + "=null");
+    }
+    succeed(arguments);
+    const Json summary = read_json(directory_ / std::to_string(count) / "summary.json");
+    EXPECT_EQ(summary["order"], 2);
+    EXPECT_GE(summary["runs"].size(), 1U);
+    for (const Json& run : summary["runs"]) {
+      EXPECT_TRUE(run["error"].is_null()) << run["label"] << run["error"];
+      EXPECT_EQ(run["nominal_final"].size(), summary["nominal_initial"].size());
+    }
+  }
+  EXPECT_GE(count, 6);
+}
+
+}  // namespace
+}  // namespace hamjet::test

@@ -1,0 +1,295 @@
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cstdint>
+#include <cstdlib>
+#include <hamjet/error.hpp>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "comparison_samples.hpp"
+
+// compare.json is read back as it was written, and compare.csv says the same numbers.
+
+namespace hamjet::io {
+namespace {
+
+void expect_same(double a, double b) {
+  EXPECT_EQ(std::bit_cast<std::uint64_t>(a), std::bit_cast<std::uint64_t>(b)) << a << " " << b;
+}
+
+void expect_same(const std::optional<double>& a, const std::optional<double>& b) {
+  ASSERT_EQ(a.has_value(), b.has_value());
+  if (a) expect_same(*a, *b);
+}
+
+void expect_same(const std::vector<double>& a, const std::vector<double>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) expect_same(a[i], b[i]);
+}
+
+void expect_same(const ExactnessResidual& a, const ExactnessResidual& b) {
+  EXPECT_EQ(a.degree, b.degree);
+  expect_same(a.absolute, b.absolute);
+  expect_same(a.scaled, b.scaled);
+  expect_same(a.at_formation_scale, b.at_formation_scale);
+}
+
+void expect_same(const ComparedRun& a, const ComparedRun& b) {
+  EXPECT_EQ(a.settings.label, b.settings.label);
+  EXPECT_EQ(a.settings.method, b.settings.method);
+  EXPECT_EQ(a.settings.stages, b.settings.stages);
+  expect_same(a.settings.step_canonical, b.settings.step_canonical);
+  expect_same(a.settings.tolerance, b.settings.tolerance);
+  expect_same(a.settings.require_relative_error, b.settings.require_relative_error);
+  expect_same(a.settings.require_symplecticity, b.settings.require_symplecticity);
+  EXPECT_EQ(a.series, b.series);
+  EXPECT_EQ(a.order, b.order);
+  EXPECT_EQ(a.failure, b.failure);
+  EXPECT_EQ(a.left_out, b.left_out);
+  EXPECT_EQ(a.statistics.steps, b.statistics.steps);
+  EXPECT_EQ(a.statistics.rejected_steps, b.statistics.rejected_steps);
+  EXPECT_EQ(a.statistics.vector_field_evaluations, b.statistics.vector_field_evaluations);
+  EXPECT_EQ(a.statistics.nominal_evaluations, b.statistics.nominal_evaluations);
+  expect_same(a.statistics.wall_seconds, b.statistics.wall_seconds);
+  expect_same(a.multiply_adds, b.multiply_adds);
+  expect_same(a.memory_bytes, b.memory_bytes);
+  expect_same(a.seconds, b.seconds);
+  expect_same(a.error_by_degree, b.error_by_degree);
+  expect_same(a.error_at_formation_m, b.error_at_formation_m);
+  ASSERT_EQ(a.exactness.size(), b.exactness.size());
+  for (std::size_t i = 0; i < a.exactness.size(); ++i) {
+    expect_same(a.exactness[i].residual, b.exactness[i].residual);
+    ASSERT_EQ(a.exactness[i].floor.has_value(), b.exactness[i].floor.has_value());
+    if (a.exactness[i].floor) expect_same(*a.exactness[i].floor, *b.exactness[i].floor);
+  }
+  EXPECT_EQ(a.exactness_failure, b.exactness_failure);
+  ASSERT_EQ(a.symplecticity.size(), b.symplecticity.size());
+  for (std::size_t i = 0; i < a.symplecticity.size(); ++i) {
+    EXPECT_EQ(a.symplecticity[i].degree, b.symplecticity[i].degree);
+    expect_same(a.symplecticity[i].absolute, b.symplecticity[i].absolute);
+    expect_same(a.symplecticity[i].scaled, b.symplecticity[i].scaled);
+  }
+  expect_same(a.energy_error, b.energy_error);
+  EXPECT_EQ(a.corner, b.corner);
+}
+
+void expect_same(const std::vector<ComparedRun>& a, const std::vector<ComparedRun>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    SCOPED_TRACE(a[i].settings.label);
+    expect_same(a[i], b[i]);
+  }
+}
+
+/// The one line that a file is refused with.
+std::string refusal(const std::string& text) {
+  try {
+    read_comparison_runs(text);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::input_output);
+    const std::string message = error.what();
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+    return message;
+  }
+  return "";
+}
+
+/// The file with one value changed, or removed if the new one is absent.
+std::string changed(const std::string& pointer, std::optional<nlohmann::json> value) {
+  auto json = nlohmann::json::parse(comparison_json(sample_comparison(), sample_origin()));
+  const nlohmann::json::json_pointer place(pointer);
+  EXPECT_TRUE(json.contains(place)) << pointer;
+  if (value) {
+    json[place] = *value;
+  } else {
+    json[place.parent_pointer()].erase(place.back());
+  }
+  return json.dump();
+}
+
+/// The fields of a row; quotes as in RFC 4180.
+std::vector<std::vector<std::string>> parse_csv(const std::string& text) {
+  std::vector<std::vector<std::string>> rows = {{""}};
+  bool is_quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '"' && is_quoted && i + 1 < text.size() && text[i + 1] == '"') {
+      rows.back().back() += text[++i];
+    } else if (c == '"') {
+      is_quoted = !is_quoted;
+    } else if (c == ',' && !is_quoted) {
+      rows.back().emplace_back();
+    } else if (c == '\n' && !is_quoted) {
+      rows.push_back({""});
+    } else {
+      rows.back().back() += c;
+    }
+  }
+  EXPECT_FALSE(is_quoted);
+  rows.pop_back();
+  return rows;
+}
+
+TEST(ComparisonJson, IsReadBackBitForBit) {
+  ComparisonResult result = sample_comparison();
+  result.runs[0].error_by_degree = {std::numeric_limits<double>::infinity(),
+                                    -std::numeric_limits<double>::infinity(),
+                                    std::numeric_limits<double>::denorm_min(),
+                                    std::numeric_limits<double>::max(),
+                                    0.1,
+                                    -0.0};
+  const EarlierRuns earlier = read_comparison_runs(comparison_json(result, sample_origin()));
+  expect_same(result.runs, earlier.runs);
+  expect_same(result.cost_runs, earlier.cost_runs);
+  EXPECT_EQ(earlier.determinants, sample_origin().determinants);
+  EXPECT_TRUE(earlier.is_complete);
+  ASSERT_EQ(earlier.along_time.size(), result.along_time.size());
+  for (std::size_t i = 0; i < result.along_time.size(); ++i) {
+    const RunAlongTime& a = result.along_time[i];
+    const RunAlongTime& b = earlier.along_time[i];
+    EXPECT_EQ(a.label, b.label);
+    EXPECT_EQ(a.failure, b.failure);
+    ASSERT_EQ(a.points.size(), b.points.size());
+    for (std::size_t k = 0; k < a.points.size(); ++k) {
+      expect_same(a.points[k].time, b.points[k].time);
+      expect_same(a.points[k].exactness, b.points[k].exactness);
+      expect_same(a.points[k].condition, b.points[k].condition);
+      expect_same(a.points[k].energy_error, b.points[k].energy_error);
+    }
+  }
+}
+
+TEST(ComparisonJson, KeepsThatANumberIsNone) {
+  ComparisonResult result = sample_comparison();
+  result.runs[0].energy_error = std::numeric_limits<double>::quiet_NaN();
+  const EarlierRuns earlier = read_comparison_runs(comparison_json(result, sample_origin()));
+  EXPECT_TRUE(std::isnan(earlier.runs[0].energy_error));
+}
+
+TEST(ComparisonJson, SaysWhereItComesFromAndWhetherItIsComplete) {
+  ComparisonResult result = sample_comparison();
+  result.is_complete = false;
+  const std::string text = comparison_json(result, sample_origin());
+  EXPECT_FALSE(read_comparison_runs(text).is_complete);
+  const auto json = nlohmann::json::parse(text);
+  EXPECT_EQ(json["complete"], false);
+  EXPECT_EQ(json["command"], sample_origin().command);
+  EXPECT_EQ(json["processor"], sample_origin().processor);
+  EXPECT_EQ(json["date"], sample_origin().date);
+  EXPECT_EQ(json["verdict"], verdict(result));
+  EXPECT_EQ(json["runs"][3]["corner"], corner_names()[3]);
+  EXPECT_EQ(json["runs"][3]["error_by_degree"][2], "inf");
+}
+
+TEST(ComparisonJson, AMalformedFileIsRefusedInOneLine) {
+  const std::string good = comparison_json(sample_comparison(), sample_origin());
+  EXPECT_EQ(refusal(good), "");
+  EXPECT_NE(refusal(good.substr(0, good.size() / 2)).find("not valid JSON"), std::string::npos);
+  EXPECT_NE(refusal("").find("not valid JSON"), std::string::npos);
+  EXPECT_NE(refusal("[]").find("must be an object"), std::string::npos);
+  EXPECT_NE(refusal("{}").find("schema: is missing"), std::string::npos);
+  EXPECT_NE(refusal("{\"schema\": 1e999}"), "");
+  EXPECT_NE(refusal(changed("/schema", 2)).find("another version"), std::string::npos);
+  EXPECT_NE(refusal(changed("/runs/1/settings/method", "euler")).find("runs[1].settings.method"),
+            std::string::npos);
+  EXPECT_NE(refusal(changed("/runs/1/statistics/steps", 0.5)).find("runs[1].statistics.steps"),
+            std::string::npos);
+  EXPECT_NE(refusal(changed("/runs/0/order", 5000000000)).find("out of range"), std::string::npos);
+  EXPECT_NE(refusal(changed("/runs/0/seconds/1", "fast")).find("runs[0].seconds[1]"),
+            std::string::npos);
+  EXPECT_NE(refusal(changed("/runs/0/corner", std::nullopt)).find("runs[0].corner: is missing"),
+            std::string::npos);
+  EXPECT_NE(refusal(changed("/along_time/0/points", 3)).find("along_time[0].points"),
+            std::string::npos);
+}
+
+TEST(ComparisonCsv, SaysTheNumbersOfTheRuns) {
+  const ComparisonResult result = sample_comparison();
+  const auto rows = parse_csv(comparison_csv(result));
+  ASSERT_EQ(rows.size(), 1 + result.runs.size() + result.cost_runs.size());
+  for (std::size_t r = 1; r < rows.size(); ++r) {
+    ASSERT_EQ(rows[r].size(), rows[0].size()) << r;
+    std::map<std::string, std::string> row;
+    for (std::size_t i = 0; i < rows[0].size(); ++i) row[rows[0][i]] = rows[r][i];
+    EXPECT_EQ(row.size(), rows[0].size()) << "two columns have one name";
+    const bool is_cost = r > result.runs.size();
+    const ComparedRun& run =
+        is_cost ? result.cost_runs[r - 1 - result.runs.size()] : result.runs[r - 1];
+    SCOPED_TRACE(run.settings.label);
+    const auto number = [&](const char* column) {
+      return std::strtod(row.at(column).c_str(), nullptr);
+    };
+    EXPECT_EQ(row["part"], is_cost ? "cost" : "comparison");
+    EXPECT_EQ(row["series"], run.series);
+    EXPECT_EQ(row["label"], run.settings.label);
+    if (!run.is_finished()) {
+      EXPECT_EQ(row["status"], run.failure.empty() ? "left out" : "failed");
+      EXPECT_EQ(row["reason"], run.failure + run.left_out);
+      EXPECT_EQ(row["steps"], "");
+      EXPECT_EQ(row["largest_error"], "");
+      EXPECT_EQ(row["corner"], "");
+      continue;
+    }
+    EXPECT_EQ(row["status"], "finished");
+    EXPECT_EQ(row["steps"], std::to_string(run.statistics.steps));
+    expect_same(number("multiply_adds"), run.multiply_adds);
+    expect_same(number("median_seconds"), run.median_seconds());
+    EXPECT_EQ(row["repeats"], std::to_string(run.seconds.size()));
+    expect_same(number("least_seconds"), 0.002);
+    expect_same(number("most_seconds"), 1.0 / 300);
+    expect_same(number("error_at_formation_m"), run.error_at_formation_m);
+    expect_same(number("largest_error"), run.largest_error());
+    expect_same(number("error_degree_0"), run.error_by_degree[0]);
+    expect_same(number("error_degree_2"), run.error_by_degree[2]);
+    expect_same(number("symplecticity_scaled_degree_0"), run.symplecticity[0].scaled);
+    expect_same(number("largest_symplecticity"), run.largest_symplecticity());
+    expect_same(number("energy_error"), run.energy_error);
+    EXPECT_EQ(row["corner"], corner_names()[static_cast<std::size_t>(*run.corner)]);
+    EXPECT_EQ(row["exactness_failure"], run.exactness_failure);
+    if (run.exactness.empty()) {
+      EXPECT_EQ(row["exactness_scaled_degree_0"], "");
+      continue;
+    }
+    expect_same(number("exactness_scaled_degree_0"), run.exactness[0].residual.scaled);
+    expect_same(number("exactness_floor_scaled_degree_0"), run.exactness[0].floor->scaled);
+    EXPECT_EQ(row["exactness_floor_scaled_degree_1"], "");
+    EXPECT_EQ(row["exactness_at_formation_scale_degree_1"], "");
+  }
+}
+
+TEST(ComparisonTable, StatesRatiosToTheBest) {
+  ComparisonResult result = sample_comparison();
+  result.runs[1].error_by_degree = {4e-12, 8e-12, 1e-12};
+  result.runs[2].error_by_degree = {2e-12, 2e-12, 2e-12};
+  result.runs[3].error_by_degree = {1e-7, 1e-7, 1e-7};
+  result.runs[3].seconds = {0.009};
+  for (int i : {0, 1, 2}) result.runs[static_cast<std::size_t>(i)].seconds = {0.003};
+  const std::string table = comparison_table(result);
+  EXPECT_EQ(table.find(verdict(result)), 0U);
+  // gauss reaches the first two, fehlberg78 the first at three times the price, bdf none.
+  const auto line = [&](const std::string& start) {
+    const std::size_t begin = table.find("\n" + start);
+    EXPECT_NE(begin, std::string::npos) << start;
+    return table.substr(begin + 1, table.find('\n', begin + 1) - begin - 1);
+  };
+  const auto fields = [](std::string text) {
+    std::vector<std::string> words;
+    for (std::size_t i; (i = text.find_last_not_of(' ')) != std::string::npos;) {
+      const std::size_t before = text.find_last_of(' ', i);
+      words.insert(words.begin(), text.substr(before + 1, i - before));
+      text.resize(before == std::string::npos ? 0 : before);
+    }
+    return std::vector<std::string>(words.end() - 3, words.end());
+  };
+  using Words = std::vector<std::string>;
+  EXPECT_EQ(fields(line("gauss, 4 stages")), (Words{"1.0", "1.0", "-"}));
+  EXPECT_EQ(fields(line("fehlberg78")), (Words{"3.0", "-", "-"}));
+  EXPECT_EQ(fields(line("cvode-bdf")), (Words{"-", "-", "-"}));
+  EXPECT_NE(table.find("runs that failed: 1; runs left out: 1"), std::string::npos) << table;
+}
+
+}  // namespace
+}  // namespace hamjet::io

@@ -1,0 +1,372 @@
+#include "hamjet/studies/comparison.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+
+#include "hamjet/error.hpp"
+#include "hamjet/integrators/gauss_collocation.hpp"
+#include "support/reference_data.hpp"
+
+namespace hamjet {
+namespace {
+
+Scene oscillator_scene() {
+  Scene scene;
+  scene.system.model = SystemModel::harmonic_oscillator;
+  scene.units = {1e-3, 1};
+  scene.nominal = {1, 0};
+  scene.duration = 5;
+  scene.order = 2;
+  scene.variables = {0, 1};
+  scene.separation = 0.1;
+  scene.comparison.repeats = 1;
+  return scene;
+}
+
+/// Kepler's problem, e = 0.3, from perigee at distance 1, a third of a revolution.
+Scene kepler_scene() {
+  Scene scene;
+  scene.system.model = SystemModel::kepler;
+  scene.units = {7000, 1000};
+  scene.nominal = {1, 0, 0, 0, std::sqrt(1.3) * 0.6, std::sqrt(1.3) * 0.8};
+  scene.duration = 3.5;
+  scene.order = 2;
+  scene.variables = {0, 1, 2, 3, 4, 5};
+  scene.separation = 10.0 / 7000;
+  scene.comparison.repeats = 1;
+  return scene;
+}
+
+IntegratorSettings gauss(const std::string& label, int stages, double step) {
+  IntegratorSettings settings;
+  settings.label = label;
+  settings.stages = stages;
+  settings.step_canonical = step;
+  return settings;
+}
+
+CandidateSeries series_of(const std::string& name, std::vector<Candidate> candidates) {
+  return {name, 0, false, std::move(candidates)};
+}
+
+ComparisonResult compared(const Scene& scene, std::vector<CandidateSeries> series) {
+  ComparisonOptions options;
+  options.series = std::move(series);
+  ComparisonResult result;
+  compare(scene, options, result);
+  return result;
+}
+
+const ComparedRun& run_of(const ComparisonResult& result, const std::string& label) {
+  for (const ComparedRun& run : result.runs) {
+    if (run.settings.label == label) return run;
+  }
+  throw std::runtime_error("no run " + label);
+}
+
+TEST(ComparisonReference, IsTheOscillatorsClosedForm) {
+  const auto result = compared(oscillator_scene(), {series_of("one", {{gauss("one", 4, 0.5)}})});
+  const auto& jet = result.reference.jet;
+  const Extended c = cos(Extended(5));
+  const Extended s = sin(Extended(5));
+  // q = q0 cos t + p0 sin t, p = -q0 sin t + p0 cos t; monomials 1, q0, p0, and three of degree 2.
+  const std::vector<std::vector<Extended>> expected = {{c, c, s, 0, 0, 0}, {-s, -s, c, 0, 0, 0}};
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (std::size_t k = 0; k < 6; ++k) {
+      EXPECT_LT(static_cast<double>(abs(jet[i][k] - expected[i][k])), 1e-22) << i << " " << k;
+    }
+  }
+}
+
+TEST(ComparisonReference, HasTheDigitsOfThePaperOrbit) {
+  const test::ReferenceOrbit& orbit = test::paper_orbit();
+  Scene scene = kepler_scene();
+  scene.system.model = SystemModel::zonal_gravity;
+  scene.system.J2 = orbit.field.J2;
+  scene.system.J3 = orbit.field.J3;
+  scene.canonical_radius = orbit.field.radius;
+  ASSERT_EQ(orbit.field.mu, 1);
+  scene.nominal = orbit.start;
+  scene.duration = orbit.duration;
+  scene.order = 1;
+  const auto result = compared(scene, {series_of("one", {{gauss("one", 8, 0.5)}})});
+  for (std::size_t i = 0; i < 6; ++i) {
+    const Series<Extended>& component = result.reference.jet[i];
+    EXPECT_LT(static_cast<double>(abs(component[0] - orbit.state[i])), 1e-20) << i;
+    for (std::size_t j = 0; j < 6; ++j) {
+      const std::size_t k = component.space().linear_index(j);
+      EXPECT_LT(static_cast<double>(abs(component[k] - orbit.matrix[i][j])),
+                1e-20 * orbit.matrix_norm)
+          << i << " " << j;
+    }
+  }
+}
+
+TEST(Comparison, PutsEachRunInItsCorner) {
+  // The broken one has one linear coefficient wrong by a thousandth: 10 m at 10 km.
+  Candidate broken{gauss("broken", 8, 0.2)};
+  broken.integrate = [](const FlowProblem<double>& problem, IntegrationStatistics& statistics,
+                        const StepObserver<double>& observer) {
+    GaussSettings settings;
+    settings.step = 0.2;
+    auto jet = integrate_gauss<double>(problem, settings, statistics, observer);
+    jet[0][problem.space->linear_index(0)] *= 1.001;
+    return jet;
+  };
+  IntegratorSettings fehlberg;
+  fehlberg.label = "fehlberg";
+  fehlberg.method = IntegrationMethod::fehlberg78;
+  fehlberg.tolerance = 1e-9;
+  const auto result = compared(
+      kepler_scene(), {series_of("good", {{gauss("good", 8, 0.2)}}),
+                       series_of("coarse", {{gauss("coarse", 1, 0.2)}}),
+                       series_of("fehlberg", {{fehlberg}}), series_of("broken", {broken})});
+  EXPECT_EQ(run_of(result, "good").corner, Corner::exact_and_accurate);
+  EXPECT_EQ(run_of(result, "coarse").corner, Corner::exact_but_wrong);
+  EXPECT_EQ(run_of(result, "fehlberg").corner, Corner::accurate_not_symplectic);
+  EXPECT_EQ(run_of(result, "broken").corner, Corner::neither);
+  // One coefficient off by the fraction f of itself shows as the error at degree 1.
+  EXPECT_GT(run_of(result, "broken").error_by_degree[1], 1e-4);
+  EXPECT_LT(run_of(result, "good").error_by_degree[1], 1e-12);
+}
+
+TEST(Comparison, FittedOrdersAgreeWithTheory) {
+  Scene scene = kepler_scene();
+  std::vector<CandidateSeries> all;
+  const std::map<int, double> finest = {{1, 0.002}, {2, 0.01}, {3, 0.02}, {4, 0.04}};
+  for (const auto& [stages, step] : finest) {
+    CandidateSeries series{"s" + std::to_string(stages), 2.0 * stages, false, {}};
+    for (int k = 5; k >= 0; --k) {
+      const double h = step * std::pow(1.5, k);
+      series.candidates.push_back(
+          {gauss("s" + std::to_string(stages) + "-" + std::to_string(k), stages, h)});
+    }
+    all.push_back(series);
+  }
+  const auto result = compared(scene, all);
+  std::set<std::pair<std::string, int>> fitted;
+  for (const ConvergenceFit& fit : result.fits) {
+    EXPECT_NEAR(fit.slope, fit.expected, 0.3) << fit.series << " degree " << fit.degree;
+    EXPECT_GE(fit.labels.size(), 3U);
+    for (const std::string& label : fit.labels) {
+      const double error =
+          run_of(result, label).error_by_degree[static_cast<std::size_t>(fit.degree)];
+      EXPECT_GT(error, 2e-14) << label;  // a hundred roundings of double
+    }
+    fitted.emplace(fit.series, fit.degree);
+  }
+  EXPECT_EQ(fitted.size(), 8U);  // four series, degrees 0 and 2
+}
+
+/// The figures of a run that do not depend on the machine.
+void expect_same_figures(const ComparedRun& a, const ComparedRun& b) {
+  EXPECT_EQ(a.settings.label, b.settings.label);
+  EXPECT_EQ(a.order, b.order);
+  EXPECT_EQ(a.failure, b.failure);
+  EXPECT_EQ(a.error_by_degree, b.error_by_degree);
+  EXPECT_EQ(a.error_at_formation_m, b.error_at_formation_m);
+  EXPECT_EQ(a.largest_symplecticity(), b.largest_symplecticity());
+  EXPECT_EQ(a.energy_error, b.energy_error);
+  EXPECT_EQ(a.corner, b.corner);
+  EXPECT_EQ(a.statistics.steps, b.statistics.steps);
+  EXPECT_EQ(a.seconds.size(), b.seconds.size());
+}
+
+TEST(Comparison, InterruptedAndResumedGivesTheSameFigures) {
+  struct Stop {};
+  Scene scene = kepler_scene();
+  scene.comparison.methods = {IntegrationMethod::gauss, IntegrationMethod::fehlberg78};
+  scene.comparison.stages = {4};
+  scene.comparison.tolerances = {1e-4, 1e-8};
+  scene.comparison.repeats = 2;
+  scene.integrators = {gauss("watched", 2, 0.1)};
+  ComparisonResult whole;
+  int calls = 0;
+  ComparisonOptions options;
+  options.progress = [&](const std::string&, double) { ++calls; };
+  compare(scene, options, whole);
+  ASSERT_TRUE(whole.is_complete);
+
+  int interruptions = 0;
+  for (const double part : {0.2, 0.6, 0.9, 0.97}) {
+    ComparisonResult result;
+    int left = static_cast<int>(part * calls);
+    options.progress = [&](const std::string&, double) {
+      if (left-- == 0) throw Stop{};
+    };
+    try {
+      compare(scene, options, result);
+    } catch (const Stop&) {
+      ++interruptions;
+      EXPECT_FALSE(result.is_complete);
+    }
+    options.progress = nullptr;
+    compare(scene, options, result);
+    EXPECT_TRUE(result.is_complete);
+    ASSERT_EQ(result.runs.size(), whole.runs.size());
+    for (std::size_t i = 0; i < whole.runs.size(); ++i) {
+      expect_same_figures(result.runs[i], whole.runs[i]);
+    }
+    ASSERT_EQ(result.cost_runs.size(), whole.cost_runs.size());
+    for (std::size_t i = 0; i < whole.cost_runs.size(); ++i) {
+      expect_same_figures(result.cost_runs[i], whole.cost_runs[i]);
+    }
+    ASSERT_EQ(result.along_time.size(), 1U);
+    EXPECT_EQ(result.along_time[0].points.size(), whole.along_time[0].points.size());
+  }
+  EXPECT_GE(interruptions, 3);  // the last may come after the work
+}
+
+TEST(Comparison, ResumesWithoutRunningAgain) {
+  Scene scene = kepler_scene();
+  int integrations = 0;
+  Candidate counted{gauss("counted", 4, 0.2)};
+  counted.integrate = [&](const FlowProblem<double>& problem, IntegrationStatistics& statistics,
+                          const StepObserver<double>& observer) {
+    ++integrations;
+    GaussSettings settings;
+    settings.stages = 4;
+    settings.step = 0.2;
+    auto jet = integrate_gauss<double>(problem, settings, statistics, observer);
+    statistics.wall_seconds = 1;  // long enough to be timed alone
+    return jet;
+  };
+  ComparisonOptions options;
+  options.series = {series_of("counted", {counted})};
+  scene.comparison.orders = {2};
+  ComparisonResult result;
+  compare(scene, options, result);
+  const int first = integrations;
+  EXPECT_GE(first, 2);  // judged, then timed
+  compare(scene, options, result);
+  EXPECT_EQ(integrations, first);
+}
+
+/// A store in memory that counts.
+class MemoryStore : public ReferenceStore {
+ public:
+  std::optional<ReferenceResult> load(const std::string& key, const SpacePointer&) override {
+    const auto place = references.find(key);
+    if (place == references.end()) return std::nullopt;
+    return place->second;
+  }
+  void save(const std::string& key, const ReferenceResult& reference) override {
+    references.emplace(key, reference);
+  }
+  std::map<std::string, ReferenceResult> references;
+};
+
+TEST(Comparison, TakesTheReferenceFromTheStore) {
+  MemoryStore store;
+  ComparisonOptions options;
+  options.references = &store;
+  options.series = {series_of("one", {{gauss("one", 4, 0.2)}})};
+  ComparisonResult first;
+  compare(kepler_scene(), options, first);
+  ComparisonResult second;
+  compare(kepler_scene(), options, second);
+  EXPECT_FALSE(first.is_reference_cached);
+  EXPECT_TRUE(second.is_reference_cached);
+  EXPECT_EQ(store.references.size(), 1U);
+  EXPECT_EQ(first.runs[0].error_by_degree, second.runs[0].error_by_degree);
+  Scene other = kepler_scene();
+  other.duration = 3.4;
+  ComparisonResult third;
+  compare(other, options, third);
+  EXPECT_FALSE(third.is_reference_cached);
+}
+
+TEST(Comparison, RefusesAReferenceThatDisagreesWithItself) {
+  // A tolerance of 1e-16 leaves the coarser run at 1e-12, which cannot judge double precision.
+  Scene scene = kepler_scene();
+  scene.duration = 40;
+  scene.reference = ReferenceSettings{1e-16};
+  ComparisonResult result;
+  try {
+    compare(scene, {}, result);
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::numerical);
+    EXPECT_NE(std::string(error.what()).find("reference: its two runs differ"), std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(Comparison, LeavesOutWhatTheTimeBudgetDoesNotAllowAndSaysSo) {
+  Scene scene = kepler_scene();
+  scene.comparison.time_budget_s = 1e-2;
+  scene.comparison.orders = {2};
+  const auto result = compared(
+      scene, {series_of("midpoint", {{gauss("short", 1, 0.5)}, {gauss("long", 1, 2e-5)}})});
+  EXPECT_TRUE(run_of(result, "short").is_finished());
+  EXPECT_FALSE(run_of(result, "long").left_out.empty());
+  EXPECT_TRUE(run_of(result, "long").error_by_degree.empty());
+}
+
+TEST(Comparison, RecordsAFailureAndGoesOn) {
+  // One midpoint step over several revolutions has no solution connected to its start.
+  const auto result = compared(
+      kepler_scene(), {series_of("s", {{gauss("too-long", 1, 100.0)}, {gauss("good", 8, 0.2)}})});
+  EXPECT_FALSE(run_of(result, "too-long").failure.empty());
+  EXPECT_TRUE(run_of(result, "good").is_finished());
+}
+
+TEST(Comparison, NeedsASeparationAndDoublePrecision) {
+  ComparisonResult result;
+  Scene scene = kepler_scene();
+  scene.separation.reset();
+  EXPECT_THROW(compare(scene, {}, result), Error);
+  scene = kepler_scene();
+  scene.precision = Precision::extended;
+  EXPECT_THROW(compare(scene, {}, result), Error);
+}
+
+TEST(CandidateSeries, OfTheDefaultsHaveUniqueLabelsAndFallingSteps) {
+  std::set<std::string> labels;
+  for (const CandidateSeries& series : candidate_series(kepler_scene())) {
+    double last = std::numeric_limits<double>::infinity();
+    for (const Candidate& candidate : series.candidates) {
+      EXPECT_TRUE(labels.insert(candidate.settings.label).second) << candidate.settings.label;
+      const double size =
+          candidate.settings.step_canonical.value_or(candidate.settings.tolerance.value_or(0));
+      EXPECT_LT(size, last);
+      EXPECT_GT(size, 0);
+      last = size;
+    }
+  }
+  EXPECT_GT(labels.size(), 50U);
+}
+
+TEST(CheapestRuns, AreOneASeriesTheFastestFirst) {
+  ComparisonResult result;
+  result.scene = kepler_scene();
+  const auto add = [&](const std::string& label, const std::string& series, double seconds,
+                       double error) {
+    ComparedRun run;
+    run.settings = gauss(label, 8, 0.1);
+    run.series = series;
+    run.seconds = {seconds, 10 * seconds, seconds};
+    run.error_at_formation_m = error;
+    result.runs.push_back(run);
+  };
+  add("a1", "a", 1, 5);
+  add("a2", "a", 2, 0.5);
+  add("a3", "a", 3, 0.01);
+  add("b1", "b", 1.5, 0.9);
+  add("c1", "c", 0.1, 2);
+  const auto runs = cheapest_runs(result, 1);
+  ASSERT_EQ(runs.size(), 2U);
+  EXPECT_EQ(runs[0]->settings.label, "b1");
+  EXPECT_EQ(runs[1]->settings.label, "a2");
+  EXPECT_NE(advice(result).find("label = \"b1\""), std::string::npos);
+  EXPECT_TRUE(cheapest_runs(result, 1e-3).empty());
+  result.scene.comparison.wanted_error_m = 1e-3;
+  EXPECT_NE(advice(result).find("no configuration"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace hamjet
