@@ -148,11 +148,9 @@ Json reference_json(const ComparisonResult& result) {
 }
 
 Json fit_json(const ConvergenceFit& fit) {
-  return {{"series", fit.series},
-          {"degree", fit.degree},
-          {"slope", number(fit.slope)},
-          {"expected", number(fit.expected)},
-          {"labels", fit.labels}};
+  return {{"series", fit.series},       {"degree", fit.degree},
+          {"slope", number(fit.slope)}, {"expected", number(fit.expected)},
+          {"agrees", fit.agrees()},     {"labels", fit.labels}};
 }
 
 template <class Values, class Convert>

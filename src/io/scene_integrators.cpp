@@ -77,18 +77,18 @@ double read_step(const TableReader& integrator, std::string_view key, double dur
   const double span = std::abs(duration) * (given / step);
   const double smallest_step = span * 0x1p-52;
   if (given < smallest_step) {
-    integrator.fail(
-        key, fmt::format("too small to advance the time, got {}, must be at least "
-                         "{:.3g}, and at least {:.3g} to keep within {:.0e} steps",
-                         integrator.found(key), smallest_step, span / largest_step_count, largest_step_count));
+    integrator.fail(key, fmt::format("too small to advance the time, got {}, must be at least "
+                                     "{:.3g}, and at least {:.3g} to keep within {:.0e} steps",
+                                     integrator.found(key), smallest_step,
+                                     span / largest_step_count, largest_step_count));
   }
   const double steps = std::ceil(std::abs(duration) / step);
   if (steps > largest_step_count) {
     throw Error(ErrorKind::too_large,
                 fmt::format("{}: too many steps, got {}, which takes {:.3g} steps, must be at "
                             "least {:.3g} to keep within {:.0e}",
-                            integrator.head(key), integrator.found(key), steps, span / largest_step_count,
-                            largest_step_count));
+                            integrator.head(key), integrator.found(key), steps,
+                            span / largest_step_count, largest_step_count));
   }
   return step;
 }

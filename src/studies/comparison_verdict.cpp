@@ -6,19 +6,20 @@
 #include <map>
 
 #include "hamjet/studies/comparison.hpp"
+#include "nominal_period.hpp"
 
 namespace hamjet {
 namespace {
 
 std::string length_text(double metres) {
-  if (metres >= 1000) return fmt::format("{:g} km", metres / 1000);
+  if (metres >= 1000 * (1 - 1e-12)) return fmt::format("{:g} km", metres / 1000);
   if (metres >= 1) return fmt::format("{:g} m", metres);
   if (metres >= 1e-3) return fmt::format("{:g} mm", metres * 1e3);
   return fmt::format("{:.0e} m", metres);
 }
 
 std::string duration_text(double seconds) {
-  if (seconds < 1e-3) return fmt::format("{:.0f} us", seconds * 1e6);
+  if (seconds < 1e-3) return fmt::format("{:.0f} μs", seconds * 1e6);
   if (seconds < 1) return fmt::format("{:.3g} ms", seconds * 1e3);
   return fmt::format("{:.3g} s", seconds);
 }
@@ -31,9 +32,15 @@ std::string configuration_text(const ComparedRun& run) {
   return fmt::format("{} (step {:g} canonical)", run.series, *run.settings.step_canonical);
 }
 
-/// Time from the start of the nominal, in words that suit it.
+/// Time from the start of the nominal, in words that suit it, with the number of revolutions of an
+/// elliptic orbit.
 std::string span_text(const Scene& scene) {
   const double seconds = std::abs(scene.duration) * scene.units.time_s;
+  const auto period = nominal_period(scene);
+  if (period && scene.system.model != SystemModel::harmonic_oscillator) {
+    return fmt::format("{:.3g} h ({:.4g} revolutions)", seconds / 3600,
+                       std::abs(scene.duration) / *period);
+  }
   if (seconds < 60) return fmt::format("{:.3g} s", seconds);
   if (seconds < 7200) return fmt::format("{:.3g} min", seconds / 60);
   return fmt::format("{:.3g} h", seconds / 3600);

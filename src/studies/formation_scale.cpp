@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <random>
 #include <utility>
+
+#include "nominal_period.hpp"
 
 namespace hamjet {
 namespace {
@@ -33,11 +36,8 @@ double momentum_per_length(const Scene& scene) {
   if (scene.system.model == SystemModel::harmonic_oscillator) {
     return std::sqrt(scene.system.mass_kg * scene.system.stiffness_N_per_m);
   }
-  const std::vector<double>& z = scene.nominal;
-  const double radius = std::hypot(z[0], z[1], z[2]);
-  const double speed = std::hypot(z[3], z[4], z[5]);
-  const double inverse_axis = 2 / radius - speed * speed;
-  return inverse_axis > 0 ? std::pow(inverse_axis, 1.5) : 1;
+  const auto period = nominal_period(scene);
+  return period ? 2 * std::numbers::pi / *period : 1;
 }
 
 FormationPoints::FormationPoints(const Scene& scene, const ComputedProblem& problem)

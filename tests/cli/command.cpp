@@ -123,7 +123,7 @@ void send(pid_t process, const Signal& signal, Clock::time_point deadline) {
     std::this_thread::sleep_for(milliseconds(5));
   }
   for (int i = 0; i < signal.times; ++i) {
-    std::this_thread::sleep_for(milliseconds(200));
+    std::this_thread::sleep_for(signal.after);
     ::kill(process, signal.number);
   }
 }

@@ -25,6 +25,7 @@ enum class Stream {
 struct Signal {
   int number = 0;
   int times = 1;
+  std::chrono::milliseconds after{200};  ///< the command's start, and between two
 };
 
 struct CommandOptions {

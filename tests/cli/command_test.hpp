@@ -96,19 +96,20 @@ inline int degree(const std::vector<std::string>& row) {
   return sum;
 }
 
-/// The labels of a scene's runs that this build has no integrator for.
+/// The labels of a scene's runs that this build has no integrator for, from the scene's text.
 inline std::vector<std::string> labels_not_built(const std::string& integrators,
-                                                 const std::string& check) {
+                                                 const std::string& scene) {
   std::vector<std::string> labels;
   if (integrators.find("NOT BUILT") == std::string::npos) return labels;
-  std::istringstream lines(check);
+  const auto quoted = [](const std::string& line) {
+    const std::size_t first = line.find('"') + 1;
+    return line.substr(first, line.find('"', first) - first);
+  };
+  std::istringstream lines(scene);
+  std::string label;
   for (std::string line; std::getline(lines, line);) {
-    std::istringstream words(line);
-    std::string first, label, method;
-    words >> first >> label >> method;
-    if (first == "integrator" && method.starts_with("cvode")) {
-      labels.push_back(label.substr(0, label.size() - 1));  // without the colon
-    }
+    if (line.starts_with("label = ")) label = quoted(line);
+    if (line.starts_with("method = ") && quoted(line).starts_with("cvode")) labels.push_back(label);
   }
   return labels;
 }

@@ -17,10 +17,9 @@ TEST_F(ShippedScenes, RunToTheEnd) {
     if (entry.path().extension() != ".toml") continue;
     const std::string scene = entry.path().string();
     SCOPED_TRACE(scene);
-    const std::string what = succeed({"check", scene}).out;
     std::vector<std::string> arguments = {"run", scene,   "-o",         std::to_string(++count),
                                           "-q",  "--set", "jet.order=2"};
-    for (const std::string& label : labels_not_built(integrators, what)) {
+    for (const std::string& label : labels_not_built(integrators, content(scene))) {
       arguments.emplace_back("--set");
       arguments.push_back("integrator." + label + "=null");
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <string>
@@ -69,6 +70,10 @@ struct ConvergenceFit {
   double slope = 0;
   double expected = 0;              ///< of the theory
   std::vector<std::string> labels;  ///< of the runs used: those above the rounding floor
+
+  /// Within 0.3. Where it does not, the leading term does not yet dominate at the steps that lie
+  /// above the rounding floor.
+  bool agrees() const { return std::abs(slope - expected) <= 0.3; }
 };
 
 /// Result of a comparison. Every number of the report comes from here.

@@ -1,0 +1,20 @@
+#include "nominal_period.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace hamjet {
+
+std::optional<double> nominal_period(const Scene& scene) {
+  if (scene.system.model == SystemModel::harmonic_oscillator) {
+    return 2 * std::numbers::pi * std::sqrt(scene.system.mass_kg / scene.system.stiffness_N_per_m);
+  }
+  const std::vector<double>& z = scene.nominal;
+  // The vis-viva equation with mu = 1.
+  const double inverse_axis =
+      2 / std::hypot(z[0], z[1], z[2]) - (z[3] * z[3] + z[4] * z[4] + z[5] * z[5]);
+  if (!(inverse_axis > 0)) return std::nullopt;
+  return 2 * std::numbers::pi * std::pow(inverse_axis, -1.5);
+}
+
+}  // namespace hamjet
