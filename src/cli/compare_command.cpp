@@ -19,7 +19,7 @@ namespace hamjet::cli {
 namespace {
 
 /// What is finished is saved at most this often.
-constexpr std::chrono::seconds checkpoint_interval(5);
+constexpr std::chrono::seconds checkpoint_interval(2);
 
 std::string processor_name() {
   std::ifstream file("/proc/cpuinfo");
@@ -70,8 +70,9 @@ void take_up(const std::filesystem::path& directory, const std::string& determin
   }
 }
 
-/// The runs so far, marked as partial. A page of an earlier comparison would contradict them.
-void write_partial(const ComparisonResult& result, const io::ReportOrigin& origin,
+/// The runs so far, marked as partial if they are. A page of an earlier comparison would contradict
+/// them.
+void write_figures(const ComparisonResult& result, const io::ReportOrigin& origin,
                    const std::filesystem::path& directory) {
   io::OutputDirectory output(directory);
   output.write("compare.csv", io::comparison_csv(result));
@@ -104,14 +105,14 @@ int compare(const CompareOptions& options) {
       if (now - saved < checkpoint_interval) return;
       saved = now;
       const UninterruptedWriting guard(Writing::checkpoint);
-      write_partial(result, origin, directory);
+      write_figures(result, origin, directory);
     };
     compare(scene, work, result);
   } catch (const Interrupted& interrupted) {
     const bool has_runs = !result.runs.empty();
     if (has_runs) {
       const UninterruptedWriting guard(Writing::partial_results);
-      write_partial(result, origin, directory);
+      write_figures(result, origin, directory);
     }
     print_error(has_runs
                     ? fmt::format("interrupted; what was finished is in {}, marked as partial; "
@@ -120,13 +121,17 @@ int compare(const CompareOptions& options) {
                     : std::string("interrupted; nothing was written"));
     return interrupted.exit_code();
   }
-  std::optional<std::string> drawing_problem;
+  {
+    // The figures are safe before the plots are drawn.
+    const UninterruptedWriting guard(Writing::checkpoint);
+    write_figures(result, origin, directory);
+  }
+  const io::ComparisonReport report = io::make_report(result, origin, options.plots);
   {
     const UninterruptedWriting guard;
-    drawing_problem = io::write_comparison(result, origin, options.plots, output);
-    output.commit();
+    io::write_report(report, output);
   }
-  if (drawing_problem) print_error(*drawing_problem);
+  if (report.drawing_problem) print_error(*report.drawing_problem);
   if (options.scene.json) {
     print(io::comparison_json(result, origin));
   } else if (!options.scene.quiet) {

@@ -1,6 +1,5 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <map>
 #include <new>
 #include <sstream>
 
@@ -48,6 +47,16 @@ void add_override_option(CLI::App& command, hamjet::cli::RunOptions& options) {
       ->allow_extra_args(false);
 }
 
+/// A word as a shell takes it literally.
+std::string in_shell_quotes(const std::string& word) {
+  constexpr const char* plain =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-./=:,+@%";
+  if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
 int dispatch(int argc, char** argv) {
   CLI::App app(examples, "hamjet");
   app.set_version_flag("--version", std::string("hamjet ") + hamjet::version);
@@ -75,10 +84,9 @@ int dispatch(int argc, char** argv) {
   add_override_option(*compare, comparison.scene);
   compare->add_flag("--resume", comparison.resume,
                     "take up a comparison that was interrupted, from the output directory");
-  const std::map<std::string, hamjet::io::PlotFormat> formats = {
-      {"pdf", hamjet::io::PlotFormat::pdf}, {"png", hamjet::io::PlotFormat::png}};
-  compare->add_option("--plots", comparison.plots, "the report's plots as files too: pdf or png")
-      ->transform(CLI::CheckedTransformer(formats));
+  std::string plots;
+  compare->add_option("--plots", plots, "the report's plots as files too: pdf or png")
+      ->check(CLI::IsMember({"pdf", "png"}));
 
   std::string what;
   CLI::App* list = app.add_subcommand("list", "list systems, integrators or kinds");
@@ -103,7 +111,11 @@ int dispatch(int argc, char** argv) {
   if (*list) return hamjet::cli::list(what);
   if (*check) return hamjet::cli::check(options);
   if (*compare) {
-    for (int i = 0; i < argc; ++i) comparison.command += (i == 0 ? "" : " ") + std::string(argv[i]);
+    for (int i = 0; i < argc; ++i) {
+      comparison.command += (i == 0 ? "" : " ") + in_shell_quotes(argv[i]);
+    }
+    if (plots == "pdf") comparison.plots = hamjet::io::PlotFormat::pdf;
+    if (plots == "png") comparison.plots = hamjet::io::PlotFormat::png;
     return hamjet::cli::compare(comparison);
   }
   return hamjet::cli::run(options);

@@ -73,6 +73,12 @@ int check(const RunOptions& options) {
     if (settings.method == IntegrationMethod::gauss) {
       text += fmt::format(", {} stages", settings.stages);
     }
+    if (settings.method == IntegrationMethod::velocity_verlet) {
+      text += fmt::format(", order {}", settings.order);
+    }
+    if (settings.method == IntegrationMethod::newmark) {
+      text += fmt::format(", beta {}", settings.beta);
+    }
     if (settings.tolerance) text += fmt::format(", tolerance {:g}", *settings.tolerance);
     if (settings.step_canonical)
       text += fmt::format(", step {:g} canonical", *settings.step_canonical);

@@ -243,6 +243,7 @@ FlowJet<double> integrate_cvode(const FlowProblem<double>& problem, const CvodeS
                                 IntegrationStatistics& statistics,
                                 const StepObserver<double>& observer) {
   validate(problem);
+  statistics = {};
   if (!(settings.tolerance >= std::numeric_limits<double>::epsilon()) ||
       !(settings.tolerance < 1)) {
     throw Error(ErrorKind::usage,

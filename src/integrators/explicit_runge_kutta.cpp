@@ -217,6 +217,7 @@ FlowJet<Real> integrate_fehlberg78(const FlowProblem<Real>& problem,
                                    IntegrationStatistics& statistics,
                                    const StepObserver<Real>& observer) {
   validate(problem);
+  statistics = {};
   validate_settings<Real>(settings);
   if (problem.duration == 0) return identity_jet(problem);
   return FehlbergIntegration<Real>(problem, settings, statistics, observer).run();

@@ -12,6 +12,7 @@ FlowJet<Real> integrate_gauss(const FlowProblem<Real>& problem, const GaussSetti
                               IntegrationStatistics& statistics,
                               const StepObserver<Real>& observer) {
   validate(problem);
+  statistics = {};
   if (settings.stages < 1 || settings.stages > 16) {
     throw Error(ErrorKind::usage,
                 fmt::format("Gauss: {} stages, allowed are 1..16", settings.stages));

@@ -35,7 +35,7 @@ class GaussIntegrator {
         stages_(*problem.system, tableau_, problem.space, order_),
         point_(stage_list(), problem.space, 0),
         jet_(problem),
-        control_(settings, tableau_, stages_, jet_) {
+        control_(settings, tableau_, stages_, jet_, order_) {
     for (const auto& component : jet_.value()) state_.push_back(component.coefficients().data());
   }
 

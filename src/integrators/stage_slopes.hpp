@@ -237,14 +237,28 @@ class StageSlopes {
     return result;
   }
 
+  /// The remainders of M^-1 F. An affine force has none: its slice is not yet meaningful.
   void apply_inverse_mass(int d) {
     mapped_.resize(system_.components());
     for (std::size_t c = 0; c < system_.components(); ++c) {
       mapped_[c].resize(space_->size());
-      for (std::size_t k = space_->first(d); k < space_->first(d + 1); ++k) {
-        mapped_[c][k] = slope(c, k);
+      const auto begin = static_cast<std::ptrdiff_t>(space_->first(d));
+      const auto end = static_cast<std::ptrdiff_t>(space_->first(d + 1));
+      std::fill(mapped_[c].begin() + begin, mapped_[c].begin() + end, P(Real(0)));
+      for (std::size_t from = 0; from < system_.components(); ++from) {
+        if (!evaluator_.has_remainder(from, d)) continue;
+        const P entry(system_.inverse_mass(c, from));
+        for (std::size_t k = space_->first(d); k < space_->first(d + 1); ++k) {
+          mapped_[c][k] += entry * evaluator_.output(from)[k];
+        }
       }
     }
+  }
+
+  /// Whether a slope has a remainder, see SliceEvaluator::has_remainder.
+  bool has_remainder(std::size_t c, int d) const {
+    if (!system_.second_order() || system_.unit_mass()) return evaluator_.has_remainder(c, d);
+    return d >= 2;
   }
 
   const P* remainder(std::size_t c) const {
@@ -263,7 +277,7 @@ class StageSlopes {
       for (std::size_t t = 0; t < Width; ++t) sum[t] += b * P(state[k][monomial + t]);
     }
     for (std::size_t from = 0; from < system_.components(); ++from) {
-      if (!evaluator_.has_remainder(from, d)) continue;
+      if (!has_remainder(from, d)) continue;
       const P* r = remainder(from) + monomial;
       for (std::size_t j = 0; j < system_.stages(); ++j) {
         const P entry = system_.response(from, j, c);

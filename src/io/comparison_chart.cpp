@@ -21,7 +21,7 @@ struct Range {
 };
 
 bool can_be_drawn(const ChartAxis& axis, double value) {
-  return std::isfinite(value) && (!axis.is_logarithmic || value > 0);
+  return std::isfinite(value) && (!axis.is_logarithmic || (value > 0 && value >= axis.smallest));
 }
 
 void set_limits(ChartAxis& axis, Range range, bool needs_room_below) {
@@ -55,7 +55,8 @@ std::size_t split(const Chart& chart, ChartCurve& curve, ChartCurve& zeros) {
       continue;
     }
     is_broken = true;
-    if (can_be_drawn(chart.x, point.first) && point.second == 0) {
+    if (can_be_drawn(chart.x, point.first) && point.second >= 0 &&
+        point.second < std::max(chart.y.smallest, std::numeric_limits<double>::min())) {
       zeros.points.push_back(point);
     } else {
       ++omitted;
@@ -95,12 +96,13 @@ void fit_axes(Chart& chart) {
   }
   if (!chart.at_limit.empty()) {
     chart.notes.emplace_back(
-        "A triangle that points down at the lower edge is a value of exactly zero, which a "
-        "logarithmic axis has no place for.");
+        "A triangle that points down at the lower edge is a value of zero, which a logarithmic "
+        "axis has no place for, or one below the axis.");
   }
   if (x.is_empty()) return;
   // All values are zero, or none exists: some decades to draw the marks in.
   if (y.is_empty()) y = {1e-16, 1};
+  for (const double place : chart.x.includes) x.include(place);
   for (const ChartRule& rule : chart.rules) (rule.is_vertical ? x : y).include(rule.place);
   set_limits(chart.x, x, false);
   set_limits(chart.y, y, !chart.at_limit.empty() || has_ticks);

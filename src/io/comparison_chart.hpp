@@ -18,9 +18,12 @@ struct ChartAxis {
   AxisUnit unit = AxisUnit::none;
   bool is_logarithmic = false;
   bool is_reversed = false;
+  bool is_integer = false;
   double lower = 0;  ///< set by fit_axes
   double upper = 1;
-  double margin = 0;  ///< decades to leave free at either end
+  double margin = 0;    ///< decades to leave free at either end
+  double smallest = 0;  ///< logarithmic: smaller values are drawn at the lower limit, as zeros are
+  std::vector<double> includes;  ///< places that it must reach
 };
 
 /// A line, a set of markers or both.
@@ -57,13 +60,13 @@ struct Chart {
   ChartAxis x;
   ChartAxis y;
   std::vector<ChartCurve> curves;
-  std::vector<ChartCurve> at_limit;  ///< zeros, which a logarithmic axis puts at its lower limit
+  std::vector<ChartCurve> at_limit;  ///< below a logarithmic axis, and put at its limit
   std::vector<ChartRule> rules;
   std::vector<ChartCornerText> corners;
 };
 
-/// Sets the axes' ranges from the curves; moves zeros of a logarithmic y to `at_limit`, takes out
-/// what cannot be drawn at all, and says both in the notes.
+/// Sets the axes' ranges from the curves; moves what is below a logarithmic y to `at_limit`, takes
+/// out what cannot be drawn at all, and says both in the notes.
 void fit_axes(Chart& chart);
 
 /// All plots of a comparison, in the order of the page, fitted.

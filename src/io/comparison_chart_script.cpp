@@ -90,7 +90,10 @@ std::string axis_commands(const char* axis, const ChartAxis& settings, int most_
   text += fmt::format("set {}range [{:.17g}:{:.17g}]\n", axis,
                       settings.is_reversed ? settings.upper : settings.lower,
                       settings.is_reversed ? settings.lower : settings.upper);
-  return settings.is_logarithmic ? text + decades(axis, settings, most_numbers) : text;
+  if (settings.is_logarithmic) return text + decades(axis, settings, most_numbers);
+  text += fmt::format("set format {} '%g'\n", axis);
+  if (settings.is_integer) text += fmt::format("set {}tics 1\n", axis);
+  return text;
 }
 
 std::string decorations(const Chart& chart) {

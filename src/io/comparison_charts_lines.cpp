@@ -18,11 +18,13 @@ std::string time_label(const Scene& scene) {
 
 /// A chart with a curve for each integrator along time; `measure` gives a point's value, or none.
 template <class Measure>
-Chart along_time_chart(const ComparisonResult& result, Measure measure) {
+Chart along_time_chart(const ComparisonResult& result, bool has_ticks, Measure measure) {
   Chart chart;
   chart.x.label = time_label(result.scene);
+  chart.x.includes = {0, result.scene.duration};
   chart.y.is_logarithmic = true;
   chart.y.unit = AxisUnit::power;
+  chart.y.smallest = 1e-18;  // far below the rounding of double
   for (std::size_t i = 0; i < result.along_time.size(); ++i) {
     const RunAlongTime& run = result.along_time[i];
     ChartCurve curve;
@@ -34,9 +36,9 @@ Chart along_time_chart(const ComparisonResult& result, Measure measure) {
         curve.points.emplace_back(point.time, *value);
       } else {
         curve.gaps.push_back(curve.points.size());
-        curve.ticks.push_back(point.time);
       }
     }
+    if (has_ticks) curve.ticks = run.singular_times;
     if (!run.failure.empty()) {
       chart.notes.push_back(fmt::format("{} stopped: {}.", run.label, run.failure));
     }
@@ -87,13 +89,15 @@ void add_convergence(const ComparisonResult& result, const std::string& name, st
     if (run.series != name || !run.is_finished() || !run.settings.step_canonical) continue;
     if (run.error_by_degree.empty()) continue;
     const double error = run.error_by_degree.front();
-    if (error < claimed_error(result, 0)) {
+    if (error < result.smallest_claimed_error(0)) {
       ++below;
       continue;
     }
     const bool is_used = fit != nullptr && std::find(fit->labels.begin(), fit->labels.end(),
                                                      run.settings.label) != fit->labels.end();
-    (is_used ? used : others).points.emplace_back(*run.settings.step_canonical, error);
+    // The duration is cut into equal steps not longer than the one asked for.
+    const double step = std::abs(result.scene.duration) / static_cast<double>(run.statistics.steps);
+    (is_used ? used : others).points.emplace_back(step, error);
   }
   if (used.points.empty() && others.points.empty()) return;
   if (!used.points.empty()) {
@@ -107,8 +111,8 @@ void add_convergence(const ComparisonResult& result, const std::string& name, st
 }  // namespace
 
 Chart exactness_along_time_chart(const ComparisonResult& result) {
-  Chart chart =
-      along_time_chart(result, [](const RunAlongTime::Point& point) { return point.exactness; });
+  Chart chart = along_time_chart(result, true,
+                                 [](const RunAlongTime::Point& point) { return point.exactness; });
   chart.name = "exactness-time";
   chart.title = "Exactness residual along time";
   chart.y.label = "exactness residual, degree 0, scaled";
@@ -116,8 +120,10 @@ Chart exactness_along_time_chart(const ComparisonResult& result) {
       "The figure of Guibout and Bloch: how far the generating function {} of each of the scene's "
       "integrators is from closed at degree 0, as the flow goes on. A symplectic method stays at "
       "round-off, amplified where the kind comes near to a time at which it does not exist; a "
-      "method that is not symplectic drifts upwards. Lines are broken where the kind does not "
-      "exist, and a short stroke at the lower edge in the line's colour marks the place. A low "
+      "method that is not symplectic drifts upwards. A short stroke at the lower edge in the "
+      "line's "
+      "colour marks each time at which the kind does not exist, where the determinant of its "
+      "linear part changes sign; a line is broken where the residual could not be computed. A low "
       "line says that a map is exact, not that it is right.",
       kind_text(result));
   if (!result.kind) {
@@ -128,7 +134,7 @@ Chart exactness_along_time_chart(const ComparisonResult& result) {
 }
 
 Chart energy_along_time_chart(const ComparisonResult& result) {
-  Chart chart = along_time_chart(result, [](const RunAlongTime::Point& point) {
+  Chart chart = along_time_chart(result, false, [](const RunAlongTime::Point& point) {
     return std::optional<double>(std::abs(point.energy_error));
   });
   chart.name = "energy-time";
@@ -149,8 +155,12 @@ Chart convergence_chart(const ComparisonResult& result) {
   chart.reading =
       "Relative error of degree 0 (the nominal) against the step, for the series with fixed steps. "
       "The number beside a name is the fitted order, the slope of the line through the filled "
-      "markers. Hollow markers were not used: their steps are too coarse for the asymptotic "
-      "order, or their error is at the rounding floor.";
+      "markers. Hollow markers were not used: their error is above 1e-2, where the leading term "
+      "does "
+      "not govern, or within a factor of 100 of the smallest of all runs, the rounding floor, or "
+      "there are four finer ones. A series with fewer than three usable runs, or whose runs "
+      "scatter "
+      "about the line by more than a tenth of a decade, has no fit.";
   chart.x.label = "step (canonical time)";
   chart.x.is_logarithmic = true;
   chart.x.unit = AxisUnit::power;
@@ -165,7 +175,7 @@ Chart convergence_chart(const ComparisonResult& result) {
   if (below > 0) {
     chart.notes.push_back(fmt::format(
         "Not drawn: runs with an error below {:.1e}, ten times the reference's uncertainty: {}.",
-        claimed_error(result, 0), below));
+        result.smallest_claimed_error(0), below));
   }
   if (chart.curves.empty()) chart.missing = "No series of the comparison has fixed steps.";
   return chart;

@@ -183,6 +183,7 @@ Chart cost_chart(const ComparisonResult& result) {
       "roughly; "
       "lines that run parallel differ by a factor that does not depend on the order.";
   chart.x.label = "order of the jet";
+  chart.x.is_integer = true;
   chart.x.margin = 0.04;
   chart.y.label = "time of integration";
   chart.y.unit = AxisUnit::seconds;

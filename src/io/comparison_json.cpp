@@ -29,6 +29,8 @@ Json settings_json(const IntegratorSettings& settings) {
   return {{"label", settings.label},
           {"method", method_names()[static_cast<std::size_t>(settings.method)]},
           {"stages", settings.stages},
+          {"order", settings.order},
+          {"beta", settings.beta},
           {"step_canonical", number(settings.step_canonical)},
           {"tolerance", number(settings.tolerance)},
           {"require_relative_error", number(settings.require_relative_error)},
@@ -97,7 +99,10 @@ Json along_time_json(const RunAlongTime& run) {
                       {"condition", number(point.condition)},
                       {"energy_error", number(point.energy_error)}});
   }
-  return {{"label", run.label}, {"failure", text_or_null(run.failure)}, {"points", points}};
+  return {{"label", run.label},
+          {"failure", text_or_null(run.failure)},
+          {"points", points},
+          {"singular_times_canonical", run.singular_times}};
 }
 
 Json scene_json(const Scene& scene) {
@@ -174,6 +179,7 @@ std::string comparison_json(const ComparisonResult& result, const ReportOrigin& 
                      {"reference", reference_json(result)},
                      {"kind", result.kind ? Json(result.kind->name()) : Json(nullptr)},
                      {"kind_condition", number(result.kind_condition)},
+                     {"smallest_claimed_error_m", result.smallest_claimed_error_m()},
                      {"separation_points", result.separation_points},
                      {"largest_exact_defect", number(largest_exact_defect)},
                      {"verdict", verdict(result)},

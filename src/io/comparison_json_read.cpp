@@ -104,6 +104,8 @@ IntegratorSettings read_settings(const Value& value) {
   settings.label = value.at("label").text();
   settings.method = value.at("method").one_of<IntegrationMethod>(method_names());
   settings.stages = value.at("stages").integer<int>();
+  settings.order = value.at("order").integer<int>();
+  settings.beta = value.at("beta").number();
   settings.step_canonical = value.at("step_canonical").optional_number();
   settings.tolerance = value.at("tolerance").optional_number();
   settings.require_relative_error = value.at("require_relative_error").optional_number();
@@ -169,6 +171,7 @@ RunAlongTime read_along_time(const Value& value) {
                                point.at("exactness").optional_number(),
                                point.at("condition").number(), point.at("energy_error").number()};
   });
+  run.singular_times = value.at("singular_times_canonical").numbers();
   return run;
 }
 

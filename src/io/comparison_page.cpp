@@ -10,7 +10,23 @@
 namespace hamjet::io {
 namespace {
 
-/// Draws the charts of one page, and stops asking for a program that is not there.
+/// What a drawing begins with; a program that says all is well and draws something else is not
+/// believed.
+bool is_drawing(std::string_view output, Drawing drawing) {
+  switch (drawing) {
+    case Drawing::pdf:
+      return output.starts_with("%PDF");
+    case Drawing::png:
+      return output.starts_with("\x89PNG");
+    case Drawing::wide_svg:
+    case Drawing::narrow_svg:
+      break;
+  }
+  return output.starts_with("<?xml") && output.find("<svg") != output.npos &&
+         output.find("</svg>") != output.npos && output.find("<script") == output.npos;
+}
+
+/// Draws charts, and stops asking a program that is not there or does not answer.
 class Drawer {
  public:
   Drawer(const ReportOrigin& origin, std::optional<std::string>& problem)
@@ -18,29 +34,37 @@ class Drawer {
 
   /// The chart in both widths, or an empty text and the reason.
   std::string draw(const Chart& chart, std::string& reason) {
-    if (!is_installed_) return "";
     std::string html;
     for (const Drawing drawing : {Drawing::wide_svg, Drawing::narrow_svg}) {
       const char* width = drawing == Drawing::wide_svg ? "wide" : "narrow";
-      const GnuplotOutcome outcome = run_gnuplot(program_, gnuplot_script(chart, drawing));
-      if (!outcome.problem.empty()) {
-        is_installed_ = outcome.is_installed;
-        if (!problem_) problem_ = outcome.problem;
-        if (is_installed_) reason = outcome.problem;
-        return "";
-      }
+      const std::string output = draw(chart, drawing, reason);
+      if (output.empty()) return "";
       html +=
           fmt::format("<div class=\"{}\">{}</div>\n", width,
-                      inline_svg(outcome.output, fmt::format("{}-{}-", chart.name, width),
+                      inline_svg(output, fmt::format("{}-{}-", chart.name, width),
                                  chart.title + ": " + chart.y.label + " against " + chart.x.label));
     }
     return html;
   }
 
+  /// The chart as a file, or an empty text and the reason.
+  std::string draw(const Chart& chart, Drawing drawing, std::string& reason) {
+    if (!is_asked_) return "";
+    GnuplotOutcome outcome = run_gnuplot(program_, gnuplot_script(chart, drawing));
+    if (outcome.problem.empty() && !is_drawing(outcome.output, drawing)) {
+      outcome.problem = fmt::format("{} drew something that is no plot", program_);
+    }
+    if (outcome.problem.empty()) return outcome.output;
+    is_asked_ = outcome.is_installed && !outcome.is_late;
+    if (!problem_) problem_ = outcome.problem;
+    if (outcome.is_installed) reason = outcome.problem;
+    return "";
+  }
+
  private:
   std::string program_;
   std::optional<std::string>& problem_;
-  bool is_installed_ = true;
+  bool is_asked_ = true;
 };
 
 std::string figure(const Chart& chart, Drawer& drawer) {
@@ -136,30 +160,45 @@ std::string comparison_html(const ComparisonResult& result, const ReportOrigin& 
   return html;
 }
 
-std::optional<std::string> write_comparison(const ComparisonResult& result,
-                                            const ReportOrigin& origin, PlotFormat format,
-                                            OutputDirectory& output) {
-  std::optional<std::string> problem;
-  output.write("compare.csv", comparison_csv(result));
-  output.write("report.html", comparison_html(result, origin, problem));
-  const std::filesystem::path folder = "plots";
+std::vector<ReportFile> comparison_plots(const ComparisonResult& result, const ReportOrigin& origin,
+                                         PlotFormat format,
+                                         std::optional<std::string>& drawing_problem) {
+  std::vector<ReportFile> files;
+  if (format == PlotFormat::none || drawing_problem) return files;
+  Drawer drawer(origin, drawing_problem);
+  const bool is_pdf = format == PlotFormat::pdf;
   for (const Chart& chart : comparison_charts(result)) {
-    // Those of an earlier comparison must not be taken for plots of this one.
-    for (const char* extension : {".pdf", ".png"})
-      output.replace(folder / (chart.name + extension));
-    if (format == PlotFormat::none || !chart.missing.empty() || problem) continue;
-    const bool is_pdf = format == PlotFormat::pdf;
-    const GnuplotOutcome outcome =
-        run_gnuplot(origin.gnuplot, gnuplot_script(chart, is_pdf ? Drawing::pdf : Drawing::png));
-    if (!outcome.problem.empty()) {
-      problem = outcome.problem;
-      continue;
-    }
-    output.write(folder / (chart.name + (is_pdf ? ".pdf" : ".png")), outcome.output);
+    if (!chart.missing.empty()) continue;
+    std::string reason;
+    std::string content = drawer.draw(chart, is_pdf ? Drawing::pdf : Drawing::png, reason);
+    if (content.empty()) continue;
+    files.push_back({"plots/" + chart.name + (is_pdf ? ".pdf" : ".png"), std::move(content)});
   }
-  output.write("compare.json", comparison_json(result, origin));
+  return files;
+}
+
+ComparisonReport make_report(const ComparisonResult& result, const ReportOrigin& origin,
+                             PlotFormat format) {
+  ComparisonReport report;
+  report.files.push_back({"compare.csv", comparison_csv(result)});
+  report.files.push_back({"report.html", comparison_html(result, origin, report.drawing_problem)});
+  for (ReportFile& plot : comparison_plots(result, origin, format, report.drawing_problem)) {
+    report.files.push_back(std::move(plot));
+  }
+  report.files.push_back({"compare.json", comparison_json(result, origin)});
+  // Those of an earlier comparison must not be taken for plots of this one.
+  for (const Chart& chart : comparison_charts(result)) {
+    for (const char* extension : {".pdf", ".png"}) {
+      report.earlier.push_back("plots/" + chart.name + extension);
+    }
+  }
+  return report;
+}
+
+void write_report(const ComparisonReport& report, OutputDirectory& output) {
+  for (const std::filesystem::path& file : report.earlier) output.replace(file);
+  for (const ReportFile& file : report.files) output.write(file.path, file.content);
   output.commit();
-  return problem;
 }
 
 }  // namespace hamjet::io

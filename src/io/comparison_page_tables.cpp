@@ -64,8 +64,8 @@ std::string claimed(double error, double smallest, bool is_metric) {
 
 std::string error_cell(const ComparisonResult& result, const ComparedRun& run, std::size_t degree) {
   if (degree >= run.error_by_degree.size()) return cell("–");
-  return cell(
-      claimed(run.error_by_degree[degree], claimed_error(result, static_cast<int>(degree)), false));
+  return cell(claimed(run.error_by_degree[degree],
+                      result.smallest_claimed_error(static_cast<int>(degree)), false));
 }
 
 std::string residual_cell(const ComparedRun& run, std::size_t degree) {
@@ -201,7 +201,7 @@ std::string reference_html(const ComparisonResult& result) {
   for (std::size_t d = 0; d < reference.uncertainty_by_degree.size(); ++d) {
     rows += fmt::format("<tr><th scope=\"row\">{}</th>", d) +
             cell(small_number(reference.uncertainty_by_degree[d])) +
-            cell(small_number(claimed_error(result, static_cast<int>(d)))) + "</tr>\n";
+            cell(small_number(result.smallest_claimed_error(static_cast<int>(d)))) + "</tr>\n";
   }
   return fmt::format(
              "<p>The errors are differences from a jet that was integrated with 113 significant "

@@ -29,15 +29,10 @@ void add_new_names(const std::vector<ComparedRun>& runs, std::vector<std::string
 
 }  // namespace
 
-double claimed_error(const ComparisonResult& result, int degree) {
-  const auto known = static_cast<int>(result.reference.uncertainty_by_degree.size());
-  return degree < known ? result.smallest_claimed_error(degree) : 0;
-}
-
 double largest_claimed_error(const ComparisonResult& result) {
   double largest = 0;
   for (int d = 0; d <= result.scene.order; ++d)
-    largest = std::max(largest, claimed_error(result, d));
+    largest = std::max(largest, result.smallest_claimed_error(d));
   return largest;
 }
 
@@ -50,26 +45,8 @@ double shown_error(const ComparisonResult& result, const ComparedRun& run) {
 }
 
 double smallest_shown_error(const ComparisonResult& result) {
-  const int order = result.scene.order;
-  if (!has_formation_error(result)) return largest_claimed_error(result);
-  const double metres = result.scene.units.length_km * 1000;
-  const FlowJet<Extended>& jet = result.reference.jet;
-  if (jet.empty()) return largest_claimed_error(result) * metres;
-  // A coefficient's uncertainty times the deviation's power, summed over the monomials.
-  const SeriesSpace& space = jet.front().space();
-  double canonical = 0;
-  for (int d = 0; d <= std::min(order, space.order()); ++d) {
-    const std::size_t end = space.first(d + 1);
-    double largest = 0;
-    for (const Series<Extended>& component : jet) {
-      for (std::size_t k = space.first(d); k < end; ++k) {
-        largest = std::max(largest, std::abs(static_cast<double>(component[k])));
-      }
-    }
-    canonical += claimed_error(result, d) * largest * std::pow(*result.scene.separation, d) *
-                 static_cast<double>(space.count(d));
-  }
-  return canonical * metres;
+  return has_formation_error(result) ? result.smallest_claimed_error_m()
+                                     : largest_claimed_error(result);
 }
 
 std::string shown_error_name(const ComparisonResult& result) {

@@ -12,10 +12,7 @@
 
 namespace hamjet::io {
 
-/// ComparisonResult::smallest_claimed_error, or 0 for a degree that the reference does not have: a
-/// partial comparison may be without one.
-double claimed_error(const ComparisonResult& result, int degree);
-/// The largest of it over the degrees of the scene's order.
+/// The largest ComparisonResult::smallest_claimed_error over the degrees of the scene's order.
 double largest_claimed_error(const ComparisonResult& result);
 
 /// Whether errors are stated at formation scale, in metres; otherwise the largest relative error

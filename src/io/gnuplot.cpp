@@ -180,6 +180,7 @@ GnuplotOutcome run_gnuplot(const std::string& program, std::string_view script,
     while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
     }
     outcome.output.clear();
+    outcome.is_late = true;
     outcome.problem = fmt::format("{} took longer than {} s and was ended", program,
                                   static_cast<double>(limit.count()) / 1000);
     return outcome;

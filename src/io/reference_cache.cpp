@@ -19,6 +19,11 @@ using Json = nlohmann::json;
 /// 36 significant digits bring back the same number of 113 bits.
 std::string text_of(const Extended& value) { return value.str(36, std::ios_base::scientific); }
 
+std::string hash_of(const std::string& text) {
+  boost::uuids::name_generator_sha1 generator(boost::uuids::ns::url());
+  return boost::uuids::to_string(generator(text));
+}
+
 Json json_of(const std::string& key, const ReferenceResult& reference) {
   Json jet = Json::array();
   for (const auto& component : reference.jet) {
@@ -74,8 +79,7 @@ std::filesystem::path ReferenceCache::user_directory() {
 }
 
 std::filesystem::path ReferenceCache::file_of(const std::string& key) const {
-  boost::uuids::name_generator_sha1 generator(boost::uuids::ns::url());
-  return directory_ / (boost::uuids::to_string(generator(key)) + ".json");
+  return directory_ / (hash_of(key) + ".json");
 }
 
 std::optional<ReferenceResult> ReferenceCache::load(const std::string& key,
@@ -84,8 +88,10 @@ std::optional<ReferenceResult> ReferenceCache::load(const std::string& key,
   try {
     std::ifstream file(file_of(key));
     if (!file) return std::nullopt;
-    const Json json = Json::parse(file);
-    if (json.at("key") != key) return std::nullopt;
+    Json json = Json::parse(file);
+    const std::string hash = json.at("hash");
+    json.erase("hash");
+    if (hash_of(json.dump()) != hash || json.at("key") != key) return std::nullopt;
     return reference_of(json, space);
   } catch (const std::exception&) {
     return std::nullopt;
@@ -96,7 +102,9 @@ void ReferenceCache::save(const std::string& key, const ReferenceResult& referen
   if (directory_.empty()) return;
   try {
     OutputDirectory output(directory_);
-    output.write(file_of(key).filename(), json_of(key, reference).dump());
+    Json json = json_of(key, reference);
+    json["hash"] = hash_of(json.dump());
+    output.write(file_of(key).filename(), json.dump());
     output.commit();
   } catch (const Error&) {
     // A full or read-only disk: the reference is computed again next time.

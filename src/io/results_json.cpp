@@ -46,9 +46,13 @@ Json exactness_json(const PropagationResult& result, const KindResult& kind) {
 Json run_json(const PropagationResult& result, const RunResult& run) {
   const IntegratorSettings& settings = run.settings;
   const bool is_gauss = settings.method == IntegrationMethod::gauss;
+  const bool is_verlet = settings.method == IntegrationMethod::velocity_verlet;
+  const bool is_newmark = settings.method == IntegrationMethod::newmark;
   Json json = {{"label", settings.label},
                {"method", method_names()[static_cast<std::size_t>(settings.method)]},
                {"stages", is_gauss ? Json(settings.stages) : Json(nullptr)},
+               {"order", is_verlet ? Json(settings.order) : Json(nullptr)},
+               {"beta", is_newmark ? Json(settings.beta) : Json(nullptr)},
                {"step_canonical", or_null(settings.step_canonical)},
                {"tolerance", or_null(settings.tolerance)},
                {"error", text_or_null(run.failure)},

@@ -16,35 +16,42 @@ constexpr std::int64_t most_stages = 12;
 constexpr std::size_t longest_label = 100;
 /// The files that stand beside the integrators' directories in the output.
 bool is_reserved(std::string_view label) {
-  return label == "summary.json" || label == "relative_hamiltonian.csv";
+  return label == "summary.json" || label == "relative_hamiltonian.csv" ||
+         label == "compare.json" || label == "compare.csv" || label == "report.html" ||
+         label == "plots";
 }
 
 bool is_cvode(IntegrationMethod method) {
   return method == IntegrationMethod::cvode_adams || method == IntegrationMethod::cvode_bdf;
 }
 
-std::vector<std::string_view> keys_of(IntegrationMethod method) {
-  if (is_cvode(method)) {
-    return {"label", "method", "tolerance", "require_relative_error", "require_symplecticity"};
-  }
-  if (method == IntegrationMethod::fehlberg78) {
-    return {"label",
-            "method",
-            "step_canonical",
-            "step_s",
-            "tolerance",
-            "require_relative_error",
-            "require_symplecticity"};
-  }
-  return {"label",
-          "method",
-          "stages",
-          "step_canonical",
-          "step_s",
-          "tolerance",
-          "require_relative_error",
-          "require_symplecticity"};
+bool has_fixed_steps_only(IntegrationMethod method) {
+  return method == IntegrationMethod::stormer || method == IntegrationMethod::velocity_verlet ||
+         method == IntegrationMethod::newmark;
 }
+
+std::vector<std::string_view> keys_of(IntegrationMethod method) {
+  std::vector<std::string_view> keys = {"label", "method", "require_relative_error",
+                                        "require_symplecticity"};
+  if (method == IntegrationMethod::gauss) keys.push_back("stages");
+  if (method == IntegrationMethod::velocity_verlet) keys.push_back("order");
+  if (method == IntegrationMethod::newmark) keys.push_back("beta");
+  if (!is_cvode(method)) keys.insert(keys.end(), {"step_canonical", "step_s"});
+  if (!has_fixed_steps_only(method)) keys.push_back("tolerance");
+  return keys;
+}
+
+/// The keys of any method.
+const std::vector<std::string_view> all_keys = {"label",
+                                                "method",
+                                                "stages",
+                                                "order",
+                                                "beta",
+                                                "step_canonical",
+                                                "step_s",
+                                                "tolerance",
+                                                "require_relative_error",
+                                                "require_symplecticity"};
 
 /// A label becomes the name of a directory, so that it must neither lead out of the output
 /// directory nor need quotes in a shell.
@@ -98,9 +105,24 @@ double read_tolerance(const TableReader& integrator, Precision precision) {
   return integrator.number_between("tolerance", least, 1e-1);
 }
 
+/// Of velocity Verlet and its compositions.
+int read_order(const TableReader& integrator) {
+  const auto order = integrator.integer_between("order", 2, 8);
+  if (order % 2 != 0) {
+    integrator.fail("order", fmt::format("out of range, got {}, must be 2, 4, 6 or 8", order));
+  }
+  return static_cast<int>(order);
+}
+
+/// The key that says how long the steps are.
+std::string_view read_size_key(const TableReader& integrator, IntegrationMethod method) {
+  if (is_cvode(method)) return "tolerance";
+  if (has_fixed_steps_only(method)) return integrator.exactly_one_of({"step_canonical", "step_s"});
+  return integrator.exactly_one_of({"step_canonical", "step_s", "tolerance"});
+}
+
 IntegratorSettings read_integrator(const TableReader& integrator, Precision precision,
                                    double duration, const CanonicalScale& scale) {
-  const std::vector<std::string_view> all_keys = keys_of(IntegrationMethod::gauss);
   if (!integrator.has("method")) integrator.check_keys({all_keys});  // a misspelt `method` is named
   IntegratorSettings settings;
   settings.method = static_cast<IntegrationMethod>(integrator.choice("method", method_names()));
@@ -108,7 +130,7 @@ IntegratorSettings read_integrator(const TableReader& integrator, Precision prec
   integrator.check_keys({keys_of(settings.method), all_keys, "the method " + std::string(method)});
   if (is_cvode(settings.method) && precision == Precision::extended) {
     integrator.fail("method", fmt::format("not available in extended precision, got {}, must be "
-                                          "gauss or fehlberg78, or precision = \"double\": CVODE "
+                                          "another method, or precision = \"double\": CVODE "
                                           "computes in double precision only",
                                           in_quotes(method)));
   }
@@ -116,10 +138,9 @@ IntegratorSettings read_integrator(const TableReader& integrator, Precision prec
   if (integrator.has("stages")) {
     settings.stages = static_cast<int>(integrator.integer_between("stages", 1, most_stages));
   }
-  const std::string_view size_key =
-      is_cvode(settings.method)
-          ? "tolerance"
-          : integrator.exactly_one_of({"step_canonical", "step_s", "tolerance"});
+  if (integrator.has("order")) settings.order = read_order(integrator);
+  if (integrator.has("beta")) settings.beta = integrator.number_between("beta", 0, 0.5);
+  const std::string_view size_key = read_size_key(integrator, settings.method);
   if (size_key == "tolerance") {
     settings.tolerance = read_tolerance(integrator, precision);
   } else {

@@ -61,13 +61,16 @@ PartialInversion<T> invert_partially(std::span<const Series<T>> jet,
   PartialInversion<T> result;
   result.kind = kind;
   result.condition = condition_number(block);
-  if (!(result.condition < largest_condition(precision))) {
-    const std::vector<double> values = singular_values(block);
+  const std::vector<double> values = singular_values(block);
+  const double whole = static_cast<double>(linear_part(jet).norm());
+  if (!(result.condition < largest_condition(precision)) ||
+      !(values.back() * largest_condition(precision) > whole)) {
     throw Error(ErrorKind::numerical,
                 fmt::format("generating function {}: it does not exist at this time: the singular "
                             "values of its linear part run from {:.3g} down to {:.3g} (condition "
-                            "{:.3g}); another kind, or 'auto', may exist",
-                            kind.name(), values.front(), values.back(), result.condition));
+                            "{:.3g}), that of the whole map has the norm {:.3g}; another kind, or "
+                            "'auto', may exist",
+                            kind.name(), values.front(), values.back(), result.condition, whole));
   }
   // The map w(initial deviations) is inverted as a whole: its last n rows are single variables.
   const std::size_t n = kind.degrees_of_freedom();
@@ -95,12 +98,18 @@ PartialInversion<T> invert_partially(std::span<const Series<T>> jet,
 template <class T>
 GeneratingFunctionKind best_conditioned_kind(std::span<const Series<T>> jet) {
   const auto kinds = all_kinds(jet.size() / 2);
+  constexpr double equal = 1 + 1e-6;
   double smallest = std::numeric_limits<double>::infinity();
+  double size = 0;
   GeneratingFunctionKind best = kinds.front();
   for (const auto& kind : kinds) {
-    const double condition = condition_number(inverted_block(jet, kind));
-    if (condition < smallest) {
-      smallest = condition;
+    const std::vector<double> values = singular_values(inverted_block(jet, kind));
+    const double condition = values.back() > 0 ? values.front() / values.back()
+                                               : std::numeric_limits<double>::infinity();
+    const bool is_better = condition * equal < smallest;
+    if (is_better || (condition < equal * smallest && values.back() > size)) {
+      smallest = is_better ? condition : std::min(smallest, condition);
+      size = values.back();
       best = kind;
     }
   }

@@ -53,6 +53,7 @@ std::vector<SymplecticityDefect> symplecticity_by_degree(std::span<const Series<
     }
   }
   std::vector<SymplecticityDefect> result(static_cast<std::size_t>(highest + 1));
+  std::vector<double> largest(result.size(), 0);
   std::vector<Extended> scratch(space.size());
   std::vector<double> double_scratch(space.size());
   for (std::size_t i = 0; i < size; ++i) {
@@ -76,11 +77,15 @@ std::vector<SymplecticityDefect> symplecticity_by_degree(std::span<const Series<
         SymplecticityDefect& entry = result[static_cast<std::size_t>(space.degree(k))];
         const double value = std::abs(static_cast<double>(bracket[k]));
         entry.absolute = std::max(entry.absolute, value);
-        if (terms[k] > 0) entry.scaled = std::max(entry.scaled, value / terms[k]);
+        double& scale = largest[static_cast<std::size_t>(space.degree(k))];
+        scale = std::max(scale, terms[k]);
       }
     }
   }
-  for (std::size_t d = 0; d < result.size(); ++d) result[d].degree = static_cast<int>(d);
+  for (std::size_t d = 0; d < result.size(); ++d) {
+    result[d].degree = static_cast<int>(d);
+    result[d].scaled = largest[d] > 0 ? result[d].absolute / largest[d] : result[d].absolute;
+  }
   return result;
 }
 

@@ -1,5 +1,6 @@
 #include "compared_order.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -152,9 +153,20 @@ RunAlongTime ComparedOrder::watch(const IntegratorSettings& settings,
   recorder.record(0, problem_.nominal);
   const auto linear_space = SeriesSpace::create(problem_.variables.size(), 1);
   double next = 0;
+  double last_time = 0;
+  double last_determinant = 0;
   const auto observe = [&](const double& time, const FlowJet<double>& jet) {
     keep_going(time / scene_.duration);
     recorder.record(time, state_of(jet));
+    if (kind_) {
+      const double now = inverted_block(std::span<const Series<double>>(jet), *kind_).determinant();
+      if (now * last_determinant < 0) {
+        const double fraction = last_determinant / (last_determinant - now);
+        result.singular_times.push_back(last_time + fraction * (time - last_time));
+      }
+      last_determinant = now;
+      last_time = time;
+    }
     if (std::abs(time) < next && time != scene_.duration) return;
     next = std::abs(time) + std::abs(scene_.duration) / watched_points;
     RunAlongTime::Point point;

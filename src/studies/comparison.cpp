@@ -29,20 +29,49 @@ struct TooSlow {
   double seconds;
 };
 
-using Finished = std::map<std::string, ComparedRun>;
-
-std::string finished_key(const ComparedRun& run) {
-  return fmt::format("{} {}", run.order, run.settings.label);
+/// Whether a run read from a file can stand for one of this order. What cannot is run again.
+bool is_sound(const ComparedRun& run) {
+  if (!run.left_out.empty()) return false;
+  if (!run.failure.empty()) return true;
+  const auto is_size = [](double x) { return std::isfinite(x) && x >= 0; };
+  return run.error_by_degree.size() == static_cast<std::size_t>(run.order) + 1 &&
+         run.statistics.steps > 0 &&
+         std::all_of(run.error_by_degree.begin(), run.error_by_degree.end(), is_size) &&
+         std::all_of(run.seconds.begin(), run.seconds.end(), is_size);
 }
 
-Finished take_finished(std::vector<ComparedRun>& runs) {
-  Finished finished;
-  for (ComparedRun& run : runs) {
-    if (run.left_out.empty()) finished.emplace(finished_key(run), std::move(run));
+/// The runs that an earlier comparison had finished, while a new one takes them up. Those that it
+/// did not come to are put back at the end, so that an interruption loses none.
+class FinishedRuns {
+ public:
+  explicit FinishedRuns(std::vector<ComparedRun>& runs) : runs_(runs) {
+    for (ComparedRun& run : runs) {
+      if (is_sound(run)) finished_.emplace(key(run.order, run.settings.label), std::move(run));
+    }
+    runs.clear();
   }
-  runs.clear();
-  return finished;
-}
+  ~FinishedRuns() {
+    for (auto& [name, run] : finished_) runs_.push_back(std::move(run));
+  }
+  FinishedRuns(const FinishedRuns&) = delete;
+  FinishedRuns& operator=(const FinishedRuns&) = delete;
+
+  std::optional<ComparedRun> take(int order, const std::string& label) {
+    auto node = finished_.extract(key(order, label));
+    if (node.empty()) return std::nullopt;
+    return std::move(node.mapped());
+  }
+  /// The comparison has come to all that it wants: what is left belongs to nothing.
+  void drop_the_rest() { finished_.clear(); }
+
+ private:
+  static std::string key(int order, const std::string& label) {
+    return fmt::format("{} {}", order, label);
+  }
+
+  std::vector<ComparedRun>& runs_;
+  std::map<std::string, ComparedRun> finished_;
+};
 
 /// One comparison at work. The integrations are judged first, then timed in turns.
 class Comparison {
@@ -144,12 +173,13 @@ class Comparison {
   }
 
   void judge_all(ComparedOrder& order) {
-    Finished finished = take_finished(result_.runs);
+    FinishedRuns finished(result_.runs);
     for (std::size_t i = 0; i < series_.size(); ++i) judge_series(order, i, finished);
+    finished.drop_the_rest();
   }
 
   /// Coarse to fine, as far as the error falls and the time lasts.
-  void judge_series(ComparedOrder& order, std::size_t index, Finished& finished) {
+  void judge_series(ComparedOrder& order, std::size_t index, FinishedRuns& finished) {
     const CandidateSeries& series = series_[index];
     double left = allowance();
     double last_seconds = 0;
@@ -208,12 +238,9 @@ class Comparison {
   }
 
   ComparedRun judge(ComparedOrder& order, const Candidate& candidate, const std::string& series,
-                    double allowed_seconds, Finished& finished, double done) {
-    ComparedRun place;
-    place.order = order.problem().space->order();
-    place.settings.label = candidate.settings.label;
-    const auto earlier = finished.find(finished_key(place));
-    if (earlier != finished.end()) return std::move(earlier->second);
+                    double allowed_seconds, FinishedRuns& finished, double done) {
+    const int degree = order.problem().space->order();
+    if (auto earlier = finished.take(degree, candidate.settings.label)) return std::move(*earlier);
     report("judging runs", done);
     try {
       return order.judge(candidate, series, [&](double, double seconds) {
@@ -221,7 +248,7 @@ class Comparison {
         if (seconds > allowed_seconds) throw TooSlow{seconds};
       });
     } catch (const TooSlow& slow) {
-      return left_out(candidate, series, place.order, slow.seconds);
+      return left_out(candidate, series, degree, slow.seconds);
     }
   }
 
@@ -237,7 +264,7 @@ class Comparison {
 
   /// The cheapest candidate of each method, by its count of multiply-adds, over the orders.
   void judge_costs() {
-    Finished finished = take_finished(result_.cost_runs);
+    FinishedRuns finished(result_.cost_runs);
     std::map<IntegrationMethod, const ComparedRun*> cheapest;
     for (const ComparedRun& run : result_.runs) {
       if (!run.is_finished() || run.error_at_formation_m > scene_.comparison.wanted_error_m) {
@@ -250,8 +277,10 @@ class Comparison {
       for (const int order : cost_orders()) {
         result_.cost_runs.push_back(judge(at_order(order), candidate_of(*run), run->series,
                                           scene_.comparison.time_budget_s, finished, 1));
+        save();
       }
     }
+    finished.drop_the_rest();
   }
 
   static double work(const ComparedRun& run) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "hamjet/integrators/cvode.hpp"
 #include "hamjet/studies/comparison.hpp"
@@ -48,7 +49,8 @@ class SeriesBuilder {
   std::vector<CandidateSeries> build() {
     std::vector<IntegrationMethod> methods = wanted_.methods;
     if (methods.empty()) {
-      methods = {IntegrationMethod::gauss, IntegrationMethod::fehlberg78};
+      methods = {IntegrationMethod::gauss, IntegrationMethod::velocity_verlet,
+                 IntegrationMethod::fehlberg78};
       if (cvode_available()) {
         methods.push_back(IntegrationMethod::cvode_adams);
         methods.push_back(IntegrationMethod::cvode_bdf);
@@ -64,13 +66,26 @@ class SeriesBuilder {
     settings.method = method;
     switch (method) {
       case IntegrationMethod::gauss:
-        for (const int stages : wanted_.stages) {
+        for (const int stages : std::set<int>(wanted_.stages.begin(), wanted_.stages.end())) {
           settings.stages = stages;
           const std::string name = fmt::format("Gauss {}", stages);
           const std::string label = fmt::format("gauss{}", stages);
           add_fixed(settings, name, label, 2.0 * stages);
           add_adaptive(settings, name + " adaptive", label);
         }
+        break;
+      case IntegrationMethod::stormer:
+        add_fixed(settings, "Störmer", "stormer", 1);
+        break;
+      case IntegrationMethod::velocity_verlet:
+        for (const int order : {2, 4, 6, 8}) {
+          settings.order = order;
+          add_fixed(settings, fmt::format("Verlet {}", order), fmt::format("verlet{}", order),
+                    order);
+        }
+        break;
+      case IntegrationMethod::newmark:
+        add_fixed(settings, fmt::format("Newmark {}", settings.beta), "newmark", 2);
         break;
       case IntegrationMethod::fehlberg78:
         add_fixed(settings, "Fehlberg 7(8)", "fehlberg78", 8);
@@ -130,17 +145,18 @@ std::vector<CandidateSeries> candidate_series(const Scene& scene) {
 
 std::string comparison_key(const Scene& scene) {
   const ComparisonSettings& wanted = scene.comparison;
-  std::string key = fmt::format("comparison 1; {}; separation {}; kind {}; budget {}; candidates",
-                                reference_key(scene, scene.order), scene.separation.value_or(0),
-                                scene.kinds ? scene.kinds->front() : "auto", wanted.time_budget_s);
+  std::string key = fmt::format(
+      "comparison 2; {}; separation {}; unit {} km; wanted {} m; kind {}; budget {}; candidates",
+      reference_key(scene, scene.order), scene.separation.value_or(0), scene.units.length_km,
+      wanted.wanted_error_m, scene.kinds ? scene.kinds->front() : "auto", wanted.time_budget_s);
   for (const CandidateSeries& series : candidate_series(scene)) {
     for (const Candidate& candidate : series.candidates) key += " " + candidate.settings.label;
   }
   key += "; along time";
   for (const IntegratorSettings& settings : scene.integrators) {
-    key += fmt::format(" {} {} {} {} {}", settings.label, static_cast<int>(settings.method),
-                       settings.stages, settings.step_canonical.value_or(0),
-                       settings.tolerance.value_or(0));
+    key += fmt::format(" {} {} {} {} {} {} {}", settings.label, static_cast<int>(settings.method),
+                       settings.stages, settings.order, settings.beta,
+                       settings.step_canonical.value_or(0), settings.tolerance.value_or(0));
   }
   key += "; orders";
   for (const int order : wanted.orders) key += fmt::format(" {}", order);

@@ -38,8 +38,9 @@ std::string span_text(const Scene& scene) {
   const double seconds = std::abs(scene.duration) * scene.units.time_s;
   const auto period = nominal_period(scene);
   if (period && scene.system.model != SystemModel::harmonic_oscillator) {
-    return fmt::format("{:.3g} h ({:.4g} revolutions)", seconds / 3600,
-                       std::abs(scene.duration) / *period);
+    const double revolutions = std::abs(scene.duration) / *period;
+    return fmt::format("{:.3g} h ({:.4g} revolution{})", seconds / 3600, revolutions,
+                       std::abs(revolutions - 1) < 1e-4 ? "" : "s");
   }
   if (seconds < 60) return fmt::format("{:.3g} s", seconds);
   if (seconds < 7200) return fmt::format("{:.3g} min", seconds / 60);
@@ -78,7 +79,29 @@ double ComparedRun::largest_symplecticity() const {
 }
 
 double ComparisonResult::smallest_claimed_error(int degree) const {
-  return 10 * reference.uncertainty_by_degree[static_cast<std::size_t>(degree)];
+  const auto index = static_cast<std::size_t>(degree);
+  const auto& uncertainty = reference.uncertainty_by_degree;
+  return index < uncertainty.size() ? 10 * uncertainty[index] : 0;
+}
+
+double ComparisonResult::smallest_claimed_error_m() const {
+  const double metres = scene.units.length_km * 1000;
+  const FlowJet<Extended>& jet = reference.jet;
+  if (jet.empty()) return 0;
+  // A coefficient's uncertainty times the deviation's power, summed over the monomials.
+  const SeriesSpace& space = jet.front().space();
+  double canonical = 0;
+  for (int d = 0; d <= std::min(scene.order, space.order()); ++d) {
+    double largest = 0;
+    for (const Series<Extended>& component : jet) {
+      for (const Extended& c : component.slice(d)) {
+        largest = std::max(largest, std::abs(static_cast<double>(c)));
+      }
+    }
+    canonical += smallest_claimed_error(d) * largest * std::pow(scene.separation.value_or(0), d) *
+                 static_cast<double>(space.count(d));
+  }
+  return canonical * metres;
 }
 
 std::vector<const ComparedRun*> cheapest_runs(const ComparisonResult& result, double error_m) {
@@ -126,14 +149,22 @@ std::string advice(const ComparisonResult& result) {
                        length_text(wanted), length_text(separation_m(result.scene)));
   }
   const ComparedRun& run = *runs[0];
+  const double claimed = result.smallest_claimed_error_m();
   std::string text = fmt::format(
-      "# error {:.1e} m at {} separation (wanted: {}), {} a run\n[[integrator]]\nlabel = \"{}\"\n"
+      "# error {}{:.1e} m at {} separation (wanted: {}), {} a run\n[[integrator]]\nlabel = \"{}\"\n"
       "method = \"{}\"\n",
-      run.error_at_formation_m, length_text(separation_m(result.scene)), length_text(wanted),
-      duration_text(run.median_seconds()), run.settings.label,
+      run.error_at_formation_m < claimed ? "below " : "",
+      std::max(run.error_at_formation_m, claimed), length_text(separation_m(result.scene)),
+      length_text(wanted), duration_text(run.median_seconds()), run.settings.label,
       method_names()[static_cast<std::size_t>(run.settings.method)]);
   if (run.settings.method == IntegrationMethod::gauss) {
     text += fmt::format("stages = {}\n", run.settings.stages);
+  }
+  if (run.settings.method == IntegrationMethod::velocity_verlet) {
+    text += fmt::format("order = {}\n", run.settings.order);
+  }
+  if (run.settings.method == IntegrationMethod::newmark) {
+    text += fmt::format("beta = {}\n", run.settings.beta);
   }
   if (run.settings.tolerance) text += fmt::format("tolerance = {}\n", *run.settings.tolerance);
   if (run.settings.step_canonical) {

@@ -5,6 +5,9 @@
 #include "hamjet/integrators/cvode.hpp"
 #include "hamjet/integrators/explicit_runge_kutta.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
+#include "hamjet/integrators/newmark.hpp"
+#include "hamjet/integrators/stormer_verlet.hpp"
+#include "hamjet/integrators/symmetric_composition.hpp"
 
 namespace hamjet {
 namespace {
@@ -36,6 +39,18 @@ FlowJet<Real> integrate(const FlowProblem<Real>& flow, const IntegratorSettings&
       gauss.tolerance = settings.tolerance;
       return integrate_gauss<Real>(flow, gauss, statistics, observer);
     }
+    case IntegrationMethod::stormer:
+      return integrate_stormer<Real>(flow, {*settings.step_canonical}, statistics, observer);
+    case IntegrationMethod::velocity_verlet:
+      if (settings.order == 2) {
+        return integrate_velocity_verlet<Real>(flow, {*settings.step_canonical}, statistics,
+                                               observer);
+      }
+      return integrate_symmetric_composition<Real>(flow, {settings.order, *settings.step_canonical},
+                                                   statistics, observer);
+    case IntegrationMethod::newmark:
+      return integrate_newmark<Real>(flow, {settings.beta, *settings.step_canonical}, statistics,
+                                     observer);
     case IntegrationMethod::fehlberg78:
       return integrate_fehlberg78<Real>(flow, {settings.step_canonical, settings.tolerance},
                                         statistics, observer);

@@ -14,8 +14,8 @@ std::vector<std::string_view> variable_names(SystemModel model) {
 }
 
 const std::vector<std::string_view>& method_names() {
-  static const std::vector<std::string_view> names = {"gauss", "fehlberg78", "cvode-adams",
-                                                      "cvode-bdf"};
+  static const std::vector<std::string_view> names = {
+      "gauss", "stormer", "velocity-verlet", "newmark", "fehlberg78", "cvode-adams", "cvode-bdf"};
   return names;
 }
 

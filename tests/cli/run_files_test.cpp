@@ -173,7 +173,8 @@ TEST_F(RunFiles, WithoutKindsNothingIsInverted) {
   write("scene.toml",
         changed(quick_scene(), "[generating_function]\nkinds = [\"F1\", \"F2\"]\n", ""));
   succeed({"run", "scene.toml", "-o", "results"});
-  for (const Json& run : read_json(directory_ / "results/summary.json")["runs"]) {
+  const Json summary = read_json(directory_ / "results/summary.json");
+  for (const Json& run : summary["runs"]) {
     EXPECT_TRUE(run["exactness"].is_null());
     EXPECT_EQ(run["symplecticity_by_degree"].size(), 2U);
   }

@@ -52,7 +52,7 @@ TEST(ZonalGravity, HandWrittenVectorFieldIsTheHamiltonians) {
 TEST(ZonalGravity, HasThePrintedSignOfJ3) {
   // V = -mu/r [1 - sum Jn (R/r)^n Pn]: on the axis Pn(1) = 1, Pn(-1) = (-1)^n, so above the pole
   // V = -1/r [1 - J2 (R/r)^2 - J3 (R/r)^3] and below it the J3 term changes sign. A positive J3
-  // raises the potential in the north; the Earth's own is negative (errata.md).
+  // raises the potential in the north; the Earth's own is negative (data/paper/README.md).
   const Extended R = 0.75;
   const Extended J2 = 0.125;
   const Extended J3 = 0.0625;
@@ -80,7 +80,8 @@ TEST(ZonalGravity, HasThePublishedEnergyAtTheStartOfThePaperOrbit) {
   const std::vector<Extended> start(orbit.start.begin(), orbit.start.end());
   const Extended expected = test::from_decimal(test::reference_case(orbit.id)["energy0"]);
   EXPECT_LE(magnitude_of(test::energy(system, start) - expected), 1e-33);
-  // |p|^2 = 1.3 at r = 1, not v^2 1.3 (errata.md, the stray v): e = 0.3 of the Kepler orbit.
+  // |p|^2 = 1.3 at r = 1, not v^2 1.3 (data/paper/README.md, the stray v): e = 0.3 of the Kepler
+  // orbit.
   double speed2 = 0;
   for (std::size_t i = 3; i < 6; ++i) speed2 += orbit.start[i] * orbit.start[i];
   EXPECT_NEAR(speed2, 1.3, 1e-15);

@@ -117,7 +117,7 @@ TEST(GaussOscillator, HighOrderGivesTheContinuousRotation) {
 
 TEST(GaussOscillator, FallsWhereTheForceIsAttractive) {
   // p' = -k q: the paper prints +k in the equations of the state transition matrix, which would
-  // grow as cosh (errata.md). dq/dq0 = cos t.
+  // grow as cosh (data/paper/README.md). dq/dq0 = cos t.
   const test::Flow<double> flow{harmonic_oscillator(), {0, 0}, 1, 1, {}};
   EXPECT_NEAR(test::run_gauss(flow)[0][1], std::cos(1.0), 1e-14);
 }

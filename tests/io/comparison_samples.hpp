@@ -56,6 +56,9 @@ inline ComparisonResult sample_comparison() {
                  sample_run("gauss, 4 stages", "gauss4-0.01", 3e-15)};
   result.runs[1].settings.step_canonical = 0.05;
   result.runs[2].settings.step_canonical = 0.01;
+  result.runs[0].statistics.steps = 314;  // 31.4 in equal steps
+  result.runs[1].statistics.steps = 628;
+  result.runs[2].statistics.steps = 3140;
   result.runs.push_back(sample_run("fehlberg78", "fehlberg78-1e-2", 1e-2));
   ComparedRun& loose = result.runs.back();
   loose.settings.method = IntegrationMethod::fehlberg78;
@@ -78,13 +81,13 @@ inline ComparisonResult sample_comparison() {
                       sample_run("gauss, 4 stages", "gauss4-order-2", 1e-9)};
   result.cost_runs[0].order = 1;
 
-  RunAlongTime watched{"midpoint", "", {}};
+  RunAlongTime watched{"midpoint", "", {}, {0.7}};
   for (int i = 0; i < 40; ++i) {
     watched.points.push_back({0.1 * i, 1e-15 * (1 + i % 7), 2.5, i == 0 ? 0.0 : -1e-13 * i});
   }
   watched.points[7].exactness.reset();
   watched.points[7].condition = infinity;
-  result.along_time = {watched, {"other", "stopped <here>", {{0, std::nullopt, infinity, 0}}}};
+  result.along_time = {watched, {"other", "stopped <here>", {{0, std::nullopt, infinity, 0}}, {}}};
   result.fits = {{"gauss, 4 stages", 0, 7.97, 8, {"gauss4-0.1", "gauss4-0.05"}}};
   return result;
 }

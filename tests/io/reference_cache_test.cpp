@@ -54,6 +54,15 @@ TEST(ReferenceCache, TakesADamagedFileForMissing) {
   ReferenceCache cache(directory.path());
   cache.save("key", some_reference(space));
   const auto file = std::filesystem::directory_iterator(directory.path())->path();
+  // One digit of one coefficient.
+  std::string text;
+  std::getline(std::ifstream(file), text);
+  const std::size_t place = text.find("33333");
+  ASSERT_NE(place, std::string::npos);
+  std::ofstream(file) << text.replace(place, 1, "4");
+  EXPECT_FALSE(cache.load("key", space));
+  cache.save("key", some_reference(space));
+  EXPECT_TRUE(cache.load("key", space));
   std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);
   EXPECT_FALSE(cache.load("key", space));
   std::ofstream(file) << "{}";

@@ -30,7 +30,7 @@ double pair_residual(const std::vector<Series<T>>& sigma, std::size_t i, std::si
 
 TEST(Exactness, ConditionHasTheSignOfOneGeneratingFunction) {
   // The paper prints dS1/dq = dS2/dq0 for p0 = S1, p = S2. For the oscillator dp0/dq = 1/sin t and
-  // dp/dq0 = -1/sin t: closed is p dq - p0 dq0 (errata.md).
+  // dp/dq0 = -1/sin t: closed is p dq - p0 dq0 (data/paper/README.md).
   const double t = 0.7;
   const test::Flow<double> flow{harmonic_oscillator(), {0.2, 0.1}, t, 1, {}};
   const auto inversion = test::inverted_jet(test::run_gauss(flow), "F1");

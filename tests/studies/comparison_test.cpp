@@ -68,6 +68,20 @@ const ComparedRun& run_of(const ComparisonResult& result, const std::string& lab
   throw std::runtime_error("no run " + label);
 }
 
+/// A store in memory that counts.
+class MemoryStore : public ReferenceStore {
+ public:
+  std::optional<ReferenceResult> load(const std::string& key, const SpacePointer&) override {
+    const auto place = references.find(key);
+    if (place == references.end()) return std::nullopt;
+    return place->second;
+  }
+  void save(const std::string& key, const ReferenceResult& reference) override {
+    references.emplace(key, reference);
+  }
+  std::map<std::string, ReferenceResult> references;
+};
+
 TEST(ComparisonReference, IsTheOscillatorsClosedForm) {
   const auto result = compared(oscillator_scene(), {series_of("one", {{gauss("one", 4, 0.5)}})});
   const auto& jet = result.reference.jet;
@@ -221,6 +235,46 @@ TEST(Comparison, InterruptedAndResumedGivesTheSameFigures) {
   EXPECT_GE(interruptions, 3);  // the last may come after the work
 }
 
+TEST(Comparison, AnInterruptedResumptionLosesNothing) {
+  struct Stop {};
+  Scene scene = kepler_scene();
+  scene.comparison.methods = {IntegrationMethod::gauss};
+  scene.comparison.stages = {2, 4, 4};  // the same twice is the same
+  scene.comparison.tolerances = {1e-4, 1e-8};
+  ComparisonResult result;
+  compare(scene, {}, result);
+  const std::size_t runs = result.runs.size();
+  const std::size_t costs = result.cost_runs.size();
+  EXPECT_EQ(runs, 4U);
+  ComparisonOptions options;
+  options.progress = [](const std::string&, double) { throw Stop{}; };
+  MemoryStore store;
+  options.references = &store;
+  store.references.emplace(reference_key(scene, scene.order), result.reference);
+  result.runs[2].error_by_degree.clear();  // damaged: judged again, where the signal comes
+  EXPECT_THROW(compare(scene, options, result), Stop);
+  EXPECT_EQ(result.runs.size(), runs - 1);
+  EXPECT_EQ(result.cost_runs.size(), costs);
+  compare(scene, {}, result);
+  EXPECT_EQ(result.runs.size(), runs);
+  EXPECT_EQ(result.cost_runs.size(), costs);
+}
+
+TEST(Comparison, MarksTheTimesAtWhichTheKindDoesNotExist) {
+  Scene scene = oscillator_scene();
+  scene.duration = 10;
+  scene.kinds = {"F1"};
+  scene.integrators = {gauss("watched", 8, 0.1)};
+  const auto result = compared(scene, {series_of("one", {{gauss("one", 8, 0.1)}})});
+  ASSERT_EQ(result.along_time.size(), 1U);
+  // F1 of the oscillator does not exist where sin t = 0.
+  const auto& times = result.along_time[0].singular_times;
+  ASSERT_EQ(times.size(), 3U);
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_NEAR(times[k], std::numbers::pi * static_cast<double>(k + 1), 1e-4);
+  }
+}
+
 TEST(Comparison, ResumesWithoutRunningAgain) {
   Scene scene = kepler_scene();
   int integrations = 0;
@@ -245,20 +299,6 @@ TEST(Comparison, ResumesWithoutRunningAgain) {
   compare(scene, options, result);
   EXPECT_EQ(integrations, first);
 }
-
-/// A store in memory that counts.
-class MemoryStore : public ReferenceStore {
- public:
-  std::optional<ReferenceResult> load(const std::string& key, const SpacePointer&) override {
-    const auto place = references.find(key);
-    if (place == references.end()) return std::nullopt;
-    return place->second;
-  }
-  void save(const std::string& key, const ReferenceResult& reference) override {
-    references.emplace(key, reference);
-  }
-  std::map<std::string, ReferenceResult> references;
-};
 
 TEST(Comparison, TakesTheReferenceFromTheStore) {
   MemoryStore store;

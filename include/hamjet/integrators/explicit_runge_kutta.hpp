@@ -28,6 +28,10 @@ struct ExplicitRungeKuttaSettings {
 /// d-th power of the deviation, so that in units in which deviations are below 1 the absolute part
 /// never weakens the accuracy of the map. Coefficients that are exactly zero do no harm.
 ///
+/// The pair sees no error at all where the derivative depends on time alone, or on a variable that
+/// is linear in time: both results are the same there, a known weakness of Fehlberg's formula
+/// (Hairer, Norsett and Wanner, Solving ODEs I, II.5).
+///
 /// The time runs to `duration` exactly, backwards too; duration 0 gives the identity exactly. In
 /// `statistics` rejected steps are those repeated with a smaller size.
 ///

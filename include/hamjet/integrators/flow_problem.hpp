@@ -30,7 +30,8 @@ using FlowJet = std::vector<Series<Real>>;
 /// round-off alone would leave little of a result.
 inline constexpr double largest_step_count = 1e8;
 
-/// What an integration took. Evaluations are counted on series: one stage of one step.
+/// What an integration took; each fills it anew. Evaluations are counted on series: one stage of
+/// one step.
 struct IntegrationStatistics {
   long steps = 0;
   long rejected_steps = 0;

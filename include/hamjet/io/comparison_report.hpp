@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -55,12 +56,25 @@ std::string comparison_html(const ComparisonResult& result, const ReportOrigin& 
 /// errors (largest over all degrees) of 1e-6, 1e-9 and 1e-12 as ratios to the best.
 std::string comparison_table(const ComparisonResult& result);
 
-/// All files into a directory: `compare.csv`, `report.html`, `plots/<name>.pdf` or `.png` if asked
-/// for, `compare.json` last. Plots of an earlier comparison are removed. Gives one line for the
-/// user if gnuplot could not draw; everything else is then written all the same. Throws
-/// Error(input_output).
-std::optional<std::string> write_comparison(const ComparisonResult& result,
-                                            const ReportOrigin& origin, PlotFormat format,
-                                            OutputDirectory& output);
+/// A file of a report before it is written.
+struct ReportFile {
+  std::filesystem::path path;  ///< relative to the output directory
+  std::string content;
+};
+
+/// All files of a report.
+struct ComparisonReport {
+  std::vector<ReportFile> files;  ///< `compare.csv`, `report.html`, plots, `compare.json` last
+  std::vector<std::filesystem::path> earlier;  ///< removed where they are not written anew
+  std::optional<std::string> drawing_problem;  ///< one line, if gnuplot could not draw
+};
+
+/// Makes the report, which takes seconds for the plots: `plots/<name>.pdf` or `.png` if asked for.
+/// What cannot be drawn is left out, and everything else is there all the same.
+ComparisonReport make_report(const ComparisonResult& result, const ReportOrigin& origin,
+                             PlotFormat format);
+
+/// Writes all files and commits them. Throws Error(input_output).
+void write_report(const ComparisonReport& report, OutputDirectory& output);
 
 }  // namespace hamjet::io

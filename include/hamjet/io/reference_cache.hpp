@@ -8,8 +8,9 @@
 namespace hamjet::io {
 
 /// References kept in a directory, a file each, named by a hash of its key (SHA-1, as a version 5
-/// UUID). The key stands in the file too, so that another key of the same hash finds nothing. A
-/// file that is damaged counts as missing; one that cannot be written is not kept.
+/// UUID). The key stands in the file too, so that another key of the same hash finds nothing, and a
+/// hash of all its content. A file that is damaged counts as missing; one that cannot be written is
+/// not kept.
 class ReferenceCache : public ReferenceStore {
  public:
   explicit ReferenceCache(std::filesystem::path directory) : directory_(std::move(directory)) {}

@@ -40,14 +40,16 @@ constexpr double largest_condition(double precision) { return 1 / (100 * precisi
 /// Inverts a jet of 2n components in all 2n initial deviations; its constant terms are ignored.
 /// `precision` is the rounding of the jet's coefficients, which may be coarser than that of T.
 /// Throws Error(numerical), naming kind and smallest singular value, where the condition exceeds
-/// largest_condition(precision): the generating function does not exist there to any useful
-/// accuracy. Throws Error(usage) if the jet is not 2n components in 2n variables.
+/// largest_condition(precision), or where the block vanishes beside the whole linear part as much
+/// (one degree of freedom has no other condition): the generating function does not exist there to
+/// any useful accuracy. Throws Error(usage) if the jet is not 2n components in 2n variables.
 template <class T>
 PartialInversion<T> invert_partially(
     std::span<const Series<T>> jet, const GeneratingFunctionKind& kind,
     double precision = static_cast<double>(std::numeric_limits<T>::epsilon()));
 
-/// The kind whose linear part has the smallest condition number.
+/// The kind whose linear part has the smallest condition number; among equal ones (to a part in a
+/// million), the one with the largest singular values, for with one degree of freedom all are 1.
 template <class T>
 GeneratingFunctionKind best_conditioned_kind(std::span<const Series<T>> jet);
 

@@ -12,7 +12,10 @@ namespace hamjet {
 struct SymplecticityDefect {
   int degree = 0;
   double absolute = 0;
-  double scaled = 0;  ///< each coefficient divided by the sum of the absolute values of its terms
+  /// Divided by the largest sum of absolute values of the terms of a coefficient of this degree.
+  /// Not coefficient by coefficient: where symmetry makes coefficients vanish, nothing but
+  /// round-off would stand in both.
+  double scaled = 0;
 };
 
 /// Defects of the degrees 0..N-1 of a jet of 2n components in all 2n initial deviations. It needs

@@ -21,7 +21,9 @@ enum class Corner {
 /// The corners' names in results, in the order of the enumeration.
 const std::vector<std::string_view>& corner_names();
 
-/// A run is called exact if its scaled symplecticity defect, over all degrees, is at most this.
+/// A run is called exact if its scaled symplecticity defect, over all degrees, is at most this. A
+/// method that is not symplectic comes below it too where its error is at round-off: nothing that
+/// is measured then tells them apart.
 inline constexpr double largest_exact_defect = 1e-13;
 
 /// One integrator with one step or tolerance at one order, and all that was measured of it.
@@ -61,6 +63,9 @@ struct RunAlongTime {
   std::string label;
   std::string failure;  ///< not empty: stopped there, and why
   std::vector<Point> points;
+  /// Canonical times at which the determinant of the kind's linear part changes sign, interpolated
+  /// between two steps: there the kind does not exist. Two such times within one step go unseen.
+  std::vector<double> singular_times;
 };
 
 /// A fitted order of convergence: slope of log error against log step.
@@ -92,8 +97,11 @@ struct ComparisonResult {
   std::vector<RunAlongTime> along_time;  ///< the scene's own integrators
   std::vector<ConvergenceFit> fits;
 
-  /// Relative errors below this are the reference's own as well: ten times its uncertainty.
+  /// Relative errors below this are the reference's own as well: ten times its uncertainty. 0 for a
+  /// degree that the reference does not have, as before it is computed.
   double smallest_claimed_error(int degree) const;
+  /// The same for error_at_formation_m: what those uncertainties add up to at most.
+  double smallest_claimed_error_m() const;
 };
 
 /// An integrator to compare. Without `integrate` the settings name the method.

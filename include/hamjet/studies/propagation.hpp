@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <optional>
@@ -61,6 +62,11 @@ struct ReferenceResult {
   IntegrationStatistics statistics;           ///< of the finer run
   int stages = 0;
   double tolerance = 0;
+
+  /// Relative errors below this, ten times the uncertainty, may be the reference's own.
+  double smallest_claimed_error() const {
+    return 10 * *std::max_element(uncertainty_by_degree.begin(), uncertainty_by_degree.end());
+  }
 };
 
 /// Coefficients of the relative Hamiltonian at one time.

@@ -39,7 +39,15 @@ struct CanonicalUnits {
   double time_s = 1;
 };
 
-enum class IntegrationMethod { gauss, fehlberg78, cvode_adams, cvode_bdf };
+enum class IntegrationMethod {
+  gauss,
+  stormer,
+  velocity_verlet,
+  newmark,
+  fehlberg78,
+  cvode_adams,
+  cvode_bdf,
+};
 
 /// The methods' names in scenes, in the order of the enumeration.
 const std::vector<std::string_view>& method_names();
@@ -49,6 +57,8 @@ struct IntegratorSettings {
   std::string label;
   IntegrationMethod method = IntegrationMethod::gauss;
   int stages = 8;                        ///< Gauss only
+  int order = 2;                         ///< velocity Verlet only; 4, 6, 8: symmetric compositions
+  double beta = 0.25;                    ///< Newmark only
   std::optional<double> step_canonical;  ///< fixed steps (positive; the sign follows the duration)
   std::optional<double> tolerance;       ///< adaptive steps; exactly one of the two is set
   std::optional<double> require_relative_error;  ///< check: largest relative error over all degrees
