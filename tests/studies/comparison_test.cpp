@@ -7,66 +7,12 @@
 #include <numbers>
 #include <set>
 
+#include "comparison_scenes.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
-#include "support/reference_data.hpp"
 
 namespace hamjet {
 namespace {
-
-Scene oscillator_scene() {
-  Scene scene;
-  scene.system.model = SystemModel::harmonic_oscillator;
-  scene.units = {1e-3, 1};
-  scene.nominal = {1, 0};
-  scene.duration = 5;
-  scene.order = 2;
-  scene.variables = {0, 1};
-  scene.separation = 0.1;
-  scene.comparison.repeats = 1;
-  return scene;
-}
-
-/// Kepler's problem, e = 0.3, from perigee at distance 1, a third of a revolution.
-Scene kepler_scene() {
-  Scene scene;
-  scene.system.model = SystemModel::kepler;
-  scene.units = {7000, 1000};
-  scene.nominal = {1, 0, 0, 0, std::sqrt(1.3) * 0.6, std::sqrt(1.3) * 0.8};
-  scene.duration = 3.5;
-  scene.order = 2;
-  scene.variables = {0, 1, 2, 3, 4, 5};
-  scene.separation = 10.0 / 7000;
-  scene.comparison.repeats = 1;
-  return scene;
-}
-
-IntegratorSettings gauss(const std::string& label, int stages, double step) {
-  IntegratorSettings settings;
-  settings.label = label;
-  settings.stages = stages;
-  settings.step_canonical = step;
-  return settings;
-}
-
-CandidateSeries series_of(const std::string& name, std::vector<Candidate> candidates) {
-  return {name, 0, false, std::move(candidates)};
-}
-
-ComparisonResult compared(const Scene& scene, std::vector<CandidateSeries> series) {
-  ComparisonOptions options;
-  options.series = std::move(series);
-  ComparisonResult result;
-  compare(scene, options, result);
-  return result;
-}
-
-const ComparedRun& run_of(const ComparisonResult& result, const std::string& label) {
-  for (const ComparedRun& run : result.runs) {
-    if (run.settings.label == label) return run;
-  }
-  throw std::runtime_error("no run " + label);
-}
 
 /// A store in memory that counts.
 class MemoryStore : public ReferenceStore {
@@ -81,44 +27,6 @@ class MemoryStore : public ReferenceStore {
   }
   std::map<std::string, ReferenceResult> references;
 };
-
-TEST(ComparisonReference, IsTheOscillatorsClosedForm) {
-  const auto result = compared(oscillator_scene(), {series_of("one", {{gauss("one", 4, 0.5)}})});
-  const auto& jet = result.reference.jet;
-  const Extended c = cos(Extended(5));
-  const Extended s = sin(Extended(5));
-  // q = q0 cos t + p0 sin t, p = -q0 sin t + p0 cos t; monomials 1, q0, p0, and three of degree 2.
-  const std::vector<std::vector<Extended>> expected = {{c, c, s, 0, 0, 0}, {-s, -s, c, 0, 0, 0}};
-  for (std::size_t i = 0; i < 2; ++i) {
-    for (std::size_t k = 0; k < 6; ++k) {
-      EXPECT_LT(static_cast<double>(abs(jet[i][k] - expected[i][k])), 1e-22) << i << " " << k;
-    }
-  }
-}
-
-TEST(ComparisonReference, HasTheDigitsOfThePaperOrbit) {
-  const test::ReferenceOrbit& orbit = test::paper_orbit();
-  Scene scene = kepler_scene();
-  scene.system.model = SystemModel::zonal_gravity;
-  scene.system.J2 = orbit.field.J2;
-  scene.system.J3 = orbit.field.J3;
-  scene.canonical_radius = orbit.field.radius;
-  ASSERT_EQ(orbit.field.mu, 1);
-  scene.nominal = orbit.start;
-  scene.duration = orbit.duration;
-  scene.order = 1;
-  const auto result = compared(scene, {series_of("one", {{gauss("one", 8, 0.5)}})});
-  for (std::size_t i = 0; i < 6; ++i) {
-    const Series<Extended>& component = result.reference.jet[i];
-    EXPECT_LT(static_cast<double>(abs(component[0] - orbit.state[i])), 1e-20) << i;
-    for (std::size_t j = 0; j < 6; ++j) {
-      const std::size_t k = component.space().linear_index(j);
-      EXPECT_LT(static_cast<double>(abs(component[k] - orbit.matrix[i][j])),
-                1e-20 * orbit.matrix_norm)
-          << i << " " << j;
-    }
-  }
-}
 
 TEST(Comparison, PutsEachRunInItsCorner) {
   // The broken one has one linear coefficient wrong by a thousandth: 10 m at 10 km.
