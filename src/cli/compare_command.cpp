@@ -85,7 +85,7 @@ void write_figures(const ComparisonResult& result, const io::ReportOrigin& origi
 
 int compare(const CompareOptions& options) {
   const Scene scene = read_scene(options.scene);
-  const std::filesystem::path directory = output_path(options.scene, scene);
+  const std::filesystem::path directory = output_path(options.scene, scene.name);
   const io::ReportOrigin origin = origin_of(options, scene);
   ComparisonResult result;
   if (options.resume) take_up(directory, origin.determinants, result);

@@ -13,7 +13,8 @@ std::string systems() {
   return "zonal-gravity        Earth orbit with J2 and J3, each optional: mu_km3_s2, radius_km, "
          "J2, J3\n"
          "kepler               Kepler's problem: mu_km3_s2\n"
-         "harmonic-oscillator  one degree of freedom: mass_kg, stiffness_N_per_m\n";
+         "harmonic-oscillator  one degree of freedom: mass_kg, stiffness_N_per_m\n"
+         "double-well          one degree of freedom, H = p^2/2 + (q^4 - q^2)/2\n";
 }
 
 std::string integrators() {

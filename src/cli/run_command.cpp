@@ -3,20 +3,25 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <type_traits>
+#include <variant>
 
 #include "earlier_results.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/io/output_directory.hpp"
 #include "hamjet/io/results.hpp"
+#include "hamjet/io/study_report.hpp"
 #include "hamjet/studies/propagation.hpp"
 #include "interruption.hpp"
 #include "progress.hpp"
 #include "standard_streams.hpp"
 
 namespace hamjet::cli {
-int run(const RunOptions& options) {
-  const Scene scene = read_scene(options);
-  const std::filesystem::path directory = output_path(options, scene);
+
+namespace {
+
+int run_flow_jet(const RunOptions& options, const Scene& scene) {
+  const std::filesystem::path directory = output_path(options, scene.name);
   io::OutputDirectory output(directory);
   PropagationResult result;
   {
@@ -45,6 +50,50 @@ int run(const RunOptions& options) {
                             (directory / "summary.json").string()));
   }
   return code;
+}
+
+/// A study that has no flow jet.
+template <class PaperStudy>
+int run_paper_study(const RunOptions& options, const PaperStudy& study) {
+  const std::filesystem::path directory = output_path(options, study.name);
+  io::OutputDirectory output(directory);
+  io::StudyReport report;
+  {
+    Progress progress(!options.quiet);
+    const auto result = run_study(study, [&](const std::string& task, double fraction) {
+      stop_if_interrupted();
+      progress.update(task, fraction);
+    });
+    report = io::study_report(result);
+  }
+  {
+    const UninterruptedWriting guard;
+    for (const io::StudyFile& file : report.files) output.write(file.path, file.content);
+    output.replace("figure.svg");
+    output.commit();
+  }
+  if (report.drawing_problem) print_error(*report.drawing_problem);
+  if (options.json) {
+    print(report.summary());
+  } else if (!options.quiet) {
+    print(report.table + fmt::format("results: {}\n", directory.string()));
+  }
+  if (report.exit_code != 0) print_error(report.failure);
+  return report.exit_code;
+}
+
+}  // namespace
+
+int run(const RunOptions& options) {
+  return std::visit(
+      [&](const auto& study) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(study)>, Scene>) {
+          return run_flow_jet(options, study);
+        } else {
+          return run_paper_study(options, study);
+        }
+      },
+      read_study(options));
 }
 
 int check(const RunOptions& options) {

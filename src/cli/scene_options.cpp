@@ -8,7 +8,6 @@
 #include "demo_scene.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/integrators/cvode.hpp"
-#include "hamjet/io/scene_reader.hpp"
 #include "standard_streams.hpp"
 
 namespace hamjet::cli {
@@ -40,8 +39,7 @@ void refuse_empty(const std::optional<std::string>& value, const char* option, c
 void leave_out_what_is_not_built(Scene& scene) {
   if (cvode_available()) return;
   const auto removed = std::erase_if(scene.integrators, [](const IntegratorSettings& settings) {
-    return settings.method == IntegrationMethod::cvode_adams ||
-           settings.method == IntegrationMethod::cvode_bdf;
+    return is_cvode(settings.method);
   });
   if (removed > 0) {
     print_error(fmt::format("this build has no CVODE: {} runs of the scene are left out", removed));
@@ -50,19 +48,28 @@ void leave_out_what_is_not_built(Scene& scene) {
 
 }  // namespace
 
-Scene read_scene(const RunOptions& options) {
+io::Study read_study(const RunOptions& options) {
   refuse_empty(options.scene_file, "scene", "a file");
   refuse_empty(options.output, "--output", "a directory");
   const auto overrides = parse_overrides(options.overrides);
-  if (options.scene_file) return io::read_scene(*options.scene_file, overrides);
+  if (options.scene_file) return io::read_study(*options.scene_file, overrides);
   Scene scene = io::parse_scene(demo_scene, "earth-orbit.toml", overrides);
   leave_out_what_is_not_built(scene);
   return scene;
 }
 
-std::filesystem::path output_path(const RunOptions& options, const Scene& scene) {
+Scene read_scene(const RunOptions& options) {
+  io::Study study = read_study(options);
+  if (Scene* scene = std::get_if<Scene>(&study)) return std::move(*scene);
+  throw Error(ErrorKind::scene,
+              fmt::format("{}: study: has no flow jet, which this command works on; `hamjet run` "
+                          "runs this scene",
+                          io::printable(*options.scene_file, std::string::npos)));
+}
+
+std::filesystem::path output_path(const RunOptions& options, const std::string& scene_name) {
   return options.output ? std::filesystem::path(*options.output)
-                        : std::filesystem::path("out") / scene.name;
+                        : std::filesystem::path("out") / scene_name;
 }
 
 }  // namespace hamjet::cli

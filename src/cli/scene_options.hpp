@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "hamjet/studies/scene.hpp"
+#include "hamjet/io/scene_reader.hpp"
 
 namespace hamjet::cli {
 
@@ -18,11 +18,15 @@ struct RunOptions {
   bool quiet = false;
 };
 
-/// The scene that the options name, with their changes. Throws Error(usage), Error(scene),
+/// The scene that the options name, with their changes, of any study. Throws Error(usage),
+/// Error(scene), Error(input_output).
+io::Study read_study(const RunOptions& options);
+
+/// The same for what takes a flow jet alone. Throws Error(usage), Error(scene),
 /// Error(input_output).
 Scene read_scene(const RunOptions& options);
 
 /// Where the results go: as asked for, or `out/<scene name>`.
-std::filesystem::path output_path(const RunOptions& options, const Scene& scene);
+std::filesystem::path output_path(const RunOptions& options, const std::string& scene_name);
 
 }  // namespace hamjet::cli

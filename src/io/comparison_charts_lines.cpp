@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "comparison_chart.hpp"
+#include "comparison_charts.hpp"
 #include "comparison_view.hpp"
 
 // Plots along time, and of convergence.
@@ -12,7 +12,7 @@ namespace hamjet::io {
 namespace {
 
 std::string time_label(const Scene& scene) {
-  if (scene.system.model == SystemModel::harmonic_oscillator) return "time (s)";
+  if (!is_orbit(scene.system.model)) return "time (s)";
   return fmt::format("time (canonical; 1 is {:.4g} s)", scene.units.time_s);
 }
 

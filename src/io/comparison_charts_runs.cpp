@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "comparison_chart.hpp"
+#include "comparison_charts.hpp"
 #include "comparison_view.hpp"
 
 // Plots with one point a run.

@@ -2,75 +2,18 @@
 
 #include <fmt/format.h>
 
-#include "comparison_chart.hpp"
+#include "chart_drawer.hpp"
+#include "comparison_charts.hpp"
 #include "comparison_view.hpp"
-#include "gnuplot.hpp"
 #include "hamjet/version.hpp"
 
 namespace hamjet::io {
 namespace {
 
-/// What a drawing begins with; a program that says all is well and draws something else is not
-/// believed.
-bool is_drawing(std::string_view output, Drawing drawing) {
-  switch (drawing) {
-    case Drawing::pdf:
-      return output.starts_with("%PDF");
-    case Drawing::png:
-      return output.starts_with("\x89PNG");
-    case Drawing::wide_svg:
-    case Drawing::narrow_svg:
-      break;
-  }
-  return output.starts_with("<?xml") && output.find("<svg") != output.npos &&
-         output.find("</svg>") != output.npos && output.find("<script") == output.npos;
-}
-
-/// Draws charts, and stops asking a program that is not there or does not answer.
-class Drawer {
- public:
-  Drawer(const ReportOrigin& origin, std::optional<std::string>& problem)
-      : program_(origin.gnuplot), problem_(problem) {}
-
-  /// The chart in both widths, or an empty text and the reason.
-  std::string draw(const Chart& chart, std::string& reason) {
-    std::string html;
-    for (const Drawing drawing : {Drawing::wide_svg, Drawing::narrow_svg}) {
-      const char* width = drawing == Drawing::wide_svg ? "wide" : "narrow";
-      const std::string output = draw(chart, drawing, reason);
-      if (output.empty()) return "";
-      html +=
-          fmt::format("<div class=\"{}\">{}</div>\n", width,
-                      inline_svg(output, fmt::format("{}-{}-", chart.name, width),
-                                 chart.title + ": " + chart.y.label + " against " + chart.x.label));
-    }
-    return html;
-  }
-
-  /// The chart as a file, or an empty text and the reason.
-  std::string draw(const Chart& chart, Drawing drawing, std::string& reason) {
-    if (!is_asked_) return "";
-    GnuplotOutcome outcome = run_gnuplot(program_, gnuplot_script(chart, drawing));
-    if (outcome.problem.empty() && !is_drawing(outcome.output, drawing)) {
-      outcome.problem = fmt::format("{} drew something that is no plot", program_);
-    }
-    if (outcome.problem.empty()) return outcome.output;
-    is_asked_ = outcome.is_installed && !outcome.is_late;
-    if (!problem_) problem_ = outcome.problem;
-    if (outcome.is_installed) reason = outcome.problem;
-    return "";
-  }
-
- private:
-  std::string program_;
-  std::optional<std::string>& problem_;
-  bool is_asked_ = true;
-};
-
-std::string figure(const Chart& chart, Drawer& drawer) {
+std::string figure(const Chart& chart, ChartDrawer& drawer) {
   if (!chart.missing.empty()) return fmt::format("<p>{}</p>\n", escape_html(chart.missing));
   std::string reason;
-  const std::string drawing = drawer.draw(chart, reason);
+  const std::string drawing = drawer.draw_inline(chart, reason);
   std::string html = fmt::format("<figure id=\"figure-{}\">\n{}", chart.name, drawing);
   if (!reason.empty()) {
     html += fmt::format("<p class=\"problem\">This plot could not be drawn: {}</p>\n",
@@ -111,17 +54,13 @@ std::string origin_html(const ComparisonResult& result, const ReportOrigin& orig
   return html + "</dl>\n";
 }
 
-std::string section(const Chart& chart, Drawer& drawer) {
+std::string section(const Chart& chart, ChartDrawer& drawer) {
   return fmt::format("<section>\n<h2>{}</h2>\n{}</section>\n", escape_html(chart.title),
                      figure(chart, drawer));
 }
 
-}  // namespace
-
-std::string comparison_html(const ComparisonResult& result, const ReportOrigin& origin,
-                            std::optional<std::string>& drawing_problem) {
-  Drawer drawer(origin, drawing_problem);
-  const std::vector<Chart> charts = comparison_charts(result);
+std::string page(const ComparisonResult& result, const ReportOrigin& origin,
+                 const std::vector<Chart>& charts, ChartDrawer& drawer) {
   const std::string first_figure = figure(charts.front(), drawer);
   std::string sections;
   for (std::size_t i = 1; i < charts.size(); ++i) {
@@ -141,9 +80,9 @@ std::string comparison_html(const ComparisonResult& result, const ReportOrigin& 
         "broken off; the runs that were finished are here.</p>\n";
   }
   html += fmt::format("<p class=\"verdict\">{}</p>\n", escape_html(verdict(result)));
-  if (drawing_problem) {
+  if (drawer.problem()) {
     html += fmt::format("<p class=\"problem\">{}. The tables are complete.</p>\n",
-                        escape_html(*drawing_problem));
+                        escape_html(*drawer.problem()));
   }
   html += fmt::format("</header>\n<main>\n<div class=\"first{}\">\n",
                       first_figure.find("<svg") == std::string::npos ? " without-plot" : "") +
@@ -160,14 +99,12 @@ std::string comparison_html(const ComparisonResult& result, const ReportOrigin& 
   return html;
 }
 
-std::vector<ReportFile> comparison_plots(const ComparisonResult& result, const ReportOrigin& origin,
-                                         PlotFormat format,
-                                         std::optional<std::string>& drawing_problem) {
+std::vector<ReportFile> plot_files(const std::vector<Chart>& charts, PlotFormat format,
+                                   ChartDrawer& drawer) {
   std::vector<ReportFile> files;
-  if (format == PlotFormat::none || drawing_problem) return files;
-  Drawer drawer(origin, drawing_problem);
+  if (format == PlotFormat::none || drawer.problem()) return files;
   const bool is_pdf = format == PlotFormat::pdf;
-  for (const Chart& chart : comparison_charts(result)) {
+  for (const Chart& chart : charts) {
     if (!chart.missing.empty()) continue;
     std::string reason;
     std::string content = drawer.draw(chart, is_pdf ? Drawing::pdf : Drawing::png, reason);
@@ -177,21 +114,34 @@ std::vector<ReportFile> comparison_plots(const ComparisonResult& result, const R
   return files;
 }
 
+}  // namespace
+
+std::string comparison_html(const ComparisonResult& result, const ReportOrigin& origin,
+                            std::optional<std::string>& drawing_problem) {
+  ChartDrawer drawer(origin.gnuplot);
+  std::string html = page(result, origin, comparison_charts(result), drawer);
+  drawing_problem = drawer.problem();
+  return html;
+}
+
 ComparisonReport make_report(const ComparisonResult& result, const ReportOrigin& origin,
                              PlotFormat format) {
+  ChartDrawer drawer(origin.gnuplot);
+  const std::vector<Chart> charts = comparison_charts(result);
   ComparisonReport report;
   report.files.push_back({"compare.csv", comparison_csv(result)});
-  report.files.push_back({"report.html", comparison_html(result, origin, report.drawing_problem)});
-  for (ReportFile& plot : comparison_plots(result, origin, format, report.drawing_problem)) {
+  report.files.push_back({"report.html", page(result, origin, charts, drawer)});
+  for (ReportFile& plot : plot_files(charts, format, drawer)) {
     report.files.push_back(std::move(plot));
   }
   report.files.push_back({"compare.json", comparison_json(result, origin)});
   // Those of an earlier comparison must not be taken for plots of this one.
-  for (const Chart& chart : comparison_charts(result)) {
+  for (const Chart& chart : charts) {
     for (const char* extension : {".pdf", ".png"}) {
       report.earlier.push_back("plots/" + chart.name + extension);
     }
   }
+  report.drawing_problem = drawer.problem();
   return report;
 }
 

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "display_text.hpp"
 #include "hamjet/studies/comparison.hpp"
 
 // What the page, the plots and the terminal's table derive from a comparison, so that all say the
@@ -61,14 +62,5 @@ std::vector<SeriesReach> times_to_reach(const ComparisonResult& result);
 
 /// The least of all series for the k-th of `reached_errors`; none if no run reaches it.
 std::optional<double> best_time(const std::vector<SeriesReach>& series, std::size_t k);
-
-/// "12.3 ms", "4.56 km", "1.2 MB": three digits and a prefix, for people.
-std::string duration_text(double seconds);
-std::string length_text(double metres);
-std::string memory_text(double bytes);
-std::string count_text(double count);
-
-/// A text as HTML or XML shows it literally, in elements and in attributes.
-std::string escape_html(std::string_view text);
 
 }  // namespace hamjet::io

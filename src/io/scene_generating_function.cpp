@@ -13,9 +13,8 @@ namespace {
 /// 0), so that x, y, px, py are a system of their own, with two degrees of freedom.
 bool is_planar_subsystem(const Scene& scene) {
   constexpr std::size_t z = 2, pz = 5;
-  return scene.system.model != SystemModel::harmonic_oscillator && scene.system.J3 == 0 &&
-         scene.nominal[z] == 0 && scene.nominal[pz] == 0 &&
-         scene.variables == std::vector<std::size_t>{0, 1, 3, 4};
+  return is_orbit(scene.system.model) && scene.system.J3 == 0 && scene.nominal[z] == 0 &&
+         scene.nominal[pz] == 0 && scene.variables == std::vector<std::size_t>{0, 1, 3, 4};
 }
 
 /// Final and initial choice in letters: "qqq-ppp" for "F2", and so on; empty if `kind` is none.
@@ -45,7 +44,7 @@ std::vector<std::string> read_generating_function(const TableReader& generating_
   if (scene.variables.size() != names.size() && !planar) {
     std::vector<std::string_view> given;
     for (const std::size_t variable : scene.variables) given.push_back(names[variable]);
-    const bool orbit = scene.system.model != SystemModel::harmonic_oscillator;
+    const bool orbit = is_orbit(scene.system.model);
     generating_function.fail(
         "kinds",
         fmt::format("not defined for these jet.variables, got {}, must be all of {}{}",

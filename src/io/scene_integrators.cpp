@@ -21,10 +21,6 @@ bool is_reserved(std::string_view label) {
          label == "plots";
 }
 
-bool is_cvode(IntegrationMethod method) {
-  return method == IntegrationMethod::cvode_adams || method == IntegrationMethod::cvode_bdf;
-}
-
 bool has_fixed_steps_only(IntegrationMethod method) {
   return method == IntegrationMethod::stormer || method == IntegrationMethod::velocity_verlet ||
          method == IntegrationMethod::newmark;

@@ -109,7 +109,7 @@ double read_duration(const TableReader& jet, bool has_orbits, const Nominal& nom
 
 JetSettings read_jet(const TableReader& jet, SystemModel model, Precision precision,
                      const Nominal& nominal) {
-  const bool has_orbits = model != SystemModel::harmonic_oscillator;
+  const bool has_orbits = is_orbit(model);
   KnownKeys known = {{"order", "variables", "duration_s", "duration_canonical"}, {}, {}};
   (has_orbits ? known.keys : known.keys_elsewhere).push_back("duration_orbits");
   known.owner = "the model " + std::string(model_name(model));

@@ -14,7 +14,7 @@ namespace {
 const std::vector<std::string_view> cartesian_keys = {"position_km", "velocity_km_s"};
 const std::vector<std::string_view> element_keys = {"a_km",     "e",        "i_deg",
                                                     "raan_deg", "argp_deg", "ta_deg"};
-const std::vector<std::string_view> oscillator_keys = {"position_m", "momentum_kg_m_s"};
+const std::vector<std::string_view> particle_keys = {"position_m", "momentum_kg_m_s"};
 
 std::vector<std::string_view> joined(std::vector<std::string_view> a,
                                      const std::vector<std::string_view>& b) {
@@ -104,11 +104,11 @@ double CanonicalScale::time_of_s(double seconds) const {
 Nominal read_nominal(const TableReader& nominal, const SystemSettings& system) {
   const std::vector<std::string_view> orbit_keys = joined(cartesian_keys, element_keys);
   const std::string owner = "the model " + std::string(model_name(system.model));
-  if (system.model != SystemModel::harmonic_oscillator) {
-    nominal.check_keys({orbit_keys, oscillator_keys, owner});
+  if (is_orbit(system.model)) {
+    nominal.check_keys({orbit_keys, particle_keys, owner});
     return canonical_orbit(nominal, read_orbit(nominal, system), system.mu_km3_s2);
   }
-  nominal.check_keys({oscillator_keys, orbit_keys, owner});
+  nominal.check_keys({particle_keys, orbit_keys, owner});
   Nominal result;
   result.scale = {Extended(1) / 1000, Extended(1)};
   result.state = {nominal.numbers("position_m", 1)[0], nominal.numbers("momentum_kg_m_s", 1)[0]};

@@ -1,48 +1,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <hamjet/io/scene_reader.hpp>
 
-#include "scene_document.hpp"
 #include "scene_message.hpp"
 #include "scene_sections.hpp"
-#include "scene_text.hpp"
 
 namespace hamjet::io {
 namespace {
-
-const std::vector<std::string_view> top_keys = {"schema",
-                                                "title",
-                                                "precision",
-                                                "system",
-                                                "nominal",
-                                                "jet",
-                                                "integrator",
-                                                "formation",
-                                                "generating_function",
-                                                "reference",
-                                                "relative_hamiltonian",
-                                                "compare"};
-
-/// The stem of the file's name, made fit for the name of a directory.
-std::string scene_name(const std::string& file_name) {
-  std::string name = std::filesystem::path(file_name).stem().string();
-  for (char& c : name) {
-    const bool allowed = (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') ||
-                         (c >= '0' && c <= '9') || c == '.' || c == '_' || c == '-';
-    if (!allowed) c = '_';
-  }
-  name.erase(0, name.find_first_not_of('.'));
-  return name.empty() ? "scene" : name;
-}
-
-void check_schema(const TableReader& root) {
-  // A newer schema may have other keys, so that its number comes before theirs; but a misspelt
-  // `schema` is named.
-  if (!root.has("schema")) root.check_keys({top_keys});
-  root.integer_between("schema", 1, 1);
-  root.check_keys({top_keys});
-}
 
 Precision read_precision(const TableReader& root) {
   if (!root.has("precision")) return Precision::double_precision;
@@ -50,8 +14,9 @@ Precision read_precision(const TableReader& root) {
                                                                : Precision::extended;
 }
 
-Scene read_tables(const TableReader& root) {
-  check_schema(root);
+}  // namespace
+
+Scene read_flow_jet(const TableReader& root) {
   Scene scene;
   scene.title = root.text("title");
   scene.precision = read_precision(root);
@@ -93,11 +58,9 @@ Scene read_tables(const TableReader& root) {
   return scene;
 }
 
-}  // namespace
-
 double read_formation(const TableReader& formation, SystemModel model,
                       const CanonicalScale& scale) {
-  const bool orbit = model != SystemModel::harmonic_oscillator;
+  const bool orbit = is_orbit(model);
   const std::string_view key = orbit ? "separation_km" : "separation_m";
   formation.check_keys(
       {{key}, {"separation_km", "separation_m"}, "the model " + std::string(model_name(model))});
@@ -133,19 +96,6 @@ std::vector<double> read_relative_hamiltonian(const TableReader& table, double d
     }
   }
   return times;
-}
-
-Scene parse_scene(std::string_view text, const std::string& file_name,
-                  const std::vector<Override>& overrides) {
-  const SceneDocument document =
-      parse_document(text, printable(file_name, std::string::npos), overrides);
-  Scene scene = read_tables(TableReader(document.table, "", document.source));
-  scene.name = scene_name(file_name);
-  return scene;
-}
-
-Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides) {
-  return parse_scene(read_scene_file(file), file.string(), overrides);
 }
 
 }  // namespace hamjet::io

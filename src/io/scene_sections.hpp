@@ -22,6 +22,9 @@ inline std::string_view model_name(SystemModel model) {
   return model_names()[static_cast<std::size_t>(model)];
 }
 
+/// All tables of the study "flow-jet".
+Scene read_flow_jet(const TableReader& root);
+
 /// Table `[system]`.
 SystemSettings read_system(const TableReader& system);
 

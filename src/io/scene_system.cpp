@@ -12,9 +12,12 @@ std::vector<std::string_view> keys_of(SystemModel model) {
       return {"model", "mu_km3_s2", "radius_km", "J2", "J3"};
     case SystemModel::kepler:
       return {"model", "mu_km3_s2"};
-    default:
+    case SystemModel::harmonic_oscillator:
       return {"model", "mass_kg", "stiffness_N_per_m"};
+    case SystemModel::double_well:
+      break;
   }
+  return {"model"};
 }
 
 /// A zonal coefficient. |J| <= 1 is far beyond every planet (Saturn, the most oblate, has J2 =
@@ -36,8 +39,8 @@ SystemSettings read_system(const TableReader& system) {
     if (system.has("stiffness_N_per_m")) {
       settings.stiffness_N_per_m = system.positive_number("stiffness_N_per_m");
     }
-    return settings;
   }
+  if (!is_orbit(settings.model)) return settings;
   settings.mu_km3_s2 = system.positive_number("mu_km3_s2");
   if (settings.model == SystemModel::zonal_gravity) {
     settings.J2 = zonal_coefficient(system, "J2");

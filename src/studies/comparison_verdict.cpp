@@ -37,7 +37,7 @@ std::string configuration_text(const ComparedRun& run) {
 std::string span_text(const Scene& scene) {
   const double seconds = std::abs(scene.duration) * scene.units.time_s;
   const auto period = nominal_period(scene);
-  if (period && scene.system.model != SystemModel::harmonic_oscillator) {
+  if (period && is_orbit(scene.system.model)) {
     const double revolutions = std::abs(scene.duration) / *period;
     return fmt::format("{:.3g} h ({:.4g} revolution{})", seconds / 3600, revolutions,
                        std::abs(revolutions - 1) < 1e-4 ? "" : "s");

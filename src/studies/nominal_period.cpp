@@ -9,6 +9,7 @@ std::optional<double> nominal_period(const Scene& scene) {
   if (scene.system.model == SystemModel::harmonic_oscillator) {
     return 2 * std::numbers::pi * std::sqrt(scene.system.mass_kg / scene.system.stiffness_N_per_m);
   }
+  if (!is_orbit(scene.system.model)) return std::nullopt;
   const std::vector<double>& z = scene.nominal;
   // The vis-viva equation with mu = 1.
   const double inverse_axis =

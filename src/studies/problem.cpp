@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "hamjet/dynamics/double_well.hpp"
 #include "hamjet/dynamics/harmonic_oscillator.hpp"
 #include "hamjet/dynamics/zonal_gravity.hpp"
 #include "hamjet/integrators/cvode.hpp"
@@ -37,6 +38,8 @@ DynamicalSystem make_system(const Scene& scene) {
       return zonal_gravity({1.0, scene.canonical_radius, scene.system.J2, scene.system.J3});
     case SystemModel::kepler:
       return kepler();
+    case SystemModel::double_well:
+      return double_well();
     case SystemModel::harmonic_oscillator:
       break;
   }
@@ -78,9 +81,7 @@ namespace {
 
 void require_built(const Scene& scene) {
   for (const IntegratorSettings& settings : scene.integrators) {
-    const bool is_cvode = settings.method == IntegrationMethod::cvode_adams ||
-                          settings.method == IntegrationMethod::cvode_bdf;
-    if (is_cvode && !cvode_available()) {
+    if (is_cvode(settings.method) && !cvode_available()) {
       throw Error(ErrorKind::usage,
                   fmt::format("integrator {}: this build has no CVODE; configure with "
                               "-DHAMJET_CVODE=ON",

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "../../src/io/comparison_chart.hpp"
+#include "../../src/io/comparison_charts.hpp"
 #include "../../src/io/comparison_view.hpp"
 #include "../../src/io/gnuplot.hpp"
 #include "comparison_samples.hpp"

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "hamjet/studies/scene.hpp"
@@ -34,7 +35,19 @@ struct Override {
 /// A fixed step that is longer than the duration means a single step.
 Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides = {});
 
-/// The same from text; `file_name` is used in messages and for Scene::name. Every number becomes
+/// What `hamjet run` is asked for: the key `study` of the scene. "flow-jet", which may be left out,
+/// is a Scene; the others are systems of the paper that have no flow jet.
+using Study = std::variant<Scene>;
+
+/// Reads a scene of any study; otherwise as read_scene, which throws Error(scene) for any but
+/// "flow-jet".
+Study read_study(const std::filesystem::path& file, const std::vector<Override>& overrides = {});
+
+/// The same from text.
+Study parse_study(std::string_view text, const std::string& file_name,
+                  const std::vector<Override>& overrides = {});
+
+/// read_scene from text; `file_name` is used in messages and for Scene::name. Every number becomes
 /// the nearest binary64; the conversion to canonical units is done in extended precision and
 /// rounded once.
 Scene parse_scene(std::string_view text, const std::string& file_name,

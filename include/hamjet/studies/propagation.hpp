@@ -11,6 +11,7 @@
 #include "hamjet/integrators/flow_problem.hpp"
 #include "hamjet/maps/exactness.hpp"
 #include "hamjet/maps/symplecticity.hpp"
+#include "hamjet/studies/progress.hpp"
 #include "hamjet/studies/scene.hpp"
 
 namespace hamjet {
@@ -97,9 +98,6 @@ struct PropagationResult {
   std::vector<RelativeHamiltonianResult> relative_hamiltonians;
   std::string relative_hamiltonian_failure;  ///< not empty: times are missing above, and why
 };
-
-/// Told how far the work is: what is being done, and the fraction of it in 0..1. May throw to stop.
-using ProgressCallback = std::function<void(const std::string& task, double fraction)>;
 
 /// The system of a scene in canonical units.
 DynamicalSystem make_system(const Scene& scene);

@@ -12,13 +12,17 @@ namespace hamjet {
 enum class Precision { double_precision, extended };
 
 /// The dynamics. Which of the numbers below count depends on the model.
-enum class SystemModel { zonal_gravity, kepler, harmonic_oscillator };
+enum class SystemModel { zonal_gravity, kepler, harmonic_oscillator, double_well };
 
 /// The models' names in scenes, in the order of the enumeration.
 const std::vector<std::string_view>& model_names();
 
-/// Names of the variables (q, p), in the order of the state: x, y, z, px, py, pz for an orbit, q, p
-/// for the oscillator.
+/// Whether a model is an orbit in space: three degrees of freedom, kilometres. The others have one
+/// degree of freedom and metres.
+bool is_orbit(SystemModel model);
+
+/// Names of the variables (q, p), in the order of the state: x, y, z, px, py, pz for an orbit, else
+/// q, p.
 std::vector<std::string_view> variable_names(SystemModel model);
 
 /// Table `[system]`.
@@ -33,7 +37,7 @@ struct SystemSettings {
 };
 
 /// Canonical units: SI value = canonical value times these. For an orbit the length is the
-/// nominal's initial radius and mu = 1; for the harmonic oscillator metre and second.
+/// nominal's initial radius and mu = 1; for the other models metre and second.
 struct CanonicalUnits {
   double length_km = 1;
   double time_s = 1;
@@ -51,6 +55,9 @@ enum class IntegrationMethod {
 
 /// The methods' names in scenes, in the order of the enumeration.
 const std::vector<std::string_view>& method_names();
+
+/// Whether a method is one of SUNDIALS CVODE, which a build may lack.
+bool is_cvode(IntegrationMethod method);
 
 /// One table `[[integrator]]`.
 struct IntegratorSettings {
@@ -83,7 +90,7 @@ struct ComparisonSettings {
 };
 
 /// A scene, read, checked and converted to canonical units. Lengths of arrays: 2n, with n = 3 for
-/// an orbit and n = 1 for the harmonic oscillator.
+/// an orbit, else n = 1.
 struct Scene {
   std::string name;  ///< stem of the file name, other characters than A-Z a-z 0-9 . _ - as _
   std::string title;
@@ -96,7 +103,7 @@ struct Scene {
   int order = 1;
   std::vector<std::size_t> variables;  ///< indices into (q, p) to expand in, ascending
   std::vector<IntegratorSettings> integrators;
-  /// `[formation]`, canonical length (metres for the oscillator).
+  /// `[formation]`, canonical length (metres where that is the unit).
   std::optional<double> separation;
   /// `[generating_function]`, as written: F1..F4, auto, or letters such as qpq-qqp (final
   /// variables, then initial ones); absent: no inversion.

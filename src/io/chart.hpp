@@ -5,8 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "hamjet/studies/comparison.hpp"
-
 namespace hamjet::io {
 
 /// What the numbers along an axis are.
@@ -65,21 +63,11 @@ struct Chart {
   std::vector<ChartCornerText> corners;
 };
 
-/// Sets the axes' ranges from the curves; moves what is below a logarithmic y to `at_limit`, takes
+/// Fits a chart for drawing: takes out the curves that have nothing to draw, sets the axes' ranges
+/// from the others; moves what is below a logarithmic y to `at_limit`, takes
 /// out what cannot be drawn at all, and says both in the notes.
-void fit_axes(Chart& chart);
-
-/// All plots of a comparison, in the order of the page, fitted.
-std::vector<Chart> comparison_charts(const ComparisonResult& result);
-
-// The parts that comparison_charts is made of, not fitted.
-Chart work_precision_chart(const ComparisonResult& result);
-Chart exactness_chart(const ComparisonResult& result);
-Chart symplecticity_chart(const ComparisonResult& result);
-Chart exactness_along_time_chart(const ComparisonResult& result);
-Chart energy_along_time_chart(const ComparisonResult& result);
-Chart cost_chart(const ComparisonResult& result);
-Chart convergence_chart(const ComparisonResult& result);
+/// A chart that is left without curves says so in `missing`.
+void fit(Chart& chart);
 
 /// What a chart is drawn as.
 enum class Drawing { wide_svg, narrow_svg, pdf, png };

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
-#include "comparison_chart.hpp"
-#include "comparison_view.hpp"
+#include "chart.hpp"
+#include "display_text.hpp"
 
 namespace hamjet::io {
 namespace {

@@ -1,4 +1,4 @@
-#include "comparison_chart.hpp"
+#include "chart.hpp"
 
 #include <fmt/format.h>
 
@@ -67,8 +67,6 @@ std::size_t split(const Chart& chart, ChartCurve& curve, ChartCurve& zeros) {
   return omitted;
 }
 
-}  // namespace
-
 void fit_axes(Chart& chart) {
   Range x;
   Range y;
@@ -111,24 +109,18 @@ void fit_axes(Chart& chart) {
   }
 }
 
-std::vector<Chart> comparison_charts(const ComparisonResult& result) {
-  std::vector<Chart> charts = {work_precision_chart(result),    exactness_chart(result),
-                               symplecticity_chart(result),     exactness_along_time_chart(result),
-                               energy_along_time_chart(result), cost_chart(result),
-                               convergence_chart(result)};
-  for (Chart& chart : charts) {
-    std::erase_if(chart.curves,
-                  [](const ChartCurve& c) { return c.points.empty() && c.ticks.empty(); });
-    fit_axes(chart);
-    std::erase_if(chart.curves,
-                  [](const ChartCurve& c) { return c.points.empty() && c.ticks.empty(); });
-    if (chart.curves.empty() && chart.at_limit.empty() && chart.missing.empty()) {
-      chart.missing = "No run has values for this plot.";
-    }
-    // An empty page says why, and has no marks left to explain.
-    if (!chart.missing.empty()) chart.curves.clear();
+}  // namespace
+
+void fit(Chart& chart) {
+  const auto is_empty = [](const ChartCurve& c) { return c.points.empty() && c.ticks.empty(); };
+  std::erase_if(chart.curves, is_empty);
+  fit_axes(chart);
+  std::erase_if(chart.curves, is_empty);
+  if (chart.curves.empty() && chart.at_limit.empty() && chart.missing.empty()) {
+    chart.missing = "No run has values for this plot.";
   }
-  return charts;
+  // An empty plot says why, and has no marks left to explain.
+  if (!chart.missing.empty()) chart.curves.clear();
 }
 
 }  // namespace hamjet::io

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <iterator>
 
-#include "comparison_chart.hpp"
-#include "comparison_view.hpp"
+#include "chart.hpp"
+#include "display_text.hpp"
 #include "gnuplot.hpp"
 
 namespace hamjet::io {

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hamjet::io {
+
+/// A file of a study's results before it is written.
+struct StudyFile {
+  std::filesystem::path path;  ///< relative to the output directory
+  std::string content;
+};
+
+/// What a study that has no flow jet leaves.
+struct StudyReport {
+  /// CSV files, `figure.svg` where it could be drawn, `summary.json` last.
+  std::vector<StudyFile> files;
+  std::string table;                           ///< for the terminal
+  int exit_code = 0;                           ///< 0, 1 (a check failed) or 4 (numerical failure)
+  std::string failure;                         ///< one line, if the exit code is not 0
+  std::optional<std::string> drawing_problem;  ///< one line, if gnuplot could not draw
+
+  /// The content of `summary.json`.
+  const std::string& summary() const { return files.back().content; }
+};
+
+/// The report of a study's result; each study has its own. The figure is drawn by gnuplot; without
+/// it the tables are complete all the same.
+template <class Result>
+StudyReport study_report(const Result& result);
+
+}  // namespace hamjet::io

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "chart.hpp"
+
+namespace hamjet::io {
+
+/// Draws fitted charts with gnuplot, and stops asking a program that is not there or does not
+/// answer.
+class ChartDrawer {
+ public:
+  /// The program is a name on the path, or a path.
+  explicit ChartDrawer(std::string program) : program_(std::move(program)) {}
+
+  /// The chart as a file, or an empty text and the reason.
+  std::string draw(const Chart& chart, Drawing drawing, std::string& reason);
+  /// The chart in both widths as a part of a page, or an empty text and the reason.
+  std::string draw_inline(const Chart& chart, std::string& reason);
+
+  /// The first reason for which something could not be drawn, one line.
+  const std::optional<std::string>& problem() const noexcept { return problem_; }
+
+ private:
+  std::string program_;
+  std::optional<std::string> problem_;
+  bool is_asked_ = true;
+};
+
+}  // namespace hamjet::io

@@ -1,0 +1,14 @@
+#include "comparison_charts.hpp"
+
+namespace hamjet::io {
+
+std::vector<Chart> comparison_charts(const ComparisonResult& result) {
+  std::vector<Chart> charts = {work_precision_chart(result),    exactness_chart(result),
+                               symplecticity_chart(result),     exactness_along_time_chart(result),
+                               energy_along_time_chart(result), cost_chart(result),
+                               convergence_chart(result)};
+  for (Chart& chart : charts) fit(chart);
+  return charts;
+}
+
+}  // namespace hamjet::io

@@ -1,0 +1,83 @@
+#include <functional>
+#include <hamjet/io/scene_reader.hpp>
+
+#include "hamjet/error.hpp"
+#include "scene_document.hpp"
+#include "scene_message.hpp"
+#include "scene_sections.hpp"
+#include "scene_text.hpp"
+
+namespace hamjet::io {
+namespace {
+
+/// A study's name in scenes, its keys at the top level, and what reads them.
+struct StudyReader {
+  std::string_view name;
+  std::vector<std::string_view> keys;
+  std::function<Study(const TableReader&)> read;
+};
+
+const std::vector<StudyReader>& studies() {
+  static const std::vector<StudyReader> readers = {
+      {"flow-jet",
+       {"schema", "title", "precision", "system", "nominal", "jet", "integrator", "formation",
+        "generating_function", "reference", "relative_hamiltonian", "compare", "study"},
+       read_flow_jet},
+  };
+  return readers;
+}
+
+/// The stem of the file's name, made fit for the name of a directory.
+std::string scene_name(const std::string& file_name) {
+  std::string name = std::filesystem::path(file_name).stem().string();
+  for (char& c : name) {
+    const bool allowed = (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') ||
+                         (c >= '0' && c <= '9') || c == '.' || c == '_' || c == '-';
+    if (!allowed) c = '_';
+  }
+  name.erase(0, name.find_first_not_of('.'));
+  return name.empty() ? "scene" : name;
+}
+
+Study read_tables(const TableReader& root) {
+  std::vector<std::string_view> names;
+  for (const StudyReader& study : studies()) names.push_back(study.name);
+  const StudyReader& study = studies()[root.has("study") ? root.choice("study", names) : 0];
+  // A newer schema may have other keys, so that its number comes before theirs; but a misspelt
+  // `schema` is named.
+  if (!root.has("schema")) root.check_keys({study.keys});
+  root.integer_between("schema", 1, 1);
+  root.check_keys({study.keys});
+  return study.read(root);
+}
+
+}  // namespace
+
+Study parse_study(std::string_view text, const std::string& file_name,
+                  const std::vector<Override>& overrides) {
+  const SceneDocument document =
+      parse_document(text, printable(file_name, std::string::npos), overrides);
+  Study study = read_tables(TableReader(document.table, "", document.source));
+  std::visit([&](auto& scene) { scene.name = scene_name(file_name); }, study);
+  return study;
+}
+
+Study read_study(const std::filesystem::path& file, const std::vector<Override>& overrides) {
+  return parse_study(read_scene_file(file), file.string(), overrides);
+}
+
+Scene parse_scene(std::string_view text, const std::string& file_name,
+                  const std::vector<Override>& overrides) {
+  Study study = parse_study(text, file_name, overrides);
+  if (Scene* scene = std::get_if<Scene>(&study)) return std::move(*scene);
+  throw Error(ErrorKind::scene,
+              printable(file_name, std::string::npos) +
+                  ": study: has no flow jet, which is what is asked for here; `hamjet run` runs "
+                  "this scene");
+}
+
+Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides) {
+  return parse_scene(read_scene_file(file), file.string(), overrides);
+}
+
+}  // namespace hamjet::io

@@ -1,0 +1,36 @@
+#include "study_figure.hpp"
+
+#include <fmt/format.h>
+
+#include "chart_drawer.hpp"
+
+namespace hamjet::io {
+
+void add_figure(StudyReport& report, std::vector<Chart> charts) {
+  // The size of Drawing::wide_svg.
+  constexpr int width = 900;
+  constexpr int height = 500;
+  ChartDrawer drawer("gnuplot");
+  std::string body;
+  int count = 0;
+  for (Chart& chart : charts) {
+    fit(chart);
+    if (!chart.missing.empty()) continue;
+    std::string reason;
+    const std::string drawing = drawer.draw(chart, Drawing::wide_svg, reason);
+    if (drawer.problem()) break;
+    body += fmt::format("<g transform=\"translate(0,{})\">\n{}</g>\n", count++ * height,
+                        inline_svg(drawing, chart.name + "-", chart.title));
+  }
+  report.drawing_problem = drawer.problem();
+  if (report.drawing_problem || count == 0) return;
+  report.files.push_back(
+      {"figure.svg", fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" "
+                                 "xmlns:xlink=\"http://www.w3.org/1999/xlink\" width=\"{0}\" "
+                                 "height=\"{1}\" viewBox=\"0 0 {0} {1}\">\n"
+                                 "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n{2}"
+                                 "</svg>\n",
+                                 width, count * height, body)});
+}
+
+}  // namespace hamjet::io

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <vector>
+
+#include "chart.hpp"
+#include "hamjet/io/study_report.hpp"
+
+namespace hamjet::io {
+
+/// Draws the charts, fitted here, below one another into the file `figure.svg` of the report. Where
+/// that cannot be done the report says why, and has no figure.
+void add_figure(StudyReport& report, std::vector<Chart> charts);
+
+}  // namespace hamjet::io
