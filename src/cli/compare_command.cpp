@@ -109,16 +109,15 @@ int compare(const CompareOptions& options) {
     };
     compare(scene, work, result);
   } catch (const Interrupted& interrupted) {
-    const bool has_runs = !result.runs.empty();
-    if (has_runs) {
+    if (result.runs.empty()) throw;
+    {
       const UninterruptedWriting guard(Writing::partial_results);
       write_figures(result, origin, directory);
     }
-    print_error(has_runs
-                    ? fmt::format("interrupted; what was finished is in {}, marked as partial; "
-                                  "the same command with --resume goes on",
-                                  directory.string())
-                    : std::string("interrupted; nothing was written"));
+    print_error(
+        fmt::format("interrupted; what was finished is in {}, marked as partial; the same command "
+                    "with --resume goes on",
+                    directory.string()));
     return interrupted.exit_code();
   }
   {
@@ -133,7 +132,7 @@ int compare(const CompareOptions& options) {
   }
   if (report.drawing_problem) print_error(*report.drawing_problem);
   if (options.scene.json) {
-    print(io::comparison_json(result, origin));
+    print(report.files.back().content);
   } else if (!options.scene.quiet) {
     print(io::comparison_table(result) + "\n" + advice(result) +
           fmt::format("\nreport: {}\n", (directory / "report.html").string()));

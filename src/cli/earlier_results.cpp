@@ -38,12 +38,16 @@ std::vector<std::filesystem::path> earlier_results(const std::filesystem::path& 
     if (folder.empty()) continue;
     files.push_back(folder / "jet.csv");
     files.push_back(folder / "nominal.csv");
+    files.push_back(folder / "along_time.csv");
     for (const Json& entry : list_in(run, "exactness")) {
       const std::string kind = name_in(entry, "kind");
       if (!kind.empty()) files.push_back(folder / ("generating_function_" + kind + ".csv"));
     }
   }
-  if (!files.empty()) files.emplace_back("relative_hamiltonian.csv");
+  if (!files.empty()) {
+    files.emplace_back("relative_hamiltonian.csv");
+    files.emplace_back("figure.svg");
+  }
   return files;
 }
 

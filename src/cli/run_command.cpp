@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <optional>
 #include <type_traits>
 #include <variant>
 
@@ -31,11 +32,14 @@ int run_flow_jet(const RunOptions& options, const Scene& scene) {
       progress.update(task, fraction);
     });
   }
+  std::optional<std::string> drawing_problem;
+  const std::string figure = io::figure_svg(result, drawing_problem);
   {
     const UninterruptedWriting guard;
     for (const auto& file : earlier_results(directory)) output.replace(file);
-    io::write_results(result, output);
+    io::write_results(result, figure, output);
   }
+  if (drawing_problem) print_error(*drawing_problem);
   if (options.json) {
     print(io::summary_json(result));
   } else if (!options.quiet) {

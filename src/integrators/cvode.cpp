@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdlib>
 #include <exception>
 #include <limits>
@@ -16,6 +15,7 @@
 #include "cvode_block_solver.hpp"
 #include "cvode_handles.hpp"
 #include "hamjet/error.hpp"
+#include "integration_clock.hpp"
 #include "series_vector_field.hpp"
 #include "step_sequence.hpp"
 
@@ -32,15 +32,12 @@ const char* method_name(CvodeMethod method) {
 /// exception may pass through CVODE, so they are kept and thrown afterwards.
 class CvodeIntegration {
  public:
-  using Clock = std::chrono::steady_clock;
-
   CvodeIntegration(const FlowProblem<double>& problem, const CvodeSettings& settings,
                    IntegrationStatistics& statistics, const StepObserver<double>& observer)
       : problem_(problem),
         settings_(settings),
         statistics_(statistics),
         observer_(observer),
-        start_(Clock::now()),
         name_(method_name(settings.method)),
         field_(problem, name_),
         guard_(problem, settings.tolerance, name_),
@@ -70,22 +67,18 @@ class CvodeIntegration {
     while (time_ != problem_.duration) {
       step();
       if (!observer_) continue;
-      const auto before = Clock::now();
-      field_.copy_to(jet_, numbers());
-      observer_(time_, jet_);
-      seconds_in_observer_ += seconds_since(before);
+      clock_.exclude([&] {
+        field_.copy_to(jet_, numbers());
+        observer_(time_, jet_);
+      });
     }
     field_.copy_to(jet_, numbers());
     collect_counts();
-    statistics_.wall_seconds = seconds_since(start_) - seconds_in_observer_;
+    statistics_.wall_seconds = clock_.seconds();
     return std::move(jet_);
   }
 
  private:
-  static double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-  }
-
   double* numbers() { return N_VGetArrayPointer(state_.get()); }
 
   /// One step of CVODE, which stops at the stop time exactly.
@@ -213,8 +206,7 @@ class CvodeIntegration {
   const CvodeSettings& settings_;
   IntegrationStatistics& statistics_;
   const StepObserver<double>& observer_;
-  Clock::time_point start_;
-  double seconds_in_observer_ = 0;
+  IntegrationClock clock_;
   std::string name_;
   SeriesVectorField<double> field_;
   EnergyGuard<double> guard_;

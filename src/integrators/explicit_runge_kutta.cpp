@@ -6,7 +6,6 @@
 #include <boost/numeric/odeint/algebra/range_algebra.hpp>
 #include <boost/numeric/odeint/stepper/controlled_runge_kutta.hpp>
 #include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -14,6 +13,7 @@
 
 #include "hamjet/algebra/extended.hpp"
 #include "hamjet/error.hpp"
+#include "integration_clock.hpp"
 #include "series_vector_field.hpp"
 #include "step_sequence.hpp"
 
@@ -41,7 +41,6 @@ struct CoefficientAlgebra : odeint::range_algebra {
 template <class Real>
 class FehlbergIntegration {
  public:
-  using Clock = std::chrono::steady_clock;
   using State = std::vector<Real>;
   using Stepper = odeint::runge_kutta_fehlberg78<State, Real, State, Real, CoefficientAlgebra>;
   using ControlledStepper = odeint::controlled_runge_kutta<Stepper>;
@@ -52,7 +51,6 @@ class FehlbergIntegration {
         settings_(settings),
         statistics_(statistics),
         observer_(observer),
-        start_(Clock::now()),
         field_(problem, method_name),
         guard_(problem, settings.tolerance.value_or(0), method_name),
         jet_(identity_jet(problem)),
@@ -69,15 +67,11 @@ class FehlbergIntegration {
     }
     field_.copy_to(jet_, state_.data());
     statistics_.vector_field_evaluations += field_.evaluations();
-    statistics_.wall_seconds = seconds_since(start_) - seconds_in_observer_;
+    statistics_.wall_seconds = clock_.seconds();
     return std::move(jet_);
   }
 
  private:
-  static double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-  }
-
   auto system() {
     return [this](const State& state, State& derivative, const Real& time) {
       field_.evaluate(state.data(), derivative.data(), time);
@@ -142,10 +136,10 @@ class FehlbergIntegration {
       field_.evaluate(state_.data(), derivative_.data(), time_);
     }
     if (!observer_) return;
-    const auto before = Clock::now();
-    field_.copy_to(jet_, state_.data());
-    observer_(time_, jet_);
-    seconds_in_observer_ += seconds_since(before);
+    clock_.exclude([&] {
+      field_.copy_to(jet_, state_.data());
+      observer_(time_, jet_);
+    });
   }
 
   /// A hundredth of the time in which the nominal moves by its own size; the control does the rest.
@@ -180,8 +174,7 @@ class FehlbergIntegration {
   const ExplicitRungeKuttaSettings& settings_;
   IntegrationStatistics& statistics_;
   const StepObserver<Real>& observer_;
-  Clock::time_point start_;
-  double seconds_in_observer_ = 0;
+  IntegrationClock clock_;
   SeriesVectorField<Real> field_;
   EnergyGuard<Real> guard_;
   FlowJet<Real> jet_;

@@ -10,6 +10,7 @@
 #include "gauss_step_control.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
+#include "integration_clock.hpp"
 #include "stage_slopes.hpp"
 #include "step_sequence.hpp"
 #include "summed_jet.hpp"
@@ -21,36 +22,30 @@ template <class Real, int Lanes>
 class GaussIntegrator {
  public:
   using P = Pack<Real, Lanes>;
-  using Clock = std::chrono::steady_clock;
+  using Clock = IntegrationClock::Clock;
 
   GaussIntegrator(const FlowProblem<Real>& problem, const GaussSettings& settings,
                   IntegrationStatistics& statistics)
       : problem_(problem),
         settings_(settings),
         statistics_(statistics),
-        start_(Clock::now()),
         order_(working_order(problem)),
         is_linear_(problem.system->vector_field.is_linear_system()),
         tableau_(gauss_tableau(static_cast<std::size_t>(settings.stages))),
         stages_(*problem.system, tableau_, problem.space, order_),
-        point_(stage_list(), problem.space, 0),
+        point_(problem.system->evaluated_list(), problem.space, 0),
         jet_(problem),
         control_(settings, tableau_, stages_, jet_, order_) {
     for (const auto& component : jet_.value()) state_.push_back(component.coefficients().data());
   }
 
   FlowJet<Real> run(const StepObserver<Real>& observer) {
-    double in_observer = 0;
     begin();
     while (time_ != problem_.duration) {
       step();
-      if (observer) {
-        const auto before = std::chrono::steady_clock::now();
-        observer(time_, jet_.value());
-        in_observer += seconds_since(before);
-      }
+      if (observer) clock_.exclude([&] { observer(time_, jet_.value()); });
     }
-    statistics_.wall_seconds = seconds_since(start_) - in_observer;
+    statistics_.wall_seconds = clock_.seconds();
     require_finite(jet_.value(), time_, "Gauss");
     return jet_.take();
   }
@@ -60,21 +55,12 @@ class GaussIntegrator {
   /// goes as h^(2s), so that a step hardly too long is not worth repeating.
   static constexpr double largest_excess = 10;
 
-  static double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-  }
-
   /// Adds the time since `mark` to one entry of the profile and moves the mark.
   void account(double GaussProfile::*entry, Clock::time_point& mark) {
     if (settings_.profile == nullptr) return;
     const auto now = Clock::now();
     settings_.profile->*entry += std::chrono::duration<double>(now - mark).count();
     mark = now;
-  }
-
-  const OperationList& stage_list() const {
-    const DynamicalSystem& system = *problem_.system;
-    return system.second_order ? system.second_order->force : system.vector_field;
   }
 
   void begin() {
@@ -206,11 +192,7 @@ class GaussIntegrator {
   /// displacement.
   double expected_change() {
     const auto state = [&](std::size_t k) -> const Real& { return jet_.value()[k][0]; };
-    double gradient = 0;
-    for (int i = 0; i < settings_.stages; ++i) {
-      gradient = std::max(gradient, stages_.largest_gradient(i));
-    }
-    return gradient * stages_.displacement(state);
+    return stages_.largest_gradient() * stages_.displacement(state);
   }
 
   /// Follows the solution from a tiny step to the full one. Where neighbouring solutions differ
@@ -287,7 +269,7 @@ class GaussIntegrator {
   const FlowProblem<Real>& problem_;
   const GaussSettings& settings_;
   IntegrationStatistics& statistics_;
-  Clock::time_point start_;
+  IntegrationClock clock_;
   int order_;
   bool is_linear_;
   const GaussTableau& tableau_;

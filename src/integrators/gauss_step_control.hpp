@@ -25,6 +25,9 @@ class GaussStepControl {
     for (std::size_t i = 0; i < tableau.stages; ++i) {
       last_mode_.set_lane(static_cast<int>(i), convert<Real>(tableau.last_mode[i]));
     }
+    const double s = settings.stages;
+    pade_constant_ =
+        std::pow(std::tgamma(s + 1), 2) / (std::tgamma(2 * s + 1) * std::tgamma(2 * s + 2));
   }
 
   /// The time in which the slopes change by about their own size, from the gradient at the start,
@@ -78,17 +81,11 @@ class GaussStepControl {
   /// in each of 2 pi / (h omega) steps. The coefficients of degree d hold harmonics too; measured
   /// on circular orbits, whose nominal shows least, (1 + d/4) omega keeps them to the tolerance.
   double linearised_error(const Real& h) {
-    double frequency = 0;
-    for (int i = 0; i < settings_.stages; ++i) {
-      frequency = std::max(frequency, stages_.largest_gradient(i));
-    }
+    double frequency = stages_.largest_gradient();
     if (stages_.system().second_order()) frequency = std::sqrt(frequency);
     frequency *= 1 + 0.25 * std::min(order_, 4);
-    const double s = settings_.stages;
-    const double constant =
-        std::pow(std::tgamma(s + 1), 2) / (std::tgamma(2 * s + 1) * std::tgamma(2 * s + 2));
-    return 2 * std::numbers::pi * constant *
-           std::pow(static_cast<double>(magnitude(h)) * frequency, 2 * s);
+    return 2 * std::numbers::pi * pade_constant_ *
+           std::pow(static_cast<double>(magnitude(h)) * frequency, 2 * settings_.stages);
   }
 
   /// The largest component of the Legendre mode of degree s - 1 of the slopes.
@@ -142,6 +139,7 @@ class GaussStepControl {
   StageSlopes<Real, Lanes>& stages_;
   SummedJet<Real, Lanes>& jet_;
   int order_;             ///< of the jet
+  double pade_constant_;  ///< (s!)^2 / ((2s)! (2s+1)!)
   P last_mode_{Real(0)};  ///< weights of the Legendre mode of degree s - 1
 };
 

@@ -100,10 +100,7 @@ class SeriesVectorField {
   }
 
  private:
-  const OperationList& list() const {
-    const DynamicalSystem& system = *problem_->system;
-    return system.second_order ? system.second_order->force : system.vector_field;
-  }
+  const OperationList& list() const { return problem_->system->evaluated_list(); }
 
   /// q' = M^-1 p.
   void multiply_inverse_mass(const Real* p, Real* velocity) const {

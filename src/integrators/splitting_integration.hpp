@@ -3,15 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <utility>
 #include <vector>
 
+#include "compensated_addition.hpp"
 #include "hamjet/algebra/extended.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/integrators/flow_problem.hpp"
+#include "integration_clock.hpp"
 #include "real_number.hpp"
 #include "step_sequence.hpp"
 
@@ -65,8 +66,6 @@ FlowJet<Real> integrate_splitting(const FlowProblem<Real>& problem, Splitting<Re
 template <class Real, class Force>
 class SplittingIntegration {
  public:
-  using Clock = std::chrono::steady_clock;
-
   SplittingIntegration(const FlowProblem<Real>& problem, Splitting<Real> splitting, Force& force,
                        long steps, IntegrationStatistics& statistics,
                        const StepObserver<Real>& observer)
@@ -90,7 +89,6 @@ class SplittingIntegration {
   }
 
   FlowJet<Real> run() {
-    const auto start = Clock::now();
     const Real h = problem_.duration / Real(steps_);
     const std::size_t stages = splitting_.drifts.size();
     const Real end_kick = h * splitting_.kicks[stages];
@@ -116,15 +114,11 @@ class SplittingIntegration {
     }
     write_jet(end_kick);
     require_finite(jet_, time_, splitting_.method);
-    statistics_.wall_seconds = seconds_since(start) - seconds_in_observer_;
+    statistics_.wall_seconds = clock_.seconds();
     return std::move(jet_);
   }
 
  private:
-  static double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-  }
-
   void evaluate(const Real& h) {
     ++statistics_.vector_field_evaluations;
     require(force_.evaluate(), h);
@@ -138,14 +132,10 @@ class SplittingIntegration {
                             static_cast<double>(h), static_cast<double>(time_)));
   }
 
-  /// Kahan's addition of factor times a series; compensated summation lets round-off grow as slowly
-  /// as it can (Hairer, Lubich and Wanner, section VIII.5).
+  /// value += factor series.
   void add(Real* value, Real* lost, const Real& factor, const Real* series) const {
     for (std::size_t k = 0; k < count_; ++k) {
-      const Real corrected = factor * series[k] - lost[k];
-      const Real sum = value[k] + corrected;
-      lost[k] = (sum - value[k]) - corrected;
-      value[k] = sum;
+      add_compensated(value[k], lost[k], Real(factor * series[k]));
     }
   }
 
@@ -185,12 +175,13 @@ class SplittingIntegration {
   }
 
   void observe(const Real& end_kick) {
-    const auto before = Clock::now();
-    write_jet(end_kick);
-    observer_(time_, jet_);
-    seconds_in_observer_ += seconds_since(before);
+    clock_.exclude([&] {
+      write_jet(end_kick);
+      observer_(time_, jet_);
+    });
   }
 
+  IntegrationClock clock_;
   const FlowProblem<Real>& problem_;
   Splitting<Real> splitting_;
   Force& force_;
@@ -205,7 +196,6 @@ class SplittingIntegration {
   std::vector<Real> inverse_mass_;
   Real time_ = 0;
   long taken_ = 0;
-  double seconds_in_observer_ = 0;
 };
 
 }  // namespace hamjet

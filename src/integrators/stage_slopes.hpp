@@ -20,7 +20,7 @@ class StageSlopes {
   StageSlopes(const DynamicalSystem& system, const GaussTableau& tableau, SpacePointer space,
               int working_order)
       : system_(system, tableau),
-        list_(system_.second_order() ? system.second_order->force : system.vector_field),
+        list_(system.evaluated_list()),
         evaluator_(list_, space, working_order),
         space_(std::move(space)),
         slopes_(system_.components()) {}
@@ -73,6 +73,15 @@ class StageSlopes {
       for (std::size_t k = 0; k < system_.components(); ++k) {
         result = std::max(result, std::abs(static_cast<double>(slope_gradient(c, k).lane(stage))));
       }
+    }
+    return result;
+  }
+
+  /// The same over all stages.
+  double largest_gradient() const {
+    double result = 0;
+    for (int i = 0; i < static_cast<int>(system_.stages()); ++i) {
+      result = std::max(result, largest_gradient(i));
     }
     return result;
   }

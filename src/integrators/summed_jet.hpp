@@ -4,14 +4,13 @@
 #include <utility>
 #include <vector>
 
+#include "compensated_addition.hpp"
 #include "hamjet/integrators/flow_problem.hpp"
 #include "stage_slopes.hpp"
 
 namespace hamjet {
 
-/// The flow's jet as it advances from step to step, with the round-off that each addition lost:
-/// over many steps compensated summation lets the error grow as slowly as it can (Hairer, Lubich
-/// and Wanner, Geometric Numerical Integration, section VIII.5).
+/// The flow's jet as it advances from step to step, with the round-off that each addition lost.
 template <class Real, int Lanes>
 class SummedJet {
  public:
@@ -49,7 +48,8 @@ class SummedJet {
             velocity += system.inverse_mass(c, i) * jet_[m + i][k];
           }
         }
-        add(jet_[c][k], lost_[c][k],
+        add_compensated(
+            jet_[c][k], lost_[c][k],
             Real(h * (velocity + h * dot(system.position_weights(), stages.slope(c, k)))));
       }
     }
@@ -65,16 +65,8 @@ class SummedJet {
     Real* value = jet_[component].coefficients().data();
     Real* lost = lost_[component].data();
     for (std::size_t k = 0; k < count; ++k) {
-      add(value[k], lost[k], Real(h * dot(weights, slopes[k])));
+      add_compensated(value[k], lost[k], Real(h * dot(weights, slopes[k])));
     }
-  }
-
-  /// Kahan's addition.
-  static void add(Real& value, Real& lost, const Real& increment) {
-    const Real corrected = increment - lost;
-    const Real sum = value + corrected;
-    lost = (sum - value) - corrected;
-    value = sum;
   }
 
   FlowJet<Real> jet_;

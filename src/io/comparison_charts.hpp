@@ -14,8 +14,6 @@ std::vector<Chart> comparison_charts(const ComparisonResult& result);
 Chart work_precision_chart(const ComparisonResult& result);
 Chart exactness_chart(const ComparisonResult& result);
 Chart symplecticity_chart(const ComparisonResult& result);
-Chart exactness_along_time_chart(const ComparisonResult& result);
-Chart energy_along_time_chart(const ComparisonResult& result);
 Chart cost_chart(const ComparisonResult& result);
 Chart convergence_chart(const ComparisonResult& result);
 

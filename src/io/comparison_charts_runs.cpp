@@ -21,6 +21,14 @@ ChartAxis error_axis(const ComparisonResult& result) {
   return axis;
 }
 
+ChartAxis time_axis() {
+  ChartAxis axis;
+  axis.label = "time of integration";
+  axis.unit = AxisUnit::seconds;
+  axis.is_logarithmic = true;
+  return axis;
+}
+
 /// Whether the error may be shown; counts those that are the reference's as much as the run's.
 bool is_claimed(double error, double smallest, std::size_t& below) {
   if (error > 0 && !(error < smallest)) return true;
@@ -71,10 +79,11 @@ Chart corner_chart(const ComparisonResult& result, Measure measure) {
   if (has_formation_error(result) && result.scene.comparison.wanted_error_m > 0) {
     chart.rules.push_back({true, result.scene.comparison.wanted_error_m});
   }
-  chart.corners = {{false, false, "exact and accurate"},
-                   {true, false, "exact but wrong"},
-                   {false, true, "accurate though not symplectic"},
-                   {true, true, "neither"}};
+  const auto name = [](Corner corner) { return std::string(corner_text(corner)); };
+  chart.corners = {{false, false, name(Corner::exact_and_accurate)},
+                   {true, false, name(Corner::exact_but_wrong)},
+                   {false, true, name(Corner::accurate_not_symplectic)},
+                   {true, true, name(Corner::neither)}};
   return chart;
 }
 
@@ -94,11 +103,9 @@ Chart work_precision_chart(const ComparisonResult& result) {
       "interleaved over all methods, integration alone, one thread.";
   chart.x = error_axis(result);
   chart.x.is_reversed = true;
+  chart.y = time_axis();
   // No marker on the very edge.
   chart.x.margin = chart.y.margin = 0.05;
-  chart.y.label = "time of integration";
-  chart.y.unit = AxisUnit::seconds;
-  chart.y.is_logarithmic = true;
   const double smallest = smallest_shown_error(result);
   std::size_t below = 0;
   for (const std::string& name : series_names(result.runs)) {
@@ -185,9 +192,7 @@ Chart cost_chart(const ComparisonResult& result) {
   chart.x.label = "order of the jet";
   chart.x.is_integer = true;
   chart.x.margin = 0.04;
-  chart.y.label = "time of integration";
-  chart.y.unit = AxisUnit::seconds;
-  chart.y.is_logarithmic = true;
+  chart.y = time_axis();
   for (const std::string& name : series_names(result.cost_runs)) {
     ChartCurve curve;
     curve.title = name;

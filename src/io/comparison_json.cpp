@@ -155,7 +155,8 @@ Json reference_json(const ComparisonResult& result) {
 Json fit_json(const ConvergenceFit& fit) {
   return {{"series", fit.series},       {"degree", fit.degree},
           {"slope", number(fit.slope)}, {"expected", number(fit.expected)},
-          {"agrees", fit.agrees()},     {"labels", fit.labels}};
+          {"agrees", fit.agrees()},     {"extended_precision", fit.is_extended},
+          {"labels", fit.labels}};
 }
 
 template <class Values, class Convert>

@@ -180,16 +180,15 @@ std::string fit_table_html(const ComparisonResult& result) {
   for (const ConvergenceFit& fit : result.fits) {
     rows += fmt::format(
         "<tr><th scope=\"row\">{}</th><td>{}</td><td>{:.2f}</td><td>{:g}</td><td>{}</td>"
-        "<td class=\"reason\">{}</td></tr>\n",
+        "<td class=\"reason\">{}{}</td></tr>\n",
         escape_html(fit.series), fit.degree, fit.slope, fit.expected,
-        fit.agrees() ? "yes" : "not yet",
+        fit.agrees() ? "yes" : "not yet", fit.is_extended ? "in extended precision: " : "",
         escape_html(fmt::format("{}", fmt::join(fit.labels, ", "))));
   }
   return table(
       "Fitted orders of convergence, by degree of the jet. Not yet within 0.3: the leading term "
-      "does "
-      "not dominate at the steps that lie above the rounding floor (that of the energy "
-      "drift of an explicit method, one order higher, grows as the square of time).",
+      "does not dominate at the steps that lie above the rounding floor of double precision, and "
+      "runs in extended precision would take too long.",
       "<tr>" + header_cells({"series", "degree", "fitted", "theory", "within 0.3"}) +
           "<th scope=\"col\" class=\"text\">runs used</th>" + "</tr>",
       rows);

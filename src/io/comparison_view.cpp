@@ -6,6 +6,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "along_time_charts.hpp"
+
 namespace hamjet::io {
 namespace {
 
@@ -59,13 +61,7 @@ std::size_t series_index(const ComparisonResult& result, std::string_view series
 }
 
 std::string kind_text(const ComparisonResult& result) {
-  if (!result.kind) return "";
-  for (const char* name : {"F1", "F2", "F3", "F4"}) {
-    if (parse_kind(name, result.kind->degrees_of_freedom()) == *result.kind) {
-      return fmt::format("{} ({})", name, result.kind->name());
-    }
-  }
-  return result.kind->name();
+  return result.kind ? kind_text(*result.kind) : "";
 }
 
 std::string_view corner_text(Corner corner) {

@@ -26,12 +26,14 @@ bool is_at_floor(const ExactnessEntry& entry) {
   return entry.floor && entry.residual.absolute <= 10 * entry.floor->absolute;
 }
 
-void write_results(const PropagationResult& result, OutputDirectory& output) {
+void write_results(const PropagationResult& result, const std::string& figure,
+                   OutputDirectory& output) {
   for (const RunResult& run : result.runs) {
     if (!run.failure.empty()) continue;
     const std::filesystem::path folder = run.settings.label;
     output.write(folder / "jet.csv", jet_csv(result, run));
     output.write(folder / "nominal.csv", nominal_csv(result, run));
+    if (run.along_time) output.write(folder / "along_time.csv", along_time_csv(result, run));
     for (const KindResult& kind : run.kinds) {
       if (!kind.generating_function) continue;
       output.write(folder / ("generating_function_" + kind_name(kind) + ".csv"),
@@ -41,6 +43,7 @@ void write_results(const PropagationResult& result, OutputDirectory& output) {
   if (!result.relative_hamiltonians.empty()) {
     output.write("relative_hamiltonian.csv", relative_hamiltonian_csv(result));
   }
+  if (!figure.empty()) output.write("figure.svg", figure);
   output.write("summary.json", summary_json(result));
   output.commit();
 }

@@ -71,6 +71,28 @@ std::string nominal_csv(const PropagationResult& result, const RunResult& run) {
   return fmt::to_string(out);
 }
 
+std::string along_time_csv(const PropagationResult& result, const RunResult& run) {
+  fmt::memory_buffer out;
+  const auto write = std::back_inserter(out);
+  fmt::format_to(write, "time_canonical,time_s,exactness_degree_0_scaled,condition,energy_error\n");
+  const double unit = result.scene.units.time_s;
+  auto singular = run.along_time->singular_times.begin();
+  const auto end = run.along_time->singular_times.end();
+  for (const RunAlongTime::Point& point : run.along_time->points) {
+    for (; singular != end && std::abs(*singular) <= std::abs(point.time); ++singular) {
+      fmt::format_to(write, "{:.17g},{:.17g},singular,,\n", *singular, *singular * unit);
+    }
+    fmt::format_to(write, "{:.17g},{:.17g},", point.time, point.time * unit);
+    if (point.exactness) fmt::format_to(write, "{:.6g}", *point.exactness);
+    fmt::format_to(write, ",");
+    if (std::isfinite(point.condition) && point.condition > 0) {
+      fmt::format_to(write, "{:.6g}", point.condition);
+    }
+    fmt::format_to(write, ",{:.6g}\n", point.energy_error);
+  }
+  return fmt::to_string(out);
+}
+
 std::string relative_hamiltonian_csv(const PropagationResult& result) {
   const auto names = variable_names(result.scene.system.model);
   fmt::memory_buffer out;

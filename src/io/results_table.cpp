@@ -120,13 +120,12 @@ std::string reference_line(const PropagationResult& result) {
     return "no reference: the scene has no [reference] table, so errors and floors are not "
            "computed\n";
   }
-  const auto& uncertainty = result.reference->uncertainty_by_degree;
   return fmt::format(
       "reference: Gauss, {} stages, 113 bits, steps: {}, time: {}; its own uncertainty is {:.0e} "
       "at worst\n",
       result.reference->stages, result.reference->statistics.steps,
       duration_text(result.reference->statistics.wall_seconds),
-      *std::max_element(uncertainty.begin(), uncertainty.end()));
+      result.reference->largest_uncertainty());
 }
 
 std::string explanation(const PropagationResult& result) {

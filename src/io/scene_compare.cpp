@@ -10,7 +10,6 @@
 namespace hamjet::io {
 namespace {
 
-constexpr int most_stages = 12;
 constexpr int most_repeats = 1000;
 
 /// An array of integers between the two, both included.
@@ -71,14 +70,15 @@ ComparisonSettings read_compare(const TableReader& table, int order, double dura
                      "time_budget_s", "wanted_error_m"}});
   ComparisonSettings settings;
   if (table.has("methods")) settings.methods = read_methods(table);
-  if (table.has("stages")) settings.stages = integers(table, "stages", 1, most_stages);
+  if (table.has("stages")) settings.stages = integers(table, "stages", 1, most_gauss_stages);
   const double span = std::abs(duration);
   if (table.has("steps_canonical")) {
     settings.steps_canonical =
         positive_numbers(table, "steps_canonical", span / largest_step_count, 1e300);
   }
   if (table.has("tolerances")) {
-    settings.tolerances = positive_numbers(table, "tolerances", 1e-15, 1e-1);
+    settings.tolerances =
+        positive_numbers(table, "tolerances", least_tolerance, greatest_tolerance);
   }
   if (table.has("orders")) settings.orders = integers(table, "orders", 1, order);
   if (table.has("repeats")) {

@@ -12,7 +12,6 @@
 namespace hamjet::io {
 namespace {
 
-constexpr std::int64_t most_stages = 12;
 constexpr std::size_t longest_label = 100;
 /// The files that stand beside the integrators' directories in the output.
 bool is_reserved(std::string_view label) {
@@ -97,8 +96,8 @@ double read_step(const TableReader& integrator, std::string_view key, double dur
 }
 
 double read_tolerance(const TableReader& integrator, Precision precision) {
-  const double least = precision == Precision::double_precision ? 1e-15 : 1e-30;
-  return integrator.number_between("tolerance", least, 1e-1);
+  const double least = precision == Precision::double_precision ? least_tolerance : 1e-30;
+  return integrator.number_between("tolerance", least, greatest_tolerance);
 }
 
 /// Of velocity Verlet and its compositions.
@@ -132,7 +131,7 @@ IntegratorSettings read_integrator(const TableReader& integrator, Precision prec
   }
   settings.label = read_label(integrator);
   if (integrator.has("stages")) {
-    settings.stages = static_cast<int>(integrator.integer_between("stages", 1, most_stages));
+    settings.stages = static_cast<int>(integrator.integer_between("stages", 1, most_gauss_stages));
   }
   if (integrator.has("order")) settings.order = read_order(integrator);
   if (integrator.has("beta")) settings.beta = integrator.number_between("beta", 0, 0.5);

@@ -22,6 +22,12 @@ inline std::string_view model_name(SystemModel model) {
   return model_names()[static_cast<std::size_t>(model)];
 }
 
+/// Most stages of a Gauss method.
+inline constexpr int most_gauss_stages = 12;
+/// The range of tolerances in double precision.
+inline constexpr double least_tolerance = 1e-15;
+inline constexpr double greatest_tolerance = 1e-1;
+
 /// All tables of the study "flow-jet".
 Scene read_flow_jet(const TableReader& root);
 
@@ -79,6 +85,9 @@ ReferenceSettings read_reference(const TableReader& reference);
 
 /// Table `[compare]` of a scene with this order and canonical duration.
 ComparisonSettings read_compare(const TableReader& table, int order, double duration);
+
+/// Table `[figure]`, checked against what `scene` already holds.
+FigureQuantity read_figure(const TableReader& figure, const Scene& scene);
 
 /// Table `[relative_hamiltonian]`: canonical times from the start to the duration.
 std::vector<double> read_relative_hamiltonian(const TableReader& table, double duration);

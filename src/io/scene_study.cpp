@@ -21,7 +21,7 @@ const std::vector<StudyReader>& studies() {
   static const std::vector<StudyReader> readers = {
       {"flow-jet",
        {"schema", "title", "precision", "system", "nominal", "jet", "integrator", "formation",
-        "generating_function", "reference", "relative_hamiltonian", "compare", "study"},
+        "generating_function", "reference", "relative_hamiltonian", "compare", "figure", "study"},
        read_flow_jet},
   };
   return readers;

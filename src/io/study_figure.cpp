@@ -6,7 +6,7 @@
 
 namespace hamjet::io {
 
-void add_figure(StudyReport& report, std::vector<Chart> charts) {
+std::string draw_figure(std::vector<Chart> charts, std::optional<std::string>& problem) {
   // The size of Drawing::wide_svg.
   constexpr int width = 900;
   constexpr int height = 500;
@@ -19,18 +19,22 @@ void add_figure(StudyReport& report, std::vector<Chart> charts) {
     std::string reason;
     const std::string drawing = drawer.draw(chart, Drawing::wide_svg, reason);
     if (drawer.problem()) break;
-    body += fmt::format("<g transform=\"translate(0,{})\">\n{}</g>\n", count++ * height,
-                        inline_svg(drawing, chart.name + "-", chart.title));
+    // A drawing has no size of its own: it fills the one that it stands in.
+    body += fmt::format("<svg y=\"{}\" width=\"{}\" height=\"{}\">\n{}</svg>\n", count++ * height,
+                        width, height, inline_svg(drawing, chart.name + "-", chart.title));
   }
-  report.drawing_problem = drawer.problem();
-  if (report.drawing_problem || count == 0) return;
-  report.files.push_back(
-      {"figure.svg", fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" "
-                                 "xmlns:xlink=\"http://www.w3.org/1999/xlink\" width=\"{0}\" "
-                                 "height=\"{1}\" viewBox=\"0 0 {0} {1}\">\n"
-                                 "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n{2}"
-                                 "</svg>\n",
-                                 width, count * height, body)});
+  problem = drawer.problem();
+  if (problem || count == 0) return "";
+  return fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" "
+      "width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\">\n"
+      "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n{2}</svg>\n",
+      width, count * height, body);
+}
+
+void add_figure(StudyReport& report, std::vector<Chart> charts) {
+  std::string figure = draw_figure(std::move(charts), report.drawing_problem);
+  if (!figure.empty()) report.files.push_back({"figure.svg", std::move(figure)});
 }
 
 }  // namespace hamjet::io

@@ -20,13 +20,13 @@ class ComparedOrder {
   const FormationPoints& points() const noexcept { return points_; }
 
   /// Integrates once and judges the jet. A numerical failure is recorded in the run.
-  /// `keep_going` is told the fraction done and the seconds of integration so far; it may throw.
+  /// `keep_going` is told the seconds of integration so far; it may throw.
   ComparedRun judge(const Candidate& candidate, const std::string& series,
-                    const std::function<void(double, double)>& keep_going);
+                    const std::function<void(double)>& keep_going);
 
   /// Adds one timing to a finished run.
   void time(const Candidate& candidate, ComparedRun& run,
-            const std::function<void(double)>& keep_going) const;
+            const std::function<void()>& keep_going) const;
 
   /// One of the scene's integrators watched along time.
   RunAlongTime watch(const IntegratorSettings& settings,
@@ -44,8 +44,5 @@ class ComparedOrder {
   MapAnalysis analysis_;
   std::optional<GeneratingFunctionKind> kind_;
 };
-
-/// The first coefficients of a reference: that of a lower order.
-ReferenceResult truncated_reference(const ReferenceResult& reference, const SpacePointer& space);
 
 }  // namespace hamjet

@@ -24,6 +24,9 @@ constexpr double largest_uncertainty = 1e-13;
 constexpr int fruitless_refinements = 2;
 constexpr double near_round_off = 1e-11;
 
+/// Part of the time budget that the fits of one series may take at one degree.
+constexpr double fit_budget = 0.1;
+
 /// An integration takes longer than the time budget leaves it.
 struct TooSlow {
   double seconds;
@@ -84,14 +87,13 @@ class Comparison {
 
   void run() {
     find_reference();
-    choose_kind();
     ComparedOrder& order = at_order(scene_.order);
     result_.separation_points = order.points().size();
     judge_all(order);
     watch_all(order);
     judge_costs();
     time_all();
-    result_.fits = convergence_fits(result_, series_);
+    fit_orders();
     result_.is_complete = true;
   }
 
@@ -132,8 +134,7 @@ class Comparison {
         throw Error(error.kind(), fmt::format("reference: {}", error.what()));
       }
     }
-    const double uncertainty =
-        *std::max_element(found->uncertainty_by_degree.begin(), found->uncertainty_by_degree.end());
+    const double uncertainty = found->largest_uncertainty();
     if (!(uncertainty <= largest_uncertainty)) {
       throw Error(ErrorKind::numerical,
                   fmt::format("reference: its two runs differ by {:.2g} relative to the largest "
@@ -145,13 +146,12 @@ class Comparison {
       options_.references->save(key, *found);
     }
     result_.reference = std::move(*found);
+    if (problem.is_full_jet) choose_kind(problem);
   }
 
-  void choose_kind() {
-    const ComputedProblem problem = make_problem(scene_, available_memory());
-    if (!problem.is_full_jet) return;
-    const auto reference = truncated_reference(result_.reference, problem.space);
-    const std::span<const Series<Extended>> jet(reference.jet);
+  /// The linear part alone decides, so that the reference's order does not matter.
+  void choose_kind(const ComputedProblem& problem) {
+    const std::span<const Series<Extended>> jet(result_.reference.jet);
     const bool is_named = scene_.kinds && scene_.kinds->front() != "auto";
     result_.kind = is_named ? parse_kind(scene_.kinds->front(), problem.degrees_of_freedom.size())
                             : best_conditioned_kind(jet);
@@ -243,7 +243,7 @@ class Comparison {
     if (auto earlier = finished.take(degree, candidate.settings.label)) return std::move(*earlier);
     report("judging runs", done);
     try {
-      return order.judge(candidate, series, [&](double, double seconds) {
+      return order.judge(candidate, series, [&](double seconds) {
         report("judging runs", done);
         if (seconds > allowed_seconds) throw TooSlow{seconds};
       });
@@ -259,6 +259,7 @@ class Comparison {
       if (watched.contains(settings.label)) continue;
       result_.along_time.push_back(order.watch(
           settings, [&](double done) { report("along time: " + settings.label, done); }));
+      save();
     }
   }
 
@@ -281,6 +282,27 @@ class Comparison {
       }
     }
     finished.drop_the_rest();
+  }
+
+  /// On the nominal and on the highest degree that is not zero; in extended precision where double
+  /// precision has no steps at which theory holds.
+  void fit_orders() {
+    result_.fits.clear();
+    const std::set<int> degrees = {
+        0, working_order(at_order(scene_.order).problem().system, scene_.order)};
+    for (const CandidateSeries& series : series_) {
+      if (series.order == 0) continue;
+      for (const int degree : degrees) {
+        auto fit = fit_convergence(result_, series, degree);
+        if (!fit || !fit->agrees()) {
+          auto finer = fit_extended_convergence(
+              result_, series, degree, fit_budget * scene_.comparison.time_budget_s,
+              [&](double done) { report("order of convergence of " + series.name, done); });
+          if (finer) fit = std::move(finer);
+        }
+        if (fit) result_.fits.push_back(std::move(*fit));
+      }
+    }
   }
 
   static double work(const ComparedRun& run) {
@@ -310,7 +332,8 @@ class Comparison {
         const double done = (round + static_cast<double>(k) / static_cast<double>(runs.size())) /
                             static_cast<double>(repeats);
         report("timing", done);
-        at_order(run.order).time(candidate_of(run), run, [&](double) { report("timing", done); });
+        at_order(run.order).time(candidate_of(run), run, [&] { report("timing", done); });
+        save();
       }
     }
   }

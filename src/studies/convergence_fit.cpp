@@ -1,10 +1,9 @@
 #include "convergence_fit.hpp"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
-#include <set>
 
 namespace hamjet {
 namespace {
@@ -18,12 +17,6 @@ constexpr std::size_t most_points = 4;
 /// Largest scatter of log10(error) about the line.
 constexpr double largest_scatter = 0.1;
 
-struct Point {
-  double log_step;
-  double log_error;
-  std::string label;
-};
-
 double smallest_error(const ComparisonResult& result, std::size_t degree) {
   double smallest = std::numeric_limits<double>::infinity();
   for (const ComparedRun& run : result.runs) {
@@ -32,77 +25,58 @@ double smallest_error(const ComparisonResult& result, std::size_t degree) {
   return smallest;
 }
 
-/// The finest runs of a series above the floor, the finest first.
-std::vector<Point> usable_points(const ComparisonResult& result, const std::string& series,
-                                 std::size_t degree) {
-  const double floor = std::max({above_floor * smallest_error(result, degree),
+}  // namespace
+
+std::vector<ConvergencePoint> usable_points(const ComparisonResult& result,
+                                            const std::string& series, int degree) {
+  const auto index = static_cast<std::size_t>(degree);
+  const double floor = std::max({above_floor * smallest_error(result, index),
                                  above_floor * std::numeric_limits<double>::epsilon(),
-                                 result.smallest_claimed_error(static_cast<int>(degree))});
-  std::vector<Point> points;
+                                 result.smallest_claimed_error(degree)});
+  std::vector<ConvergencePoint> points;
   for (const ComparedRun& run : result.runs) {
     if (run.series != series || !run.is_finished() || !run.settings.step_canonical) continue;
-    const double error = run.error_by_degree[degree];
+    const double error = run.error_by_degree[index];
     if (error < floor || error > largest_error) continue;
     // The step that was taken: the duration is cut into equal ones not longer than asked for.
-    const double step = std::abs(result.scene.duration) / static_cast<double>(run.statistics.steps);
-    points.push_back({std::log10(step), std::log10(error), run.settings.label});
+    points.push_back({std::abs(result.scene.duration) / static_cast<double>(run.statistics.steps),
+                      error, run.settings.label});
   }
   std::sort(points.begin(), points.end(),
-            [](const Point& a, const Point& b) { return a.log_step < b.log_step; });
+            [](const auto& a, const auto& b) { return a.step < b.step; });
   if (points.size() > most_points) points.resize(most_points);
   return points;
 }
 
-struct Line {
-  double slope;
-  double scatter;
-};
-
-Line least_squares(const std::vector<Point>& points) {
-  const auto n = static_cast<double>(points.size());
-  double x = 0;
-  double y = 0;
-  for (const Point& point : points) {
-    x += point.log_step / n;
-    y += point.log_error / n;
+std::optional<double> fitted_slope(const std::vector<ConvergencePoint>& points, int correction) {
+  const auto rows = static_cast<Eigen::Index>(points.size());
+  Eigen::MatrixXd terms(rows, correction == 0 ? 2 : 3);
+  Eigen::VectorXd errors(rows);
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    const ConvergencePoint& point = points[static_cast<std::size_t>(i)];
+    terms(i, 0) = 1;
+    terms(i, 1) = std::log10(point.step);
+    // Relative to the coarsest step, so that the columns are of one size.
+    if (correction != 0) terms(i, 2) = std::pow(point.step / points.back().step, correction);
+    errors(i) = std::log10(point.error);
   }
-  double xx = 0;
-  double xy = 0;
-  for (const Point& point : points) {
-    xx += (point.log_step - x) * (point.log_step - x);
-    xy += (point.log_step - x) * (point.log_error - y);
-  }
-  Line line{xy / xx, 0};
-  for (const Point& point : points) {
-    line.scatter =
-        std::max(line.scatter, std::abs(point.log_error - y - line.slope * (point.log_step - x)));
-  }
-  return line;
+  const Eigen::VectorXd fit = terms.colPivHouseholderQr().solve(errors);
+  if (!((terms * fit - errors).lpNorm<Eigen::Infinity>() <= largest_scatter)) return std::nullopt;
+  return fit(1);
 }
 
-std::optional<ConvergenceFit> fit(const ComparisonResult& result, const CandidateSeries& series,
-                                  int degree) {
-  const auto points = usable_points(result, series.name, static_cast<std::size_t>(degree));
+std::optional<ConvergenceFit> fit_convergence(const ComparisonResult& result,
+                                              const CandidateSeries& series, int degree) {
+  const auto points = usable_points(result, series.name, degree);
   if (points.size() < fewest_points) return std::nullopt;
-  const Line line = least_squares(points);
-  if (line.scatter > largest_scatter) return std::nullopt;
-  ConvergenceFit fit{series.name, degree, line.slope, series.order, {}};
-  for (const Point& point : points) fit.labels.push_back(point.label);
-  return fit;
-}
-
-}  // namespace
-
-std::vector<ConvergenceFit> convergence_fits(const ComparisonResult& result,
-                                             const std::vector<CandidateSeries>& series) {
-  std::vector<ConvergenceFit> fits;
-  for (const CandidateSeries& one : series) {
-    if (one.order == 0) continue;
-    for (const int degree : std::set<int>{0, result.scene.order}) {
-      if (auto found = fit(result, one, degree)) fits.push_back(std::move(*found));
-    }
+  const auto slope = fitted_slope(points, 0);
+  if (!slope) return std::nullopt;
+  ConvergenceFit fit{series.name, degree, *slope, series.order, {}};
+  for (const ConvergencePoint& point : points) {
+    fit.labels.push_back(point.label);
+    fit.points.emplace_back(point.step, point.error);
   }
-  return fits;
+  return fit;
 }
 
 }  // namespace hamjet

@@ -1,15 +1,40 @@
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <vector>
 
 #include "hamjet/studies/comparison.hpp"
 
 namespace hamjet {
 
-/// Fits the orders of convergence of the series with fixed steps, on the nominal and on the
-/// highest degree, from the finest runs that lie well above the rounding floor. A series with too
-/// few of them, or whose errors do not yet follow a power of the step, has no fit.
-std::vector<ConvergenceFit> convergence_fits(const ComparisonResult& result,
-                                             const std::vector<CandidateSeries>& series);
+/// Fits the order of convergence of a series with fixed steps at one degree, from the finest runs
+/// that lie well above the rounding floor. None with too few of them, or where the errors do not
+/// yet follow a power of the step.
+std::optional<ConvergenceFit> fit_convergence(const ComparisonResult& result,
+                                              const CandidateSeries& series, int degree);
+
+/// The same from runs in extended precision, where many more digits lie between the steps at which
+/// the leading term dominates and the rounding floor: steps that continue those of the series'
+/// finest usable run. `keep_going` is told the fraction done and may throw. None where a custom
+/// integrator has no extended precision, where no run of the series is usable, or where the runs
+/// would take longer than `seconds`.
+std::optional<ConvergenceFit> fit_extended_convergence(
+    const ComparisonResult& result, const CandidateSeries& series, int degree, double seconds,
+    const std::function<void(double)>& keep_going);
+
+/// The finest runs of a series that can be fitted at one degree, the finest first: step (canonical)
+/// and relative error, with labels.
+struct ConvergencePoint {
+  double step;
+  double error;
+  std::string label;
+};
+std::vector<ConvergencePoint> usable_points(const ComparisonResult& result,
+                                            const std::string& series, int degree);
+
+/// The slope of log(error) against log(step), with a term in step^correction beside it where that
+/// is not 0; none if a point is further than a tenth of a decade from the fit.
+std::optional<double> fitted_slope(const std::vector<ConvergencePoint>& points, int correction);
 
 }  // namespace hamjet

@@ -71,8 +71,7 @@ FlowJet<Real> integrate(const FlowProblem<Real>& flow, const IntegratorSettings&
 
 double integration_memory(const IntegratorSettings& settings, const DynamicalSystem& system,
                           double coefficients, double real_bytes) {
-  const OperationList& list =
-      system.second_order ? system.second_order->force : system.vector_field;
+  const OperationList& list = system.evaluated_list();
   const double values = static_cast<double>(list.operations().size()) + 2;
   if (settings.method == IntegrationMethod::gauss) {
     return values * lanes_for(settings.stages) * real_bytes * coefficients;

@@ -47,11 +47,10 @@ DynamicalSystem make_system(const Scene& scene) {
 }
 
 double estimate_memory(const Scene& scene, const DynamicalSystem& system, std::size_t variables) {
-  const OperationList& list =
-      system.second_order ? system.second_order->force : system.vector_field;
+  const OperationList& list = system.evaluated_list();
   const double values = static_cast<double>(list.operations().size()) + 2;
   const double components = static_cast<double>(system.dimension());
-  const int order = list.is_linear_system() ? std::min(scene.order, 1) : scene.order;
+  const int order = working_order(system, scene.order);
   const double working = SeriesSpace::monomial_count(variables, order);
   const double coefficients = SeriesSpace::monomial_count(variables, scene.order);
   const double real = scene.precision == Precision::extended ? sizeof(Extended) : sizeof(double);

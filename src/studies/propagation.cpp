@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "along_time_recorder.hpp"
 #include "hamjet/dynamics/relative_hamiltonian.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
 #include "integration.hpp"
@@ -31,19 +32,27 @@ void run_integrator(const Scene& scene, const ComputedProblem& problem, RunResul
                     const std::function<void(double)>& progress) {
   NominalRecorder recorder(problem, scene.nominal.size());
   recorder.record(0, problem.nominal);
+  std::optional<AlongTimeRecorder> along_time;
+  if (scene.figure) {
+    along_time.emplace(run.settings.label, scene.duration, figure_kind(scene, problem),
+                       problem.variables.size());
+  }
   const FlowProblem<Real> flow = flow_problem<Real>(problem, scene.duration);
-  const FlowJet<Real> jet = integrate<Real>(flow, run.settings, run.statistics,
-                                            [&](const Real& time, const FlowJet<Real>& state) {
-                                              std::vector<Extended> point;
-                                              for (const auto& component : state)
-                                                point.push_back(convert<Extended>(component[0]));
-                                              recorder.record(static_cast<double>(time), point);
-                                              progress(static_cast<double>(time) / scene.duration);
-                                            });
+  const FlowJet<Real> jet = integrate<Real>(
+      flow, run.settings, run.statistics, [&](const Real& time, const FlowJet<Real>& state) {
+        std::vector<Extended> point;
+        for (const auto& component : state) point.push_back(convert<Extended>(component[0]));
+        recorder.record(static_cast<double>(time), point);
+        if (along_time) {
+          along_time->record(static_cast<double>(time), state, recorder.last_energy_error());
+        }
+        progress(static_cast<double>(time) / scene.duration);
+      });
   run.jet = convert_map<Extended>(jet);
   run.nominal_final = full_state(run.jet, problem, scene.nominal.size());
   run.energy_error = recorder.largest_energy_error();
   run.nominal = recorder.take();
+  if (along_time) run.along_time = along_time->take();
 }
 
 /// One check of the scene: a value that was not computed has not passed.
@@ -111,6 +120,12 @@ void record_failure(std::string& failure, const char* part, const Work& work) {
 }
 
 }  // namespace
+
+std::optional<GeneratingFunctionKind> figure_kind(const Scene& scene,
+                                                  const ComputedProblem& problem) {
+  if (scene.figure != FigureQuantity::exactness) return std::nullopt;
+  return parse_kind(scene.kinds->front(), problem.degrees_of_freedom.size());
+}
 
 PropagationResult propagate(const Scene& scene, const ProgressCallback& progress) {
   PropagationResult result;

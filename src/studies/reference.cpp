@@ -33,6 +33,17 @@ std::string reference_key(const Scene& scene, int order) {
   return key;
 }
 
+ReferenceResult truncated_reference(const ReferenceResult& reference, const SpacePointer& space) {
+  ReferenceResult result = reference;
+  result.jet.clear();
+  for (const auto& component : reference.jet) {
+    const auto first = component.coefficients().first(space->size());
+    result.jet.emplace_back(space, std::vector<Extended>(first.begin(), first.end()));
+  }
+  result.uncertainty_by_degree.resize(static_cast<std::size_t>(space->order()) + 1);
+  return result;
+}
+
 ReferenceResult compute_reference(const ComputedProblem& problem, double duration,
                                   const ReferenceSettings& settings,
                                   const std::function<void(double)>& keep_going) {

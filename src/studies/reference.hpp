@@ -14,4 +14,7 @@ ReferenceResult compute_reference(const ComputedProblem& problem, double duratio
                                   const ReferenceSettings& settings,
                                   const std::function<void(double)>& keep_going);
 
+/// The first coefficients of a reference: that of a lower order.
+ReferenceResult truncated_reference(const ReferenceResult& reference, const SpacePointer& space);
+
 }  // namespace hamjet

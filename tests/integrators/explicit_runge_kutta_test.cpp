@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "support/convergence.hpp"
+
 namespace hamjet {
 namespace {
 
@@ -156,19 +158,9 @@ TEST(Fehlberg78, HasOrderEight) {
                       error(Extended(jet[1][2] + 24 * pi))});
   }
   for (std::size_t quantity = 0; quantity < errors[0].size(); ++quantity) {
-    // Least squares of log(error) against log(steps).
-    double sx = 0, sy = 0, sxx = 0, sxy = 0;
-    for (std::size_t i = 0; i < steps.size(); ++i) {
-      const double x = std::log(steps[i]);
-      const double y = std::log(errors[i][quantity]);
-      sx += x;
-      sy += y;
-      sxx += x * x;
-      sxy += x * y;
-    }
-    const double count = static_cast<double>(steps.size());
-    const double slope = (count * sxy - sx * sy) / (count * sxx - sx * sx);
-    EXPECT_NEAR(slope, -8, 0.3) << quantity;
+    std::vector<double> of_quantity;
+    for (const auto& row : errors) of_quantity.push_back(row[quantity]);
+    EXPECT_NEAR(test::fitted_order({steps.begin(), steps.end()}, of_quantity), -8, 0.3) << quantity;
   }
 }
 

@@ -10,6 +10,7 @@
 #include "hamjet/algebra/composition.hpp"
 #include "hamjet/dynamics/harmonic_oscillator.hpp"
 #include "hamjet/integrators/stormer_verlet.hpp"
+#include "support/convergence.hpp"
 #include "support/errors.hpp"
 #include "support/map.hpp"
 #include "support/random_series.hpp"
@@ -209,17 +210,6 @@ TEST(Newmark, TwoStepFormHoldsWithTheCorrectedIndices) {
   }
 }
 
-double fitted_order(const std::vector<double>& steps, const std::vector<double>& errors) {
-  double sx = 0, sy = 0, sxx = 0, sxy = 0;
-  const auto count = static_cast<double>(steps.size());
-  for (std::size_t k = 0; k < steps.size(); ++k) {
-    const double x = std::log(steps[k]);
-    const double y = std::log(errors[k]);
-    sx += x, sy += y, sxx += x * x, sxy += x * y;
-  }
-  return (count * sxy - sx * sy) / (count * sxx - sx * sx);
-}
-
 // Expected: order 2 of the nominal and of the coefficients of degree 1 and 2.
 TEST(Newmark, OrderOfConvergenceIsTwo) {
   auto flow = test::flow_of(test::paper_orbit(), 2);
@@ -236,18 +226,11 @@ TEST(Newmark, OrderOfConvergenceIsTwo) {
       }
     }
     for (const auto& error : errors) {
-      EXPECT_NEAR(fitted_order(steps, error), 2, 0.03) << beta;
+      EXPECT_NEAR(test::fitted_order(steps, error), 2, 0.03) << beta;
       EXPECT_GT(error.back(), 1e-9);
       EXPECT_LT(error.back(), 1e-4);
     }
   }
-}
-
-template <class Real>
-double worst_symplecticity(const FlowJet<Real>& jet) {
-  double worst = 0;
-  for (const auto& defect : test::symplecticity(jet)) worst = std::max(worst, defect.scaled);
-  return worst;
 }
 
 /// (q, p) -> (q - c a(q), p) about a state, on series in the deviations from it.
@@ -281,9 +264,9 @@ void expect_discrete_symplecticity(double duration, int order, double step, doub
     const auto jet = newmark(problem, beta, step, &statistics);
     const Real h = Real(duration) / Real(std::lround(duration / step));
     const auto discrete = jet_in_discrete_variables(problem, jet, Real(Real(beta) * h * h));
-    EXPECT_LE(worst_symplecticity(discrete), tolerance) << beta;
+    EXPECT_LE(test::worst_symplecticity(discrete), tolerance) << beta;
     // In (q, M q') the defect is of the size of beta h^2 (data/paper/README.md).
-    EXPECT_GE(worst_symplecticity(jet), 1e-3 * beta * step * step) << beta;
+    EXPECT_GE(test::worst_symplecticity(jet), 1e-3 * beta * step * step) << beta;
   }
   EXPECT_EQ(statistics.steps, std::lround(duration / step));
 }

@@ -10,6 +10,7 @@
 
 #include "hamjet/algebra/composition.hpp"
 #include "hamjet/dynamics/harmonic_oscillator.hpp"
+#include "support/convergence.hpp"
 #include "support/errors.hpp"
 #include "support/map.hpp"
 #include "support/random_series.hpp"
@@ -32,18 +33,6 @@ template <class Real>
 std::vector<Series<Real>> force_of(const DynamicalSystem& system,
                                    const std::vector<Series<Real>>& q) {
   return evaluate_on_series<Real>(system.second_order->force, std::span<const Series<Real>>(q));
-}
-
-/// Least-squares slope of log(error) against log(step).
-double fitted_order(const std::vector<double>& steps, const std::vector<double>& errors) {
-  double sx = 0, sy = 0, sxx = 0, sxy = 0;
-  const auto count = static_cast<double>(steps.size());
-  for (std::size_t k = 0; k < steps.size(); ++k) {
-    const double x = std::log(steps[k]);
-    const double y = std::log(errors[k]);
-    sx += x, sy += y, sxx += x * x, sxy += x * y;
-  }
-  return (count * sxy - sx * sy) / (count * sxx - sx * sx);
 }
 
 // Expected: the n-th power of the matrix of one step, from the recurrence of the method by hand, in
@@ -160,7 +149,7 @@ TEST(VelocityVerlet, OrdersOfConvergenceAreOneAndTwo) {
       }
     }
     for (const auto& error : errors) {
-      EXPECT_NEAR(fitted_order(steps, error), is_verlet ? 2 : 1, 0.03);
+      EXPECT_NEAR(test::fitted_order(steps, error), is_verlet ? 2 : 1, 0.03);
       EXPECT_GT(error.back(), 1e-9);  // above the rounding floor
       EXPECT_LT(error.back(), is_verlet ? 1e-4 : 2e-2);
     }
@@ -206,26 +195,19 @@ TEST(VelocityVerlet, IsReversibleAndStormersRuleIsNot) {
   EXPECT_GE(return_error([](const auto& p, double h) { return stormer(p, h); }, 6, 0.2), 1e-4);
 }
 
-template <class Real>
-double worst_symplecticity(const FlowJet<Real>& jet) {
-  double worst = 0;
-  for (const auto& defect : test::symplecticity(jet)) worst = std::max(worst, defect.scaled);
-  return worst;
-}
-
 // Expected: a symplectic map at every degree, however coarse the step.
 TEST(VelocityVerlet, JetsAreSymplecticOnThePapersOrbit) {
   const auto nominal = test::flow_of(test::paper_orbit(), 4);
   const auto problem = test::problem_of(nominal);
   for (const double step : {0.5, 0.2, 0.05}) {
-    EXPECT_LE(worst_symplecticity(stormer(problem, step)), 1e-13) << step;
-    EXPECT_LE(worst_symplecticity(verlet(problem, step)), 1e-13) << step;
+    EXPECT_LE(test::worst_symplecticity(stormer(problem, step)), 1e-13) << step;
+    EXPECT_LE(test::worst_symplecticity(verlet(problem, step)), 1e-13) << step;
   }
   auto flow = test::flow_of<Extended>(test::paper_orbit(), 3);
   flow.duration = 10;
   const auto extended = test::problem_of(flow);
-  EXPECT_LE(worst_symplecticity(stormer(extended, 0.25)), 1e-30);
-  EXPECT_LE(worst_symplecticity(verlet(extended, 0.25)), 1e-30);
+  EXPECT_LE(test::worst_symplecticity(stormer(extended, 0.25)), 1e-30);
+  EXPECT_LE(test::worst_symplecticity(verlet(extended, 0.25)), 1e-30);
 }
 
 TEST(VelocityVerlet, ZeroDurationIsTheIdentityExactly) {

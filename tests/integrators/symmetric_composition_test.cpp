@@ -11,6 +11,7 @@
 #include "hamjet/algebra/composition.hpp"
 #include "hamjet/dynamics/harmonic_oscillator.hpp"
 #include "hamjet/integrators/stormer_verlet.hpp"
+#include "support/convergence.hpp"
 #include "support/errors.hpp"
 #include "support/map.hpp"
 #include "support/random_series.hpp"
@@ -134,17 +135,6 @@ TEST(SymmetricComposition, IsVerletStepByStep) {
   }
 }
 
-double fitted_order(const std::vector<double>& steps, const std::vector<double>& errors) {
-  double sx = 0, sy = 0, sxx = 0, sxy = 0;
-  const auto count = static_cast<double>(steps.size());
-  for (std::size_t k = 0; k < steps.size(); ++k) {
-    const double x = std::log(steps[k]);
-    const double y = std::log(errors[k]);
-    sx += x, sy += y, sxx += x * x, sxy += x * y;
-  }
-  return (count * sxy - sx * sy) / (count * sxx - sx * sx);
-}
-
 // Expected: orders 4, 6 and 8 of the nominal and of the coefficients of degree 1 and 2, on the
 // paper's orbit, two variables, in extended precision, against 16 stages of Gauss.
 TEST(SymmetricComposition, OrdersOfConvergenceAreThoseOfTheTable) {
@@ -163,7 +153,7 @@ TEST(SymmetricComposition, OrdersOfConvergenceAreThoseOfTheTable) {
       }
     }
     for (const auto& error : errors) {
-      EXPECT_NEAR(fitted_order(steps, error), order, 0.15) << order;
+      EXPECT_NEAR(test::fitted_order(steps, error), order, 0.15) << order;
       EXPECT_GT(error.back(), 1e-25) << order;
       EXPECT_LT(error.back(), order == 4 ? 1e-5 : order == 6 ? 1e-8 : 1e-11) << order;
     }
@@ -178,13 +168,6 @@ TEST(SymmetricComposition, AgreesWithGaussOnThePapersOrbit) {
   for (int d = 0; d <= 4; ++d) EXPECT_LE(test::relative_error(jet, expected, d), 1e-8) << d;
 }
 
-template <class Real>
-double worst_symplecticity(const FlowJet<Real>& jet) {
-  double worst = 0;
-  for (const auto& defect : test::symplecticity(jet)) worst = std::max(worst, defect.scaled);
-  return worst;
-}
-
 TEST(SymmetricComposition, JetsAreSymplecticOnThePapersOrbit) {
   const auto nominal = test::flow_of(test::paper_orbit(), 4);
   const auto problem = test::problem_of(nominal);
@@ -193,9 +176,9 @@ TEST(SymmetricComposition, JetsAreSymplecticOnThePapersOrbit) {
   const auto extended = test::problem_of(flow);
   for (const int order : {4, 6, 8}) {
     for (const double step : {1.0, 0.5, 0.2}) {
-      EXPECT_LE(worst_symplecticity(compose_verlet(problem, order, step)), 1e-13) << order;
+      EXPECT_LE(test::worst_symplecticity(compose_verlet(problem, order, step)), 1e-13) << order;
     }
-    EXPECT_LE(worst_symplecticity(compose_verlet(extended, order, 0.5)), 1e-30) << order;
+    EXPECT_LE(test::worst_symplecticity(compose_verlet(extended, order, 0.5)), 1e-30) << order;
   }
 }
 

@@ -1,9 +1,7 @@
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <hamjet/error.hpp>
@@ -16,6 +14,7 @@
 #include "../../src/io/comparison_view.hpp"
 #include "../../src/io/gnuplot.hpp"
 #include "comparison_samples.hpp"
+#include "support/temporary_directory.hpp"
 
 // report.html, and the child process that draws its plots.
 
@@ -24,29 +23,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder that is removed with its content.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string pattern = (fs::temp_directory_path() / "hamjet-comparison-XXXXXX").string();
-    path_ = ::mkdtemp(pattern.data());
-  }
-  ~TemporaryFolder() { fs::remove_all(path_); }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const fs::path& path() const { return path_; }
-
-  /// A program in it.
-  std::string program(const std::string& name, const std::string& text) const {
-    const fs::path file = path_ / name;
-    std::ofstream(file) << "#!/bin/sh\n" << text << "\n";
-    fs::permissions(file, fs::perms::owner_all);
-    return file.string();
-  }
-
- private:
-  fs::path path_;
-};
+/// A program in a directory.
+std::string write_program(const test::TemporaryDirectory& directory, const std::string& name,
+                          const std::string& text) {
+  const fs::path file = directory.path() / name;
+  std::ofstream(file) << "#!/bin/sh\n" << text << "\n";
+  fs::permissions(file, fs::perms::owner_all);
+  return file.string();
+}
 
 std::string content(const fs::path& file) {
   std::ifstream stream(file);
@@ -139,7 +123,7 @@ TEST(ComparisonPage, AnEmptyPartialResultIsAPageToo) {
 }
 
 TEST(ComparisonPage, WithoutGnuplotTheTablesAreThereAndOneLineSaysWhy) {
-  const TemporaryFolder folder;
+  const test::TemporaryDirectory folder;
   ReportOrigin origin = sample_origin();
   origin.gnuplot = "/nonexistent/gnuplot";
   OutputDirectory output(folder.path() / "out");
@@ -160,7 +144,7 @@ TEST(ComparisonPage, WithoutGnuplotTheTablesAreThereAndOneLineSaysWhy) {
 }
 
 TEST(ComparisonPage, WhatIsNoDrawingIsNotBelieved) {
-  const TemporaryFolder folder;
+  const test::TemporaryDirectory folder;
   const fs::path program = folder.path() / "gnuplot";
   std::ofstream(program) << "#!/bin/sh\ncat >/dev/null\necho hello\n";
   fs::permissions(program, fs::perms::owner_all);
@@ -200,7 +184,7 @@ TEST(ComparisonPage, PlotsAreWellFormedAndTheirIdsUnique) {
 
 TEST(ComparisonPage, PlotsGoToFilesOnRequestAndEarlierOnesAreRemoved) {
   if (!has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
-  const TemporaryFolder folder;
+  const test::TemporaryDirectory folder;
   for (const auto& [format, extension, start] : {std::tuple{PlotFormat::pdf, ".pdf", "%PDF"},
                                                  std::tuple{PlotFormat::png, ".png", "\x89PNG"}}) {
     OutputDirectory output(folder.path());
@@ -267,8 +251,8 @@ TEST(ComparisonCharts, AccountForEveryPoint) {
 }
 
 TEST(Gnuplot, IsEndedAfterItsTimeLimit) {
-  const TemporaryFolder folder;
-  const std::string program = folder.program("slow", "sleep 100");
+  const test::TemporaryDirectory folder;
+  const std::string program = write_program(folder, "slow", "sleep 100");
   const auto start = std::chrono::steady_clock::now();
   const GnuplotOutcome outcome = run_gnuplot(program, "", std::chrono::milliseconds(200));
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
@@ -276,8 +260,9 @@ TEST(Gnuplot, IsEndedAfterItsTimeLimit) {
 }
 
 TEST(Gnuplot, WhatItComplainsOfIsHandedOn) {
-  const TemporaryFolder folder;
-  const std::string program = folder.program("failing", "echo drawn; echo 'bad axis' >&2; exit 1");
+  const test::TemporaryDirectory folder;
+  const std::string program =
+      write_program(folder, "failing", "echo drawn; echo 'bad axis' >&2; exit 1");
   // More than a socket holds, which the child does not read: writing must neither block nor raise.
   const GnuplotOutcome outcome = run_gnuplot(program, std::string(4 << 20, '#'));
   EXPECT_TRUE(outcome.is_installed);
@@ -286,8 +271,8 @@ TEST(Gnuplot, WhatItComplainsOfIsHandedOn) {
 }
 
 TEST(Gnuplot, LongOutputArrivesWhole) {
-  const TemporaryFolder folder;
-  const std::string program = folder.program("echoing", "exec cat");
+  const test::TemporaryDirectory folder;
+  const std::string program = write_program(folder, "echoing", "exec cat");
   const std::string script(3 << 20, 'x');
   EXPECT_EQ(run_gnuplot(program, script).output, script);
 }

@@ -88,7 +88,12 @@ inline ComparisonResult sample_comparison() {
   watched.points[7].exactness.reset();
   watched.points[7].condition = infinity;
   result.along_time = {watched, {"other", "stopped <here>", {{0, std::nullopt, infinity, 0}}, {}}};
-  result.fits = {{"gauss, 4 stages", 0, 7.97, 8, {"gauss4-0.1", "gauss4-0.05"}}};
+  result.fits = {{"gauss, 4 stages",
+                  0,
+                  7.97,
+                  8,
+                  {"gauss4-0.1", "gauss4-0.05"},
+                  {{0.05, 1e-9}, {0.1, 2.5e-7}}}};
   return result;
 }
 

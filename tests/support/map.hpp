@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 #include <vector>
@@ -21,6 +22,14 @@ PartialInversion<T> inverted_jet(const FlowJet<T>& jet, const char* kind) {
 template <class T>
 std::vector<SymplecticityDefect> symplecticity(const FlowJet<T>& jet) {
   return symplecticity_by_degree(std::span<const Series<T>>(jet));
+}
+
+/// The largest scaled symplecticity defect over all degrees.
+template <class T>
+double worst_symplecticity(const FlowJet<T>& jet) {
+  double worst = 0;
+  for (const auto& defect : symplecticity(jet)) worst = std::max(worst, defect.scaled);
+  return worst;
 }
 
 /// The jet of the paper's orbit after another time than its own.

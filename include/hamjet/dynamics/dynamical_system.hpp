@@ -28,6 +28,10 @@ struct DynamicalSystem {
   std::optional<SecondOrderForm> second_order;  ///< set where the vector field has this structure
 
   std::size_t dimension() const noexcept { return 2 * degrees_of_freedom; }
+  /// What an integrator evaluates: the force alone where there is a second-order form.
+  const OperationList& evaluated_list() const noexcept {
+    return second_order ? second_order->force : vector_field;
+  }
 };
 
 /// A Hamiltonian written as a template over its number type: `h(q, p)` with spans of n numbers.

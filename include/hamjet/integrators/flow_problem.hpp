@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <span>
@@ -59,10 +60,12 @@ FlowJet<Real> identity_jet(const FlowProblem<Real>& problem) {
 }
 
 /// The highest degree whose slices are not zero throughout: a linear system has none above 1.
+inline int working_order(const DynamicalSystem& system, int order) {
+  return system.vector_field.is_linear_system() ? std::min(order, 1) : order;
+}
 template <class Real>
 int working_order(const FlowProblem<Real>& problem) {
-  const int order = problem.space->order();
-  return problem.system->vector_field.is_linear_system() ? std::min(order, 1) : order;
+  return working_order(*problem.system, problem.space->order());
 }
 
 /// Throws Error(usage) if the sizes of a problem do not fit, Error(numerical) if a number is not

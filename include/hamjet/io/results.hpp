@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "hamjet/io/output_directory.hpp"
@@ -26,8 +27,19 @@ std::string nominal_csv(const PropagationResult& result, const RunResult& run);
 /// `relative_hamiltonian.csv`: time, exponents, coefficient.
 std::string relative_hamiltonian_csv(const PropagationResult& result);
 
+/// `<label>/along_time.csv`, if the scene asks for a figure: time (canonical and s), exactness
+/// residual of degree 0 of the figure's kind (scaled; empty where the kind does not exist) with the
+/// condition of its linear part, relative energy error. A row whose residual is "singular" stands
+/// where the kind ceases to exist.
+std::string along_time_csv(const PropagationResult& result, const RunResult& run);
+
+/// `figure.svg`, drawn by gnuplot; empty if the scene asks for none, or with the reason in
+/// `problem`, one line, if it cannot be drawn.
+std::string figure_svg(const PropagationResult& result, std::optional<std::string>& problem);
+
 /// All of the above into a directory, the summary last. Throws Error(input_output).
-void write_results(const PropagationResult& result, OutputDirectory& output);
+void write_results(const PropagationResult& result, const std::string& figure,
+                   OutputDirectory& output);
 
 /// The table for the terminal: residual and error of every integrator side by side.
 std::string summary_table(const PropagationResult& result);

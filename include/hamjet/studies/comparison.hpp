@@ -51,23 +51,6 @@ struct ComparedRun {
   double largest_symplecticity() const;  ///< scaled, of all degrees
 };
 
-/// An integrator of the scene watched along time.
-struct RunAlongTime {
-  struct Point {
-    double time = 0;  ///< canonical
-    /// Residual of degree 0 of ComparisonResult::kind, scaled; none where the kind does not exist.
-    std::optional<double> exactness;
-    double condition = 0;     ///< of the kind's linear part; infinite where it is singular
-    double energy_error = 0;  ///< relative, signed
-  };
-  std::string label;
-  std::string failure;  ///< not empty: stopped there, and why
-  std::vector<Point> points;
-  /// Canonical times at which the determinant of the kind's linear part changes sign, interpolated
-  /// between two steps: there the kind does not exist. Two such times within one step go unseen.
-  std::vector<double> singular_times;
-};
-
 /// A fitted order of convergence: slope of log error against log step.
 struct ConvergenceFit {
   std::string series;
@@ -75,9 +58,14 @@ struct ConvergenceFit {
   double slope = 0;
   double expected = 0;              ///< of the theory
   std::vector<std::string> labels;  ///< of the runs used: those above the rounding floor
+  /// Step (canonical) and relative error of the runs used, the finest first.
+  std::vector<std::pair<double, double>> points = {};
+  /// Made for the fit in extended precision, with smaller steps than double precision resolves, and
+  /// with the next term of the error's expansion fitted too.
+  bool is_extended = false;
 
-  /// Within 0.3. Where it does not, the leading term does not yet dominate at the steps that lie
-  /// above the rounding floor.
+  /// Within 0.3. Where it does not, the leading term does not yet dominate at the steps that could
+  /// be run.
   bool agrees() const { return std::abs(slope - expected) <= 0.3; }
 };
 

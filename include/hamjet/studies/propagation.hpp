@@ -12,6 +12,7 @@
 #include "hamjet/maps/exactness.hpp"
 #include "hamjet/maps/symplecticity.hpp"
 #include "hamjet/studies/progress.hpp"
+#include "hamjet/studies/run_along_time.hpp"
 #include "hamjet/studies/scene.hpp"
 
 namespace hamjet {
@@ -54,6 +55,7 @@ struct RunResult {
   std::vector<KindResult> kinds;
   std::vector<SymplecticityDefect> symplecticity;  ///< empty if not all variables are expanded in
   std::optional<std::vector<double>> error_by_degree;  ///< see relative_error_by_degree
+  std::optional<RunAlongTime> along_time;              ///< if the scene asks for a figure
 };
 
 /// The extended-precision reference: two runs of different step size, the finer one kept.
@@ -64,10 +66,12 @@ struct ReferenceResult {
   int stages = 0;
   double tolerance = 0;
 
-  /// Relative errors below this, ten times the uncertainty, may be the reference's own.
-  double smallest_claimed_error() const {
-    return 10 * *std::max_element(uncertainty_by_degree.begin(), uncertainty_by_degree.end());
+  /// Over all degrees.
+  double largest_uncertainty() const {
+    return *std::max_element(uncertainty_by_degree.begin(), uncertainty_by_degree.end());
   }
+  /// Relative errors below this, ten times the uncertainty, may be the reference's own.
+  double smallest_claimed_error() const { return 10 * largest_uncertainty(); }
 };
 
 /// Coefficients of the relative Hamiltonian at one time.
@@ -117,6 +121,10 @@ double available_memory();
 /// it asks for. A numerical failure of one part (the reference, one integrator, one kind) is
 /// recorded in its result and the others go on; other errors are thrown.
 PropagationResult propagate(const Scene& scene, const ProgressCallback& progress = {});
+
+/// The kind whose exactness the scene's figure shows; none if it shows none.
+std::optional<GeneratingFunctionKind> figure_kind(const Scene& scene,
+                                                  const ComputedProblem& problem);
 
 /// For each degree the largest difference of a coefficient from the reference's, relative to the
 /// reference's largest coefficient of that degree (over all components); 0 where both vanish.

@@ -1,0 +1,100 @@
+#include "along_time_charts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hamjet::io {
+namespace {
+
+std::string time_label(const Scene& scene) {
+  if (!is_orbit(scene.system.model)) return "time (s)";
+  return fmt::format("time (canonical; 1 is {:.4g} s)", scene.units.time_s);
+}
+
+/// A chart with a curve for each integrator along time; `measure` gives a point's value, or none.
+template <class Measure>
+Chart along_time_chart(const Scene& scene, const std::vector<RunAlongTime>& runs, bool has_ticks,
+                       Measure measure) {
+  Chart chart;
+  chart.x.label = time_label(scene);
+  chart.x.includes = {0, scene.duration};
+  chart.y.is_logarithmic = true;
+  chart.y.unit = AxisUnit::power;
+  chart.y.smallest = 1e-18;  // far below the rounding of double
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const RunAlongTime& run = runs[i];
+    ChartCurve curve;
+    curve.title = run.label;
+    curve.style = i;
+    curve.marker_interval = std::max(1, static_cast<int>(run.points.size() / 12));
+    for (const RunAlongTime::Point& point : run.points) {
+      if (const std::optional<double> value = measure(point)) {
+        curve.points.emplace_back(point.time, *value);
+      } else {
+        curve.gaps.push_back(curve.points.size());
+      }
+    }
+    if (has_ticks) curve.ticks = run.singular_times;
+    if (!run.failure.empty()) {
+      chart.notes.push_back(fmt::format("{} stopped: {}.", run.label, run.failure));
+    }
+    chart.curves.push_back(curve);
+  }
+  if (runs.empty()) chart.missing = "No integrator was watched along time.";
+  return chart;
+}
+
+}  // namespace
+
+std::string kind_text(const GeneratingFunctionKind& kind) {
+  for (const char* name : {"F1", "F2", "F3", "F4"}) {
+    if (parse_kind(name, kind.degrees_of_freedom()) == kind) {
+      return fmt::format("{} ({})", name, kind.name());
+    }
+  }
+  return kind.name();
+}
+
+Chart exactness_along_time_chart(const Scene& scene,
+                                 const std::optional<GeneratingFunctionKind>& kind,
+                                 const std::vector<RunAlongTime>& runs) {
+  Chart chart = along_time_chart(scene, runs, true,
+                                 [](const RunAlongTime::Point& point) { return point.exactness; });
+  chart.name = "exactness-time";
+  chart.title = "Exactness residual along time";
+  chart.y.label = "exactness residual, degree 0, scaled";
+  chart.reading = fmt::format(
+      "The figure of Guibout and Bloch: how far the generating function {} of each of the scene's "
+      "integrators is from closed at degree 0, as the flow goes on. A symplectic method stays at "
+      "round-off, amplified where the kind comes near to a time at which it does not exist; a "
+      "method that is not symplectic drifts upwards. A short stroke at the lower edge in the "
+      "line's "
+      "colour marks each time at which the kind does not exist, where the determinant of its "
+      "linear part changes sign; a line is broken where the residual could not be computed. A low "
+      "line says that a map is exact, not that it is right.",
+      kind ? kind_text(*kind) : "");
+  if (!kind) {
+    chart.missing =
+        "The jet is not expanded in all variables of phase space: there is no generating function.";
+  }
+  return chart;
+}
+
+Chart energy_along_time_chart(const Scene& scene, const std::vector<RunAlongTime>& runs) {
+  Chart chart = along_time_chart(scene, runs, false, [](const RunAlongTime::Point& point) {
+    return std::optional<double>(std::abs(point.energy_error));
+  });
+  chart.name = "energy-time";
+  chart.title = "Energy error along time";
+  chart.y.label = "|energy error|, relative";
+  chart.reading =
+      "Magnitude of the relative energy error along the nominal. The error of a symplectic method "
+      "with fixed steps goes up and down with the orbit and does not grow; that of the others "
+      "usually "
+      "grows in proportion to time. Round-off alone is a random walk near 1e-16.";
+  return chart;
+}
+
+}  // namespace hamjet::io

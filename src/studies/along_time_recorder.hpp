@@ -1,0 +1,82 @@
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "hamjet/maps/exactness.hpp"
+#include "hamjet/maps/partial_inversion.hpp"
+#include "hamjet/studies/run_along_time.hpp"
+
+namespace hamjet {
+
+/// Watches an integration: its energy error and, of one kind of generating function, the exactness
+/// residual of degree 0 and the times at which the kind does not exist.
+class AlongTimeRecorder {
+ public:
+  AlongTimeRecorder(std::string label, double duration,
+                    const std::optional<GeneratingFunctionKind>& kind, std::size_t variables)
+      : duration_(duration), kind_(kind), linear_space_(SeriesSpace::create(variables, 1)) {
+    result_.label = std::move(label);
+  }
+
+  /// To be called after every step.
+  template <class Real>
+  void record(double time, const FlowJet<Real>& jet, double energy_error) {
+    if (kind_) watch_determinant(time, jet);
+    if (std::abs(time) < next_ && time != duration_) return;
+    next_ = std::abs(time) + std::abs(duration_) / watched_points;
+    RunAlongTime::Point point;
+    point.time = time;
+    point.energy_error = energy_error;
+    if (kind_) measure_exactness(jet, point);
+    result_.points.push_back(point);
+  }
+
+  RunAlongTime take() { return std::move(result_); }
+
+ private:
+  static constexpr int watched_points = 400;
+
+  template <class Real>
+  void watch_determinant(double time, const FlowJet<Real>& jet) {
+    const double now = static_cast<double>(
+        inverted_block(std::span<const Series<Real>>(jet), *kind_).determinant());
+    if (now * last_determinant_ < 0) {
+      const double fraction = last_determinant_ / (last_determinant_ - now);
+      result_.singular_times.push_back(last_time_ + fraction * (time - last_time_));
+    }
+    last_determinant_ = now;
+    last_time_ = time;
+  }
+
+  template <class Real>
+  void measure_exactness(const FlowJet<Real>& jet, RunAlongTime::Point& point) const {
+    FlowJet<Extended> linear;
+    for (const auto& component : jet) {
+      linear.emplace_back(linear_space_);
+      for (std::size_t k = 0; k < linear_space_->size(); ++k) {
+        linear.back()[k] = convert<Extended>(component[k]);
+      }
+    }
+    const std::span<const Series<Extended>> map(linear);
+    point.condition = condition_number(inverted_block(map, *kind_));
+    if (point.condition < largest_condition(std::numeric_limits<double>::epsilon())) {
+      point.exactness =
+          exactness_residual(one_form(invert_partially<Extended>(map, *kind_)))[0].scaled;
+    }
+  }
+
+  double duration_;
+  std::optional<GeneratingFunctionKind> kind_;
+  SpacePointer linear_space_;
+  RunAlongTime result_;
+  double next_ = 0;
+  double last_time_ = 0;
+  double last_determinant_ = 0;
+};
+
+}  // namespace hamjet

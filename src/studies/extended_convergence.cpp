@@ -1,0 +1,99 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "convergence_fit.hpp"
+#include "hamjet/error.hpp"
+#include "integration.hpp"
+#include "reference.hpp"
+
+namespace hamjet {
+namespace {
+
+constexpr std::size_t runs = 4;
+/// How far the finest run stays above what the reference can vouch for.
+constexpr double above_claimed = 30;
+/// The coarsest error is this many times the finest, unless that takes more than halved steps.
+constexpr double error_range = 1e8;
+
+/// The exponent of the term that follows the leading one, relative to it: symmetric methods have
+/// an expansion of the error in even powers of the step (Hairer, Nørsett and Wanner, Solving ODEs
+/// I, II.8).
+int correction_of(IntegrationMethod method) {
+  return method == IntegrationMethod::fehlberg78 || method == IntegrationMethod::stormer ? 1 : 2;
+}
+
+/// The numbers of steps, the most first, that continue a usable run down to the floor.
+std::vector<long> step_counts(const ConvergencePoint& start, double duration, double order,
+                              double floor) {
+  const double most = duration / start.step * std::pow(start.error / floor, 1 / order);
+  const double ratio = std::min(2.0, std::pow(error_range, 1 / (order * (runs - 1))));
+  std::vector<long> counts;
+  for (std::size_t k = 0; k < runs; ++k) {
+    counts.push_back(std::lround(most / std::pow(ratio, k)));
+  }
+  return counts;
+}
+
+}  // namespace
+
+std::optional<ConvergenceFit> fit_extended_convergence(
+    const ComparisonResult& result, const CandidateSeries& series, int degree, double seconds,
+    const std::function<void(double)>& keep_going) {
+  const auto usable = usable_points(result, series.name, degree);
+  if (usable.empty() || series.candidates.front().integrate) return std::nullopt;
+  Scene scene = result.scene;
+  scene.order = degree;
+  scene.integrators.clear();
+  scene.kinds.reset();
+  const ComputedProblem problem = make_problem(scene, available_memory());
+  const auto flow = flow_problem<Extended>(problem, scene.duration);
+  const FlowJet<Extended> reference = truncated_reference(result.reference, problem.space).jet;
+  const double floor = above_claimed * result.smallest_claimed_error(degree);
+  const double span = std::abs(scene.duration);
+  const auto counts = step_counts(usable.front(), span, series.order, floor);
+  long total = 0;
+  for (const long count : counts) total += count;
+
+  IntegratorSettings settings = series.candidates.front().settings;
+  ConvergenceFit fit{series.name, degree, 0, series.order, {}};
+  fit.is_extended = true;
+  std::vector<ConvergencePoint> points;
+  long done = 0;
+  double spent = 0;
+  try {
+    // The coarsest first: it tells what the others take.
+    for (std::size_t k = runs; k-- > 0;) {
+      settings.step_canonical = span / (static_cast<double>(counts[k]) - 0.5);
+      IntegrationStatistics statistics;
+      const auto jet = integrate<Extended>(
+          flow, settings, statistics, [&](const Extended&, const FlowJet<Extended>&) {
+            keep_going(static_cast<double>(done++) / static_cast<double>(total));
+          });
+      spent += statistics.wall_seconds;
+      if (spent * static_cast<double>(total) > seconds * static_cast<double>(done)) {
+        return std::nullopt;
+      }
+      const double error =
+          relative_error_by_degree(jet, reference)[static_cast<std::size_t>(degree)];
+      if (error < floor / above_claimed) return std::nullopt;
+      points.push_back({span / static_cast<double>(statistics.steps), error,
+                        fmt::format("{} steps", statistics.steps)});
+    }
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::numerical) throw;
+    return std::nullopt;
+  }
+  std::reverse(points.begin(), points.end());
+  const auto slope = fitted_slope(points, correction_of(settings.method));
+  if (!slope) return std::nullopt;
+  fit.slope = *slope;
+  for (const ConvergencePoint& point : points) {
+    fit.labels.push_back(point.label);
+    fit.points.emplace_back(point.step, point.error);
+  }
+  return fit;
+}
+
+}  // namespace hamjet
