@@ -25,6 +25,9 @@ inline std::string_view model_name(SystemModel model) {
 /// All tables of the study "flow-jet".
 Scene read_flow_jet(const TableReader& root);
 
+/// All tables of the study "canonical-transformation". Throws Error(too_large) for too many steps.
+CanonicalTransformationStudy read_canonical_transformation(const TableReader& root);
+
 /// Table `[system]`.
 SystemSettings read_system(const TableReader& system);
 
