@@ -64,7 +64,7 @@ Json run_json(const CanonicalTransformationRun& run) {
   json["largest_state_difference"] = number(run.largest_state_difference);
   json["largest_condition"] = number(run.largest_condition);
   json["symplecticity_defect"] = number(run.largest_symplecticity_defect);
-  json["crosses_barrier"] = is_empty ? Json(nullptr) : or_null(run.crosses_barrier);
+  json["crosses_barrier"] = or_null(run.crosses_barrier);
   json["hamilton_jacobi"] = {{"largest_residual", or_null(run.hamilton_jacobi_residual)},
                              {"first_kind", kind_json(run.first_kind)},
                              {"second_kind", kind_json(run.second_kind)}};

@@ -19,8 +19,9 @@ void add_figure(StudyReport& report, std::vector<Chart> charts) {
     std::string reason;
     const std::string drawing = drawer.draw(chart, Drawing::wide_svg, reason);
     if (drawer.problem()) break;
-    body += fmt::format("<g transform=\"translate(0,{})\">\n{}</g>\n", count++ * height,
-                        inline_svg(drawing, chart.name + "-", chart.title));
+    // A drawing has no size of its own: it fills the one that it stands in.
+    body += fmt::format("<svg y=\"{}\" width=\"{}\" height=\"{}\">\n{}</svg>\n", count++ * height,
+                        width, height, inline_svg(drawing, chart.name + "-", chart.title));
   }
   report.drawing_problem = drawer.problem();
   if (report.drawing_problem || count == 0) return;

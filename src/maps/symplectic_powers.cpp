@@ -7,15 +7,6 @@
 #include "hamjet/error.hpp"
 
 namespace hamjet {
-namespace {
-
-template <class To, class Derived>
-auto rounded(const Eigen::MatrixBase<Derived>& values) {
-  return values.unaryExpr([](const Extended& x) { return static_cast<To>(x); }).eval();
-}
-
-}  // namespace
-
 SymplecticPowers::SymplecticPowers(const AffineSymplecticMap<Extended>& map)
     : map_(map), power_(AffineSymplecticMap<Extended>::identity(map.dimension() / 2)) {}
 
@@ -26,8 +17,8 @@ AffineSymplecticMap<double> SymplecticPowers::operator()(long k) {
     exponent_ = 0;
   }
   for (; exponent_ < k; ++exponent_) power_ = map_.after(power_);
-  const Matrix<double> matrix = rounded<double>(power_.matrix());
-  const Vector<double> shift = rounded<double>(power_.shift());
+  const Matrix<double> matrix = power_.matrix().cast<double>();
+  const Vector<double> shift = power_.shift().cast<double>();
   // The defect of such a matrix would overflow.
   if (!std::isfinite(matrix.squaredNorm()) || !std::isfinite(shift.squaredNorm())) {
     throw Error(ErrorKind::numerical,

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "hamjet/error.hpp"
 #include "hamjet/integrators/midpoint.hpp"
@@ -60,7 +61,6 @@ class Run {
     result_.steps = static_cast<long>(count);
     result_.step = study.duration / count;
     result_.stored_interval = (result_.steps + most_stored_points - 1) / most_stored_points;
-    if (study.system.model == SystemModel::double_well) result_.crosses_barrier = false;
   }
 
   /// `progress` is told the number of steps so far.
@@ -115,8 +115,10 @@ class Run {
     raise_to(result_.largest_energy_difference, difference);
     raise_to(result_.largest_state_difference,
              (map.inverse()(transformed.state()) - state_).cwiseAbs().maxCoeff());
-    if (result_.crosses_barrier && state_(0) * study_.nominal[0] < 0) {
-      result_.crosses_barrier = true;
+    least_position_ = std::min(least_position_, state_(0));
+    greatest_position_ = std::max(greatest_position_, state_(0));
+    if (study_.system.model == SystemModel::double_well) {
+      result_.crosses_barrier = least_position_ < 0 && greatest_position_ > 0;
     }
     if (k % result_.stored_interval != 0 && k != result_.steps) return;
     point.original = numbers(state_);
@@ -159,6 +161,8 @@ class Run {
   Vector<double> state_;
   double energy_ = 0;
   double transformed_energy_ = 0;
+  double least_position_ = std::numeric_limits<double>::infinity();
+  double greatest_position_ = -std::numeric_limits<double>::infinity();
   long done_ = 0;
   CanonicalTransformationRun result_;
 };

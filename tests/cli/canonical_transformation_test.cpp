@@ -82,7 +82,11 @@ TEST_F(CanonicalTransformationCommand, GoodRun) {
   }
   EXPECT_EQ(summary["runs"][0]["crosses_barrier"], true);
   EXPECT_EQ(summary["runs"][1]["crosses_barrier"], false);
-  EXPECT_NE(content(directory_ / "results/figure.svg").find("</svg>"), std::string::npos);
+  const std::string figure = content(directory_ / "results/figure.svg");
+  for (const char* place : {"<svg y=\"0\" width=\"900\" height=\"500\">", "<svg y=\"1500\"",
+                            "aria-label=\"Trajectory in the transformed coordinates\""}) {
+    EXPECT_NE(figure.find(place), std::string::npos) << place;
+  }
   EXPECT_EQ(succeed({"run", "well.toml", "-o", "results", "--json"}).out,
             content(directory_ / "results/summary.json"));
 }

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include <array>
-#include <cmath>
+#include <algorithm>
+#include <vector>
 
 #include "hamjet/algebra/elementary_functions.hpp"
 #include "hamjet/algebra/matrix.hpp"
@@ -15,12 +15,12 @@ namespace hamjet {
 namespace {
 
 using Number = Series<double>;
-using Plane = std::array<Number, 2>;
+using Plane = std::vector<Number>;  // two
 
 /// A and its derivatives: potential[i], and slope[j][i] = dA_i / dq_j.
 struct VectorPotential {
   Plane potential;
-  std::array<Plane, 2> slope;
+  std::vector<Plane> slope;
 };
 
 VectorPotential vector_potential(const Plane& q) {
@@ -55,8 +55,9 @@ Step step(const Plane& before, const Plane& point, double tau) {
   const Plane gradient = force_potential_slope(point);
   Plane right;
   for (std::size_t j = 0; j < 2; ++j) {
-    result.slope_before[j] = (point[j] - before[j]) / tau;
-    right[j] = result.slope_before[j] + old.potential[j] - now.potential[j] - gradient[j] * tau;
+    result.slope_before.push_back((point[j] - before[j]) / tau);
+    right.push_back(result.slope_before[j] + old.potential[j] - now.potential[j] -
+                    gradient[j] * tau);
   }
   const auto entry = [&](std::size_t j, std::size_t i) {
     return now.slope[j][i] * (-tau) + (i == j ? 1.0 : 0.0);
@@ -64,7 +65,7 @@ Step step(const Plane& before, const Plane& point, double tau) {
   const Number determinant = entry(0, 0) * entry(1, 1) - entry(0, 1) * entry(1, 0);
   result.slope = {(right[0] * entry(1, 1) - right[1] * entry(0, 1)) / determinant,
                   (right[1] * entry(0, 0) - right[0] * entry(1, 0)) / determinant};
-  for (std::size_t j = 0; j < 2; ++j) result.after[j] = point[j] + result.slope[j] * tau;
+  for (std::size_t j = 0; j < 2; ++j) result.after.push_back(point[j] + result.slope[j] * tau);
   return result;
 }
 
