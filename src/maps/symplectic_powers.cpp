@@ -7,6 +7,7 @@
 #include "hamjet/error.hpp"
 
 namespace hamjet {
+
 SymplecticPowers::SymplecticPowers(const AffineSymplecticMap<Extended>& map)
     : map_(map), power_(AffineSymplecticMap<Extended>::identity(map.dimension() / 2)) {}
 

@@ -59,7 +59,7 @@ TEST_F(CanonicalTransformationCommand, GoodRun) {
   ASSERT_EQ(summary["runs"].size(), 2U);
   for (const Json& run : summary["runs"]) {
     EXPECT_TRUE(run["error"].is_null());
-    EXPECT_GT(run["largest_energy_error"], 1e-3);
+    EXPECT_GT(run["largest_energy_error"], 1e-4);
     EXPECT_LE(run["largest_energy_difference"], 1e-13);
     EXPECT_LE(run["hamilton_jacobi"]["largest_residual"], 2e-15);
     // The extrema of the summary are those of the trajectory, which is stored in full here.

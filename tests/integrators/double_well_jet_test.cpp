@@ -70,7 +70,7 @@ struct Differences {
 
   Map map_;
   Point at_;
-  Extended width_ = 1e-6;
+  Extended width_ = 1e-7;
 };
 
 /// The largest difference of a jet's coefficients of degree 1 to 3 from the differences, relative
@@ -102,7 +102,7 @@ TEST(DoubleWellJet, OfGaussWithEightStages) {
   const auto jet = run_gauss(well(), adaptive(8, 1e-14));
   const Differences exact([](const Point& z) { return flow(z, Extended(duration), 60); },
                           precise_start());
-  expect_jet(jet, exact, 1e-9);
+  expect_jet(jet, exact, 2e-11);
 }
 
 // One stage is the midpoint scheme, whose map is far from the flow: its jet is that of this map.
@@ -120,7 +120,7 @@ TEST(DoubleWellJet, OfTheMidpointScheme) {
         return Point{state(0), state(1)};
       },
       precise_start());
-  expect_jet(jet, scheme, 1e-9);
+  expect_jet(jet, scheme, 2e-11);
   const Point end = flow(precise_start(), Extended(duration), 60);
   EXPECT_GT(std::abs(jet[0][0] - static_cast<double>(end[0])), 1e-3);
 }
