@@ -107,14 +107,8 @@ CanonicalTransformationStudy read_canonical_transformation(const TableReader& ro
   study.system = read_system(root.table("system"));
   const Nominal nominal = read_nominal(root.table("nominal"), study.system);
   study.nominal = nominal.state;
-  study.units = {convert<double>(nominal.scale.length_km), convert<double>(nominal.scale.time_s)};
-  study.canonical_radius = nominal.scale.length_of_km(study.system.radius_km);
-  if (!std::isfinite(study.canonical_radius)) {
-    root.table("system").fail("radius_km",
-                              fmt::format("out of range in canonical units, got {:.3g}, must be "
-                                          "within binary64 there",
-                                          study.canonical_radius));
-  }
+  study.units = canonical_units(nominal.scale);
+  study.canonical_radius = read_canonical_radius(root.table("system"), study.system, nominal.scale);
   const TableReader table = root.table("canonical_transformation");
   table.check_keys({{"steps_canonical", "duration_canonical", "rotation_cosine",
                      "rotation_angle_rad", "matrix", "shift", "require_invariance"}});

@@ -53,6 +53,13 @@ struct Nominal {
 /// sqrt(mu / length). For the oscillator metre, second and kilogram stay.
 Nominal read_nominal(const TableReader& nominal, const SystemSettings& system);
 
+/// The nearest binary64 numbers.
+CanonicalUnits canonical_units(const CanonicalScale& scale);
+
+/// The key `radius_km` of the table `[system]` in canonical units.
+double read_canonical_radius(const TableReader& system, const SystemSettings& settings,
+                             const CanonicalScale& scale);
+
 /// What the table `[jet]` holds.
 struct JetSettings {
   int order = 1;

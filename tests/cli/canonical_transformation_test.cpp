@@ -89,6 +89,12 @@ TEST_F(CanonicalTransformationCommand, GoodRun) {
   }
   EXPECT_EQ(succeed({"run", "well.toml", "-o", "results", "--json"}).out,
             content(directory_ / "results/summary.json"));
+
+  // What a run with other steps leaves is not mixed with it.
+  succeed({"run", "well.toml", "-o", "results", "-q", "--set",
+           "canonical_transformation.steps_canonical=[0.05]"});
+  EXPECT_TRUE(std::filesystem::exists(directory_ / "results/trajectory_step_0.05.csv"));
+  EXPECT_FALSE(std::filesystem::exists(directory_ / "results/trajectory_step_0.1.csv"));
 }
 
 // The same rotation as a matrix, and by its angle: cos 0.5 and sin 0.5 to 17 digits.
@@ -202,7 +208,7 @@ TEST_F(CanonicalTransformationCommand, CheckThatFails) {
   EXPECT_EQ(summary["require_invariance"], 1e-19);
 }
 
-// diag(2, 1/2) to the power k has the condition 4^k; a step of 10 is too long for Newton's method.
+// diag(2, 1/2) to the power k has the condition 4^k; on the barrier a step of 2.5 is too long.
 TEST_F(CanonicalTransformationCommand, RunsThatStop) {
   write("growing.toml", changed(scene, "rotation_cosine = 0.99", "matrix = [[2, 0], [0, 0.5]]"));
   CommandResult result = hamjet({"run", "growing.toml", "-o", "growing"});
@@ -210,10 +216,10 @@ TEST_F(CanonicalTransformationCommand, RunsThatStop) {
   EXPECT_NE(result.err.find("the condition of A_20"), std::string::npos) << result.err;
   Json summary = read_json(directory_ / "growing/summary.json");
   EXPECT_NE(summary["runs"][0]["error"].get<std::string>().find("condition"), std::string::npos);
-  write("long.toml", changed(scene, "[0.1, 0.2]", "[10]"));
+  write("long.toml", changed(changed(scene, "[0.1, 0.2]", "[2.5]"), "[1]", "[0.01]"));
   result = hamjet({"run", "long.toml", "-o", "long"});
   EXPECT_EQ(result.exit_code, 4);
-  EXPECT_NE(result.err.find("midpoint: a step of 10 has no solution"), std::string::npos)
+  EXPECT_NE(result.err.find("midpoint: a step of 2.5 has no solution"), std::string::npos)
       << result.err;
   EXPECT_NE(result.out.find("FAILED"), std::string::npos);
 }

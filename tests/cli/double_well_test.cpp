@@ -57,7 +57,7 @@ TEST_F(DoubleWell, Comparison) {
   succeed(
       {"compare", "well.toml", "-o", "results", "-q", "--set", "jet.order=1", "--set",
        "compare={methods=[\"gauss\"], stages=[1, 8], repeats=1, orders=[1], time_budget_s=10}"});
-  const Json comparison = read_json(directory_ / "results/comparison.json");
+  const Json comparison = read_json(directory_ / "results/compare.json");
   EXPECT_GE(comparison["runs"].size(), 4U);
 }
 

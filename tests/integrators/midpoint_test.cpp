@@ -187,13 +187,19 @@ TEST(Midpoint, CrossesTheBarrierOfTheDoubleWellWithShortStepsOnly) {
   }
 }
 
+// On the barrier H'' = diag(-1, 1), and det(I - (tau/2) J H'') = 1 - tau^2/4: a pole at tau = 2.
 TEST(Midpoint, SaysWhereThereIsNoSolution) {
   RecordedHamiltonian<double> well(double_well());
-  expect_error(ErrorKind::numerical, "midpoint: a step of 50 has no solution", [&] {
-    midpoint_step<double>(well, state<double>({1, 0.05}), 50.0);
-  });
+  const auto step_from_the_barrier = [&](double tau) {
+    return midpoint_step<double>(well, state<double>({0, 0.001}), tau);
+  };
+  EXPECT_GT(step_from_the_barrier(1.9)(0), 0.01);
+  expect_error(ErrorKind::numerical, "midpoint: a step of 2 has no solution",
+               [&] { step_from_the_barrier(2); });
+  expect_error(ErrorKind::numerical, "a step of -2.5 has no solution",
+               [&] { step_from_the_barrier(-2.5); });
   RecordedHamiltonian<double> centre(kepler());
-  expect_error(ErrorKind::numerical, "collision", [&] {
+  expect_error(ErrorKind::numerical, "midpoint: a step of 0.1 has no solution", [&] {
     midpoint_step<double>(centre, state<double>({0, 0, 0, 1, 0, 0}), 0.1);
   });
   expect_error(ErrorKind::usage, "the state has 4 components, the Hamiltonian takes 2", [&] {

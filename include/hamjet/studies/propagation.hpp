@@ -99,8 +99,9 @@ struct PropagationResult {
   std::string relative_hamiltonian_failure;  ///< not empty: times are missing above, and why
 };
 
-/// The system of a scene in canonical units; `canonical_radius` is radius_km in them.
+/// A system in canonical units.
 DynamicalSystem make_system(const SystemSettings& settings, double canonical_radius);
+/// The system of a scene in canonical units.
 DynamicalSystem make_system(const Scene& scene);
 
 /// What has to be computed for a scene: degrees of freedom that stay exactly zero and that the
