@@ -15,8 +15,8 @@ namespace hamjet {
 ///
 /// Throws Error(usage) if the sizes differ; Error(numerical) if an evaluation is not finite, if the
 /// determinant of the matrix, which is 1 for tau = 0, is not positive, or if the iteration does not
-/// converge: then the step is too long for the solution that is connected to its start. Iterates and
-/// determinant are the same in all canonical coordinates, up to round-off.
+/// converge: then the step is too long for the solution that is connected to its start. Iterates
+/// and determinant are the same in all canonical coordinates, up to round-off.
 ///
 /// Source: Guibout and Bloch, section "Midpoint rule", with the operator (R_(tau/2) - R_(-tau/2)) /
 /// tau: the division is lost in print, as is q on the left of the first of Hamilton's equations.
