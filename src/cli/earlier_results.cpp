@@ -34,6 +34,10 @@ std::vector<std::filesystem::path> earlier_results(const std::filesystem::path& 
   const Json summary = Json::parse(file, nullptr, false);
   std::vector<std::filesystem::path> files;
   for (const Json& run : list_in(summary, "runs")) {
+    const std::string trajectory = name_in(run, "trajectory");
+    if (trajectory.starts_with("trajectory_") && trajectory.ends_with(".csv")) {
+      files.emplace_back(trajectory);
+    }
     const std::filesystem::path folder = name_in(run, "label");
     if (folder.empty()) continue;
     files.push_back(folder / "jet.csv");

@@ -72,6 +72,7 @@ int run_paper_study(const RunOptions& options, const PaperStudy& study) {
   }
   {
     const UninterruptedWriting guard;
+    for (const auto& file : earlier_results(directory)) output.replace(file);
     for (const io::StudyFile& file : report.files) output.write(file.path, file.content);
     output.replace("figure.svg");
     output.commit();

@@ -31,6 +31,9 @@ inline constexpr double greatest_tolerance = 1e-1;
 /// All tables of the study "flow-jet".
 Scene read_flow_jet(const TableReader& root);
 
+/// All tables of the study "canonical-transformation". Throws Error(too_large) for too many steps.
+CanonicalTransformationStudy read_canonical_transformation(const TableReader& root);
+
 /// Table `[system]`.
 SystemSettings read_system(const TableReader& system);
 
@@ -55,6 +58,13 @@ struct Nominal {
 /// of time sqrt(length^3 / mu), so that mu = 1 and a momentum (per unit of mass) is a velocity over
 /// sqrt(mu / length). For the oscillator metre, second and kilogram stay.
 Nominal read_nominal(const TableReader& nominal, const SystemSettings& system);
+
+/// The nearest binary64 numbers.
+CanonicalUnits canonical_units(const CanonicalScale& scale);
+
+/// The key `radius_km` of the table `[system]` in canonical units.
+double read_canonical_radius(const TableReader& system, const SystemSettings& settings,
+                             const CanonicalScale& scale);
 
 /// What the table `[jet]` holds.
 struct JetSettings {

@@ -23,6 +23,9 @@ const std::vector<StudyReader>& studies() {
        {"schema", "title", "precision", "system", "nominal", "jet", "integrator", "formation",
         "generating_function", "reference", "relative_hamiltonian", "compare", "figure", "study"},
        read_flow_jet},
+      {"canonical-transformation",
+       {"schema", "title", "system", "nominal", "canonical_transformation", "study"},
+       read_canonical_transformation},
   };
   return readers;
 }

@@ -119,6 +119,28 @@ std::vector<double> TableReader::numbers(std::string_view key) const {
   return numbers(key, count);
 }
 
+std::vector<double> TableReader::square_matrix(std::string_view key, std::size_t size) const {
+  const std::string right = fmt::format("an array of {0} arrays of {0} finite numbers", size);
+  const toml::array& rows = required_array(key, right);
+  if (rows.size() != size) {
+    fail(key, fmt::format("wrong size, got {} rows, must be {}", rows.size(), right));
+  }
+  std::vector<double> values;
+  for (std::size_t i = 0; i < size; ++i) {
+    const toml::array* row = rows[i].as_array();
+    if (row == nullptr || row->size() != size) {
+      const std::string got =
+          row == nullptr ? describe(rows[i]) : fmt::format("{} elements", row->size());
+      fail_element(key, i, fmt::format("wrong size, got {}, the matrix must be {}", got, right));
+    }
+    for (std::size_t j = 0; j < size; ++j) {
+      values.push_back(
+          finite((*row)[j], fmt::format("{}.{}.{}", dotted(key), i, j), "a finite number"));
+    }
+  }
+  return values;
+}
+
 std::string TableReader::text(std::string_view key) const {
   const toml::node& node = required(key, "a string");
   if (!node.is_string()) {

@@ -1,19 +1,16 @@
 #pragma once
 
 #include <Eigen/LU>
-#include <boost/multiprecision/eigen.hpp>
 #include <cstddef>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "hamjet/algebra/extended.hpp"
+#include "hamjet/algebra/matrix.hpp"
 #include "hamjet/algebra/truncated_power_series.hpp"
 
 namespace hamjet {
-
-template <class T>
-using Matrix = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>;
 
 /// The linear part: row i holds the coefficients of degree 1 of component i.
 template <class T>

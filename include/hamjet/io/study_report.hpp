@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "hamjet/studies/canonical_transformation.hpp"
+
 namespace hamjet::io {
 
 /// A file of a study's results before it is written.
@@ -30,5 +32,8 @@ struct StudyReport {
 /// it the tables are complete all the same.
 template <class Result>
 StudyReport study_report(const Result& result);
+
+template <>
+StudyReport study_report(const CanonicalTransformationResult& result);
 
 }  // namespace hamjet::io
