@@ -119,16 +119,46 @@ std::vector<Real> step_ahead(const DynamicalSystem& system, const std::vector<Re
   return end;
 }
 
-std::string condition_text(EnergyConservingMethod method, const EnergyConservingStop& stop) {
-  const bool is_stormer = method == EnergyConservingMethod::stormer;
-  const char* quantity =
-      is_stormer ? "dV/dt = p.M^-1 g" : "G = p.V''p + g.g (in general f.H''f), g = grad V,";
-  if (!std::isfinite(stop.condition) || !std::isfinite(stop.condition_ahead)) return {};
-  return fmt::format(
-      "; {} is {:.6g} at the start of the step and {:.6g} a last step size later: its change of "
-      "sign, which no step can cross, {}",
-      quantity, stop.condition, stop.condition_ahead,
-      stop.is_predicted ? "is the predicted condition" : "is not what stopped this");
+const char* method_name(EnergyConservingMethod method) {
+  return energy_conserving_method_names()[static_cast<std::size_t>(method)].data();
+}
+
+std::string condition_text(const DynamicalSystem& system, EnergyConservingMethod method,
+                           const EnergyConservingStop& stop) {
+  const char* quantity = "G = f.H''f, f = J grad H,";
+  if (method == EnergyConservingMethod::stormer) {
+    quantity = "p.M^-1 g = dV/dt";
+  } else if (system.second_order) {
+    quantity = "G = p.M^-1 V'' M^-1 p + g.M^-1 g, g = grad V,";
+  }
+  if (!std::isfinite(stop.condition)) return {};
+  std::string text = fmt::format("; {} is {:.6g} here", quantity, stop.condition);
+  if (const auto& distance = stop.steps_to_sign_change) {
+    text += fmt::format(" and changes sign {:.3g} steps of the last size {}, which no step crosses",
+                        std::abs(*distance), *distance < 0 ? "back" : "ahead");
+  }
+  return text;
+}
+
+template <class Real>
+EnergyConservingStop make_stop(const EnergyConservingProblem<Real>& problem,
+                               const StepAttempt<Real>& attempt, long step, const Real& time,
+                               const std::vector<Real>& state, const Real& last) {
+  const DynamicalSystem& system = *problem.system;
+  StepCondition<Real> condition(system, problem.method);
+  const auto here = static_cast<double>(condition(state));
+  const auto ahead = static_cast<double>(condition(step_ahead(system, state, last)));
+  EnergyConservingStop stop;
+  stop.cause = attempt.cause;
+  stop.step = step;
+  stop.time = static_cast<double>(time);
+  stop.condition = here;
+  const double distance = here / (here - ahead);
+  if (std::isfinite(distance)) stop.steps_to_sign_change = distance;
+  stop.message = fmt::format("energy-conserving {}: step {} at t = {:.10g}: {}{}",
+                             method_name(problem.method), step, stop.time, attempt.reason,
+                             condition_text(system, problem.method, stop));
+  return stop;
 }
 
 template <class Real, class Equation>
@@ -149,28 +179,14 @@ EnergyConservingResult<Real> integrate(const EnergyConservingProblem<Real>& prob
                   fmt::format("energy-conserving {}: after {:.0e} steps, the most that are taken, "
                               "the time is {:.6g} of {:.6g}; a shorter duration or a larger first "
                               "step would do",
-                              energy_conserving_method_names()[static_cast<std::size_t>(
-                                  problem.method)],
-                              largest_energy_conserving_step_count,
+                              method_name(problem.method), largest_energy_conserving_step_count,
                               static_cast<double>(result.time),
                               static_cast<double>(problem.duration)));
     }
     StepAttempt<Real> attempt = result.steps == 0 ? equation.start(result.state, size)
                                                   : equation.advance(result.state, size);
     if (!attempt.is_taken) {
-      EnergyConservingStop stop;
-      stop.cause = attempt.cause;
-      stop.step = result.steps;
-      stop.time = static_cast<double>(result.time);
-      stop.condition = static_cast<double>(condition(result.state));
-      stop.condition_ahead =
-          static_cast<double>(condition(step_ahead(system, result.state, size)));
-      stop.is_predicted = stop.condition * stop.condition_ahead <= 0;
-      stop.message = fmt::format(
-          "energy-conserving {}: step {} at t = {:.10g}: {}{}",
-          energy_conserving_method_names()[static_cast<std::size_t>(problem.method)], stop.step,
-          stop.time, attempt.reason, condition_text(problem.method, stop));
-      result.stop = std::move(stop);
+      result.stop = make_stop(problem, attempt, result.steps, result.time, result.state, size);
       break;
     }
     EnergyConservingStep<Real> step{result.steps,
@@ -192,6 +208,7 @@ EnergyConservingResult<Real> integrate(const EnergyConservingProblem<Real>& prob
     result.state = std::move(step.end);
   }
   result.energy = equation.energy();
+  result.last_step = size;
   return result;
 }
 

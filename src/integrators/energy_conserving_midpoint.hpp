@@ -31,7 +31,6 @@ class EnergyConservingMidpoint {
  public:
   explicit EnergyConservingMidpoint(const DynamicalSystem& system)
       : size_(static_cast<Eigen::Index>(system.dimension())),
-        n_(system.degrees_of_freedom),
         hamiltonian_(system.hamiltonian),
         field_(system.vector_field),
         matrix_(size_, size_),
@@ -265,7 +264,6 @@ class EnergyConservingMidpoint {
   }
 
   Eigen::Index size_;
-  std::size_t n_;
   PlainEvaluation<Real> hamiltonian_;
   PlainEvaluation<Real> field_;
   Matrix matrix_;

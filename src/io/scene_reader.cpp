@@ -25,14 +25,8 @@ Scene read_flow_jet(const TableReader& root) {
   const Nominal nominal = read_nominal(root.table("nominal"), scene.system);
   const CanonicalScale& scale = nominal.scale;
   scene.nominal = nominal.state;
-  scene.units = {convert<double>(scale.length_km), convert<double>(scale.time_s)};
-  scene.canonical_radius = scale.length_of_km(scene.system.radius_km);
-  if (!std::isfinite(scene.canonical_radius)) {
-    root.table("system").fail(
-        "radius_km", fmt::format("out of range, got {:.3g} times the nominal's distance of {:.3g} "
-                                 "km from the centre, must be within binary64",
-                                 scene.canonical_radius, scene.units.length_km));
-  }
+  scene.units = canonical_units(scale);
+  scene.canonical_radius = read_canonical_radius(root.table("system"), scene.system, scale);
 
   const JetSettings jet = read_jet(root.table("jet"), scene.system.model, scene.precision, nominal);
   scene.order = jet.order;
@@ -56,6 +50,22 @@ Scene read_flow_jet(const TableReader& root) {
     scene.comparison = read_compare(root.table("compare"), scene.order, scene.duration);
   }
   return scene;
+}
+
+CanonicalUnits canonical_units(const CanonicalScale& scale) {
+  return {convert<double>(scale.length_km), convert<double>(scale.time_s)};
+}
+
+double read_canonical_radius(const TableReader& system, const SystemSettings& settings,
+                             const CanonicalScale& scale) {
+  const double radius = scale.length_of_km(settings.radius_km);
+  if (!std::isfinite(radius)) {
+    system.fail("radius_km",
+                fmt::format("out of range, got {:.3g} times the nominal's distance of {:.3g} km "
+                            "from the centre, must be within binary64",
+                            radius, canonical_units(scale).length_km));
+  }
+  return radius;
 }
 
 double read_formation(const TableReader& formation, SystemModel model,

@@ -23,6 +23,10 @@ const std::vector<StudyReader>& studies() {
        {"schema", "title", "precision", "system", "nominal", "jet", "integrator", "formation",
         "generating_function", "reference", "relative_hamiltonian", "compare", "study"},
        read_flow_jet},
+      {"energy-conservation",
+       {"schema", "title", "system", "nominal", "energy_conservation", "study", "jet",
+        "integrator"},
+       read_energy_conservation},
   };
   return readers;
 }

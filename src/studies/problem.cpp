@@ -32,10 +32,10 @@ double schedule_bytes(std::size_t variables, int order) {
 
 }  // namespace
 
-DynamicalSystem make_system(const Scene& scene) {
-  switch (scene.system.model) {
+DynamicalSystem make_system(const SystemSettings& settings, double canonical_radius) {
+  switch (settings.model) {
     case SystemModel::zonal_gravity:
-      return zonal_gravity({1.0, scene.canonical_radius, scene.system.J2, scene.system.J3});
+      return zonal_gravity({1.0, canonical_radius, settings.J2, settings.J3});
     case SystemModel::kepler:
       return kepler();
     case SystemModel::double_well:
@@ -43,7 +43,11 @@ DynamicalSystem make_system(const Scene& scene) {
     case SystemModel::harmonic_oscillator:
       break;
   }
-  return harmonic_oscillator(scene.system.mass_kg, scene.system.stiffness_N_per_m);
+  return harmonic_oscillator(settings.mass_kg, settings.stiffness_N_per_m);
+}
+
+DynamicalSystem make_system(const Scene& scene) {
+  return make_system(scene.system, scene.canonical_radius);
 }
 
 double estimate_memory(const Scene& scene, const DynamicalSystem& system, std::size_t variables) {

@@ -76,12 +76,11 @@ struct EnergyConservingStop {
   EnergyConservingStopCause cause = EnergyConservingStopCause::no_root;
   long step = 0;    ///< the step that could not be taken, from 0
   double time = 0;  ///< at its start
-  /// StepCondition at its start, and at the end of a step of the last size that disregards the
-  /// energy. Where the sign changes the step equation is predicted to have no root.
-  double condition = 0;
-  double condition_ahead = 0;
-  bool is_predicted = false;  ///< the sign does change
-  std::string message;        ///< one line with step, time and condition
+  double condition = 0;  ///< StepCondition at its start
+  /// Where StepCondition changes sign, by the line through its values at the start of the step and
+  /// a last step size later, in steps of the last size; negative: behind. None if it is constant.
+  std::optional<double> steps_to_sign_change;
+  std::string message;  ///< one line with step, time and condition
 };
 
 /// How an integration went.
@@ -90,6 +89,7 @@ struct EnergyConservingResult {
   Real energy = 0;  ///< E, the conserved discrete energy
   long steps = 0;   ///< taken
   long newton_iterations = 0;
+  Real last_step = 0;       ///< size of the last step taken, or of the first if none was
   Real time = 0;            ///< reached
   std::vector<Real> state;  ///< reached
   std::optional<EnergyConservingStop> stop;

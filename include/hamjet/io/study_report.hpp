@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "hamjet/studies/energy_conservation.hpp"
+
 namespace hamjet::io {
 
 /// A file of a study's results before it is written.
@@ -30,5 +32,10 @@ struct StudyReport {
 /// it the tables are complete all the same.
 template <class Result>
 StudyReport study_report(const Result& result);
+
+/// `trajectory.csv`, `figure.svg` with the energy errors and the step size along time,
+/// `summary.json`.
+template <>
+StudyReport study_report(const EnergyConservationResult& result);
 
 }  // namespace hamjet::io

@@ -99,6 +99,8 @@ struct PropagationResult {
   std::string relative_hamiltonian_failure;  ///< not empty: times are missing above, and why
 };
 
+/// A system in canonical units.
+DynamicalSystem make_system(const SystemSettings& settings, double canonical_radius);
 /// The system of a scene in canonical units.
 DynamicalSystem make_system(const Scene& scene);
 
