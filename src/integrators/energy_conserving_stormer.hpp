@@ -54,19 +54,16 @@ class EnergyConservingStormer {
       return refused<Real>(
           Cause::no_root,
           fmt::format("the step equation has no real root: (p.M^-1 g)^2 = {:.6g} < 2 (g.M^-1 g) "
-                      "(V(q_k) - V(q_(k-1))) = {:.6g}, g = grad V, with p.M^-1 g = dV/dt = {:.6g} "
-                      "and V(q_k) - V(q_(k-1)) = {:.6g}",
-                      static_cast<double>(Real(b_ * b_)), static_cast<double>(Real(2 * a_ * c)),
-                      static_cast<double>(b_), static_cast<double>(c)));
+                      "(V(q_k) - V(q_(k-1))) = {:.6g}, g = grad V",
+                      static_cast<double>(Real(b_ * b_)), static_cast<double>(Real(2 * a_ * c))));
     }
     const Real root = sqrt(discriminant);
     const Real denominator = b_ < 0 ? Real(b_ - root) : Real(b_ + root);
     const Real h = 2 * c / denominator;
     const std::string numbers = fmt::format(
-        "p.M^-1 g = dV/dt = {:.6g}, g = grad V, and V(q_k) - V(q_(k-1)) = {:.6g}; the other root "
-        "of the step equation, {:.6g}, belongs to no consistent step",
-        static_cast<double>(b_), static_cast<double>(c),
-        static_cast<double>(Real(denominator / a_)));
+        "V(q_k) - V(q_(k-1)) = {:.6g}, and the other root of the step equation, {:.6g}, belongs to "
+        "no consistent step",
+        static_cast<double>(c), static_cast<double>(Real(denominator / a_)));
     const Real epsilon = std::numeric_limits<Real>::epsilon();
     // |dH/dh| = |a h - b| = sqrt(d) at a root.
     const Real floor = Real(largest_step_uncertainty) * root * magnitude(last);

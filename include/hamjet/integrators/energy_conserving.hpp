@@ -65,13 +65,20 @@ enum class EnergyConservingStopCause {
 };
 
 /// A step size that is more than this times the last one, or less than the inverse, is refused: it
-/// belongs to another root of the step equation, or the steps are too large for their equation.
+/// belongs to another root of the step equation, or the steps are too large for their equation. To
+/// leading order a step of the midpoint form can at most double before the root is lost, see
+/// EnergyConservingStop.
 inline constexpr double largest_step_change = 2;
 
 /// More steps than this are refused with Error(too_large).
 inline constexpr double largest_energy_conserving_step_count = 1e7;
 
 /// Where an integration ended before its time, a numerical failure (ErrorKind::numerical).
+///
+/// With x = steps_to_sign_change the step equations have no root, to leading order in the step size,
+/// for midpoint where 4 x^3 - 3 x - 1 < 0, so x < 1; and for Störmer before a maximum of V where
+/// |s^2 x - 1| < s, s^2 = -(d^2V/dt^2) / (g^T M^-1 g) (on a Kepler orbit at apogee s^2 = e). A step
+/// of midpoint from x just above 1 leads to x = -1/2, so that it stops between these two.
 struct EnergyConservingStop {
   EnergyConservingStopCause cause = EnergyConservingStopCause::no_root;
   long step = 0;    ///< the step that could not be taken, from 0
