@@ -100,8 +100,9 @@ void validate(const EnergyConservingProblem<Real>& problem) {
   }
   if (!is_finite(problem.duration)) fail("the duration is not finite");
   if (problem.method == EnergyConservingMethod::stormer && !problem.system->second_order) {
-    fail("Störmer needs a second-order form: q' = M^-1 p with a constant mass matrix M and "
-         "p' = F(q); midpoint takes any system");
+    fail(
+        "Störmer needs a second-order form: q' = M^-1 p with a constant mass matrix M and "
+        "p' = F(q); midpoint takes any system");
   }
 }
 
@@ -155,9 +156,9 @@ EnergyConservingStop make_stop(const EnergyConservingProblem<Real>& problem,
   stop.condition = here;
   const double distance = here / (here - ahead);
   if (std::isfinite(distance)) stop.steps_to_sign_change = distance;
-  stop.message = fmt::format("energy-conserving {}: step {} at t = {:.10g}: {}{}",
-                             method_name(problem.method), step, stop.time, attempt.reason,
-                             condition_text(system, problem.method, stop));
+  stop.message =
+      fmt::format("energy-conserving {}: step {} at t = {:.10g}: {}{}", method_name(problem.method),
+                  step, stop.time, attempt.reason, condition_text(system, problem.method, stop));
   return stop;
 }
 
@@ -175,13 +176,13 @@ EnergyConservingResult<Real> integrate(const EnergyConservingProblem<Real>& prob
   Real lost = 0;  // of the time, by Kahan's summation
   while (magnitude(result.time) < span) {
     if (static_cast<double>(result.steps) >= largest_energy_conserving_step_count) {
-      throw Error(ErrorKind::too_large,
-                  fmt::format("energy-conserving {}: after {:.0e} steps, the most that are taken, "
-                              "the time is {:.6g} of {:.6g}; a shorter duration or a larger first "
-                              "step would do",
-                              method_name(problem.method), largest_energy_conserving_step_count,
-                              static_cast<double>(result.time),
-                              static_cast<double>(problem.duration)));
+      throw Error(
+          ErrorKind::too_large,
+          fmt::format("energy-conserving {}: after {:.0e} steps, the most that are taken, "
+                      "the time is {:.6g} of {:.6g}; a shorter duration or a larger first "
+                      "step would do",
+                      method_name(problem.method), largest_energy_conserving_step_count,
+                      static_cast<double>(result.time), static_cast<double>(problem.duration)));
     }
     StepAttempt<Real> attempt = result.steps == 0 ? equation.start(result.state, size)
                                                   : equation.advance(result.state, size);
@@ -189,13 +190,9 @@ EnergyConservingResult<Real> integrate(const EnergyConservingProblem<Real>& prob
       result.stop = make_stop(problem, attempt, result.steps, result.time, result.state, size);
       break;
     }
-    EnergyConservingStep<Real> step{result.steps,
-                                    result.time,
-                                    attempt.size,
-                                    std::move(result.state),
-                                    std::move(attempt.end),
-                                    0,
-                                    attempt.iterations};
+    EnergyConservingStep<Real> step{
+        result.steps,           result.time, attempt.size,      std::move(result.state),
+        std::move(attempt.end), 0,           attempt.iterations};
     step.condition = condition(step.start);
     size = step.size;
     const Real corrected = size - lost;

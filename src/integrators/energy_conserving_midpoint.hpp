@@ -178,8 +178,8 @@ class EnergyConservingMidpoint {
       half_field_(i) = field_.value(row) / 2;
       residual_(i) = trial.half(i) - half_step * field_.value(row);
       for (Eigen::Index j = 0; j < size_; ++j) {
-        matrix_(i, j) = Real(i == j ? 1 : 0) -
-                        half_step * field_.derivative(row, static_cast<std::size_t>(j));
+        matrix_(i, j) =
+            Real(i == j ? 1 : 0) - half_step * field_.derivative(row, static_cast<std::size_t>(j));
       }
     }
     factors_.compute(matrix_);
@@ -212,8 +212,7 @@ class EnergyConservingMidpoint {
     std::optional<Trial> larger = middle;
     std::optional<Trial> smaller = middle;
     for (int k = 1; k <= search_intervals; ++k) {
-      const Real factor =
-          pow(Real(largest_step_change), Real(Real(k) / Real(search_intervals)));
+      const Real factor = pow(Real(largest_step_change), Real(Real(k) / Real(search_intervals)));
       for (const bool is_larger : {true, false}) {
         std::optional<Trial>& before = is_larger ? larger : smaller;
         if (!before) continue;

@@ -103,9 +103,9 @@ Chart step_chart(const EnergyConservationResult& result) {
   }
   chart.curves.push_back(line("energy-conserving", 0, sizes));
   const auto& errors = result.fixed_step.energy_errors;
-  chart.curves.push_back(line("fixed steps beside", 2,
-                              {{0, result.fixed_step.step},
-                               {errors.back().first, result.fixed_step.step}}));
+  chart.curves.push_back(
+      line("fixed steps beside", 2,
+           {{0, result.fixed_step.step}, {errors.back().first, result.fixed_step.step}}));
   return chart;
 }
 

@@ -20,13 +20,13 @@ double read_first_step(const TableReader& table, double duration, const Canonica
   }
   const double steps = std::ceil(std::abs(duration) / step);
   if (steps > largest_energy_conserving_step_count) {
-    throw Error(ErrorKind::too_large,
-                fmt::format("{}: too many steps, got {}, which takes about {:.3g} steps, must be "
-                            "at least {:.3g} to keep within {:.0e}",
-                            table.head(key), table.found(key), steps,
-                            std::abs(duration) * (given / step) /
-                                largest_energy_conserving_step_count,
-                            largest_energy_conserving_step_count));
+    throw Error(
+        ErrorKind::too_large,
+        fmt::format("{}: too many steps, got {}, which takes about {:.3g} steps, must be "
+                    "at least {:.3g} to keep within {:.0e}",
+                    table.head(key), table.found(key), steps,
+                    std::abs(duration) * (given / step) / largest_energy_conserving_step_count,
+                    largest_energy_conserving_step_count));
   }
   return step;
 }

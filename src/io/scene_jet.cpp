@@ -93,16 +93,18 @@ double read_duration(const TableReader& table, bool has_orbits, const Nominal& n
     duration = nominal.scale.time_of_s(given);
   } else if (key == "duration_orbits") {
     if (!nominal.period_s) {
-      table.fail(key, fmt::format("no period, got {} periods of an orbit that is not elliptic, must "
-                                "be duration_s or duration_canonical",
-                                table.found(key)));
+      table.fail(key,
+                 fmt::format("no period, got {} periods of an orbit that is not elliptic, must "
+                             "be duration_s or duration_canonical",
+                             table.found(key)));
     }
     duration = convert<double>(Extended(given) * *nominal.period_s / nominal.scale.time_s);
   }
   if (!std::isfinite(duration) || (duration == 0 && given != 0)) {
-    table.fail(key, fmt::format("out of range, got {}, which is {} in canonical units, must be 0 or "
-                              "within binary64 there",
-                              table.found(key), duration));
+    table.fail(key,
+               fmt::format("out of range, got {}, which is {} in canonical units, must be 0 or "
+                           "within binary64 there",
+                           table.found(key), duration));
   }
   return duration;
 }

@@ -94,8 +94,8 @@ class EnergyConservingTrajectory {
   void observe(const EnergyConservingStep<double>& step) {
     const EnergyConservationStudy& study = result_.study;
     if (progress_) progress_("energy-conserving trajectory", step.time / study.duration);
-    const Extended discrete = energy_.value(discrete_energy_point<Extended>(
-        study.method, extended(step.start), extended(step.end)));
+    const Extended discrete = energy_.value(
+        discrete_energy_point<Extended>(study.method, extended(step.start), extended(step.end)));
     if (step.index == 0) conserved_ = discrete;
     EnergyConservationPoint point{step.index,
                                   step.time,
@@ -158,9 +158,9 @@ EnergyConservationResult run_study(const EnergyConservationStudy& study,
   EnergyConservationResult result;
   result.study = study;
   EnergyConservingTrajectory(system, result, progress);
-  const double mean_step =
-      result.run.steps > 0 ? std::abs(result.run.time) / static_cast<double>(result.run.steps)
-                           : study.first_step;
+  const double mean_step = result.run.steps > 0
+                               ? std::abs(result.run.time) / static_cast<double>(result.run.steps)
+                               : study.first_step;
   const double end = result.run.stop ? study.duration : result.run.time;
   result.fixed_step =
       fixed_step_trajectory(system, study.method, study.nominal, mean_step, end, progress);

@@ -56,12 +56,12 @@ using EnergyConservingObserver = std::function<void(const EnergyConservingStep<R
 
 /// Why there is no next step.
 enum class EnergyConservingStopCause {
-  no_root,             ///< the step equation has no real root near the last step size
-  reversed_root,       ///< the root that continues the last step size points backwards in time
-  step_change,         ///< that root is not within a factor of largest_step_change
-  undetermined_step,   ///< round-off leaves the step size undetermined
-  no_midpoint,         ///< the midpoint equation has no solution for the first step
-  not_finite,          ///< a collision, or a point outside the domain of the Hamiltonian
+  no_root,            ///< the step equation has no real root near the last step size
+  reversed_root,      ///< the root that continues the last step size points backwards in time
+  step_change,        ///< that root is not within a factor of largest_step_change
+  undetermined_step,  ///< round-off leaves the step size undetermined
+  no_midpoint,        ///< the midpoint equation has no solution for the first step
+  not_finite,         ///< a collision, or a point outside the domain of the Hamiltonian
 };
 
 /// A step size that is more than this times the last one, or less than the inverse, is refused: it
@@ -75,14 +75,14 @@ inline constexpr double largest_energy_conserving_step_count = 1e7;
 
 /// Where an integration ended before its time, a numerical failure (ErrorKind::numerical).
 ///
-/// With x = steps_to_sign_change the step equations have no root, to leading order in the step size,
-/// for midpoint where 4 x^3 - 3 x - 1 < 0, so x < 1; and for Störmer before a maximum of V where
-/// |s^2 x - 1| < s, s^2 = -(d^2V/dt^2) / (g^T M^-1 g) (on a Kepler orbit at apogee s^2 = e). A step
-/// of midpoint from x just above 1 leads to x = -1/2, so that it stops between these two.
+/// With x = steps_to_sign_change the step equations have no root, to leading order in the step
+/// size, for midpoint where 4 x^3 - 3 x - 1 < 0, so x < 1; and for Störmer before a maximum of V
+/// where |s^2 x - 1| < s, s^2 = -(d^2V/dt^2) / (g^T M^-1 g) (on a Kepler orbit at apogee s^2 = e).
+/// A step of midpoint from x just above 1 leads to x = -1/2, so that it stops between these two.
 struct EnergyConservingStop {
   EnergyConservingStopCause cause = EnergyConservingStopCause::no_root;
-  long step = 0;    ///< the step that could not be taken, from 0
-  double time = 0;  ///< at its start
+  long step = 0;         ///< the step that could not be taken, from 0
+  double time = 0;       ///< at its start
   double condition = 0;  ///< StepCondition at its start
   /// Where StepCondition changes sign, by the line through its values at the start of the step and
   /// a last step size later, in steps of the last size; negative: behind. None if it is constant.
