@@ -44,7 +44,13 @@ class EnergyConservingMidpoint {
   /// The first step, of given size, whose discrete energy is conserved from then on.
   StepAttempt<Real> start(const std::vector<Real>& z, const Real& h) {
     Trial trial = explicit_trial(z, h);
-    if (!solve(z, trial, false)) {
+    if (!is_finite(trial.half.sum())) {
+      return refused<Real>(EnergyConservingStopCause::not_finite, not_finite_reason);
+    }
+    const Vector explicit_half = trial.half;
+    // A solution far from the explicit step is not the one that starts at h = 0.
+    if (!solve(z, trial, false) ||
+        !((trial.half - explicit_half).norm() <= explicit_half.norm() / 2)) {
       return refused<Real>(
           EnergyConservingStopCause::no_midpoint,
           fmt::format("the midpoint equation has no solution near the start for the first step of "
@@ -59,23 +65,16 @@ class EnergyConservingMidpoint {
   /// The step that follows one of size `last`.
   StepAttempt<Real> advance(const std::vector<Real>& z, const Real& last) {
     Trial trial = explicit_trial(z, last);
-    if (!is_finite(trial.half[0])) {
+    if (!is_finite(trial.half.sum())) {
       return refused<Real>(EnergyConservingStopCause::not_finite, not_finite_reason);
     }
-    if (!solve(z, trial, true) || !continues(trial, last)) {
+    if (trial.half.norm() == 0) return undetermined(trial);  // an equilibrium
+    const bool is_solved = solve(z, trial, true);
+    if (is_solved && !is_determined(trial)) return undetermined(trial);
+    if (!is_solved || !continues(trial, last)) {
       const std::optional<Trial> found = search(z, last);
       if (!found) return refused<Real>(EnergyConservingStopCause::no_root, absence(last));
       trial = *found;
-    }
-    // Round-off in H moves h by itself over dH/dh.
-    const Real epsilon = std::numeric_limits<Real>::epsilon();
-    const Real change = magnitude(Real(trial.slope * trial.size));
-    if (!(epsilon * scale_ < Real(largest_step_uncertainty) * change)) {
-      return refused<Real>(
-          EnergyConservingStopCause::undetermined_step,
-          fmt::format("round-off leaves the step size undetermined: H changes by {:.3g} over a "
-                      "step of {:.6g}; a larger first step would do",
-                      static_cast<double>(change), static_cast<double>(trial.size)));
     }
     return taken(z, trial);
   }
@@ -118,6 +117,22 @@ class EnergyConservingMidpoint {
     }
     attempt.iterations = trial.iterations;
     return attempt;
+  }
+
+  /// Whether round-off in H, which moves h by itself over dH/dh, leaves h known.
+  bool is_determined(const Trial& trial) const {
+    const Real epsilon = std::numeric_limits<Real>::epsilon();
+    const Real change = magnitude(Real(trial.slope * trial.size));
+    return epsilon * scale_ < Real(largest_step_uncertainty) * change;
+  }
+
+  StepAttempt<Real> undetermined(const Trial& trial) const {
+    return refused<Real>(
+        EnergyConservingStopCause::undetermined_step,
+        fmt::format("round-off leaves the step size undetermined: H changes by {:.3g} over a step "
+                    "of {:.6g}; a larger first step would do",
+                    static_cast<double>(Real(trial.slope * trial.size)),
+                    static_cast<double>(trial.size)));
   }
 
   /// Whether a root is the one that continues the last step size.

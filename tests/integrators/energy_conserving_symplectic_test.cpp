@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -30,12 +31,11 @@ Extended first_step_for(EnergyConservingProblem<Extended> problem, const Extende
   for (int k = 0; k < 30; ++k) {
     problem.first_step = step;
     const Extended error = first_energy(problem) - energy;
-    if (error == error_before) break;
+    if (abs(error) < Extended(1e-32) * (1 + abs(energy))) break;  // a few roundings
     const Extended change = error * (step - before) / (error - error_before);
     before = step;
     error_before = error;
     step -= change;
-    if (abs(change) < Extended(1e-30)) break;
   }
   return step;
 }
@@ -121,18 +121,21 @@ TEST(EnergyConservingSymplectic, AtOneEnergyAndNoOther) {
     Method method;
     Vector start;
   } cases[] = {
-      {&masses, Method::stormer, {0.9, 0.6, 0.4, 0.3}},
-      {&masses, Method::midpoint, {0.9, 0.6, 0.4, 0.3}},
+      {&masses, Method::stormer, {0.9, 0.6, 3, 2}},
+      {&masses, Method::midpoint, {0.9, 0.6, 3, 2}},
       {&momenta, Method::midpoint, {0.4, -0.7, 0.5, 0.3}},
   };
   for (const auto& c : cases) {
     SCOPED_TRACE(c.system->name + " " +
                  std::string(energy_conserving_method_names()[static_cast<std::size_t>(c.method)]));
-    const EnergyConservingProblem<Extended> problem{c.system, c.method, c.start, Extended(0.0625),
+    const EnergyConservingProblem<Extended> problem{c.system, c.method, c.start, Extended(0.03125),
                                                     1};
     const Tangent one_energy = tangent(problem, true);
     const Tangent own_energies = tangent(problem, false);
-    RecordProperty("defect", std::to_string(defect(one_energy, false)));
+    RecordProperty(c.system->name + (c.method == Method::stormer ? "_stormer" : "_midpoint"),
+                   fmt::format("{:.2g} at one energy, {:.2g} at their own, {:.2g} with dt ^ dE",
+                               defect(one_energy, false), defect(own_energies, false),
+                               defect(own_energies, true)));
     EXPECT_LT(defect(one_energy, false), 1e-15);
     EXPECT_GT(defect(own_energies, false), 1e-3);
     EXPECT_LT(defect(own_energies, true), 1e-15);
