@@ -1,7 +1,7 @@
 #pragma once
 
-#include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hamjet/integrators/energy_conserving.hpp"

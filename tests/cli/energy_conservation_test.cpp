@@ -135,6 +135,18 @@ TEST_F(EnergyConservation, EnergyErrorIsChecked) {
               {"require_energy_error", "the largest discrete energy error is"});
 }
 
+// Expected: every second point, the first and the last among them; steps are counted all.
+TEST_F(EnergyConservation, LongTrajectoriesAreThinned) {
+  run({"energy_conservation.first_step_canonical=0.0005"}, 0);
+  EXPECT_GT(summary_["steps"].get<long>(), 20001);
+  const Table table = read_table(directory_ / "out/trajectory.csv");
+  EXPECT_LE(table.rows.size(), 20001U);
+  EXPECT_GE(table.rows.size(), 10001U);
+  EXPECT_EQ(table.rows.front()[0], "0");
+  EXPECT_EQ(table.rows[1][0], "2");
+  EXPECT_EQ(table.rows.back()[0], summary_["steps"].dump());
+}
+
 // A stop before the first step leaves no numbers to report, and no NaN.
 TEST_F(EnergyConservation, NothingWasComputed) {
   run({"energy_conservation.first_step_canonical=20"}, 4);
