@@ -116,9 +116,20 @@ std::string_view read_size_key(const TableReader& integrator, IntegrationMethod 
   return integrator.exactly_one_of({"step_canonical", "step_s", "tolerance"});
 }
 
+/// Whoever asks for one of these knows it from the paper and deserves to know why it is no choice.
+void refuse_energy_conserving(const TableReader& integrator) {
+  const std::string method = integrator.text("method");
+  if (method != "energy-conserving-stormer" && method != "energy-conserving-midpoint") return;
+  integrator.fail("method",
+                  fmt::format("not available for a flow jet, got {}, must be one of: {}; {} (study "
+                              "= \"energy-conservation\")",
+                              in_quotes(method), listed(method_names()), no_energy_conserving_jet));
+}
+
 IntegratorSettings read_integrator(const TableReader& integrator, Precision precision,
                                    double duration, const CanonicalScale& scale) {
   if (!integrator.has("method")) integrator.check_keys({all_keys});  // a misspelt `method` is named
+  if (integrator.has("method")) refuse_energy_conserving(integrator);
   IntegratorSettings settings;
   settings.method = static_cast<IntegrationMethod>(integrator.choice("method", method_names()));
   const std::string_view method = method_names()[static_cast<std::size_t>(settings.method)];

@@ -81,31 +81,33 @@ std::vector<std::size_t> read_variables(const TableReader& jet,
   return variables;
 }
 
-double read_duration(const TableReader& jet, bool has_orbits, const Nominal& nominal) {
+}  // namespace
+
+double read_duration(const TableReader& table, bool has_orbits, const Nominal& nominal) {
   std::vector<std::string_view> keys = {"duration_s", "duration_orbits", "duration_canonical"};
   if (!has_orbits) std::erase(keys, "duration_orbits");
-  const std::string_view key = jet.exactly_one_of(keys);
-  const double given = jet.number(key);
+  const std::string_view key = table.exactly_one_of(keys);
+  const double given = table.number(key);
   double duration = given;
   if (key == "duration_s") {
     duration = nominal.scale.time_of_s(given);
   } else if (key == "duration_orbits") {
     if (!nominal.period_s) {
-      jet.fail(key, fmt::format("no period, got {} periods of an orbit that is not elliptic, must "
-                                "be duration_s or duration_canonical",
-                                jet.found(key)));
+      table.fail(key,
+                 fmt::format("no period, got {} periods of an orbit that is not elliptic, must "
+                             "be duration_s or duration_canonical",
+                             table.found(key)));
     }
     duration = convert<double>(Extended(given) * *nominal.period_s / nominal.scale.time_s);
   }
   if (!std::isfinite(duration) || (duration == 0 && given != 0)) {
-    jet.fail(key, fmt::format("out of range, got {}, which is {} in canonical units, must be 0 or "
-                              "within binary64 there",
-                              jet.found(key), duration));
+    table.fail(key,
+               fmt::format("out of range, got {}, which is {} in canonical units, must be 0 or "
+                           "within binary64 there",
+                           table.found(key), duration));
   }
   return duration;
 }
-
-}  // namespace
 
 JetSettings read_jet(const TableReader& jet, SystemModel model, Precision precision,
                      const Nominal& nominal) {

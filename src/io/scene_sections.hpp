@@ -66,6 +66,10 @@ CanonicalUnits canonical_units(const CanonicalScale& scale);
 double read_canonical_radius(const TableReader& system, const SystemSettings& settings,
                              const CanonicalScale& scale);
 
+/// The only one of `duration_s`, `duration_canonical` and, for orbits, `duration_orbits`; in
+/// canonical units.
+double read_duration(const TableReader& table, bool has_orbits, const Nominal& nominal);
+
 /// What the table `[jet]` holds.
 struct JetSettings {
   int order = 1;
@@ -98,6 +102,13 @@ ComparisonSettings read_compare(const TableReader& table, int order, double dura
 
 /// Table `[figure]`, checked against what `scene` already holds.
 FigureQuantity read_figure(const TableReader& figure, const Scene& scene);
+/// Why the energy-conserving methods integrate no flow jet, for messages.
+inline constexpr std::string_view no_energy_conserving_jet =
+    "the map of an energy-conserving method at a fixed physical time is not symplectic, because "
+    "each neighbour takes its own steps; it integrates trajectories only";
+
+/// All tables of the study "energy-conservation". Throws Error(too_large) for too many steps.
+EnergyConservationStudy read_energy_conservation(const TableReader& root);
 
 /// Table `[relative_hamiltonian]`: canonical times from the start to the duration.
 std::vector<double> read_relative_hamiltonian(const TableReader& table, double duration);

@@ -26,6 +26,10 @@ const std::vector<StudyReader>& studies() {
       {"canonical-transformation",
        {"schema", "title", "system", "nominal", "canonical_transformation", "study"},
        read_canonical_transformation},
+      {"energy-conservation",
+       {"schema", "title", "system", "nominal", "energy_conservation", "study", "jet",
+        "integrator"},
+       read_energy_conservation},
   };
   return readers;
 }

@@ -271,8 +271,10 @@ TEST(ShippedScenes, AreAllRead) {
   for (const auto& entry : std::filesystem::recursive_directory_iterator(scenes)) {
     if (entry.path().extension() != ".toml") continue;
     ++count;
-    Scene scene;
-    ASSERT_NO_THROW(scene = read_scene(entry.path())) << entry.path();
+    Study study;
+    ASSERT_NO_THROW(study = read_study(entry.path())) << entry.path();
+    if (!std::holds_alternative<Scene>(study)) continue;
+    const Scene scene = std::get<Scene>(study);
     EXPECT_EQ(scene.name, entry.path().stem().string());
     EXPECT_TRUE(scene.reference.has_value()) << entry.path();
     EXPECT_GE(scene.integrators.size(), 2U) << entry.path();

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hamjet/studies/canonical_transformation.hpp"
+#include "hamjet/studies/energy_conservation.hpp"
 
 namespace hamjet::io {
 
@@ -35,5 +36,9 @@ StudyReport study_report(const Result& result);
 
 template <>
 StudyReport study_report(const CanonicalTransformationResult& result);
+/// `trajectory.csv`, `figure.svg` with the energy errors and the step size along time,
+/// `summary.json`.
+template <>
+StudyReport study_report(const EnergyConservationResult& result);
 
 }  // namespace hamjet::io

@@ -1,0 +1,85 @@
+#include "fixed_step_trajectory.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hamjet/error.hpp"
+#include "hamjet/integrators/gauss_collocation.hpp"
+#include "hamjet/integrators/stormer_verlet.hpp"
+#include "thinned_list.hpp"
+
+namespace hamjet {
+
+std::vector<Extended> extended(const std::vector<double>& state) {
+  return {state.begin(), state.end()};
+}
+
+FlowProblem<double> trajectory_problem(const DynamicalSystem& system,
+                                       const std::vector<double>& start, double duration) {
+  FlowProblem<double> problem;
+  problem.system = &system;
+  problem.space = SeriesSpace::create(1, 0);
+  problem.variables = {0};
+  problem.initial_state = start;
+  problem.duration = duration;
+  return problem;
+}
+
+EnergyError::EnergyError(const DynamicalSystem& system, const std::vector<double>& start)
+    : hamiltonian_(system.hamiltonian), initial_(value(extended(start))) {}
+
+Extended EnergyError::value(const std::vector<Extended>& state) {
+  hamiltonian_.evaluate(state);
+  return hamiltonian_.value(0);
+}
+
+double EnergyError::relative(const Extended& difference) const {
+  return static_cast<double>(initial_ == 0 ? difference : Extended(difference / abs(initial_)));
+}
+
+double EnergyError::error(const std::vector<double>& state) {
+  return relative(value(extended(state)) - initial_);
+}
+
+FixedStepTrajectory fixed_step_trajectory(const DynamicalSystem& system,
+                                          EnergyConservingMethod method,
+                                          const std::vector<double>& start, double step, double end,
+                                          const ProgressCallback& progress) {
+  constexpr double most_steps = 1e6;
+  const bool is_verlet = method == EnergyConservingMethod::stormer;
+  FixedStepTrajectory result;
+  result.method = is_verlet ? "velocity Verlet" : "midpoint rule";
+  result.step = step;
+  const double duration = std::clamp(end, -most_steps * step, most_steps * step);
+  const FlowProblem<double> problem = trajectory_problem(system, start, duration);
+  EnergyError energy(system, start);
+  ThinnedList<std::pair<double, double>> errors;
+  errors.add({0, 0});
+  std::vector<double> state(start.size());
+  const StepObserver<double> observe = [&](const double& time, const FlowJet<double>& jet) {
+    if (progress) progress("fixed-step trajectory", time / duration);
+    for (std::size_t i = 0; i < state.size(); ++i) state[i] = jet[i][0];
+    const double error = energy.error(state);
+    result.largest_energy_error = std::max(result.largest_energy_error, std::abs(error));
+    ++result.steps;
+    errors.add({time, error});
+  };
+  IntegrationStatistics statistics;
+  try {
+    if (is_verlet) {
+      integrate_velocity_verlet(problem, {.step = step}, statistics, observe);
+    } else {
+      GaussSettings settings;
+      settings.stages = 1;
+      settings.step = step;
+      integrate_gauss(problem, settings, statistics, observe);
+    }
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::numerical) throw;
+    result.failure = error.what();
+  }
+  result.energy_errors = errors.take();
+  return result;
+}
+
+}  // namespace hamjet

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace hamjet {
+
+/// Points along a trajectory of unknown length. When there are too many every second one is
+/// dropped, so that a million steps fit too; the last one always stays.
+template <class Point>
+class ThinnedList {
+ public:
+  void add(Point point) {
+    const bool is_kept = count_++ % stride_ == 0;
+    if (has_extra_last_) points_.pop_back();
+    has_extra_last_ = !is_kept;
+    points_.push_back(std::move(point));
+    if (!is_kept || points_.size() < largest_size) return;
+    for (std::size_t i = 0; 2 * i < points_.size(); ++i) points_[i] = std::move(points_[2 * i]);
+    points_.resize((points_.size() + 1) / 2);
+    stride_ *= 2;
+  }
+
+  std::vector<Point> take() { return std::move(points_); }
+
+ private:
+  static constexpr std::size_t largest_size = 20001;  // odd, so that halving keeps the last
+
+  std::vector<Point> points_;
+  long count_ = 0;
+  long stride_ = 1;
+  bool has_extra_last_ = false;
+};
+
+}  // namespace hamjet
