@@ -25,6 +25,9 @@ inline std::string_view model_name(SystemModel model) {
 /// All tables of the study "flow-jet".
 Scene read_flow_jet(const TableReader& root);
 
+/// The study "optimal-control": table `[optimal_control]`.
+Study read_optimal_control(const TableReader& root);
+
 /// Table `[system]`.
 SystemSettings read_system(const TableReader& system);
 

@@ -23,6 +23,7 @@ const std::vector<StudyReader>& studies() {
        {"schema", "title", "precision", "system", "nominal", "jet", "integrator", "formation",
         "generating_function", "reference", "relative_hamiltonian", "compare", "study"},
        read_flow_jet},
+      {"optimal-control", {"schema", "title", "study", "optimal_control"}, read_optimal_control},
   };
   return readers;
 }

@@ -3,19 +3,19 @@
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
-#include <cmath>
-#include <limits>
 #include <string_view>
 
+#include "equilibration.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/optimal_control/newton_settings.hpp"
 
 namespace hamjet {
 
-/// A Newton step and the rank of the matrix that it was solved with.
+/// A full Newton step, with the rank of the matrix that it was solved with and the matrix's scales.
 struct NewtonStep {
   Eigen::VectorXd change;
   Eigen::Index rank = 0;
+  Equilibration scale;
 };
 
 /// How an iteration ended.
@@ -25,62 +25,60 @@ struct NewtonOutcome {
 };
 
 /// Solves `residual(s)` = 0 from `s`; `step(s)` returns the full Newton step, to be added. A step
-/// is halved until the 2-norm of the residual falls; points where the residual cannot be evaluated,
-/// an Error(numerical), or is not finite count as no descent. Throws Error(numerical) that names
-/// `what`, iteration, residual and rank.
+/// is halved until the 2-norm of the equilibrated residual falls; points where the residual cannot
+/// be evaluated, an Error(numerical), or is not finite count as no descent. Throws Error(numerical)
+/// that names `what`, iteration, residual and rank.
 template <class Residual, class Step>
 NewtonOutcome damped_newton(Eigen::VectorXd& s, std::string_view what,
                             const NewtonSettings& settings, const Residual& residual,
                             const Step& step) {
   constexpr int most_halvings = 30;
-  constexpr double least_gain = 0.5;  // of a further iteration near round-off
-  const auto norm_at = [&](const Eigen::VectorXd& place, Eigen::VectorXd& values) {
-    try {
-      values = residual(place);
-    } catch (const Error& error) {
-      if (error.kind() != ErrorKind::numerical) throw;
-      return std::numeric_limits<double>::infinity();
-    }
-    return values.allFinite() ? values.norm() : std::numeric_limits<double>::infinity();
-  };
+  constexpr double least_descent = 1e-4;  // of the fraction that a linear residual would fall by
+  constexpr double least_gain = 0.5;      // of a further iteration near round-off
   Eigen::VectorXd r = residual(s);
-  double norm = r.norm();
-  if (!std::isfinite(norm)) {
+  if (!r.allFinite()) {
     throw Error(ErrorKind::numerical,
                 fmt::format("{}: the start gives a residual that is not finite", what));
   }
-  NewtonStep last;
   for (int iteration = 0;; ++iteration) {
     const double largest = r.lpNorm<Eigen::Infinity>();
     if (settings.watch) settings.watch(iteration, largest);
-    const bool is_solved = largest <= settings.tolerance * s.lpNorm<Eigen::Infinity>();
     if (largest == 0) return {iteration, largest};
-    if (iteration == settings.most_iterations && !is_solved) {
+    const NewtonStep newton = step(s);
+    const Eigen::VectorXd scaled = newton.scale.rows.cwiseProduct(r);
+    const Eigen::VectorXd scaled_unknowns = s.cwiseQuotient(newton.scale.columns);
+    const bool is_solved = scaled.lpNorm<Eigen::Infinity>() <=
+                           settings.tolerance * scaled_unknowns.lpNorm<Eigen::Infinity>();
+    if (iteration >= settings.most_iterations && !is_solved) {
       throw Error(ErrorKind::numerical,
                   fmt::format("{}: no convergence in {} iterations, residual {:.3g}, rank {} of {}",
-                              what, iteration, largest, last.rank, s.size()));
+                              what, iteration, largest, newton.rank, s.size()));
     }
-    last = step(s);
-    double damping = 1;
-    Eigen::VectorXd trial_residual;
+    const double norm = scaled.norm();
     Eigen::VectorXd trial;
-    double trial_norm = std::numeric_limits<double>::infinity();
-    for (int halvings = 0; halvings <= (is_solved ? 0 : most_halvings); ++halvings) {
-      trial = s + damping * last.change;
-      trial_norm = norm_at(trial, trial_residual);
-      if (trial_norm < (1 - 1e-4 * damping) * norm) break;
+    Eigen::VectorXd trial_residual;
+    bool is_lower = false;
+    double damping = 1;
+    for (int halvings = 0; halvings <= (is_solved ? 0 : most_halvings) && !is_lower; ++halvings) {
+      trial = s + damping * newton.change;
+      const double gain = is_solved ? least_gain : 1 - least_descent * damping;
+      try {
+        trial_residual = residual(trial);
+        is_lower = newton.scale.rows.cwiseProduct(trial_residual).norm() < gain * norm;
+      } catch (const Error& error) {
+        if (error.kind() != ErrorKind::numerical) throw;
+      }
       damping /= 2;
     }
-    if (is_solved && !(trial_norm < least_gain * norm)) return {iteration, largest};
-    if (!(trial_norm < norm)) {
+    if (!is_lower && is_solved) return {iteration, largest};
+    if (!is_lower) {
       throw Error(ErrorKind::numerical,
                   fmt::format("{}: stopped after {} iterations at a residual of {:.3g} that no "
                               "Newton step lowers, rank {} of {}",
-                              what, iteration, largest, last.rank, s.size()));
+                              what, iteration, largest, newton.rank, s.size()));
     }
     s = trial;
     r = trial_residual;
-    norm = trial_norm;
   }
 }
 

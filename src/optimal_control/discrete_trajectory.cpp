@@ -13,11 +13,13 @@ double largest_difference(const std::vector<Eigen::VectorXd>& a,
     throw Error(ErrorKind::usage, "difference of trajectories: their numbers of steps differ");
   }
   double largest = 0;
+  double scale = 0;
   for (std::size_t k = 0; k < a.size(); ++k) {
     const double here = (a[k] - b[k]).lpNorm<Eigen::Infinity>();
     if (!(here <= largest)) largest = here;  // a NaN is the largest of all
+    scale = std::max(scale, a[k].lpNorm<Eigen::Infinity>());
   }
-  return largest;
+  return scale > 0 ? largest / scale : largest;
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 #include <Eigen/Sparse>
-#include <Eigen/SparseQR>
+#include <Eigen/SparseLU>
 #include <hamjet/optimal_control/karush_kuhn_tucker.hpp>
 
 #include "damped_newton.hpp"
@@ -50,31 +50,32 @@ class AugmentedCost {
         m_(static_cast<Eigen::Index>(problem.controls)),
         steps_(static_cast<Eigen::Index>(steps)) {}
 
-  Eigen::Index unknowns() const {
-    return initial_count() + steps_ * stride() + n_ + static_cast<Eigen::Index>(final_.count());
-  }
+  /// All unknowns; the last ones are the conditions' own multipliers, zero at a solution.
+  Eigen::Index unknowns() const { return unconditioned() + conditions(); }
   Eigen::Index conditions() const { return *conditions_ ? (*conditions_)->values.size() : 0; }
 
   Eigen::VectorXd start(const DiscreteTrajectory& guess) {
-    Eigen::VectorXd s(unknowns());
+    Eigen::VectorXd s = Eigen::VectorXd::Zero(unknowns());
     s.head(initial_count()) =
         initial_.nearest_multipliers(span(guess.states.front()), -guess.costates.front());
     const double weight = costate_weight(discretization_);
+    if (*conditions_) border_ = initial_.jacobian() * (*conditions_)->directions;
     for (Eigen::Index k = 0; k < steps_; ++k) {
       const auto i = static_cast<std::size_t>(k);
       s.segment(place(k), stride()) << guess.states[i], guess.controls[i],
           guess.costates[i] + weight * (guess.costates[i + 1] - guess.costates[i]);
     }
     s.segment(place(steps_), n_) = guess.states.back();
-    s.tail(static_cast<Eigen::Index>(final_.count())) =
+    s.segment(place(steps_) + n_, final_count()) =
         final_.nearest_multipliers(span(guess.states.back()), guess.costates.back());
     return s;
   }
 
-  /// Gradient, and the conditions on p_0 = -D phi_0^T lambda_0; the Hessian too if it is wanted.
+  /// The gradient, bordered by the conditions on p_0 = -D phi_0^T lambda_0; the bordered Hessian
+  /// too if it is wanted.
   Eigen::VectorXd gradient_at(const Eigen::VectorXd& s,
                               std::vector<Eigen::Triplet<double>>* hessian) {
-    Eigen::VectorXd r = Eigen::VectorXd::Zero(unknowns() + conditions());
+    Eigen::VectorXd r = Eigen::VectorXd::Zero(unknowns());
     add_end(s, initial_, place(0), 0, r, hessian);
     add_end(s, final_, place(steps_), place(steps_) + n_, r, hessian);
     const Eigen::Index size = stride() + n_;
@@ -96,7 +97,7 @@ class AugmentedCost {
   DiscreteTrajectory trajectory(const Eigen::VectorXd& s) {
     DiscreteTrajectory result;
     result.initial_multipliers = s.head(initial_count());
-    result.final_multipliers = s.tail(static_cast<Eigen::Index>(final_.count()));
+    result.final_multipliers = s.segment(place(steps_) + n_, final_count());
     const Eigen::VectorXd first = s.segment(place(0), n_);
     initial_.evaluate(span(first), span(result.initial_multipliers));
     result.costates.emplace_back(-initial_.covector());
@@ -113,6 +114,8 @@ class AugmentedCost {
 
  private:
   Eigen::Index initial_count() const { return static_cast<Eigen::Index>(initial_.count()); }
+  Eigen::Index final_count() const { return static_cast<Eigen::Index>(final_.count()); }
+  Eigen::Index unconditioned() const { return place(steps_) + n_ + final_count(); }
   Eigen::Index stride() const { return 2 * n_ + m_; }
   Eigen::Index place(Eigen::Index k) const { return initial_count() + k * stride(); }
 
@@ -137,24 +140,27 @@ class AugmentedCost {
     }
   }
 
+  /// <direction, -D phi_0^T lambda_0> - value = 0, and the border that makes the equations square:
+  /// a further multiplier of each condition, which enters the equations of phi_0.
   void add_conditions(const Eigen::VectorXd& s, Eigen::VectorXd& r,
                       std::vector<Eigen::Triplet<double>>* derivatives) {
-    const CostateConditions& conditions = **conditions_;
+    const CostateConditions& given = **conditions_;
     const Eigen::VectorXd first = s.segment(place(0), n_);
     const Eigen::VectorXd multipliers = s.head(initial_count());
     initial_.evaluate(span(first), span(multipliers));
-    r.tail(this->conditions()) =
-        -conditions.directions.transpose() * initial_.covector() - conditions.values;
-    if (derivatives == nullptr) return;
-    const Eigen::MatrixXd by_state = -conditions.directions.transpose() * initial_.covector_slope();
+    r.tail(conditions()) = -given.directions.transpose() * initial_.covector() - given.values;
+    const Eigen::MatrixXd by_state = -given.directions.transpose() * initial_.covector_slope();
     const Eigen::MatrixXd by_multiplier =
-        -conditions.directions.transpose() * initial_.jacobian().transpose();
-    for (Eigen::Index i = 0; i < this->conditions(); ++i) {
+        -given.directions.transpose() * initial_.jacobian().transpose();
+    r.head(initial_count()) += border_ * s.tail(conditions());
+    if (derivatives == nullptr) return;
+    for (Eigen::Index i = 0; i < conditions(); ++i) {
       for (Eigen::Index j = 0; j < n_; ++j) {
-        derivatives->emplace_back(unknowns() + i, place(0) + j, by_state(i, j));
+        derivatives->emplace_back(unconditioned() + i, place(0) + j, by_state(i, j));
       }
       for (Eigen::Index j = 0; j < initial_count(); ++j) {
-        derivatives->emplace_back(unknowns() + i, j, by_multiplier(i, j));
+        derivatives->emplace_back(unconditioned() + i, j, by_multiplier(i, j));
+        derivatives->emplace_back(j, unconditioned() + i, border_(j, i));
       }
     }
   }
@@ -163,27 +169,30 @@ class AugmentedCost {
   EndConditions initial_;
   EndConditions final_;
   const std::optional<CostateConditions>* conditions_;
+  Eigen::MatrixXd border_;  ///< initial conditions x costate conditions; set by start()
   Discretization discretization_;
   Eigen::Index n_;
   Eigen::Index m_;
   Eigen::Index steps_;
 };
 
-NewtonStep sparse_step(AugmentedCost& cost, const Eigen::VectorXd& s, double rank_threshold) {
+NewtonStep sparse_step(AugmentedCost& cost, const Eigen::VectorXd& s) {
   std::vector<Eigen::Triplet<double>> entries;
   const Eigen::VectorXd r = cost.gradient_at(s, &entries);
   Eigen::SparseMatrix<double> matrix(r.size(), s.size());
   matrix.setFromTriplets(entries.begin(), entries.end());
+  const Equilibration scale = equilibrate(matrix);
+  matrix = scale.rows.asDiagonal() * matrix * scale.columns.asDiagonal();
   matrix.makeCompressed();
-  double largest_column = 0;
-  for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
-    largest_column = std::max(largest_column, matrix.col(j).norm());
+  Eigen::SparseLU<Eigen::SparseMatrix<double>, Eigen::COLAMDOrdering<int>> decomposition(matrix);
+  if (decomposition.info() != Eigen::Success) {
+    throw Error(ErrorKind::numerical,
+                fmt::format("discretise then optimise: the {} equations are singular; if their "
+                            "solutions form a family, conditions on the initial costate pick one",
+                            s.size()));
   }
-  Eigen::SparseQR<Eigen::SparseMatrix<double>, Eigen::COLAMDOrdering<int>> decomposition;
-  decomposition.setPivotThreshold(rank_threshold * largest_column);
-  decomposition.compute(matrix);
-  const Eigen::VectorXd solution = decomposition.solve(r);
-  return {-solution, decomposition.rank()};
+  const Eigen::VectorXd change = decomposition.solve(scale.rows.cwiseProduct(r));
+  return {-scale.columns.cwiseProduct(change), s.size(), scale};
 }
 
 }  // namespace
@@ -203,9 +212,7 @@ KarushKuhnTuckerSolution solve_karush_kuhn_tucker(
   const NewtonOutcome outcome = damped_newton(
       s, "discretise then optimise", settings,
       [&](const Eigen::VectorXd& place) { return cost.gradient_at(place, nullptr); },
-      [&](const Eigen::VectorXd& place) {
-        return sparse_step(cost, place, settings.rank_threshold);
-      });
+      [&](const Eigen::VectorXd& place) { return sparse_step(cost, place); });
   return {cost.trajectory(s), outcome.iterations, outcome.residual};
 }
 

@@ -178,12 +178,6 @@ ShootingSolution solve_by_shooting(AdvanceMap& map, const OptimalControlProblem&
                                    const ShootingSettings& settings) {
   check(map, problem, settings);
   ShootingEquations equations(map, problem, settings);
-  const auto decompose = [&](const Eigen::MatrixXd& matrix) {
-    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
-    decomposition.setThreshold(settings.newton.rank_threshold);
-    decomposition.compute(matrix);
-    return decomposition;
-  };
   Eigen::VectorXd s = equations.start();
   const NewtonOutcome outcome = damped_newton(
       s, "shooting", settings.newton,
@@ -191,8 +185,13 @@ ShootingSolution solve_by_shooting(AdvanceMap& map, const OptimalControlProblem&
       [&](const Eigen::VectorXd& place) {
         // A step that was tried and refused has moved the equations elsewhere.
         const Eigen::VectorXd r = equations.residual(place);
-        const auto decomposition = decompose(equations.matrix());
-        return NewtonStep{-decomposition.solve(r), decomposition.rank()};
+        const Eigen::MatrixXd matrix = equations.matrix();
+        const Equilibration scale = equilibrate(matrix);
+        Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
+        decomposition.setThreshold(settings.newton.rank_threshold);
+        decomposition.compute(scale.rows.asDiagonal() * matrix * scale.columns.asDiagonal());
+        const Eigen::VectorXd change = decomposition.solve(scale.rows.cwiseProduct(r));
+        return NewtonStep{-scale.columns.cwiseProduct(change), decomposition.rank(), scale};
       });
   equations.residual(s);
   ShootingSolution solution = equations.solution(s);
@@ -201,16 +200,21 @@ ShootingSolution solve_by_shooting(AdvanceMap& map, const OptimalControlProblem&
   solution.unknowns = equations.unknowns();
   const auto n = static_cast<Eigen::Index>(problem.states);
   const Eigen::MatrixXd matrix = equations.matrix().topRows(solution.unknowns);
-  const auto singular = matrix.bdcSvd(Eigen::ComputeFullV);
+  const Equilibration scale = equilibrate(matrix);
+  const auto singular = (scale.rows.asDiagonal() * matrix * scale.columns.asDiagonal())
+                            .eval()
+                            .bdcSvd(Eigen::ComputeFullV);
   solution.rank = (singular.singularValues().array() >
                    settings.newton.rank_threshold * singular.singularValues()(0))
                       .count();
-  const Eigen::MatrixXd family =
-      singular.matrixV().rightCols(solution.unknowns - solution.rank).middleRows(n, n);
+  const Eigen::MatrixXd null_space =
+      scale.columns.asDiagonal() * singular.matrixV().rightCols(solution.unknowns - solution.rank);
+  const Eigen::MatrixXd family = null_space.middleRows(n, n);
   if (family.cols() == 0) return solution;
   const auto directions = family.bdcSvd(Eigen::ComputeThinU);
   solution.family = directions.matrixU().leftCols(
-      (directions.singularValues().array() > settings.newton.rank_threshold).count());
+      (directions.singularValues().array() > settings.newton.rank_threshold * null_space.norm())
+          .count());
   return solution;
 }
 

@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "hamjet/studies/optimal_control_study.hpp"
 #include "hamjet/studies/scene.hpp"
 
 namespace hamjet::io {
@@ -37,7 +38,7 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<Override>&
 
 /// What `hamjet run` is asked for: the key `study` of the scene. "flow-jet", which may be left out,
 /// is a Scene; the others are systems of the paper that have no flow jet.
-using Study = std::variant<Scene>;
+using Study = std::variant<Scene, OptimalControlStudy>;
 
 /// Reads a scene of any study; otherwise as read_scene, which throws Error(scene) for any but
 /// "flow-jet".

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "hamjet/studies/optimal_control_study.hpp"
+
 namespace hamjet::io {
 
 /// A file of a study's results before it is written.
@@ -30,5 +32,10 @@ struct StudyReport {
 /// it the tables are complete all the same.
 template <class Result>
 StudyReport study_report(const Result& result);
+
+/// `trajectory.csv` and `convergence.csv`; the trajectory, its controls and the cost's error
+/// against the step as a figure.
+template <>
+StudyReport study_report(const OptimalControlResult& result);
 
 }  // namespace hamjet::io
