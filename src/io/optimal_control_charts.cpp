@@ -15,6 +15,7 @@ Chart trajectory_chart(const OptimalControlResult& result) {
   Chart chart;
   chart.name = "trajectory";
   chart.title = fmt::format("Trajectory in the plane of {} and {}", names[0], names[1]);
+  chart.is_isometric = result.study.model == ControlModel::heisenberg;  // both are lengths
   chart.x.label = names[0];
   chart.y.label = names[1];
   chart.x.margin = chart.y.margin = 0.05;
@@ -69,17 +70,16 @@ Chart cost_chart(const OptimalControlResult& result) {
   chart.name = "cost";
   chart.title = "Error of the cost against the step";
   chart.x.label = "step";
-  chart.y.label = "relative error of the cost";
+  chart.y.label = "cost: relative error from the closed form";
   chart.x.is_logarithmic = chart.y.is_logarithmic = true;
   chart.x.unit = chart.y.unit = AxisUnit::power;
   chart.x.margin = chart.y.margin = 0.05;
   chart.y.smallest = 1e-17;
   ChartCurve continuous;
   continuous.title =
-      result.fit ? fmt::format("from the continuous closed form: order {:.2f}", result.fit->order)
-                 : "from the continuous closed form";
+      result.fit ? fmt::format("continuous: order {:.2f}", result.fit->order) : "continuous";
   ChartCurve discrete;
-  discrete.title = "from the discrete closed form";
+  discrete.title = "with the same steps";
   discrete.style = 1;
   discrete.has_line = false;
   for (const ControlConvergencePoint& point : result.convergence) {

@@ -19,7 +19,9 @@ void add_figure(StudyReport& report, std::vector<Chart> charts) {
     std::string reason;
     const std::string drawing = drawer.draw(chart, Drawing::wide_svg, reason);
     if (drawer.problem()) break;
-    body += fmt::format("<g transform=\"translate(0,{})\">\n{}</g>\n", count++ * height,
+    // A drawing has no size of its own: without this frame it would take that of the whole figure.
+    body += fmt::format("<svg y=\"{}\" width=\"{}\" height=\"{}\">\n{}</svg>\n",
+                        count++ * height, width, height,
                         inline_svg(drawing, chart.name + "-", chart.title));
   }
   report.drawing_problem = drawer.problem();
