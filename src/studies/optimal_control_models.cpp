@@ -76,7 +76,7 @@ std::optional<ClosedFormCost> closed_form_cost(const OptimalControlStudy& study,
 
 std::vector<double> guessed_costate(const OptimalControlStudy& study) {
   if (study.model == ControlModel::double_integrator) return {0, 0};
-  constexpr double turn = 4;  // radians; the controls turn at the rate 2 p_z
+  constexpr double turn = 6;  // radians; the controls turn at the rate 2 p_z
   const std::vector<double>& start = study.start;
   const double dx = study.end[0].value_or(start[0]) - start[0];
   const double dy = study.end[1].value_or(start[1]) - start[1];

@@ -53,7 +53,7 @@ OptimalControlProblem make_problem(const OptimalControlStudy& study);
 std::optional<ClosedFormCost> closed_form_cost(const OptimalControlStudy& study, std::size_t steps);
 
 /// A first costate of the right order of magnitude: for the Heisenberg problem, of a straight
-/// motion and a speed that can enclose what the change of z asks for, turning by 4 radians in all;
+/// motion and a speed that can enclose what the change of z asks for, turning by 6 radians in all;
 /// zero for the double integrator, which is linear.
 std::vector<double> guessed_costate(const OptimalControlStudy& study);
 
