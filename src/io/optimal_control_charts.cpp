@@ -8,7 +8,12 @@ namespace hamjet::io {
 namespace {
 
 /// Markers show the steps only while they can be told apart.
-int marker_interval(std::size_t points) { return std::max(1, static_cast<int>(points / 40)); }
+int marker_interval(const ChartCurve& curve) {
+  return std::max(1, static_cast<int>(curve.points.size() / 40));
+}
+
+/// Every how many of the steps is drawn: more points than that cannot be told apart.
+std::size_t drawn_interval(std::size_t steps) { return std::max<std::size_t>(1, steps / 2000); }
 
 Chart trajectory_chart(const OptimalControlResult& result) {
   const auto& names = state_names(result.study.model);
@@ -21,17 +26,17 @@ Chart trajectory_chart(const OptimalControlResult& result) {
   chart.x.margin = chart.y.margin = 0.05;
   ChartCurve curve;
   curve.title = fmt::format("{} steps", result.study.steps);
-  curve.marker_interval = marker_interval(result.solution.trajectory.states.size());
-  for (const Eigen::VectorXd& x : result.solution.trajectory.states) {
-    curve.points.emplace_back(x(0), x(1));
+  const auto& states = result.solution.trajectory.states;
+  for (std::size_t k = 0; k < states.size(); k += drawn_interval(states.size())) {
+    curve.points.emplace_back(states[k](0), states[k](1));
   }
+  curve.marker_interval = marker_interval(curve);
   chart.curves.push_back(curve);
   for (const bool is_end : {false, true}) {
     ChartCurve place;
     place.title = is_end ? "end" : "start";
     place.style = is_end ? 2 : 1;
     place.has_line = false;
-    const auto& states = result.solution.trajectory.states;
     const Eigen::VectorXd& x = is_end ? states.back() : states.front();
     place.is_filled = is_end;
     place.points.emplace_back(x(0), x(1));
@@ -55,11 +60,11 @@ Chart control_chart(const OptimalControlResult& result) {
     ChartCurve curve;
     curve.title = control_count(study.model) > 1 ? fmt::format("u_{}", j + 1) : "u";
     curve.style = j;
-    curve.marker_interval = marker_interval(controls.size());
-    for (std::size_t k = 0; k < controls.size(); ++k) {
+    for (std::size_t k = 0; k < controls.size(); k += drawn_interval(controls.size())) {
       const double time = (static_cast<double>(k) + state_weight(study.discretization)) * step;
       curve.points.emplace_back(time, controls[k](static_cast<Eigen::Index>(j)));
     }
+    curve.marker_interval = marker_interval(curve);
     chart.curves.push_back(curve);
   }
   return chart;

@@ -54,7 +54,7 @@ NewtonOutcome damped_newton(Eigen::VectorXd& s, std::string_view what,
                   fmt::format("{}: no convergence in {} iterations, residual {:.3g}, rank {} of {}",
                               what, iteration, largest, newton.rank, s.size()));
     }
-    const double norm = scaled.norm();
+    const double norm = scaled.stableNorm();
     Eigen::VectorXd trial;
     Eigen::VectorXd trial_residual;
     bool is_lower = false;
@@ -64,7 +64,7 @@ NewtonOutcome damped_newton(Eigen::VectorXd& s, std::string_view what,
       const double gain = is_solved ? least_gain : 1 - least_descent * damping;
       try {
         trial_residual = residual(trial);
-        is_lower = newton.scale.rows.cwiseProduct(trial_residual).norm() < gain * norm;
+        is_lower = newton.scale.rows.cwiseProduct(trial_residual).stableNorm() < gain * norm;
       } catch (const Error& error) {
         if (error.kind() != ErrorKind::numerical) throw;
       }

@@ -24,6 +24,10 @@ void check(const AdvanceMap& map, const OptimalControlProblem& problem,
           fmt::format("wrong size of the first state or costate, must be {}", n));
   require(settings.control_guess.size() == m,
           fmt::format("wrong size of the first control, must be {}", m));
+  for (const Eigen::VectorXd* sizes : {&settings.typical_state, &settings.typical_costate}) {
+    require(sizes->size() == 0 || (sizes->size() == n && sizes->minCoeff() > 0),
+            fmt::format("wrong typical sizes, must be {} positive numbers", n));
+  }
   if (settings.conditions) {
     require(settings.conditions->directions.rows() == n &&
                 settings.conditions->directions.cols() == settings.conditions->values.size(),
@@ -65,10 +69,14 @@ class ShootingEquations {
     }
     s.segment(2 * n_ * intervals_, initial_count()) =
         initial_.nearest_multipliers(span(settings_->state_guess), -settings_->costate_guess);
+    set_scale(span(settings_->state_guess), span(arc.points.back().head(n_).eval()));
     const Eigen::VectorXd end = arc.points.back();
     s.tail(final_count()) = final_.nearest_multipliers(span(end.head(n_).eval()), end.tail(n_));
     return s;
   }
+
+  /// Factors from the typical sizes: of the equations, and of the unknowns. Set by start().
+  const Equilibration& scale() const { return scale_; }
 
   Eigen::VectorXd residual(const Eigen::VectorXd& s) {
     evaluate(s);
@@ -148,6 +156,37 @@ class ShootingEquations {
     return arcs_[static_cast<std::size_t>(j)].jacobian;
   }
 
+  /// The typical size of each end condition is what typical states make of it at the guess, and
+  /// that of its multiplier such that their product is a state's with its costate.
+  void set_scale(std::span<const double> first, std::span<const double> last) {
+    const auto given = [&](const Eigen::VectorXd& sizes) {
+      return sizes.size() > 0 ? sizes : Eigen::VectorXd::Ones(n_).eval();
+    };
+    const Eigen::VectorXd x = given(settings_->typical_state);
+    const Eigen::VectorXd p = given(settings_->typical_costate);
+    const auto condition_sizes = [&](EndConditions& end, std::span<const double> place) {
+      end.evaluate(place, std::vector<double>(end.count(), 0));
+      return (end.jacobian().cwiseAbs() * x)
+          .unaryExpr([](double size) { return size > 0 ? size : 1; })
+          .eval();
+    };
+    const Eigen::VectorXd phi_0 = condition_sizes(initial_, first);
+    const Eigen::VectorXd phi_n = condition_sizes(final_, last);
+    scale_.columns.resize(unknowns());
+    scale_.rows.resize(unknowns() + conditions());
+    Eigen::VectorXd point(2 * n_);
+    point << x, p;
+    const double product = x(0) * p(0);
+    scale_.columns << point.replicate(intervals_, 1), product * phi_0.cwiseInverse(),
+        product * phi_n.cwiseInverse();
+    const Eigen::VectorXd sizes =
+        settings_->conditions
+            ? (settings_->conditions->directions.cwiseAbs().transpose() * p).eval()
+            : Eigen::VectorXd();
+    scale_.rows << phi_0, p, point.replicate(intervals_ - 1, 1), phi_n, p, sizes;
+    scale_.rows = scale_.rows.cwiseInverse().eval();
+  }
+
   void evaluate(const Eigen::VectorXd& s) {
     for (Eigen::Index j = 0; j < intervals_; ++j) {
       Arc& arc = arcs_[static_cast<std::size_t>(j)];
@@ -170,6 +209,7 @@ class ShootingEquations {
   Eigen::Index n_;
   Eigen::Index intervals_;
   std::vector<Arc> arcs_;
+  Equilibration scale_;
 };
 
 }  // namespace
@@ -186,7 +226,7 @@ ShootingSolution solve_by_shooting(AdvanceMap& map, const OptimalControlProblem&
         // A step that was tried and refused has moved the equations elsewhere.
         const Eigen::VectorXd r = equations.residual(place);
         const Eigen::MatrixXd matrix = equations.matrix();
-        const Equilibration scale = equilibrate(matrix);
+        const Equilibration& scale = equations.scale();
         Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
         decomposition.setThreshold(settings.newton.rank_threshold);
         decomposition.compute(scale.rows.asDiagonal() * matrix * scale.columns.asDiagonal());
@@ -200,10 +240,11 @@ ShootingSolution solve_by_shooting(AdvanceMap& map, const OptimalControlProblem&
   solution.unknowns = equations.unknowns();
   const auto n = static_cast<Eigen::Index>(problem.states);
   const Eigen::MatrixXd matrix = equations.matrix().topRows(solution.unknowns);
-  const Equilibration scale = equilibrate(matrix);
-  const auto singular = (scale.rows.asDiagonal() * matrix * scale.columns.asDiagonal())
-                            .eval()
-                            .bdcSvd(Eigen::ComputeFullV);
+  const Equilibration& scale = equations.scale();
+  const auto singular =
+      (scale.rows.head(solution.unknowns).asDiagonal() * matrix * scale.columns.asDiagonal())
+          .eval()
+          .bdcSvd(Eigen::ComputeFullV);
   solution.rank = (singular.singularValues().array() >
                    settings.newton.rank_threshold * singular.singularValues()(0))
                       .count();

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <hamjet/studies/optimal_control_study.hpp>
@@ -24,6 +25,22 @@ void require_size(std::string_view what, std::size_t found, std::size_t right) {
   throw Error(ErrorKind::usage, fmt::format("optimal control: wrong size of the {}, got {}, must "
                                             "be {}",
                                             what, found, right));
+}
+
+/// What the end of a Heisenberg problem asks for, seen from its start: a as in heisenberg_cost;
+/// free components do not change.
+struct HeisenbergChange {
+  double dx;
+  double dy;
+  double a;
+};
+
+HeisenbergChange heisenberg_change(const OptimalControlStudy& study) {
+  const std::vector<double>& start = study.start;
+  const double dx = study.end[0].value_or(start[0]) - start[0];
+  const double dy = study.end[1].value_or(start[1]) - start[1];
+  const double a = study.end[2] ? *study.end[2] - start[2] - start[1] * dx + start[0] * dy : 0;
+  return {dx, dy, a};
 }
 
 }  // namespace
@@ -76,15 +93,34 @@ std::optional<ClosedFormCost> closed_form_cost(const OptimalControlStudy& study,
 
 std::vector<double> guessed_costate(const OptimalControlStudy& study) {
   if (study.model == ControlModel::double_integrator) return {0, 0};
-  constexpr double turn = 6;  // radians; the controls turn at the rate 2 p_z
-  const std::vector<double>& start = study.start;
-  const double dx = study.end[0].value_or(start[0]) - start[0];
-  const double dy = study.end[1].value_or(start[1]) - start[1];
-  const double a = study.end[2] ? *study.end[2] - start[2] - start[1] * dx + start[0] * dy : 0;
-  const double pz = a == 0 ? 0 : -std::copysign(turn / (2 * study.duration), a);
-  const double u1 = (dx + std::sqrt(std::abs(a))) / study.duration;
-  const double u2 = dy / study.duration;
-  return {-u1 - pz * start[1], -u2 + pz * start[0], pz};
+  constexpr double full_turn = 6;  // radians; the controls turn at the rate 2 p_z
+  const HeisenbergChange change = heisenberg_change(study);
+  const double size = std::sqrt(std::abs(change.a));
+  const double chord = std::hypot(change.dx, change.dy);
+  const double share = change.a == 0 ? 0 : 1 / (1 + (chord / size) * (chord / size));
+  const double turn = -std::copysign(full_turn * share, change.a);
+  const double direction = std::atan2(change.dy, change.dx) - turn / 2;
+  const double speed = (chord + size) / study.duration;
+  const double pz = turn / (2 * study.duration);
+  // u_1 = -(p_x + p_z y), u_2 = -(p_y - p_z x)
+  return {-speed * std::cos(direction) - pz * study.start[1],
+          -speed * std::sin(direction) + pz * study.start[0], pz};
+}
+
+std::vector<double> typical_sizes(const OptimalControlStudy& study) {
+  const double t = study.duration;
+  const auto positive = [](double size) { return size > 0 ? size : 1; };
+  if (study.model == ControlModel::heisenberg) {
+    const HeisenbergChange change = heisenberg_change(study);
+    const double length =
+        positive(std::max(std::hypot(change.dx, change.dy), std::sqrt(std::abs(change.a))));
+    return {length, length, length * length, length / t, length / t, 1 / t};
+  }
+  const auto change = [&](std::size_t i) {
+    return std::max(std::abs(study.start[i]), std::abs(study.end[i].value_or(study.start[i])));
+  };
+  const double length = positive(std::max(change(0), t * change(1)));
+  return {length, length / t, length / (t * t * t), length / (t * t)};
 }
 
 }  // namespace hamjet

@@ -73,6 +73,9 @@ class StepNumber {
     shooting_.steps = steps;
     shooting_.intervals = std::min(study.shooting_intervals, steps);
     shooting_.state_guess = vector_of(study.start);
+    const Eigen::VectorXd sizes = vector_of(typical_sizes(study));
+    shooting_.typical_state = sizes.head(sizes.size() / 2);
+    shooting_.typical_costate = sizes.tail(sizes.size() / 2);
     shooting_.control_guess =
         Eigen::VectorXd::Zero(static_cast<Eigen::Index>(control_count(study.model)));
     shooting_.newton.watch = [watch = std::move(watch)](int, double) { watch(); };

@@ -85,9 +85,11 @@ inline Solved solve_loop(Discretization form, double lift, double duration, std:
                          std::size_t intervals = 1) {
   const auto problem = heisenberg({0, 0, 0}, {0, 0, lift});
   const double size = std::sqrt(std::abs(lift)) / duration;
-  return solve(problem, form, duration,
-               shooting(problem, steps, intervals, {0, 0, 0},
-                        {-size, 0, -std::copysign(3 / duration, lift)}));
+  ShootingSettings settings = shooting(problem, steps, intervals, {0, 0, 0},
+                                       {-size, 0, -std::copysign(3 / duration, lift)});
+  settings.typical_state = vector_of({size * duration, size * duration, std::abs(lift)});
+  settings.typical_costate = vector_of({size, size, 1 / duration});
+  return solve(problem, form, duration, settings);
 }
 
 }  // namespace hamjet::test

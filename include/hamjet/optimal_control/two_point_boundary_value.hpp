@@ -16,6 +16,10 @@ struct ShootingSettings {
   Eigen::VectorXd state_guess;    ///< n
   Eigen::VectorXd costate_guess;  ///< n
   Eigen::VectorXd control_guess;  ///< m
+  /// Typical sizes, positive, n each, that residuals and ranks are measured by; empty: 1. Sizes
+  /// with one product of state and costate, the cost's, make a solution independent of the units.
+  Eigen::VectorXd typical_state = {};
+  Eigen::VectorXd typical_costate = {};
   NewtonSettings newton;
   std::optional<CostateConditions> conditions;
 };

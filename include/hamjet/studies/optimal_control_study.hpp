@@ -52,10 +52,14 @@ OptimalControlProblem make_problem(const OptimalControlStudy& study);
 /// The least cost over this number of steps; none where it is not elementary.
 std::optional<ClosedFormCost> closed_form_cost(const OptimalControlStudy& study, std::size_t steps);
 
-/// A first costate of the right order of magnitude: for the Heisenberg problem, of a straight
-/// motion and a speed that can enclose what the change of z asks for, turning by 6 radians in all;
-/// zero for the double integrator, which is linear.
+/// A first costate of the right order of magnitude: for the Heisenberg problem, of an arc that
+/// turns by 6 radians where nothing but z is to change, and by less where (x, y) is; zero for the
+/// double integrator, which is linear.
 std::vector<double> guessed_costate(const OptimalControlStudy& study);
+
+/// Typical sizes of states and costates, 2n, from what start, end and duration ask for: all that is
+/// computed is then the same in other units.
+std::vector<double> typical_sizes(const OptimalControlStudy& study);
 
 /// The cost at one number of steps.
 struct ControlConvergencePoint {
