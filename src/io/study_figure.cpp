@@ -20,9 +20,8 @@ void add_figure(StudyReport& report, std::vector<Chart> charts) {
     const std::string drawing = drawer.draw(chart, Drawing::wide_svg, reason);
     if (drawer.problem()) break;
     // A drawing has no size of its own: without this frame it would take that of the whole figure.
-    body += fmt::format("<svg y=\"{}\" width=\"{}\" height=\"{}\">\n{}</svg>\n",
-                        count++ * height, width, height,
-                        inline_svg(drawing, chart.name + "-", chart.title));
+    body += fmt::format("<svg y=\"{}\" width=\"{}\" height=\"{}\">\n{}</svg>\n", count++ * height,
+                        width, height, inline_svg(drawing, chart.name + "-", chart.title));
   }
   report.drawing_problem = drawer.problem();
   if (report.drawing_problem || count == 0) return;
