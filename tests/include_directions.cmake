@@ -1,5 +1,5 @@
 # Fails if a file includes a header of a layer above its own. Layers from the bottom:
-set(layers algebra dynamics integrators maps studies io cli)
+set(layers algebra dynamics integrators maps optimal_control studies io cli)
 
 file(GLOB_RECURSE files ${SOURCE_DIR}/include/hamjet/*.hpp ${SOURCE_DIR}/src/*.hpp
   ${SOURCE_DIR}/src/*.cpp)
@@ -12,9 +12,9 @@ foreach(file ${files})
   if(own EQUAL -1)
     continue()
   endif()
-  file(STRINGS ${file} includes REGEX "#include [<\"]hamjet/[a-z]+/")
+  file(STRINGS ${file} includes REGEX "#include [<\"]hamjet/[a-z_]+/")
   foreach(line ${includes})
-    string(REGEX REPLACE ".*hamjet/([a-z]+)/.*" "\\1" other ${line})
+    string(REGEX REPLACE ".*hamjet/([a-z_]+)/.*" "\\1" other ${line})
     list(FIND layers ${other} theirs)
     math(EXPR checked "${checked} + 1")
     if(theirs GREATER own)

@@ -55,6 +55,7 @@ struct Chart {
   std::string reading;             ///< how to read it, a paragraph of plain text
   std::vector<std::string> notes;  ///< what is not drawn, or not where it belongs
   std::string missing;             ///< why there is nothing to draw, where there is nothing
+  bool is_isometric = false;       ///< a unit is as long along x as along y
   ChartAxis x;
   ChartAxis y;
   std::vector<ChartCurve> curves;

@@ -182,6 +182,7 @@ std::string gnuplot_script(const Chart& chart, Drawing drawing) {
   } else {
     script += "set key outside right top vertical Left reverse samplen 3 spacing 1.2\n";
   }
+  if (chart.is_isometric) script += "set size ratio -1\n";
   if (layout.is_narrow) script += "set rmargin 3\n";
   script += axis_commands("x", chart.x, layout.is_narrow ? 5 : 9) +
             axis_commands("y", chart.y, layout.is_narrow ? 8 : 10) + decorations(chart);

@@ -33,6 +33,8 @@ Scene read_flow_jet(const TableReader& root);
 
 /// All tables of the study "canonical-transformation". Throws Error(too_large) for too many steps.
 CanonicalTransformationStudy read_canonical_transformation(const TableReader& root);
+/// The study "optimal-control": table `[optimal_control]`.
+Study read_optimal_control(const TableReader& root);
 
 /// Table `[system]`.
 SystemSettings read_system(const TableReader& system);
@@ -102,6 +104,7 @@ ComparisonSettings read_compare(const TableReader& table, int order, double dura
 
 /// Table `[figure]`, checked against what `scene` already holds.
 FigureQuantity read_figure(const TableReader& figure, const Scene& scene);
+
 /// Why the energy-conserving methods integrate no flow jet, for messages.
 inline constexpr std::string_view no_energy_conserving_jet =
     "the map of an energy-conserving method at a fixed physical time is not symplectic, because "

@@ -30,6 +30,7 @@ const std::vector<StudyReader>& studies() {
        {"schema", "title", "system", "nominal", "energy_conservation", "study", "jet",
         "integrator"},
        read_energy_conservation},
+      {"optimal-control", {"schema", "title", "study", "optimal_control"}, read_optimal_control},
   };
   return readers;
 }

@@ -8,6 +8,7 @@
 
 #include "hamjet/studies/canonical_transformation.hpp"
 #include "hamjet/studies/energy_conservation.hpp"
+#include "hamjet/studies/optimal_control_study.hpp"
 #include "hamjet/studies/scene.hpp"
 
 namespace hamjet::io {
@@ -39,8 +40,8 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<Override>&
 
 /// What `hamjet run` is asked for: the key `study` of the scene. "flow-jet", which may be left out,
 /// is a Scene; the others are systems of the paper that have no flow jet.
-using Study = std::variant<Scene, CanonicalTransformationStudy>;
-using Study = std::variant<Scene, EnergyConservationStudy>;
+using Study =
+    std::variant<Scene, EnergyConservationStudy, CanonicalTransformationStudy, OptimalControlStudy>;
 
 /// Reads a scene of any study; otherwise as read_scene, which throws Error(scene) for any but
 /// "flow-jet".

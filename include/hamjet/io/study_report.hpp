@@ -7,6 +7,7 @@
 
 #include "hamjet/studies/canonical_transformation.hpp"
 #include "hamjet/studies/energy_conservation.hpp"
+#include "hamjet/studies/optimal_control_study.hpp"
 
 namespace hamjet::io {
 
@@ -34,11 +35,19 @@ struct StudyReport {
 template <class Result>
 StudyReport study_report(const Result& result);
 
+/// A trajectory for each step size, `figure.svg` with the phase planes and the energy errors,
+/// `summary.json`.
 template <>
 StudyReport study_report(const CanonicalTransformationResult& result);
+
 /// `trajectory.csv`, `figure.svg` with the energy errors and the step size along time,
 /// `summary.json`.
 template <>
 StudyReport study_report(const EnergyConservationResult& result);
+
+/// `trajectory.csv` and `convergence.csv`; the trajectory, its controls and the cost's error
+/// against the step as a figure.
+template <>
+StudyReport study_report(const OptimalControlResult& result);
 
 }  // namespace hamjet::io

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "hamjet/optimal_control/advance_map.hpp"
+#include "hamjet/optimal_control/discrete_trajectory.hpp"
+
+namespace hamjet {
+
+/// A run of an advance map over several steps, and the Jacobian of all of them.
+struct Arc {
+  std::vector<Eigen::VectorXd> points;     ///< (x, p) at the start and after each step
+  std::vector<Eigen::VectorXd> controls;   ///< of each step
+  std::vector<Eigen::MatrixXd> jacobians;  ///< of each step
+  Eigen::MatrixXd jacobian;                ///< of all, 2n x 2n
+};
+
+/// Advances (x, p) by `steps` steps; `control_guess`, m numbers, is for the first one. Throws
+/// Error(numerical) if a step cannot be solved.
+Arc propagate_arc(AdvanceMap& map, const Eigen::VectorXd& point,
+                  const Eigen::VectorXd& control_guess, std::size_t steps);
+
+/// Splits the arc's points; the multipliers are left empty.
+DiscreteTrajectory trajectory_of(const Arc& arc);
+
+}  // namespace hamjet

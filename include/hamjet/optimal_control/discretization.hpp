@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+namespace hamjet {
+
+/// The discrete geometry of the maximum principle: where in a step from k to k+1 the state x^d and
+/// the costate p^d are taken, the derivative being (x_(k+1) - x_k) / tau in both.
+enum class Discretization {
+  stormer,   ///< (x^d, p^d, u^d) = (x_k, p_(k+1), u_k)
+  midpoint,  ///< the means of both ends; u^d is the unknown, for u_k and u_(k+1) do not occur alone
+};
+
+/// The names in scenes, in the order of the enumeration.
+const std::vector<std::string_view>& discretization_names();
+
+/// What x^d is made of: x^d = x_k + weight (x_(k+1) - x_k), weight 0 or 1/2.
+double state_weight(Discretization discretization);
+/// The same for the costate, weight 1 or 1/2.
+double costate_weight(Discretization discretization);
+
+}  // namespace hamjet

@@ -1,0 +1,47 @@
+#include <hamjet/optimal_control/hamiltonian_discretization.hpp>
+
+#include "newton.hpp"
+
+namespace hamjet {
+namespace {
+
+/// J m for m with 2n rows, J = [[0, I], [-I, 0]].
+Eigen::MatrixXd canonical(const Eigen::MatrixXd& m) {
+  const Eigen::Index n = m.rows() / 2;
+  Eigen::MatrixXd result(m.rows(), m.cols());
+  result << m.bottomRows(n), -m.topRows(n);
+  return result;
+}
+
+}  // namespace
+
+HamiltonianDiscretization::HamiltonianDiscretization(const OptimalControlProblem& problem,
+                                                     Discretization discretization, double step)
+    : AdvanceMap(problem.states, problem.controls),
+      hamiltonian_(problem),
+      step_(step),
+      weights_(2 * problem.states) {
+  weights_ << Eigen::VectorXd::Constant(problem.states, state_weight(discretization)),
+      Eigen::VectorXd::Constant(problem.states, costate_weight(discretization));
+}
+
+AdvancedPoint HamiltonianDiscretization::advance(const Eigen::VectorXd& point,
+                                                 const Eigen::VectorXd& control_guess) {
+  const Eigen::Index n2 = point.size();
+  ReducedHamiltonianValue value;
+  value.control = control_guess;
+  Eigen::VectorXd next = point;
+  const Linearization solved =
+      solve_step(next, "discretised canonical equations", [&](const Eigen::VectorXd& trial) {
+        value = hamiltonian_.evaluate(point + weights_.cwiseProduct(trial - point), value.control);
+        const Eigen::MatrixXd slope = step_ * canonical(value.hessian);
+        return Linearization{trial - point - step_ * canonical(value.gradient),
+                             Eigen::MatrixXd::Identity(n2, n2) - slope * weights_.asDiagonal()};
+      });
+  const Eigen::VectorXd own_weights = Eigen::VectorXd::Ones(n2) - weights_;
+  const Eigen::MatrixXd by_point = Eigen::MatrixXd::Identity(n2, n2) +
+                                   step_ * canonical(value.hessian) * own_weights.asDiagonal();
+  return {next, value.control, solved.jacobian.partialPivLu().solve(by_point)};
+}
+
+}  // namespace hamjet

@@ -1,0 +1,25 @@
+#include <cmath>
+#include <hamjet/optimal_control/heisenberg_problem.hpp>
+#include <numbers>
+
+namespace hamjet {
+
+std::optional<ClosedFormCost> heisenberg_cost(std::span<const double> start,
+                                              const std::array<std::optional<double>, 3>& end,
+                                              double duration, std::size_t steps) {
+  if (!end[0] || !end[1]) return std::nullopt;
+  const double dx = *end[0] - start[0];
+  const double dy = *end[1] - start[1];
+  // Seen from the start, Z = z - z_0 - y_0 X + x_0 Y obeys the same equations.
+  const double a = end[2] ? *end[2] - start[2] - start[1] * dx + start[0] * dy : 0;
+  if (a == 0) {
+    const double cost = (dx * dx + dy * dy) / (2 * duration);
+    return ClosedFormCost{cost, cost};
+  }
+  if (dx != 0 || dy != 0 || steps < 3) return std::nullopt;
+  const auto sides = static_cast<double>(steps);
+  return ClosedFormCost{std::numbers::pi * std::abs(a) / duration,
+                        sides * std::tan(std::numbers::pi / sides) * std::abs(a) / duration};
+}
+
+}  // namespace hamjet
