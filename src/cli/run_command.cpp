@@ -101,8 +101,9 @@ int run(const RunOptions& options) {
       read_study(options));
 }
 
-int check(const RunOptions& options) {
-  const Scene scene = read_scene(options);
+namespace {
+
+void check_flow_jet(const std::string& file, const Scene& scene) {
   const ComputedProblem problem = make_problem(scene, available_memory());
   const auto names = variable_names(scene.system.model);
   std::string components;
@@ -112,7 +113,7 @@ int check(const RunOptions& options) {
       "  title        {}\n"
       "  units        length {:.10g} km, time {:.10g} s\n"
       "  nominal     ",
-      *options.scene_file, scene.title, scene.units.length_km, scene.units.time_s);
+      file, scene.title, scene.units.length_km, scene.units.time_s);
   for (const double x : scene.nominal) text += fmt::format(" {:.17g}", x);
   text += fmt::format(
       "\n  duration     {:.17g} canonical = {:.10g} s\n"
@@ -142,6 +143,21 @@ int check(const RunOptions& options) {
                       scene.kinds ? fmt::format("{} kinds", scene.kinds->size()) : "none",
                       scene.reference ? "in extended precision" : "none");
   print(text);
+}
+
+}  // namespace
+
+int check(const RunOptions& options) {
+  std::visit(
+      [&](const auto& study) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(study)>, Scene>) {
+          check_flow_jet(*options.scene_file, study);
+        } else {
+          print(fmt::format("{}: the scene is good\n  title        {}\n", *options.scene_file,
+                            study.title));
+        }
+      },
+      read_study(options));
   return 0;
 }
 

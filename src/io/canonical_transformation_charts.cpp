@@ -42,6 +42,7 @@ Chart phase_plane_chart(const CanonicalTransformationResult& result, bool is_tra
   chart.x.label = fmt::format("{}{} (canonical)", is_transformed ? "Q" : "q", index);
   chart.y.label = fmt::format("{}{} (canonical)", is_transformed ? "P" : "p", index);
   chart.x.margin = chart.y.margin = 0.04;
+  chart.is_isometric = true;  // a rotation keeps its shape
   add_curves(result, chart, "", 0, true, [&](const Point& point) {
     const std::vector<double>& state = is_transformed ? point.transformed : point.original;
     return std::pair(state[0], state[n]);

@@ -17,7 +17,24 @@ bool is_planar_subsystem(const Scene& scene) {
          scene.nominal[pz] == 0 && scene.variables == std::vector<std::size_t>{0, 1, 3, 4};
 }
 
-/// Final and initial choice in letters: "qqq-ppp" for "F2", and so on; empty if `kind` is none.
+}  // namespace
+
+std::size_t degrees_of_freedom_of_kinds(const TableReader& table, std::string_view key,
+                                        const Scene& scene) {
+  const std::vector<std::string_view> names = variable_names(scene.system.model);
+  if (is_planar_subsystem(scene)) return 2;
+  if (scene.variables.size() != names.size()) {
+    std::vector<std::string_view> given;
+    for (const std::size_t variable : scene.variables) given.push_back(names[variable]);
+    table.fail(key, fmt::format("not defined for these jet.variables, got {}, must be all of {}{}",
+                                listed(given), listed(names),
+                                is_orbit(scene.system.model)
+                                    ? " (or x, y, px, py on an exactly equatorial orbit without J3)"
+                                    : ""));
+  }
+  return names.size() / 2;
+}
+
 std::string explicit_kind(const std::string& kind, std::size_t degrees_of_freedom) {
   const std::string q(degrees_of_freedom, 'q'), p(degrees_of_freedom, 'p');
   if (kind == "F1") return q + '-' + q;
@@ -33,25 +50,12 @@ std::string explicit_kind(const std::string& kind, std::size_t degrees_of_freedo
   return kind;
 }
 
-}  // namespace
-
 std::vector<std::string> read_generating_function(const TableReader& generating_function,
                                                   const Scene& scene) {
   generating_function.check_keys({{"kinds"}});
   const std::vector<std::string> kinds = generating_function.texts("kinds");
-  const std::vector<std::string_view> names = variable_names(scene.system.model);
-  const bool planar = is_planar_subsystem(scene);
-  if (scene.variables.size() != names.size() && !planar) {
-    std::vector<std::string_view> given;
-    for (const std::size_t variable : scene.variables) given.push_back(names[variable]);
-    const bool orbit = is_orbit(scene.system.model);
-    generating_function.fail(
-        "kinds",
-        fmt::format("not defined for these jet.variables, got {}, must be all of {}{}",
-                    listed(given), listed(names),
-                    orbit ? " (or x, y, px, py on an exactly equatorial orbit without J3)" : ""));
-  }
-  const std::size_t degrees_of_freedom = planar ? 2 : names.size() / 2;
+  const std::size_t degrees_of_freedom =
+      degrees_of_freedom_of_kinds(generating_function, "kinds", scene);
   std::map<std::string, std::string> named;  // explicit kind -> as the scene names it
   for (std::size_t i = 0; i < kinds.size(); ++i) {
     const std::string kind = explicit_kind(kinds[i], degrees_of_freedom);

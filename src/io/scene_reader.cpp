@@ -53,22 +53,6 @@ Scene read_flow_jet(const TableReader& root) {
   return scene;
 }
 
-FigureQuantity read_figure(const TableReader& figure, const Scene& scene) {
-  figure.check_keys({{"quantity"}});
-  if (figure.choice("quantity", {"exactness", "energy-error"}) == 1) {
-    return FigureQuantity::energy_error;
-  }
-  if (!scene.kinds || scene.kinds->front() == "auto") {
-    figure.fail(
-        "quantity",
-        fmt::format("no kind to show, got \"exactness\" and {}, must be \"energy-error\", or "
-                    "the first of generating_function.kinds must be a kind by name",
-                    scene.kinds ? "the kind \"auto\", which is chosen at the final time"
-                                : "no table [generating_function]"));
-  }
-  return FigureQuantity::exactness;
-}
-
 CanonicalUnits canonical_units(const CanonicalScale& scale) {
   return {convert<double>(scale.length_km), convert<double>(scale.time_s)};
 }

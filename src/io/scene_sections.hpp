@@ -96,6 +96,15 @@ double read_formation(const TableReader& formation, SystemModel model, const Can
 std::vector<std::string> read_generating_function(const TableReader& generating_function,
                                                   const Scene& scene);
 
+/// The degrees of freedom of the kinds that a scene's jet has; `table` and `key` ask for one. Throws
+/// Error(scene) if the jet is not expanded in all variables of phase space.
+std::size_t degrees_of_freedom_of_kinds(const TableReader& table, std::string_view key,
+                                        const Scene& scene);
+
+/// Final and initial choice in letters: "qqq-ppp" for "F2", and so on; "auto" stays, and what is no
+/// kind gives an empty text.
+std::string explicit_kind(const std::string& kind, std::size_t degrees_of_freedom);
+
 /// Table `[reference]`.
 ReferenceSettings read_reference(const TableReader& reference);
 
@@ -103,7 +112,7 @@ ReferenceSettings read_reference(const TableReader& reference);
 ComparisonSettings read_compare(const TableReader& table, int order, double duration);
 
 /// Table `[figure]`, checked against what `scene` already holds.
-FigureQuantity read_figure(const TableReader& figure, const Scene& scene);
+FigureSettings read_figure(const TableReader& figure, const Scene& scene);
 
 /// Why the energy-conserving methods integrate no flow jet, for messages.
 inline constexpr std::string_view no_energy_conserving_jet =

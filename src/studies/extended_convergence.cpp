@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <numeric>
 
 #include "convergence_fit.hpp"
 #include "hamjet/error.hpp"
@@ -14,8 +16,18 @@ namespace {
 constexpr std::size_t runs = 4;
 /// How far the finest run stays above what the reference can vouch for.
 constexpr double above_claimed = 30;
+/// No run needs a smaller error, or so many more steps than those in double precision took.
+constexpr double smallest_floor = 1e-20;
+constexpr double most_refinement = 64;
 /// The coarsest error is this many times the finest, unless that takes more than halved steps.
 constexpr double error_range = 1e8;
+/// Steps after which the time of all is judged.
+constexpr long least_steps = 10;
+
+using Clock = std::chrono::steady_clock;
+
+/// The runs would take longer than is allowed.
+struct TooSlow {};
 
 /// The exponent of the term that follows the leading one, relative to it: symmetric methods have
 /// an expansion of the error in even powers of the step (Hairer, Nørsett and Wanner, Solving ODEs
@@ -27,7 +39,8 @@ int correction_of(IntegrationMethod method) {
 /// The numbers of steps, the most first, that continue a usable run down to the floor.
 std::vector<long> step_counts(const ConvergencePoint& start, double duration, double order,
                               double floor) {
-  const double most = duration / start.step * std::pow(start.error / floor, 1 / order);
+  const double refinement = std::pow(start.error / floor, 1 / order);
+  const double most = duration / start.step * std::min(refinement, most_refinement);
   const double ratio = std::min(2.0, std::pow(error_range, 1 / (order * (runs - 1))));
   std::vector<long> counts;
   for (std::size_t k = 0; k < runs; ++k) {
@@ -50,18 +63,20 @@ std::optional<ConvergenceFit> fit_extended_convergence(
   const ComputedProblem problem = make_problem(scene, available_memory());
   const auto flow = flow_problem<Extended>(problem, scene.duration);
   const FlowJet<Extended> reference = truncated_reference(result.reference, problem.space).jet;
-  const double floor = above_claimed * result.smallest_claimed_error(degree);
+  const double claimed = result.smallest_claimed_error(degree);
+  const double floor = std::max(above_claimed * claimed, smallest_floor);
   const double span = std::abs(scene.duration);
   const auto counts = step_counts(usable.front(), span, series.order, floor);
-  long total = 0;
-  for (const long count : counts) total += count;
+  // So few steps that rounding their number makes two runs alike tell nothing.
+  if (counts.back() < static_cast<long>(2 * runs)) return std::nullopt;
+  const long total = std::accumulate(counts.begin(), counts.end(), 0L);
 
   IntegratorSettings settings = series.candidates.front().settings;
   ConvergenceFit fit{series.name, degree, 0, series.order, {}};
   fit.is_extended = true;
   std::vector<ConvergencePoint> points;
   long done = 0;
-  double spent = 0;
+  const auto start = Clock::now();
   try {
     // The coarsest first: it tells what the others take.
     for (std::size_t k = runs; k-- > 0;) {
@@ -69,18 +84,22 @@ std::optional<ConvergenceFit> fit_extended_convergence(
       IntegrationStatistics statistics;
       const auto jet = integrate<Extended>(
           flow, settings, statistics, [&](const Extended&, const FlowJet<Extended>&) {
-            keep_going(static_cast<double>(done++) / static_cast<double>(total));
+            keep_going(static_cast<double>(++done) / static_cast<double>(total));
+            // What is done so far tells what the rest takes.
+            const std::chrono::duration<double> spent = Clock::now() - start;
+            if (spent.count() * static_cast<double>(total) > seconds * static_cast<double>(done) &&
+                done >= least_steps) {
+              throw TooSlow{};
+            }
           });
-      spent += statistics.wall_seconds;
-      if (spent * static_cast<double>(total) > seconds * static_cast<double>(done)) {
-        return std::nullopt;
-      }
       const double error =
           relative_error_by_degree(jet, reference)[static_cast<std::size_t>(degree)];
-      if (error < floor / above_claimed) return std::nullopt;
+      if (error < claimed) return std::nullopt;
       points.push_back({span / static_cast<double>(statistics.steps), error,
                         fmt::format("{} steps", statistics.steps)});
     }
+  } catch (const TooSlow&) {
+    return std::nullopt;
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::numerical) throw;
     return std::nullopt;

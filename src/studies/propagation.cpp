@@ -123,8 +123,8 @@ void record_failure(std::string& failure, const char* part, const Work& work) {
 
 std::optional<GeneratingFunctionKind> figure_kind(const Scene& scene,
                                                   const ComputedProblem& problem) {
-  if (scene.figure != FigureQuantity::exactness) return std::nullopt;
-  return parse_kind(scene.kinds->front(), problem.degrees_of_freedom.size());
+  if (!scene.figure || scene.figure->kind.empty()) return std::nullopt;
+  return parse_kind(scene.figure->kind, problem.degrees_of_freedom.size());
 }
 
 PropagationResult propagate(const Scene& scene, const ProgressCallback& progress) {

@@ -99,10 +99,15 @@ TEST_F(Figure, WithoutGnuplotThereIsOneLineAndAllElse) {
 TEST_F(Figure, MistakesAreNamed) {
   expect_error({"run", "oscillator.toml", "--set", "figure.quantity=error"}, 3,
                {"figure.quantity", "exactness"});
-  expect_error({"run", "oscillator.toml", "--set", "generating_function=null"}, 3,
-               {"figure.quantity", "no table [generating_function]"});
-  expect_error({"run", "oscillator.toml", "--set", "generating_function.kinds=['auto']"}, 3,
-               {"figure.quantity", "chosen at the final time"});
+  expect_error({"run", "oscillator.toml", "--set", "figure.kind=F5"}, 3,
+               {"figure.kind", "F5", "F1, F2, F3, F4"});
+  expect_error({"run", "oscillator.toml", "--set", "figure.kind=auto"}, 3,
+               {"figure.kind", "chosen at the final time"});
+  expect_error({"run", "oscillator.toml", "--set", "figure={quantity='energy-error', kind='F1'}"},
+               3, {"figure.kind", "has no key kind"});
+  expect_error({"run", "oscillator.toml", "--set", "generating_function=null", "--set",
+                "jet.variables=['q']"},
+               3, {"figure.quantity", "jet.variables"});
   expect_error({"run", "oscillator.toml", "--set", "figure.colour=red"}, 3,
                {"figure.colour: unknown key"});
 }

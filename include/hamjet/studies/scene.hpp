@@ -89,9 +89,14 @@ struct ComparisonSettings {
   double wanted_error_m = 1;   ///< at formation scale: of the verdict and the advice
 };
 
-/// What `hamjet run` draws along time, table `[figure]`: the exactness residual of the first kind
-/// that the scene names, or the energy error.
+/// What `hamjet run` draws along time.
 enum class FigureQuantity { exactness, energy_error };
+
+/// Table `[figure]`.
+struct FigureSettings {
+  FigureQuantity quantity = FigureQuantity::exactness;
+  std::string kind;  ///< whose exactness is drawn: F1..F4 or letters; empty for the energy error
+};
 
 /// A scene, read, checked and converted to canonical units. Lengths of arrays: 2n, with n = 3 for
 /// an orbit, else n = 1.
@@ -116,7 +121,7 @@ struct Scene {
   /// `[relative_hamiltonian]`, canonical times between 0 and the duration; empty: not computed.
   std::vector<double> relative_hamiltonian_times;
   ComparisonSettings comparison;
-  std::optional<FigureQuantity> figure;  ///< absent: no figure, and nothing is watched along time
+  std::optional<FigureSettings> figure;  ///< absent: no figure, and nothing is watched along time
 };
 
 }  // namespace hamjet
