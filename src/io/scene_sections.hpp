@@ -96,8 +96,8 @@ double read_formation(const TableReader& formation, SystemModel model, const Can
 std::vector<std::string> read_generating_function(const TableReader& generating_function,
                                                   const Scene& scene);
 
-/// The degrees of freedom of the kinds that a scene's jet has; `table` and `key` ask for one. Throws
-/// Error(scene) if the jet is not expanded in all variables of phase space.
+/// The degrees of freedom of the kinds that a scene's jet has; `table` and `key` ask for one.
+/// Throws Error(scene) if the jet is not expanded in all variables of phase space.
 std::size_t degrees_of_freedom_of_kinds(const TableReader& table, std::string_view key,
                                         const Scene& scene);
 
