@@ -48,6 +48,12 @@ std::vector<std::filesystem::path> earlier_results(const std::filesystem::path& 
       if (!kind.empty()) files.push_back(folder / ("generating_function_" + kind + ".csv"));
     }
   }
+  const bool is_study = summary.is_object() && summary.contains("study");
+  if (is_study) {
+    for (const char* name : {"trajectory.csv", "fixed_step.csv", "convergence.csv"}) {
+      files.emplace_back(name);
+    }
+  }
   if (!files.empty()) {
     files.emplace_back("relative_hamiltonian.csv");
     files.emplace_back("figure.svg");

@@ -87,6 +87,14 @@ std::vector<Expression> replay(const OperationList& list, std::span<const Expres
   return values;
 }
 
+std::vector<Expression> recorded_outputs(const OperationList& list,
+                                         std::span<const Expression> inputs) {
+  const std::vector<Expression> values = replay(list, inputs);
+  std::vector<Expression> outputs;
+  for (const std::size_t place : list.outputs()) outputs.push_back(values[place]);
+  return outputs;
+}
+
 OperationList gradient(const OperationList& list) {
   if (list.outputs().size() != 1) {
     throw Error(ErrorKind::usage, "gradient: the list must have one output");

@@ -2,14 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <utility>
 
 #include "energy_conserving_midpoint.hpp"
 #include "energy_conserving_stormer.hpp"
+#include "hamjet/dynamics/differentiable_function.hpp"
 #include "hamjet/error.hpp"
-#include "plain_evaluation.hpp"
 
 namespace hamjet {
 
@@ -52,7 +53,7 @@ class StepCondition<Real>::Evaluation {
 
   std::size_t n_;
   EnergyConservingMethod method_;
-  PlainEvaluation<Real> field_;
+  DifferentiableFunction<Real> field_;
 };
 
 template <class Real>
@@ -110,7 +111,7 @@ void validate(const EnergyConservingProblem<Real>& problem) {
 template <class Real>
 std::vector<Real> step_ahead(const DynamicalSystem& system, const std::vector<Real>& z,
                              const Real& h) {
-  PlainEvaluation<Real> field(system.vector_field);
+  DifferentiableFunction<Real> field(system.vector_field);
   field.evaluate(z);
   std::vector<Real> middle = z;
   for (std::size_t i = 0; i < z.size(); ++i) middle[i] += h / 2 * field.value(i);
@@ -162,6 +163,11 @@ EnergyConservingStop make_stop(const EnergyConservingProblem<Real>& problem,
   return stop;
 }
 
+template <class Real>
+bool all_finite(const std::vector<Real>& state) {
+  return std::all_of(state.begin(), state.end(), [](const Real& x) { return is_finite(x); });
+}
+
 template <class Real, class Equation>
 EnergyConservingResult<Real> integrate(const EnergyConservingProblem<Real>& problem,
                                        const EnergyConservingObserver<Real>& observer) {
@@ -186,6 +192,10 @@ EnergyConservingResult<Real> integrate(const EnergyConservingProblem<Real>& prob
     }
     StepAttempt<Real> attempt = result.steps == 0 ? equation.start(result.state, size)
                                                   : equation.advance(result.state, size);
+    if (attempt.is_taken && !(is_finite(equation.energy()) && all_finite(attempt.end))) {
+      attempt = refused<Real>(EnergyConservingStopCause::not_finite,
+                              "the end of the step, or its energy, is not finite");
+    }
     if (!attempt.is_taken) {
       result.stop = make_stop(problem, attempt, result.steps, result.time, result.state, size);
       break;

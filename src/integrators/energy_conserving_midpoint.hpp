@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "energy_conserving_attempt.hpp"
-#include "plain_evaluation.hpp"
+#include "energy_scale.hpp"
 
 namespace hamjet {
 
@@ -278,8 +278,8 @@ class EnergyConservingMidpoint {
   }
 
   Eigen::Index size_;
-  PlainEvaluation<Real> hamiltonian_;
-  PlainEvaluation<Real> field_;
+  DifferentiableFunction<Real> hamiltonian_;
+  DifferentiableFunction<Real> field_;
   Matrix matrix_;
   Eigen::PartialPivLU<Matrix> factors_;
   Vector residual_;

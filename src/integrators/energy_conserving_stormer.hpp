@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "energy_conserving_attempt.hpp"
-#include "plain_evaluation.hpp"
+#include "energy_scale.hpp"
 
 namespace hamjet {
 
@@ -56,6 +56,11 @@ class EnergyConservingStormer {
           fmt::format("the step equation has no real root: (p.M^-1 g)^2 = {:.6g} < 2 (g.M^-1 g) "
                       "(V(q_k) - V(q_(k-1))) = {:.6g}, g = grad V",
                       static_cast<double>(Real(b_ * b_)), static_cast<double>(Real(2 * a_ * c))));
+    }
+    if (a_ == 0) {
+      return refused<Real>(
+          Cause::undetermined_step,
+          "the force vanishes, so that the energy does not depend on the step size");
     }
     const Real root = sqrt(discriminant);
     const Real denominator = b_ < 0 ? Real(b_ - root) : Real(b_ + root);
@@ -155,7 +160,7 @@ class EnergyConservingStormer {
   }
 
   std::size_t n_;
-  PlainEvaluation<Real> hamiltonian_;
+  DifferentiableFunction<Real> hamiltonian_;
   std::vector<Real> inverse_mass_;
   std::vector<Real> slope_;  ///< g = grad V(q_k)
   Real a_ = 0;

@@ -18,6 +18,12 @@ struct Range {
     most = std::max(most, value);
   }
   bool is_empty() const { return least > most; }
+  double width() const { return most - least; }
+  void widen(double wanted) {
+    const double middle = (least + most) / 2;
+    least = middle - wanted / 2;
+    most = middle + wanted / 2;
+  }
 };
 
 bool can_be_drawn(const ChartAxis& axis, double value) {
@@ -26,7 +32,10 @@ bool can_be_drawn(const ChartAxis& axis, double value) {
 
 void set_limits(ChartAxis& axis, Range range, bool needs_room_below) {
   if (!axis.is_logarithmic) {
-    const double width = range.most > range.least ? range.most - range.least : 1;
+    // A single value still needs an axis.
+    const double size = std::max(std::abs(range.least), std::abs(range.most));
+    if (range.width() <= 1e-12 * size || size == 0) range.widen(size > 0 ? size : 1);
+    const double width = range.width();
     axis.lower = range.least - axis.margin * width;
     axis.upper = range.most + axis.margin * width;
     return;
@@ -102,6 +111,14 @@ void fit_axes(Chart& chart) {
   if (y.is_empty()) y = {1e-16, 1};
   for (const double place : chart.x.includes) x.include(place);
   for (const ChartRule& rule : chart.rules) (rule.is_vertical ? x : y).include(rule.place);
+  if (chart.is_isometric) {
+    // Neither side of a straight line may vanish.
+    constexpr double least_ratio = 0.2;
+    const double wanted = least_ratio * std::max(x.width(), y.width());
+    for (Range* range : {&x, &y}) {
+      if (range->width() < wanted) range->widen(wanted);
+    }
+  }
   set_limits(chart.x, x, false);
   set_limits(chart.y, y, !chart.at_limit.empty() || has_ticks);
   for (ChartCurve& zeros : chart.at_limit) {

@@ -30,7 +30,10 @@ const char* cause_name(EnergyConservingStopCause cause) {
   return names[static_cast<std::size_t>(cause)];
 }
 
-std::string number(double value) { return fmt::format("{:.17g}", value); }
+/// Empty for what is not finite.
+std::string number(double value) {
+  return std::isfinite(value) ? fmt::format("{:.17g}", value) : "";
+}
 std::string number(const std::optional<double>& value) { return value ? number(*value) : ""; }
 
 std::string trajectory_csv(const EnergyConservationResult& result) {

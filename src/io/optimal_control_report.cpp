@@ -205,7 +205,9 @@ std::string table(const OptimalControlResult& result) {
     for (const std::size_t steps : result.fit->steps) text += fmt::format(" {}", steps);
     text += "\n";
   } else if (!result.convergence.empty()) {
-    text += "  order              none: fewer than three errors above the rounding floor\n";
+    text +=
+        "  order              none: no closed form, or fewer than three errors between the "
+        "rounding floor and 1e-2\n";
   }
   for (const std::string& failed : result.failed_checks) {
     text += fmt::format("  check failed       {}\n", failed);

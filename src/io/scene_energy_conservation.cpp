@@ -70,6 +70,11 @@ EnergyConservationStudy read_energy_conservation(const TableReader& root) {
     table.fail(key, fmt::format("out of range, got {}, must not be 0", table.found(key)));
   }
   study.first_step = read_first_step(table, study.duration, nominal.scale);
+  if (study.first_step > std::abs(study.duration)) {
+    const std::string_view key = table.exactly_one_of({"first_step_canonical", "first_step_s"});
+    table.fail(key, fmt::format("out of range, got {}, must not be longer than the duration",
+                                table.found(key)));
+  }
   if (table.has("expect")) {
     study.expected = static_cast<EnergyConservationOutcome>(
         table.choice("expect", energy_conservation_outcome_names()));

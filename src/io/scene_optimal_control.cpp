@@ -102,7 +102,8 @@ Study read_optimal_control(const TableReader& root) {
       static_cast<Discretization>(table.choice("method", discretization_names()));
   const auto& names = state_names(study.model);
   const auto model = control_model_names()[static_cast<std::size_t>(study.model)];
-  study.duration = table.positive_number("duration");
+  // Costs go as its inverse third power: binary64 must hold them.
+  study.duration = table.number_between("duration", 1e-30, 1e30);
   study.steps = static_cast<std::size_t>(table.integer_between("steps", 1, most_steps));
   if (table.has("refinements")) study.refinements = read_refinements(table);
   study.start = read_components(table, "start", names, model);

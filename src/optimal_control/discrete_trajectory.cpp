@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <hamjet/optimal_control/discrete_trajectory.hpp>
 
+#include "hamjet/dynamics/differentiable_function.hpp"
 #include "hamjet/error.hpp"
-#include "hamjet/optimal_control/differentiable_function.hpp"
 
 namespace hamjet {
 namespace {
@@ -26,7 +26,7 @@ double largest_difference(const std::vector<Eigen::VectorXd>& a,
 
 double discrete_cost(const OptimalControlProblem& problem, Discretization discretization,
                      double step, const DiscreteTrajectory& trajectory) {
-  DifferentiableFunction cost(problem.running_cost);
+  DifferentiableFunction<double> cost(problem.running_cost);
   double sum = 0;
   for (std::size_t k = 0; k < trajectory.steps(); ++k) {
     const Eigen::VectorXd x =

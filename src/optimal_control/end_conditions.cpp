@@ -1,3 +1,4 @@
+#include <Eigen/QR>
 #include <hamjet/optimal_control/end_conditions.hpp>
 #include <vector>
 

@@ -3,7 +3,7 @@
 #include <hamjet/optimal_control/karush_kuhn_tucker.hpp>
 
 #include "damped_newton.hpp"
-#include "hamjet/optimal_control/differentiable_function.hpp"
+#include "hamjet/dynamics/differentiable_function.hpp"
 #include "hamjet/optimal_control/end_conditions.hpp"
 
 namespace hamjet {
@@ -165,7 +165,7 @@ class AugmentedCost {
     }
   }
 
-  DifferentiableFunction slope_;  ///< gradient of step_cost
+  DifferentiableFunction<double> slope_;  ///< gradient of step_cost
   EndConditions initial_;
   EndConditions final_;
   const std::optional<CostateConditions>* conditions_;

@@ -3,8 +3,8 @@
 #include <hamjet/optimal_control/optimal_control_problem.hpp>
 #include <numeric>
 
+#include "hamjet/dynamics/differentiable_function.hpp"
 #include "hamjet/error.hpp"
-#include "hamjet/optimal_control/differentiable_function.hpp"
 
 namespace hamjet {
 namespace {

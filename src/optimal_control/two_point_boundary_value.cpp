@@ -7,6 +7,9 @@
 namespace hamjet {
 namespace {
 
+/// By how many typical sizes a solution may miss the equations.
+constexpr double largest_violation = 1e-8;
+
 void require(bool is_right, const std::string& problem) {
   if (!is_right) throw Error(ErrorKind::usage, "shooting: " + problem);
 }
@@ -233,7 +236,20 @@ ShootingSolution solve_by_shooting(AdvanceMap& map, const OptimalControlProblem&
         const Eigen::VectorXd change = decomposition.solve(scale.rows.cwiseProduct(r));
         return NewtonStep{-scale.columns.cwiseProduct(change), decomposition.rank(), scale};
       });
-  equations.residual(s);
+  // Newton's tolerance is relative to the unknowns, which may have run away: the equations must
+  // hold for the typical sizes too.
+  const double violation =
+      equations.scale().rows.cwiseProduct(equations.residual(s)).lpNorm<Eigen::Infinity>();
+  if (!(violation <= largest_violation)) {
+    throw Error(
+        ErrorKind::numerical,
+        fmt::format("shooting: the iteration ended after {} steps at unknowns of {:.3g} times "
+                    "their typical sizes, where the equations are missed by {:.3g} typical "
+                    "sizes; a start nearer to the solution, or other scales, may do",
+                    outcome.iterations,
+                    s.cwiseQuotient(equations.scale().columns).lpNorm<Eigen::Infinity>(),
+                    violation));
+  }
   ShootingSolution solution = equations.solution(s);
   solution.iterations = outcome.iterations;
   solution.residual = outcome.residual;

@@ -65,6 +65,18 @@ std::optional<double> predicted_time(const EnergyConservationStudy& study,
   return std::nullopt;
 }
 
+/// Raises a maximum; what is not a number stays.
+void raise(double& largest, double value) {
+  if (!(value <= largest)) largest = value;
+}
+
+/// Whether a stop is what the method's step equation leads to, and not a start or a place that the
+/// scene should not have.
+bool is_of_the_method(const EnergyConservingStop& stop) {
+  return stop.cause != EnergyConservingStopCause::not_finite &&
+         stop.cause != EnergyConservingStopCause::no_midpoint;
+}
+
 /// Runs the energy-conserving method and keeps what the report needs.
 class EnergyConservingTrajectory {
  public:
@@ -84,8 +96,7 @@ class EnergyConservingTrajectory {
     last.state = result.run.state;
     last.energy_error = energy_.error(last.state);
     last.condition = condition_(last.state);
-    result.largest_energy_error =
-        std::max(result.largest_energy_error, std::abs(last.energy_error));
+    raise(result.largest_energy_error, std::abs(last.energy_error));
     points_.add(std::move(last));
     result.points = points_.take();
   }
@@ -108,10 +119,8 @@ class EnergyConservingTrajectory {
     const double size = std::abs(step.size);
     result_.smallest_step = step.index == 0 ? size : std::min(result_.smallest_step, size);
     result_.largest_step = std::max(result_.largest_step, size);
-    result_.largest_discrete_error =
-        std::max(result_.largest_discrete_error, std::abs(*point.discrete));
-    result_.largest_energy_error =
-        std::max(result_.largest_energy_error, std::abs(point.energy_error));
+    raise(result_.largest_discrete_error, std::abs(*point.discrete));
+    raise(result_.largest_energy_error, std::abs(point.energy_error));
     points_.add(std::move(point));
   }
 
@@ -122,6 +131,11 @@ class EnergyConservingTrajectory {
   Extended conserved_ = 0;  ///< the discrete energy of the first step
   ThinnedList<EnergyConservationPoint> points_;
 };
+
+bool is_expected_stop(const EnergyConservationResult& result) {
+  return result.study.expected == EnergyConservationOutcome::stops &&
+         is_of_the_method(*result.run.stop);
+}
 
 void check(EnergyConservationResult& result) {
   const EnergyConservationStudy& study = result.study;
@@ -141,14 +155,12 @@ void check(EnergyConservationResult& result) {
 }  // namespace
 
 int EnergyConservationResult::exit_code() const {
-  if (run.stop && study.expected == EnergyConservationOutcome::completes) {
-    return static_cast<int>(ErrorKind::numerical);
-  }
+  if (run.stop && !is_expected_stop(*this)) return static_cast<int>(ErrorKind::numerical);
   return failed_checks.empty() ? 0 : static_cast<int>(ErrorKind::check_failed);
 }
 
 std::string EnergyConservationResult::failure() const {
-  if (run.stop && study.expected == EnergyConservationOutcome::completes) return run.stop->message;
+  if (run.stop && !is_expected_stop(*this)) return run.stop->message;
   return fmt::format("{}", fmt::join(failed_checks, "; "));
 }
 
@@ -164,7 +176,7 @@ EnergyConservationResult run_study(const EnergyConservationStudy& study,
   const double end = result.run.stop ? study.duration : result.run.time;
   result.fixed_step =
       fixed_step_trajectory(system, study.method, study.nominal, mean_step, end, progress);
-  if (result.run.stop) {
+  if (result.run.stop && result.run.steps > 0) {
     result.predicted_time = predicted_time(study, system, *result.run.stop, result.run.last_step);
   }
   check(result);

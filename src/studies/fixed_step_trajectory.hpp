@@ -3,9 +3,9 @@
 #include <vector>
 
 #include "hamjet/algebra/extended.hpp"
+#include "hamjet/dynamics/differentiable_function.hpp"
 #include "hamjet/integrators/flow_problem.hpp"
 #include "hamjet/studies/energy_conservation.hpp"
-#include "plain_evaluation.hpp"
 
 namespace hamjet {
 
@@ -26,7 +26,7 @@ class EnergyError {
   double error(const std::vector<double>& state);
 
  private:
-  PlainEvaluation<Extended> hamiltonian_;
+  DifferentiableFunction<Extended> hamiltonian_;
   Extended initial_ = 0;
 };
 

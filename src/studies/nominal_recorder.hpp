@@ -6,11 +6,11 @@
 
 #include "hamjet/dynamics/slice_evaluator.hpp"
 #include "hamjet/studies/propagation.hpp"
+#include "thinned_list.hpp"
 
 namespace hamjet {
 
-/// Collects the nominal trajectory and its energy error along an integration. When it has grown to
-/// its largest size every second point is dropped, so that a million steps fit too.
+/// Collects the nominal trajectory and its energy error along an integration.
 class NominalRecorder {
  public:
   NominalRecorder(const ComputedProblem& problem, std::size_t dimension)
@@ -27,27 +27,18 @@ class NominalRecorder {
     for (std::size_t i = 0; i < state.size(); ++i) {
       point.state[problem_.components[i]] = static_cast<double>(state[i]);
     }
-    last_ = std::move(point);
-    if (calls_++ % stride_ != 0) return;
-    points_.push_back(last_);
-    if (points_.size() < largest_size) return;
-    for (std::size_t i = 0; 2 * i < points_.size(); ++i) points_[i] = std::move(points_[2 * i]);
-    points_.resize((points_.size() + 1) / 2);
-    stride_ *= 2;
+    last_energy_error_ = error;
+    ++calls_;
+    points_.add(std::move(point));
   }
 
   double largest_energy_error() const { return largest_; }
-  double last_energy_error() const { return last_.energy_error; }
+  double last_energy_error() const { return last_energy_error_; }
 
   /// The points, the last one always among them.
-  std::vector<NominalPoint> take() {
-    if (points_.empty() || points_.back().time != last_.time) points_.push_back(last_);
-    return std::move(points_);
-  }
+  std::vector<NominalPoint> take() { return points_.take(); }
 
  private:
-  static constexpr std::size_t largest_size = 20001;
-
   /// The energy is evaluated in extended precision: its own rounding would hide a good
   /// integrator's.
   template <class Number>
@@ -66,9 +57,8 @@ class NominalRecorder {
   Extended initial_ = 0;
   double largest_ = 0;
   long calls_ = 0;
-  long stride_ = 1;
-  NominalPoint last_;
-  std::vector<NominalPoint> points_;
+  double last_energy_error_ = 0;
+  ThinnedList<NominalPoint> points_;
 };
 
 }  // namespace hamjet

@@ -54,6 +54,29 @@ class EnergyConservation : public CommandTest {
   Json summary_;
 };
 
+// A place where nothing is finite is no stop of the method, even where one is expected.
+TEST_F(EnergyConservation, OverflowIsNoExpectedStop) {
+  write("ellipse.toml", R"(schema = 1
+title = "overflow"
+study = "energy-conservation"
+[system]
+model = "double-well"
+[nominal]
+position_m = [1e300]
+momentum_kg_m_s = [0]
+[energy_conservation]
+method = "midpoint"
+first_step_canonical = 0.05
+duration_canonical = 2
+expect = "stops"
+)");
+  const CommandResult result = run({}, 4);
+  expect_line(result, {"step 0", "not finite"});
+  const std::string points = content(directory_ / "out/trajectory.csv");
+  EXPECT_EQ(points.find("nan"), std::string::npos) << points;
+  EXPECT_EQ(points.find("inf"), std::string::npos) << points;
+}
+
 // Expected: the energy conserved to round-off; the orbit's own period 2 pi / (1 - e)^1.5; the files
 // and the summary agree with one another.
 TEST_F(EnergyConservation, RunsToTheEnd) {
@@ -192,6 +215,8 @@ TEST_F(EnergyConservation, BadKeys) {
           {"first_step_s"});
   refused("first_step_canonical = 0.05", "first_step_canonical = 1e-6", 6,
           {"too many steps", "must be at least"});
+  refused("first_step_canonical = 0.05", "first_step_canonical = 1e300", 3,
+          {table + "first_step_canonical", "not be longer than the duration"});
   refused("duration_orbits = 2", "duration_orbits = 0", 3,
           {table + "duration_orbits: out of range, got 0, must not be 0"});
   refused("duration_orbits = 2", "", 3, {"duration_s, duration_orbits, duration_canonical"});

@@ -138,6 +138,28 @@ TEST_F(OptimalControl, NoConvergenceIsANumericalFailure) {
   refuse("costate_guess=[0, 0, 0]", 4, {"shooting", "iterations", "residual", "rank"});
 }
 
+// Unknowns that have run away satisfy the equations to their own rounding: no solution.
+TEST_F(OptimalControl, RunawayIterationIsNoSolution) {
+  for (const char* guess : {"[1e12, 1, 1]", "[1, 1e12, 1]", "[1, 1, 1e12]"}) {
+    expect_error({"run", "loop.toml", "-o", "out", "--set",
+                  std::string("optimal_control.costate_guess=") + guess, "--set",
+                  "optimal_control.require_cost_error=null", "--set",
+                  "optimal_control.require_equivalence=null"},
+                 4, {"shooting"});
+  }
+  refuse("duration=1e300", 3, {"optimal_control.duration", "1e+30"});
+}
+
+// What an earlier run of another study left does not stand beside the new summary.
+TEST_F(OptimalControl, EarlierResultsDoNotStayBehind) {
+  succeed({"run", "loop.toml", "-o", "out", "-q"});
+  EXPECT_TRUE(std::filesystem::exists(directory_ / "out/convergence.csv"));
+  succeed({"run", "quick.toml", "-o", "out", "-q"});
+  for (const char* file : {"convergence.csv", "trajectory.csv", "figure.svg"}) {
+    EXPECT_FALSE(std::filesystem::exists(directory_ / "out" / file)) << file;
+  }
+}
+
 // One step cannot enclose an area: that refinement has no solution, all else is there.
 TEST_F(OptimalControl, FailedRefinementIsRecorded) {
   const CommandResult run = hamjet(

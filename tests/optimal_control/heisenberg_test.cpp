@@ -125,7 +125,7 @@ TEST(Heisenberg, MomentumHessianIsSingularEverywhere) {
     return std::vector<Expression>{-(p[0] * p[0] + p[1] * p[1]) / Expression(2) - p[0] * p[2] * y +
                                    p[1] * p[2] * x};
   });
-  DifferentiableFunction printed_slope(gradient(printed));
+  DifferentiableFunction<double> printed_slope(gradient(printed));
   printed_slope.evaluate(std::vector<double>{0.3, 0.4, 0.5});
   EXPECT_NEAR(printed_slope.jacobian().determinant(), 0.7 * 0.7 + 1.2 * 1.2, 1e-14);
   RandomNumbers random(6);

@@ -129,7 +129,7 @@ double augmented_cost_slope(double sign, Discretization form) {
     }
     return std::vector<Expression>{sum};
   });
-  DifferentiableFunction slope(gradient(cost));
+  DifferentiableFunction<double> slope(gradient(cost));
   std::vector<double> at(t.states[5].begin(), t.states[5].end());
   at.insert(at.end(), t.controls[4].begin(), t.controls[4].end());
   const Eigen::VectorXd p = t.costates[4] + costate_weight(form) * (t.costates[5] - t.costates[4]);

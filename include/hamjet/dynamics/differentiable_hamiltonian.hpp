@@ -1,8 +1,10 @@
 #pragma once
 
+#include <span>
+
 #include "hamjet/algebra/matrix.hpp"
+#include "hamjet/dynamics/differentiable_function.hpp"
 #include "hamjet/dynamics/dynamical_system.hpp"
-#include "hamjet/dynamics/slice_evaluator.hpp"
 
 namespace hamjet {
 
@@ -37,50 +39,29 @@ template <class Real>
 class RecordedHamiltonian final : public DifferentiableHamiltonian<Real> {
  public:
   explicit RecordedHamiltonian(const DynamicalSystem& system)
-      : hamiltonian_(system.hamiltonian),
-        gradient_(gradient(system.hamiltonian)),
-        space_(SeriesSpace::create(system.dimension(), 0)),
-        value_(hamiltonian_, space_, 0),
-        slope_(gradient_, space_, 0) {
-    derivatives_.gradient.resize(dimension());
-    derivatives_.hessian.resize(dimension(), dimension());
-  }
+      : value_(system.hamiltonian), slope_(gradient(system.hamiltonian)) {}
 
-  Eigen::Index dimension() const override {
-    return static_cast<Eigen::Index>(hamiltonian_.inputs());
-  }
+  Eigen::Index dimension() const override { return static_cast<Eigen::Index>(value_.inputs()); }
 
   Real value(const Vector<Real>& z) override {
-    evaluate(value_, z);
-    return *value_.output(0);
+    value_.evaluate(numbers(z));
+    return value_.value(0);
   }
 
   const HamiltonianDerivatives<Real>& derivatives(const Vector<Real>& z) override {
-    evaluate(slope_, z);
-    for (Eigen::Index i = 0; i < dimension(); ++i) {
-      const auto row = static_cast<std::size_t>(i);
-      derivatives_.gradient(i) = *slope_.output(row);
-      for (Eigen::Index j = 0; j < dimension(); ++j) {
-        derivatives_.hessian(i, j) = slope_.output_gradient(row, static_cast<std::size_t>(j));
-      }
-    }
+    slope_.evaluate(numbers(z));
+    derivatives_.gradient = slope_.values();
+    derivatives_.hessian = slope_.jacobian();
     return derivatives_;
   }
 
  private:
-  using Evaluator = SliceEvaluator<Real, Real>;
-
-  static void evaluate(Evaluator& evaluator, const Vector<Real>& z) {
-    for (Eigen::Index i = 0; i < z.size(); ++i)
-      *evaluator.input(static_cast<std::size_t>(i)) = z(i);
-    evaluator.evaluate_constant_terms();
+  static std::span<const Real> numbers(const Vector<Real>& z) {
+    return {z.data(), static_cast<std::size_t>(z.size())};
   }
 
-  OperationList hamiltonian_;
-  OperationList gradient_;
-  SpacePointer space_;
-  Evaluator value_;
-  Evaluator slope_;
+  DifferentiableFunction<Real> value_;
+  DifferentiableFunction<Real> slope_;
   HamiltonianDerivatives<Real> derivatives_;
 };
 

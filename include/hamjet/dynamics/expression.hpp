@@ -102,6 +102,11 @@ OperationList record(std::size_t inputs, const Function& function) {
 /// Runs a list on expressions: the values of all its operations, re-recorded (and so simplified).
 std::vector<Expression> replay(const OperationList& list, std::span<const Expression> inputs);
 
+/// The outputs of a list on these expressions: a recorded function called inside the recording of
+/// another one.
+std::vector<Expression> recorded_outputs(const OperationList& list,
+                                         std::span<const Expression> inputs);
+
 /// The gradient of a list with one output, by reverse accumulation (Griewank and Walther,
 /// Evaluating Derivatives, chapter 3): a list with one output per input. Throws Error(usage) for
 /// more outputs.

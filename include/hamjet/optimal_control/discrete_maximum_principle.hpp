@@ -1,7 +1,7 @@
 #pragma once
 
+#include "hamjet/dynamics/differentiable_function.hpp"
 #include "hamjet/optimal_control/advance_map.hpp"
-#include "hamjet/optimal_control/differentiable_function.hpp"
 #include "hamjet/optimal_control/discretization.hpp"
 #include "hamjet/optimal_control/optimal_control_problem.hpp"
 
@@ -25,7 +25,8 @@ class DiscreteMaximumPrinciple : public AdvanceMap {
                         const Eigen::VectorXd& control_guess) override;
 
  private:
-  DifferentiableFunction equations_;  ///< (x_k, p_k, x_(k+1), p_(k+1), u) -> 2n + m residuals
+  DifferentiableFunction<double>
+      equations_;  ///< (x_k, p_k, x_(k+1), p_(k+1), u) -> 2n + m residuals
 };
 
 }  // namespace hamjet

@@ -3,7 +3,8 @@
 #include <cstddef>
 #include <span>
 
-#include "hamjet/optimal_control/differentiable_function.hpp"
+#include "hamjet/dynamics/differentiable_function.hpp"
+#include "hamjet/dynamics/expression.hpp"
 
 namespace hamjet {
 
@@ -36,7 +37,7 @@ class EndConditions {
  private:
   std::size_t states_;
   std::size_t count_;
-  DifferentiableFunction function_;  ///< (x, lambda) -> (phi, D phi^T lambda)
+  DifferentiableFunction<double> function_;  ///< (x, lambda) -> (phi, D phi^T lambda)
 };
 
 }  // namespace hamjet

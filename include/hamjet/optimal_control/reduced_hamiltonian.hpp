@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 #include <cstddef>
 
-#include "hamjet/optimal_control/differentiable_function.hpp"
+#include "hamjet/dynamics/differentiable_function.hpp"
 #include "hamjet/optimal_control/optimal_control_problem.hpp"
 
 namespace hamjet {
@@ -29,8 +29,8 @@ class ReducedHamiltonian {
                                    const Eigen::VectorXd& control_guess);
 
  private:
-  DifferentiableFunction hamiltonian_;  ///< (x, p, u) -> H
-  DifferentiableFunction slope_;        ///< (x, p, u) -> grad H
+  DifferentiableFunction<double> hamiltonian_;  ///< (x, p, u) -> H
+  DifferentiableFunction<double> slope_;        ///< (x, p, u) -> grad H
 };
 
 }  // namespace hamjet

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <vector>
+
+#include "hamjet/dynamics/differentiable_function.hpp"
+#include "real_number.hpp"
+
+namespace hamjet {
+
+/// The size of the terms that a Hamiltonian's value is made of, for judging round-off: the energy
+/// itself and each variable times its derivative. `hamiltonian` was evaluated at z.
+template <class Real>
+Real energy_scale(const DifferentiableFunction<Real>& hamiltonian, const std::vector<Real>& z) {
+  Real scale = magnitude(hamiltonian.value(0));
+  for (std::size_t i = 0; i < z.size(); ++i) {
+    scale += magnitude(Real(hamiltonian.derivative(0, i) * z[i]));
+  }
+  return scale;
+}
+
+}  // namespace hamjet
