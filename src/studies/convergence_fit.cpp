@@ -25,25 +25,37 @@ double smallest_error(const ComparisonResult& result, std::size_t degree) {
   return smallest;
 }
 
+/// Where a series' error rises again at its finest step, its own round-off is above that of the
+/// best run: the smallest error of the series. 0 where it still falls.
+double turning_error(const std::vector<ConvergencePoint>& finest_first) {
+  if (finest_first.empty()) return 0;
+  const auto smallest =
+      std::min_element(finest_first.begin(), finest_first.end(),
+                       [](const auto& a, const auto& b) { return a.error < b.error; });
+  return smallest == finest_first.begin() ? 0 : smallest->error;
+}
+
 }  // namespace
 
 std::vector<ConvergencePoint> usable_points(const ComparisonResult& result,
                                             const std::string& series, int degree) {
   const auto index = static_cast<std::size_t>(degree);
-  const double floor = std::max({above_floor * smallest_error(result, index),
-                                 above_floor * std::numeric_limits<double>::epsilon(),
-                                 result.smallest_claimed_error(degree)});
   std::vector<ConvergencePoint> points;
   for (const ComparedRun& run : result.runs) {
     if (run.series != series || !run.is_finished() || !run.settings.step_canonical) continue;
-    const double error = run.error_by_degree[index];
-    if (error < floor || error > largest_error) continue;
     // The step that was taken: the duration is cut into equal ones not longer than asked for.
     points.push_back({std::abs(result.scene.duration) / static_cast<double>(run.statistics.steps),
-                      error, run.settings.label});
+                      run.error_by_degree[index], run.settings.label});
   }
   std::sort(points.begin(), points.end(),
             [](const auto& a, const auto& b) { return a.step < b.step; });
+  const double floor =
+      std::max({above_floor * smallest_error(result, index), above_floor * turning_error(points),
+                above_floor * std::numeric_limits<double>::epsilon(),
+                result.smallest_claimed_error(degree)});
+  std::erase_if(points, [&](const ConvergencePoint& point) {
+    return point.error < floor || point.error > largest_error;
+  });
   if (points.size() > most_points) points.resize(most_points);
   return points;
 }

@@ -33,6 +33,29 @@ TEST(FittedSlope, RefusesScatter) {
   EXPECT_FALSE(fitted_slope(points, 0));
 }
 
+/// A series whose error rises again has a rounding floor of its own, above that of the best run.
+TEST(UsablePoints, StayAboveTheSeriesOwnFloor) {
+  ComparisonResult result;
+  result.scene.duration = 1;
+  result.reference.uncertainty_by_degree = {1e-20};
+  const auto add = [&](const std::string& series, long steps, double error) {
+    ComparedRun run;
+    run.series = series;
+    run.settings.step_canonical = 1.0 / static_cast<double>(steps);
+    run.statistics.steps = steps;
+    run.error_by_degree = {error};
+    result.runs.push_back(run);
+  };
+  add("best", 10, 1e-15);
+  long steps = 10;
+  for (const double error : {1e-3, 1e-5, 1e-7, 1e-9, 1e-12, 4e-12}) add("one", steps *= 2, error);
+  const auto points = usable_points(result, "one", 0);
+  ASSERT_EQ(points.size(), 4U);
+  EXPECT_EQ(points.front().error, 1e-9);
+  result.runs.pop_back();  // now it still falls: only the best run's floor, 1e-13, counts
+  EXPECT_EQ(usable_points(result, "one", 0).front().error, 1e-12);
+}
+
 /// Fehlberg's pair: the term of order 9 outweighs that of order 8 at the steps that double
 /// precision resolves on a whole revolution.
 TEST(ExtendedConvergence, ShowsTheOrderOfFehlberg) {
