@@ -107,9 +107,11 @@ TEST(Comparison, InterruptedAndResumedGivesTheSameFigures) {
   scene.comparison.repeats = 2;
   scene.integrators = {gauss("watched", 2, 0.1)};
   ComparisonResult whole;
+  // How long the fits of the orders go on depends on the machine's speed.
+  const auto is_counted = [](const std::string& task) { return !task.starts_with("order of"); };
   int calls = 0;
   ComparisonOptions options;
-  options.progress = [&](const std::string&, double) { ++calls; };
+  options.progress = [&](const std::string& task, double) { calls += is_counted(task) ? 1 : 0; };
   compare(scene, options, whole);
   ASSERT_TRUE(whole.is_complete);
 
@@ -117,8 +119,8 @@ TEST(Comparison, InterruptedAndResumedGivesTheSameFigures) {
   for (const double part : {0.2, 0.6, 0.9, 0.97}) {
     ComparisonResult result;
     int left = static_cast<int>(part * calls);
-    options.progress = [&](const std::string&, double) {
-      if (left-- == 0) throw Stop{};
+    options.progress = [&](const std::string& task, double) {
+      if (is_counted(task) && left-- == 0) throw Stop{};
     };
     try {
       compare(scene, options, result);
