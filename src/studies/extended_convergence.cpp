@@ -20,7 +20,7 @@ constexpr double above_claimed = 30;
 constexpr double smallest_floor = 1e-20;
 constexpr double most_refinement = 64;
 /// The coarsest error is this many times the finest, unless that takes more than halved steps.
-constexpr double error_range = 1e8;
+constexpr double error_range = 1e5;
 /// Steps after which the time of all is judged.
 constexpr long least_steps = 10;
 
