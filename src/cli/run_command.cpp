@@ -18,7 +18,6 @@
 #include "standard_streams.hpp"
 
 namespace hamjet::cli {
-
 namespace {
 
 int run_flow_jet(const RunOptions& options, const Scene& scene) {
@@ -73,7 +72,7 @@ int run_paper_study(const RunOptions& options, const PaperStudy& study) {
   {
     const UninterruptedWriting guard;
     for (const auto& file : earlier_results(directory)) output.replace(file);
-    for (const io::StudyFile& file : report.files) output.write(file.path, file.content);
+    for (const io::ReportFile& file : report.files) output.write(file.path, file.content);
     output.replace("figure.svg");
     output.commit();
   }

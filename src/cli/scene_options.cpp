@@ -59,12 +59,8 @@ io::Study read_study(const RunOptions& options) {
 }
 
 Scene read_scene(const RunOptions& options) {
-  io::Study study = read_study(options);
-  if (Scene* scene = std::get_if<Scene>(&study)) return std::move(*scene);
-  throw Error(ErrorKind::scene,
-              fmt::format("{}: study: has no flow jet, which this command works on; `hamjet run` "
-                          "runs this scene",
-                          io::printable(*options.scene_file, std::string::npos)));
+  // The built-in scene is a flow jet.
+  return io::require_flow_jet(read_study(options), options.scene_file.value_or(""));
 }
 
 std::filesystem::path output_path(const RunOptions& options, const std::string& scene_name) {

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "compensated_addition.hpp"
 #include "energy_conserving_midpoint.hpp"
 #include "energy_conserving_stormer.hpp"
 #include "hamjet/dynamics/differentiable_function.hpp"
@@ -179,7 +180,7 @@ EnergyConservingResult<Real> integrate(const EnergyConservingProblem<Real>& prob
   EnergyConservingResult<Real> result;
   result.state = problem.initial_state;
   Real size = problem.first_step * direction;
-  Real lost = 0;  // of the time, by Kahan's summation
+  Real lost = 0;  // of the time
   while (magnitude(result.time) < span) {
     if (static_cast<double>(result.steps) >= largest_energy_conserving_step_count) {
       throw Error(
@@ -205,10 +206,7 @@ EnergyConservingResult<Real> integrate(const EnergyConservingProblem<Real>& prob
         std::move(attempt.end), 0,           attempt.iterations};
     step.condition = condition(step.start);
     size = step.size;
-    const Real corrected = size - lost;
-    const Real sum = result.time + corrected;
-    lost = (sum - result.time) - corrected;
-    result.time = sum;
+    add_compensated(result.time, lost, size);
     ++result.steps;
     result.newton_iterations += step.newton_iterations;
     if (observer) observer(step);

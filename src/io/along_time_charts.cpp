@@ -8,20 +8,14 @@
 namespace hamjet::io {
 namespace {
 
-std::string time_label(const Scene& scene) {
-  if (!is_orbit(scene.system.model)) return "time (s)";
-  return fmt::format("time (canonical; 1 is {:.4g} s)", scene.units.time_s);
-}
-
 /// A chart with a curve for each integrator along time; `measure` gives a point's value, or none.
 template <class Measure>
-Chart along_time_chart(const Scene& scene, const std::vector<RunAlongTime>& runs, bool has_ticks,
-                       Measure measure) {
+Chart along_time_chart(const Scene& scene, const std::vector<RunAlongTime>& runs, std::string label,
+                       bool has_ticks, Measure measure) {
   Chart chart;
-  chart.x.label = time_label(scene);
+  chart.x.label = time_label(scene.system.model, scene.units);
   chart.x.includes = {0, scene.duration};
-  chart.y.is_logarithmic = true;
-  chart.y.unit = AxisUnit::power;
+  chart.y = logarithmic_axis(std::move(label));
   chart.y.smallest = 1e-18;  // far below the rounding of double
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const RunAlongTime& run = runs[i];
@@ -48,6 +42,11 @@ Chart along_time_chart(const Scene& scene, const std::vector<RunAlongTime>& runs
 
 }  // namespace
 
+std::string time_label(SystemModel model, const CanonicalUnits& units) {
+  return is_orbit(model) ? fmt::format("time (canonical; 1 is {:.4g} s)", units.time_s)
+                         : "time (s)";
+}
+
 std::string kind_text(const GeneratingFunctionKind& kind) {
   for (const char* name : {"F1", "F2", "F3", "F4"}) {
     if (parse_kind(name, kind.degrees_of_freedom()) == kind) {
@@ -60,11 +59,10 @@ std::string kind_text(const GeneratingFunctionKind& kind) {
 Chart exactness_along_time_chart(const Scene& scene,
                                  const std::optional<GeneratingFunctionKind>& kind,
                                  const std::vector<RunAlongTime>& runs) {
-  Chart chart = along_time_chart(scene, runs, true,
+  Chart chart = along_time_chart(scene, runs, exactness_label, true,
                                  [](const RunAlongTime::Point& point) { return point.exactness; });
   chart.name = "exactness-time";
   chart.title = "Exactness residual along time";
-  chart.y.label = "exactness residual, degree 0, scaled";
   chart.reading = fmt::format(
       "The figure of Guibout and Bloch: how far the generating function {} of each of the scene's "
       "integrators is from closed at degree 0, as the flow goes on. A symplectic method stays at "
@@ -76,19 +74,18 @@ Chart exactness_along_time_chart(const Scene& scene,
       "line says that a map is exact, not that it is right.",
       kind ? kind_text(*kind) : "");
   if (!kind) {
-    chart.missing =
-        "The jet is not expanded in all variables of phase space: there is no generating function.";
+    chart.missing = no_generating_function;
   }
   return chart;
 }
 
 Chart energy_along_time_chart(const Scene& scene, const std::vector<RunAlongTime>& runs) {
-  Chart chart = along_time_chart(scene, runs, false, [](const RunAlongTime::Point& point) {
-    return std::optional<double>(std::abs(point.energy_error));
-  });
+  Chart chart = along_time_chart(scene, runs, "|energy error|, relative", false,
+                                 [](const RunAlongTime::Point& point) {
+                                   return std::optional<double>(std::abs(point.energy_error));
+                                 });
   chart.name = "energy-time";
   chart.title = "Energy error along time";
-  chart.y.label = "|energy error|, relative";
   chart.reading =
       "Magnitude of the relative energy error along the nominal. The error of a symplectic method "
       "with fixed steps goes up and down with the orbit and does not grow; that of the others "

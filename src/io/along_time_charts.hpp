@@ -14,6 +14,15 @@ namespace hamjet::io {
 /// "F1 (qqq-qqq)", or the notation alone.
 std::string kind_text(const GeneratingFunctionKind& kind);
 
+/// The axis of time of a scene's model.
+std::string time_label(SystemModel model, const CanonicalUnits& units);
+
+/// The vertical axis of plots of the exactness residual, and what stands in place of a plot where
+/// there is none.
+inline constexpr const char* exactness_label = "exactness residual, degree 0, scaled";
+inline constexpr const char* no_generating_function =
+    "The jet is not expanded in all variables of phase space: there is no generating function.";
+
 /// The figure of Guibout and Bloch, with the times at which the kind does not exist. Not fitted.
 Chart exactness_along_time_chart(const Scene& scene,
                                  const std::optional<GeneratingFunctionKind>& kind,

@@ -79,9 +79,7 @@ Chart difference_chart(const CanonicalTransformationResult& result) {
   chart.name = "energy-difference";
   chart.title = "Difference of the energy errors of the two coordinates";
   chart.x.label = "time (canonical)";
-  chart.y.label = "|difference of the energy errors|";
-  chart.y.is_logarithmic = true;
-  chart.y.unit = AxisUnit::power;
+  chart.y = logarithmic_axis("|difference of the energy errors|");
   chart.y.smallest = 1e-18;  // far below the rounding of double
   add_curves(result, chart, "", 0, false, [](const Point& point) {
     return std::pair(point.time, std::abs(point.transformed_energy_error - point.energy_error));

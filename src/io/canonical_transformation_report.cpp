@@ -7,6 +7,7 @@
 #include "hamjet/error.hpp"
 #include "hamjet/io/study_report.hpp"
 #include "hamjet/version.hpp"
+#include "json_values.hpp"
 #include "scene_sections.hpp"
 #include "study_figure.hpp"
 
@@ -14,11 +15,6 @@ namespace hamjet::io {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-template <class T>
-Json or_null(const std::optional<T>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
 
 std::string trajectory_file(const CanonicalTransformationRun& run) {
   return fmt::format("trajectory_step_{}.csv", run.requested_step);
@@ -53,7 +49,7 @@ Json run_json(const CanonicalTransformationRun& run) {
   Json json = {{"requested_step_canonical", run.requested_step},
                {"step_canonical", run.step},
                {"steps", run.steps},
-               {"error", run.failure.empty() ? Json(nullptr) : Json(run.failure)},
+               {"error", text_or_null(run.failure)},
                {"trajectory", trajectory_file(run)},
                {"trajectory_interval_steps", run.stored_interval}};
   const bool is_empty = run.trajectory.empty();

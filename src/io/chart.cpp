@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace hamjet::io {
 namespace {
@@ -127,6 +128,14 @@ void fit_axes(Chart& chart) {
 }
 
 }  // namespace
+
+ChartAxis logarithmic_axis(std::string label, AxisUnit unit) {
+  ChartAxis axis;
+  axis.label = std::move(label);
+  axis.unit = unit;
+  axis.is_logarithmic = true;
+  return axis;
+}
 
 void fit(Chart& chart) {
   const auto is_empty = [](const ChartCurve& c) { return c.points.empty() && c.ticks.empty(); };

@@ -24,6 +24,8 @@ struct ChartAxis {
   std::vector<double> includes;  ///< places that it must reach
 };
 
+ChartAxis logarithmic_axis(std::string label, AxisUnit unit = AxisUnit::power);
+
 /// A line, a set of markers or both.
 struct ChartCurve {
   std::string title;      ///< empty: not in the legend

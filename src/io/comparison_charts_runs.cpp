@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "along_time_charts.hpp"
 #include "comparison_charts.hpp"
 #include "comparison_view.hpp"
 
@@ -13,21 +14,11 @@ namespace hamjet::io {
 namespace {
 
 ChartAxis error_axis(const ComparisonResult& result) {
-  ChartAxis axis;
-  const bool is_metric = has_formation_error(result);
-  axis.label = shown_error_name(result);
-  axis.unit = is_metric ? AxisUnit::metres : AxisUnit::power;
-  axis.is_logarithmic = true;
-  return axis;
+  return logarithmic_axis(shown_error_name(result),
+                          has_formation_error(result) ? AxisUnit::metres : AxisUnit::power);
 }
 
-ChartAxis time_axis() {
-  ChartAxis axis;
-  axis.label = "time of integration";
-  axis.unit = AxisUnit::seconds;
-  axis.is_logarithmic = true;
-  return axis;
-}
+ChartAxis time_axis() { return logarithmic_axis("time of integration", AxisUnit::seconds); }
 
 /// Whether the error may be shown; counts those that are the reference's as much as the run's.
 bool is_claimed(double error, double smallest, std::size_t& below) {
@@ -47,12 +38,11 @@ void note_below(const ComparisonResult& result, double smallest, std::size_t bel
 
 /// One point a run: its error across, and upwards what `measure` gives, coloured by corner.
 template <class Measure>
-Chart corner_chart(const ComparisonResult& result, Measure measure) {
+Chart corner_chart(const ComparisonResult& result, std::string label, Measure measure) {
   Chart chart;
   chart.x = error_axis(result);
   chart.x.margin = 0.5;
-  chart.y.is_logarithmic = true;
-  chart.y.unit = AxisUnit::power;
+  chart.y = logarithmic_axis(std::move(label));
   chart.y.margin = 1.2;
   const double smallest = smallest_shown_error(result);
   std::size_t below = 0;
@@ -133,14 +123,14 @@ Chart work_precision_chart(const ComparisonResult& result) {
 
 Chart exactness_chart(const ComparisonResult& result) {
   std::size_t without = 0;
-  Chart chart = corner_chart(result, [&](const ComparedRun& run) -> std::optional<double> {
-    if (!run.exactness.empty()) return run.exactness.front().residual.scaled;
-    ++without;
-    return std::nullopt;
-  });
+  Chart chart =
+      corner_chart(result, exactness_label, [&](const ComparedRun& run) -> std::optional<double> {
+        if (!run.exactness.empty()) return run.exactness.front().residual.scaled;
+        ++without;
+        return std::nullopt;
+      });
   chart.name = "exactness-error";
   chart.title = "Exactness residual against error";
-  chart.y.label = "exactness residual, degree 0, scaled";
   chart.reading = fmt::format(
       "The two questions in one picture, one point a run: is it right (left), and is it the map of "
       "a symplectic method (below)? The residual says how far the generating function {} is from a "
@@ -152,8 +142,7 @@ Chart exactness_chart(const ComparisonResult& result) {
       "the other side of the horizontal line.",
       kind_text(result), largest_exact_defect, result.kind_condition);
   if (!result.kind) {
-    chart.missing =
-        "The jet is not expanded in all variables of phase space: there is no generating function.";
+    chart.missing = no_generating_function;
   } else if (without > 0) {
     chart.notes.push_back(fmt::format(
         "Runs without a point because the generating function does not exist for their map: {}.",
@@ -163,13 +152,13 @@ Chart exactness_chart(const ComparisonResult& result) {
 }
 
 Chart symplecticity_chart(const ComparisonResult& result) {
-  Chart chart = corner_chart(result, [](const ComparedRun& run) -> std::optional<double> {
-    if (run.symplecticity.empty()) return std::nullopt;
-    return run.largest_symplecticity();
-  });
+  Chart chart = corner_chart(result, "symplecticity defect, all degrees, scaled",
+                             [](const ComparedRun& run) -> std::optional<double> {
+                               if (run.symplecticity.empty()) return std::nullopt;
+                               return run.largest_symplecticity();
+                             });
   chart.name = "symplecticity-error";
   chart.title = "Symplecticity defect against error";
-  chart.y.label = "symplecticity defect, all degrees, scaled";
   chart.reading = fmt::format(
       "The same runs with the quantity that decides about exactness: the largest defect of a "
       "Poisson bracket of the jet over all degrees, relative to the sum of its terms. At most "

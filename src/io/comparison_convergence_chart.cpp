@@ -91,12 +91,8 @@ Chart convergence_chart(const ComparisonResult& result) {
       "extended precision, below the floor of double precision, take the fit over, with the next "
       "term of the error's expansion fitted beside the slope. A series with too few usable runs, "
       "or whose runs scatter about the fit by more than a tenth of a decade, has none.";
-  chart.x.label = "step (canonical time)";
-  chart.x.is_logarithmic = true;
-  chart.x.unit = AxisUnit::power;
-  chart.y.label = "relative error of degree 0";
-  chart.y.is_logarithmic = true;
-  chart.y.unit = AxisUnit::power;
+  chart.x = logarithmic_axis("step (canonical time)");
+  chart.y = logarithmic_axis("relative error of degree 0");
   chart.x.margin = chart.y.margin = 0.05;
   std::size_t below = 0;
   for (const std::string& name : series_names(result.runs)) {

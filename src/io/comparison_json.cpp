@@ -3,6 +3,7 @@
 
 #include "hamjet/io/comparison_report.hpp"
 #include "hamjet/version.hpp"
+#include "json_values.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -22,8 +23,6 @@ Json numbers(const std::vector<double>& values) {
   for (const double value : values) json.push_back(number(value));
   return json;
 }
-
-Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
 
 Json settings_json(const IntegratorSettings& settings) {
   return {{"label", settings.label},

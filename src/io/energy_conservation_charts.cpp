@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
+
+#include "along_time_charts.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -35,15 +38,12 @@ ChartCurve line(std::string title, std::size_t style, const Points& points) {
   return curve;
 }
 
-Chart along_time(const EnergyConservationResult& result) {
+Chart along_time(const EnergyConservationResult& result, std::string label) {
   const EnergyConservationStudy& study = result.study;
   Chart chart;
-  chart.x.label = is_orbit(study.system.model)
-                      ? fmt::format("time (canonical; 1 is {:.4g} s)", study.units.time_s)
-                      : "time (s)";
+  chart.x.label = time_label(study.system.model, study.units);
   chart.x.includes = {0};
-  chart.y.is_logarithmic = true;
-  chart.y.unit = AxisUnit::power;
+  chart.y = logarithmic_axis(std::move(label));
   if (result.predicted_time) chart.rules.push_back({true, *result.predicted_time});
   return chart;
 }
@@ -58,7 +58,7 @@ std::string rule_text(const EnergyConservationResult& result) {
 }
 
 Chart error_chart(const EnergyConservationResult& result) {
-  Chart chart = along_time(result);
+  Chart chart = along_time(result, "|energy error| / |H(z_0)|");
   chart.name = "energy-errors";
   chart.title = "Energy errors along time";
   chart.reading =
@@ -66,7 +66,6 @@ Chart error_chart(const EnergyConservationResult& result) {
       "trajectory goes up and down with the square of the step size (for Störmer with the step "
       "size), as it does for the method with fixed steps." +
       rule_text(result);
-  chart.y.label = "|energy error| / |H(z_0)|";
   chart.y.smallest = 1e-20;
   Points discrete;
   Points energy;
@@ -89,14 +88,13 @@ Chart error_chart(const EnergyConservationResult& result) {
 
 Chart step_chart(const EnergyConservationResult& result) {
   const bool is_orbital = is_orbit(result.study.system.model);
-  Chart chart = along_time(result);
+  Chart chart = along_time(result, is_orbital ? "step size (canonical time)" : "step size (s)");
   chart.name = "step-size";
   chart.title = "Step size along time";
   chart.reading = fmt::format(
       "The step size that the energy equation asks for. To leading order it varies as {}.{}",
       result.study.method == EnergyConservingMethod::stormer ? "|dV/dt|^(-1/2)" : "|G|^(-1/3)",
       rule_text(result));
-  chart.y.label = is_orbital ? "step size (canonical time)" : "step size (s)";
   Points sizes;
   for (const EnergyConservationPoint& point : result.points) {
     if (point.size) sizes.emplace_back(point.time, std::abs(*point.size));

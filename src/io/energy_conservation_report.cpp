@@ -7,6 +7,7 @@
 #include "energy_conservation_charts.hpp"
 #include "hamjet/io/study_report.hpp"
 #include "hamjet/version.hpp"
+#include "json_values.hpp"
 #include "study_figure.hpp"
 
 namespace hamjet::io {
@@ -86,7 +87,7 @@ Json fixed_step_json(const FixedStepTrajectory& fixed) {
           {"steps", fixed.steps},
           {"time_canonical", fixed.energy_errors.back().first},
           {"largest_energy_error", number_or_null(fixed.largest_energy_error)},
-          {"error", fixed.failure.empty() ? Json(nullptr) : Json(fixed.failure)}};
+          {"error", text_or_null(fixed.failure)}};
 }
 
 std::string summary_json(const EnergyConservationResult& result) {

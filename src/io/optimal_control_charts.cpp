@@ -74,10 +74,8 @@ Chart cost_chart(const OptimalControlResult& result) {
   Chart chart;
   chart.name = "cost";
   chart.title = "Error of the cost against the step";
-  chart.x.label = "step";
-  chart.y.label = "cost: relative error from the closed form";
-  chart.x.is_logarithmic = chart.y.is_logarithmic = true;
-  chart.x.unit = chart.y.unit = AxisUnit::power;
+  chart.x = logarithmic_axis("step");
+  chart.y = logarithmic_axis("cost: relative error from the closed form");
   chart.x.margin = chart.y.margin = 0.05;
   chart.y.smallest = 1e-17;
   ChartCurve continuous;

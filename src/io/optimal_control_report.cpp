@@ -5,6 +5,7 @@
 
 #include "hamjet/io/study_report.hpp"
 #include "hamjet/version.hpp"
+#include "json_values.hpp"
 #include "optimal_control_charts.hpp"
 #include "study_figure.hpp"
 
@@ -12,13 +13,6 @@ namespace hamjet::io {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-template <class T>
-Json or_null(const std::optional<T>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
-
-Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
 
 std::string_view model_of(const OptimalControlResult& result) {
   return control_model_names()[static_cast<std::size_t>(result.study.model)];

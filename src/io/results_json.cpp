@@ -2,19 +2,13 @@
 
 #include "hamjet/io/results.hpp"
 #include "hamjet/version.hpp"
+#include "json_values.hpp"
 #include "results_names.hpp"
 
 namespace hamjet::io {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-template <class T>
-Json or_null(const std::optional<T>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
-
-Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
 
 Json exactness_json(const PropagationResult& result, const KindResult& kind) {
   Json by_degree = Json::array();

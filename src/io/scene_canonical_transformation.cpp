@@ -104,11 +104,7 @@ std::vector<double> read_steps(const TableReader& table, double duration) {
 CanonicalTransformationStudy read_canonical_transformation(const TableReader& root) {
   CanonicalTransformationStudy study;
   study.title = root.text("title");
-  study.system = read_system(root.table("system"));
-  const Nominal nominal = read_nominal(root.table("nominal"), study.system);
-  study.nominal = nominal.state;
-  study.units = canonical_units(nominal.scale);
-  study.canonical_radius = read_canonical_radius(root.table("system"), study.system, nominal.scale);
+  read_start(root, study);
   const TableReader table = root.table("canonical_transformation");
   table.check_keys({{"steps_canonical", "duration_canonical", "rotation_cosine",
                      "rotation_angle_rad", "matrix", "shift", "require_invariance"}});

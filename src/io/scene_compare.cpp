@@ -12,20 +12,9 @@ namespace {
 
 constexpr int most_repeats = 1000;
 
-/// An array of integers between the two, both included.
 std::vector<int> integers(const TableReader& table, std::string_view key, int least, int greatest) {
-  const std::vector<double> values = table.numbers(key);
-  std::vector<int> result;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const double value = values[i];
-    if (value != std::floor(value) || value < least || value > greatest) {
-      table.fail_element(key, i,
-                         fmt::format("out of range, got {}, must be an integer from {} to {}",
-                                     value, least, greatest));
-    }
-    result.push_back(static_cast<int>(value));
-  }
-  return result;
+  const std::vector<std::int64_t> values = table.integers(key, least, greatest);
+  return {values.begin(), values.end()};
 }
 
 std::vector<double> positive_numbers(const TableReader& table, std::string_view key, double least,

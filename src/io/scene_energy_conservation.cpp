@@ -47,11 +47,7 @@ EnergyConservationStudy read_energy_conservation(const TableReader& root) {
   refuse_jet(root);
   EnergyConservationStudy study;
   study.title = root.text("title");
-  study.system = read_system(root.table("system"));
-  const Nominal nominal = read_nominal(root.table("nominal"), study.system);
-  study.nominal = nominal.state;
-  study.units = canonical_units(nominal.scale);
-  study.canonical_radius = read_canonical_radius(root.table("system"), study.system, nominal.scale);
+  const Nominal nominal = read_start(root, study);
 
   const TableReader table = root.table("energy_conservation");
   const bool has_orbits = is_orbit(study.system.model);

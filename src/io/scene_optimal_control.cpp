@@ -12,21 +12,6 @@ namespace {
 /// As many steps as a study may take is far below this; more is refused by the study itself.
 constexpr std::int64_t most_steps = 1'000'000'000;
 
-std::vector<std::size_t> read_refinements(const TableReader& table) {
-  std::vector<std::size_t> refinements;
-  const std::vector<double> values = table.numbers("refinements");
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (values[i] != std::floor(values[i]) || values[i] < 1 ||
-        values[i] > static_cast<double>(most_steps)) {
-      table.fail_element("refinements", i,
-                         fmt::format("out of range, got {}, must be an integer from 1 to {}",
-                                     values[i], most_steps));
-    }
-    refinements.push_back(static_cast<std::size_t>(values[i]));
-  }
-  return refinements;
-}
-
 /// The components that `free_end` leaves free.
 std::vector<bool> read_free_end(const TableReader& table,
                                 const std::vector<std::string_view>& names) {
@@ -105,7 +90,10 @@ Study read_optimal_control(const TableReader& root) {
   // Costs go as its inverse third power: binary64 must hold them.
   study.duration = table.number_between("duration", 1e-30, 1e30);
   study.steps = static_cast<std::size_t>(table.integer_between("steps", 1, most_steps));
-  if (table.has("refinements")) study.refinements = read_refinements(table);
+  if (table.has("refinements")) {
+    const std::vector<std::int64_t> counts = table.integers("refinements", 1, most_steps);
+    study.refinements.assign(counts.begin(), counts.end());
+  }
   study.start = read_components(table, "start", names, model);
   study.end = read_end(table, names, model);
   if (table.has("costate_guess")) {

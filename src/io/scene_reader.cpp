@@ -20,13 +20,8 @@ Scene read_flow_jet(const TableReader& root) {
   Scene scene;
   scene.title = root.text("title");
   scene.precision = read_precision(root);
-  scene.system = read_system(root.table("system"));
-
-  const Nominal nominal = read_nominal(root.table("nominal"), scene.system);
+  const Nominal nominal = read_start(root, scene);
   const CanonicalScale& scale = nominal.scale;
-  scene.nominal = nominal.state;
-  scene.units = canonical_units(scale);
-  scene.canonical_radius = read_canonical_radius(root.table("system"), scene.system, scale);
 
   const JetSettings jet = read_jet(root.table("jet"), scene.system.model, scene.precision, nominal);
   scene.order = jet.order;

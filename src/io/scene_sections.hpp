@@ -68,6 +68,18 @@ CanonicalUnits canonical_units(const CanonicalScale& scale);
 double read_canonical_radius(const TableReader& system, const SystemSettings& settings,
                              const CanonicalScale& scale);
 
+/// The tables `[system]` and `[nominal]` into the members that every scene of a model has.
+template <class ModelScene>
+Nominal read_start(const TableReader& root, ModelScene& scene) {
+  const TableReader system = root.table("system");
+  scene.system = read_system(system);
+  Nominal nominal = read_nominal(root.table("nominal"), scene.system);
+  scene.nominal = nominal.state;
+  scene.units = canonical_units(nominal.scale);
+  scene.canonical_radius = read_canonical_radius(system, scene.system, nominal.scale);
+  return nominal;
+}
+
 /// The only one of `duration_s`, `duration_canonical` and, for orbits, `duration_orbits`; in
 /// canonical units.
 double read_duration(const TableReader& table, bool has_orbits, const Nominal& nominal);

@@ -74,14 +74,17 @@ Study read_study(const std::filesystem::path& file, const std::vector<Override>&
   return parse_study(read_scene_file(file), file.string(), overrides);
 }
 
-Scene parse_scene(std::string_view text, const std::string& file_name,
-                  const std::vector<Override>& overrides) {
-  Study study = parse_study(text, file_name, overrides);
+Scene require_flow_jet(Study study, const std::string& file_name) {
   if (Scene* scene = std::get_if<Scene>(&study)) return std::move(*scene);
   throw Error(ErrorKind::scene,
               printable(file_name, std::string::npos) +
-                  ": study: has no flow jet, which is what is asked for here; `hamjet run` runs "
-                  "this scene");
+                  ": study: has no flow jet, which this command works on; `hamjet run` runs this "
+                  "scene");
+}
+
+Scene parse_scene(std::string_view text, const std::string& file_name,
+                  const std::vector<Override>& overrides) {
+  return require_flow_jet(parse_study(text, file_name, overrides), file_name);
 }
 
 Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides) {

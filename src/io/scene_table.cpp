@@ -119,6 +119,23 @@ std::vector<double> TableReader::numbers(std::string_view key) const {
   return numbers(key, count);
 }
 
+std::vector<std::int64_t> TableReader::integers(std::string_view key, std::int64_t least,
+                                                std::int64_t greatest) const {
+  const std::vector<double> values = numbers(key);
+  std::vector<std::int64_t> result;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double value = values[i];
+    if (value != std::floor(value) || value < static_cast<double>(least) ||
+        value > static_cast<double>(greatest)) {
+      fail_element(key, i,
+                   fmt::format("out of range, got {}, must be an integer from {} to {}", value,
+                               least, greatest));
+    }
+    result.push_back(static_cast<std::int64_t>(value));
+  }
+  return result;
+}
+
 std::vector<double> TableReader::square_matrix(std::string_view key, std::size_t size) const {
   const std::string right = fmt::format("an array of {0} arrays of {0} finite numbers", size);
   const toml::array& rows = required_array(key, right);

@@ -50,6 +50,9 @@ class TableReader {
   std::vector<double> numbers(std::string_view key, std::size_t count) const;
   /// Required: an array of finite numbers, not empty.
   std::vector<double> numbers(std::string_view key) const;
+  /// Required: an array of integers between the two, both included; not empty.
+  std::vector<std::int64_t> integers(std::string_view key, std::int64_t least,
+                                     std::int64_t greatest) const;
   /// Required: an array of `size` arrays (rows) of `size` finite numbers; returned by rows.
   std::vector<double> square_matrix(std::string_view key, std::size_t size) const;
   /// Required: a string.

@@ -10,21 +10,11 @@
 namespace hamjet {
 namespace {
 
-/// J M, for a matrix of 2n rows.
-template <class Real>
-Matrix<Real> rotated_rows(const Matrix<Real>& matrix) {
-  const Eigen::Index n = matrix.rows() / 2;
-  Matrix<Real> result(matrix.rows(), matrix.cols());
-  result.topRows(n) = matrix.bottomRows(n);
-  result.bottomRows(n) = -matrix.topRows(n);
-  return result;
-}
-
 /// A J A^T - J.
 template <class Real>
 Matrix<Real> defect_matrix(const Matrix<Real>& matrix) {
   const Eigen::Index n = matrix.rows() / 2;
-  Matrix<Real> defect = matrix * rotated_rows<Real>(matrix.transpose());
+  Matrix<Real> defect = matrix * symplectic_unit_times(matrix.transpose());
   defect.topRightCorner(n, n).diagonal().array() -= Real(1);
   defect.bottomLeftCorner(n, n).diagonal().array() += Real(1);
   return defect;
@@ -137,7 +127,7 @@ Matrix<Real> nearest_symplectic(Matrix<Real> matrix) {
   constexpr int largest_iteration_count = 8;  // quadratic: from 1e-13 two reach 1e-34
   double previous = symplecticity_defect(matrix).relative;
   for (int i = 0; i < largest_iteration_count; ++i) {
-    const Matrix<Real> correction = defect_matrix(matrix) * rotated_rows(matrix) / Real(2);
+    const Matrix<Real> correction = defect_matrix(matrix) * symplectic_unit_times(matrix) / Real(2);
     const Matrix<Real> improved = matrix + correction;
     const double defect = symplecticity_defect(improved).relative;
     if (!(defect < previous)) break;

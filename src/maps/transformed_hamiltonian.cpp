@@ -55,8 +55,7 @@ DynamicalSystem transformed_system(const DynamicalSystem& system,
       }
       z.push_back(sum);
     }
-    const std::vector<Expression> values = replay(system.hamiltonian, z);
-    return std::vector<Expression>{values[system.hamiltonian.outputs()[0]]};
+    return recorded_outputs(system.hamiltonian, z);
   });
   return make_system(system.name + ", transformed", hamiltonian);
 }

@@ -1,19 +1,9 @@
 #include <hamjet/optimal_control/hamiltonian_discretization.hpp>
 
+#include "hamjet/algebra/matrix.hpp"
 #include "newton.hpp"
 
 namespace hamjet {
-namespace {
-
-/// J m for m with 2n rows, J = [[0, I], [-I, 0]].
-Eigen::MatrixXd canonical(const Eigen::MatrixXd& m) {
-  const Eigen::Index n = m.rows() / 2;
-  Eigen::MatrixXd result(m.rows(), m.cols());
-  result << m.bottomRows(n), -m.topRows(n);
-  return result;
-}
-
-}  // namespace
 
 HamiltonianDiscretization::HamiltonianDiscretization(const OptimalControlProblem& problem,
                                                      Discretization discretization, double step)
@@ -34,13 +24,14 @@ AdvancedPoint HamiltonianDiscretization::advance(const Eigen::VectorXd& point,
   const Linearization solved =
       solve_step(next, "discretised canonical equations", [&](const Eigen::VectorXd& trial) {
         value = hamiltonian_.evaluate(point + weights_.cwiseProduct(trial - point), value.control);
-        const Eigen::MatrixXd slope = step_ * canonical(value.hessian);
-        return Linearization{trial - point - step_ * canonical(value.gradient),
+        const Eigen::MatrixXd slope = step_ * symplectic_unit_times(value.hessian);
+        return Linearization{trial - point - step_ * symplectic_unit_times(value.gradient),
                              Eigen::MatrixXd::Identity(n2, n2) - slope * weights_.asDiagonal()};
       });
   const Eigen::VectorXd own_weights = Eigen::VectorXd::Ones(n2) - weights_;
-  const Eigen::MatrixXd by_point = Eigen::MatrixXd::Identity(n2, n2) +
-                                   step_ * canonical(value.hessian) * own_weights.asDiagonal();
+  const Eigen::MatrixXd by_point =
+      Eigen::MatrixXd::Identity(n2, n2) +
+      step_ * symplectic_unit_times(value.hessian) * own_weights.asDiagonal();
   return {next, value.control, solved.jacobian.partialPivLu().solve(by_point)};
 }
 

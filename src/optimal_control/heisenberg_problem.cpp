@@ -4,14 +4,18 @@
 
 namespace hamjet {
 
+HeisenbergChange heisenberg_change(std::span<const double> start,
+                                   std::span<const std::optional<double>> end) {
+  const double dx = end[0].value_or(start[0]) - start[0];
+  const double dy = end[1].value_or(start[1]) - start[1];
+  return {dx, dy, end[2] ? *end[2] - start[2] - start[1] * dx + start[0] * dy : 0};
+}
+
 std::optional<ClosedFormCost> heisenberg_cost(std::span<const double> start,
                                               const std::array<std::optional<double>, 3>& end,
                                               double duration, std::size_t steps) {
   if (!end[0] || !end[1]) return std::nullopt;
-  const double dx = *end[0] - start[0];
-  const double dy = *end[1] - start[1];
-  // Seen from the start, Z = z - z_0 - y_0 X + x_0 Y obeys the same equations.
-  const double a = end[2] ? *end[2] - start[2] - start[1] * dx + start[0] * dy : 0;
+  const auto [dx, dy, a] = heisenberg_change(start, end);
   if (a == 0) {
     const double cost = (dx * dx + dy * dy) / (2 * duration);
     return ClosedFormCost{cost, cost};

@@ -58,7 +58,6 @@ ComparedRun ComparedOrder::judge(const Candidate& candidate, const std::string& 
   run.series = series;
   run.order = scene_.order;
   NominalRecorder recorder(problem_, scene_.nominal.size());
-  recorder.record(0, problem_.nominal);
   const auto start = std::chrono::steady_clock::now();
   try {
     const auto jet =
@@ -118,7 +117,6 @@ void ComparedOrder::time(const Candidate& candidate, ComparedRun& run,
 RunAlongTime ComparedOrder::watch(const IntegratorSettings& settings,
                                   const std::function<void(double)>& keep_going) const {
   NominalRecorder nominal(problem_, scene_.nominal.size());
-  nominal.record(0, problem_.nominal);
   AlongTimeRecorder recorder(settings.label, scene_.duration, kind_, problem_.variables.size());
   std::string failure;
   try {

@@ -60,7 +60,7 @@ std::vector<ConvergencePoint> usable_points(const ComparisonResult& result,
   return points;
 }
 
-std::optional<double> fitted_slope(const std::vector<ConvergencePoint>& points, int correction) {
+LogarithmicFit fit_logarithms(const std::vector<ConvergencePoint>& points, int correction) {
   const auto rows = static_cast<Eigen::Index>(points.size());
   Eigen::MatrixXd terms(rows, correction == 0 ? 2 : 3);
   Eigen::VectorXd errors(rows);
@@ -73,8 +73,22 @@ std::optional<double> fitted_slope(const std::vector<ConvergencePoint>& points, 
     errors(i) = std::log10(point.error);
   }
   const Eigen::VectorXd fit = terms.colPivHouseholderQr().solve(errors);
-  if (!((terms * fit - errors).lpNorm<Eigen::Infinity>() <= largest_scatter)) return std::nullopt;
-  return fit(1);
+  return {fit(1), (terms * fit - errors).lpNorm<Eigen::Infinity>()};
+}
+
+std::optional<double> fitted_slope(const std::vector<ConvergencePoint>& points, int correction) {
+  const LogarithmicFit fit = fit_logarithms(points, correction);
+  return fit.scatter <= largest_scatter ? std::optional<double>(fit.slope) : std::nullopt;
+}
+
+ConvergenceFit convergence_fit_of(const CandidateSeries& series, int degree, double slope,
+                                  const std::vector<ConvergencePoint>& points) {
+  ConvergenceFit fit{series.name, degree, slope, series.order, {}};
+  for (const ConvergencePoint& point : points) {
+    fit.labels.push_back(point.label);
+    fit.points.emplace_back(point.step, point.error);
+  }
+  return fit;
 }
 
 std::optional<ConvergenceFit> fit_convergence(const ComparisonResult& result,
@@ -83,12 +97,7 @@ std::optional<ConvergenceFit> fit_convergence(const ComparisonResult& result,
   if (points.size() < fewest_points) return std::nullopt;
   const auto slope = fitted_slope(points, 0);
   if (!slope) return std::nullopt;
-  ConvergenceFit fit{series.name, degree, *slope, series.order, {}};
-  for (const ConvergencePoint& point : points) {
-    fit.labels.push_back(point.label);
-    fit.points.emplace_back(point.step, point.error);
-  }
-  return fit;
+  return convergence_fit_of(series, degree, *slope, points);
 }
 
 }  // namespace hamjet

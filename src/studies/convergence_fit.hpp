@@ -33,8 +33,20 @@ struct ConvergencePoint {
 std::vector<ConvergencePoint> usable_points(const ComparisonResult& result,
                                             const std::string& series, int degree);
 
-/// The slope of log(error) against log(step), with a term in step^correction beside it where that
-/// is not 0; none if a point is further than a tenth of a decade from the fit.
+/// A least-squares fit of log10(error) against log10(step).
+struct LogarithmicFit {
+  double slope = 0;
+  double scatter = 0;  ///< largest distance of a point, in decades
+};
+
+/// With a term in step^correction beside the slope where that is not 0.
+LogarithmicFit fit_logarithms(const std::vector<ConvergencePoint>& points, int correction);
+
+/// The slope of that fit; none if a point is further than a tenth of a decade from it.
 std::optional<double> fitted_slope(const std::vector<ConvergencePoint>& points, int correction);
+
+/// What a fit through these points says.
+ConvergenceFit convergence_fit_of(const CandidateSeries& series, int degree, double slope,
+                                  const std::vector<ConvergencePoint>& points);
 
 }  // namespace hamjet

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "energy_error.hpp"
 #include "fixed_step_trajectory.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
 #include "hamjet/studies/propagation.hpp"
@@ -44,8 +45,12 @@ std::optional<double> predicted_time(const EnergyConservationStudy& study,
     return std::nullopt;
   }
   StepCondition<double> condition(system, study.method);
-  const auto value = [&](double time) { return condition(flow(system, study.nominal, time)); };
   try {
+    // One flow to the stop; the secant method looks at its neighbourhood only.
+    const std::vector<double> at_stop = flow(system, study.nominal, stop.time);
+    const auto value = [&](double time) {
+      return condition(flow(system, at_stop, time - stop.time));
+    };
     double before = stop.time;
     double time = stop.time + *stop.steps_to_sign_change * last_step;
     double value_before = value(before);
@@ -94,7 +99,7 @@ class EnergyConservingTrajectory {
     last.step = result.run.steps;
     last.time = result.run.time;
     last.state = result.run.state;
-    last.energy_error = energy_.error(last.state);
+    last.energy_error = energy_.error(extended(last.state));
     last.condition = condition_(last.state);
     raise(result.largest_energy_error, std::abs(last.energy_error));
     points_.add(std::move(last));
@@ -113,7 +118,7 @@ class EnergyConservingTrajectory {
                                   step.size,
                                   step.start,
                                   energy_.relative(discrete - conserved_),
-                                  energy_.error(step.start),
+                                  energy_.error(extended(step.start)),
                                   step.condition,
                                   step.newton_iterations};
     const double size = std::abs(step.size);

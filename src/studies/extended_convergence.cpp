@@ -72,8 +72,6 @@ std::optional<ConvergenceFit> fit_extended_convergence(
   const long total = std::accumulate(counts.begin(), counts.end(), 0L);
 
   IntegratorSettings settings = series.candidates.front().settings;
-  ConvergenceFit fit{series.name, degree, 0, series.order, {}};
-  fit.is_extended = true;
   std::vector<ConvergencePoint> points;
   long done = 0;
   const auto start = Clock::now();
@@ -107,11 +105,8 @@ std::optional<ConvergenceFit> fit_extended_convergence(
   std::reverse(points.begin(), points.end());
   const auto slope = fitted_slope(points, correction_of(settings.method));
   if (!slope) return std::nullopt;
-  fit.slope = *slope;
-  for (const ConvergencePoint& point : points) {
-    fit.labels.push_back(point.label);
-    fit.points.emplace_back(point.step, point.error);
-  }
+  ConvergenceFit fit = convergence_fit_of(series, degree, *slope, points);
+  fit.is_extended = true;
   return fit;
 }
 

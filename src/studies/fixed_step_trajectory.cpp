@@ -3,16 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "energy_error.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
 #include "hamjet/integrators/stormer_verlet.hpp"
 #include "thinned_list.hpp"
 
 namespace hamjet {
-
-std::vector<Extended> extended(const std::vector<double>& state) {
-  return {state.begin(), state.end()};
-}
 
 FlowProblem<double> trajectory_problem(const DynamicalSystem& system,
                                        const std::vector<double>& start, double duration) {
@@ -23,22 +20,6 @@ FlowProblem<double> trajectory_problem(const DynamicalSystem& system,
   problem.initial_state = start;
   problem.duration = duration;
   return problem;
-}
-
-EnergyError::EnergyError(const DynamicalSystem& system, const std::vector<double>& start)
-    : hamiltonian_(system.hamiltonian), initial_(value(extended(start))) {}
-
-Extended EnergyError::value(const std::vector<Extended>& state) {
-  hamiltonian_.evaluate(state);
-  return hamiltonian_.value(0);
-}
-
-double EnergyError::relative(const Extended& difference) const {
-  return static_cast<double>(initial_ == 0 ? difference : Extended(difference / abs(initial_)));
-}
-
-double EnergyError::error(const std::vector<double>& state) {
-  return relative(value(extended(state)) - initial_);
 }
 
 FixedStepTrajectory fixed_step_trajectory(const DynamicalSystem& system,
@@ -55,7 +36,7 @@ FixedStepTrajectory fixed_step_trajectory(const DynamicalSystem& system,
   EnergyError energy(system, start);
   ThinnedList<std::pair<double, double>> errors;
   errors.add({0, 0});
-  std::vector<double> state(start.size());
+  std::vector<Extended> state(start.size());
   const StepObserver<double> observe = [&](const double& time, const FlowJet<double>& jet) {
     if (progress) progress("fixed-step trajectory", time / duration);
     for (std::size_t i = 0; i < state.size(); ++i) state[i] = jet[i][0];

@@ -27,22 +27,6 @@ void require_size(std::string_view what, std::size_t found, std::size_t right) {
                                             what, found, right));
 }
 
-/// What the end of a Heisenberg problem asks for, seen from its start: a as in heisenberg_cost;
-/// free components do not change.
-struct HeisenbergChange {
-  double dx;
-  double dy;
-  double a;
-};
-
-HeisenbergChange heisenberg_change(const OptimalControlStudy& study) {
-  const std::vector<double>& start = study.start;
-  const double dx = study.end[0].value_or(start[0]) - start[0];
-  const double dy = study.end[1].value_or(start[1]) - start[1];
-  const double a = study.end[2] ? *study.end[2] - start[2] - start[1] * dx + start[0] * dy : 0;
-  return {dx, dy, a};
-}
-
 }  // namespace
 
 const std::vector<std::string_view>& control_model_names() {
@@ -94,7 +78,7 @@ std::optional<ClosedFormCost> closed_form_cost(const OptimalControlStudy& study,
 std::vector<double> guessed_costate(const OptimalControlStudy& study) {
   if (study.model == ControlModel::double_integrator) return {0, 0};
   constexpr double full_turn = 6;  // radians; the controls turn at the rate 2 p_z
-  const HeisenbergChange change = heisenberg_change(study);
+  const HeisenbergChange change = heisenberg_change(study.start, study.end);
   const double size = std::sqrt(std::abs(change.a));
   const double chord = std::hypot(change.dx, change.dy);
   const double share = change.a == 0 ? 0 : 1 / (1 + (chord / size) * (chord / size));
@@ -111,7 +95,7 @@ std::vector<double> typical_sizes(const OptimalControlStudy& study) {
   const double t = study.duration;
   const auto positive = [](double size) { return size > 0 ? size : 1; };
   if (study.model == ControlModel::heisenberg) {
-    const HeisenbergChange change = heisenberg_change(study);
+    const HeisenbergChange change = heisenberg_change(study.start, study.end);
     const double length =
         positive(std::max(std::hypot(change.dx, change.dy), std::sqrt(std::abs(change.a))));
     return {length, length, length * length, length / t, length / t, 1 / t};

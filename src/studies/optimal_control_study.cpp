@@ -5,6 +5,7 @@
 #include <hamjet/studies/optimal_control_study.hpp>
 #include <numeric>
 
+#include "convergence_fit.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/maps/symplecticity.hpp"
 #include "hamjet/optimal_control/discrete_maximum_principle.hpp"
@@ -137,7 +138,7 @@ std::optional<ControlConvergenceFit> fit_order(const OptimalControlResult& resul
   constexpr double largest_error = 1e-2;
   constexpr std::size_t fewest_points = 3;
   constexpr std::size_t most_points = 4;
-  std::vector<std::pair<double, double>> points;
+  std::vector<ConvergencePoint> points;
   ControlConvergenceFit fit;
   std::vector<ControlConvergencePoint> finest = result.convergence;
   std::sort(finest.begin(), finest.end(),
@@ -148,24 +149,12 @@ std::optional<ControlConvergenceFit> fit_order(const OptimalControlResult& resul
       continue;
     }
     if (!fit.steps.empty() && fit.steps.back() == point.steps) continue;
-    points.emplace_back(std::log(result.study.duration / static_cast<double>(point.steps)),
-                        std::log(*point.continuous_error));
+    points.push_back(
+        {result.study.duration / static_cast<double>(point.steps), *point.continuous_error, ""});
     fit.steps.push_back(point.steps);
   }
   if (points.size() < fewest_points) return std::nullopt;
-  double x = 0;
-  double y = 0;
-  for (const auto& [log_step, log_error] : points) {
-    x += log_step / static_cast<double>(points.size());
-    y += log_error / static_cast<double>(points.size());
-  }
-  double xx = 0;
-  double xy = 0;
-  for (const auto& [log_step, log_error] : points) {
-    xx += (log_step - x) * (log_step - x);
-    xy += (log_step - x) * (log_error - y);
-  }
-  fit.order = xy / xx;
+  fit.order = fit_logarithms(points, 0).slope;
   return fit;
 }
 

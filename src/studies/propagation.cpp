@@ -31,7 +31,6 @@ template <class Real>
 void run_integrator(const Scene& scene, const ComputedProblem& problem, RunResult& run,
                     const std::function<void(double)>& progress) {
   NominalRecorder recorder(problem, scene.nominal.size());
-  recorder.record(0, problem.nominal);
   std::optional<AlongTimeRecorder> along_time;
   if (scene.figure) {
     along_time.emplace(run.settings.label, scene.duration, figure_kind(scene, problem),

@@ -11,13 +11,13 @@ using Matrix = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>;
 template <class T>
 using Vector = Eigen::Matrix<T, Eigen::Dynamic, 1>;
 
-/// J v of a vector (v_q, v_p) of even length, J = [[0, I], [-I, 0]]: (v_p, -v_q).
-template <class T>
-Vector<T> symplectic_unit_times(const Vector<T>& v) {
-  const Eigen::Index n = v.size() / 2;
-  Vector<T> result(v.size());
-  result.head(n) = v.tail(n);
-  result.tail(n) = -v.head(n);
+/// J m of a vector, or of a matrix, of 2n rows, J = [[0, I], [-I, 0]].
+template <class Derived>
+typename Derived::PlainObject symplectic_unit_times(const Eigen::MatrixBase<Derived>& m) {
+  const Eigen::Index n = m.rows() / 2;
+  typename Derived::PlainObject result(m.rows(), m.cols());
+  result.topRows(n) = m.bottomRows(n);
+  result.bottomRows(n) = -m.topRows(n);
   return result;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "hamjet/io/output_directory.hpp"
+#include "hamjet/io/report_file.hpp"
 #include "hamjet/studies/comparison.hpp"
 
 namespace hamjet::io {
@@ -55,12 +56,6 @@ std::string comparison_html(const ComparisonResult& result, const ReportOrigin& 
 /// The table for the terminal: the verdict, and for each series of runs the time to reach relative
 /// errors (largest over all degrees) of 1e-6, 1e-9 and 1e-12 as ratios to the best.
 std::string comparison_table(const ComparisonResult& result);
-
-/// A file of a report before it is written.
-struct ReportFile {
-  std::filesystem::path path;  ///< relative to the output directory
-  std::string content;
-};
 
 /// All files of a report.
 struct ComparisonReport {

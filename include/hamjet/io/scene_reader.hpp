@@ -51,6 +51,9 @@ Study read_study(const std::filesystem::path& file, const std::vector<Override>&
 Study parse_study(std::string_view text, const std::string& file_name,
                   const std::vector<Override>& overrides = {});
 
+/// The flow jet of a study that must have one. Throws Error(scene) that names the file otherwise.
+Scene require_flow_jet(Study study, const std::string& file_name);
+
 /// read_scene from text; `file_name` is used in messages and for Scene::name. Every number becomes
 /// the nearest binary64; the conversion to canonical units is done in extended precision and
 /// rounded once.

@@ -1,26 +1,20 @@
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "hamjet/io/report_file.hpp"
 #include "hamjet/studies/canonical_transformation.hpp"
 #include "hamjet/studies/energy_conservation.hpp"
 #include "hamjet/studies/optimal_control_study.hpp"
 
 namespace hamjet::io {
 
-/// A file of a study's results before it is written.
-struct StudyFile {
-  std::filesystem::path path;  ///< relative to the output directory
-  std::string content;
-};
-
 /// What a study that has no flow jet leaves.
 struct StudyReport {
   /// CSV files, `figure.svg` where it could be drawn, `summary.json` last.
-  std::vector<StudyFile> files;
+  std::vector<ReportFile> files;
   std::string table;                           ///< for the terminal
   int exit_code = 0;                           ///< 0, 1 (a check failed) or 4 (numerical failure)
   std::string failure;                         ///< one line, if the exit code is not 0

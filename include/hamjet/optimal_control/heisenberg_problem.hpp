@@ -32,6 +32,16 @@ struct HeisenbergFunctions {
   }
 };
 
+/// What an end asks for, seen from the start; components that are not fixed do not change.
+struct HeisenbergChange {
+  double dx = 0;
+  double dy = 0;
+  /// Of Z = z - z_0 - y_0 X + x_0 Y, which obeys the same equations from the origin.
+  double a = 0;
+};
+HeisenbergChange heisenberg_change(std::span<const double> start,
+                                   std::span<const std::optional<double>> end);
+
 /// The least cost from `start` to an end with these fixed components, within `duration`, where it
 /// is elementary:
 ///

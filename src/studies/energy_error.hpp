@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+#include "hamjet/algebra/extended.hpp"
+#include "hamjet/dynamics/differentiable_function.hpp"
+#include "hamjet/dynamics/dynamical_system.hpp"
+
+namespace hamjet {
+
+std::vector<Extended> extended(const std::vector<double>& state);
+
+/// Energies in extended precision, and errors relative to the energy at the start (absolute where
+/// that is 0).
+class EnergyError {
+ public:
+  EnergyError(const DynamicalSystem& system, const std::vector<double>& start);
+
+  Extended value(const std::vector<Extended>& state);
+  double relative(const Extended& difference) const;
+  double error(const std::vector<Extended>& state);
+
+ private:
+  DifferentiableFunction<Extended> hamiltonian_;
+  Extended initial_ = 0;
+};
+
+}  // namespace hamjet
