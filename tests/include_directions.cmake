@@ -1,5 +1,5 @@
 # Fails if a file includes a header of a layer above its own. Layers from the bottom:
-set(layers algebra dynamics integrators maps optimal_control studies io cli)
+set(layers algebra dynamics integrators maps relative_motion optimal_control studies io cli)
 
 file(GLOB_RECURSE files ${SOURCE_DIR}/include/hamjet/*.hpp ${SOURCE_DIR}/src/*.hpp
   ${SOURCE_DIR}/src/*.cpp)

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace hamjet {
+
+/// How the state of a deputy relative to its chief is written. RTN has the axes
+///
+///   R = r / |r|,   N = r x v / |r x v|,   T = N x R
+///
+/// of the chief's state: radial, transverse (along the motion, and the velocity itself only on a
+/// circular orbit) and normal.
+enum class RelativeFrame {
+  rtn_rotating,  ///< along RTN; velocities are derivatives seen from the rotating axes
+  rtn_inertial,  ///< along RTN; velocities are differences of inertial velocities
+  inertial,      ///< along the inertial axes of the orbit
+};
+
+/// A deputy's state relative to its chief, in one of the frames.
+struct RelativeState {
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d velocity_m_s = Eigen::Vector3d::Zero();
+};
+
+/// SI values of the canonical units of an orbit.
+struct MetricUnits {
+  double length_m = 1;
+  double time_s = 1;
+
+  double velocity_m_s() const { return length_m / time_s; }
+};
+
+/// A frame at one instant: between relative states and the canonical deviations (dq, dp) from the
+/// chief, dp being the difference of the inertial velocities.
+///
+/// The rotating axes turn at the rate of the chief's osculating Kepler orbit,
+///
+///   omega = |r x v| / r^2  about N ;
+///
+/// the slow turn of the orbit's plane by perturbing forces is no part of it. With rho and rho' the
+/// position and velocity in rotating axes, the inertial velocity along them is rho' + omega N x
+/// rho. Source: Schaub and Junkins, Analytical Mechanics of Space Systems, chapter "Spacecraft
+/// Formation Flying".
+class ChiefFrame {
+ public:
+  /// `chief` is the inertial state (q, p), 6 canonical numbers. Throws Error(numerical) for RTN if
+  /// the chief moves on a line through the centre, where there is no orbital plane, and
+  /// Error(usage) for other sizes.
+  ChiefFrame(std::span<const double> chief, const MetricUnits& units, RelativeFrame frame);
+
+  /// Canonical (dq, dp).
+  std::vector<double> deviation(const RelativeState& state) const;
+  RelativeState relative(std::span<const double> deviation) const;
+
+  /// A velocity change, m/s along the frame's axes, from its canonical inertial components. It is
+  /// the same for rotating and inertial derivatives.
+  Eigen::Vector3d velocity_change_m_s(const Eigen::Vector3d& canonical) const;
+  /// A direction in space along the frame's axes.
+  Eigen::Vector3d along_axes(const Eigen::Vector3d& inertial) const { return axes_ * inertial; }
+
+ private:
+  Eigen::Matrix3d axes_ = Eigen::Matrix3d::Identity();          ///< rows: the frame's axes
+  Eigen::Vector3d angular_velocity_ = Eigen::Vector3d::Zero();  ///< along them, canonical
+  MetricUnits units_;
+};
+
+}  // namespace hamjet

@@ -1,0 +1,66 @@
+#include "hamjet/relative_motion/chief_frame.hpp"
+
+#include <Eigen/Geometry>
+
+#include "hamjet/error.hpp"
+
+namespace hamjet {
+namespace {
+
+void require_size(std::span<const double> numbers, const char* what) {
+  if (numbers.size() != 6) {
+    throw Error(ErrorKind::usage, std::string("relative state: the ") + what +
+                                      " must have 6 numbers, (q, p) of an orbit");
+  }
+}
+
+Eigen::Vector3d vector_at(std::span<const double> numbers, std::size_t first) {
+  return {numbers[first], numbers[first + 1], numbers[first + 2]};
+}
+
+}  // namespace
+
+ChiefFrame::ChiefFrame(std::span<const double> chief, const MetricUnits& units, RelativeFrame frame)
+    : units_(units) {
+  require_size(chief, "chief");
+  if (frame == RelativeFrame::inertial) return;
+  const Eigen::Vector3d r = vector_at(chief, 0);
+  const Eigen::Vector3d v = vector_at(chief, 3);
+  const Eigen::Vector3d h = r.cross(v);
+  // Below this share of |r| |v| the direction of h is round-off.
+  constexpr double least_sine = 1e-12;
+  if (!(h.norm() > least_sine * r.norm() * v.norm())) {
+    throw Error(ErrorKind::numerical,
+                "relative state: the chief moves on a line through the centre and has no orbital "
+                "plane, so that there is no RTN frame; the frame inertial remains");
+  }
+  axes_.row(0) = r.normalized();
+  axes_.row(2) = h.normalized();
+  axes_.row(1) = h.cross(r).normalized();
+  if (frame == RelativeFrame::rtn_rotating) {
+    angular_velocity_ = {0, 0, h.norm() / r.squaredNorm()};
+  }
+}
+
+std::vector<double> ChiefFrame::deviation(const RelativeState& state) const {
+  const Eigen::Vector3d position = state.position_m / units_.length_m;
+  const Eigen::Vector3d velocity =
+      state.velocity_m_s / units_.velocity_m_s() + angular_velocity_.cross(position);
+  const Eigen::Vector3d dq = axes_.transpose() * position;
+  const Eigen::Vector3d dp = axes_.transpose() * velocity;
+  return {dq[0], dq[1], dq[2], dp[0], dp[1], dp[2]};
+}
+
+RelativeState ChiefFrame::relative(std::span<const double> deviation) const {
+  require_size(deviation, "deviation");
+  const Eigen::Vector3d position = axes_ * vector_at(deviation, 0);
+  const Eigen::Vector3d velocity = axes_ * vector_at(deviation, 3);
+  return {position * units_.length_m,
+          (velocity - angular_velocity_.cross(position)) * units_.velocity_m_s()};
+}
+
+Eigen::Vector3d ChiefFrame::velocity_change_m_s(const Eigen::Vector3d& canonical) const {
+  return axes_ * canonical * units_.velocity_m_s();
+}
+
+}  // namespace hamjet
