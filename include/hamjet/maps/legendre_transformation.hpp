@@ -26,8 +26,9 @@ PartialInversion<T> remaining_variables(const Series<T>& S, const GeneratingFunc
 /// of the 4n variables that are known as series in those of `from`; that map is inverted, and the
 /// others are composed with its inverse. It inverts only the pairs in which the kinds differ, in a
 /// block of second derivatives of S. Throws Error(numerical), naming both kinds, smallest singular
-/// value and condition, where the condition of this block exceeds largest_condition(precision), or
-/// where the block vanishes beside all second derivatives as much: the other kind does not exist
+/// value and condition, where that singular value falls below the norm of all second derivatives
+/// over largest_condition(precision), as it does where the block's condition exceeds the latter,
+/// and where the block vanishes beside the whole: the other kind does not exist
 /// there, or not to any useful accuracy. Throws Error(usage) for kinds of different n.
 template <class T>
 PartialInversion<T> change_of_kind(
