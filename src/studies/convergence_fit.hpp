@@ -16,9 +16,11 @@ std::optional<ConvergenceFit> fit_convergence(const ComparisonResult& result,
 
 /// The same from runs in extended precision, where many more digits lie between the steps at which
 /// the leading term dominates and the rounding floor: steps that continue those of the series'
-/// finest usable run. `keep_going` is told the fraction done and may throw. None where a custom
-/// integrator has no extended precision, where no run of the series is usable, or where the runs
-/// would take longer than `seconds`.
+/// finest usable run. Where the whole duration shows no order within 0.3 of theory, or would take
+/// longer than `seconds`, shorter arcs from its start are tried, with references of their own: over
+/// them the leading term dominates at longer steps. `keep_going` is told the fraction done and may
+/// throw. None where a custom integrator has no extended precision, where no run of the series is
+/// usable, or where the shortest arc takes too long too.
 std::optional<ConvergenceFit> fit_extended_convergence(
     const ComparisonResult& result, const CandidateSeries& series, int degree, double seconds,
     const std::function<void(double)>& keep_going);

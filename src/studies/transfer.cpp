@@ -1,5 +1,7 @@
 #include "hamjet/studies/transfer.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "exact_flow.hpp"
@@ -33,32 +35,60 @@ std::vector<SingularTime> TransferResult::position_singularities() const {
   return found;
 }
 
-TransferResult study_transfer(const Scene& scene, const ProgressCallback& progress) {
-  require_formation_problem(scene, scene.transfer.has_value(), "transfer");
+namespace {
+
+/// The chief of an earlier jet may differ from the scene's by no more than integrators do.
+constexpr double largest_chief_distance = 1e-6;
+
+void require_same_chief(const EarlierJet& earlier, double distance) {
+  if (distance <= largest_chief_distance) return;
+  throw Error(ErrorKind::scene,
+              fmt::format("transfer: the earlier jet {} is not of this scene: its chief comes to a "
+                          "place {:.3g} canonical lengths from where the scene's does",
+                          earlier.label, distance));
+}
+
+}  // namespace
+
+TransferResult study_transfer(const Scene& asked, const ProgressCallback& progress,
+                              const EarlierJet* earlier) {
+  require_formation_problem(asked, asked.transfer.has_value(), "transfer");
+  Scene scene = asked;
+  if (earlier != nullptr) {
+    scene.order = earlier->jet.at(0).order();
+    scene.transfer->times = {earlier->time};
+  }
   const TransferSettings& settings = *scene.transfer;
   TransferResult result;
   result.scene = scene;
-  TransferPoints points(scene, progress, result.seconds);
   const RelativeTransfer ends{settings.start, settings.end};
-  const IntegratorSettings& integrator = symplectic_integrator(scene);
-  result.integrator = integrator.label;
+  TransferPoints points(scene, progress, result.seconds);
   result.conditions.kinds = points.kinds();
-  result.statistics =
-      visit_jets(points.problem(), integrator, settings.times,
-                 [&](std::size_t index, const FlowJet<double>& jet) {
-                   if (progress) {
-                     progress("transfers", static_cast<double>(index) /
-                                               static_cast<double>(settings.times.size()));
-                   }
-                   const ChosenKind chosen = points.choose_kind(settings.times[index], jet, {ends});
-                   result.points.push_back(points.answer(chosen, jet, ends));
-                   result.conditions.times.push_back(settings.times[index]);
-                   result.conditions.values.push_back(chosen.conditions);
-                   if (index + 1 == settings.times.size()) {
-                     result.flight_floor_m = points.flight_floor_m(settings.times[index], jet);
-                   }
-                 });
-  result.seconds.propagation = result.statistics.wall_seconds;
+  const auto visit = [&](std::size_t index, const FlowJet<double>& jet) {
+    const double time = settings.times[index];
+    if (progress) {
+      progress("transfers",
+               static_cast<double>(index) / static_cast<double>(settings.times.size()));
+    }
+    if (index + 1 == settings.times.size()) {
+      result.flight_floor_m = points.flight_floor_m(time, jet);
+    }
+    const ChosenKind chosen = points.choose_kind(time, jet, {ends});
+    result.points.push_back(points.answer(chosen, jet, ends));
+    result.conditions.times.push_back(time);
+    result.conditions.values.push_back(chosen.conditions);
+  };
+  if (earlier != nullptr) {
+    result.integrator = earlier->label;
+    require_same_chief(*earlier, points.flight_floor_m(earlier->time, earlier->jet) /
+                                     metric_units(scene).length_m);
+    visit(0, earlier->jet);
+  } else {
+    const IntegratorSettings& integrator = symplectic_integrator(scene);
+    result.integrator = integrator.label;
+    result.statistics = visit_jets(points.problem(), integrator, settings.times, visit);
+    result.seconds.propagation = result.statistics.wall_seconds;
+  }
   result.singular_times = points.singular_times();
   return result;
 }

@@ -8,6 +8,7 @@
 
 #include "formation_scenes.hpp"
 #include "hamjet/error.hpp"
+#include "hamjet/integrators/gauss_collocation.hpp"
 
 namespace hamjet {
 namespace {
@@ -167,6 +168,33 @@ TEST(Transfer, MarksWhatIsNearSingularAndWhatHasNoKind) {
   // No time with an answer.
   scene.transfer->times = {std::numbers::pi};
   EXPECT_EQ(exit_code(study_transfer(scene)), 4);
+}
+
+TEST(Transfer, AnEarlierJetGivesTheSameAnswer) {
+  Scene scene = paper_chief(4);
+  scene.transfer = short_hop(10e3, {4.0});
+  scene.transfer->kind = "F1";
+  const TransferResult computed = study_transfer(scene);
+  const DynamicalSystem system = make_system(scene);
+  const FlowProblem<double> flow{
+      &system, SeriesSpace::create(6, 3), {0, 1, 2, 3, 4, 5}, scene.nominal, 4.0};
+  GaussSettings settings;
+  settings.tolerance = 1e-14;
+  IntegrationStatistics statistics;
+  EarlierJet earlier{"earlier", 4.0, integrate_gauss<double>(flow, settings, statistics)};
+  scene.transfer->times = {1.0, 2.0};
+  const TransferResult reused = study_transfer(scene, {}, &earlier);
+  ASSERT_EQ(reused.points.size(), 1U);
+  ASSERT_EQ(reused.points[0].answers.size(), 3U);
+  EXPECT_EQ(reused.integrator, "earlier");
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Eigen::Vector3d difference = reused.points[0].answers[k].start_change_m_s -
+                                       computed.points[0].answers[k].start_change_m_s;
+    EXPECT_LT(difference.norm(), 1e-9);
+  }
+  // A jet of another planet.
+  scene.system.J2 = 0;
+  EXPECT_THROW(study_transfer(scene, {}, &earlier), Error);
 }
 
 TEST(Transfer, NeedsASymplecticIntegratorAndAnOrbit) {

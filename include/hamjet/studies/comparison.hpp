@@ -63,6 +63,8 @@ struct ConvergenceFit {
   /// Made for the fit in extended precision, with smaller steps than double precision resolves, and
   /// with the next term of the error's expansion fitted too.
   bool is_extended = false;
+  /// The part of the duration, from its start, over which those runs went.
+  double arc = 1;
 
   /// Within 0.3. Where it does not, the leading term does not yet dominate at the steps that could
   /// be run.

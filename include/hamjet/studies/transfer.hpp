@@ -88,12 +88,24 @@ struct TransferResult {
   std::vector<SingularTime> position_singularities() const;
 };
 
+/// A jet that was computed earlier, by the run `label`.
+struct EarlierJet {
+  std::string label;
+  double time = 0;  ///< canonical
+  FlowJet<double> jet;
+};
+
 /// The study of table `[transfer]`. Jets at all times come from one propagation; kinds, singular
 /// times and answers from them; each answer is proved by flying. The integrator is the scene's
 /// first symplectic one. Throws Error(scene) if the scene has no `[transfer]`, is no orbit, or has
 /// no symplectic integrator; Error(too_large), Error(numerical) as make_problem and the integrator
 /// do.
-TransferResult study_transfer(const Scene& scene, const ProgressCallback& progress = {});
+///
+/// With an earlier jet there is one transfer time, the jet's, and its order takes the place of the
+/// scene's; no jet is propagated. Throws Error(scene) if the scene's own chief, flown, does not
+/// come to where the jet's does.
+TransferResult study_transfer(const Scene& scene, const ProgressCallback& progress = {},
+                              const EarlierJet* earlier = nullptr);
 
 /// 0; 1 if the scene is strict and an answer away from singularities is missing, beyond its
 /// tolerance or could not be refined; 4 if no transfer time has an answer.
