@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "hamjet/studies/transfer_settings.hpp"
+
 namespace hamjet {
 
 /// Arithmetic of the whole chain: binary64, or 113 significant bits (Boost.Multiprecision).
@@ -122,6 +124,9 @@ struct Scene {
   std::vector<double> relative_hamiltonian_times;
   ComparisonSettings comparison;
   std::optional<FigureSettings> figure;  ///< absent: no figure, and nothing is watched along time
+  std::optional<TransferSettings> transfer;
+  std::optional<ValiditySettings> validity;
+  std::optional<AssignmentSettings> assignment;
 };
 
 }  // namespace hamjet

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hamjet/studies/transfer.hpp"
+
+namespace hamjet {
+
+/// The cheapest transfer of one deputy to one slot.
+struct AssignmentCost {
+  std::optional<std::size_t> time;  ///< index into the transfer times; absent: no answer at any
+  double total_change_m_s = 0;
+};
+
+/// A deputy sent to a slot.
+struct AssignedTransfer {
+  std::size_t deputy = 0;
+  std::size_t slot = 0;
+  TransferPoint transfer;  ///< proved by flying
+};
+
+struct AssignmentResult {
+  Scene scene;  ///< with `transfer` and `assignment`
+  std::string integrator;
+  std::vector<std::vector<AssignmentCost>> costs;  ///< [deputy][slot], each at its best time (or at
+                                                   ///< the common one)
+  std::optional<std::size_t> common_time;          ///< index, where the scene asks for one
+  std::vector<AssignedTransfer> transfers;         ///< in the order of the deputies
+  double total_change_m_s = 0;
+  double flight_floor_m = 0;
+  double study_seconds = 0;
+  double proof_seconds = 0;
+  std::string failure;  ///< not empty: no assignment gives every deputy a slot, and why
+};
+
+/// The study of table `[assignment]`: a matrix of velocity changes from the generating functions of
+/// `[transfer]`'s times, and the assignment of least total (a maximum weighted matching; Boost
+/// Graph). Only transfers away from singularities count; those chosen are proved by flying. Throws
+/// as study_transfer.
+AssignmentResult study_assignment(const Scene& scene, const ProgressCallback& progress = {});
+
+/// As of study_transfer, for the transfers chosen.
+int exit_code(const AssignmentResult& result);
+
+}  // namespace hamjet

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "hamjet/maps/generating_function_kind.hpp"
+#include "hamjet/studies/propagation.hpp"
+
+namespace hamjet {
+
+/// The linear part of an orbit's flow, 6 x 6, at any time of a span: from checkpoints of one
+/// propagation and a short integration from the nearest one before.
+class LinearFlow {
+ public:
+  using StateTransition = Eigen::Matrix<double, 6, 6>;
+
+  /// `intervals` equal parts of the duration between checkpoints.
+  LinearFlow(const ComputedProblem& problem, double duration, std::size_t intervals,
+             const std::function<void(double)>& progress = {});
+
+  StateTransition at(double time) const;
+  const std::vector<double>& times() const noexcept { return times_; }  ///< of the checkpoints
+  const StateTransition& checkpoint(std::size_t i) const { return matrices_[i]; }
+  double interval() const;
+
+ private:
+  const ComputedProblem* problem_;
+  std::vector<double> times_;
+  std::vector<std::vector<double>> states_;
+  std::vector<StateTransition> matrices_;
+};
+
+/// The block that a kind inverts, see inverted_block.
+Eigen::Matrix3d inverted_block(const LinearFlow::StateTransition& flow,
+                               const GeneratingFunctionKind& kind);
+
+/// A time at which a generating function of a kind does not exist.
+struct SingularTime {
+  GeneratingFunctionKind kind;
+  double time = 0;  ///< canonical
+  /// The two smallest singular values over the largest, there: how near the time was found to a
+  /// zero, and whether one or two directions are lost.
+  double smallest_ratio = 0;
+  double second_ratio = 0;
+  /// Unit vector, inertial, in the space of the chosen final variables: for F1 the direction of the
+  /// final position that no initial velocity commands.
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();
+};
+
+/// The times in the span (0 and the end excluded) at which a kind's linear part is singular, in
+/// order. The function watched is the smallest singular value with the determinant's sign, which
+/// is continuous: where it changes sign between two checkpoints, and around every local minimum of
+/// its magnitude, which may hide a pair of zeros (J2 splits the double zeros of Kepler's full
+/// periods into pairs some thousandths of a time unit apart). Zeros are refined to the rounding of
+/// the time. Pairs within one checkpoint interval that leave no minimum on the checkpoints are
+/// missed; a minimum below `double_zero` of the largest singular value without a change of sign
+/// counts as a double zero.
+std::vector<SingularTime> find_singular_times(const LinearFlow& flow,
+                                              const GeneratingFunctionKind& kind);
+
+/// Smallest minimum of the scaled singular value that counts as zero without a change of sign.
+inline constexpr double double_zero = 1e-9;
+
+}  // namespace hamjet

@@ -1,0 +1,111 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hamjet/studies/progress.hpp"
+#include "hamjet/studies/propagation.hpp"
+#include "hamjet/studies/singular_times.hpp"
+
+namespace hamjet {
+
+/// What one polynomial order answers, or the refinement: velocity changes along the axes of the
+/// scene's frame at the start and at the end, m/s, and where a deputy that flies it comes to.
+struct TransferAnswer {
+  int order = 0;  ///< of the polynomials used; 1 is the linear answer
+  Eigen::Vector3d start_change_m_s = Eigen::Vector3d::Zero();
+  Eigen::Vector3d end_change_m_s = Eigen::Vector3d::Zero();
+  /// Sum of the two magnitudes.
+  double total_change_m_s() const { return start_change_m_s.norm() + end_change_m_s.norm(); }
+  /// Distance, in metres, of the flown deputy from the wanted end position. Flown with the full
+  /// equations of motion.
+  double miss_m = 0;
+  std::string failure;  ///< not empty: no answer of this order, and why; the numbers are 0
+};
+
+/// The answer for one transfer time.
+struct TransferPoint {
+  double time = 0;                             ///< canonical
+  std::optional<GeneratingFunctionKind> kind;  ///< that was used
+  double condition = 0;                        ///< of its linear part
+  /// Condition of the linear part of F1, dq/dp0: infinite where positions cannot be commanded.
+  double position_condition = 0;
+  /// Distance in time to the nearest singularity of F1, canonical; absent: there is none.
+  std::optional<double> singular_distance;
+  bool is_near_singular = false;        ///< nearer than the scene's margin
+  std::vector<TransferAnswer> answers;  ///< orders 1..N
+  std::optional<TransferAnswer> refined;
+  int refinement_flights = 0;
+  bool is_beyond_tolerance = false;  ///< the miss of order N exceeds the scene's
+  /// Worst scaled residual over all degrees of the Hamilton-Jacobi equation of the kind used.
+  std::optional<double> hamilton_jacobi_residual;
+  std::string failure;  ///< not empty: no kind exists, and why; `answers` is empty
+
+  bool has_answer() const { return !answers.empty() && answers.back().failure.empty(); }
+  /// The refined answer, where there is one, else that of the highest order.
+  const TransferAnswer& best() const { return refined ? *refined : answers.back(); }
+};
+
+/// Condition numbers of the linear parts of all 64 kinds along time.
+struct KindConditions {
+  std::vector<GeneratingFunctionKind> kinds;
+  std::vector<double> times;                ///< canonical
+  std::vector<std::vector<double>> values;  ///< [time][kind]; infinite where singular
+};
+
+/// Seconds spent in the parts of a transfer study.
+struct TransferSeconds {
+  double propagation = 0;    ///< jets at all times, one integration
+  double singularities = 0;  ///< linear flow, conditions and singular times of all kinds
+  double inversion = 0;      ///< partial inversions, one a time
+  double solution = 0;       ///< boundary values by the polynomials, all orders
+  double proof = 0;          ///< deputies flown, and the refinement
+  double residual = 0;       ///< Hamilton-Jacobi residuals
+
+  /// What the answers themselves cost.
+  double study() const { return propagation + singularities + inversion + solution; }
+};
+
+struct TransferResult {
+  Scene scene;  ///< with `transfer`
+  std::string integrator;
+  IntegrationStatistics statistics;
+  std::vector<TransferPoint> points;         ///< one a transfer time
+  std::vector<SingularTime> singular_times;  ///< of all 64 kinds, in order of kind and time
+  KindConditions conditions;
+  /// Distance between the chief as it was flown and the jet's nominal at the last time, metres:
+  /// misses below this say nothing.
+  double flight_floor_m = 0;
+  TransferSeconds seconds;
+
+  /// Index of the point with the least total velocity change among answers that are within the
+  /// tolerance and not near a singularity; absent if there is none.
+  std::optional<std::size_t> best_point() const;
+  /// Those of position to position (F1).
+  std::vector<SingularTime> position_singularities() const;
+};
+
+/// The study of table `[transfer]`. Jets at all times come from one propagation; kinds, singular
+/// times and answers from them; each answer is proved by flying. The integrator is the scene's
+/// first symplectic one. Throws Error(scene) if the scene has no `[transfer]`, is no orbit, or has
+/// no symplectic integrator; Error(too_large), Error(numerical) as make_problem and the integrator
+/// do.
+TransferResult study_transfer(const Scene& scene, const ProgressCallback& progress = {});
+
+/// Exit code: 0, 1 (strict, and an answer is beyond its tolerance or missing) or 4 (no transfer
+/// time has an answer, or the refinement of one failed).
+int exit_code(const TransferResult& result);
+
+/// A kind's trajectory in the frame: the deputy of the best answer, for plots.
+struct RelativeTrajectory {
+  std::vector<double> times;          ///< canonical
+  std::vector<RelativeState> states;  ///< in the scene's frame
+};
+
+/// The flown relative trajectory of one point's best answer, `count` equal intervals.
+RelativeTrajectory fly_relative(const TransferResult& result, std::size_t point, int count);
+
+}  // namespace hamjet

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "hamjet/relative_motion/chief_frame.hpp"
+
+namespace hamjet {
+
+/// Table `[transfer]`: from one relative state to another in given times.
+struct TransferSettings {
+  RelativeFrame frame = RelativeFrame::rtn_rotating;  ///< of both ends
+  /// Velocities are those before the first impulse and after the second; absent ones are zero, at
+  /// rest in the frame.
+  RelativeState start;
+  RelativeState end;
+  std::vector<double> times;  ///< canonical, moving away from 0; none is 0
+  std::string kind = "auto";  ///< F1..F4, letters, or auto: the best conditioned, with hysteresis
+  double tolerance_m = 1;     ///< a larger miss of the highest order is marked
+  bool refine = false;        ///< correct by flying until the miss is below `refined_miss_m`
+  double refined_miss_m = 1e-3;
+  /// Answers nearer than this to a time at which positions cannot be commanded are marked;
+  /// canonical.
+  double singular_margin = 0;
+  bool strict = false;  ///< an answer beyond the tolerance fails the command
+};
+
+/// Table `[validity]`: up to what separation a polynomial's miss stays below a tolerance.
+struct ValiditySettings {
+  double tolerance_m = 1;
+  std::vector<double> times;  ///< canonical, moving away from 0; none is 0
+  /// Semi-axes of the ellipsoid of positions relative to its largest, along R, T, N; the velocities
+  /// fill the same ellipsoid times the mean motion.
+  std::vector<double> semi_axes = {1, 1, 1};
+  int samples = 40;  ///< deputies that are flown
+};
+
+/// How the transfer times of an assignment are chosen.
+enum class AssignmentTime {
+  per_pair,  ///< the best time for each deputy and slot
+  common,    ///< one time for all
+};
+
+/// Table `[assignment]`: deputies and the slots that they may fill, in the frame of `[transfer]`.
+struct AssignmentSettings {
+  std::vector<RelativeState> deputies;
+  std::vector<RelativeState> slots;  ///< as many
+  AssignmentTime time = AssignmentTime::per_pair;
+};
+
+}  // namespace hamjet

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "hamjet/studies/progress.hpp"
+#include "hamjet/studies/propagation.hpp"
+
+namespace hamjet {
+
+/// The largest separation at which one order's polynomial is right to the tolerance at one time.
+struct ValidityEntry {
+  int order = 0;
+  double predicted_m = 0;  ///< from the decay of the jet's degrees
+  /// Found by flying the sampled deputies; 0 where not even the smallest separation tried holds.
+  double proved_m = 0;
+  double miss_m = 0;         ///< the worst sampled miss at `proved_m`
+  bool is_at_limit = false;  ///< still right at the largest separation tried: a lower bound
+};
+
+/// Of one time.
+struct ValidityPoint {
+  double time = 0;                     ///< canonical
+  std::vector<ValidityEntry> entries;  ///< orders 1..N
+};
+
+struct ValidityResult {
+  Scene scene;  ///< with `validity`
+  std::string integrator;
+  std::vector<ValidityPoint> points;
+  double flight_floor_m = 0;  ///< see TransferResult
+  long flights = 0;
+  double propagation_seconds = 0;
+  double proof_seconds = 0;
+};
+
+/// The study of table `[validity]`: deviations fill an ellipsoid in position along the chief's RTN
+/// axes, of largest semi-axis the separation, and the same ellipsoid times the mean motion in
+/// velocity; the miss is the distance between the final position that the jet's polynomial gives
+/// and that of the flown deputy. The prediction takes the error of order k for the part of degree k
+/// + 1, whose largest value over the samples grows as the separation to the power k + 1; that of
+/// the highest order is extrapolated from the ratio of the last two. Throws as study_transfer.
+ValidityResult study_validity(const Scene& scene, const ProgressCallback& progress = {});
+
+}  // namespace hamjet
