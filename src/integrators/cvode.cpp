@@ -41,7 +41,7 @@ class CvodeIntegration {
         name_(method_name(settings.method)),
         field_(problem, name_),
         guard_(problem, settings.tolerance, name_),
-        jet_(identity_jet(problem)) {
+        jet_(starting_jet(problem)) {
     const std::vector<double> initial = field_.initial_state();
     state_.reset(
         sundials::require(N_VNew_Serial(static_cast<sunindextype>(initial.size()), context_)));
@@ -243,7 +243,7 @@ FlowJet<double> integrate_cvode(const FlowProblem<double>& problem, const CvodeS
                             "rounding of its numbers, and 1",
                             method_name(settings.method), std::numeric_limits<double>::epsilon()));
   }
-  if (problem.duration == 0) return identity_jet(problem);
+  if (problem.duration == 0) return starting_jet(problem);
   return CvodeIntegration(problem, settings, statistics, observer).run();
 }
 

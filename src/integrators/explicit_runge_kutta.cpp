@@ -53,7 +53,7 @@ class FehlbergIntegration {
         observer_(observer),
         field_(problem, method_name),
         guard_(problem, settings.tolerance.value_or(0), method_name),
-        jet_(identity_jet(problem)),
+        jet_(starting_jet(problem)),
         state_(field_.initial_state()),
         derivative_(state_.size()),
         trial_(state_.size()) {}
@@ -212,7 +212,7 @@ FlowJet<Real> integrate_fehlberg78(const FlowProblem<Real>& problem,
   validate(problem);
   statistics = {};
   validate_settings<Real>(settings);
-  if (problem.duration == 0) return identity_jet(problem);
+  if (problem.duration == 0) return starting_jet(problem);
   return FehlbergIntegration<Real>(problem, settings, statistics, observer).run();
 }
 

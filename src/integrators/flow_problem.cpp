@@ -29,6 +29,20 @@ void validate(const FlowProblem<Real>& problem) {
       throw Error(ErrorKind::numerical, "flow problem: the initial state is not finite");
     }
   }
+  if (problem.initial_jet != nullptr) {
+    if (problem.initial_jet->size() != dimension) {
+      throw Error(ErrorKind::usage,
+                  "flow problem: the initial jet has another number of components");
+    }
+    for (std::size_t i = 0; i < dimension; ++i) {
+      const Series<Real>& component = (*problem.initial_jet)[i];
+      require_same_space(component.space(), *problem.space);
+      if (component[0] != problem.initial_state[i]) {
+        throw Error(ErrorKind::usage,
+                    "flow problem: the initial jet is not about the initial state");
+      }
+    }
+  }
   if (!is_finite(problem.duration)) {
     throw Error(ErrorKind::numerical, "flow problem: the duration is not finite");
   }

@@ -26,7 +26,7 @@ FlowJet<Real> integrate_newmark(const FlowProblem<Real>& problem, const NewmarkS
   validate(problem);
   statistics = {};
   validate_splitting(*problem.system, settings.step, leapfrog.method);
-  if (problem.duration == 0) return identity_jet(problem);
+  if (problem.duration == 0) return starting_jet(problem);
   const long steps = equal_step_count(problem.duration, settings.step, leapfrog.method);
   const Real h = problem.duration / Real(steps);
   NewmarkForce<Real> force(problem, Real(Real(settings.beta) * h * h), statistics);

@@ -47,10 +47,10 @@ class SeriesVectorField {
   /// Evaluations so far.
   long evaluations() const noexcept { return evaluations_; }
 
-  /// The state of the identity.
+  /// The state of the starting jet.
   std::vector<Real> initial_state() const {
     std::vector<Real> state(size());
-    const FlowJet<Real> jet = identity_jet(*problem_);
+    const FlowJet<Real> jet = starting_jet(*problem_);
     for (std::size_t c = 0; c < jet.size(); ++c) {
       std::copy_n(jet[c].coefficients().data(), coefficients_, state.data() + c * coefficients_);
     }

@@ -77,7 +77,7 @@ class SplittingIntegration {
         observer_(observer),
         n_(problem.system->degrees_of_freedom),
         count_(problem.space->first(working_order(problem) + 1)),
-        jet_(identity_jet(problem)),
+        jet_(starting_jet(problem)),
         momenta_(n_ * count_),
         lost_(2 * n_ * count_, Real(0)) {
     for (const Extended& entry : problem.system->second_order->inverse_mass) {

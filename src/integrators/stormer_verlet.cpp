@@ -56,7 +56,7 @@ FlowJet<Real> integrate_splitting(const FlowProblem<Real>& problem, Splitting<Re
   validate(problem);
   statistics = {};
   validate_splitting(*problem.system, splitting.step, splitting.method);
-  if (problem.duration == 0) return identity_jet(problem);
+  if (problem.duration == 0) return starting_jet(problem);
   const long steps = equal_step_count(problem.duration, splitting.step, splitting.method);
   ExplicitForce<Real> force(problem);
   return SplittingIntegration<Real, ExplicitForce<Real>>(problem, std::move(splitting), force,

@@ -17,7 +17,7 @@ class SummedJet {
   using P = Pack<Real, Lanes>;
 
   explicit SummedJet(const FlowProblem<Real>& problem)
-      : jet_(identity_jet(problem)),
+      : jet_(starting_jet(problem)),
         lost_(jet_.size(), std::vector<Real>(problem.space->size(), Real(0))) {}
 
   const FlowJet<Real>& value() const { return jet_; }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "energy_error.hpp"
+#include "exact_flow.hpp"
 #include "fixed_step_trajectory.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
 #include "hamjet/studies/propagation.hpp"
@@ -21,19 +22,6 @@ const std::vector<std::string_view>& energy_conservation_outcome_names() {
 
 namespace {
 
-/// The final state of the exact flow, to the precision of double.
-std::vector<double> flow(const DynamicalSystem& system, const std::vector<double>& start,
-                         double duration) {
-  GaussSettings settings;
-  settings.tolerance = 1e-13;
-  IntegrationStatistics statistics;
-  const FlowJet<double> jet =
-      integrate_gauss(trajectory_problem(system, start, duration), settings, statistics);
-  std::vector<double> state;
-  for (const Series<double>& component : jet) state.push_back(component[0]);
-  return state;
-}
-
 /// The zero of StepCondition along the exact flow near a stop, by the secant method from where the
 /// stop itself expects it.
 std::optional<double> predicted_time(const EnergyConservationStudy& study,
@@ -47,9 +35,9 @@ std::optional<double> predicted_time(const EnergyConservationStudy& study,
   StepCondition<double> condition(system, study.method);
   try {
     // One flow to the stop; the secant method looks at its neighbourhood only.
-    const std::vector<double> at_stop = flow(system, study.nominal, stop.time);
+    const std::vector<double> at_stop = exact_flow(system, study.nominal, stop.time);
     const auto value = [&](double time) {
-      return condition(flow(system, at_stop, time - stop.time));
+      return condition(exact_flow(system, at_stop, time - stop.time));
     };
     double before = stop.time;
     double time = stop.time + *stop.steps_to_sign_change * last_step;

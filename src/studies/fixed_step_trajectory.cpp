@@ -4,23 +4,13 @@
 #include <cmath>
 
 #include "energy_error.hpp"
+#include "exact_flow.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
 #include "hamjet/integrators/stormer_verlet.hpp"
 #include "thinned_list.hpp"
 
 namespace hamjet {
-
-FlowProblem<double> trajectory_problem(const DynamicalSystem& system,
-                                       const std::vector<double>& start, double duration) {
-  FlowProblem<double> problem;
-  problem.system = &system;
-  problem.space = SeriesSpace::create(1, 0);
-  problem.variables = {0};
-  problem.initial_state = start;
-  problem.duration = duration;
-  return problem;
-}
 
 FixedStepTrajectory fixed_step_trajectory(const DynamicalSystem& system,
                                           EnergyConservingMethod method,

@@ -2,14 +2,9 @@
 
 #include <vector>
 
-#include "hamjet/integrators/flow_problem.hpp"
 #include "hamjet/studies/energy_conservation.hpp"
 
 namespace hamjet {
-
-/// A flow problem for the trajectory alone: series of order 0.
-FlowProblem<double> trajectory_problem(const DynamicalSystem& system,
-                                       const std::vector<double>& start, double duration);
 
 /// The trajectory with fixed steps of this size that stands beside that of `method`, up to the time
 /// `end` or to a million steps. A numerical failure is recorded in the result.

@@ -165,5 +165,22 @@ TEST(Evaluate, RefusesAPointOfAnotherSize) {
                      [&] { (void)evaluate(u, std::span<const double>(point)); });
 }
 
+TEST(InSpace, KeepsEveryCoefficientThatBothSpacesHave) {
+  test::RandomNumbers random(7);
+  const auto high = SeriesSpace::create(3, 4);
+  const auto low = SeriesSpace::create(3, 2);
+  const auto u = test::random_series<double>(high, random);
+  const auto cut = in_space(u, low);
+  for (std::size_t k = 0; k < low->size(); ++k) {
+    EXPECT_EQ(cut[k], u[high->index(low->exponents(k))]);
+  }
+  const auto lifted = in_space(cut, high);
+  for (std::size_t k = 0; k < high->size(); ++k) {
+    EXPECT_EQ(lifted[k], high->degree(k) <= 2 ? u[k] : 0);
+  }
+  test::expect_error(ErrorKind::usage, "number of variables",
+                     [&] { in_space(u, SeriesSpace::create(2, 4)); });
+}
+
 }  // namespace
 }  // namespace hamjet

@@ -143,7 +143,7 @@ TEST(Newmark, WithoutBetaIsVelocityVerlet) {
 /// The jets of the start and of every step.
 template <class Real>
 std::vector<FlowJet<Real>> all_jets(const FlowProblem<Real>& problem, double beta, double step) {
-  std::vector<FlowJet<Real>> jets{identity_jet(problem)};
+  std::vector<FlowJet<Real>> jets{starting_jet(problem)};
   IntegrationStatistics statistics;
   integrate_newmark<Real>(problem, {.beta = beta, .step = step}, statistics,
                           [&](const Real&, const FlowJet<Real>& jet) { jets.push_back(jet); });
@@ -248,7 +248,7 @@ template <class Real>
 FlowJet<Real> jet_in_discrete_variables(const FlowProblem<Real>& problem, const FlowJet<Real>& jet,
                                         const Real& c) {
   const auto start =
-      without_constants(discrete_variables(identity_jet(problem), *problem.system, c));
+      without_constants(discrete_variables(starting_jet(problem), *problem.system, c));
   const auto back = inverse(std::span<const Series<Real>>(start));
   const auto end = discrete_variables(jet, *problem.system, c);
   return compose(std::span<const Series<Real>>(end), std::span<const Series<Real>>(back));
@@ -288,7 +288,7 @@ TEST(Newmark, OutAndBackIsTheIdentity) {
     const auto inner = without_constants(there);
     const auto both =
         compose(std::span<const Series<double>>(returned), std::span<const Series<double>>(inner));
-    const auto identity = identity_jet(test::problem_of(out));
+    const auto identity = starting_jet(test::problem_of(out));
     const double size = test::largest_coefficient(there[0]) + test::largest_coefficient(there[1]);
     for (std::size_t i = 0; i < 2; ++i) {
       EXPECT_LE(test::largest_coefficient(both[i] - identity[i]), 1e-14 * std::pow(size, 2));
@@ -346,7 +346,7 @@ TEST(Newmark, ZeroDurationIsTheIdentityExactly) {
   auto flow = test::flow_of(test::paper_orbit(), 3);
   flow.duration = 0;
   const auto problem = test::problem_of(flow);
-  const auto identity = identity_jet(problem);
+  const auto identity = starting_jet(problem);
   const auto jet = newmark(problem, 0.25, 0.1);
   for (std::size_t i = 0; i < 6; ++i) {
     for (std::size_t k = 0; k < jet[i].size(); ++k) EXPECT_EQ(jet[i][k], identity[i][k]);

@@ -106,7 +106,7 @@ TEST(VelocityVerlet, StepsAreThePrintedFormulasOnSeries) {
     return w[i][0] * p[0] + w[i][1] * p[1];
   };
   for (const bool is_verlet : {false, true}) {
-    auto z = identity_jet(problem);
+    auto z = starting_jet(problem);
     std::vector<Series<double>> q{z[0], z[1]};
     std::vector<Series<double>> p{z[2], z[3]};
     for (int step = 0; step < 4; ++step) {
@@ -163,7 +163,7 @@ double return_error(const Run& run, double duration, double step) {
   auto flow = test::flow_of(test::paper_orbit(), 3);
   flow.duration = duration;
   const auto there = run(test::problem_of(flow), step);
-  const auto identity = identity_jet(test::problem_of(flow));
+  const auto identity = starting_jet(test::problem_of(flow));
   flow.start = test::final_state(there);
   flow.duration = -duration;
   const auto back = run(test::problem_of(flow), step);
@@ -214,7 +214,7 @@ TEST(VelocityVerlet, ZeroDurationIsTheIdentityExactly) {
   auto flow = test::flow_of(test::paper_orbit(), 3);
   flow.duration = 0;
   const auto problem = test::problem_of(flow);
-  const auto identity = identity_jet(problem);
+  const auto identity = starting_jet(problem);
   for (const auto& jet : {stormer(problem, 0.1), verlet(problem, 0.1)}) {
     for (std::size_t i = 0; i < 6; ++i) {
       for (std::size_t k = 0; k < jet[i].size(); ++k) EXPECT_EQ(jet[i][k], identity[i][k]);

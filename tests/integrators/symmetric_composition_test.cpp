@@ -188,7 +188,7 @@ TEST(SymmetricComposition, OutAndBackIsTheIdentity) {
     auto flow = test::flow_of(test::paper_orbit(), 3);
     flow.duration = 5;
     const auto there = compose_verlet(test::problem_of(flow), order, 0.5);
-    const auto identity = identity_jet(test::problem_of(flow));
+    const auto identity = starting_jet(test::problem_of(flow));
     flow.start = test::final_state(there);
     flow.duration = -5;
     const auto back = compose_verlet(test::problem_of(flow), order, 0.5);

@@ -95,7 +95,7 @@ TEST(Symplecticity, OfExplicitMethodsFollowsTheStep) {
   auto flow = test::flow_of(test::paper_orbit(), 3);
   const auto problem = test::problem_of(flow);
   const auto run = [&](int count, bool classical) {
-    FlowJet<double> jet = identity_jet(problem);
+    FlowJet<double> jet = starting_jet(problem);
     for (int i = 0; i < count; ++i) {
       jet = explicit_step(flow.system.vector_field, jet, 1.0 / count, classical);
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -8,6 +9,19 @@
 #include "hamjet/algebra/truncated_power_series.hpp"
 
 namespace hamjet {
+
+/// The same polynomial in the space of another order and as many variables: without its terms of
+/// higher degree, or with zeros there. Monomials are graded, so that both number them alike.
+template <class T>
+Series<T> in_space(const Series<T>& u, const SpacePointer& space) {
+  if (u.space().variables() != space->variables()) {
+    throw Error(ErrorKind::usage, "series: the other space has another number of variables");
+  }
+  Series<T> result(space);
+  std::copy_n(u.coefficients().data(), std::min(u.size(), space->size()),
+              result.coefficients().data());
+  return result;
+}
 
 /// Partial derivative by x_i. Exact up to degree N-1; the slice of degree N is unknown to a
 /// truncated series and is left zero.

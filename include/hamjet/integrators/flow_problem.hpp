@@ -11,6 +11,11 @@
 
 namespace hamjet {
 
+/// The flow's jet: component i of the final state as a series in the initial deviations. The
+/// constant terms are the nominal's final state.
+template <class Real>
+using FlowJet = std::vector<Series<Real>>;
+
 /// What every integrator is asked for: the Taylor expansion of the flow over a duration about one
 /// nominal trajectory. Real is double or Extended; all numbers are in the system's own units.
 template <class Real>
@@ -19,13 +24,11 @@ struct FlowProblem {
   SpacePointer space;                  ///< as many variables as are expanded in
   std::vector<std::size_t> variables;  ///< index in z = (q, p) of each variable of the space
   std::vector<Real> initial_state;     ///< 2n numbers
-  Real duration = 0;                   ///< negative: backwards; zero: the identity, exactly
+  Real duration = 0;                   ///< negative: backwards; zero: the start, exactly
+  /// The jet that an earlier integration reached, to go on from; its constant terms are
+  /// `initial_state`. Null: the identity.
+  const FlowJet<Real>* initial_jet = nullptr;
 };
-
-/// The flow's jet: component i of the final state as a series in the initial deviations. The
-/// constant terms are the nominal's final state.
-template <class Real>
-using FlowJet = std::vector<Series<Real>>;
 
 /// More steps than this are refused with Error(too_large): they would take hours, and their
 /// round-off alone would leave little of a result.
@@ -46,9 +49,11 @@ struct IntegrationStatistics {
 template <class Real>
 using StepObserver = std::function<void(const Real& time, const FlowJet<Real>& jet)>;
 
-/// The jet at time zero: the nominal's initial state plus the deviations themselves.
+/// The jet at time zero: where the problem gives none, the nominal's initial state plus the
+/// deviations themselves.
 template <class Real>
-FlowJet<Real> identity_jet(const FlowProblem<Real>& problem) {
+FlowJet<Real> starting_jet(const FlowProblem<Real>& problem) {
+  if (problem.initial_jet != nullptr) return *problem.initial_jet;
   FlowJet<Real> jet;
   for (const Real& value : problem.initial_state) jet.emplace_back(problem.space, value);
   if (problem.space->order() >= 1) {

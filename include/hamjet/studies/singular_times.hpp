@@ -16,7 +16,8 @@ class LinearFlow {
  public:
   using StateTransition = Eigen::Matrix<double, 6, 6>;
 
-  /// `intervals` equal parts of the duration between checkpoints.
+  /// `intervals` equal parts of the duration between checkpoints. The problem must outlive this
+  /// object. Throws Error(usage) unless it is an orbit, expanded in all variables.
   LinearFlow(const ComputedProblem& problem, double duration, std::size_t intervals,
              const std::function<void(double)>& progress = {});
 
@@ -27,6 +28,7 @@ class LinearFlow {
 
  private:
   const ComputedProblem* problem_;
+  SpacePointer space_;  ///< of order 1
   std::vector<double> times_;
   std::vector<std::vector<double>> states_;
   std::vector<StateTransition> matrices_;

@@ -95,11 +95,11 @@ struct TransferResult {
 /// do.
 TransferResult study_transfer(const Scene& scene, const ProgressCallback& progress = {});
 
-/// Exit code: 0, 1 (strict, and an answer is beyond its tolerance or missing) or 4 (no transfer
-/// time has an answer, or the refinement of one failed).
+/// 0; 1 if the scene is strict and an answer away from singularities is missing, beyond its
+/// tolerance or could not be refined; 4 if no transfer time has an answer.
 int exit_code(const TransferResult& result);
 
-/// A kind's trajectory in the frame: the deputy of the best answer, for plots.
+/// A flown deputy relative to its chief, in the scene's frame.
 struct RelativeTrajectory {
   std::vector<double> times;          ///< canonical
   std::vector<RelativeState> states;  ///< in the scene's frame

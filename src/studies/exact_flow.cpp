@@ -1,0 +1,30 @@
+#include "exact_flow.hpp"
+
+#include "hamjet/integrators/gauss_collocation.hpp"
+
+namespace hamjet {
+
+FlowProblem<double> trajectory_problem(const DynamicalSystem& system,
+                                       const std::vector<double>& start, double duration) {
+  FlowProblem<double> problem;
+  problem.system = &system;
+  problem.space = SeriesSpace::create(1, 0);
+  problem.variables = {0};
+  problem.initial_state = start;
+  problem.duration = duration;
+  return problem;
+}
+
+std::vector<double> exact_flow(const DynamicalSystem& system, const std::vector<double>& start,
+                               double duration) {
+  GaussSettings settings;
+  settings.tolerance = 1e-13;
+  IntegrationStatistics statistics;
+  const FlowJet<double> jet =
+      integrate_gauss(trajectory_problem(system, start, duration), settings, statistics);
+  std::vector<double> state;
+  for (const Series<double>& component : jet) state.push_back(component[0]);
+  return state;
+}
+
+}  // namespace hamjet

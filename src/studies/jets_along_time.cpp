@@ -1,0 +1,32 @@
+#include "jets_along_time.hpp"
+
+#include "integration.hpp"
+
+namespace hamjet {
+
+IntegrationStatistics visit_jets(
+    const ComputedProblem& problem, const IntegratorSettings& settings,
+    std::span<const double> times,
+    const std::function<void(std::size_t index, const FlowJet<double>& jet)>& visit) {
+  IntegrationStatistics total;
+  FlowProblem<double> flow = flow_problem<double>(problem, 0);
+  FlowJet<double> jet = starting_jet(flow);
+  flow.initial_jet = &jet;
+  double reached = 0;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    flow.duration = times[i] - reached;
+    for (std::size_t c = 0; c < jet.size(); ++c) flow.initial_state[c] = jet[c][0];
+    IntegrationStatistics statistics;
+    jet = integrate<double>(flow, settings, statistics, {});
+    total.steps += statistics.steps;
+    total.rejected_steps += statistics.rejected_steps;
+    total.vector_field_evaluations += statistics.vector_field_evaluations;
+    total.nominal_evaluations += statistics.nominal_evaluations;
+    total.wall_seconds += statistics.wall_seconds;
+    reached = times[i];
+    visit(i, jet);
+  }
+  return total;
+}
+
+}  // namespace hamjet

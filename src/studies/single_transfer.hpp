@@ -1,0 +1,55 @@
+#pragma once
+
+#include <vector>
+
+#include "hamjet/maps/position_boundary_values.hpp"
+#include "hamjet/relative_motion/chief_frame.hpp"
+#include "hamjet/studies/transfer.hpp"
+
+namespace hamjet {
+
+/// SI values of a scene's units.
+MetricUnits metric_units(const Scene& scene);
+
+/// The nominal's state, the constant terms of a jet.
+std::vector<double> nominal_of(const FlowJet<double>& jet);
+
+/// One transfer of a deputy, from one relative state to another in one time. What it looks at must
+/// outlive it.
+class SingleTransfer {
+ public:
+  /// `chief_end` is the chief's state at the end, `time` canonical.
+  SingleTransfer(const Scene& scene, const ComputedProblem& problem, double time,
+                 const std::vector<double>& chief_end, const RelativeState& start,
+                 const RelativeState& end);
+
+  /// The momenta of one order. Throws as PositionBoundaryValues::solve.
+  BoundaryMomenta solve(PositionBoundaryValues& boundary, int order) const;
+  /// The velocity changes that the momenta ask for.
+  TransferAnswer answer(const BoundaryMomenta& momenta, int order) const;
+  /// Flies the deputy from the start with this initial momentum (a deviation): (dq, dp) at the end.
+  /// Throws Error(numerical) as exact_flow.
+  std::vector<double> fly(const std::vector<double>& initial_momentum) const;
+  /// Distance in metres of a flown deviation from the wanted end.
+  double miss_m(const std::vector<double>& flown) const;
+  /// Newton's method on the flown miss with the derivatives of the jet at this time, from the
+  /// momenta of the highest order until the scene's `refined_miss_m` is reached. The failure of an
+  /// answer that does not get there is recorded in it. Counts the flights.
+  TransferAnswer refine(const FlowJet<double>& jet, BoundaryMomenta momenta, int& flights) const;
+
+  /// The state of the deputy at the start, after the first impulse.
+  std::vector<double> deputy(const std::vector<double>& initial_momentum) const;
+
+ private:
+  const Scene& scene_;
+  const ComputedProblem& problem_;
+  double time_;
+  MetricUnits units_;
+  const std::vector<double>& chief_end_;
+  ChiefFrame start_frame_;
+  ChiefFrame end_frame_;
+  std::vector<double> start_;  ///< canonical (dq, dp) before the first impulse
+  std::vector<double> end_;    ///< after the second
+};
+
+}  // namespace hamjet

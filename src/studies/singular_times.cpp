@@ -1,0 +1,199 @@
+#include "hamjet/studies/singular_times.hpp"
+
+#include <Eigen/LU>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <cmath>
+#include <iterator>
+#include <limits>
+
+#include "hamjet/integrators/gauss_collocation.hpp"
+
+namespace hamjet {
+namespace {
+
+using StateTransition = LinearFlow::StateTransition;
+
+/// A linear flow from a state, and the state that it reaches.
+struct LinearArc {
+  std::vector<double> state;
+  StateTransition matrix;
+};
+
+LinearArc linear_arc(const DynamicalSystem& system, const SpacePointer& space,
+                     const std::vector<double>& start, double duration) {
+  const FlowProblem<double> flow{&system, space, {0, 1, 2, 3, 4, 5}, start, duration};
+  GaussSettings settings;
+  settings.tolerance = 1e-14;
+  IntegrationStatistics statistics;
+  const FlowJet<double> jet = integrate_gauss<double>(flow, settings, statistics);
+  LinearArc arc;
+  for (const auto& component : jet) arc.state.push_back(component[0]);
+  arc.matrix = linear_part(std::span<const Series<double>>(jet));
+  return arc;
+}
+
+/// The smallest singular value over the largest, with the determinant's sign.
+double signed_ratio(const Eigen::Matrix3d& block) {
+  const Eigen::Vector3d values = Eigen::JacobiSVD<Eigen::Matrix3d>(block).singularValues();
+  return std::copysign(values[2] / values[0], block.determinant());
+}
+
+/// Looks for the zeros of one kind's signed ratio.
+class ZeroSearch {
+ public:
+  ZeroSearch(const LinearFlow& flow, const GeneratingFunctionKind& kind)
+      : flow_(flow), kind_(kind), times_(flow.times()) {
+    // At the start every block is trivially singular or the identity.
+    for (std::size_t i = 1; i < times_.size(); ++i) {
+      ratios_.push_back(signed_ratio(inverted_block(flow.checkpoint(i), kind)));
+    }
+  }
+
+  std::vector<SingularTime> run() {
+    for (std::size_t i = 0; i < ratios_.size(); ++i) {
+      if (i + 1 < ratios_.size() && ratios_[i] * ratios_[i + 1] < 0) {
+        add_zero(time(i), time(i + 1));
+      }
+      if (i > 0 && i + 1 < ratios_.size() && is_minimum(i)) search_minimum(i);
+    }
+    std::sort(found_.begin(), found_.end(),
+              [](const auto& a, const auto& b) { return std::abs(a.time) < std::abs(b.time); });
+    return std::move(found_);
+  }
+
+ private:
+  double time(std::size_t i) const { return times_[i + 1]; }
+  double ratio_at(double t) const { return signed_ratio(inverted_block(flow_.at(t), kind_)); }
+
+  bool is_minimum(std::size_t i) const {
+    const double here = ratios_[i];
+    const bool same_sign = here * ratios_[i - 1] > 0 && here * ratios_[i + 1] > 0;
+    return same_sign && std::abs(here) <= std::abs(ratios_[i - 1]) &&
+           std::abs(here) < std::abs(ratios_[i + 1]) && may_reach_zero(i);
+  }
+
+  /// The lines through the two points on either side bound a convex function from below: where they
+  /// meet well above zero, so does it. A factor of two stands for what is not convex.
+  bool may_reach_zero(std::size_t i) const {
+    if (i < 2 || i + 2 >= ratios_.size()) return true;
+    const double left = std::abs(ratios_[i - 1]);
+    const double right = std::abs(ratios_[i + 1]);
+    const double fall_left = std::abs(ratios_[i - 2]) - left;
+    const double fall_right = std::abs(ratios_[i + 2]) - right;
+    if (!(fall_left > 0) || !(fall_right > 0)) return true;
+    const double meeting = (left - right + 2 * fall_right) / (fall_left + fall_right);
+    return left - fall_left * meeting < 0.5 * std::abs(ratios_[i]);
+  }
+
+  /// Golden sections of the magnitude until it changes sign, which shows a pair of zeros, or has
+  /// nowhere to go.
+  void search_minimum(std::size_t i) {
+    const double golden = 0.5 * (3 - std::sqrt(5.0));
+    const double sign = ratios_[i] > 0 ? 1 : -1;
+    double left = time(i - 1);
+    double right = time(i + 1);
+    double middle = time(i);
+    double lowest = sign * ratios_[i];
+    const double resolution = 1e-13 * std::abs(times_.back());
+    while (std::abs(right - left) > resolution) {
+      const bool is_right_longer = std::abs(right - middle) > std::abs(middle - left);
+      const double trial = middle + golden * ((is_right_longer ? right : left) - middle);
+      const double value = sign * ratio_at(trial);
+      if (value < 0) {
+        add_zero(time(i - 1), trial);
+        add_zero(trial, time(i + 1));
+        return;
+      }
+      if (value < lowest) {
+        (is_right_longer ? left : right) = middle;
+        middle = trial;
+        lowest = value;
+      } else {
+        (is_right_longer ? right : left) = trial;
+      }
+    }
+    if (lowest < double_zero) add(middle);
+  }
+
+  void add_zero(double from, double to) {
+    const double value_from = ratio_at(from);
+    const double value_to = ratio_at(to);
+    if (value_from == 0) return add(from);
+    if (value_to == 0) return add(to);
+    std::uintmax_t most_iterations = 100;
+    const auto bracket = boost::math::tools::toms748_solve(
+        [&](double t) { return ratio_at(t); }, std::min(from, to), std::max(from, to),
+        from < to ? value_from : value_to, from < to ? value_to : value_from,
+        boost::math::tools::eps_tolerance<double>(51), most_iterations);
+    add(0.5 * (bracket.first + bracket.second));
+  }
+
+  void add(double t) {
+    const Eigen::Matrix3d block = inverted_block(flow_.at(t), kind_);
+    const Eigen::JacobiSVD<Eigen::Matrix3d> decomposition(block, Eigen::ComputeFullU);
+    const Eigen::Vector3d values = decomposition.singularValues();
+    found_.push_back(
+        {kind_, t, values[2] / values[0], values[1] / values[0], decomposition.matrixU().col(2)});
+  }
+
+  const LinearFlow& flow_;
+  const GeneratingFunctionKind& kind_;
+  const std::vector<double>& times_;
+  std::vector<double> ratios_;  ///< at the checkpoints, the start left out
+  std::vector<SingularTime> found_;
+};
+
+}  // namespace
+
+LinearFlow::LinearFlow(const ComputedProblem& problem, double duration, std::size_t intervals,
+                       const std::function<void(double)>& progress)
+    : problem_(&problem), space_(SeriesSpace::create(6, 1)) {
+  if (problem.system.dimension() != 6 || intervals == 0) {
+    throw Error(ErrorKind::usage, "linear flow: an orbit and at least one interval are needed");
+  }
+  times_.push_back(0);
+  states_.push_back(problem.nominal);
+  matrices_.push_back(StateTransition::Identity());
+  for (std::size_t i = 1; i <= intervals; ++i) {
+    times_.push_back(i == intervals
+                         ? duration
+                         : duration * static_cast<double>(i) / static_cast<double>(intervals));
+    LinearArc arc = linear_arc(problem.system, space_, states_.back(), times_[i] - times_[i - 1]);
+    matrices_.push_back(arc.matrix * matrices_.back());
+    states_.push_back(std::move(arc.state));
+    if (progress) progress(static_cast<double>(i) / static_cast<double>(intervals));
+  }
+}
+
+double LinearFlow::interval() const { return times_[1] - times_[0]; }
+
+LinearFlow::StateTransition LinearFlow::at(double time) const {
+  const double position =
+      std::clamp(time / interval(), 0.0, static_cast<double>(times_.size() - 1));
+  const auto before = static_cast<std::size_t>(position);
+  if (time == times_[before]) return matrices_[before];
+  return linear_arc(problem_->system, space_, states_[before], time - times_[before]).matrix *
+         matrices_[before];
+}
+
+Eigen::Matrix3d inverted_block(const LinearFlow::StateTransition& flow,
+                               const GeneratingFunctionKind& kind) {
+  Eigen::Matrix3d block;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      block(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
+          flow(static_cast<Eigen::Index>(kind.final_variable(i)),
+               static_cast<Eigen::Index>(kind.initial_variable(j, false)));
+    }
+  }
+  return block;
+}
+
+std::vector<SingularTime> find_singular_times(const LinearFlow& flow,
+                                              const GeneratingFunctionKind& kind) {
+  return ZeroSearch(flow, kind).run();
+}
+
+}  // namespace hamjet
