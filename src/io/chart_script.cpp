@@ -98,6 +98,12 @@ std::string axis_commands(const char* axis, const ChartAxis& settings, int most_
 
 std::string decorations(const Chart& chart) {
   std::string text;
+  for (const ChartBand& band : chart.bands) {
+    text += fmt::format(
+        "set object rectangle from first {:.17g}, graph 0 to first {:.17g}, graph 1 behind "
+        "fillcolor rgb '#E4E4E4' fillstyle solid noborder\n",
+        band.from, band.to);
+  }
   for (const ChartRule& rule : chart.rules) {
     text += rule.is_vertical
                 ? fmt::format("set arrow from first {0:.17g}, graph 0 to first {0:.17g}, graph 1",
