@@ -20,6 +20,8 @@ std::string figure_html(const Chart& chart, ChartDrawer& drawer) {
     for (const std::string& note : chart.notes) {
       html += fmt::format("<p class=\"note\">{}</p>\n", escape_html(note));
     }
+  }
+  if (!drawing.empty() && !chart.reading.empty()) {
     html += fmt::format("<figcaption><strong>How to read it.</strong> {}</figcaption>\n",
                         escape_html(chart.reading));
   }
