@@ -33,6 +33,19 @@ void require_table(const RunOptions& options, bool is_there, std::string_view ke
       fmt::format("missing, must be a table [{}]; the smallest is {} = {{{}}}", key, key, example));
 }
 
+/// What a study says of the scene, with the file's name.
+template <class Study>
+auto study_of(const RunOptions& options, const Study& study) {
+  try {
+    return study();
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::scene) throw;
+    throw Error(
+        ErrorKind::scene,
+        fmt::format("{}: {}", io::printable(*options.scene_file, std::string::npos), error.what()));
+  }
+}
+
 bool is_zero(const RelativeState& state) {
   return state.position_m.isZero(0) && state.velocity_m_s.isZero(0);
 }
@@ -50,7 +63,8 @@ int transfer(const RunOptions& options) {
            "on this scene's deputies and slots");
   }
   return report_study(options, scene.name, [&](const ProgressCallback& progress) {
-    const TransferResult result = study_transfer(scene, progress);
+    const TransferResult result =
+        study_of(options, [&] { return study_transfer(scene, progress); });
     std::optional<RelativeTrajectory> trajectory;
     if (const auto best = result.best_point()) {
       trajectory = fly_relative(result, *best, trajectory_intervals);
@@ -65,7 +79,8 @@ int validity(const RunOptions& options) {
   const Scene scene = read_scene(options);
   require_table(options, scene.validity.has_value(), "validity", "tolerance_m = 1, count = 12");
   return report_study(options, scene.name, [&](const ProgressCallback& progress) {
-    return io::validity_report(study_validity(scene, progress), report_origin(options.command));
+    return io::validity_report(study_of(options, [&] { return study_validity(scene, progress); }),
+                               report_origin(options.command));
   });
 }
 
@@ -74,7 +89,8 @@ int assign(const RunOptions& options) {
   require_table(options, scene.assignment.has_value(), "assignment",
                 "deputy = [{position_m = [0, -100, 0]}], slot = [{position_m = [0, 100, 0]}]");
   return report_study(options, scene.name, [&](const ProgressCallback& progress) {
-    return io::assignment_report(study_assignment(scene, progress));
+    return io::assignment_report(
+        study_of(options, [&] { return study_assignment(scene, progress); }));
   });
 }
 
