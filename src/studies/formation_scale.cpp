@@ -2,33 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <numbers>
-#include <random>
 #include <utility>
 
 #include "nominal_period.hpp"
+#include "random_direction.hpp"
 
 namespace hamjet {
 namespace {
 
 constexpr int random_points = 100;
-
-/// A random direction; the standard library's distributions differ between implementations.
-std::vector<double> random_direction(std::mt19937_64& generator, std::size_t dimension) {
-  while (true) {
-    std::vector<double> direction;
-    double square = 0;
-    for (std::size_t i = 0; i < dimension; ++i) {
-      const auto bits = static_cast<double>(static_cast<std::int64_t>(generator()) >> 11);
-      direction.push_back(bits * 0x1p-52);  // in [-1, 1)
-      square += direction.back() * direction.back();
-    }
-    if (square > 1 || square < 0.01) continue;
-    for (double& x : direction) x /= std::sqrt(square);
-    return direction;
-  }
-}
 
 }  // namespace
 

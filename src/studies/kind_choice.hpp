@@ -1,31 +1,35 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
-#include <limits>
 #include <optional>
 #include <vector>
 
 namespace hamjet {
 
-/// Chooses a kind along time: the best conditioned, but the last choice as long as it is not much
-/// worse, so that the kind does not change to and fro where several are nearly alike.
+/// Chooses a kind along time: the best one, but the last choice as long as it is not much worse, so
+/// that the kind does not change to and fro where several are nearly alike.
 class KindChoice {
  public:
-  /// Index of the chosen kind from all kinds' condition numbers; none if every one is too large.
-  std::optional<std::size_t> choose(const std::vector<double>& conditions, double largest) {
-    std::size_t best = 0;
-    for (std::size_t k = 1; k < conditions.size(); ++k) {
-      if (conditions[k] < conditions[best]) best = k;
-    }
-    if (!(conditions[best] < largest)) return std::nullopt;
-    if (!last_ || conditions[*last_] > hysteresis * conditions[best]) last_ = best;
+  /// Index of the chosen kind from a figure of each kind, the smaller the better; none if no figure
+  /// is finite. The first kind, F1, is the last choice before there is one.
+  std::optional<std::size_t> choose(const std::vector<double>& figures) {
+    const auto best =
+        static_cast<std::size_t>(std::min_element(figures.begin(), figures.end(),
+                                                  [](double a, double b) {
+                                                    return std::isnan(b) ? !std::isnan(a) : a < b;
+                                                  }) -
+                                 figures.begin());
+    if (!std::isfinite(figures[best])) return std::nullopt;
+    if (!(figures[last_] <= hysteresis * figures[best])) last_ = best;
     return last_;
   }
 
  private:
-  static constexpr double hysteresis = 3;
+  static constexpr double hysteresis = 1.5;
 
-  std::optional<std::size_t> last_;
+  std::size_t last_ = 0;
 };
 
 }  // namespace hamjet

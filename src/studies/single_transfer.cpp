@@ -33,6 +33,16 @@ SingleTransfer::SingleTransfer(const Scene& scene, const ComputedProblem& proble
       start_(start_frame_.deviation(start)),
       end_(end_frame_.deviation(end)) {}
 
+std::vector<double> SingleTransfer::linear_deviation(
+    const Eigen::Matrix<double, 6, 6>& flow) const {
+  // q = A q0 + B p0.
+  const Eigen::Vector3d start(start_[0], start_[1], start_[2]);
+  const Eigen::Vector3d end(end_[0], end_[1], end_[2]);
+  const Eigen::Vector3d momentum =
+      flow.topRightCorner<3, 3>().partialPivLu().solve(end - flow.topLeftCorner<3, 3>() * start);
+  return {start[0], start[1], start[2], momentum[0], momentum[1], momentum[2]};
+}
+
 BoundaryMomenta SingleTransfer::solve(PositionBoundaryValues& boundary, int order) const {
   return boundary.solve(std::span(start_).first(3), std::span(end_).first(3), order);
 }

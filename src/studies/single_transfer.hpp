@@ -23,6 +23,8 @@ class SingleTransfer {
                  const std::vector<double>& chief_end, const RelativeState& start,
                  const RelativeState& end);
 
+  /// The deviation at the start, after the first impulse, that the linear flow alone asks for.
+  std::vector<double> linear_deviation(const Eigen::Matrix<double, 6, 6>& flow) const;
   /// The momenta of one order. Throws as PositionBoundaryValues::solve.
   BoundaryMomenta solve(PositionBoundaryValues& boundary, int order) const;
   /// The velocity changes that the momenta ask for.

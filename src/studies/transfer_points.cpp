@@ -1,0 +1,205 @@
+#include "transfer_points.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "exact_flow.hpp"
+#include "hamjet/error.hpp"
+#include "hamjet/maps/hamilton_jacobi.hpp"
+#include "stopwatch.hpp"
+
+namespace hamjet {
+namespace {
+
+/// Checkpoints of the linear flow in 2 pi canonical, a revolution at the initial distance.
+constexpr double checkpoints_per_turn = 240;
+constexpr std::size_t fewest_checkpoints = 16;
+
+/// The answer that `work` gives, or its numerical failure.
+template <class Work>
+TransferAnswer attempt(int order, const Work& work) {
+  try {
+    return work();
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::numerical) throw;
+    TransferAnswer failed;
+    failed.order = order;
+    failed.failure = error.what();
+    return failed;
+  }
+}
+
+}  // namespace
+
+TransferPoints::TransferPoints(const Scene& scene, const ProgressCallback& progress,
+                               TransferSeconds& seconds)
+    : scene_(scene),
+      settings_(*scene.transfer),
+      seconds_(seconds),
+      problem_(make_problem(scene, available_memory())),
+      kinds_(all_kinds(3)) {
+  find_singular_times(progress);
+}
+
+void TransferPoints::find_singular_times(const ProgressCallback& progress) {
+  const Stopwatch watch(seconds_.singularities);
+  const double last = settings_.times.back();
+  // A little longer, so that what lies right behind the last time is seen too.
+  const double span = last + std::copysign(settings_.singular_margin, last);
+  const auto intervals = static_cast<std::size_t>(
+      std::ceil(checkpoints_per_turn * std::abs(span) / (2 * std::numbers::pi)));
+  const LinearFlow flow(problem_, span, std::max(intervals, fewest_checkpoints), [&](double done) {
+    if (progress) progress("linear flow", done);
+  });
+  for (std::size_t k = 0; k < kinds_.size(); ++k) {
+    if (progress) {
+      progress("singular times", static_cast<double>(k) / static_cast<double>(kinds_.size()));
+    }
+    for (SingularTime& found : hamjet::find_singular_times(flow, kinds_[k])) {
+      singular_times_.push_back(std::move(found));
+    }
+  }
+}
+
+std::optional<double> TransferPoints::singular_distance(double time) const {
+  std::optional<double> nearest;
+  for (const SingularTime& singular : singular_times_) {
+    if (singular.kind != kinds_.front()) continue;
+    const double distance = std::abs(singular.time - time);
+    nearest = std::min(nearest.value_or(distance), distance);
+  }
+  return nearest;
+}
+
+bool TransferPoints::is_near_singular(double time) const {
+  const auto distance = singular_distance(time);
+  return distance && *distance < settings_.singular_margin;
+}
+
+std::vector<double> TransferPoints::expansion_parameters(
+    const FlowJet<double>& jet, const std::vector<RelativeTransfer>& transfers, double time) const {
+  const std::span<const Series<double>> map(jet);
+  const LinearFlow::StateTransition flow = linear_part(map);
+  std::vector<Eigen::PartialPivLU<Eigen::Matrix3d>> blocks;
+  std::vector<double> parameters;
+  for (const GeneratingFunctionKind& kind : kinds_) {
+    blocks.emplace_back(inverted_block(flow, kind));
+    // Round-off is amplified too, and decides where nothing else does.
+    parameters.push_back(std::numeric_limits<double>::epsilon() * flow.norm() *
+                         blocks.back().inverse().norm());
+  }
+  const std::vector<double> chief_end = nominal_of(jet);
+  MonomialValues values(jet[0].space_pointer());
+  for (const RelativeTransfer& ends : transfers) {
+    const SingleTransfer transfer(scene_, problem_, time, chief_end, ends.start, ends.end);
+    values.set_point(transfer.linear_deviation(flow));
+    LinearFlow::StateTransition changed;
+    for (std::size_t i = 0; i < 6; ++i) {
+      for (std::size_t j = 0; j < 6; ++j) {
+        changed(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
+            values.derivative(jet[i], j, std::min(scene_.order, 2));
+      }
+    }
+    for (std::size_t k = 0; k < kinds_.size(); ++k) {
+      const Eigen::Matrix3d difference = inverted_block(changed - flow, kinds_[k]);
+      parameters[k] = std::max(parameters[k], blocks[k].solve(difference).norm());
+    }
+  }
+  return parameters;
+}
+
+ChosenKind TransferPoints::choose_kind(double time, const FlowJet<double>& jet,
+                                       const std::vector<RelativeTransfer>& transfers) {
+  const Stopwatch watch(seconds_.inversion);
+  const std::span<const Series<double>> map(jet);
+  const LinearFlow::StateTransition flow = linear_part(map);
+  ChosenKind chosen;
+  chosen.time = time;
+  for (const GeneratingFunctionKind& kind : kinds_) {
+    chosen.conditions.push_back(condition_number<double>(inverted_block(flow, kind)));
+  }
+  try {
+    if (settings_.kind != "auto") {
+      chosen.inversion = invert_partially<double>(map, parse_kind(settings_.kind, 3));
+    } else if (const auto index = choice_.choose(expansion_parameters(jet, transfers, time))) {
+      chosen.inversion = invert_partially<double>(map, kinds_[*index]);
+    } else {
+      chosen.failure = "no kind of generating function exists at this time";
+    }
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::numerical) throw;
+    chosen.failure = error.what();
+  }
+  return chosen;
+}
+
+TransferPoint TransferPoints::answer(const ChosenKind& chosen, const FlowJet<double>& jet,
+                                     const RelativeTransfer& ends) const {
+  TransferPoint point;
+  point.time = chosen.time;
+  point.position_condition = chosen.conditions.front();
+  point.singular_distance = singular_distance(chosen.time);
+  point.is_near_singular = is_near_singular(chosen.time);
+  point.failure = chosen.failure;
+  if (!chosen.inversion) return point;
+  point.kind = chosen.inversion->kind;
+  point.condition = chosen.inversion->condition;
+  const std::vector<double> chief_end = nominal_of(jet);
+  const SingleTransfer transfer(scene_, problem_, chosen.time, chief_end, ends.start, ends.end);
+  std::vector<BoundaryMomenta> momenta(static_cast<std::size_t>(scene_.order));
+  {
+    const Stopwatch watch(seconds_.solution);
+    PositionBoundaryValues boundary(*chosen.inversion);
+    for (int order = 1; order <= scene_.order; ++order) {
+      point.answers.push_back(attempt(order, [&] {
+        BoundaryMomenta& found = momenta[static_cast<std::size_t>(order - 1)];
+        found = transfer.solve(boundary, order);
+        return transfer.answer(found, order);
+      }));
+    }
+  }
+  {
+    const Stopwatch watch(seconds_.proof);
+    for (std::size_t k = 0; k < momenta.size(); ++k) {
+      TransferAnswer& answer = point.answers[k];
+      if (!answer.failure.empty()) continue;
+      answer = attempt(answer.order, [&] {
+        TransferAnswer proved = answer;
+        proved.miss_m = transfer.miss_m(transfer.fly(momenta[k].initial));
+        return proved;
+      });
+    }
+    const TransferAnswer& last = point.answers.back();
+    point.is_beyond_tolerance = !last.failure.empty() || !(last.miss_m <= settings_.tolerance_m);
+    if (settings_.refine && last.failure.empty()) {
+      point.refined = transfer.refine(jet, momenta.back(), point.refinement_flights);
+    }
+  }
+  measure_residual(chosen, chief_end, point);
+  return point;
+}
+
+void TransferPoints::measure_residual(const ChosenKind& chosen,
+                                      const std::vector<double>& chief_end,
+                                      TransferPoint& point) const {
+  const Stopwatch watch(seconds_.residual);
+  double largest = 0;
+  for (const auto& entry : hamilton_jacobi_by_degree<double>(
+           problem_.system, std::span<const double>(chief_end), *chosen.inversion)) {
+    largest = std::max(largest, entry.scaled);
+  }
+  point.hamilton_jacobi_residual = largest;
+}
+
+double TransferPoints::flight_floor_m(double time, const FlowJet<double>& jet) const {
+  const Stopwatch watch(seconds_.proof);
+  const std::vector<double> flown = exact_flow(problem_.system, problem_.nominal, time);
+  const std::vector<double> nominal = nominal_of(jet);
+  return std::hypot(flown[0] - nominal[0], flown[1] - nominal[1], flown[2] - nominal[2]) *
+         metric_units(scene_).length_m;
+}
+
+}  // namespace hamjet

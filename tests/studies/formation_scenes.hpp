@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "hamjet/studies/scene.hpp"
+
+// Chiefs and transfers to try formation studies on.
+
+namespace hamjet {
+
+inline IntegratorSettings precise_gauss() {
+  IntegratorSettings settings;
+  settings.label = "gauss8";
+  settings.stages = 8;
+  settings.tolerance = 1e-14;
+  return settings;
+}
+
+/// Equal parts of a span, its end included.
+inline std::vector<double> equal_times(double span, int count) {
+  std::vector<double> times;
+  for (int k = 1; k <= count; ++k) times.push_back(span * k / count);
+  return times;
+}
+
+/// Kepler's problem from perigee at distance 1 in the orbit's plane z = 0; eccentricity 0 is the
+/// circular orbit.
+inline Scene kepler_chief(double eccentricity, double length_km, double time_s, int order) {
+  Scene scene;
+  scene.system.model = SystemModel::kepler;
+  scene.units = {length_km, time_s};
+  scene.nominal = {1, 0, 0, 0, std::sqrt(1 + eccentricity), 0};
+  scene.duration = 1;
+  scene.order = order;
+  scene.variables = {0, 1, 2, 3, 4, 5};
+  scene.integrators = {precise_gauss()};
+  return scene;
+}
+
+/// The paper's orbit with J2 and J3 (case SEED-* of reference_cases.json).
+inline Scene paper_chief(int order) {
+  Scene scene = kepler_chief(0.3, 7000, std::sqrt(7000.0 * 7000 * 7000 / 398600.4405), order);
+  scene.system.model = SystemModel::zonal_gravity;
+  scene.system.J2 = 1.082626675e-3;
+  scene.system.J3 = 2.532436e-6;
+  scene.canonical_radius = 0x1.d283e1c01dcf3p-1;
+  scene.nominal = {1, 0, 0, 0, 0x1.23e2896280f23p-1, 0x1.f98f3adef13f2p-1};
+  return scene;
+}
+
+}  // namespace hamjet

@@ -1,0 +1,122 @@
+#include "hamjet/studies/singular_times.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "formation_scenes.hpp"
+#include "support/reference_data.hpp"
+
+namespace hamjet {
+namespace {
+
+std::vector<double> times_of(const std::vector<SingularTime>& found) {
+  std::vector<double> times;
+  for (const SingularTime& singular : found) times.push_back(singular.time);
+  return times;
+}
+
+/// The times of a kind over a span.
+std::vector<SingularTime> search(const Scene& scene, const char* kind, double span,
+                                 std::size_t intervals) {
+  const ComputedProblem problem = make_problem(scene, 1e10);
+  const LinearFlow flow(problem, span, intervals);
+  return find_singular_times(flow, parse_kind(kind, 3));
+}
+
+void expect_times(const std::vector<double>& found, const std::vector<double>& expected,
+                  double tolerance, const std::string& what) {
+  SCOPED_TRACE(what);
+  ASSERT_EQ(found.size(), expected.size()) << ::testing::PrintToString(found);
+  for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], expected[i], tolerance);
+}
+
+// Cross-track sin t = 0; in the plane t = 2 pi k and tan(t/2) = 3t/8, published to 7 digits in
+// revolutions and to 18 digits in row 18 of the extreme cases (8 - 8 cos t - 3 t sin t = 0).
+TEST(SingularTimes, F1OnACircularOrbit) {
+  const double pi = std::numbers::pi;
+  const auto found = search(kepler_chief(0, 7000, 1000, 1), "F1", 4.6 * 2 * pi, 1100);
+  const std::vector<double> expected = {
+      pi,     2 * pi, 8.838742844152040827, 3 * pi, 4 * pi, 15.36426129078697875,
+      5 * pi, 6 * pi, 2 * pi * 3.4611622,   7 * pi, 8 * pi, 2 * pi * 4.4698669,
+      9 * pi};
+  ASSERT_EQ(found.size(), expected.size()) << ::testing::PrintToString(times_of(found));
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const bool has_seven_digits = i == 8 || i == 11;
+    EXPECT_NEAR(found[i].time, expected[i], has_seven_digits ? 4e-7 : 1e-9) << i;
+    EXPECT_LT(found[i].smallest_ratio, 1e-9) << i;
+  }
+  // Half a revolution cannot command the normal direction, N = z.
+  EXPECT_NEAR(std::abs(found[0].direction[2]), 1, 1e-9);
+  EXPECT_GT(found[0].second_ratio, 1e-3);
+  // A whole one loses two directions, one of which is R, here x... and z.
+  EXPECT_LT(found[1].second_ratio, 1e-9);
+  EXPECT_NEAR(found[1].direction[1], 0, 1e-6);
+}
+
+// Expected: conjugate_times_seed of reference_cases.json, to 25 digits.
+TEST(SingularTimes, AllFourKindsOnThePapersOrbit) {
+  const auto& roots = test::reference_cases()["conjugate_times_seed"]["roots"]["J2J3"];
+  const auto& pairs =
+      test::reference_cases()["conjugate_times_seed"]["missed_by_that_grid_close_pairs_of_B_J2J3"];
+  for (const auto& [kind, block] :
+       {std::pair("F1", "B"), std::pair("F2", "A"), std::pair("F3", "D"), std::pair("F4", "C")}) {
+    std::vector<double> expected;
+    for (const auto& root : roots[block]) expected.push_back(std::stod(root.get<std::string>()));
+    if (std::string(block) == "B") {
+      for (const auto& pair : pairs) expected.push_back(std::stod(pair["t"].get<std::string>()));
+    }
+    std::sort(expected.begin(), expected.end());
+    const auto found = times_of(search(paper_chief(1), kind, 32, 1200));
+    std::vector<double> unmatched;
+    for (const double time : expected) {
+      const auto place = std::min_element(found.begin(), found.end(), [&](double a, double b) {
+        return std::abs(a - time) < std::abs(b - time);
+      });
+      ASSERT_NE(place, found.end());
+      EXPECT_NEAR(*place, time, 1e-10) << kind;
+    }
+    // The reference allows for pairs that its grid missed: those found beyond it must be zeros.
+    EXPECT_GE(found.size(), expected.size()) << kind;
+    EXPECT_LE(found.size(), expected.size() + 4) << kind << ::testing::PrintToString(found);
+  }
+}
+
+TEST(SingularTimes, TheClosePairIsFoundOnACoarseGridToo) {
+  // The pair is 0.0027 apart; checkpoints 0.11 apart.
+  const auto found = times_of(search(paper_chief(1), "F1", 12, 110));
+  expect_times(found, {5.3585655609220937, 10.707717268719494690, 10.710460038641982717}, 1e-10,
+               "first pair");
+}
+
+TEST(SingularTimes, AnExactDoubleZeroIsOneTime) {
+  // Kepler's problem after a whole revolution: dq/dp0 has rank 1.
+  const double period = 2 * std::numbers::pi * std::pow(0.7, -1.5);
+  const auto found = search(kepler_chief(0.3, 7000, 1000, 1), "F1", 12, 300);
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_NEAR(found[0].time, period / 2, 1e-10);  // half a revolution, the normal direction
+  EXPECT_NEAR(found[1].time, period, 1e-8);
+  EXPECT_LT(found[1].second_ratio, 1e-8);
+}
+
+TEST(SingularTimes, BackwardsAsForwards) {
+  // The flow back from the same perigee mirrors the flow forth.
+  const auto forth = times_of(search(kepler_chief(0.3, 7000, 1000, 1), "F2", 10, 240));
+  const auto back = times_of(search(kepler_chief(0.3, 7000, 1000, 1), "F2", -10, 240));
+  ASSERT_EQ(forth.size(), back.size());
+  ASSERT_GE(forth.size(), 2U);
+  for (std::size_t i = 0; i < forth.size(); ++i) EXPECT_NEAR(back[i], -forth[i], 1e-9);
+}
+
+TEST(LinearFlow, BetweenCheckpointsIsTheFlow) {
+  const ComputedProblem problem = make_problem(paper_chief(1), 1e10);
+  const LinearFlow coarse(problem, 10, 16);
+  const LinearFlow direct(problem, 7.77, 1);
+  EXPECT_LT((coarse.at(7.77) - direct.checkpoint(1)).norm(), 1e-11 * direct.checkpoint(1).norm());
+  EXPECT_EQ(coarse.at(0), LinearFlow::StateTransition::Identity());
+}
+
+}  // namespace
+}  // namespace hamjet

@@ -1,0 +1,181 @@
+#include "hamjet/studies/transfer.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <numbers>
+
+#include "formation_scenes.hpp"
+#include "hamjet/error.hpp"
+
+namespace hamjet {
+namespace {
+
+/// From rest at one point to rest at another, far from singular times.
+TransferSettings short_hop(double separation_m, std::vector<double> times) {
+  TransferSettings settings;
+  settings.start.position_m = Eigen::Vector3d(0.6, -0.7, 0.4).normalized() * separation_m;
+  settings.end.position_m = Eigen::Vector3d(-0.3, 0.8, -0.5).normalized() * separation_m;
+  settings.times = std::move(times);
+  return settings;
+}
+
+// Curtis, Orbital Mechanics for Engineering Students: n = 0.00115697 rad/s, 8 h, from
+// (20, 20, 20) km and (-20, 20, -5) m/s to rest at the target.
+TEST(Transfer, ClohessyWiltshireRendezvousByDegreeOne) {
+  const double n = 0.00115697;
+  const double mu = 398600.4415;
+  Scene scene = kepler_chief(0, std::cbrt(mu / (n * n)), 1 / n, 1);
+  TransferSettings settings;
+  settings.start = {{20e3, 20e3, 20e3}, {-20, 20, -5}};
+  settings.times = {n * 8 * 3600};
+  scene.transfer = settings;
+  const TransferResult result = study_transfer(scene);
+  ASSERT_EQ(result.points.size(), 1U);
+  ASSERT_TRUE(result.points[0].has_answer()) << result.points[0].failure;
+  const TransferAnswer& linear = result.points[0].answers[0];
+  const Eigen::Vector3d first(29.35751148832, -66.75115105877, 13.02971971421);
+  const Eigen::Vector3d second(25.82081590444, 0.47235105877, 24.49302413033);
+  EXPECT_LT((linear.start_change_m_s - first).norm(), 1e-9);
+  EXPECT_LT((linear.end_change_m_s - second).norm(), 1e-9);
+  EXPECT_NEAR(linear.total_change_m_s(), 109.66945, 1e-5);
+}
+
+// Order k misses by a constant times separation^(k+1).
+TEST(Transfer, MissFallsAsAPowerOfTheSeparation) {
+  const int order = 6;
+  std::vector<std::vector<double>> misses;
+  std::vector<double> separations;
+  for (double separation = 64e4; separation > 5e3; separation /= 2)
+    separations.push_back(separation);
+  double floor = 0;
+  for (const double separation : separations) {
+    Scene scene = paper_chief(order);
+    scene.transfer = short_hop(separation, {4.0});
+    const TransferResult result = study_transfer(scene);
+    floor = std::max(floor, result.flight_floor_m);
+    misses.emplace_back();
+    for (const TransferAnswer& answer : result.points[0].answers) {
+      ASSERT_TRUE(answer.failure.empty()) << answer.failure;
+      misses.back().push_back(answer.miss_m);
+    }
+  }
+  EXPECT_LT(floor, 1e-5);
+  for (int k = 1; k <= order; ++k) {
+    const auto miss = [&](std::size_t i) { return misses[i][static_cast<std::size_t>(k - 1)]; };
+    // The smallest two separations that stay well above the rounding of the flights.
+    std::size_t i = separations.size() - 2;
+    while (i > 0 && miss(i + 1) < 100 * floor) --i;
+    ASSERT_GT(miss(i + 1), 100 * floor) << k;
+    EXPECT_NEAR(std::log2(miss(i) / miss(i + 1)), k + 1, 0.3) << k;
+  }
+}
+
+TEST(Transfer, TenKilometresOnThePapersOrbit) {
+  Scene scene = paper_chief(4);
+  const double period = 2 * std::numbers::pi * std::pow(0.7, -1.5);
+  scene.transfer = short_hop(10e3, equal_times(2 * period, 40));
+  scene.transfer->singular_margin = 0.05 * period;
+  const TransferResult result = study_transfer(scene);
+  int far = 0;
+  double largest = 0;
+  double largest_linear = 0;
+  for (const TransferPoint& point : result.points) {
+    ASSERT_TRUE(point.singular_distance.has_value());
+    if (point.is_near_singular) continue;
+    ASSERT_TRUE(point.has_answer()) << point.failure;
+    ++far;
+    largest = std::max(largest, point.answers[3].miss_m);
+    largest_linear = std::max(largest_linear, point.answers[0].miss_m);
+    EXPECT_LT(*point.hamilton_jacobi_residual, 1e-8);
+  }
+  EXPECT_GE(far, 20);
+  EXPECT_LT(largest, 1);
+  EXPECT_GT(largest_linear, 100);
+}
+
+TEST(Transfer, EveryKindGivesTheSameTransfer) {
+  // 100 m: what order 4 leaves out is below the rounding of the flights.
+  std::optional<TransferAnswer> first;
+  for (const char* kind : {"F1", "F2", "F3", "F4", "qpq-qqp", "pqp-qpq", "auto"}) {
+    Scene scene = paper_chief(4);
+    scene.transfer = short_hop(100, {4.0});
+    scene.transfer->kind = kind;
+    const TransferResult result = study_transfer(scene);
+    ASSERT_TRUE(result.points[0].has_answer()) << kind << result.points[0].failure;
+    const TransferAnswer& answer = result.points[0].answers.back();
+    if (!first) first = answer;
+    EXPECT_LT((answer.start_change_m_s - first->start_change_m_s).norm(), 1e-10) << kind;
+    EXPECT_LT((answer.end_change_m_s - first->end_change_m_s).norm(), 1e-10) << kind;
+    EXPECT_LT(answer.miss_m, 1e-5) << kind;
+  }
+}
+
+TEST(Transfer, RefinementReachesTheStatedMiss) {
+  Scene scene = paper_chief(3);
+  scene.transfer = short_hop(200e3, {4.0, 9.0});
+  scene.transfer->refine = true;
+  scene.transfer->refined_miss_m = 1e-4;
+  for (const TransferPoint& point : study_transfer(scene).points) {
+    ASSERT_TRUE(point.refined.has_value());
+    ASSERT_TRUE(point.refined->failure.empty()) << point.refined->failure;
+    EXPECT_GT(point.answers.back().miss_m, 1);
+    EXPECT_LE(point.refined->miss_m, 1e-4);
+    EXPECT_LT((point.refined->start_change_m_s - point.answers.back().start_change_m_s).norm(),
+              0.1);
+  }
+}
+
+TEST(Transfer, TheFlownTrajectoryJoinsTheTwoEnds) {
+  Scene scene = paper_chief(4);
+  scene.transfer = short_hop(1e3, {3.0});
+  scene.transfer->start.velocity_m_s = {1, 2, 3};
+  const TransferResult result = study_transfer(scene);
+  const RelativeTrajectory flown = fly_relative(result, 0, 10);
+  ASSERT_EQ(flown.states.size(), 11U);
+  EXPECT_LT((flown.states.front().position_m - scene.transfer->start.position_m).norm(), 1e-9);
+  EXPECT_LT((flown.states.back().position_m - scene.transfer->end.position_m).norm(), 1e-3);
+  // The second impulse brings the deputy to the wanted velocity, at rest in the rotating frame.
+  const Eigen::Vector3d arrived =
+      flown.states.back().velocity_m_s + result.points[0].best().end_change_m_s;
+  EXPECT_LT(arrived.norm(), 1e-6);
+}
+
+TEST(Transfer, MarksWhatIsNearSingularAndWhatHasNoKind) {
+  // Half a revolution of a circular orbit: the normal direction cannot be commanded.
+  Scene scene = kepler_chief(0, 7000, 1000, 2);
+  scene.transfer = short_hop(1e3, {2.0, std::numbers::pi, std::numbers::pi + 0.02});
+  scene.transfer->kind = "F1";
+  scene.transfer->singular_margin = 0.05;
+  scene.transfer->strict = true;
+  const TransferResult result = study_transfer(scene);
+  EXPECT_FALSE(result.points[0].is_near_singular);
+  EXPECT_TRUE(result.points[0].has_answer());
+  EXPECT_TRUE(result.points[1].is_near_singular);
+  EXPECT_FALSE(result.points[1].has_answer());
+  EXPECT_NE(result.points[1].failure.find("qqq-qqq"), std::string::npos)
+      << result.points[1].failure;
+  EXPECT_TRUE(result.points[2].is_near_singular);
+  EXPECT_TRUE(result.points[2].has_answer());
+  EXPECT_EQ(result.best_point(), std::optional<std::size_t>(0));
+  ASSERT_EQ(result.position_singularities().size(), 1U);
+  EXPECT_EQ(exit_code(result), 0);
+  // The answer away from it beyond its tolerance.
+  scene.transfer->tolerance_m = 1e-9;
+  EXPECT_EQ(exit_code(study_transfer(scene)), 1);
+  // No time with an answer.
+  scene.transfer->times = {std::numbers::pi};
+  EXPECT_EQ(exit_code(study_transfer(scene)), 4);
+}
+
+TEST(Transfer, NeedsASymplecticIntegratorAndAnOrbit) {
+  Scene scene = kepler_chief(0, 7000, 1000, 2);
+  EXPECT_THROW(study_transfer(scene), Error);
+  scene.transfer = short_hop(1e3, {2.0});
+  scene.integrators[0].method = IntegrationMethod::fehlberg78;
+  EXPECT_THROW(study_transfer(scene), Error);
+}
+
+}  // namespace
+}  // namespace hamjet

@@ -1,0 +1,65 @@
+#include "hamjet/studies/validity.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "formation_scenes.hpp"
+
+namespace hamjet {
+namespace {
+
+Scene scene_of(int order, double tolerance_m) {
+  Scene scene = paper_chief(order);
+  ValiditySettings validity;
+  validity.tolerance_m = tolerance_m;
+  validity.times = {3.0, 9.0};
+  validity.samples = 20;
+  scene.validity = validity;
+  return scene;
+}
+
+TEST(Validity, ProvedSeparationMeetsTheToleranceAndGrowsWithTheOrder) {
+  const ValidityResult result = study_validity(scene_of(4, 1));
+  ASSERT_EQ(result.points.size(), 2U);
+  EXPECT_GT(result.flights, 0);
+  EXPECT_LT(result.flight_floor_m, 1e-4);
+  for (const ValidityPoint& point : result.points) {
+    ASSERT_EQ(point.entries.size(), 4U);
+    double smaller = 0;
+    for (const ValidityEntry& entry : point.entries) {
+      EXPECT_LE(entry.miss_m, 1);
+      EXPECT_GT(entry.miss_m, 0.5);  // known to a few percent of the separation
+      EXPECT_GT(entry.proved_m, smaller);
+      smaller = entry.proved_m;
+    }
+    // The part of degree k + 1 foretells the error of order k; the last is extrapolated.
+    for (std::size_t k = 0; k < 3; ++k) {
+      const ValidityEntry& entry = point.entries[k];
+      EXPECT_NEAR(entry.predicted_m / entry.proved_m, 1, 0.3) << entry.order;
+    }
+    EXPECT_GT(point.entries[3].predicted_m, 0.3 * point.entries[3].proved_m);
+    EXPECT_LT(point.entries[3].predicted_m, 3 * point.entries[3].proved_m);
+  }
+}
+
+// The miss of order k goes as separation^(k+1).
+TEST(Validity, SeparationGoesAsARootOfTheTolerance) {
+  const ValidityResult fine = study_validity(scene_of(3, 0.1));
+  const ValidityResult coarse = study_validity(scene_of(3, 10));
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double ratio = coarse.points[0].entries[k].proved_m / fine.points[0].entries[k].proved_m;
+    EXPECT_NEAR(std::log(100) / std::log(ratio), static_cast<double>(k) + 2, 0.2);
+  }
+}
+
+TEST(Validity, AFlatEllipsoidReachesAtLeastAsFarAsTheBall) {
+  Scene scene = scene_of(2, 1);
+  const ValidityResult ball = study_validity(scene);
+  scene.validity->semi_axes = {0.1, 0.1, 1};  // mostly normal to the plane
+  const ValidityResult flat = study_validity(scene);
+  EXPECT_GT(flat.points[1].entries[1].proved_m, ball.points[1].entries[1].proved_m);
+}
+
+}  // namespace
+}  // namespace hamjet
