@@ -46,7 +46,7 @@ std::string terminal_table(const AssignmentResult& result) {
                 : fmt::format("{:>14} in {}, misses by {}{}\n",
                               velocity_text(answer->total_change_m_s()),
                               time_text(point.time * result.scene.units.time_s),
-                              length_text(answer->miss_m),
+                              miss_text(answer->miss_m, result.flight_floor_m),
                               point.is_beyond_tolerance ? ", BEYOND THE TOLERANCE" : "");
   }
   if (!result.transfers.empty()) {

@@ -102,19 +102,19 @@ Chart velocity_change_chart(const TransferResult& result) {
   }
   chart.curves.push_back(marks(result, "near a singularity", 7,
                                [](const TransferPoint& point) { return point.is_near_singular; }));
-  chart.curves.push_back(
-      marks(result,
-            fmt::format("misses by more than {}", length_text(result.scene.transfer->tolerance_m)),
-            6, [](const TransferPoint& point) {
-              return point.is_beyond_tolerance && !point.is_near_singular;
-            }));
+  chart.curves.push_back(marks(result,
+                               fmt::format("order {} misses by more than {}", result.scene.order,
+                                           length_text(result.scene.transfer->tolerance_m)),
+                               6, [](const TransferPoint& point) {
+                                 return point.is_beyond_tolerance && !point.is_near_singular;
+                               }));
   if (const auto best = result.best_point()) {
     chart.rules.push_back({true, result.points[*best].time * result.scene.units.time_s});
   }
   chart.reading = fmt::format(
       "What leaving the start and stopping at the end costs together, for every transfer time: the "
-      "magnitudes of both impulses and their sum, of the {}. The dashed vertical line is the least "
-      "sum that is neither near a singularity nor misses by more than the tolerance.{}",
+      "magnitudes of both impulses and their sum, of the {}. The dark vertical line is the least "
+      "sum, among answers that come within the tolerance and are not near a singularity.{}",
       is_refined ? "answer that flying refined (where that failed, of the highest order)"
                  : fmt::format("polynomials of order {}", result.scene.order),
       shading);
@@ -147,7 +147,7 @@ Chart miss_chart(const TransferResult& result) {
   chart.reading = fmt::format(
       "Every answer is proved: a deputy flies it with the full equations of motion, and its "
       "distance from the wanted end is drawn, one line for each order of the polynomials. The "
-      "dashed horizontal lines are the scene's tolerance of {} and the floor of {} below which a "
+      "horizontal lines are the scene's tolerance of {} and the floor of {} below which a "
       "miss says nothing: by so much the chief that was flown differs from the one that the "
       "polynomials are about.{}",
       length_text(result.scene.transfer->tolerance_m), length_text(result.flight_floor_m), shading);

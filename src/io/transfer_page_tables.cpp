@@ -30,13 +30,14 @@ std::string impulse_cells(const TransferAnswer& answer) {
   return cells;
 }
 
-std::string answer_row(const std::string& name, const TransferAnswer& answer) {
+std::string answer_row(const std::string& name, const TransferAnswer& answer,
+                       double flight_floor_m) {
   if (!answer.failure.empty()) {
     return fmt::format("<tr class=\"failed\">{}<td class=\"reason\" colspan=\"8\">{}</td></tr>\n",
                        row_name_cell(name), escape_html(answer.failure));
   }
   return "<tr>" + row_name_cell(name) + cell(number(answer.total_change_m_s())) +
-         impulse_cells(answer) + cell(length_text(answer.miss_m)) + "</tr>\n";
+         impulse_cells(answer) + cell(miss_text(answer.miss_m, flight_floor_m)) + "</tr>\n";
 }
 
 std::string marks_text(const TransferPoint& point) {
@@ -64,11 +65,11 @@ std::string best_transfer_table_html(const TransferResult& result) {
   names.emplace_back("miss");
   std::string rows;
   for (const TransferAnswer& answer : point.answers) {
-    rows += answer_row(fmt::format("order {}", answer.order), answer);
+    rows += answer_row(fmt::format("order {}", answer.order), answer, result.flight_floor_m);
   }
   if (point.refined) {
-    rows +=
-        answer_row(fmt::format("refined in {} flights", point.refinement_flights), *point.refined);
+    rows += answer_row(fmt::format("refined, {} more flights", point.refinement_flights),
+                       *point.refined, result.flight_floor_m);
   }
   return table_html(
       escape_html(fmt::format(
@@ -84,7 +85,8 @@ std::string miss_table_html(const TransferResult& result) {
   std::string rows;
   for (const MissStatistics& entry : miss_statistics(result)) {
     rows += "<tr>" + row_name_cell(entry.answer) + cell(std::to_string(entry.count)) +
-            cell(length_text(entry.median_m)) + cell(length_text(entry.largest_m)) + "</tr>\n";
+            cell(miss_text(entry.median_m, result.flight_floor_m)) +
+            cell(miss_text(entry.largest_m, result.flight_floor_m)) + "</tr>\n";
   }
   return table_html("Misses over all transfer times that are not near a singularity.",
                     "<tr>" + header_cells({"answer", "times", "median", "largest"}) + "</tr>",
@@ -144,11 +146,11 @@ std::string transfers_table_html(const TransferResult& result) {
             cell(linear != nullptr ? number(linear->total_change_m_s()) : "–");
     for (int order = 1; order <= result.scene.order; ++order) {
       const TransferAnswer* answer = answer_of_order(point, order);
-      rows += cell(answer != nullptr ? length_text(answer->miss_m) : "–");
+      rows += cell(answer != nullptr ? miss_text(answer->miss_m, result.flight_floor_m) : "–");
     }
     if (result.scene.transfer->refine) {
       const bool is_refined = point.refined && point.refined->failure.empty();
-      rows += cell(is_refined ? length_text(point.refined->miss_m) : "–");
+      rows += cell(is_refined ? miss_text(point.refined->miss_m, result.flight_floor_m) : "–");
     }
     rows += fmt::format("<td class=\"reason\">{}</td></tr>\n", escape_html(marks_text(point)));
   }

@@ -18,10 +18,11 @@ std::string change_line(const TransferResult& result, const char* name,
   if (!index) return fmt::format("  {:<17}none\n", name);
   const TransferPoint& point = result.points[*index];
   const TransferAnswer& answer = *shown_answer(point);
-  return fmt::format(
-      "  {:<17}{} in {}, {}, {}: misses by {}\n", name, velocity_text(answer.total_change_m_s()),
-      time_text(point.time * result.scene.units.time_s),
-      point.kind ? point.kind->name() : "no kind", answer_name(point), length_text(answer.miss_m));
+  return fmt::format("  {:<17}{} in {}, {}, {}: misses by {}\n", name,
+                     velocity_text(answer.total_change_m_s()),
+                     time_text(point.time * result.scene.units.time_s),
+                     point.kind ? point.kind->name() : "no kind", answer_name(point),
+                     miss_text(answer.miss_m, result.flight_floor_m));
 }
 
 std::string singular_line(const TransferResult& result) {
@@ -43,8 +44,8 @@ std::string terminal_table(const TransferResult& result) {
   std::string text = fmt::format(
       "{}\n{}\n"
       "  frame            {}; order {}, kind {}\n"
-      "  transfer times   {}, {:.6g} s to {:.6g} s: {} answered, {} near a singularity, {} others "
-      "miss by more than {}\n",
+      "  transfer times   {}, {:.6g} s to {:.6g} s: {} answered, {} near a singularity, {} of "
+      "the others beyond the tolerance of {}\n",
       result.scene.title, transfer_verdict(result), frame_text(settings.frame), result.scene.order,
       settings.kind, counts.times, settings.times.front() * unit, settings.times.back() * unit,
       counts.answered, counts.near_singular, counts.beyond_tolerance_away,
@@ -52,8 +53,9 @@ std::string terminal_table(const TransferResult& result) {
   text += change_line(result, "least", result.best_point()) +
           change_line(result, "greatest", costliest_point(result));
   for (const MissStatistics& entry : miss_statistics(result)) {
-    text += fmt::format("  {:<17}misses by {} (median), {} (largest), away from singularities\n",
-                        entry.answer, length_text(entry.median_m), length_text(entry.largest_m));
+    text += fmt::format("  {:<17}misses by {} (median), {} (largest) away from singularities\n",
+                        entry.answer, miss_text(entry.median_m, result.flight_floor_m),
+                        miss_text(entry.largest_m, result.flight_floor_m));
   }
   text += singular_line(result);
   if (const auto residual = largest_hamilton_jacobi_residual(result)) {

@@ -133,8 +133,9 @@ std::string transfer_verdict(const TransferResult& result) {
       "The least velocity change found is {}, for a transfer time of {}: flown with the full "
       "equations of motion the deputy misses its place by {}",
       velocity_text(answer.total_change_m_s()), time_text(point.time * result.scene.units.time_s),
-      length_text(answer.miss_m));
-  if (point.refined && point.has_answer()) {
+      miss_text(answer.miss_m, result.flight_floor_m));
+  const bool is_corrected = answer_name(point) == "refined" && point.refinement_flights > 0;
+  if (is_corrected && point.has_answer()) {
     text += fmt::format(" after refinement ({} by order {} alone)",
                         length_text(point.answers.back().miss_m), point.answers.back().order);
   }
@@ -159,6 +160,10 @@ std::string transfer_failure(const TransferResult& result) {
       "than {}, and the refinement of {} failed",
       counts.times - counts.near_singular, counts.unanswered_away, counts.beyond_tolerance_away,
       length_text(result.scene.transfer->tolerance_m), counts.refinement_failed_away);
+}
+
+std::string miss_text(double miss_m, double flight_floor_m) {
+  return miss_m < flight_floor_m ? "less than " + length_text(flight_floor_m) : length_text(miss_m);
 }
 
 std::string time_text(double seconds) {

@@ -59,6 +59,9 @@ std::string transfer_verdict(const TransferResult& result);
 /// Why the exit code is not 0, one line; empty if it is 0.
 std::string transfer_failure(const TransferResult& result);
 
+/// A miss, or "less than" the floor under which flying cannot tell.
+std::string miss_text(double miss_m, double flight_floor_m);
+
 /// "5432 s (90.5 min)"
 std::string time_text(double seconds);
 /// "12.3 m/s", to four digits.

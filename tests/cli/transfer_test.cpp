@@ -163,7 +163,7 @@ TEST_F(TransferCommand, BeyondValidityIsMarkedAndFailsOnlyAStrictScene) {
   const std::string far = changed(transfer, "[0, -1000, 200]", "[0, -1000000, 0]");
   write("far.toml", circle + far);
   const CommandResult marked = succeed({"transfer", "far.toml"});
-  EXPECT_NE(marked.out.find("3 others miss by more than 1 m"), std::string::npos) << marked.out;
+  EXPECT_NE(marked.out.find("3 of the others beyond the tolerance of 1 m"), std::string::npos) << marked.out;
   Json summary = read_json(directory_ / "out/far/summary.json");
   EXPECT_EQ(summary["counts"]["beyond_tolerance"], 3);
   EXPECT_TRUE(summary["best"].is_null());

@@ -118,7 +118,7 @@ TEST(TransferCharts, ShadeTheMarginsAndMarkWhatIsDoubtful) {
   ASSERT_NE(near, nullptr);
   ASSERT_EQ(near->points.size(), 1U);
   EXPECT_FALSE(near->is_filled);
-  EXPECT_EQ(curve_named(chart, "misses by more than 1 m"), nullptr);
+  EXPECT_EQ(curve_named(chart, "order 2 misses by more than 1 m"), nullptr);
   ASSERT_EQ(chart.rules.size(), 1U);
   EXPECT_DOUBLE_EQ(chart.rules[0].place, 6 * 927.6);
   EXPECT_NE(chart.reading.find("Shaded"), std::string::npos);

@@ -64,7 +64,7 @@ Table parse(const std::string& csv) {
 
 const Json& summary_of(const StudyReport& report, Json& json) {
   EXPECT_EQ(report.files.back().path, "summary.json");
-  EXPECT_EQ(report.summary().find("nan"), std::string::npos);
+  EXPECT_EQ(report.summary().find("\"nan\""), std::string::npos);
   json = Json::parse(report.summary());
   return json;
 }
