@@ -1,10 +1,8 @@
 #include "compare_command.hpp"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <chrono>
-#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -13,6 +11,7 @@
 #include "hamjet/io/reference_cache.hpp"
 #include "interruption.hpp"
 #include "progress.hpp"
+#include "report_origin.hpp"
 #include "standard_streams.hpp"
 
 namespace hamjet::cli {
@@ -20,27 +19,6 @@ namespace {
 
 /// What is finished is saved at most this often.
 constexpr std::chrono::seconds checkpoint_interval(2);
-
-std::string processor_name() {
-  std::ifstream file("/proc/cpuinfo");
-  std::string line;
-  while (std::getline(file, line)) {
-    const std::size_t colon = line.find(": ");
-    if (line.starts_with("model name") && colon != std::string::npos) {
-      return line.substr(colon + 2);
-    }
-  }
-  return "unknown processor";
-}
-
-io::ReportOrigin origin_of(const CompareOptions& options, const Scene& scene) {
-  io::ReportOrigin origin;
-  origin.command = options.command;
-  origin.date = fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(std::time(nullptr)));
-  origin.processor = processor_name();
-  origin.determinants = comparison_key(scene);
-  return origin;
-}
 
 /// Puts what an interrupted comparison left into `result`.
 void take_up(const std::filesystem::path& directory, const std::string& determinants,
@@ -86,7 +64,8 @@ void write_figures(const ComparisonResult& result, const io::ReportOrigin& origi
 int compare(const CompareOptions& options) {
   const Scene scene = read_scene(options.scene);
   const std::filesystem::path directory = output_path(options.scene, scene.name);
-  const io::ReportOrigin origin = origin_of(options, scene);
+  io::ReportOrigin origin = report_origin(options.scene.command);
+  origin.determinants = comparison_key(scene);
   ComparisonResult result;
   if (options.resume) take_up(directory, origin.determinants, result);
   io::OutputDirectory output(directory);

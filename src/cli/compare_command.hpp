@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string>
-
 #include "hamjet/io/comparison_report.hpp"
 #include "scene_options.hpp"
 
@@ -11,7 +9,6 @@ struct CompareOptions {
   RunOptions scene;
   bool resume = false;  ///< take up what an interrupted comparison left in the output directory
   io::PlotFormat plots = io::PlotFormat::none;
-  std::string command;  ///< the command line, for the report
 };
 
 /// Compares integrators on a scene and writes the report; returns the exit code.

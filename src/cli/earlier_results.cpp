@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <system_error>
+#include <vector>
 
 namespace hamjet::cli {
 namespace {
@@ -22,6 +23,17 @@ const Json& list_in(const Json& object, const char* key) {
   static const Json none = Json::array();
   const bool is_there = object.is_object() && object.contains(key) && object[key].is_array();
   return is_there ? object[key] : none;
+}
+
+/// What a study leaves beside its summary and figure.
+std::vector<const char*> files_of_study(const std::string& study) {
+  if (study.empty()) return {};
+  if (study == "transfer") {
+    return {"transfers.csv", "singular_times.csv", "conditions.csv", "validity.csv", "report.html"};
+  }
+  if (study == "validity") return {"validity.csv", "report.html"};
+  if (study == "assignment") return {"assignment.csv", "costs.csv"};
+  return {"trajectory.csv", "fixed_step.csv", "convergence.csv"};
 }
 
 }  // namespace
@@ -48,11 +60,10 @@ std::vector<std::filesystem::path> earlier_results(const std::filesystem::path& 
       if (!kind.empty()) files.push_back(folder / ("generating_function_" + kind + ".csv"));
     }
   }
-  const bool is_study = summary.is_object() && summary.contains("study");
-  if (is_study) {
-    for (const char* name : {"trajectory.csv", "fixed_step.csv", "convergence.csv"}) {
-      files.emplace_back(name);
-    }
+  for (const char* name : files_of_study(name_in(summary, "study"))) files.emplace_back(name);
+  // A comparison in the same directory has a page of the same name.
+  if (std::filesystem::exists(directory / "compare.json", ignored)) {
+    std::erase(files, std::filesystem::path("report.html"));
   }
   if (!files.empty()) {
     files.emplace_back("relative_hamiltonian.csv");

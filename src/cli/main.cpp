@@ -10,6 +10,7 @@
 #include "list_command.hpp"
 #include "run_command.hpp"
 #include "standard_streams.hpp"
+#include "transfer_command.hpp"
 #include "usage.hpp"
 
 namespace {
@@ -22,6 +23,9 @@ constexpr const char* examples = R"(Examples:
   hamjet run scene.toml -o results --json   summary on standard output as JSON
   hamjet run scene.toml --set jet.order=6 --set integrator.gauss8.tolerance=1e-13
   hamjet compare scene.toml                 error against run time of many integrators; a report
+  hamjet transfer scene.toml                velocity changes between relative positions; a report
+  hamjet validity scene.toml                how far from the chief the polynomials are right
+  hamjet assign scene.toml                  deputies to slots at the least total velocity change
   hamjet check scene.toml                   what would be computed, and the memory it takes
   hamjet list integrators
 
@@ -88,6 +92,20 @@ int dispatch(int argc, char** argv) {
   compare->add_option("--plots", plots, "the report's plots as files too: pdf or png")
       ->check(CLI::IsMember({"pdf", "png"}));
 
+  const auto add_study = [&](const char* name, const char* description) {
+    CLI::App* study = app.add_subcommand(name, description);
+    study->add_option("scene", options.scene_file, "scene file (TOML)")->required();
+    add_run_options(*study, options);
+    add_override_option(*study, options);
+    return study;
+  };
+  const CLI::App* transfer = add_study(
+      "transfer", "velocity changes from one relative position to another, for every time");
+  const CLI::App* validity =
+      add_study("validity", "how far from the chief the polynomials are right, along time");
+  const CLI::App* assign =
+      add_study("assign", "send deputies to slots at the least total velocity change");
+
   std::string what;
   CLI::App* list = app.add_subcommand("list", "list systems, integrators or kinds");
   list->add_option("what", what, "systems, integrators or kinds")
@@ -108,16 +126,18 @@ int dispatch(int argc, char** argv) {
     hamjet::cli::print(text.str());
     return 0;
   }
+  for (int i = 0; i < argc; ++i) options.command += (i == 0 ? "" : " ") + in_shell_quotes(argv[i]);
   if (*list) return hamjet::cli::list(what);
   if (*check) return hamjet::cli::check(options);
   if (*compare) {
-    for (int i = 0; i < argc; ++i) {
-      comparison.command += (i == 0 ? "" : " ") + in_shell_quotes(argv[i]);
-    }
+    comparison.scene.command = options.command;
     if (plots == "pdf") comparison.plots = hamjet::io::PlotFormat::pdf;
     if (plots == "png") comparison.plots = hamjet::io::PlotFormat::png;
     return hamjet::cli::compare(comparison);
   }
+  if (*transfer) return hamjet::cli::transfer(options);
+  if (*validity) return hamjet::cli::validity(options);
+  if (*assign) return hamjet::cli::assign(options);
   return hamjet::cli::run(options);
 }
 

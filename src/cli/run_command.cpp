@@ -16,6 +16,7 @@
 #include "interruption.hpp"
 #include "progress.hpp"
 #include "standard_streams.hpp"
+#include "study_command.hpp"
 
 namespace hamjet::cli {
 namespace {
@@ -55,37 +56,6 @@ int run_flow_jet(const RunOptions& options, const Scene& scene) {
   return code;
 }
 
-/// A study that has no flow jet.
-template <class PaperStudy>
-int run_paper_study(const RunOptions& options, const PaperStudy& study) {
-  const std::filesystem::path directory = output_path(options, study.name);
-  io::OutputDirectory output(directory);
-  io::StudyReport report;
-  {
-    Progress progress(!options.quiet);
-    const auto result = run_study(study, [&](const std::string& task, double fraction) {
-      stop_if_interrupted();
-      progress.update(task, fraction);
-    });
-    report = io::study_report(result);
-  }
-  {
-    const UninterruptedWriting guard;
-    for (const auto& file : earlier_results(directory)) output.replace(file);
-    for (const io::ReportFile& file : report.files) output.write(file.path, file.content);
-    output.replace("figure.svg");
-    output.commit();
-  }
-  if (report.drawing_problem) print_error(*report.drawing_problem);
-  if (options.json) {
-    print(report.summary());
-  } else if (!options.quiet) {
-    print(report.table + fmt::format("results: {}\n", directory.string()));
-  }
-  if (report.exit_code != 0) print_error(report.failure);
-  return report.exit_code;
-}
-
 }  // namespace
 
 int run(const RunOptions& options) {
@@ -94,7 +64,9 @@ int run(const RunOptions& options) {
         if constexpr (std::is_same_v<std::decay_t<decltype(study)>, Scene>) {
           return run_flow_jet(options, study);
         } else {
-          return run_paper_study(options, study);
+          return report_study(options, study.name, [&](const ProgressCallback& progress) {
+            return io::study_report(run_study(study, progress));
+          });
         }
       },
       read_study(options));
@@ -137,6 +109,20 @@ void check_flow_jet(const std::string& file, const Scene& scene) {
     if (settings.step_canonical)
       text += fmt::format(", step {:g} canonical", *settings.step_canonical);
     text += "\n";
+  }
+  if (scene.transfer) {
+    text +=
+        fmt::format("  transfer     {} times to {:.6g} s, kind {}\n", scene.transfer->times.size(),
+                    scene.transfer->times.back() * scene.units.time_s, scene.transfer->kind);
+  }
+  if (scene.validity) {
+    text += fmt::format("  validity     {} times to {:.6g} s, {} samples\n",
+                        scene.validity->times.size(),
+                        scene.validity->times.back() * scene.units.time_s, scene.validity->samples);
+  }
+  if (scene.assignment) {
+    text += fmt::format("  assignment   {0} deputies to {0} slots\n",
+                        scene.assignment->deputies.size());
   }
   text += fmt::format("  inversions   {}\n  reference    {}\n",
                       scene.kinds ? fmt::format("{} kinds", scene.kinds->size()) : "none",

@@ -16,6 +16,7 @@ struct RunOptions {
   std::vector<std::string> overrides;  ///< key=value
   bool json = false;
   bool quiet = false;
+  std::string command;  ///< the command line, for reports
 };
 
 /// The scene that the options name, with their changes, of any study. Throws Error(usage),

@@ -122,6 +122,12 @@ void fit_axes(Chart& chart) {
   }
   set_limits(chart.x, x, false);
   set_limits(chart.y, y, !chart.at_limit.empty() || has_ticks);
+  for (ChartBand& band : chart.bands) {
+    if (band.to < band.from) std::swap(band.from, band.to);
+    band.from = std::max(band.from, chart.x.lower);
+    band.to = std::min(band.to, chart.x.upper);
+  }
+  std::erase_if(chart.bands, [](const ChartBand& band) { return !(band.from < band.to); });
   for (ChartCurve& zeros : chart.at_limit) {
     for (auto& point : zeros.points) point.second = chart.y.lower;
   }

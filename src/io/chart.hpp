@@ -44,6 +44,11 @@ struct ChartRule {
   bool is_vertical = false;
   double place = 0;
 };
+/// A range of x that is shaded over the whole height, behind the curves.
+struct ChartBand {
+  double from = 0;
+  double to = 0;
+};
 struct ChartCornerText {
   bool is_right = false;
   bool is_top = false;
@@ -63,13 +68,14 @@ struct Chart {
   std::vector<ChartCurve> curves;
   std::vector<ChartCurve> at_limit;  ///< below a logarithmic axis, and put at its limit
   std::vector<ChartRule> rules;
+  std::vector<ChartBand> bands;  ///< cut off where the axis ends
   std::vector<ChartCornerText> corners;
 };
 
 /// Fits a chart for drawing: takes out the curves that have nothing to draw, sets the axes' ranges
-/// from the others; moves what is below a logarithmic y to `at_limit`, takes
-/// out what cannot be drawn at all, and says both in the notes.
-/// A chart that is left without curves says so in `missing`.
+/// from the others; cuts bands at the ends of x; moves what is below a logarithmic y to `at_limit`,
+/// takes out what cannot be drawn at all, and says both in the notes. A chart that is left without
+/// curves says so in `missing`.
 void fit(Chart& chart);
 
 /// What a chart is drawn as.

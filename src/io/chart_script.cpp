@@ -96,8 +96,26 @@ std::string axis_commands(const char* axis, const ChartAxis& settings, int most_
   return text;
 }
 
+/// The same ticks along both axes, few enough that their numbers find room on the shorter one: 1, 2
+/// or 5 times a power of ten.
+std::string isometric_ticks(const Chart& chart) {
+  constexpr double most_ticks = 10;
+  const double width =
+      std::max(chart.x.upper - chart.x.lower, chart.y.upper - chart.y.lower) / most_ticks;
+  const double power = std::pow(10, std::floor(std::log10(width)));
+  const double digit = width / power;
+  const double step = power * (digit <= 1 ? 1 : digit <= 2 ? 2 : digit <= 5 ? 5 : 10);
+  return fmt::format("set size ratio -1\nset xtics {0:.6g}\nset ytics {0:.6g}\n", step);
+}
+
 std::string decorations(const Chart& chart) {
   std::string text;
+  for (const ChartBand& band : chart.bands) {
+    text += fmt::format(
+        "set object rectangle from first {:.17g}, graph 0 to first {:.17g}, graph 1 behind "
+        "fillcolor rgb '#E4E4E4' fillstyle solid noborder\n",
+        band.from, band.to);
+  }
   for (const ChartRule& rule : chart.rules) {
     text += rule.is_vertical
                 ? fmt::format("set arrow from first {0:.17g}, graph 0 to first {0:.17g}, graph 1",
@@ -182,10 +200,10 @@ std::string gnuplot_script(const Chart& chart, Drawing drawing) {
   } else {
     script += "set key outside right top vertical Left reverse samplen 3 spacing 1.2\n";
   }
-  if (chart.is_isometric) script += "set size ratio -1\n";
   if (layout.is_narrow) script += "set rmargin 3\n";
   script += axis_commands("x", chart.x, layout.is_narrow ? 5 : 9) +
-            axis_commands("y", chart.y, layout.is_narrow ? 8 : 10) + decorations(chart);
+            axis_commands("y", chart.y, layout.is_narrow ? 8 : 10) +
+            (chart.is_isometric ? isometric_ticks(chart) : "") + decorations(chart);
   std::vector<std::string> plots;
   const auto rows = static_cast<std::size_t>(
       std::count_if(chart.curves.begin(), chart.curves.end(),

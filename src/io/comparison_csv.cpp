@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "csv_values.hpp"
 #include "hamjet/io/comparison_report.hpp"
 
 namespace hamjet::io {
@@ -27,21 +28,6 @@ Columns count_columns(const ComparisonResult& result) {
   return columns;
 }
 
-/// A field as RFC 4180 has it: in quotes if a character in it would end it.
-std::string csv_field(std::string_view text) {
-  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
-  std::string field = "\"";
-  for (const char c : text) {
-    if (c == '"') field += '"';
-    field += c;
-  }
-  return field + "\"";
-}
-
-std::string number(double value) { return fmt::format("{:.17g}", value); }
-
-std::string number(const std::optional<double>& value) { return value ? number(*value) : ""; }
-
 std::string header(const Columns& columns) {
   std::string line =
       "part,series,label,method,stages,step_canonical,tolerance,order,status,reason,steps,"
@@ -64,8 +50,8 @@ std::string header(const Columns& columns) {
 }
 
 std::string residual_fields(const ExactnessResidual& residual) {
-  return fmt::format(",{},{},{}", number(residual.absolute), number(residual.scaled),
-                     number(residual.at_formation_scale));
+  return fmt::format(",{},{},{}", csv_number(residual.absolute), csv_number(residual.scaled),
+                     csv_number(residual.at_formation_scale));
 }
 
 std::string status(const ComparedRun& run) {
@@ -80,7 +66,7 @@ std::string settings_fields(const ComparedRun& run, std::string_view part) {
                      csv_field(settings.label),
                      method_names()[static_cast<std::size_t>(settings.method)],
                      is_gauss ? std::to_string(settings.stages) : "",
-                     number(settings.step_canonical), number(settings.tolerance), run.order,
+                     csv_number(settings.step_canonical), csv_number(settings.tolerance), run.order,
                      status(run), csv_field(run.failure.empty() ? run.left_out : run.failure));
 }
 
@@ -89,24 +75,24 @@ std::string cost_fields(const ComparedRun& run) {
   std::string fields =
       fmt::format(",{},{},{},{},{},{},{}", statistics.steps, statistics.rejected_steps,
                   statistics.vector_field_evaluations, statistics.nominal_evaluations,
-                  number(run.multiply_adds), number(run.memory_bytes), run.seconds.size());
+                  csv_number(run.multiply_adds), csv_number(run.memory_bytes), run.seconds.size());
   if (run.seconds.empty()) return fields + ",,,";
   const auto [least, most] = std::minmax_element(run.seconds.begin(), run.seconds.end());
-  return fields +
-         fmt::format(",{},{},{}", number(run.median_seconds()), number(*least), number(*most));
+  return fields + fmt::format(",{},{},{}", csv_number(run.median_seconds()), csv_number(*least),
+                              csv_number(*most));
 }
 
 std::string map_fields(const ComparedRun& run, const Columns& columns, bool has_formation) {
-  std::string fields = "," + (has_formation ? number(run.error_at_formation_m) : "");
-  fields += "," + (run.error_by_degree.empty() ? "" : number(run.largest_error()));
+  std::string fields = "," + (has_formation ? csv_number(run.error_at_formation_m) : "");
+  fields += "," + (run.error_by_degree.empty() ? "" : csv_number(run.largest_error()));
   for (std::size_t d = 0; d < columns.errors; ++d) {
-    fields += "," + (d < run.error_by_degree.size() ? number(run.error_by_degree[d]) : "");
+    fields += "," + (d < run.error_by_degree.size() ? csv_number(run.error_by_degree[d]) : "");
   }
-  fields += "," + (run.symplecticity.empty() ? "" : number(run.largest_symplecticity()));
+  fields += "," + (run.symplecticity.empty() ? "" : csv_number(run.largest_symplecticity()));
   for (std::size_t d = 0; d < columns.symplecticity; ++d) {
     fields += d < run.symplecticity.size()
-                  ? fmt::format(",{},{}", number(run.symplecticity[d].absolute),
-                                number(run.symplecticity[d].scaled))
+                  ? fmt::format(",{},{}", csv_number(run.symplecticity[d].absolute),
+                                csv_number(run.symplecticity[d].scaled))
                   : ",,";
   }
   fields += "," + csv_field(run.exactness_failure);
@@ -118,7 +104,7 @@ std::string map_fields(const ComparedRun& run, const Columns& columns, bool has_
     fields += residual_fields(run.exactness[d].residual);
     fields += run.exactness[d].floor ? residual_fields(*run.exactness[d].floor) : ",,,";
   }
-  return fields + fmt::format(",{},{}", number(run.energy_error),
+  return fields + fmt::format(",{},{}", csv_number(run.energy_error),
                               run.corner ? corner_names()[static_cast<std::size_t>(*run.corner)]
                                          : std::string_view());
 }

@@ -10,17 +10,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json number(double value) {
-  if (std::isfinite(value)) return value;
-  if (std::isnan(value)) return "nan";
-  return value > 0 ? "inf" : "-inf";
-}
-
-Json number(const std::optional<double>& value) { return value ? number(*value) : Json(nullptr); }
-
 Json numbers(const std::vector<double>& values) {
   Json json = Json::array();
-  for (const double value : values) json.push_back(number(value));
+  for (const double value : values) json.push_back(json_number(value));
   return json;
 }
 
@@ -30,10 +22,10 @@ Json settings_json(const IntegratorSettings& settings) {
           {"stages", settings.stages},
           {"order", settings.order},
           {"beta", settings.beta},
-          {"step_canonical", number(settings.step_canonical)},
-          {"tolerance", number(settings.tolerance)},
-          {"require_relative_error", number(settings.require_relative_error)},
-          {"require_symplecticity", number(settings.require_symplecticity)}};
+          {"step_canonical", json_number(settings.step_canonical)},
+          {"tolerance", json_number(settings.tolerance)},
+          {"require_relative_error", json_number(settings.require_relative_error)},
+          {"require_symplecticity", json_number(settings.require_symplecticity)}};
 }
 
 Json statistics_json(const IntegrationStatistics& statistics) {
@@ -41,14 +33,14 @@ Json statistics_json(const IntegrationStatistics& statistics) {
           {"rejected_steps", statistics.rejected_steps},
           {"vector_field_evaluations", statistics.vector_field_evaluations},
           {"nominal_evaluations", statistics.nominal_evaluations},
-          {"wall_seconds", number(statistics.wall_seconds)}};
+          {"wall_seconds", json_number(statistics.wall_seconds)}};
 }
 
 Json residual_json(const ExactnessResidual& residual) {
   return {{"degree", residual.degree},
-          {"absolute", number(residual.absolute)},
-          {"scaled", number(residual.scaled)},
-          {"at_formation_scale", number(residual.at_formation_scale)}};
+          {"absolute", json_number(residual.absolute)},
+          {"scaled", json_number(residual.scaled)},
+          {"at_formation_scale", json_number(residual.at_formation_scale)}};
 }
 
 Json run_json(const ComparedRun& run) {
@@ -58,21 +50,21 @@ Json run_json(const ComparedRun& run) {
                {"failure", text_or_null(run.failure)},
                {"left_out", text_or_null(run.left_out)},
                {"statistics", statistics_json(run.statistics)},
-               {"multiply_adds", number(run.multiply_adds)},
-               {"memory_bytes", number(run.memory_bytes)},
+               {"multiply_adds", json_number(run.multiply_adds)},
+               {"memory_bytes", json_number(run.memory_bytes)},
                {"seconds", numbers(run.seconds)},
                {"median_seconds", nullptr},
                {"error_by_degree", numbers(run.error_by_degree)},
                {"largest_error", nullptr},
-               {"error_at_formation_m", number(run.error_at_formation_m)},
+               {"error_at_formation_m", json_number(run.error_at_formation_m)},
                {"exactness", Json::array()},
                {"exactness_failure", text_or_null(run.exactness_failure)},
                {"symplecticity", Json::array()},
                {"largest_symplecticity", nullptr},
-               {"energy_error", number(run.energy_error)},
+               {"energy_error", json_number(run.energy_error)},
                {"corner", nullptr}};
-  if (!run.seconds.empty()) json["median_seconds"] = number(run.median_seconds());
-  if (!run.error_by_degree.empty()) json["largest_error"] = number(run.largest_error());
+  if (!run.seconds.empty()) json["median_seconds"] = json_number(run.median_seconds());
+  if (!run.error_by_degree.empty()) json["largest_error"] = json_number(run.largest_error());
   for (const ExactnessEntry& entry : run.exactness) {
     Json row = residual_json(entry.residual);
     row["floor"] = entry.floor ? residual_json(*entry.floor) : Json(nullptr);
@@ -80,11 +72,11 @@ Json run_json(const ComparedRun& run) {
   }
   for (const SymplecticityDefect& entry : run.symplecticity) {
     json["symplecticity"].push_back({{"degree", entry.degree},
-                                     {"absolute", number(entry.absolute)},
-                                     {"scaled", number(entry.scaled)}});
+                                     {"absolute", json_number(entry.absolute)},
+                                     {"scaled", json_number(entry.scaled)}});
   }
   if (!run.symplecticity.empty()) {
-    json["largest_symplecticity"] = number(run.largest_symplecticity());
+    json["largest_symplecticity"] = json_number(run.largest_symplecticity());
   }
   if (run.corner) json["corner"] = corner_names()[static_cast<std::size_t>(*run.corner)];
   return json;
@@ -93,10 +85,10 @@ Json run_json(const ComparedRun& run) {
 Json along_time_json(const RunAlongTime& run) {
   Json points = Json::array();
   for (const RunAlongTime::Point& point : run.points) {
-    points.push_back({{"time_canonical", number(point.time)},
-                      {"exactness", number(point.exactness)},
-                      {"condition", number(point.condition)},
-                      {"energy_error", number(point.energy_error)}});
+    points.push_back({{"time_canonical", json_number(point.time)},
+                      {"exactness", json_number(point.exactness)},
+                      {"condition", json_number(point.condition)},
+                      {"energy_error", json_number(point.energy_error)}});
   }
   return {{"label", run.label},
           {"failure", text_or_null(run.failure)},
@@ -122,12 +114,13 @@ Json scene_json(const Scene& scene) {
           {"model", model_names()[static_cast<std::size_t>(scene.system.model)]},
           {"precision", scene.precision == Precision::extended ? "extended" : "double"},
           {"units",
-           {{"length_km", number(scene.units.length_km)}, {"time_s", number(scene.units.time_s)}}},
+           {{"length_km", json_number(scene.units.length_km)},
+            {"time_s", json_number(scene.units.time_s)}}},
           {"nominal_initial", numbers(scene.nominal)},
-          {"duration_canonical", number(scene.duration)},
+          {"duration_canonical", json_number(scene.duration)},
           {"order", scene.order},
           {"variables", variables},
-          {"separation_canonical", number(scene.separation)},
+          {"separation_canonical", json_number(scene.separation)},
           {"integrators", integrators},
           {"compare",
            {{"methods", methods},
@@ -136,8 +129,8 @@ Json scene_json(const Scene& scene) {
             {"tolerances", numbers(comparison.tolerances)},
             {"orders", comparison.orders},
             {"repeats", comparison.repeats},
-            {"time_budget_s", number(comparison.time_budget_s)},
-            {"wanted_error_m", number(comparison.wanted_error_m)}}}};
+            {"time_budget_s", json_number(comparison.time_budget_s)},
+            {"wanted_error_m", json_number(comparison.wanted_error_m)}}}};
 }
 
 Json reference_json(const ComparisonResult& result) {
@@ -145,16 +138,19 @@ Json reference_json(const ComparisonResult& result) {
   return {{"method", "gauss"},
           {"precision", "extended"},
           {"stages", reference.stages},
-          {"tolerance", number(reference.tolerance)},
+          {"tolerance", json_number(reference.tolerance)},
           {"statistics", statistics_json(reference.statistics)},
           {"uncertainty_by_degree", numbers(reference.uncertainty_by_degree)},
           {"cached", result.is_reference_cached}};
 }
 
 Json fit_json(const ConvergenceFit& fit) {
-  return {{"series", fit.series},       {"degree", fit.degree},
-          {"slope", number(fit.slope)}, {"expected", number(fit.expected)},
-          {"agrees", fit.agrees()},     {"extended_precision", fit.is_extended},
+  return {{"series", fit.series},
+          {"degree", fit.degree},
+          {"slope", json_number(fit.slope)},
+          {"expected", json_number(fit.expected)},
+          {"agrees", fit.agrees()},
+          {"extended_precision", fit.is_extended},
           {"labels", fit.labels}};
 }
 
@@ -178,10 +174,10 @@ std::string comparison_json(const ComparisonResult& result, const ReportOrigin& 
                      {"scene", scene_json(result.scene)},
                      {"reference", reference_json(result)},
                      {"kind", result.kind ? Json(result.kind->name()) : Json(nullptr)},
-                     {"kind_condition", number(result.kind_condition)},
+                     {"kind_condition", json_number(result.kind_condition)},
                      {"smallest_claimed_error_m", result.smallest_claimed_error_m()},
                      {"separation_points", result.separation_points},
-                     {"largest_exact_defect", number(largest_exact_defect)},
+                     {"largest_exact_defect", json_number(largest_exact_defect)},
                      {"verdict", verdict(result)},
                      {"advice", advice(result)},
                      {"runs", list(result.runs, run_json)},

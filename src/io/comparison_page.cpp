@@ -5,98 +5,57 @@
 #include "chart_drawer.hpp"
 #include "comparison_charts.hpp"
 #include "comparison_view.hpp"
-#include "hamjet/version.hpp"
+#include "report_page.hpp"
 
 namespace hamjet::io {
 namespace {
 
-std::string figure(const Chart& chart, ChartDrawer& drawer) {
-  if (!chart.missing.empty()) return fmt::format("<p>{}</p>\n", escape_html(chart.missing));
-  std::string reason;
-  const std::string drawing = drawer.draw_inline(chart, reason);
-  std::string html = fmt::format("<figure id=\"figure-{}\">\n{}", chart.name, drawing);
-  if (!reason.empty()) {
-    html += fmt::format("<p class=\"problem\">This plot could not be drawn: {}</p>\n",
-                        escape_html(reason));
-  }
-  if (!drawing.empty()) {
-    for (const std::string& note : chart.notes) {
-      html += fmt::format("<p class=\"note\">{}</p>\n", escape_html(note));
-    }
-    html += fmt::format("<figcaption><strong>How to read it.</strong> {}</figcaption>\n",
-                        escape_html(chart.reading));
-  }
-  return html + "</figure>\n";
-}
-
-std::string origin_html(const ComparisonResult& result, const ReportOrigin& origin) {
+std::string facts_html(const ComparisonResult& result, const ReportOrigin& origin) {
   const Scene& scene = result.scene;
-  const auto entry = [](std::string_view name, std::string_view value) {
-    return fmt::format("<dt>{}</dt><dd>{}</dd>\n", name, escape_html(value));
-  };
-  std::string html = "<dl>\n" + fmt::format("<dt>Made by</dt><dd><code>{}</code></dd>\n",
-                                            escape_html(origin.command));
-  html += entry("Version", fmt::format("hamjet {}", version)) +
-          entry("Processor", origin.processor) + entry("Date", origin.date);
-  html += entry("Scene", fmt::format("{}, order {} in {} of {} variables", scene.name, scene.order,
-                                     scene.variables.size(), scene.nominal.size()));
-  html += entry("Duration", fmt::format("{:.6g} canonical = {:.6g} s", scene.duration,
-                                        scene.duration * scene.units.time_s));
-  html +=
-      entry("Wanted", has_formation_error(result)
-                          ? fmt::format("{} of {}", length_text(scene.comparison.wanted_error_m),
-                                        shown_error_name(result))
-                          : "no formation in the scene: errors are relative");
   const UnfinishedCount count = count_unfinished(result);
-  html += entry("Runs", fmt::format("{} and {} of cost against order; {} failed, {} left out",
-                                    result.runs.size(), result.cost_runs.size(), count.failed,
-                                    count.left_out));
-  return html + "</dl>\n";
-}
-
-std::string section(const Chart& chart, ChartDrawer& drawer) {
-  return fmt::format("<section>\n<h2>{}</h2>\n{}</section>\n", escape_html(chart.title),
-                     figure(chart, drawer));
+  return origin_facts_html(origin) +
+         fact_html("Scene",
+                   fmt::format("{}, order {} in {} of {} variables", scene.name, scene.order,
+                               scene.variables.size(), scene.nominal.size())) +
+         fact_html("Duration", fmt::format("{:.6g} canonical = {:.6g} s", scene.duration,
+                                           scene.duration * scene.units.time_s)) +
+         fact_html("Wanted",
+                   has_formation_error(result)
+                       ? fmt::format("{} of {}", length_text(scene.comparison.wanted_error_m),
+                                     shown_error_name(result))
+                       : "no formation in the scene: errors are relative") +
+         fact_html("Runs", fmt::format("{} and {} of cost against order; {} failed, {} left out",
+                                       result.runs.size(), result.cost_runs.size(), count.failed,
+                                       count.left_out));
 }
 
 std::string page(const ComparisonResult& result, const ReportOrigin& origin,
                  const std::vector<Chart>& charts, ChartDrawer& drawer) {
-  const std::string first_figure = figure(charts.front(), drawer);
-  std::string sections;
-  for (std::size_t i = 1; i < charts.size(); ++i) {
-    sections += section(charts[i], drawer);
-    if (charts[i].name == "convergence") sections += fit_table_html(result);
-  }
-  const std::string title = escape_html(result.scene.title);
-  std::string html = fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-      "<title>{}: error against run time</title>\n<style>{}</style>\n</head>\n<body>\n<header>\n"
-      "<h1>{}: error against run time</h1>\n",
-      title, page_style, title);
+  ReportPage page;
+  page.title = result.scene.title + ": error against run time";
   if (!result.is_complete) {
-    html +=
+    page.notice =
         "<p class=\"partial\" role=\"status\"><strong>Partial result:</strong> the comparison was "
         "broken off; the runs that were finished are here.</p>\n";
   }
-  html += fmt::format("<p class=\"verdict\">{}</p>\n", escape_html(verdict(result)));
-  if (drawer.problem()) {
-    html += fmt::format("<p class=\"problem\">{}. The tables are complete.</p>\n",
-                        escape_html(*drawer.problem()));
-  }
-  html += fmt::format("</header>\n<main>\n<div class=\"first{}\">\n",
-                      first_figure.find("<svg") == std::string::npos ? " without-plot" : "") +
-          first_figure + origin_html(result, origin) + "</div>\n";
+  page.verdict = verdict(result);
+  page.first_figure = figure_html(charts.front(), drawer);
+  page.facts = facts_html(result, origin);
+  std::string& html = page.sections;
   html += "<section>\n<h2>Time to reach an error</h2>\n" + reach_table_html(result);
   if (const std::string text = advice(result); !text.empty()) {
     html += fmt::format("<p>Ready for the scene:</p>\n<pre>{}</pre>\n", escape_html(text));
   }
-  html += "</section>\n" + sections;
+  html += "</section>\n";
+  for (std::size_t i = 1; i < charts.size(); ++i) {
+    html += section_html(charts[i], drawer);
+    if (charts[i].name == "convergence") html += fit_table_html(result);
+  }
   html +=
       "<section>\n<h2>How the reference was made</h2>\n" + reference_html(result) + "</section>\n";
   html += "<section>\n<h2>All runs</h2>\n" + run_table_html(result) + degree_table_html(result) +
-          cost_table_html(result) + "</section>\n</main>\n</body>\n</html>\n";
-  return html;
+          cost_table_html(result) + "</section>\n";
+  return page_html(page, drawer);
 }
 
 std::vector<ReportFile> plot_files(const std::vector<Chart>& charts, PlotFormat format,

@@ -21,7 +21,4 @@ std::string fit_table_html(const ComparisonResult& result);
 /// How the reference was made and how far it can be trusted.
 std::string reference_html(const ComparisonResult& result);
 
-/// The page's style sheet.
-extern const char* const page_style;
-
 }  // namespace hamjet::io

@@ -4,34 +4,15 @@
 
 #include "comparison_page.hpp"
 #include "comparison_view.hpp"
+#include "report_page.hpp"
 #include "results_names.hpp"
 
 namespace hamjet::io {
 namespace {
 
-std::string cell(std::string_view text) { return fmt::format("<td>{}</td>", escape_html(text)); }
 std::string small_number(double value) { return fmt::format("{:.1e}", value); }
 
-/// A table in a box of its own, which scrolls where the window is too narrow. What it says stands
-/// above the box: a caption would be as narrow as its table.
-std::string table(std::string_view caption, std::string_view head, std::string_view rows) {
-  return fmt::format(
-      "<p class=\"caption\">{}</p>\n<div class=\"scroll\" tabindex=\"0\"><table>\n"
-      "<thead>{}</thead>\n<tbody>{}</tbody></table></div>\n",
-      caption, head, rows);
-}
-
-std::string header_cells(const std::vector<std::string>& names) {
-  std::string cells;
-  for (const std::string& name : names) {
-    cells += fmt::format("<th scope=\"col\">{}</th>", escape_html(name));
-  }
-  return cells;
-}
-
-std::string run_name(const ComparedRun& run) {
-  return fmt::format("<th scope=\"row\">{}</th>", escape_html(run.settings.label));
-}
+std::string run_name(const ComparedRun& run) { return row_name_cell(run.settings.label); }
 
 /// A run without figures: what became of it, over all columns.
 std::string reason_row(const ComparedRun& run, std::size_t columns) {
@@ -96,7 +77,7 @@ std::string reach_table_html(const ComparisonResult& result) {
     }
     rows += "</tr>\n";
   }
-  return table(
+  return table_html(
       "Time to reach a relative error (largest over all degrees), as a ratio to the best series: "
       "median of the series' cheapest run with that error. A dash: no run of it reaches that.",
       "<tr>" + head + "</tr>", rows);
@@ -128,8 +109,8 @@ std::string run_table_html(const ComparisonResult& result) {
         cell(small_number(run.energy_error)) + cell(run.corner ? corner_text(*run.corner) : "–") +
         "</tr>\n";
   }
-  return table("All runs at the scene's order. Evaluations of the vector field are on series.",
-               "<tr>" + header_cells(names) + "</tr>", rows);
+  return table_html("All runs at the scene's order. Evaluations of the vector field are on series.",
+                    "<tr>" + header_cells(names) + "</tr>", rows);
 }
 
 std::string degree_table_html(const ComparisonResult& result) {
@@ -152,7 +133,7 @@ std::string degree_table_html(const ComparisonResult& result) {
     }
     rows += "</tr>\n";
   }
-  return table(
+  return table_html(
       "Relative error and scaled exactness residual of each degree. A star: the residual is at its "
       "floor, where the inversion's round-off hides the integrator. “none”: the generating "
       "function "
@@ -171,7 +152,7 @@ std::string cost_table_html(const ComparisonResult& result) {
                                     cost_cells(run) + "</tr>\n"
                               : reason_row(run, names.size() - 1);
   }
-  return table("Cost against order.", "<tr>" + header_cells(names) + "</tr>", rows);
+  return table_html("Cost against order.", "<tr>" + header_cells(names) + "</tr>", rows);
 }
 
 std::string fit_table_html(const ComparisonResult& result) {
@@ -185,7 +166,7 @@ std::string fit_table_html(const ComparisonResult& result) {
         fit.agrees() ? "yes" : "not yet", fit.is_extended ? "in extended precision: " : "",
         escape_html(fmt::format("{}", fmt::join(fit.labels, ", "))));
   }
-  return table(
+  return table_html(
       "Fitted orders of convergence, by degree of the jet. Not yet within 0.3: the leading term "
       "does not dominate at the steps that lie above the rounding floor of double precision, and "
       "runs in extended precision would take too long.",
@@ -212,9 +193,10 @@ std::string reference_html(const ComparisonResult& result) {
              duration_text(reference.statistics.wall_seconds),
              result.is_reference_cached ? "It was taken from the cache of an earlier comparison."
                                         : "It was computed for this comparison.") +
-         table("Uncertainty of the reference, relative to the largest coefficient of the degree.",
-               "<tr>" + header_cells({"degree", "uncertainty", "smallest error claimed"}) + "</tr>",
-               rows);
+         table_html(
+             "Uncertainty of the reference, relative to the largest coefficient of the degree.",
+             "<tr>" + header_cells({"degree", "uncertainty", "smallest error claimed"}) + "</tr>",
+             rows);
 }
 
 }  // namespace hamjet::io

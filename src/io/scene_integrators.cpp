@@ -4,6 +4,7 @@
 #include <cmath>
 #include <hamjet/error.hpp>
 #include <hamjet/integrators/flow_problem.hpp>
+#include <iterator>
 #include <map>
 
 #include "scene_message.hpp"
@@ -15,9 +16,14 @@ namespace {
 constexpr std::size_t longest_label = 100;
 /// The files that stand beside the integrators' directories in the output.
 bool is_reserved(std::string_view label) {
-  return label == "summary.json" || label == "relative_hamiltonian.csv" ||
-         label == "compare.json" || label == "compare.csv" || label == "report.html" ||
-         label == "plots";
+  static constexpr std::string_view names[] = {"summary.json",       "relative_hamiltonian.csv",
+                                               "compare.json",       "compare.csv",
+                                               "report.html",        "plots",
+                                               "figure.svg",         "transfers.csv",
+                                               "singular_times.csv", "conditions.csv",
+                                               "validity.csv",       "assignment.csv",
+                                               "costs.csv"};
+  return std::find(std::begin(names), std::end(names), label) != std::end(names);
 }
 
 bool has_fixed_steps_only(IntegrationMethod method) {

@@ -45,6 +45,16 @@ Scene read_flow_jet(const TableReader& root) {
     scene.comparison = read_compare(root.table("compare"), scene.order, scene.duration);
   }
   if (root.has("figure")) scene.figure = read_figure(root.table("figure"), scene);
+  if (root.has("transfer")) {
+    // An assignment gives the ends itself.
+    scene.transfer = read_transfer(root.table("transfer"), scene, nominal, !root.has("assignment"));
+  }
+  if (root.has("validity")) {
+    scene.validity = read_validity(root.table("validity"), scene, nominal);
+  }
+  if (root.has("assignment")) {
+    scene.assignment = read_assignment(root.table("assignment"), scene, nominal);
+  }
   return scene;
 }
 

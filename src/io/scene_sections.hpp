@@ -126,6 +126,20 @@ ComparisonSettings read_compare(const TableReader& table, int order, double dura
 /// Table `[figure]`, checked against what `scene` already holds.
 FigureSettings read_figure(const TableReader& figure, const Scene& scene);
 
+/// Table `[transfer]`, checked against what `scene` already holds. Its tables `[transfer.start]`
+/// and
+/// `[transfer.end]` may be left out together where `needs_ends` is false.
+TransferSettings read_transfer(const TableReader& transfer, const Scene& scene,
+                               const Nominal& nominal, bool needs_ends);
+
+/// Table `[validity]`, checked against what `scene` already holds.
+ValiditySettings read_validity(const TableReader& validity, const Scene& scene,
+                               const Nominal& nominal);
+
+/// Table `[assignment]` of a scene whose table `[transfer]` has been read, if it has one.
+AssignmentSettings read_assignment(const TableReader& assignment, const Scene& scene,
+                                   const Nominal& nominal);
+
 /// Why the energy-conserving methods integrate no flow jet, for messages.
 inline constexpr std::string_view no_energy_conserving_jet =
     "the map of an energy-conserving method at a fixed physical time is not symplectic, because "

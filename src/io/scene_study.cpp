@@ -21,7 +21,8 @@ const std::vector<StudyReader>& studies() {
   static const std::vector<StudyReader> readers = {
       {"flow-jet",
        {"schema", "title", "precision", "system", "nominal", "jet", "integrator", "formation",
-        "generating_function", "reference", "relative_hamiltonian", "compare", "figure", "study"},
+        "generating_function", "reference", "relative_hamiltonian", "compare", "figure", "transfer",
+        "validity", "assignment", "study"},
        read_flow_jet},
       {"canonical-transformation",
        {"schema", "title", "system", "nominal", "canonical_transformation", "study"},

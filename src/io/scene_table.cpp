@@ -158,6 +158,19 @@ std::vector<double> TableReader::square_matrix(std::string_view key, std::size_t
   return values;
 }
 
+std::vector<double> TableReader::number_or_numbers(std::string_view key) const {
+  const bool is_one = table_->contains(key) && !table_->get(key)->is_array();
+  return is_one ? std::vector<double>{number(key)} : numbers(key);
+}
+
+bool TableReader::boolean(std::string_view key) const {
+  const toml::node& node = required(key, "true or false");
+  if (!node.is_boolean()) {
+    fail(key, fmt::format("wrong type, got {}, must be true or false", found(key)));
+  }
+  return node.as_boolean()->get();
+}
+
 std::string TableReader::text(std::string_view key) const {
   const toml::node& node = required(key, "a string");
   if (!node.is_string()) {
@@ -243,8 +256,9 @@ void TableReader::fail(std::string_view key, const std::string& problem) const {
 
 void TableReader::fail_element(std::string_view key, std::size_t index,
                                const std::string& problem) const {
-  const toml::array& array = *table_->get_as<toml::array>(key);
-  const std::string place = location_of(array[index]);
+  const toml::array* array = table_->get_as<toml::array>(key);
+  if (array == nullptr) fail(key, problem);
+  const std::string place = location_of((*array)[index]);
   throw_scene_error(message_head(*source_, place, fmt::format("{}.{}", dotted(key), index)),
                     problem);
 }

@@ -55,6 +55,10 @@ class TableReader {
                                      std::int64_t greatest) const;
   /// Required: an array of `size` arrays (rows) of `size` finite numbers; returned by rows.
   std::vector<double> square_matrix(std::string_view key, std::size_t size) const;
+  /// Required: a finite number, or an array of them that is not empty.
+  std::vector<double> number_or_numbers(std::string_view key) const;
+  /// Required: true or false.
+  bool boolean(std::string_view key) const;
   /// Required: a string.
   std::string text(std::string_view key) const;
   /// Required: an array of strings, not empty.
@@ -71,7 +75,7 @@ class TableReader {
 
   /// Throws Error(scene) with the message `head: problem`.
   [[noreturn]] void fail(std::string_view key, const std::string& problem) const;
-  /// The same about the element of an array.
+  /// The same about the element of an array, or about the key where it has no array.
   [[noreturn]] void fail_element(std::string_view key, std::size_t index,
                                  const std::string& problem) const;
 

@@ -276,6 +276,8 @@ TEST(ShippedScenes, AreAllRead) {
     if (!std::holds_alternative<Scene>(study)) continue;
     const Scene scene = std::get<Scene>(study);
     EXPECT_EQ(scene.name, entry.path().stem().string());
+    // A study of relative motion uses one integrator, and is proved by flying.
+    if (scene.transfer) continue;
     EXPECT_TRUE(scene.reference.has_value()) << entry.path();
     EXPECT_GE(scene.integrators.size(), 2U) << entry.path();
   }

@@ -8,19 +8,10 @@
 
 #include "hamjet/io/output_directory.hpp"
 #include "hamjet/io/report_file.hpp"
+#include "hamjet/io/report_origin.hpp"
 #include "hamjet/studies/comparison.hpp"
 
 namespace hamjet::io {
-
-/// Where a report comes from: what a reader needs to make it again.
-struct ReportOrigin {
-  std::string command;    ///< as it was typed
-  std::string date;       ///< of the run, with time and zone
-  std::string processor;  ///< that the times were taken on
-  /// All that determines the runs, as the caller writes it; a resumption compares it with its own.
-  std::string determinants;
-  std::string gnuplot = "gnuplot";  ///< program that draws the plots: a name on the path, or a path
-};
 
 /// Files of the plots that are wanted beside the page.
 enum class PlotFormat { none, pdf, png };

@@ -1,4 +1,4 @@
-#include "comparison_page.hpp"
+#include "report_page.hpp"
 
 namespace hamjet::io {
 

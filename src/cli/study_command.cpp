@@ -1,0 +1,48 @@
+#include "study_command.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "earlier_results.hpp"
+#include "hamjet/io/output_directory.hpp"
+#include "interruption.hpp"
+#include "progress.hpp"
+#include "standard_streams.hpp"
+
+namespace hamjet::cli {
+
+int report_study(const RunOptions& options, const std::string& scene_name,
+                 const std::function<io::StudyReport(const ProgressCallback&)>& work) {
+  const std::filesystem::path directory = output_path(options, scene_name);
+  io::OutputDirectory output(directory);
+  io::StudyReport report;
+  {
+    Progress progress(!options.quiet);
+    report = work([&](const std::string& task, double fraction) {
+      stop_if_interrupted();
+      progress.update(task, fraction);
+    });
+  }
+  {
+    const UninterruptedWriting guard;
+    for (const auto& file : earlier_results(directory)) output.replace(file);
+    for (const io::ReportFile& file : report.files) output.write(file.path, file.content);
+    output.replace("figure.svg");
+    output.commit();
+  }
+  if (report.drawing_problem) print_error(*report.drawing_problem);
+  if (options.json) {
+    print(report.summary());
+  } else if (!options.quiet) {
+    const bool has_page = std::any_of(report.files.begin(), report.files.end(),
+                                      [](const auto& file) { return file.path == "report.html"; });
+    print(report.table + fmt::format("results: {}\n", directory.string()) +
+          (has_page ? fmt::format("report: {}\n", (directory / "report.html").string()) : ""));
+  }
+  if (report.exit_code != 0) print_error(report.failure);
+  return report.exit_code;
+}
+
+}  // namespace hamjet::cli

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "hamjet/io/study_report.hpp"
+#include "hamjet/studies/progress.hpp"
+#include "scene_options.hpp"
+
+namespace hamjet::cli {
+
+/// Does the work, which shows its progress and stops at a signal, and makes its report; writes the
+/// files in place of earlier results, prints what the options ask for, and returns the exit code.
+int report_study(const RunOptions& options, const std::string& scene_name,
+                 const std::function<io::StudyReport(const ProgressCallback&)>& work);
+
+}  // namespace hamjet::cli

@@ -1,0 +1,97 @@
+#include "transfer_command.hpp"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <string_view>
+
+#include "../io/scene_message.hpp"
+#include "hamjet/error.hpp"
+#include "hamjet/io/relative_motion_report.hpp"
+#include "report_origin.hpp"
+#include "study_command.hpp"
+
+namespace hamjet::cli {
+namespace {
+
+/// Points of the trajectory that is drawn.
+constexpr int trajectory_intervals = 400;
+
+[[noreturn]] void refuse(const RunOptions& options, std::string_view key,
+                         const std::string& problem) {
+  throw Error(ErrorKind::scene,
+              fmt::format("{}: {}: {}", io::printable(*options.scene_file, std::string::npos), key,
+                          problem));
+}
+
+/// `example` is the smallest such table, in one line that can stand above the scene's first table.
+void require_table(const RunOptions& options, bool is_there, std::string_view key,
+                   std::string_view example) {
+  if (is_there) return;
+  refuse(
+      options, key,
+      fmt::format("missing, must be a table [{}]; the smallest is {} = {{{}}}", key, key, example));
+}
+
+/// What a study says of the scene, with the file's name.
+template <class Study>
+auto study_of(const RunOptions& options, const Study& study) {
+  try {
+    return study();
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::scene) throw;
+    throw Error(
+        ErrorKind::scene,
+        fmt::format("{}: {}", io::printable(*options.scene_file, std::string::npos), error.what()));
+  }
+}
+
+bool is_zero(const RelativeState& state) {
+  return state.position_m.isZero(0) && state.velocity_m_s.isZero(0);
+}
+
+}  // namespace
+
+int transfer(const RunOptions& options) {
+  const Scene scene = read_scene(options);
+  require_table(options, scene.transfer.has_value(), "transfer",
+                "frame = \"RTN\", times_s = [1200, 1800], start = {position_m = [0, -1000, 0]}, "
+                "end = {position_m = [0, -100, 0]}");
+  if (scene.assignment && is_zero(scene.transfer->start) && is_zero(scene.transfer->end)) {
+    refuse(options, "transfer.start",
+           "missing, must be a table with position_m, as must transfer.end; `hamjet assign` works "
+           "on this scene's deputies and slots");
+  }
+  return report_study(options, scene.name, [&](const ProgressCallback& progress) {
+    const TransferResult result =
+        study_of(options, [&] { return study_transfer(scene, progress); });
+    std::optional<RelativeTrajectory> trajectory;
+    if (const auto best = result.best_point()) {
+      trajectory = fly_relative(result, *best, trajectory_intervals);
+    }
+    std::optional<ValidityResult> validity;
+    if (scene.validity) validity = study_validity(scene, progress);
+    return io::transfer_report(result, trajectory, validity, report_origin(options.command));
+  });
+}
+
+int validity(const RunOptions& options) {
+  const Scene scene = read_scene(options);
+  require_table(options, scene.validity.has_value(), "validity", "tolerance_m = 1, count = 12");
+  return report_study(options, scene.name, [&](const ProgressCallback& progress) {
+    return io::validity_report(study_of(options, [&] { return study_validity(scene, progress); }),
+                               report_origin(options.command));
+  });
+}
+
+int assign(const RunOptions& options) {
+  const Scene scene = read_scene(options);
+  require_table(options, scene.assignment.has_value(), "assignment",
+                "deputy = [{position_m = [0, -100, 0]}], slot = [{position_m = [0, 100, 0]}]");
+  return report_study(options, scene.name, [&](const ProgressCallback& progress) {
+    return io::assignment_report(
+        study_of(options, [&] { return study_assignment(scene, progress); }));
+  });
+}
+
+}  // namespace hamjet::cli

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "scene_options.hpp"
+
+// The studies of relative motion. Each writes its results and returns the exit code; Error(scene)
+// if the scene has no table for it.
+
+namespace hamjet::cli {
+
+/// Velocity changes from one relative position to another, for each transfer time.
+int transfer(const RunOptions& options);
+
+/// How far from the chief each order's polynomial is right.
+int validity(const RunOptions& options);
+
+/// Deputies sent to slots at the least total velocity change.
+int assign(const RunOptions& options);
+
+}  // namespace hamjet::cli

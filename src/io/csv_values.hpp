@@ -1,0 +1,28 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace hamjet::io {
+
+/// A field as RFC 4180 has it: in quotes if a character in it would end it.
+inline std::string csv_field(std::string_view text) {
+  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
+  std::string field = "\"";
+  for (const char c : text) {
+    if (c == '"') field += '"';
+    field += c;
+  }
+  return field + "\"";
+}
+
+/// 17 digits, from which the same number is read back; what was not computed is empty.
+inline std::string csv_number(double value) { return fmt::format("{:.17g}", value); }
+inline std::string csv_number(const std::optional<double>& value) {
+  return value ? csv_number(*value) : "";
+}
+
+}  // namespace hamjet::io

@@ -1,0 +1,38 @@
+#include "relative_frame_text.hpp"
+
+namespace hamjet::io {
+
+std::string_view frame_name(RelativeFrame frame) {
+  return frame == RelativeFrame::inertial ? "inertial" : "RTN";
+}
+
+std::string_view derivatives_name(RelativeFrame frame) {
+  switch (frame) {
+    case RelativeFrame::rtn_rotating:
+      return "rotating";
+    case RelativeFrame::rtn_inertial:
+      return "inertial";
+    case RelativeFrame::inertial:
+      break;
+  }
+  return "";
+}
+
+std::string frame_text(RelativeFrame frame) {
+  const std::string_view derivatives = derivatives_name(frame);
+  std::string text(frame_name(frame));
+  if (!derivatives.empty()) text.append(" with ").append(derivatives).append(" derivatives");
+  return text;
+}
+
+std::array<std::string_view, 3> axis_letters(RelativeFrame frame) {
+  if (frame == RelativeFrame::inertial) return {"x", "y", "z"};
+  return {"R", "T", "N"};
+}
+
+std::array<std::string_view, 3> axis_columns(RelativeFrame frame) {
+  if (frame == RelativeFrame::inertial) return {"x", "y", "z"};
+  return {"r", "t", "n"};
+}
+
+}  // namespace hamjet::io

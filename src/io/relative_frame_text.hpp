@@ -1,0 +1,24 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+
+#include "hamjet/relative_motion/chief_frame.hpp"
+
+namespace hamjet::io {
+
+/// As scenes name them: "RTN" or "inertial"; "rotating", "inertial" or, where the axes do not turn,
+/// empty.
+std::string_view frame_name(RelativeFrame frame);
+std::string_view derivatives_name(RelativeFrame frame);
+
+/// "RTN with rotating derivatives", "RTN with inertial derivatives", "inertial".
+std::string frame_text(RelativeFrame frame);
+
+/// Letters of the three axes: R, T, N or x, y, z.
+std::array<std::string_view, 3> axis_letters(RelativeFrame frame);
+/// The same in names of columns: r, t, n or x, y, z.
+std::array<std::string_view, 3> axis_columns(RelativeFrame frame);
+
+}  // namespace hamjet::io

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "scene_sections.hpp"
+
+// What the tables of the studies of relative motion have in common: [transfer], [validity],
+// [assignment]. All throw Error(scene).
+
+namespace hamjet::io {
+
+/// Most transfer times of a table, and most deputies of an assignment.
+inline constexpr int most_transfer_times = 10000;
+inline constexpr int most_deputies = 200;
+
+/// Refuses a scene that these studies cannot work on: no orbit, a jet that is not expanded in all
+/// six variables, extended precision.
+void require_relative_motion(const TableReader& table, const Scene& scene);
+
+/// The keys of `read_transfer_times`.
+inline constexpr std::string_view transfer_time_keys[] = {"times_s", "times_orbits",
+                                                          "times_canonical", "count"};
+
+/// The only one of `times_s`, `times_orbits`, `times_canonical` (a number or an array) and `count`
+/// (equal parts of the duration, its end included); with a default count none may be there.
+/// Canonical times, none 0, that move away from 0.
+std::vector<double> read_transfer_times(const TableReader& table, const Scene& scene,
+                                        const Nominal& nominal,
+                                        std::optional<int> default_count = std::nullopt);
+
+/// The keys `frame` and `derivatives`, each of `fallback` where the table does not have it.
+RelativeFrame read_relative_frame(const TableReader& table, const TableReader& fallback);
+
+/// The keys `position_m` and, optional, `velocity_m_s`.
+RelativeState read_relative_state(const TableReader& table, const Nominal& nominal);
+
+}  // namespace hamjet::io

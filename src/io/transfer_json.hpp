@@ -1,0 +1,20 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "hamjet/studies/transfer.hpp"
+
+namespace hamjet::io {
+
+/// What the summaries of all studies of relative motion begin with.
+nlohmann::ordered_json study_head_json(const Scene& scene, const std::string& study,
+                                       const std::string& integrator);
+
+/// A transfer's kind, velocity changes and misses; null where there is no answer.
+nlohmann::ordered_json transfer_point_json(const TransferPoint& point, const CanonicalUnits& units);
+
+/// `summary.json` of a transfer study, without its end.
+nlohmann::ordered_json transfer_summary_json(const TransferResult& result);
+
+}  // namespace hamjet::io

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hamjet/studies/transfer.hpp"
+
+// What page, plots, files and the terminal's table derive from a transfer study, so that all say
+// the same.
+
+namespace hamjet::io {
+
+/// The answer that stands for a point: the refined one, else that of the highest order; none where
+/// there is neither.
+const TransferAnswer* shown_answer(const TransferPoint& point);
+/// "refined" or "order 4".
+std::string answer_name(const TransferPoint& point);
+/// The answer of one order, none where it failed.
+const TransferAnswer* answer_of_order(const TransferPoint& point, int order);
+
+/// Everything that failed at a point, in one line; empty if nothing did.
+std::string failure_text(const TransferPoint& point);
+
+/// How many points have what.
+struct TransferCounts {
+  std::size_t times = 0;
+  std::size_t answered = 0;
+  std::size_t near_singular = 0;
+  std::size_t beyond_tolerance = 0;       ///< among all
+  std::size_t beyond_tolerance_away = 0;  ///< among those that are not near a singularity
+  std::size_t unanswered_away = 0;
+  std::size_t refined = 0;
+  std::size_t refinement_failed = 0;
+  std::size_t refinement_failed_away = 0;
+};
+TransferCounts count_points(const TransferResult& result);
+
+/// Misses away from singularities, metres.
+struct MissStatistics {
+  std::string answer;  ///< "order 1" .. "order N", "refined"
+  std::size_t count = 0;
+  double median_m = 0;
+  double largest_m = 0;
+};
+/// Of each order, then of the refinement if the scene asks for it; those without a miss are left
+/// out.
+std::vector<MissStatistics> miss_statistics(const TransferResult& result);
+
+/// The point with the largest velocity change among answers that are not near a singularity.
+std::optional<std::size_t> costliest_point(const TransferResult& result);
+
+/// The largest Hamilton-Jacobi residual.
+std::optional<double> largest_hamilton_jacobi_residual(const TransferResult& result);
+
+/// The first that a reader sees: the least velocity change, its transfer time, and the misses.
+std::string transfer_verdict(const TransferResult& result);
+
+/// Why the exit code is not 0, one line; empty if it is 0.
+std::string transfer_failure(const TransferResult& result);
+
+/// A miss, or "less than" the floor under which flying cannot tell.
+std::string miss_text(double miss_m, double flight_floor_m);
+
+/// "5432 s (90.5 min)"
+std::string time_text(double seconds);
+/// "12.3 m/s", to four digits.
+std::string velocity_text(double metres_per_second);
+
+}  // namespace hamjet::io

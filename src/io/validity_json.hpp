@@ -1,0 +1,12 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "hamjet/studies/validity.hpp"
+
+namespace hamjet::io {
+
+/// What a validity study found, as a part of a summary.
+nlohmann::ordered_json validity_json(const ValidityResult& result);
+
+}  // namespace hamjet::io

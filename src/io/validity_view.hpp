@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+#include "hamjet/studies/validity.hpp"
+
+namespace hamjet::io {
+
+/// The first that a reader sees: how far each order carries at the last time.
+std::string validity_verdict(const ValidityResult& result);
+
+}  // namespace hamjet::io

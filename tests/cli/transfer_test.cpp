@@ -1,0 +1,265 @@
+#include <cmath>
+#include <csignal>
+
+#include "command_test.hpp"
+
+// hamjet transfer, validity and assign as a user runs them: what they leave, and every mistake that
+// a scene may make.
+
+namespace hamjet::test {
+namespace {
+
+/// A circular Kepler orbit, on which the linear answer is that of Clohessy and Wiltshire.
+constexpr const char* circle = R"(schema = 1
+title = "circle"
+[system]
+model = "kepler"
+mu_km3_s2 = 398600.4415
+[nominal]
+a_km = 10000
+e = 0
+i_deg = 30
+raan_deg = 10
+argp_deg = 20
+ta_deg = 30
+[jet]
+order = 3
+duration_orbits = 0.9
+[[integrator]]
+label = "gauss8"
+method = "gauss"
+stages = 8
+tolerance = 1e-13
+)";
+
+constexpr const char* transfer = R"([transfer]
+frame = "RTN"
+times_orbits = [0.2, 0.3, 0.7]
+[transfer.start]
+position_m = [0, -1000, 200]
+[transfer.end]
+position_m = [0, 100, 0]
+)";
+
+constexpr const char* assignment = R"([transfer]
+frame = "RTN"
+times_orbits = [0.2, 0.3]
+[assignment]
+[[assignment.deputy]]
+position_m = [0, -1000, 0]
+[[assignment.deputy]]
+position_m = [0, 1000, 0]
+[[assignment.slot]]
+position_m = [0, 900, 0]
+[[assignment.slot]]
+position_m = [0, -900, 0]
+)";
+
+class TransferCommand : public CommandTest {
+ protected:
+  TransferCommand() {
+    write("circle.toml", circle);
+    write("transfer.toml", std::string(circle) + transfer);
+    write("assignment.toml", std::string(circle) + assignment);
+    write("validity.toml", std::string(circle) + "[validity]\ntimes_orbits = [0.3, 0.9]\n");
+  }
+
+  /// The transfer scene with a text in place of another one.
+  std::string with(const std::string& from, const std::string& to) const {
+    write("changed.toml", circle + changed(transfer, from, to));
+    return "changed.toml";
+  }
+};
+
+TEST_F(TransferCommand, LeavesTablesPageAndSummary) {
+  const CommandResult result = succeed({"transfer", "transfer.toml"});
+  EXPECT_NE(result.out.find("The least velocity change found is"), std::string::npos);
+  EXPECT_NE(result.out.find("report: out/transfer/report.html"), std::string::npos);
+  const std::filesystem::path directory = directory_ / "out/transfer";
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(directory)) {
+    names.push_back(entry.path().filename().string());
+  }
+  std::sort(names.begin(), names.end());
+  EXPECT_EQ(names, (std::vector<std::string>{"conditions.csv", "report.html", "singular_times.csv",
+                                             "summary.json", "transfers.csv"}));
+  const Json summary = read_json(directory / "summary.json");
+  EXPECT_EQ(summary["exit_code"], 0);
+  EXPECT_EQ(summary["counts"]["answered"], 3);
+  const Table table = read_table(directory / "transfers.csv");
+  EXPECT_EQ(table.rows.size(), 3U);
+  EXPECT_NE(content(directory / "report.html").find(summary["verdict"].get<std::string>()),
+            std::string::npos);
+}
+
+TEST_F(TransferCommand, TheLinearAnswerIsThatOfClohessyAndWiltshire) {
+  // Closed form: with n the mean motion, t the time, s = sin nt, c = cos nt, the position after t
+  // is
+  //   x = (4 - 3 c) x0 + s/n u0 + 2 (1 - c)/n v0
+  //   y = 6 (s - nt) x0 + y0 - 2 (1 - c)/n u0 + (4 s - 3 nt)/n v0 ,   z = c z0 + s/n w0 ,
+  // with the velocity (u, v, w) seen from the rotating axes.
+  succeed({"transfer", "transfer.toml", "-q", "--set", "jet.order=1", "--set",
+           "transfer.tolerance_m=1000"});
+  const Json summary = read_json(directory_ / "out/transfer/summary.json");
+  const double time = summary["best"]["time_s"];
+  const double n = std::sqrt(398600.4415 / 1e12);
+  const double s = std::sin(n * time), c = std::cos(n * time);
+  const double a = s / n, b = 2 * (1 - c) / n, d = (4 * s - 3 * n * time) / n;
+  // [a b; -b d] (u0, v0) = (0, 1100)
+  const double u0 = -b * 1100 / (a * d + b * b);
+  const double v0 = a * 1100 / (a * d + b * b);
+  const double w0 = -c * 200 * n / s;
+  const auto change = summary["best"]["start_change_m_s"].get<std::vector<double>>();
+  EXPECT_NEAR(change[0], u0, 1e-9);
+  EXPECT_NEAR(change[1], v0, 1e-9);
+  EXPECT_NEAR(change[2], w0, 1e-9);
+}
+
+TEST_F(TransferCommand, PrintsItsSummaryAsJson) {
+  const CommandResult result = succeed({"transfer", "transfer.toml", "--json"});
+  EXPECT_EQ(Json::parse(result.out), read_json(directory_ / "out/transfer/summary.json"));
+  EXPECT_EQ(succeed({"transfer", "transfer.toml", "-q"}).out, "");
+}
+
+TEST_F(TransferCommand, StartAndEndInDifferentFrames) {
+  expect_error({"transfer", with("[0, 100, 0]", "[0, 100, 0]\nframe = \"inertial\"")}, 3,
+               {"changed.toml:27:9: transfer.end.frame: different frames, got inertial",
+                "RTN with rotating derivatives"});
+}
+
+TEST_F(TransferCommand, ZeroTransferTime) {
+  expect_error(
+      {"transfer", with("[0.2, 0.3, 0.7]", "[0, 0.3]")}, 3,
+      {"changed.toml:23:17: transfer.times_orbits.0: zero transfer time", "must not be 0"});
+  expect_error({"transfer", "transfer.toml", "--set", "transfer.times_orbits=0"}, 3,
+               {"--set transfer.times_orbits: zero transfer time"});
+}
+
+TEST_F(TransferCommand, BareLocalVerticalFrame) {
+  expect_error({"transfer", with("\"RTN\"", "\"LVLH\"")}, 3,
+               {"transfer.frame: ambiguous, got \"LVLH\"", "x radial outward",
+                "z toward the Earth's centre", "must be \"RTN\""});
+}
+
+TEST_F(TransferCommand, AtHalfARevolutionF1DoesNotExist) {
+  // On Kepler's circle the normal position after half a revolution is -z0 whatever the velocity.
+  const std::string scene = with("[0.2, 0.3, 0.7]", "0.5\nkind = \"F1\"");
+  const CommandResult result = hamjet({"transfer", scene, "-o", "half"});
+  EXPECT_EQ(result.exit_code, 4);
+  EXPECT_NE(result.err.find("no transfer time has an answer"), std::string::npos) << result.err;
+  const Json summary = read_json(directory_ / "half/summary.json");
+  EXPECT_EQ(summary["exit_code"], 4);
+  EXPECT_TRUE(summary["best"].is_null());
+  EXPECT_EQ(summary["counts"]["answered"], 0);
+  ASSERT_EQ(summary["position_singular_times"].size(), 1U);
+  EXPECT_NEAR(summary["position_singular_times"][0]["time_canonical"].get<double>(), 3.14159265,
+              1e-7);
+  const std::string table = content(directory_ / "half/transfers.csv");
+  EXPECT_EQ(table.find("nan"), std::string::npos);
+}
+
+TEST_F(TransferCommand, BeyondValidityIsMarkedAndFailsOnlyAStrictScene) {
+  // A thousand kilometres from the chief no cubic polynomial is right to a metre.
+  const std::string far = changed(transfer, "[0, -1000, 200]", "[0, -1000000, 0]");
+  write("far.toml", circle + far);
+  const CommandResult marked = succeed({"transfer", "far.toml"});
+  EXPECT_NE(marked.out.find("3 of the others beyond the tolerance of 1 m"), std::string::npos) << marked.out;
+  Json summary = read_json(directory_ / "out/far/summary.json");
+  EXPECT_EQ(summary["counts"]["beyond_tolerance"], 3);
+  EXPECT_TRUE(summary["best"].is_null());
+  const CommandResult strict =
+      hamjet({"transfer", "far.toml", "--set", "transfer.strict=true", "-o", "strict"});
+  EXPECT_EQ(strict.exit_code, 1);
+  EXPECT_NE(strict.err.find("strict: of 3 transfer times"), std::string::npos) << strict.err;
+  EXPECT_EQ(read_json(directory_ / "strict/summary.json")["exit_code"], 1);
+}
+
+TEST_F(TransferCommand, ScenesWithoutTheTableAreShownTheSmallestOne) {
+  expect_error({"transfer", "circle.toml"}, 3,
+               {"circle.toml: transfer: missing, must be a table [transfer]",
+                "transfer = {frame = \"RTN\""});
+  expect_error({"validity", "circle.toml"}, 3,
+               {"validity: missing", "validity = {tolerance_m = 1"});
+  expect_error({"assign", "circle.toml"}, 3, {"assignment: missing", "assignment = {deputy = ["});
+  // The examples are as good as they say.
+  write("small.toml", changed(circle, "[system]",
+                              "transfer = {frame = \"RTN\", times_s = [1200, 1800], start = "
+                              "{position_m = [0, -1000, 0]}, end = {position_m = [0, -100, 0]}}\n"
+                              "validity = {tolerance_m = 1, count = 12}\n"
+                              "assignment = {deputy = [{position_m = [0, -100, 0]}], slot = "
+                              "[{position_m = [0, 100, 0]}]}\n[system]"));
+  succeed({"check", "small.toml"});
+  expect_error({"transfer", "assignment.toml"}, 3, {"transfer.start: missing", "hamjet assign"});
+}
+
+TEST_F(TransferCommand, NeedsAnOrbitAndASymplecticIntegrator) {
+  expect_error({"transfer", "transfer.toml", "--set", "integrator.gauss8.method=fehlberg78",
+                "--set", "integrator.gauss8.stages=null"},
+               3, {"transfer.toml: integrator: only a symplectic map"});
+  expect_error({"transfer", "transfer.toml", "--set", "jet.variables=[\"x\", \"px\"]"}, 3,
+               {"jet.variables", "must be all of"});
+  expect_error({"transfer", "transfer.toml", "--set", "precision=extended"}, 3,
+               {"extended precision"});
+}
+
+TEST_F(TransferCommand, ResultsOfOtherStudiesInTheSameDirectoryGo) {
+  succeed({"transfer", "transfer.toml", "-o", "same", "-q"});
+  succeed({"assign", "assignment.toml", "-o", "same", "-q"});
+  EXPECT_FALSE(std::filesystem::exists(directory_ / "same/transfers.csv"));
+  EXPECT_FALSE(std::filesystem::exists(directory_ / "same/report.html"));
+  EXPECT_TRUE(std::filesystem::exists(directory_ / "same/costs.csv"));
+  succeed({"run", "quick.toml", "-o", "same", "-q"});
+  EXPECT_FALSE(std::filesystem::exists(directory_ / "same/costs.csv"));
+  succeed({"transfer", "transfer.toml", "-o", "same", "-q"});
+  EXPECT_FALSE(std::filesystem::exists(directory_ / "same/gauss8/jet.csv"));
+}
+
+TEST_F(TransferCommand, StopsAtASignalAndLeavesNothing) {
+  const auto before = files();
+  options_.signal = Signal{SIGINT};
+  options_.limit = std::chrono::seconds(20);
+  const CommandResult result =
+      hamjet({"transfer", "transfer.toml", "--set", "jet.order=8", "--set",
+              "transfer.times_orbits=null", "--set", "transfer.count=10000"});
+  EXPECT_EQ(result.exit_code, 130);
+  EXPECT_EQ(result.err, "hamjet: interrupted; nothing was written\n");
+  EXPECT_EQ(files(), before);
+}
+
+TEST_F(TransferCommand, ValidityIsProvedForEachOrder) {
+  succeed({"validity", "validity.toml", "-q"});
+  const Json summary = read_json(directory_ / "out/validity/summary.json");
+  EXPECT_EQ(summary["study"], "validity");
+  const Json& times = summary["validity"]["times"];
+  ASSERT_EQ(times.size(), 2U);
+  for (const Json& time : times) {
+    ASSERT_EQ(time["orders"].size(), 3U);
+    EXPECT_LT(time["orders"][0]["proved_m"], time["orders"][2]["proved_m"]);
+    for (const Json& order : time["orders"]) EXPECT_LE(order["miss_m"], 1.0);
+  }
+  EXPECT_EQ(read_table(directory_ / "out/validity/validity.csv").rows.size(), 6U);
+  EXPECT_TRUE(std::filesystem::exists(directory_ / "out/validity/report.html"));
+}
+
+TEST_F(TransferCommand, DeputiesGoToTheSlotsThatCostLeast) {
+  succeed({"assign", "assignment.toml", "-q"});
+  const Json summary = read_json(directory_ / "out/assignment/summary.json");
+  ASSERT_EQ(summary["transfers"].size(), 2U);
+  // Each has a slot 100 m away, and one 1900 m away.
+  EXPECT_EQ(summary["transfers"][0]["slot"], 1);
+  EXPECT_EQ(summary["transfers"][1]["slot"], 0);
+  const Table costs = read_table(directory_ / "out/assignment/costs.csv");
+  ASSERT_EQ(costs.rows.size(), 4U);
+  const double total = std::stod(costs.rows[1].back()) + std::stod(costs.rows[2].back());
+  EXPECT_NEAR(summary["total_change_m_s"].get<double>(), total, 1e-6 * total);
+}
+
+TEST_F(TransferCommand, DeputiesAndSlotsOfDifferentNumber) {
+  write("uneven.toml",
+        circle + changed(assignment, "[[assignment.slot]]\nposition_m = [0, -900, 0]\n", ""));
+  expect_error({"assign", "uneven.toml"}, 3,
+               {"uneven.toml:", "assignment.slot: ", "got 2 deputies and 1 slots"});
+}
+
+}  // namespace
+}  // namespace hamjet::test
