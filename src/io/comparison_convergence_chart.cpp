@@ -89,7 +89,9 @@ Chart convergence_chart(const ComparisonResult& result) {
       "all runs, or of the series where its error rises again), or "
       "there are four finer ones. Where that leaves no slope within 0.3 of theory, four runs in "
       "extended precision, below the floor of double precision, take the fit over, with the next "
-      "term of the error's expansion fitted beside the slope. A series with too few usable runs, "
+      "term of the error's expansion fitted beside the slope; over the first eighth or "
+      "sixty-fourth of the duration (the table says which) where the whole would take too long or "
+      "its leading term does not dominate. A series with too few usable runs, "
       "or whose runs scatter about the fit by more than a tenth of a decade, has none.";
   chart.x = logarithmic_axis("step (canonical time)");
   chart.y = logarithmic_axis("relative error of degree 0");

@@ -151,6 +151,7 @@ Json fit_json(const ConvergenceFit& fit) {
           {"expected", json_number(fit.expected)},
           {"agrees", fit.agrees()},
           {"extended_precision", fit.is_extended},
+          {"arc", fit.arc},
           {"labels", fit.labels}};
 }
 

@@ -56,6 +56,13 @@ std::string residual_cell(const ComparedRun& run, std::size_t degree) {
   return cell(small_number(entry.residual.scaled) + (is_at_floor(entry) ? " *" : ""));
 }
 
+/// Where a fit was made, if not from the comparison's own runs.
+std::string extended_text(const ConvergenceFit& fit) {
+  if (!fit.is_extended) return "";
+  if (fit.arc == 1) return "in extended precision: ";
+  return fmt::format("in extended precision, over 1/{:.0f} of the duration: ", 1 / fit.arc);
+}
+
 }  // namespace
 
 std::string reach_table_html(const ComparisonResult& result) {
@@ -163,7 +170,7 @@ std::string fit_table_html(const ComparisonResult& result) {
         "<tr><th scope=\"row\">{}</th><td>{}</td><td>{:.2f}</td><td>{:g}</td><td>{}</td>"
         "<td class=\"reason\">{}{}</td></tr>\n",
         escape_html(fit.series), fit.degree, fit.slope, fit.expected,
-        fit.agrees() ? "yes" : "not yet", fit.is_extended ? "in extended precision: " : "",
+        fit.agrees() ? "yes" : "not yet", extended_text(fit),
         escape_html(fmt::format("{}", fmt::join(fit.labels, ", "))));
   }
   return table_html(
