@@ -13,7 +13,7 @@ namespace hamjet::benchmarks {
 namespace {
 
 constexpr std::size_t variables = 6;
-constexpr std::size_t points_at_once = 1024;  // as `hamjet eval` takes them
+constexpr std::size_t points_at_once = 4096;  // as `hamjet eval` takes them
 constexpr int repeats = 41;
 
 double median(std::vector<double> values) {
