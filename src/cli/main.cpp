@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "compare_command.hpp"
+#include "eval_command.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/version.hpp"
 #include "interruption.hpp"
@@ -26,6 +27,8 @@ constexpr const char* examples = R"(Examples:
   hamjet transfer scene.toml                velocity changes between relative positions; a report
   hamjet validity scene.toml                how far from the chief the polynomials are right
   hamjet assign scene.toml                  deputies to slots at the least total velocity change
+  hamjet eval out/scene --deviation 100,0,0,0,0.1,0
+                                            a relative state (RTN: m, m/s) through the stored jet
   hamjet check scene.toml                   what would be computed, and the memory it takes
   hamjet list integrators
 
@@ -49,6 +52,41 @@ void add_override_option(CLI::App& command, hamjet::cli::RunOptions& options) {
                   "integrator.gauss8.tolerance=1e-12; key=null removes it; may be repeated")
       ->type_size(1)
       ->allow_extra_args(false);
+}
+
+CLI::App* add_eval_command(CLI::App& app, hamjet::cli::EvalOptions& options) {
+  CLI::App* eval = app.add_subcommand(
+      "eval",
+      "map relative states at the start through a stored jet to the end of its duration\n"
+      "Example: hamjet eval out/scene --deviations start.csv -o end.csv");
+  eval->add_option("directory", options.directory, "results of hamjet run")->required();
+  eval->add_option("--deviation", options.deviation,
+                   "one deviation, x,y,z,vx,vy,vz along the axes of the frame in m and m/s; in the "
+                   "frame canonical one number a variable of the jet")
+      ->type_name("NUMBERS");
+  eval->add_option("--deviations", options.deviations,
+                   "CSV file of many; its first line names the columns: R_m, T_m, N_m, vR_m_s, "
+                   "vT_m_s, vN_m_s (RTN), x_m, y_m, z_m, vx_m_s, vy_m_s, vz_m_s (inertial), or the "
+                   "jet's variables (canonical)")
+      ->type_name("FILE");
+  eval->add_option("--run", options.run, "label of the run (default: the first with a result)")
+      ->type_name("LABEL");
+  eval->add_option("--frame", options.frame,
+                   "RTN (default: radial, transverse, normal of the chief), inertial, or canonical")
+      ->type_name("FRAME");
+  eval->add_option("--derivatives", options.derivatives,
+                   "of RTN: rotating (default: velocities as seen from the turning axes) or "
+                   "inertial")
+      ->type_name("KIND");
+  eval->add_option("--degree", options.degree, "leave out terms above this degree")->type_name("K");
+  eval->add_option("-o,--output", options.output,
+                   "CSV file of the final states with estimates of the miss (default: standard "
+                   "output)")
+      ->type_name("FILE");
+  eval->add_flag("--json", options.json,
+                 "print statistics and, of up to 100 deviations, the final states as JSON");
+  eval->add_flag("-q,--quiet", options.quiet, "no time and counts on standard error");
+  return eval;
 }
 
 /// A word as a shell takes it literally.
@@ -99,12 +137,22 @@ int dispatch(int argc, char** argv) {
     add_override_option(*study, options);
     return study;
   };
-  const CLI::App* transfer = add_study(
+  hamjet::cli::TransferOptions transfers;
+  CLI::App* transfer = add_study(
       "transfer", "velocity changes from one relative position to another, for every time");
+  const CLI::Option* jet =
+      transfer->add_option("--jet", transfers.directory,
+                           "directory with the results of `hamjet run`: take the jet stored there "
+                           "instead of computing; its duration is the transfer time");
+  transfer->add_option("--run", transfers.run, "whose jet: the label of the integrator")
+      ->needs(jet);
   const CLI::App* validity =
       add_study("validity", "how far from the chief the polynomials are right, along time");
   const CLI::App* assign =
       add_study("assign", "send deputies to slots at the least total velocity change");
+
+  hamjet::cli::EvalOptions evaluation;
+  const CLI::App* eval = add_eval_command(app, evaluation);
 
   std::string what;
   CLI::App* list = app.add_subcommand("list", "list systems, integrators or kinds");
@@ -128,6 +176,7 @@ int dispatch(int argc, char** argv) {
   }
   for (int i = 0; i < argc; ++i) options.command += (i == 0 ? "" : " ") + in_shell_quotes(argv[i]);
   if (*list) return hamjet::cli::list(what);
+  if (*eval) return hamjet::cli::eval(evaluation);
   if (*check) return hamjet::cli::check(options);
   if (*compare) {
     comparison.scene.command = options.command;
@@ -135,7 +184,7 @@ int dispatch(int argc, char** argv) {
     if (plots == "png") comparison.plots = hamjet::io::PlotFormat::png;
     return hamjet::cli::compare(comparison);
   }
-  if (*transfer) return hamjet::cli::transfer(options);
+  if (*transfer) return hamjet::cli::transfer(options, transfers);
   if (*validity) return hamjet::cli::validity(options);
   if (*assign) return hamjet::cli::assign(options);
   return hamjet::cli::run(options);

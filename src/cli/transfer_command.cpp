@@ -6,8 +6,10 @@
 #include <string_view>
 
 #include "../io/scene_message.hpp"
+#include "hamjet/algebra/composition.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/io/relative_motion_report.hpp"
+#include "hamjet/io/stored_jet.hpp"
 #include "report_origin.hpp"
 #include "study_command.hpp"
 
@@ -50,9 +52,30 @@ bool is_zero(const RelativeState& state) {
   return state.position_m.isZero(0) && state.velocity_m_s.isZero(0);
 }
 
+/// The stored jet, if it is of the scene's chief.
+EarlierJet earlier_jet(const TransferOptions& transfers, const Scene& scene) {
+  const io::StoredJet stored = io::read_stored_jet(*transfers.directory, transfers.run);
+  const auto refuse_jet = [&](const std::string& problem) {
+    throw Error(
+        ErrorKind::scene,
+        fmt::format("{}: the jet of {} {}", io::printable(*transfers.directory, std::string::npos),
+                    stored.label, problem));
+  };
+  const bool is_same_chief =
+      stored.model == scene.system.model && stored.units.length_km == scene.units.length_km &&
+      stored.units.time_s == scene.units.time_s && stored.nominal_initial == scene.nominal;
+  if (!is_same_chief) refuse_jet("is about another orbit than the scene's");
+  if (stored.components.size() != scene.nominal.size() ||
+      stored.variables.size() != scene.nominal.size()) {
+    refuse_jet("is not expanded in all six variables, which transfers need");
+  }
+  if (stored.duration == 0) refuse_jet("has the duration 0, in which nothing can be transferred");
+  return {stored.label, stored.duration, convert_map<double>(stored.jet)};
+}
+
 }  // namespace
 
-int transfer(const RunOptions& options) {
+int transfer(const RunOptions& options, const TransferOptions& transfers) {
   const Scene scene = read_scene(options);
   require_table(options, scene.transfer.has_value(), "transfer",
                 "frame = \"RTN\", times_s = [1200, 1800], start = {position_m = [0, -1000, 0]}, "
@@ -62,9 +85,11 @@ int transfer(const RunOptions& options) {
            "missing, must be a table with position_m, as must transfer.end; `hamjet assign` works "
            "on this scene's deputies and slots");
   }
+  std::optional<EarlierJet> earlier;
+  if (transfers.directory) earlier = earlier_jet(transfers, scene);
   return report_study(options, scene.name, [&](const ProgressCallback& progress) {
-    const TransferResult result =
-        study_of(options, [&] { return study_transfer(scene, progress); });
+    const TransferResult result = study_of(
+        options, [&] { return study_transfer(scene, progress, earlier ? &*earlier : nullptr); });
     std::optional<RelativeTrajectory> trajectory;
     if (const auto best = result.best_point()) {
       trajectory = fly_relative(result, *best, trajectory_intervals);

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "scene_options.hpp"
 
 // The studies of relative motion. Each writes its results and returns the exit code; Error(scene)
@@ -7,8 +10,14 @@
 
 namespace hamjet::cli {
 
+/// A jet that `hamjet run` has stored, to be used instead of computing.
+struct TransferOptions {
+  std::optional<std::string> directory;
+  std::optional<std::string> run;  ///< label; absent: the first run that has a result
+};
+
 /// Velocity changes from one relative position to another, for each transfer time.
-int transfer(const RunOptions& options);
+int transfer(const RunOptions& options, const TransferOptions& transfers);
 
 /// How far from the chief each order's polynomial is right.
 int validity(const RunOptions& options);

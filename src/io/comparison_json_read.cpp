@@ -1,105 +1,12 @@
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <limits>
 #include <nlohmann/json.hpp>
 
-#include "hamjet/error.hpp"
 #include "hamjet/io/comparison_report.hpp"
+#include "json_reader.hpp"
 
 namespace hamjet::io {
 namespace {
 
-using Json = nlohmann::json;
-
-[[noreturn]] void fail(const std::string& path, const std::string& what) {
-  throw Error(ErrorKind::input_output, fmt::format("compare.json: {}: {}", path, what));
-}
-
-/// A value of the file together with its place in it, for messages.
-class Value {
- public:
-  Value(const Json& json, std::string path) : json_(&json), path_(std::move(path)) {}
-
-  Value at(const char* key) const {
-    if (!json_->is_object()) fail(path_, "must be an object");
-    const auto found = json_->find(key);
-    const std::string path = path_.empty() ? key : path_ + "." + key;
-    if (found == json_->end()) fail(path, "is missing");
-    return {*found, path};
-  }
-
-  bool is_null() const { return json_->is_null(); }
-
-  double number() const {
-    if (json_->is_number()) return json_->get<double>();
-    if (json_->is_string()) {
-      constexpr double infinity = std::numeric_limits<double>::infinity();
-      const auto& text = json_->get_ref<const std::string&>();
-      if (text == "inf") return infinity;
-      if (text == "-inf") return -infinity;
-      if (text == "nan") return std::numeric_limits<double>::quiet_NaN();
-    }
-    fail(path_, "must be a number, \"inf\", \"-inf\" or \"nan\"");
-  }
-
-  template <class Integer>
-  Integer integer() const {
-    if (!json_->is_number_integer()) fail(path_, "must be an integer");
-    // Both representations that the parser has are compared without conversion.
-    const bool is_unsigned = json_->is_number_unsigned();
-    if (is_unsigned ? !std::in_range<Integer>(json_->get<std::uint64_t>())
-                    : !std::in_range<Integer>(json_->get<std::int64_t>())) {
-      fail(path_, "is out of range");
-    }
-    return json_->get<Integer>();
-  }
-
-  bool boolean() const {
-    if (!json_->is_boolean()) fail(path_, "must be true or false");
-    return json_->get<bool>();
-  }
-
-  std::string text() const {
-    if (!json_->is_string()) fail(path_, "must be a string");
-    return json_->get<std::string>();
-  }
-
-  std::string text_or_empty() const { return is_null() ? std::string() : text(); }
-
-  std::optional<double> optional_number() const {
-    return is_null() ? std::nullopt : std::optional(number());
-  }
-
-  template <class Read>
-  auto list(Read read) const {
-    if (!json_->is_array()) fail(path_, "must be an array");
-    std::vector<decltype(read(*this))> values;
-    values.reserve(json_->size());
-    for (std::size_t i = 0; i < json_->size(); ++i) {
-      values.push_back(read(Value((*json_)[i], fmt::format("{}[{}]", path_, i))));
-    }
-    return values;
-  }
-
-  std::vector<double> numbers() const {
-    return list([](const Value& value) { return value.number(); });
-  }
-
-  /// The enumerator whose name this is.
-  template <class Enumeration>
-  Enumeration one_of(const std::vector<std::string_view>& names) const {
-    const auto found = std::find(names.begin(), names.end(), text());
-    if (found == names.end()) fail(path_, "must be one of the known names");
-    return static_cast<Enumeration>(found - names.begin());
-  }
-
- private:
-  const Json* json_;
-  std::string path_;
-};
-
-IntegratorSettings read_settings(const Value& value) {
+IntegratorSettings read_settings(const JsonReader& value) {
   IntegratorSettings settings;
   settings.label = value.at("label").text();
   settings.method = value.at("method").one_of<IntegrationMethod>(method_names());
@@ -113,7 +20,7 @@ IntegratorSettings read_settings(const Value& value) {
   return settings;
 }
 
-IntegrationStatistics read_statistics(const Value& value) {
+IntegrationStatistics read_statistics(const JsonReader& value) {
   IntegrationStatistics statistics;
   statistics.steps = value.at("steps").integer<long>();
   statistics.rejected_steps = value.at("rejected_steps").integer<long>();
@@ -123,24 +30,24 @@ IntegrationStatistics read_statistics(const Value& value) {
   return statistics;
 }
 
-ExactnessResidual read_residual(const Value& value) {
+ExactnessResidual read_residual(const JsonReader& value) {
   return {value.at("degree").integer<int>(), value.at("absolute").number(),
           value.at("scaled").number(), value.at("at_formation_scale").optional_number()};
 }
 
-ExactnessEntry read_exactness(const Value& value) {
+ExactnessEntry read_exactness(const JsonReader& value) {
   ExactnessEntry entry{read_residual(value), std::nullopt};
-  const Value floor = value.at("floor");
+  const JsonReader floor = value.at("floor");
   if (!floor.is_null()) entry.floor = read_residual(floor);
   return entry;
 }
 
-SymplecticityDefect read_symplecticity(const Value& value) {
+SymplecticityDefect read_symplecticity(const JsonReader& value) {
   return {value.at("degree").integer<int>(), value.at("absolute").number(),
           value.at("scaled").number()};
 }
 
-ComparedRun read_run(const Value& value) {
+ComparedRun read_run(const JsonReader& value) {
   ComparedRun run;
   run.settings = read_settings(value.at("settings"));
   run.series = value.at("series").text();
@@ -157,16 +64,16 @@ ComparedRun read_run(const Value& value) {
   run.exactness_failure = value.at("exactness_failure").text_or_empty();
   run.symplecticity = value.at("symplecticity").list(read_symplecticity);
   run.energy_error = value.at("energy_error").number();
-  const Value corner = value.at("corner");
+  const JsonReader corner = value.at("corner");
   if (!corner.is_null()) run.corner = corner.one_of<Corner>(corner_names());
   return run;
 }
 
-RunAlongTime read_along_time(const Value& value) {
+RunAlongTime read_along_time(const JsonReader& value) {
   RunAlongTime run;
   run.label = value.at("label").text();
   run.failure = value.at("failure").text_or_empty();
-  run.points = value.at("points").list([](const Value& point) {
+  run.points = value.at("points").list([](const JsonReader& point) {
     return RunAlongTime::Point{point.at("time_canonical").number(),
                                point.at("exactness").optional_number(),
                                point.at("condition").number(), point.at("energy_error").number()};
@@ -175,25 +82,13 @@ RunAlongTime read_along_time(const Value& value) {
   return run;
 }
 
-Json parse(std::string_view text) {
-  try {
-    return Json::parse(text);
-  } catch (const Json::parse_error& error) {
-    fail(fmt::format("byte {}", error.byte), "is not valid JSON");
-  } catch (const Json::exception&) {
-    // A number beyond the range of a double is refused by another exception than a wrong character.
-    fail("a number", "is out of range");
-  }
-}
-
 }  // namespace
 
 EarlierRuns read_comparison_runs(std::string_view text) {
-  const Json json = parse(text);
-  if (!json.is_object()) fail("the file", "must be an object");
-  const Value root(json, "");
+  const nlohmann::json json = JsonReader::parse(text, "compare.json");
+  const JsonReader root(json, "compare.json");
   if (root.at("schema").integer<int>() != 1) {
-    fail("schema", "must be 1: the file is of another version");
+    root.at("schema").fail("must be 1: the file is of another version");
   }
   EarlierRuns earlier;
   earlier.determinants = root.at("determinants").text();

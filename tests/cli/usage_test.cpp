@@ -17,7 +17,7 @@ TEST_F(Usage, HelpBeginsWithExamples) {
 }
 
 TEST_F(Usage, EveryCommandHasHelp) {
-  for (const char* command : {"run", "check", "demo", "list"}) {
+  for (const char* command : {"run", "check", "demo", "eval", "list"}) {
     const CommandResult result = succeed({command, "--help"});
     EXPECT_NE(result.out.find(std::string("Usage: hamjet ") + command), std::string::npos)
         << result.out;

@@ -4,7 +4,8 @@
 
 #include "cases.hpp"
 
-/// Without arguments all benchmarks; otherwise those named: integrators, products, orders, savings.
+/// Without arguments all benchmarks; otherwise those named: products, evaluation,
+/// integrators, orders, savings.
 int main(int argc, char** argv) {
   using namespace hamjet::benchmarks;
   const auto wanted = [&](const std::string& name) {
@@ -16,6 +17,7 @@ int main(int argc, char** argv) {
   };
   fmt::print("single thread; medians of interleaved repeats: compare ratios within one table\n");
   if (wanted("products")) benchmark_products();
+  if (wanted("evaluation")) benchmark_evaluation();
   if (wanted("integrators")) benchmark_integrators();
   if (wanted("orders")) benchmark_orders();
   if (wanted("savings")) benchmark_savings();

@@ -39,6 +39,7 @@ FlowJet<Extended> reference_jet(const Case& c);
 // The benchmarks, each printing its table.
 void benchmark_integrators();
 void benchmark_products();
+void benchmark_evaluation();
 void benchmark_orders();
 void benchmark_savings();
 

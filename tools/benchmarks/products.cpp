@@ -1,10 +1,11 @@
 #include <fmt/format.h>
 
-#include <functional>
-#include <utility>
+#include <algorithm>
+#include <vector>
 
 #include "cases.hpp"
 #include "hamjet/algebra/slice_product.hpp"
+#include "peak_rate.hpp"
 #include "timing.hpp"
 
 namespace hamjet::benchmarks {
@@ -13,47 +14,13 @@ namespace {
 constexpr int lanes = 8;
 using P = Pack<double, lanes>;
 
-/// Keeps the compiler from seeing what happens to an object.
-template <class T>
-void forget(T& object) {
-  asm volatile("" : : "r"(&object) : "memory");
-}
-
-/// Multiply-adds of reals a second with all operands in registers: independent chains, enough to
-/// cover the latency.
-double peak_rate() {
-  using V = P::Vector;
-  constexpr long rounds = 3'000'000;
-  const auto run = [] {
-    const V factor(0.9999999);
-    const V term(1e-9);
-    V a(1.0), b(1.1), c(1.2), d(1.3), e(1.4), f(1.5), g(1.6), h(1.7), i(1.8), j(1.9), k(2.0),
-        l(2.1);
-    for (long r = 0; r < rounds; ++r) {
-      a = a * factor + term;
-      b = b * factor + term;
-      c = c * factor + term;
-      d = d * factor + term;
-      e = e * factor + term;
-      f = f * factor + term;
-      g = g * factor + term;
-      h = h * factor + term;
-      i = i * factor + term;
-      j = j * factor + term;
-      k = k * factor + term;
-      l = l * factor + term;
-    }
-    volatile double sink = std::experimental::reduce(a + b + c + d + e + f + g + h + i + j + k + l);
-    static_cast<void>(sink);
-  };
-  const double seconds = median_seconds({run}, 5)[0];
-  return static_cast<double>(12 * rounds * P::width) / seconds;
-}
-
 }  // namespace
 
 void benchmark_products() {
-  const double peak = peak_rate();
+  std::vector<double> samples;
+  for (int r = 0; r < 5; ++r) samples.push_back(peak_rate());
+  std::nth_element(samples.begin(), samples.begin() + 2, samples.end());
+  const double peak = samples[2];
   fmt::print(
       "\n(b) products of series on packs of {} lanes, 6 variables; peak {:.1f} Gmultiply-adds/s\n",
       lanes, peak * 1e-9);

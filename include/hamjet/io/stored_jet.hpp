@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hamjet/algebra/extended.hpp"
+#include "hamjet/integrators/flow_problem.hpp"
+#include "hamjet/studies/scene.hpp"
+
+namespace hamjet::io {
+
+/// The jet of one run as `hamjet run` has stored it. Indices are those of the model's state (q, p);
+/// numbers are canonical.
+struct StoredJet {
+  std::string scene;  ///< its name
+  std::string label;  ///< of the run
+  SystemModel model = SystemModel::zonal_gravity;
+  Precision precision = Precision::double_precision;  ///< of the coefficients as printed
+  CanonicalUnits units;
+  double duration = 0;
+  std::vector<double> nominal_initial;  ///< all 2n components of the model
+  std::vector<double> nominal_final;
+  /// Components that were computed, ascending; the others are zero throughout, whatever the
+  /// deviation in the variables.
+  std::vector<std::size_t> components;
+  std::vector<std::size_t> variables;  ///< expanded in, ascending
+  /// One series a component. The printed digits bring back the numbers of the run bit by bit; in
+  /// double precision they are doubles.
+  FlowJet<Extended> jet;
+
+  int order() const { return jet.at(0).order(); }
+};
+
+/// Reads `summary.json` and `<label>/jet.csv` of a results directory: the run with this label, or
+/// else the first that has a result. Throws Error(input_output), one line with the file and the
+/// line or key, if anything is missing, damaged, of another version or of a failed run;
+/// Error(usage) if no run has this label.
+StoredJet read_stored_jet(const std::filesystem::path& directory,
+                          const std::optional<std::string>& label = {});
+
+}  // namespace hamjet::io

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "hamjet/algebra/truncated_power_series.hpp"
+
+namespace hamjet {
+
+/// Where an evaluation puts its results, each with as many numbers as components times points, or
+/// none where a result is not wanted; laid out as MapEvaluator says.
+struct MapValues {
+  std::span<double> values;        ///< sum over all degrees 0..N
+  std::span<double> last;          ///< the share of degree N, which `values` contains
+  std::span<double> last_but_one;  ///< the share of degree N-1 (0 for N = 0), likewise
+};
+
+/// A polynomial map in double precision, prepared for the evaluation at many points.
+///
+/// Points and values are structures of arrays: of M points, variable i of point j is at i M + j,
+/// and component c of its value at c M + j.
+///
+/// Notation: m_k the monomials of degree d, graded as in SeriesSpace. Each is a variable times a
+/// monomial of degree d-1, its parent:
+///
+///   m_k = x_i m_parent(k) ,   u_c,d = sum over k of degree d of a_c,k m_k ,   u_c = sum_d u_c,d ,
+///
+/// one multiplication a monomial, and one multiply-add a monomial and component; those of degree N
+/// are used at once and not stored. The degrees are summed separately, the highest first, so that
+/// small terms are not lost and the last two are had for nothing. Points are taken a block at a
+/// time, one to a lane of a Pack; a lane never sees another's numbers, so that a NaN stays with its
+/// point.
+///
+/// An evaluator is immutable: threads may share one. A call allocates one scratch of a few dozen
+/// kilobytes, whatever the number of points.
+class MapEvaluator {
+ public:
+  /// The components must have one space in common; terms above `degree` are left out (absent: none
+  /// are). Throws Error(usage) for no components, and for a degree outside 0 to the order.
+  explicit MapEvaluator(std::span<const Series<double>> map, std::optional<int> degree = {});
+
+  std::size_t variables() const noexcept { return variables_; }
+  std::size_t components() const noexcept { return components_; }
+  /// N: that at which the map is truncated.
+  int degree() const noexcept { return degree_; }
+
+  /// Throws Error(usage) if a size is not that of `points`.
+  void evaluate(std::span<const double> points, const MapValues& results) const;
+
+  /// Multiply-adds by coefficients: components times monomials of degree 1 to N. The products that
+  /// form the monomials are not among them.
+  std::size_t multiply_adds_per_point() const noexcept;
+  /// Products that form the monomials of degree 2 to N.
+  std::size_t products_per_point() const noexcept;
+
+ private:
+  std::size_t variables_;
+  std::size_t components_;
+  int degree_;
+  std::size_t monomials_;  ///< of degree 0..N
+  /// For every group of components that are evaluated together, monomial by monomial, those of the
+  /// group next to each other.
+  std::vector<double> coefficients_;
+};
+
+}  // namespace hamjet

@@ -1,0 +1,256 @@
+#include "eval_command.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "../io/scene_message.hpp"
+#include "../io/text_file.hpp"
+#include "eval_coordinates.hpp"
+#include "hamjet/error.hpp"
+#include "hamjet/io/number_table.hpp"
+#include "hamjet/io/output_directory.hpp"
+#include "hamjet/io/stored_jet.hpp"
+#include "interruption.hpp"
+#include "jet_evaluation.hpp"
+#include "standard_streams.hpp"
+
+namespace hamjet::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Support = TruncationEstimate::Support;
+
+/// More rows than this are not printed as JSON, but counted only.
+constexpr std::size_t most_json_rows = 100;
+
+[[noreturn]] void refuse(const std::string& what) { throw Error(ErrorKind::usage, what); }
+
+void refuse_empty(const std::optional<std::string>& value, const char* option, const char* what) {
+  if (value && value->empty()) refuse(fmt::format("{}: empty, must name {}", option, what));
+}
+
+void check_options(const EvalOptions& options) {
+  refuse_empty(options.directory, "directory", "the results of hamjet run");
+  refuse_empty(options.deviations, "--deviations", "a file");
+  refuse_empty(options.run, "--run", "a run");
+  refuse_empty(options.output, "--output", "a file");
+  check_frame(options.frame, options.derivatives);
+  if (options.deviation && options.deviations) {
+    refuse("--deviation and --deviations: must not both be given");
+  }
+  if (!options.deviation && !options.deviations) {
+    refuse("nothing to evaluate; give --deviation with numbers or --deviations with a CSV file");
+  }
+}
+
+/// The one file that the user named, written in full or not at all.
+class OutputFile {
+ public:
+  explicit OutputFile(const std::filesystem::path& file) : name_(file.filename()) {
+    std::error_code ignored;
+    const auto status = std::filesystem::status(file, ignored);
+    // A rename would put a file in the place of a device such as /dev/null.
+    if (name_.empty() || (exists(status) && !is_regular_file(status))) {
+      throw Error(ErrorKind::input_output, fmt::format("{}: cannot be written: not a regular file",
+                                                       io::printable_path(file)));
+    }
+    const auto folder = file.parent_path();
+    directory_ = std::make_unique<io::OutputDirectory>(folder.empty() ? "." : folder);
+  }
+
+  void write(const std::string& text) {
+    const UninterruptedWriting results;
+    directory_->write(name_, text);
+    directory_->commit();
+  }
+
+ private:
+  std::filesystem::path name_;
+  std::unique_ptr<io::OutputDirectory> directory_;
+};
+
+io::NumberTable read_deviations(const EvalOptions& options,
+                                const std::vector<std::string_view>& columns) {
+  if (options.deviations) {
+    const std::filesystem::path file = *options.deviations;
+    return io::read_number_table(io::printable_path(file), io::read_text_file(file), columns,
+                                 stop_if_interrupted);
+  }
+  std::vector<std::string_view> fields;
+  io::split_line(*options.deviation, fields);
+  io::NumberTable table{columns.size(), {}};
+  if (fields.size() != columns.size()) {
+    refuse(fmt::format("--deviation: must be {} numbers between commas, {}, got {}", columns.size(),
+                       fmt::join(columns, ","), io::in_quotes(*options.deviation)));
+  }
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    const auto number = io::finite_number(fields[i]);
+    if (!number) {
+      refuse(fmt::format("--deviation: {} must be a finite number, got {}", columns[i],
+                         io::in_quotes(fields[i])));
+    }
+    table.numbers.push_back(*number);
+  }
+  return table;
+}
+
+const char* support_name(Support support) {
+  switch (support) {
+    case Support::inside:
+      return "inside";
+    case Support::outside:
+      return "outside";
+    case Support::unknown:
+      break;
+  }
+  return "unknown";
+}
+
+/// What has been evaluated, as it is printed.
+class Output {
+ public:
+  Output(const std::vector<std::string_view>& columns, std::size_t rows)
+      : columns_(columns), has_json_rows_(rows <= most_json_rows) {
+    fmt::format_to(std::back_inserter(csv_), "{},miss_estimate_m,support\n",
+                   fmt::join(columns, ","));
+  }
+
+  void add(const std::vector<double>& state, const TruncationEstimate& estimate) {
+    const bool is_inside = estimate.support == Support::inside;
+    const auto write = std::back_inserter(csv_);
+    for (const double x : state) fmt::format_to(write, "{},", x);
+    if (is_inside) fmt::format_to(write, "{:.3g}", estimate.miss);
+    fmt::format_to(write, ",{}\n", support_name(estimate.support));
+    if (is_inside) largest_miss_ = std::max(largest_miss_.value_or(0), estimate.miss);
+    outside_ += estimate.support == Support::outside ? 1 : 0;
+    unknown_ += estimate.support == Support::unknown ? 1 : 0;
+    if (!has_json_rows_) return;
+    Json row;
+    for (std::size_t i = 0; i < state.size(); ++i) row[std::string(columns_[i])] = state[i];
+    row["miss_estimate_m"] = is_inside ? Json(estimate.miss) : Json(nullptr);
+    row["support"] = support_name(estimate.support);
+    json_rows_.push_back(std::move(row));
+  }
+
+  std::string csv() const { return fmt::to_string(csv_); }
+  Json json_rows() const { return has_json_rows_ ? json_rows_ : Json(nullptr); }
+  std::size_t outside() const { return outside_; }
+  std::size_t unknown() const { return unknown_; }
+  /// Of the rows inside.
+  std::optional<double> largest_miss() const { return largest_miss_; }
+
+ private:
+  const std::vector<std::string_view>& columns_;
+  bool has_json_rows_;
+  fmt::memory_buffer csv_;
+  Json json_rows_ = Json::array();
+  std::size_t outside_ = 0;
+  std::size_t unknown_ = 0;
+  std::optional<double> largest_miss_;
+};
+
+std::string summary(const EvalOptions& options, const io::StoredJet& stored,
+                    const JetEvaluation& evaluation, const Output& output) {
+  const bool is_rtn = options.frame == "RTN";
+  const auto points = static_cast<double>(evaluation.points());
+  const auto multiply_adds = static_cast<double>(evaluation.evaluator().multiply_adds_per_point());
+  const Json json = {
+      {"scene", stored.scene},
+      {"run", stored.label},
+      {"model", model_names()[static_cast<std::size_t>(stored.model)]},
+      {"order", stored.order()},
+      {"degree", evaluation.evaluator().degree()},
+      {"frame", options.frame},
+      {"derivatives", is_rtn ? Json(options.derivatives.value_or("rotating")) : Json(nullptr)},
+      {"duration_s", stored.duration * stored.units.time_s},
+      {"points", evaluation.points()},
+      {"outside", output.outside()},
+      {"unknown", output.unknown()},
+      {"largest_miss_estimate_m",
+       output.largest_miss() ? Json(*output.largest_miss()) : Json(nullptr)},
+      {"evaluation",
+       {{"seconds", evaluation.seconds()},
+        {"nanoseconds_per_point", evaluation.seconds() / points * 1e9},
+        {"multiply_adds_per_point", evaluation.evaluator().multiply_adds_per_point()},
+        {"products_per_point", evaluation.evaluator().products_per_point()},
+        {"multiply_adds_per_second", multiply_adds * points / evaluation.seconds()}}},
+      {"rows", output.json_rows()}};
+  return json.dump(2) + "\n";
+}
+
+void report(const JetEvaluation& evaluation, const Output& output) {
+  const auto points = static_cast<double>(evaluation.points());
+  const std::size_t multiply_adds = evaluation.evaluator().multiply_adds_per_point();
+  print_error(fmt::format(
+      "points {}, evaluation alone {:.3g} s, {:.3g} ns a point, {} multiply-adds a point, "
+      "{:.3g} multiply-adds a second",
+      evaluation.points(), evaluation.seconds(), evaluation.seconds() / points * 1e9, multiply_adds,
+      static_cast<double>(multiply_adds) * points / evaluation.seconds()));
+  if (output.outside() > 0) {
+    print_error(fmt::format(
+        "{} of {} rows marked outside: the degrees of the series do not decay at such deviations",
+        output.outside(), evaluation.points()));
+  }
+  if (output.unknown() > 0) {
+    print_error(fmt::format(
+        "{} of {} rows marked unknown: {}", output.unknown(), evaluation.points(),
+        evaluation.evaluator().degree() < 2 ? "degree 1 alone has no decay to judge by"
+                                            : "their numbers are beyond double precision"));
+  }
+}
+
+}  // namespace
+
+int eval(const EvalOptions& options) {
+  check_options(options);
+  const io::StoredJet stored = io::read_stored_jet(options.directory, options.run);
+  if (options.degree && (*options.degree < 1 || *options.degree > stored.order())) {
+    refuse(fmt::format("--degree {}: must be 1 to the order of the jet, {}", *options.degree,
+                       stored.order()));
+  }
+  const EvalCoordinates coordinates(stored, options.frame, options.derivatives);
+  std::optional<OutputFile> file;
+  if (options.output) file.emplace(*options.output);
+  const io::NumberTable deviations = read_deviations(options, coordinates.initial_columns());
+
+  JetEvaluation evaluation(stored, options.degree);
+  Output output(coordinates.final_columns(), deviations.rows());
+  for (std::size_t row = 0; row < deviations.rows(); ++row) {
+    const auto variables = coordinates.variables(deviations.row(row));
+    if (!variables) {
+      const auto names = variable_names(stored.model);
+      std::string expanded;
+      for (const std::size_t v : stored.variables) expanded += fmt::format(" {}", names[v]);
+      const std::string what = fmt::format(
+          "the deviation leaves the variables that the jet is expanded in:{}", expanded);
+      if (options.deviation) refuse("--deviation: " + what);
+      throw Error(ErrorKind::input_output,
+                  fmt::format("{}:{}: {}", io::printable_path(*options.deviations),
+                              io::NumberTable::line(row), what));
+    }
+    evaluation.add(*variables);
+    if (evaluation.pending() < JetEvaluation::most_points && row + 1 < deviations.rows()) continue;
+    stop_if_interrupted();
+    evaluation.run([&](const std::vector<double>& deviation, const TruncationEstimate& estimate) {
+      output.add(coordinates.final_state(deviation), estimate);
+    });
+  }
+
+  if (file) file->write(output.csv());
+  // From here on a signal ends the program at once: what is printed cannot be taken back.
+  { const UninterruptedWriting results; }
+  if (options.json) {
+    print(summary(options, stored, evaluation, output));
+  } else if (!file) {
+    print(output.csv());
+  }
+  if (!options.quiet) report(evaluation, output);
+  return 0;
+}
+
+}  // namespace hamjet::cli

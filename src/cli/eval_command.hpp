@@ -1,0 +1,24 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace hamjet::cli {
+
+struct EvalOptions {
+  std::string directory;                  ///< results of `hamjet run`
+  std::optional<std::string> deviation;   ///< one deviation, numbers between commas
+  std::optional<std::string> deviations;  ///< a CSV file of them
+  std::optional<std::string> run;         ///< label of the integrator's run
+  std::string frame = "RTN";
+  std::optional<std::string> derivatives;  ///< of RTN: rotating (default) or inertial
+  std::optional<int> degree;               ///< truncates the jet
+  std::optional<std::string> output;       ///< CSV file; absent: standard output
+  bool json = false;
+  bool quiet = false;
+};
+
+/// Maps deviations through a stored jet; returns the exit code.
+int eval(const EvalOptions& options);
+
+}  // namespace hamjet::cli

@@ -1,0 +1,77 @@
+#include "jet_evaluation.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace hamjet::cli {
+namespace {
+
+/// The jet in double precision as a map of deviations: without the nominal's final state.
+std::vector<Series<double>> deviation_map(const FlowJet<Extended>& jet) {
+  std::vector<Series<double>> map;
+  for (const Series<Extended>& component : jet) {
+    Series<double>& rounded = map.emplace_back(component.space_pointer());
+    for (std::size_t k = 1; k < component.size(); ++k) rounded[k] = convert<double>(component[k]);
+  }
+  return map;
+}
+
+}  // namespace
+
+JetEvaluation::JetEvaluation(const io::StoredJet& stored, std::optional<int> degree)
+    : evaluator_(deviation_map(stored.jet), degree),
+      positions_(static_cast<std::size_t>(
+          std::lower_bound(stored.components.begin(), stored.components.end(),
+                           variable_names(stored.model).size() / 2) -
+          stored.components.begin())),
+      length_m_(stored.units.length_km * 1000) {}
+
+void JetEvaluation::add(const std::vector<double>& variables) { pending_.push_back(variables); }
+
+DegreeShares JetEvaluation::shares(std::size_t point) const {
+  const std::size_t count = pending_.size();
+  DegreeShares result;
+  double squares[3] = {0, 0, 0};
+  for (std::size_t c = 0; c < evaluator_.components(); ++c) {
+    const std::size_t place = c * count + point;
+    const double shares[3] = {values_[place] - last_[place] - last_but_one_[place],
+                              last_but_one_[place], last_[place]};
+    for (std::size_t i = 0; i < 3; ++i) squares[i] += shares[i] * shares[i];
+    if (c + 1 == positions_) {
+      result.lower.position = std::sqrt(squares[0]) * length_m_;
+      result.last_but_one.position = std::sqrt(squares[1]) * length_m_;
+      result.last.position = std::sqrt(squares[2]) * length_m_;
+    }
+  }
+  result.lower.state = std::sqrt(squares[0]);
+  result.last_but_one.state = std::sqrt(squares[1]);
+  result.last.state = std::sqrt(squares[2]);
+  return result;
+}
+
+void JetEvaluation::run(
+    const std::function<void(const std::vector<double>&, const TruncationEstimate&)>& take) {
+  const std::size_t count = pending_.size();
+  variables_.resize(evaluator_.variables() * count);
+  for (std::size_t j = 0; j < count; ++j) {
+    for (std::size_t i = 0; i < evaluator_.variables(); ++i) {
+      variables_[i * count + j] = pending_[j][i];
+    }
+  }
+  for (auto* results : {&values_, &last_, &last_but_one_}) {
+    results->resize(evaluator_.components() * count);
+  }
+  const auto start = std::chrono::steady_clock::now();
+  evaluator_.evaluate(variables_, {values_, last_, last_but_one_});
+  seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  points_ += count;
+  std::vector<double> deviation(evaluator_.components());
+  for (std::size_t j = 0; j < count; ++j) {
+    for (std::size_t c = 0; c < deviation.size(); ++c) deviation[c] = values_[c * count + j];
+    take(deviation, estimate_truncation(evaluator_.degree(), shares(j)));
+  }
+  pending_.clear();
+}
+
+}  // namespace hamjet::cli

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hamjet/algebra/extended.hpp"
+#include "hamjet/integrators/flow_problem.hpp"
+#include "hamjet/studies/scene.hpp"
+
+namespace hamjet::io {
+
+/// What a file `jet.csv` must hold, as its `summary.json` says.
+struct CoefficientFile {
+  std::string name;                     ///< for messages
+  std::vector<std::string_view> names;  ///< of the model's variables
+  std::vector<std::size_t> components;  ///< indices of names
+  std::vector<std::size_t> variables;   ///< indices of names, those expanded in
+  int order;
+  Precision precision;
+};
+
+/// Reads the text of a `jet.csv`: one row a component and monomial, in any order. Throws
+/// Error(input_output), one line with file and line, if it holds anything else.
+FlowJet<Extended> read_coefficients(const CoefficientFile& file, std::string_view text);
+
+}  // namespace hamjet::io

@@ -1,0 +1,140 @@
+#include "hamjet/io/stored_jet.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "hamjet/error.hpp"
+#include "hamjet/version.hpp"
+#include "json_reader.hpp"
+#include "scene_message.hpp"
+#include "stored_coefficients.hpp"
+#include "text_file.hpp"
+
+namespace hamjet::io {
+namespace {
+
+double finite_number(const JsonReader& value) {
+  const double number = value.number();
+  if (!std::isfinite(number)) value.fail("must be finite");
+  return number;
+}
+
+double positive_number(const JsonReader& value) {
+  const double number = finite_number(value);
+  if (!(number > 0)) value.fail("must be positive");
+  return number;
+}
+
+std::vector<double> state(const JsonReader& value, std::size_t dimension) {
+  std::vector<double> numbers = value.list(finite_number);
+  if (numbers.size() != dimension) {
+    value.fail(fmt::format("must have {} numbers, has {}", dimension, numbers.size()));
+  }
+  return numbers;
+}
+
+/// Indices of variables, which must ascend as the writer's do.
+std::vector<std::size_t> indices(const JsonReader& value,
+                                 const std::vector<std::string_view>& names) {
+  const auto result = value.list([&](const JsonReader& name) { return name.index_in(names); });
+  if (result.empty()) value.fail("must not be empty");
+  if (std::adjacent_find(result.begin(), result.end(), std::greater_equal<>()) != result.end()) {
+    value.fail("must ascend in the order of the state");
+  }
+  return result;
+}
+
+/// A label is the name of a folder; a damaged one must not lead elsewhere.
+void require_plain(const JsonReader& label) {
+  const std::string text = label.text();
+  if (text.empty() || text[0] == '.' || text.find_first_of(std::string("/\0", 2)) != text.npos) {
+    label.fail("must be the name of a folder of the results");
+  }
+}
+
+/// The run that is wanted; what is wrong with it is refused.
+JsonReader choose_run(const JsonReader& root, const std::optional<std::string>& label) {
+  const auto runs = root.at("runs").list([](const JsonReader& run) { return run; });
+  std::vector<std::string> labels;
+  for (const JsonReader& run : runs) {
+    require_plain(run.at("label"));
+    labels.push_back(run.at("label").text());
+    const std::string failure = run.at("error").text_or_empty();
+    if (label ? labels.back() == *label : failure.empty()) {
+      if (!failure.empty()) {
+        run.at("error").fail(fmt::format("the run {} has no result: {}", printable(labels.back()),
+                                         printable(failure, 300)));
+      }
+      return run;
+    }
+  }
+  if (!label) root.at("runs").fail("no run has a result");
+  throw Error(ErrorKind::usage, fmt::format("no run has the label {}; {}", printable(*label),
+                                            suggestion(*label, {labels.begin(), labels.end()})));
+}
+
+void require_this_version(const JsonReader& root) {
+  if (root.has("study")) root.at("study").fail("the results of this study have no flow jet");
+  const std::string stored = root.at("version").text();
+  if (stored != version) {
+    root.at("version").fail(
+        fmt::format("the results are of hamjet {}, this is {}; run the scene again",
+                    printable(stored), version));
+  }
+}
+
+}  // namespace
+
+StoredJet read_stored_jet(const std::filesystem::path& directory,
+                          const std::optional<std::string>& label) {
+  const std::filesystem::path summary = directory / "summary.json";
+  const std::string summary_name = printable_path(summary);
+  const nlohmann::json json = JsonReader::parse(read_text_file(summary), summary_name);
+  const JsonReader root(json, summary_name);
+  require_this_version(root);
+  StoredJet stored;
+  stored.scene = root.at("scene").text();
+  stored.model = root.at("model").one_of<SystemModel>(model_names());
+  stored.precision = root.at("precision").one_of<Precision>({"double", "extended"});
+  stored.units = {positive_number(root.at("units").at("length_km")),
+                  positive_number(root.at("units").at("time_s"))};
+  stored.duration = finite_number(root.at("duration_canonical"));
+  const auto names = variable_names(stored.model);
+  stored.nominal_initial = state(root.at("nominal_initial"), names.size());
+  stored.components = indices(root.at("components"), names);
+  stored.variables = indices(root.at("variables"), names);
+  if (!std::includes(stored.components.begin(), stored.components.end(), stored.variables.begin(),
+                     stored.variables.end())) {
+    root.at("variables").fail("must be among the components");
+  }
+  const int order = root.at("order").integer<int>();
+  const JsonReader count = root.at("coefficients_per_component");
+  // The count is a product of quotients, exact but for its last digits.
+  if (order < 1 || order > 60 ||
+      count.number() != std::round(SeriesSpace::monomial_count(stored.variables.size(), order))) {
+    count.fail(fmt::format("is not the number of coefficients of order {} in {} variables", order,
+                           stored.variables.size()));
+  }
+
+  const JsonReader run = choose_run(root, label);
+  stored.label = run.at("label").text();
+  stored.nominal_final = state(run.at("nominal_final"), names.size());
+  const std::filesystem::path file = directory / stored.label / "jet.csv";
+  stored.jet = read_coefficients(
+      {printable_path(file), names, stored.components, stored.variables, order, stored.precision},
+      read_text_file(file));
+  for (std::size_t c = 0; c < stored.components.size(); ++c) {
+    const std::size_t i = stored.components[c];
+    if (static_cast<double>(stored.jet[c].constant()) != stored.nominal_final[i]) {
+      run.at("nominal_final")
+          .fail(fmt::format("the {} is not that of {}: the files are of different runs", names[i],
+                            printable_path(file)));
+    }
+  }
+  return stored;
+}
+
+}  // namespace hamjet::io

@@ -1,0 +1,44 @@
+#include "hamjet/maps/truncation_estimate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace hamjet {
+namespace {
+
+using Support = TruncationEstimate::Support;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+bool is_finite(const DegreeShares::Norms& norms) {
+  return std::isfinite(norms.state) && std::isfinite(norms.position);
+}
+
+/// The mean rate of decay over `steps` degrees; 0 towards a share that vanishes.
+double mean_decay(double from, double to, int steps) {
+  return to > 0 ? std::pow(to / from, 1.0 / steps) : 0;
+}
+
+/// max(d_N q, d_(N-1) q^2) / (1 - q)
+double continued(double last, double last_but_one, double q) {
+  return std::max(last * q, last_but_one * q * q) / (1 - q);
+}
+
+}  // namespace
+
+TruncationEstimate estimate_truncation(int degree, const DegreeShares& shares) {
+  const auto& [lower, before, last] = shares;
+  const bool is_usable = degree >= 2 && is_finite(lower) && is_finite(before) && is_finite(last);
+  if (!is_usable) return {Support::unknown, infinity};
+  if (last.state == 0 && before.state == 0) return {Support::inside, 0};
+  const double leading = degree == 2 ? before.state : lower.state;
+  double decay = mean_decay(leading, last.state, degree - 1);
+  if (degree > 2) decay = std::max(decay, mean_decay(leading, before.state, degree - 2));
+  const bool is_gap = degree > 2 && before.state <= last.state * decay;
+  if (!is_gap) decay = std::max(decay, last.state / before.state);
+  const bool decays = decay < 1 && continued(last.state, before.state, decay) < leading;
+  if (!decays) return {Support::outside, infinity};
+  return {Support::inside, continued(last.position, before.position, decay)};
+}
+
+}  // namespace hamjet

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "command_test.hpp"
+
+namespace hamjet::test {
+
+inline const std::string rtn_header = "R_m,T_m,N_m,vR_m_s,vT_m_s,vN_m_s";
+
+/// Stores results and maps deviations through them.
+class EvalTest : public CommandTest {
+ protected:
+  /// Stores the results of a scene in a directory of that name.
+  void store(const std::string& name, const std::string& scene,
+             std::vector<std::string> more = {}) const {
+    write(name + ".toml", scene);
+    std::vector<std::string> arguments = {"run", name + ".toml", "-q", "-o", name};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    succeed(arguments);
+  }
+
+  Json eval_json(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), "eval");
+    arguments.insert(arguments.end(), {"--json", "-q"});
+    return Json::parse(succeed(arguments).out);
+  }
+
+  /// The only row, without its miss and mark.
+  std::vector<double> eval_one(const std::string& directory, const std::string& deviation,
+                               std::vector<std::string> more = {}) const {
+    std::vector<std::string> arguments = {"eval", directory, "--deviation", deviation, "-q"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    std::istringstream text(succeed(arguments).out);
+    std::string line;
+    std::getline(text, line);
+    std::getline(text, line);
+    std::istringstream fields(line);
+    std::vector<double> numbers;
+    for (std::string field; std::getline(fields, field, ',');) {
+      if (field != "inside" && field != "outside" && field != "unknown" && !field.empty()) {
+        numbers.push_back(std::stod(field));
+      }
+    }
+    if (!numbers.empty()) numbers.pop_back();
+    return numbers;
+  }
+};
+
+}  // namespace hamjet::test
