@@ -17,6 +17,7 @@ constexpr std::size_t degrees_of_freedom = 3;
 struct FramedTable {
   TableReader table;
   RelativeFrame frame;
+  std::string head;  ///< of the key that says so
 };
 
 /// The frame of a further table, which must be that of the first.
@@ -24,9 +25,8 @@ void require_one_frame(const FramedTable& first, const FramedTable& other) {
   if (first.frame == other.frame) return;
   const bool has_derivatives_only = other.table.has("derivatives") && !other.table.has("frame");
   const std::string_view key = has_derivatives_only ? "derivatives" : "frame";
-  other.table.fail(
-      key, fmt::format("different frames, got {}, where {} has {}, must be the same",
-                       frame_text(other.frame), first.table.head(key), frame_text(first.frame)));
+  other.table.fail(key, fmt::format("different frames, got {}, where {} has {}, must be the same",
+                                    frame_text(other.frame), first.head, frame_text(first.frame)));
 }
 
 /// One end; `fallback` is the table [transfer].
@@ -36,7 +36,7 @@ FramedTable read_end(const TableReader& fallback, std::string_view key, const No
   end.check_keys({{"frame", "derivatives", "position_m", "velocity_m_s"}});
   const RelativeFrame frame = read_relative_frame(end, fallback);
   state = read_relative_state(end, nominal);
-  return {end, frame};
+  return {end, frame, (end.has("frame") ? end : fallback).head("frame")};
 }
 
 std::string read_kind(const TableReader& transfer) {
@@ -92,7 +92,9 @@ TransferSettings read_transfer(const TableReader& transfer, const Scene& scene,
   require_relative_motion(transfer, scene);
   TransferSettings settings;
   std::optional<FramedTable> first;
-  if (transfer.has("frame")) first = {transfer, read_relative_frame(transfer, transfer)};
+  if (transfer.has("frame")) {
+    first = {transfer, read_relative_frame(transfer, transfer), transfer.head("frame")};
+  }
   if (needs_ends || transfer.has("start") || transfer.has("end")) {
     const FramedTable start = read_end(transfer, "start", nominal, settings.start);
     const FramedTable end = read_end(transfer, "end", nominal, settings.end);

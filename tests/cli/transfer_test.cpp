@@ -123,7 +123,8 @@ TEST_F(TransferCommand, PrintsItsSummaryAsJson) {
 
 TEST_F(TransferCommand, StartAndEndInDifferentFrames) {
   expect_error({"transfer", with("[0, 100, 0]", "[0, 100, 0]\nframe = \"inertial\"")}, 3,
-               {"changed.toml:27:9: transfer.end.frame: different frames, got inertial",
+               {"changed.toml:28:9: transfer.end.frame: different frames, got inertial, where "
+                "changed.toml:22:9: transfer.frame has",
                 "RTN with rotating derivatives"});
 }
 
@@ -163,7 +164,8 @@ TEST_F(TransferCommand, BeyondValidityIsMarkedAndFailsOnlyAStrictScene) {
   const std::string far = changed(transfer, "[0, -1000, 200]", "[0, -1000000, 0]");
   write("far.toml", circle + far);
   const CommandResult marked = succeed({"transfer", "far.toml"});
-  EXPECT_NE(marked.out.find("3 of the others beyond the tolerance of 1 m"), std::string::npos) << marked.out;
+  EXPECT_NE(marked.out.find("3 of the others beyond the tolerance of 1 m"), std::string::npos)
+      << marked.out;
   Json summary = read_json(directory_ / "out/far/summary.json");
   EXPECT_EQ(summary["counts"]["beyond_tolerance"], 3);
   EXPECT_TRUE(summary["best"].is_null());
