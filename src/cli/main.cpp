@@ -140,7 +140,7 @@ int dispatch(int argc, char** argv) {
   hamjet::cli::TransferOptions transfers;
   CLI::App* transfer = add_study(
       "transfer", "velocity changes from one relative position to another, for every time");
-  const CLI::Option* jet =
+  CLI::Option* jet =
       transfer->add_option("--jet", transfers.directory,
                            "directory with the results of `hamjet run`: take the jet stored there "
                            "instead of computing; its duration is the transfer time");

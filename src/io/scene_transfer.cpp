@@ -55,8 +55,8 @@ std::string read_kind(const TableReader& transfer) {
 /// Canonical.
 double read_singular_margin(const TableReader& transfer, const Nominal& nominal) {
   // At this distance from a half revolution the normal velocity on a circular orbit is
-  // 1 / sin(2 pi 0.005) = 32 times what a quarter revolution takes.
-  constexpr double default_revolutions = 0.005;
+  // 1 / sin(2 pi 0.01) = 16 times what a quarter revolution takes.
+  constexpr double default_revolutions = 0.01;
   const double period = nominal.period_s ? convert<double>(*nominal.period_s / nominal.scale.time_s)
                                          : 2 * std::numbers::pi;
   const bool has_seconds = transfer.has("singular_margin_s");

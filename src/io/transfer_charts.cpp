@@ -15,15 +15,22 @@ namespace {
 /// With fewer points a line alone would hide where they are.
 constexpr std::size_t fewest_points_without_markers = 25;
 
-constexpr const char* time_axis_label = "transfer time (s)";
+TimeAxis axis_of(const TransferResult& result) {
+  return time_axis(result.scene.transfer->times.back() * result.scene.units.time_s);
+}
+
+/// Of a canonical unit of time, in the axis's.
+double time_unit(const TransferResult& result) {
+  return result.scene.units.time_s / axis_of(result).seconds;
+}
 
 /// An empty chart over the transfer times, with what is singular shaded.
 Chart chart_over_time(const TransferResult& result, std::string name, std::string title) {
   Chart chart;
   chart.name = std::move(name);
   chart.title = std::move(title);
-  chart.x.label = time_axis_label;
-  const double unit = result.scene.units.time_s;
+  chart.x.label = fmt::format("transfer time ({})", axis_of(result).name);
+  const double unit = time_unit(result);
   const double margin = result.scene.transfer->singular_margin;
   for (const SingularTime& singular : result.position_singularities()) {
     chart.bands.push_back({(singular.time - margin) * unit, (singular.time + margin) * unit});
@@ -41,7 +48,7 @@ ChartCurve curve_over_time(const TransferResult& result, std::string title, std:
   curve.has_markers = result.points.size() < fewest_points_without_markers;
   for (const TransferPoint& point : result.points) {
     if (const std::optional<double> value = measure(point)) {
-      curve.points.emplace_back(point.time * result.scene.units.time_s, *value);
+      curve.points.emplace_back(point.time * time_unit(result), *value);
     } else {
       curve.gaps.push_back(curve.points.size());
     }
@@ -109,7 +116,7 @@ Chart velocity_change_chart(const TransferResult& result) {
                                  return point.is_beyond_tolerance && !point.is_near_singular;
                                }));
   if (const auto best = result.best_point()) {
-    chart.rules.push_back({true, result.points[*best].time * result.scene.units.time_s});
+    chart.rules.push_back({true, result.points[*best].time * time_unit(result)});
   }
   chart.reading = fmt::format(
       "What leaving the start and stopping at the end costs together, for every transfer time: the "
@@ -157,7 +164,7 @@ Chart miss_chart(const TransferResult& result) {
 Chart condition_chart(const TransferResult& result) {
   Chart chart = chart_over_time(result, "kind-conditions", "Condition of the kinds along time");
   chart.y = logarithmic_axis("condition of the linear part");
-  const double unit = result.scene.units.time_s;
+  const double unit = time_unit(result);
   const KindConditions& conditions = result.conditions;
   const auto curve_of = [&](std::string title, std::size_t style, auto measure) {
     ChartCurve curve;
@@ -189,8 +196,10 @@ Chart condition_chart(const TransferResult& result) {
       "A generating function exists where the block of the linear flow that it inverts is regular; "
       "its condition number says by how much errors grow in the inversion, and is infinite where "
       "the kind does not exist. A short stroke at the lower edge in a line's colour marks each "
-      "such time. Where F1 fails, another kind exists (lowest line), and its polynomials are used; "
-      "but a final position that cannot be commanded is not made commandable by it.";
+      "such time. Where F1 fails, another kind exists (lowest line); but a final position that "
+      "cannot be commanded is not made commandable by it. The kind \"auto\" is not the one of the "
+      "lowest line: it is the one whose inverted block changes least over the transfer, for its "
+      "polynomials decay fastest.";
   return chart;
 }
 

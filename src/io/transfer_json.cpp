@@ -48,7 +48,9 @@ Json singular_time_json(const SingularTime& singular, const CanonicalUnits& unit
           {"time_s", singular.time * units.time_s},
           {"smallest_ratio", json_number(singular.smallest_ratio)},
           {"second_ratio", json_number(singular.second_ratio)},
-          {"direction_inertial", vector_json(singular.direction)}};
+          {"direction_inertial", vector_json(singular.direction)},
+          {"direction_rtn",
+           singular.direction_rtn ? vector_json(*singular.direction_rtn) : Json(nullptr)}};
 }
 
 }  // namespace

@@ -98,22 +98,25 @@ std::string singular_table_html(const TransferResult& result) {
   if (times.empty()) return "<p>F1 exists at all times of the span.</p>\n";
   std::string rows;
   for (const SingularTime& singular : times) {
-    const Eigen::Vector3d& direction = singular.direction;
-    rows +=
-        "<tr>" + row_name_cell(fmt::format("{:.10g}", singular.time * result.scene.units.time_s)) +
-        cell(fmt::format("{:.12g}", singular.time)) +
-        cell(fmt::format("({:+.6f}, {:+.6f}, {:+.6f})", direction[0], direction[1], direction[2])) +
-        cell(fmt::format("{:.1e}", singular.smallest_ratio)) +
-        cell(fmt::format("{:.1e}", singular.second_ratio)) + "</tr>\n";
+    const auto text = [](const Eigen::Vector3d& direction) {
+      return fmt::format("({:+.6f}, {:+.6f}, {:+.6f})", direction[0], direction[1], direction[2]);
+    };
+    rows += "<tr>" +
+            row_name_cell(fmt::format("{:.10g}", singular.time * result.scene.units.time_s)) +
+            cell(fmt::format("{:.12g}", singular.time)) +
+            cell(singular.direction_rtn ? text(*singular.direction_rtn) : "no orbital plane") +
+            cell(text(singular.direction)) + cell(fmt::format("{:.1e}", singular.smallest_ratio)) +
+            cell(fmt::format("{:.1e}", singular.second_ratio)) + "</tr>\n";
   }
   return table_html(
       "Times at which F1 does not exist: no initial velocity commands the final position along the "
-      "direction, a unit vector along the inertial axes x, y, z of the orbit. The ratios are the "
+      "direction, a unit vector along the chief's R, T, N then, and along the inertial axes x, y, "
+      "z. The ratios are the "
       "two smallest singular values of dq/dp0 over the largest: two small ones say that a whole "
       "plane of directions is lost, or nearly.",
       "<tr>" +
-          header_cells(
-              {"time (s)", "canonical", "direction, inertial", "smallest ratio", "second ratio"}) +
+          header_cells({"time (s)", "canonical", "direction, RTN", "direction, inertial",
+                        "smallest ratio", "second ratio"}) +
           "</tr>",
       rows);
 }

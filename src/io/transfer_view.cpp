@@ -170,6 +170,12 @@ std::string time_text(double seconds) {
   return fmt::format("{:.6g} s ({:.1f} min)", seconds, seconds / 60);
 }
 
+TimeAxis time_axis(double longest_s) {
+  if (std::abs(longest_s) > 3 * 3600) return {3600, "h"};
+  if (std::abs(longest_s) > 600) return {60, "min"};
+  return {1, "s"};
+}
+
 std::string velocity_text(double metres_per_second) {
   return fmt::format("{:.4g} m/s", metres_per_second);
 }

@@ -64,6 +64,13 @@ std::string miss_text(double miss_m, double flight_floor_m);
 
 /// "5432 s (90.5 min)"
 std::string time_text(double seconds);
+
+/// The unit of an axis of time: minutes or hours where seconds would be long numbers.
+struct TimeAxis {
+  double seconds;    ///< in one unit
+  const char* name;  ///< as in "transfer time (h)"
+};
+TimeAxis time_axis(double longest_s);
 /// "12.3 m/s", to four digits.
 std::string velocity_text(double metres_per_second);
 

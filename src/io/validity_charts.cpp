@@ -64,8 +64,9 @@ void note_limits(const ValidityResult& result, Chart& chart) {
 
 Chart validity_time_chart(const ValidityResult& result) {
   Chart chart = separation_chart("validity-time", "Validity along time");
-  chart.x.label = "time (s)";
-  const double unit = result.scene.units.time_s;
+  const TimeAxis axis = time_axis(result.scene.validity->times.back() * result.scene.units.time_s);
+  chart.x.label = fmt::format("time ({})", axis.name);
+  const double unit = result.scene.units.time_s / axis.seconds;
   for (int order = 1; order <= result.scene.order; ++order) {
     std::vector<std::pair<double, double>> proved;
     std::vector<std::pair<double, double>> predicted;

@@ -7,8 +7,12 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <optional>
 
+#include "exact_flow.hpp"
+#include "hamjet/error.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
+#include "hamjet/relative_motion/chief_frame.hpp"
 
 namespace hamjet {
 namespace {
@@ -130,12 +134,24 @@ class ZeroSearch {
     add(0.5 * (bracket.first + bracket.second));
   }
 
+  /// Along R, T, N at a time, if there is an orbital plane.
+  std::optional<Eigen::Vector3d> along_rtn(double t, const Eigen::Vector3d& direction) const {
+    try {
+      const ChiefFrame frame(flow_.chief(t), MetricUnits{}, RelativeFrame::rtn_inertial);
+      return frame.along_axes(direction);
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::numerical) throw;
+      return std::nullopt;
+    }
+  }
+
   void add(double t) {
     const Eigen::Matrix3d block = inverted_block(flow_.at(t), kind_);
     const Eigen::JacobiSVD<Eigen::Matrix3d> decomposition(block, Eigen::ComputeFullU);
     const Eigen::Vector3d values = decomposition.singularValues();
-    found_.push_back(
-        {kind_, t, values[2] / values[0], values[1] / values[0], decomposition.matrixU().col(2)});
+    const Eigen::Vector3d direction = decomposition.matrixU().col(2);
+    found_.push_back({kind_, t, values[2] / values[0], values[1] / values[0], direction,
+                      along_rtn(t, direction)});
   }
 
   const LinearFlow& flow_;
@@ -169,10 +185,18 @@ LinearFlow::LinearFlow(const ComputedProblem& problem, double duration, std::siz
 
 double LinearFlow::interval() const { return times_[1] - times_[0]; }
 
+std::size_t LinearFlow::checkpoint_before(double time) const {
+  const auto last = static_cast<double>(times_.size() - 1);
+  return static_cast<std::size_t>(std::clamp(time / interval(), 0.0, last));
+}
+
+std::vector<double> LinearFlow::chief(double time) const {
+  const std::size_t before = checkpoint_before(time);
+  return exact_flow(problem_->system, states_[before], time - times_[before]);
+}
+
 LinearFlow::StateTransition LinearFlow::at(double time) const {
-  const double position =
-      std::clamp(time / interval(), 0.0, static_cast<double>(times_.size() - 1));
-  const auto before = static_cast<std::size_t>(position);
+  const std::size_t before = checkpoint_before(time);
   if (time == times_[before]) return matrices_[before];
   return linear_arc(problem_->system, space_, states_[before], time - times_[before]).matrix *
          matrices_[before];

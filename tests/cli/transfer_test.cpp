@@ -243,6 +243,23 @@ TEST_F(TransferCommand, ValidityIsProvedForEachOrder) {
   EXPECT_TRUE(std::filesystem::exists(directory_ / "out/validity/report.html"));
 }
 
+TEST_F(TransferCommand, TakesAStoredJet) {
+  // The jet's duration, 0.7 revolutions here, is the one transfer time.
+  succeed({"run", "transfer.toml", "-q", "-o", "jets", "--set", "jet.duration_orbits=0.7"});
+  succeed({"transfer", "transfer.toml", "-q", "-o", "stored", "--jet", "jets"});
+  succeed({"transfer", "transfer.toml", "-q", "-o", "computed", "--set",
+           "transfer.times_orbits=[0.7]"});
+  const Json stored = read_json(directory_ / "stored/summary.json")["best"];
+  const Json computed = read_json(directory_ / "computed/summary.json")["best"];
+  EXPECT_NEAR(stored["time_s"].get<double>(), computed["time_s"].get<double>(), 1e-9);
+  EXPECT_NEAR(stored["total_change_m_s"].get<double>(), computed["total_change_m_s"].get<double>(),
+              1e-6);
+  expect_error({"transfer", "transfer.toml", "--jet", "nowhere"}, 5, {"nowhere/summary.json"});
+  expect_error({"transfer", "transfer.toml", "--run", "gauss8"}, 2, {"--run requires --jet"});
+  expect_error({"transfer", "transfer.toml", "--jet", "jets", "--set", "nominal.i_deg=31"}, 3,
+               {"jets: the jet of gauss8 is about another orbit"});
+}
+
 TEST_F(TransferCommand, DeputiesGoToTheSlotsThatCostLeast) {
   succeed({"assign", "assignment.toml", "-q"});
   const Json summary = read_json(directory_ / "out/assignment/summary.json");

@@ -89,7 +89,7 @@ TEST(SceneTransfer, Defaults) {
   EXPECT_EQ(settings.tolerance_m, 1);
   EXPECT_FALSE(settings.refine);
   EXPECT_EQ(settings.refined_miss_m, 1e-3);
-  EXPECT_NEAR(settings.singular_margin, 0.005 * 2 * std::numbers::pi, 1e-15);
+  EXPECT_NEAR(settings.singular_margin, 0.01 * 2 * std::numbers::pi, 1e-15);
   EXPECT_FALSE(settings.strict);
 }
 
@@ -223,7 +223,7 @@ TEST(SceneTransfer, Errors) {
 TEST(SceneTransfer, NeedsAPeriodForOrbitsOnly) {
   const std::string open = changed(circle, "[0, 0.5, 0]", "[0, 0.8, 0]");
   EXPECT_NEAR(parse_scene(open + transfer, "x").transfer->singular_margin,
-              0.005 * 2 * std::numbers::pi, 1e-15);
+              0.01 * 2 * std::numbers::pi, 1e-15);
   const char* times = "times_s = [16, 32]";
   expect_scene_error(open + changed(transfer, times, "times_orbits = 1"),
                      {"transfer.times_orbits: no period", "times_s or times_canonical"});

@@ -104,12 +104,15 @@ TEST(TransferPage, ValidityBeginsWithTheSeparations) {
   EXPECT_LT(page.find(verdict), page.find("<main>"));
 }
 
+/// A canonical unit of time of the sample, in the charts' minutes.
+constexpr double minutes = 927.6 / 60;
+
 TEST(TransferCharts, ShadeTheMarginsAndMarkWhatIsDoubtful) {
   Chart chart = velocity_change_chart(sample_transfer());
   fit(chart);
   ASSERT_EQ(chart.bands.size(), 1U);  // the other one lies behind the last transfer time
-  EXPECT_DOUBLE_EQ(chart.bands[0].from, 2.96 * 927.6);
-  EXPECT_DOUBLE_EQ(chart.bands[0].to, 3.06 * 927.6);
+  EXPECT_DOUBLE_EQ(chart.bands[0].from, 2.96 * minutes);
+  EXPECT_DOUBLE_EQ(chart.bands[0].to, 3.06 * minutes);
   const ChartCurve* total = curve_named(chart, "both impulses");
   ASSERT_NE(total, nullptr);
   EXPECT_EQ(total->points.size(), 5U);
@@ -120,7 +123,7 @@ TEST(TransferCharts, ShadeTheMarginsAndMarkWhatIsDoubtful) {
   EXPECT_FALSE(near->is_filled);
   EXPECT_EQ(curve_named(chart, "order 2 misses by more than 1 m"), nullptr);
   ASSERT_EQ(chart.rules.size(), 1U);
-  EXPECT_DOUBLE_EQ(chart.rules[0].place, 6 * 927.6);
+  EXPECT_DOUBLE_EQ(chart.rules[0].place, 6 * minutes);
   EXPECT_NE(chart.reading.find("Shaded"), std::string::npos);
   const std::string script = gnuplot_script(chart, Drawing::wide_svg);
   EXPECT_EQ(count(script, "set object rectangle"), 1U);
@@ -148,7 +151,7 @@ TEST(TransferCharts, ConditionsAreTickedWhereAKindFails) {
   ASSERT_TRUE(f1 != nullptr && f2 != nullptr);
   EXPECT_EQ(f1->ticks.size(), 2U);
   ASSERT_EQ(f2->ticks.size(), 1U);
-  EXPECT_DOUBLE_EQ(f2->ticks[0], 1.5 * 927.6);
+  EXPECT_DOUBLE_EQ(f2->ticks[0], 1.5 * minutes);
   const ChartCurve* best = curve_named(chart, "best of all 64");
   ASSERT_NE(best, nullptr);
   for (const auto& point : best->points) EXPECT_DOUBLE_EQ(point.second, 2 + 1.0 / 3);

@@ -146,6 +146,7 @@ TEST(TransferCsv, SingularTimesAndConditions) {
   EXPECT_EQ(singular.number(0, "direction_inertial_x"), 0);
   EXPECT_EQ(singular.number(0, "direction_inertial_y"), 0.6);
   EXPECT_EQ(singular.number(0, "direction_inertial_z"), -0.8);
+  EXPECT_EQ(singular.number(0, "direction_n"), 1);
   const Table conditions = parse(conditions_csv(result));
   ASSERT_EQ(conditions.rows.size(), 6U);
   EXPECT_EQ(conditions.columns.size(), 66U);

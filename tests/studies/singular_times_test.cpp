@@ -50,8 +50,10 @@ TEST(SingularTimes, F1OnACircularOrbit) {
   }
   // Half a revolution cannot command the normal direction, N = z.
   EXPECT_NEAR(std::abs(found[0].direction[2]), 1, 1e-9);
+  ASSERT_TRUE(found[0].direction_rtn.has_value());
+  EXPECT_NEAR(std::abs((*found[0].direction_rtn)[2]), 1, 1e-9);
   EXPECT_GT(found[0].second_ratio, 1e-3);
-  // A whole one loses two directions, one of which is R, here x... and z.
+  // A whole one loses R (here x) and N: what is left is commanded along T, here y.
   EXPECT_LT(found[1].second_ratio, 1e-9);
   EXPECT_NEAR(found[1].direction[1], 0, 1e-6);
 }

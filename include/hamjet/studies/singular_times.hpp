@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "hamjet/maps/generating_function_kind.hpp"
@@ -22,11 +23,15 @@ class LinearFlow {
              const std::function<void(double)>& progress = {});
 
   StateTransition at(double time) const;
+  /// The chief's state (q, p) then.
+  std::vector<double> chief(double time) const;
   const std::vector<double>& times() const noexcept { return times_; }  ///< of the checkpoints
   const StateTransition& checkpoint(std::size_t i) const { return matrices_[i]; }
   double interval() const;
 
  private:
+  std::size_t checkpoint_before(double time) const;
+
   const ComputedProblem* problem_;
   SpacePointer space_;  ///< of order 1
   std::vector<double> times_;
@@ -49,6 +54,8 @@ struct SingularTime {
   /// Unit vector, inertial, in the space of the chosen final variables: for F1 the direction of the
   /// final position that no initial velocity commands.
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();
+  /// The same along R, T, N of the chief at that time; absent where the chief has no orbital plane.
+  std::optional<Eigen::Vector3d> direction_rtn = std::nullopt;
 };
 
 /// The times in the span (0 and the end excluded) at which a kind's linear part is singular, in

@@ -16,9 +16,10 @@ struct TransferSettings {
   RelativeState start;
   RelativeState end;
   std::vector<double> times;  ///< canonical, moving away from 0; none is 0
-  std::string kind = "auto";  ///< F1..F4, letters, or auto: the best conditioned, with hysteresis
-  double tolerance_m = 1;     ///< a larger miss of the highest order is marked
-  bool refine = false;        ///< correct by flying until the miss is below `refined_miss_m`
+  /// F1..F4, letters, or auto: the one whose polynomials decay fastest, with hysteresis.
+  std::string kind = "auto";
+  double tolerance_m = 1;  ///< a larger miss of the highest order is marked
+  bool refine = false;     ///< correct by flying until the miss is below `refined_miss_m`
   double refined_miss_m = 1e-3;
   /// Answers nearer than this to a time at which positions cannot be commanded are marked;
   /// canonical.
