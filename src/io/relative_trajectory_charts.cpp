@@ -20,16 +20,15 @@ constexpr std::array<Projection, 3> projections = {{{1, 0}, {1, 2}, {0, 2}}};
 
 }  // namespace
 
-std::vector<Chart> relative_trajectory_charts(const RelativeTrajectory& trajectory,
-                                              RelativeFrame frame) {
+std::vector<Chart> relative_trajectory_charts(const RelativeTrajectory& trajectory) {
   double largest_m = 0;
   for (const RelativeState& state : trajectory.states) {
     largest_m = std::max(largest_m, state.position_m.cwiseAbs().maxCoeff());
   }
   const bool is_in_km = largest_m >= 1000;
   const double unit = is_in_km ? 1e-3 : 1;
-  const auto letters = axis_letters(frame);
-  const auto columns = axis_columns(frame);
+  const auto letters = axis_letters(trajectory.frame);
+  const auto columns = axis_columns(trajectory.frame);
   std::vector<Chart> charts;
   for (const Projection& projection : projections) {
     const auto letter = [&](Eigen::Index axis) { return letters[static_cast<std::size_t>(axis)]; };
@@ -67,7 +66,7 @@ std::vector<Chart> relative_trajectory_charts(const RelativeTrajectory& trajecto
     mark("chief", 2, {0, 0});
     charts.push_back(std::move(chart));
   }
-  const bool is_inertial = frame == RelativeFrame::inertial;
+  const bool is_inertial = trajectory.frame == RelativeFrame::inertial;
   charts.front().reading = fmt::format(
       "The deputy as it was flown, relative to the chief at the origin, in three projections of "
       "equal scale along both axes. {}",

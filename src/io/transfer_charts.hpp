@@ -19,8 +19,7 @@ Chart condition_chart(const TransferResult& result);
 
 /// The trajectory relative to the chief, projected on three planes. How to read them stands under
 /// the first.
-std::vector<Chart> relative_trajectory_charts(const RelativeTrajectory& trajectory,
-                                              RelativeFrame frame);
+std::vector<Chart> relative_trajectory_charts(const RelativeTrajectory& trajectory);
 
 /// The largest separation at which each order is right, along time.
 Chart validity_time_chart(const ValidityResult& result);

@@ -58,7 +58,7 @@ std::string trajectory_section(const TransferResult& result,
   }
   html += fmt::format("<p>The transfer of the least velocity change, in {}.</p>\n",
                       time_text(result.points[*best].time * result.scene.units.time_s));
-  for (Chart& chart : relative_trajectory_charts(*trajectory, result.scene.transfer->frame)) {
+  for (Chart& chart : relative_trajectory_charts(*trajectory)) {
     fit(chart);
     html += figure_html(chart, drawer);
   }

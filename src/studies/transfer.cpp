@@ -106,19 +106,35 @@ int exit_code(const TransferResult& result) {
   return result.scene.transfer->strict && has_fault ? static_cast<int>(ErrorKind::check_failed) : 0;
 }
 
+namespace {
+
+bool has_orbital_plane(const std::vector<double>& chief) {
+  try {
+    const ChiefFrame frame(chief, MetricUnits{}, RelativeFrame::rtn_rotating);
+    return true;
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::numerical) throw;
+    return false;
+  }
+}
+
+}  // namespace
+
 RelativeTrajectory fly_relative(const TransferResult& result, std::size_t point, int count) {
   const Scene& scene = result.scene;
   const ComputedProblem problem = make_problem(scene, available_memory());
   const TransferPoint& transfer = result.points[point];
   const MetricUnits units = metric_units(scene);
-  const RelativeFrame frame = scene.transfer->frame;
   RelativeState start = scene.transfer->start;
   start.velocity_m_s += transfer.best().start_change_m_s;
   std::vector<double> chief = problem.nominal;
   std::vector<double> deputy = chief;
-  const auto deviation = ChiefFrame(chief, units, frame).deviation(start);
+  const auto deviation = ChiefFrame(chief, units, scene.transfer->frame).deviation(start);
   for (std::size_t i = 0; i < deputy.size(); ++i) deputy[i] += deviation[i];
   RelativeTrajectory trajectory;
+  if (scene.transfer->frame == RelativeFrame::inertial && !has_orbital_plane(chief)) {
+    trajectory.frame = RelativeFrame::inertial;
+  }
   for (int k = 0; k <= count; ++k) {
     if (k > 0) {
       chief = exact_flow(problem.system, chief, transfer.time / count);
@@ -127,7 +143,7 @@ RelativeTrajectory fly_relative(const TransferResult& result, std::size_t point,
     std::vector<double> difference;
     for (std::size_t i = 0; i < deputy.size(); ++i) difference.push_back(deputy[i] - chief[i]);
     trajectory.times.push_back(transfer.time * k / count);
-    trajectory.states.push_back(ChiefFrame(chief, units, frame).relative(difference));
+    trajectory.states.push_back(ChiefFrame(chief, units, trajectory.frame).relative(difference));
   }
   return trajectory;
 }

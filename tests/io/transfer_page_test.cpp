@@ -158,7 +158,7 @@ TEST(TransferCharts, ConditionsAreTickedWhereAKindFails) {
 }
 
 TEST(TransferCharts, ProjectionsHaveEqualScales) {
-  const auto charts = relative_trajectory_charts(sample_trajectory(), RelativeFrame::rtn_rotating);
+  const auto charts = relative_trajectory_charts(sample_trajectory());
   ASSERT_EQ(charts.size(), 3U);
   for (const Chart& chart : charts) EXPECT_TRUE(chart.is_isometric);
   EXPECT_EQ(charts[0].x.label, "T (km)");

@@ -143,6 +143,19 @@ TEST(Transfer, TheFlownTrajectoryJoinsTheTwoEnds) {
   EXPECT_LT(arrived.norm(), 1e-6);
 }
 
+TEST(Transfer, TheFlownTrajectoryIsAlongRtnWhateverTheFrame) {
+  Scene scene = paper_chief(2);
+  scene.transfer = short_hop(1e3, {3.0});
+  scene.transfer->frame = RelativeFrame::inertial;
+  const RelativeTrajectory flown = fly_relative(study_transfer(scene), 0, 4);
+  EXPECT_EQ(flown.frame, RelativeFrame::rtn_rotating);
+  // At the start R is the x axis, and the orbit's plane goes through it.
+  const Eigen::Vector3d start = scene.transfer->start.position_m;
+  EXPECT_NEAR(flown.states[0].position_m[0], start[0], 1e-9);
+  EXPECT_NEAR(flown.states[0].position_m[1], start[1] * 0.5 + start[2] * std::sqrt(0.75), 1e-9);
+  EXPECT_NEAR(flown.states[4].position_m.norm(), 1e3, 0.1);
+}
+
 TEST(Transfer, MarksWhatIsNearSingularAndWhatHasNoKind) {
   // Half a revolution of a circular orbit: the normal direction cannot be commanded.
   Scene scene = kepler_chief(0, 7000, 1000, 2);

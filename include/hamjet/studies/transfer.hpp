@@ -111,10 +111,12 @@ TransferResult study_transfer(const Scene& scene, const ProgressCallback& progre
 /// tolerance or could not be refined; 4 if no transfer time has an answer.
 int exit_code(const TransferResult& result);
 
-/// A flown deputy relative to its chief, in the scene's frame.
+/// A flown deputy relative to its chief, along R, T, N whatever the scene's frame (along the
+/// inertial axes where the chief has no orbital plane).
 struct RelativeTrajectory {
-  std::vector<double> times;          ///< canonical
-  std::vector<RelativeState> states;  ///< in the scene's frame
+  std::vector<double> times;  ///< canonical
+  std::vector<RelativeState> states;
+  RelativeFrame frame = RelativeFrame::rtn_rotating;  ///< of the states
 };
 
 /// The flown relative trajectory of one point's best answer, `count` equal intervals.
