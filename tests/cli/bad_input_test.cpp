@@ -80,6 +80,75 @@ TEST_F(BadInput, ScenesThatBreakARule) {
   expect_error({"run", "bad.toml"}, 3, {"bad.toml:1:1: schema: missing"});
 }
 
+// Newmark's beta is from 0 to 1/2, ends included (Newmark 1959): the ends pass the check.
+TEST_F(BadInput, NewmarkBetaOutsideItsRange) {
+  const auto scene_with = [](const std::string& beta) {
+    return changed(small_scene, "method = \"gauss\"\nstages = 1",
+                   "method = \"newmark\"\nbeta = " + beta);
+  };
+  const Mistake mistakes[] = {
+      {"beta", "-0.01", {": out of range, got -0.01, must be a number from 0 to 0.5"}},
+      {"beta", "-5e-324", {": out of range, got -5e-324, must be"}},
+      {"beta", "0.51", {": out of range, got 0.51, must be a number from 0 to 0.5"}},
+      {"beta", "0.5000000000000001", {": out of range, got 0.5000000000000001, must be"}},
+      {"beta", "nan", {": not finite, got nan, must be a number from 0 to 0.5"}},
+      {"beta", "-inf", {": not finite, got -inf, must be"}},
+      {"beta", "\"0.25\"", {": wrong type, got the string \"0.25\", must be"}},
+  };
+  for (const Mistake& mistake : mistakes) {
+    write("bad.toml", scene_with(mistake.to));
+    for (const char* command : {"run", "check"}) {
+      expect_error({command, "bad.toml"}, 3,
+                   {"bad.toml:24:8: integrator.1.beta" + mistake.words[0]});
+    }
+  }
+  for (const char* beta : {"0", "0.5"}) {
+    write("good.toml", scene_with(beta));
+    succeed({"check", "good.toml"});
+  }
+  expect_error(
+      {"run", "good.toml", "--set", "integrator.midpoint.beta=0.6"}, 3,
+      {"--set integrator.midpoint.beta: out of range, got 0.6, must be a number from 0 to"});
+}
+
+// The mass matrix of a scene is the oscillator's mass: 0 makes it singular.
+TEST_F(BadInput, MassThatIsNotPositive) {
+  const std::string scene = R"(schema = 1
+title = "mass"
+[system]
+model = "harmonic-oscillator"
+mass_kg = 1
+[nominal]
+position_m = [1]
+momentum_kg_m_s = [0]
+[jet]
+order = 1
+duration_canonical = 1
+[[integrator]]
+label = "newmark"
+method = "newmark"
+beta = 0.25
+step_canonical = 0.1
+)";
+  const Mistake mistakes[] = {
+      {"1", "0", {": not positive, got 0, must be a number above 0"}},
+      {"1", "-0.0", {": not positive, got -0", "must be a number above 0"}},
+      {"1", "-2", {": not positive, got -2, must be a number above 0"}},
+      {"1", "nan", {": not finite, got nan, must be a number above 0"}},
+      {"1", "inf", {": not finite, got inf, must be a number above 0"}},
+  };
+  for (const Mistake& mistake : mistakes) {
+    write("bad.toml", changed(scene, "mass_kg = 1", std::string("mass_kg = ") + mistake.to));
+    std::vector<std::string> words = mistake.words;
+    words[0] = "bad.toml:5:11: system.mass_kg" + words[0];
+    for (const char* command : {"run", "check"}) expect_error({command, "bad.toml"}, 3, words);
+  }
+  write("good.toml", scene);
+  succeed({"check", "good.toml"});
+  expect_error({"run", "good.toml", "--set", "system.mass_kg=0"}, 3,
+               {"--set system.mass_kg: not positive, got 0, must be a number above 0"});
+}
+
 TEST_F(BadInput, OverridesAreNamedInstead) {
   expect_error({"run", "small.toml", "--set", "jet.order=0"}, 3, {"--set jet.order: out of range"});
   expect_error({"run", "small.toml", "--set", "jet.order=x"}, 3, {"the string \"x\""});

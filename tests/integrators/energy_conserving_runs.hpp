@@ -27,12 +27,13 @@ EnergyConservingRun<Real> run_energy_conserving(const EnergyConservingProblem<Re
   return run;
 }
 
-/// As many steps as asked for, forwards.
+/// As many steps as asked for, forwards or (direction -1) backwards in time.
 template <class Real>
-EnergyConservingRun<Real> take_steps(EnergyConservingProblem<Real> problem, std::size_t count) {
+EnergyConservingRun<Real> take_steps(EnergyConservingProblem<Real> problem, std::size_t count,
+                                     int direction = 1) {
   struct Enough {};
   EnergyConservingRun<Real> run;
-  problem.duration = Real(1e6);
+  problem.duration = Real(direction * 1e6);
   try {
     integrate_energy_conserving<Real>(problem, [&](const EnergyConservingStep<Real>& step) {
       run.steps.push_back(step);

@@ -2,21 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <vector>
 
 #include "../../src/studies/integration.hpp"
-#include "hamjet/dynamics/double_well.hpp"
-#include "hamjet/dynamics/harmonic_oscillator.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
+#include "integrator_cases.hpp"
 #include "support/convergence.hpp"
 #include "support/flow.hpp"
 #include "support/map.hpp"
 
 // Every integrator with fixed steps on every system of the paper: what theory says of its two-form,
-// its order, its reversibility and its energy. CVODE chooses its own steps and claims none of
-// these.
+// its order, its reversibility and its energy. What choose their own steps by a tolerance claim
+// none of these: integrator_tolerance_test.
 
 namespace hamjet {
 namespace {
@@ -65,28 +63,11 @@ std::vector<Method> all_methods() {
   return methods;
 }
 
-struct Case {
-  std::string name;
-  DynamicalSystem system;
-  std::vector<double> start;
-  double period;  ///< about which the motion returns, or of its linear part
-};
-
-void PrintTo(const Case& one, std::ostream* out) { *out << one.name; }
-
-std::vector<Case> all_cases() {
-  const test::ReferenceOrbit& orbit = test::paper_orbit();
-  const double speed = std::sqrt(1.3);
-  return {{"Oscillator", harmonic_oscillator(), {0.3, -0.8}, 2 * std::numbers::pi},
-          {"DoubleWell", double_well(), {1, 0.05}, 6},
-          {"Kepler", kepler(), {1, 0, 0, 0, 0.6 * speed, 0.8 * speed}, 10.7},
-          {"EarthOrbit", zonal_gravity(orbit.field), orbit.start, 10.7}};
-}
-
-class IntegratorProperties : public ::testing::TestWithParam<std::tuple<Method, Case>> {
+class IntegratorProperties
+    : public ::testing::TestWithParam<std::tuple<Method, test::IntegratorCase>> {
  protected:
   const Method& method() const { return std::get<0>(GetParam()); }
-  const Case& problem() const { return std::get<1>(GetParam()); }
+  const test::IntegratorCase& problem() const { return std::get<1>(GetParam()); }
 
   template <class Real>
   FlowJet<Real> run(double duration, long steps, int order,
@@ -215,7 +196,7 @@ TEST_P(IntegratorProperties, EnergyOverFortyPeriods) {
 
 INSTANTIATE_TEST_SUITE_P(All, IntegratorProperties,
                          ::testing::Combine(::testing::ValuesIn(all_methods()),
-                                            ::testing::ValuesIn(all_cases())),
+                                            ::testing::ValuesIn(test::integrator_cases())),
                          [](const auto& instance) {
                            return std::get<0>(instance.param).name + "On" +
                                   std::get<1>(instance.param).name;
