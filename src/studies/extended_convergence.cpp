@@ -17,7 +17,8 @@ namespace {
 constexpr std::size_t runs = 4;
 /// How far the finest run stays above what the reference can vouch for.
 constexpr double above_claimed = 30;
-/// No run needs a smaller error, or so many more steps than those in double precision took.
+/// No run over the whole duration needs a smaller error, and none so many more steps than those in
+/// double precision took.
 constexpr double smallest_floor = 1e-20;
 constexpr double most_refinement = 64;
 /// The coarsest error is this many times the finest, unless that takes more than halved steps.
@@ -25,7 +26,7 @@ constexpr double error_range = 1e5;
 /// The parts of the duration that are tried, and the tolerance of the references of the shorter
 /// ones.
 constexpr std::array arcs = {1.0, 1.0 / 8, 1.0 / 64};
-constexpr double arc_tolerance = 1e-27;
+constexpr double arc_tolerance = 1e-31;
 /// Steps after which the time of all is judged.
 constexpr long least_steps = 10;
 
@@ -74,7 +75,7 @@ std::optional<ConvergenceFit> fit_over_arc(const ComparisonResult& result,
                : compute_reference(problem, scene.duration, {arc_tolerance}, keep_going);
   const double claimed = is_whole ? result.smallest_claimed_error(degree)
                                   : 10 * reference.uncertainty_by_degree.back();
-  const double floor = std::max(above_claimed * claimed, smallest_floor);
+  const double floor = std::max(above_claimed * claimed, is_whole ? smallest_floor : 0);
   const double span = std::abs(scene.duration);
   const auto counts = step_counts(finest, span, series.order, floor);
   // So few steps that rounding their number makes two runs alike tell nothing.
