@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <system_error>
 
 #include "../io/scene_message.hpp"
 #include "../io/text_file.hpp"
@@ -42,6 +44,18 @@ void check_options(const EvalOptions& options) {
   check_frame(options.frame, options.derivatives);
   if (options.deviation && options.deviations) {
     refuse("--deviation and --deviations: must not both be given");
+  }
+  if (options.output) {
+    std::error_code none;
+    const auto replaces = [&](const std::filesystem::path& file) {
+      return std::filesystem::equivalent(file, *options.output, none);
+    };
+    const std::filesystem::path name = std::filesystem::path(*options.output).filename();
+    const bool is_result = (name == "jet.csv" || name == "summary.json") &&
+                           std::filesystem::exists(*options.output, none);
+    if ((options.deviations && replaces(*options.deviations)) || is_result) {
+      refuse("--output: is a file that this command reads; choose another");
+    }
   }
   if (!options.deviation && !options.deviations) {
     refuse("nothing to evaluate; give --deviation with numbers or --deviations with a CSV file");
@@ -123,7 +137,10 @@ class Output {
   void add(const std::vector<double>& state, const TruncationEstimate& estimate) {
     const bool is_inside = estimate.support == Support::inside;
     const auto write = std::back_inserter(csv_);
-    for (const double x : state) fmt::format_to(write, "{},", x);
+    for (const double x : state) {
+      if (std::isfinite(x)) fmt::format_to(write, "{}", x);
+      fmt::format_to(write, ",");
+    }
     if (is_inside) fmt::format_to(write, "{:.3g}", estimate.miss);
     fmt::format_to(write, ",{}\n", support_name(estimate.support));
     if (is_inside) largest_miss_ = std::max(largest_miss_.value_or(0), estimate.miss);

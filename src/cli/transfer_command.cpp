@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <optional>
 #include <string_view>
+#include <system_error>
 
 #include "../io/scene_message.hpp"
 #include "hamjet/algebra/composition.hpp"
@@ -11,6 +13,7 @@
 #include "hamjet/io/relative_motion_report.hpp"
 #include "hamjet/io/stored_jet.hpp"
 #include "report_origin.hpp"
+#include "standard_streams.hpp"
 #include "study_command.hpp"
 
 namespace hamjet::cli {
@@ -73,6 +76,16 @@ EarlierJet earlier_jet(const TransferOptions& transfers, const Scene& scene) {
   return {stored.label, stored.duration, convert_map<double>(stored.jet)};
 }
 
+/// The results of a study take the place of what was in their directory.
+void refuse_to_replace(const std::filesystem::path& jet, const std::filesystem::path& output) {
+  std::error_code none;
+  if (!std::filesystem::equivalent(jet, output, none)) return;
+  throw Error(ErrorKind::usage,
+              fmt::format("--jet and -o: are the same directory, {}, whose jet the results would "
+                          "replace; choose another -o",
+                          io::printable(output.string(), std::string::npos)));
+}
+
 }  // namespace
 
 int transfer(const RunOptions& options, const TransferOptions& transfers) {
@@ -86,8 +99,18 @@ int transfer(const RunOptions& options, const TransferOptions& transfers) {
            "on this scene's deputies and slots");
   }
   std::optional<EarlierJet> earlier;
-  if (transfers.directory) earlier = earlier_jet(transfers, scene);
-  return report_study(options, scene.name, [&](const ProgressCallback& progress) {
+  const std::string name = scene.name + "-transfer";
+  if (transfers.directory) {
+    refuse_to_replace(*transfers.directory, output_path(options, name));
+    earlier = earlier_jet(transfers, scene);
+    if (!options.quiet && scene.transfer->times != std::vector<double>{earlier->time}) {
+      print_error(
+          fmt::format("note: the stored jet has one time, {:.10g} s, and order {}; they take "
+                      "the place of the scene's",
+                      earlier->time * scene.units.time_s, earlier->jet.at(0).order()));
+    }
+  }
+  return report_study(options, name, [&](const ProgressCallback& progress) {
     const TransferResult result = study_of(
         options, [&] { return study_transfer(scene, progress, earlier ? &*earlier : nullptr); });
     std::optional<RelativeTrajectory> trajectory;
@@ -103,7 +126,7 @@ int transfer(const RunOptions& options, const TransferOptions& transfers) {
 int validity(const RunOptions& options) {
   const Scene scene = read_scene(options);
   require_table(options, scene.validity.has_value(), "validity", "tolerance_m = 1, count = 12");
-  return report_study(options, scene.name, [&](const ProgressCallback& progress) {
+  return report_study(options, scene.name + "-validity", [&](const ProgressCallback& progress) {
     return io::validity_report(study_of(options, [&] { return study_validity(scene, progress); }),
                                report_origin(options.command));
   });
@@ -113,7 +136,7 @@ int assign(const RunOptions& options) {
   const Scene scene = read_scene(options);
   require_table(options, scene.assignment.has_value(), "assignment",
                 "deputy = [{position_m = [0, -100, 0]}], slot = [{position_m = [0, 100, 0]}]");
-  return report_study(options, scene.name, [&](const ProgressCallback& progress) {
+  return report_study(options, scene.name + "-assign", [&](const ProgressCallback& progress) {
     return io::assignment_report(
         study_of(options, [&] { return study_assignment(scene, progress); }));
   });

@@ -155,8 +155,7 @@ Chart miss_chart(const TransferResult& result) {
       "Every answer is proved: a deputy flies it with the full equations of motion, and its "
       "distance from the wanted end is drawn, one line for each order of the polynomials. The "
       "horizontal lines are the scene's tolerance of {} and the floor of {} below which a "
-      "miss says nothing: by so much the chief that was flown differs from the one that the "
-      "polynomials are about.{}",
+      "miss says nothing, the rounding of the flights.{}",
       length_text(result.scene.transfer->tolerance_m), length_text(result.flight_floor_m), shading);
   return chart;
 }

@@ -48,6 +48,7 @@ Json singular_time_json(const SingularTime& singular, const CanonicalUnits& unit
           {"time_s", singular.time * units.time_s},
           {"smallest_ratio", json_number(singular.smallest_ratio)},
           {"second_ratio", json_number(singular.second_ratio)},
+          {"directions_lost", singular.directions_lost()},
           {"direction_inertial", vector_json(singular.direction)},
           {"direction_rtn",
            singular.direction_rtn ? vector_json(*singular.direction_rtn) : Json(nullptr)}};
@@ -124,6 +125,7 @@ Json transfer_summary_json(const TransferResult& result) {
     json["position_singular_times"].push_back(singular_time_json(singular, scene.units));
   }
   json["flight_floor_m"] = json_number(result.flight_floor_m);
+  json["chief_error_m"] = json_number(result.chief_error_m);
   json["largest_hamilton_jacobi_residual"] = json_number(largest_hamilton_jacobi_residual(result));
   json["steps"] = result.statistics.steps;
   json["seconds"] = seconds_json(result.seconds);

@@ -180,15 +180,18 @@ std::string seconds_table_html(const TransferResult& result) {
   return table_html("Wall-clock time on one core.",
                     "<tr>" + header_cells({"part", "time"}) + "</tr>", rows) +
          fmt::format(
-             "<p>{}</p>\n<p>Floor of the flights: {}. By so much the chief that was flown differs "
-             "from the jet's nominal at the last time; misses below it say nothing.</p>\n",
+             "<p>{}</p>\n<p>Floor of the flights: {}, the rounding of positions grown with the "
+             "linear flow to the last time; misses below it say nothing. The jet's own chief is {} "
+             "from the one that was flown then.</p>\n",
              residual
                  ? fmt::format("Largest scaled residual of the Hamilton-Jacobi equation over all "
-                               "answers: {:.1e}. It proves integration, inversion and signs "
-                               "independently of the flights.",
+                               "answers: {:.1e}. It proves the signs, the inversion and that "
+                               "Hamiltonian and equations of motion agree, not the accuracy of the "
+                               "integration; the inversion's conditioning amplifies round-off in "
+                               "it.",
                                *residual)
                  : std::string("The residual of the Hamilton-Jacobi equation was not computed."),
-             length_text(result.flight_floor_m));
+             length_text(result.flight_floor_m), length_text(result.chief_error_m));
 }
 
 }  // namespace hamjet::io

@@ -61,15 +61,21 @@ std::string terminal_table(const TransferResult& result) {
   if (const auto residual = largest_hamilton_jacobi_residual(result)) {
     text += fmt::format("  Hamilton-Jacobi  largest scaled residual {:.1e}\n", *residual);
   }
+  if (result.chief_error_m > settings.tolerance_m) {
+    text += fmt::format(
+        "  chief            the integrator's chief is {} from the flown one at the last time: too "
+        "inaccurate for the tolerance\n",
+        length_text(result.chief_error_m));
+  }
   if (counts.refinement_failed > 0) {
     text +=
         fmt::format("  not refined      {} times; see transfers.csv\n", counts.refinement_failed);
   }
   return text + fmt::format(
                     "  time             {} for the answers, {} to prove them by flying "
-                    "(floor {})\n",
+                    "(floor {}), {} for the Hamilton-Jacobi residuals\n",
                     duration_text(result.seconds.study()), duration_text(result.seconds.proof),
-                    length_text(result.flight_floor_m));
+                    length_text(result.flight_floor_m), duration_text(result.seconds.residual));
 }
 
 }  // namespace

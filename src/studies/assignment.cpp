@@ -1,5 +1,6 @@
 #include "hamjet/studies/assignment.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -7,6 +8,7 @@
 #include "hamjet/error.hpp"
 #include "jets_along_time.hpp"
 #include "least_assignment.hpp"
+#include "stopwatch.hpp"
 #include "transfer_points.hpp"
 
 namespace hamjet {
@@ -23,8 +25,12 @@ class AssignmentStudy {
         progress_(progress),
         points_(scene, progress, seconds_) {
     result_.scene = scene;
-    for (std::size_t i = 0; i < settings_.deputies.size(); ++i) {
-      typical_.push_back({settings_.deputies[i], settings_.slots[i]});
+    // All pairs of few; of many as many, evenly taken.
+    constexpr std::size_t most_pairs = 64;
+    const std::size_t n = settings_.deputies.size();
+    const std::size_t stride = std::max<std::size_t>(1, n * n / most_pairs);
+    for (std::size_t k = 0; k < n * n; k += stride) {
+      typical_.push_back({settings_.deputies[k / n], settings_.slots[k % n]});
     }
   }
 
@@ -37,7 +43,8 @@ class AssignmentStudy {
                    [&](std::size_t index, const FlowJet<double>& jet) { find_costs(index, jet); });
     choose();
     if (!result_.failure.empty()) return std::move(result_);
-    // The chosen times once more, for the proofs.
+    // The chosen times once more, for the proofs; kinds are chosen as the first time.
+    points_.forget_last_kind();
     visit_jets(points_.problem(), integrator, times,
                [&](std::size_t index, const FlowJet<double>& jet) { prove(index, jet); });
     for (const AssignedTransfer& transfer : result_.transfers) {
@@ -62,6 +69,7 @@ class AssignmentStudy {
     if (points_.is_near_singular(times[index])) return;
     const ChosenKind chosen = points_.choose_kind(times[index], jet, typical_);
     if (!chosen.inversion) return;
+    const Stopwatch watch(seconds_.solution);
     const std::vector<double> chief_end = nominal_of(jet);
     PositionBoundaryValues boundary(*chosen.inversion);
     for (std::size_t i = 0; i < settings_.deputies.size(); ++i) {
@@ -155,7 +163,7 @@ class AssignmentStudy {
       progress_("proofs", static_cast<double>(index) / static_cast<double>(times.size()));
     }
     if (index + 1 == times.size()) {
-      result_.flight_floor_m = points_.flight_floor_m(times[index], jet);
+      result_.flight_floor_m = points_.flight_floor_m(jet);
     }
     std::optional<ChosenKind> chosen;
     for (AssignedTransfer& assigned : result_.transfers) {
@@ -189,16 +197,14 @@ AssignmentResult study_assignment(const Scene& scene, const ProgressCallback& pr
 
 int exit_code(const AssignmentResult& result) {
   if (!result.failure.empty()) return static_cast<int>(ErrorKind::numerical);
+  bool has_fault = false;
   for (const AssignedTransfer& assigned : result.transfers) {
     const TransferPoint& transfer = assigned.transfer;
-    if (!transfer.has_answer() || !transfer.best().failure.empty()) {
-      return static_cast<int>(ErrorKind::numerical);
-    }
-    if (result.scene.transfer->strict && transfer.is_beyond_tolerance) {
-      return static_cast<int>(ErrorKind::check_failed);
-    }
+    if (!transfer.has_answer()) return static_cast<int>(ErrorKind::numerical);
+    has_fault =
+        has_fault || transfer.is_beyond_tolerance || (transfer.refined && !transfer.is_refined());
   }
-  return 0;
+  return result.scene.transfer->strict && has_fault ? static_cast<int>(ErrorKind::check_failed) : 0;
 }
 
 }  // namespace hamjet

@@ -4,6 +4,7 @@
 
 #include <Eigen/LU>
 #include <cmath>
+#include <limits>
 
 #include "exact_flow.hpp"
 #include "hamjet/error.hpp"
@@ -18,6 +19,13 @@ std::vector<double> nominal_of(const FlowJet<double>& jet) {
   std::vector<double> state;
   for (const auto& component : jet) state.push_back(component[0]);
   return state;
+}
+
+double rounding_of_flights(const FlowJet<double>& jet) {
+  const std::vector<double> state = nominal_of(jet);
+  const double position = std::hypot(state[0], state[1], state[2]);
+  const double growth = linear_part(std::span<const Series<double>>(jet)).norm();
+  return std::numeric_limits<double>::epsilon() * (position + growth);
 }
 
 SingleTransfer::SingleTransfer(const Scene& scene, const ComputedProblem& problem, double time,

@@ -14,6 +14,9 @@ MetricUnits metric_units(const Scene& scene);
 /// The nominal's state, the constant terms of a jet.
 std::vector<double> nominal_of(const FlowJet<double>& jet);
 
+/// Rounding of the positions of two flights, grown with the jet's linear part; canonical.
+double rounding_of_flights(const FlowJet<double>& jet);
+
 /// One transfer of a deputy, from one relative state to another in one time. What it looks at must
 /// outlive it.
 class SingleTransfer {

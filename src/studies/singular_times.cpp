@@ -1,5 +1,7 @@
 #include "hamjet/studies/singular_times.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/LU>
 #include <Eigen/SVD>
 #include <algorithm>
@@ -7,6 +9,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <numbers>
 #include <optional>
 
 #include "exact_flow.hpp"
@@ -48,27 +51,82 @@ double signed_ratio(const Eigen::Matrix3d& block) {
 class ZeroSearch {
  public:
   ZeroSearch(const LinearFlow& flow, const GeneratingFunctionKind& kind)
-      : flow_(flow), kind_(kind), times_(flow.times()) {
+      : flow_(flow), kind_(kind) {
     // At the start every block is trivially singular or the identity.
-    for (std::size_t i = 1; i < times_.size(); ++i) {
+    for (std::size_t i = 1; i < flow.times().size(); ++i) {
+      times_.push_back(flow.times()[i]);
       ratios_.push_back(signed_ratio(inverted_block(flow.checkpoint(i), kind)));
     }
+    for (const std::size_t parts : {8, 4}) divide(parts);
   }
 
   std::vector<SingularTime> run() {
     for (std::size_t i = 0; i < ratios_.size(); ++i) {
-      if (i + 1 < ratios_.size() && ratios_[i] * ratios_[i + 1] < 0) {
+      if (ratios_[i] == 0) {
+        add(times_[i]);
+      } else if (i + 1 < ratios_.size() && ratios_[i] * ratios_[i + 1] < 0) {
         add_zero(time(i), time(i + 1));
       }
       if (i > 0 && i + 1 < ratios_.size() && is_minimum(i)) search_minimum(i);
     }
     std::sort(found_.begin(), found_.end(),
               [](const auto& a, const auto& b) { return std::abs(a.time) < std::abs(b.time); });
+    merge();
     return std::move(found_);
   }
 
  private:
-  double time(std::size_t i) const { return times_[i + 1]; }
+  double time(std::size_t i) const { return times_[i]; }
+
+  /// Whether the line through a point and the next one is beyond zero at the one after.
+  bool leads_to_zero(std::size_t from, std::size_t to) const {
+    return (2 * ratios_[to] - ratios_[from]) * ratios_[to] < 0;
+  }
+
+  /// Divides the intervals about a change of sign or a minimum: several zeros may lie close.
+  void divide(std::size_t parts) {
+    std::vector<bool> is_divided(ratios_.size(), false);  // the interval behind each point
+    for (std::size_t i = 0; i + 1 < ratios_.size(); ++i) {
+      // Or where the trend of either side leads to zero before the next point.
+      const bool has_zero = ratios_[i] * ratios_[i + 1] < 0 || (i > 0 && leads_to_zero(i - 1, i)) ||
+                            (i + 2 < ratios_.size() && leads_to_zero(i + 2, i + 1));
+      if (!has_zero && !(i > 0 && is_minimum(i))) continue;
+      if (i > 0) is_divided[i - 1] = true;
+      is_divided[i] = true;
+      if (has_zero && i + 2 < ratios_.size()) is_divided[i + 1] = true;
+    }
+    std::vector<double> times;
+    std::vector<double> ratios;
+    for (std::size_t i = 0; i < ratios_.size(); ++i) {
+      times.push_back(times_[i]);
+      ratios.push_back(ratios_[i]);
+      for (std::size_t k = 1; is_divided[i] && k < parts; ++k) {
+        const double part = static_cast<double>(k) / static_cast<double>(parts);
+        times.push_back(times_[i] + part * (times_[i + 1] - times_[i]));
+        ratios.push_back(ratio_at(times.back()));
+      }
+    }
+    times_ = std::move(times);
+    ratios_ = std::move(ratios);
+  }
+
+  /// Two zeros nearer than the square root of round-off are one double zero, or one seen twice.
+  void merge() {
+    constexpr double nearest = 1e-6;
+    std::vector<SingularTime> merged;
+    for (SingularTime& zero : found_) {
+      if (!merged.empty()) {
+        SingularTime& last = merged.back();
+        if (std::abs(zero.time - last.time) < nearest * std::max(1.0, std::abs(zero.time))) {
+          last.time = 0.5 * (last.time + zero.time);
+          continue;
+        }
+      }
+      merged.push_back(std::move(zero));
+    }
+    found_ = std::move(merged);
+  }
+
   double ratio_at(double t) const { return signed_ratio(inverted_block(flow_.at(t), kind_)); }
 
   bool is_minimum(std::size_t i) const {
@@ -79,16 +137,21 @@ class ZeroSearch {
   }
 
   /// The lines through the two points on either side bound a convex function from below: where they
-  /// meet well above zero, so does it. A factor of two stands for what is not convex.
+  /// meet well above zero, so does it, unless the point is the zero. A factor of two stands for
+  /// what is not convex.
   bool may_reach_zero(std::size_t i) const {
     if (i < 2 || i + 2 >= ratios_.size()) return true;
-    const double left = std::abs(ratios_[i - 1]);
-    const double right = std::abs(ratios_[i + 1]);
-    const double fall_left = std::abs(ratios_[i - 2]) - left;
-    const double fall_right = std::abs(ratios_[i + 2]) - right;
+    const auto size = [&](std::size_t k) { return std::abs(ratios_[k]); };
+    const auto distance = [&](std::size_t k, std::size_t l) {
+      return std::abs(times_[l] - times_[k]);
+    };
+    const double fall_left = (size(i - 2) - size(i - 1)) / distance(i - 2, i - 1);
+    const double fall_right = (size(i + 2) - size(i + 1)) / distance(i + 1, i + 2);
     if (!(fall_left > 0) || !(fall_right > 0)) return true;
-    const double meeting = (left - right + 2 * fall_right) / (fall_left + fall_right);
-    return left - fall_left * meeting < 0.5 * std::abs(ratios_[i]);
+    const double meeting = (size(i - 1) - size(i + 1) + fall_right * distance(i - 1, i + 1)) /
+                           (fall_left + fall_right);
+    return size(i - 1) - fall_left * meeting < 0.5 * size(i) ||
+           size(i) < 0.25 * std::min(size(i - 1), size(i + 1));
   }
 
   /// Golden sections of the magnitude until it changes sign, which shows a pair of zeros, or has
@@ -148,7 +211,7 @@ class ZeroSearch {
   void add(double t) {
     const Eigen::Matrix3d block = inverted_block(flow_.at(t), kind_);
     const Eigen::JacobiSVD<Eigen::Matrix3d> decomposition(block, Eigen::ComputeFullU);
-    const Eigen::Vector3d values = decomposition.singularValues();
+    const Eigen::Vector3d& values = decomposition.singularValues();
     const Eigen::Vector3d direction = decomposition.matrixU().col(2);
     found_.push_back({kind_, t, values[2] / values[0], values[1] / values[0], direction,
                       along_rtn(t, direction)});
@@ -156,38 +219,50 @@ class ZeroSearch {
 
   const LinearFlow& flow_;
   const GeneratingFunctionKind& kind_;
-  const std::vector<double>& times_;
-  std::vector<double> ratios_;  ///< at the checkpoints, the start left out
+  std::vector<double> times_;   ///< of the checkpoints, the start left out, and between
+  std::vector<double> ratios_;  ///< then
   std::vector<SingularTime> found_;
 };
 
 }  // namespace
 
-LinearFlow::LinearFlow(const ComputedProblem& problem, double duration, std::size_t intervals,
+LinearFlow::LinearFlow(const ComputedProblem& problem, double duration, double per_revolution,
                        const std::function<void(double)>& progress)
     : problem_(&problem), space_(SeriesSpace::create(6, 1)) {
-  if (problem.system.dimension() != 6 || intervals == 0) {
-    throw Error(ErrorKind::usage, "linear flow: an orbit and at least one interval are needed");
+  constexpr std::size_t most_checkpoints = 100000;
+  if (problem.system.dimension() != 6 || !(per_revolution > 0)) {
+    throw Error(ErrorKind::usage, "linear flow: an orbit and a number of checkpoints are needed");
   }
   times_.push_back(0);
   states_.push_back(problem.nominal);
   matrices_.push_back(StateTransition::Identity());
-  for (std::size_t i = 1; i <= intervals; ++i) {
-    times_.push_back(i == intervals
-                         ? duration
-                         : duration * static_cast<double>(i) / static_cast<double>(intervals));
-    LinearArc arc = linear_arc(problem.system, space_, states_.back(), times_[i] - times_[i - 1]);
+  while (times_.back() != duration) {
+    const std::vector<double>& q = states_.back();
+    const double r = std::hypot(q[0], q[1], q[2]);
+    const double step = 2 * std::numbers::pi * std::pow(r, 1.5) / per_revolution;
+    const double left = std::abs(duration - times_.back());
+    const double time =
+        left <= 1.01 * step ? duration : times_.back() + std::copysign(step, duration);
+    LinearArc arc = linear_arc(problem.system, space_, q, time - times_.back());
     matrices_.push_back(arc.matrix * matrices_.back());
     states_.push_back(std::move(arc.state));
-    if (progress) progress(static_cast<double>(i) / static_cast<double>(intervals));
+    times_.push_back(time);
+    if (times_.size() > most_checkpoints) {
+      throw Error(ErrorKind::too_large,
+                  fmt::format("singular times: the span takes more than {} checkpoints, some {} "
+                              "revolutions; a shorter one is needed",
+                              most_checkpoints,
+                              std::lround(static_cast<double>(most_checkpoints) / per_revolution)));
+    }
+    if (progress) progress(time / duration);
   }
 }
 
-double LinearFlow::interval() const { return times_[1] - times_[0]; }
-
 std::size_t LinearFlow::checkpoint_before(double time) const {
-  const auto last = static_cast<double>(times_.size() - 1);
-  return static_cast<std::size_t>(std::clamp(time / interval(), 0.0, last));
+  const auto behind = std::upper_bound(times_.begin(), times_.end(), time, [](double a, double b) {
+    return std::abs(a) < std::abs(b);
+  });
+  return behind == times_.begin() ? 0 : static_cast<std::size_t>(behind - times_.begin()) - 1;
 }
 
 std::vector<double> LinearFlow::chief(double time) const {

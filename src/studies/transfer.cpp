@@ -17,8 +17,8 @@ std::optional<std::size_t> TransferResult::best_point() const {
   std::optional<std::size_t> best;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const TransferPoint& point = points[i];
-    if (!point.has_answer() || point.is_near_singular || !point.best().failure.empty()) continue;
-    if (point.is_beyond_tolerance && !point.refined) continue;
+    if (!point.has_answer() || point.is_near_singular) continue;
+    if (point.is_beyond_tolerance && !point.is_refined()) continue;
     if (!best || point.best().total_change_m_s() < points[*best].best().total_change_m_s()) {
       best = i;
     }
@@ -71,7 +71,8 @@ TransferResult study_transfer(const Scene& asked, const ProgressCallback& progre
                static_cast<double>(index) / static_cast<double>(settings.times.size()));
     }
     if (index + 1 == settings.times.size()) {
-      result.flight_floor_m = points.flight_floor_m(time, jet);
+      result.flight_floor_m = points.flight_floor_m(jet);
+      result.chief_error_m = points.chief_error_m(time, jet);
     }
     const ChosenKind chosen = points.choose_kind(time, jet, {ends});
     result.points.push_back(points.answer(chosen, jet, ends));
@@ -80,8 +81,8 @@ TransferResult study_transfer(const Scene& asked, const ProgressCallback& progre
   };
   if (earlier != nullptr) {
     result.integrator = earlier->label;
-    require_same_chief(*earlier, points.flight_floor_m(earlier->time, earlier->jet) /
-                                     metric_units(scene).length_m);
+    require_same_chief(
+        *earlier, points.chief_error_m(earlier->time, earlier->jet) / metric_units(scene).length_m);
     visit(0, earlier->jet);
   } else {
     const IntegratorSettings& integrator = symplectic_integrator(scene);
@@ -100,7 +101,7 @@ int exit_code(const TransferResult& result) {
     has_answer = has_answer || point.has_answer();
     if (point.is_near_singular) continue;
     has_fault = has_fault || !point.has_answer() || point.is_beyond_tolerance ||
-                !point.best().failure.empty();
+                (point.refined && !point.is_refined());
   }
   if (!has_answer) return static_cast<int>(ErrorKind::numerical);
   return result.scene.transfer->strict && has_fault ? static_cast<int>(ErrorKind::check_failed) : 0;

@@ -14,9 +14,7 @@
 namespace hamjet {
 namespace {
 
-/// Checkpoints of the linear flow in 2 pi canonical, a revolution at the initial distance.
-constexpr double checkpoints_per_turn = 240;
-constexpr std::size_t fewest_checkpoints = 16;
+constexpr double checkpoints_per_revolution = 240;
 
 /// The answer that `work` gives, or its numerical failure.
 template <class Work>
@@ -47,13 +45,13 @@ TransferPoints::TransferPoints(const Scene& scene, const ProgressCallback& progr
 void TransferPoints::find_singular_times(const ProgressCallback& progress) {
   const Stopwatch watch(seconds_.singularities);
   const double last = settings_.times.back();
-  // A little longer, so that what lies right behind the last time is seen too.
-  const double span = last + std::copysign(settings_.singular_margin, last);
-  const auto intervals = static_cast<std::size_t>(
-      std::ceil(checkpoints_per_turn * std::abs(span) / (2 * std::numbers::pi)));
-  const LinearFlow flow(problem_, span, std::max(intervals, fewest_checkpoints), [&](double done) {
-    if (progress) progress("linear flow", done);
-  });
+  // A little longer, so that what lies right behind the last time is seen too; no more than a
+  // quarter of a revolution at the initial distance, in which some singularity lies anyway.
+  const double margin = std::min(settings_.singular_margin, std::numbers::pi / 2);
+  const LinearFlow flow(problem_, last + std::copysign(margin, last), checkpoints_per_revolution,
+                        [&](double done) {
+                          if (progress) progress("linear flow", done);
+                        });
   for (std::size_t k = 0; k < kinds_.size(); ++k) {
     if (progress) {
       progress("singular times", static_cast<double>(k) / static_cast<double>(kinds_.size()));
@@ -148,7 +146,13 @@ TransferPoint TransferPoints::answer(const ChosenKind& chosen, const FlowJet<dou
   point.kind = chosen.inversion->kind;
   point.condition = chosen.inversion->condition;
   const std::vector<double> chief_end = nominal_of(jet);
-  const SingleTransfer transfer(scene_, problem_, chosen.time, chief_end, ends.start, ends.end);
+  // The ends are relative to the chief as it flies: an inaccurate integrator must not prove itself.
+  std::vector<double> flown_chief;
+  {
+    const Stopwatch watch(seconds_.proof);
+    flown_chief = exact_flow(problem_.system, problem_.nominal, chosen.time);
+  }
+  const SingleTransfer transfer(scene_, problem_, chosen.time, flown_chief, ends.start, ends.end);
   std::vector<BoundaryMomenta> momenta(static_cast<std::size_t>(scene_.order));
   {
     const Stopwatch watch(seconds_.solution);
@@ -194,7 +198,11 @@ void TransferPoints::measure_residual(const ChosenKind& chosen,
   point.hamilton_jacobi_residual = largest;
 }
 
-double TransferPoints::flight_floor_m(double time, const FlowJet<double>& jet) const {
+double TransferPoints::flight_floor_m(const FlowJet<double>& jet) const {
+  return rounding_of_flights(jet) * metric_units(scene_).length_m;
+}
+
+double TransferPoints::chief_error_m(double time, const FlowJet<double>& jet) const {
   const Stopwatch watch(seconds_.proof);
   const std::vector<double> flown = exact_flow(problem_.system, problem_.nominal, time);
   const std::vector<double> nominal = nominal_of(jet);

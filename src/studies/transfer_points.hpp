@@ -42,8 +42,11 @@ class TransferPoints {
   /// All orders' answers, proved, and the refinement if the scene asks for it.
   TransferPoint answer(const ChosenKind& chosen, const FlowJet<double>& jet,
                        const RelativeTransfer& ends) const;
+  /// The next choice of a kind looks at no earlier one.
+  void forget_last_kind() { choice_ = {}; }
   /// See TransferResult.
-  double flight_floor_m(double time, const FlowJet<double>& jet) const;
+  double flight_floor_m(const FlowJet<double>& jet) const;
+  double chief_error_m(double time, const FlowJet<double>& jet) const;
 
  private:
   /// How fast each kind's polynomials decay: with B the block that the kind inverts and d the

@@ -22,6 +22,9 @@ namespace {
 constexpr double largest_separation = 0.5;
 constexpr double smallest_separation = 1e-12;
 
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
 /// One study at work.
 class ValidityStudy {
  public:
@@ -51,21 +54,92 @@ class ValidityStudy {
   /// Deviations of separation 1: on the surface of the ellipsoid in position, and of its like in
   /// velocity.
   void make_samples() {
-    // Unit vectors along R, T, N, for a ChiefFrame without units.
+    // Columns: the canonical deviations of unit coordinates, three of position and three of
+    // velocity, each triple of length 1 on the surface of the ellipsoid.
     const ChiefFrame frame(problem_.nominal, MetricUnits{}, RelativeFrame::rtn_inertial);
     const double velocity = momentum_per_length(scene_);
+    for (std::size_t i = 0; i < 6; ++i) {
+      RelativeState state;
+      const auto axis = static_cast<Eigen::Index>(i % 3);
+      (i < 3 ? state.position_m : state.velocity_m_s)[axis] =
+          settings_.semi_axes[i % 3] * (i < 3 ? 1 : velocity);
+      const std::vector<double> deviation = frame.deviation(state);
+      for (std::size_t k = 0; k < 6; ++k) {
+        axes_(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(i)) = deviation[k];
+      }
+    }
     std::mt19937_64 generator(1);
     for (int k = 0; k < settings_.samples; ++k) {
-      RelativeState state;
-      const auto position = random_direction(generator, 3);
-      const auto rate = random_direction(generator, 3);
-      for (std::size_t i = 0; i < 3; ++i) {
-        const auto axis = static_cast<Eigen::Index>(i);
-        state.position_m[axis] = settings_.semi_axes[i] * position[i];
-        state.velocity_m_s[axis] = settings_.semi_axes[i] * velocity * rate[i];
+      Vector6 coordinates;
+      for (Eigen::Index first : {Eigen::Index{0}, Eigen::Index{3}}) {
+        const auto direction = random_direction(generator, 3);
+        for (Eigen::Index i = 0; i < 3; ++i) {
+          coordinates[first + i] = direction[static_cast<std::size_t>(i)];
+        }
       }
-      samples_.push_back(frame.deviation(state));
+      samples_.push_back(coordinates);
     }
+  }
+
+  std::vector<double> deviation(const Vector6& coordinates) const {
+    const Vector6 z = axes_ * coordinates;
+    return {z.begin(), z.end()};
+  }
+
+  /// The position's part of one degree at a sample.
+  double slice_size(const FlowJet<double>& jet, const Vector6& coordinates, int degree) {
+    values_.set_point(deviation(coordinates));
+    return std::hypot(values_.slice(jet[0], degree), values_.slice(jet[1], degree),
+                      values_.slice(jet[2], degree));
+  }
+
+  /// Ascent from a sample to a deviation at which the part of one degree is largest: the next point
+  /// is the gradient's direction, in position and in velocity apart. Random samples alone come out
+  /// at half of the worst.
+  Vector6 worst_from(const FlowJet<double>& jet, Vector6 point, int degree) {
+    constexpr int most_iterations = 30;
+    double size = slice_size(jet, point, degree);
+    for (int iteration = 0; iteration < most_iterations; ++iteration) {
+      values_.set_point(deviation(point));
+      Vector6 gradient = Vector6::Zero();
+      for (std::size_t c = 0; c < 3; ++c) {
+        const double value = values_.slice(jet[c], degree);
+        for (std::size_t v = 0; v < 6; ++v) {
+          gradient[static_cast<Eigen::Index>(v)] +=
+              value *
+              (values_.derivative(jet[c], v, degree) - values_.derivative(jet[c], v, degree - 1));
+        }
+      }
+      gradient = axes_.transpose() * gradient;
+      Vector6 next = point;
+      for (Eigen::Index first : {Eigen::Index{0}, Eigen::Index{3}}) {
+        const double length = gradient.segment<3>(first).norm();
+        if (length > 0) next.segment<3>(first) = gradient.segment<3>(first) / length;
+      }
+      const double found = slice_size(jet, next, degree);
+      if (!(found > size * (1 + 1e-6))) break;
+      size = found;
+      point = next;
+    }
+    return point;
+  }
+
+  /// The samples, and the worst deviations of one degree that are reached from the largest of them.
+  std::vector<Vector6> samples_with_worst(const FlowJet<double>& jet, int degree) {
+    constexpr std::size_t starts = 6;
+    std::vector<Vector6> samples = samples_;
+    std::vector<std::pair<double, std::size_t>> sizes;
+    for (std::size_t k = 0; k < samples_.size(); ++k) {
+      sizes.emplace_back(slice_size(jet, samples_[k], degree), k);
+    }
+    std::sort(sizes.rbegin(), sizes.rend());
+    for (std::size_t k = 0; k < std::min(starts, sizes.size()); ++k) {
+      samples.push_back(worst_from(jet, samples_[sizes[k].second], degree));
+    }
+    // The worst first: a deputy that misses by far ends the trial.
+    std::rotate(samples.begin(), samples.begin() + static_cast<std::ptrdiff_t>(samples_.size()),
+                samples.end());
+    return samples;
   }
 
   void visit(std::size_t index, const FlowJet<double>& jet) {
@@ -86,26 +160,24 @@ class ValidityStudy {
           next > 0 ? std::pow(tolerance_ / next, 1.0 / (order + 1)) : largest_separation;
       entry.predicted_m = std::min(predicted, largest_separation) * metres_;
       const Stopwatch watch(result_.proof_seconds);
+      // The worst deviations of the order's error: of the next degree, or of the last one known.
+      flown_samples_ = samples_with_worst(jet, std::min(order + 1, scene_.order));
       prove(jet, std::min(predicted, largest_separation), entry);
       point.entries.push_back(entry);
     }
     if (index + 1 == settings_.times.size()) {
-      const std::vector<double> flown = exact_flow(problem_.system, problem_.nominal, time_);
-      result_.flight_floor_m =
-          std::hypot(flown[0] - jet[0][0], flown[1] - jet[1][0], flown[2] - jet[2][0]) * metres_;
+      result_.flight_floor_m = rounding_of_flights(jet) * metres_;
     }
     result_.points.push_back(std::move(point));
   }
 
-  /// The largest position of each degree's part over the samples, degree N + 1 extrapolated.
+  /// The largest position of each degree's part, degree N + 1 extrapolated.
   std::vector<double> slice_sizes(const FlowJet<double>& jet) {
     std::vector<double> sizes(static_cast<std::size_t>(scene_.order) + 2, 0);
-    for (const auto& sample : samples_) {
-      values_.set_point(sample);
-      for (int d = 1; d <= scene_.order; ++d) {
-        const double size = std::hypot(values_.slice(jet[0], d), values_.slice(jet[1], d),
-                                       values_.slice(jet[2], d));
-        sizes[static_cast<std::size_t>(d)] = std::max(sizes[static_cast<std::size_t>(d)], size);
+    for (int d = 1; d <= scene_.order; ++d) {
+      for (const Vector6& sample : samples_with_worst(jet, d)) {
+        double& size = sizes[static_cast<std::size_t>(d)];
+        size = std::max(size, slice_size(jet, sample, d));
       }
     }
     const std::size_t last = sizes.size() - 2;
@@ -118,16 +190,14 @@ class ValidityStudy {
   /// The largest miss over the samples at a separation; infinite if a deputy cannot be flown.
   double miss(const FlowJet<double>& jet, int order, double separation) {
     double largest = 0;
-    for (const auto& sample : samples_) {
-      if (progress_)
+    for (const Vector6& sample : flown_samples_) {
+      if (progress_) {
         progress_("validity", static_cast<double>(result_.points.size()) /
                                   static_cast<double>(settings_.times.size()));
-      std::vector<double> deviation = sample;
-      std::vector<double> deputy = problem_.nominal;
-      for (std::size_t i = 0; i < deviation.size(); ++i) {
-        deviation[i] *= separation;
-        deputy[i] += deviation[i];
       }
+      const std::vector<double> start = deviation(separation * sample);
+      std::vector<double> deputy = problem_.nominal;
+      for (std::size_t k = 0; k < start.size(); ++k) deputy[k] += start[k];
       ++result_.flights;
       std::vector<double> flown;
       try {
@@ -136,12 +206,13 @@ class ValidityStudy {
         if (error.kind() != ErrorKind::numerical) throw;
         return std::numeric_limits<double>::infinity();
       }
-      values_.set_point(deviation);
+      values_.set_point(start);
       double square = 0;
       for (std::size_t i = 0; i < 3; ++i) {
         const double difference = values_.value(jet[i], order) - flown[i];
         square += difference * difference;
       }
+      if (!std::isfinite(square)) return std::numeric_limits<double>::infinity();
       largest = std::max(largest, std::sqrt(square));
       if (largest > hopeless * tolerance_) return largest;
     }
@@ -191,7 +262,9 @@ class ValidityStudy {
   double metres_;
   double tolerance_;  ///< canonical
   MonomialValues values_;
-  std::vector<std::vector<double>> samples_;
+  Matrix6 axes_;                        ///< see make_samples
+  std::vector<Vector6> samples_;        ///< of separation 1
+  std::vector<Vector6> flown_samples_;  ///< those that one order is proved on
   double time_ = 0;
   ValidityResult result_;
 };

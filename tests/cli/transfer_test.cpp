@@ -74,8 +74,8 @@ class TransferCommand : public CommandTest {
 TEST_F(TransferCommand, LeavesTablesPageAndSummary) {
   const CommandResult result = succeed({"transfer", "transfer.toml"});
   EXPECT_NE(result.out.find("The least velocity change found is"), std::string::npos);
-  EXPECT_NE(result.out.find("report: out/transfer/report.html"), std::string::npos);
-  const std::filesystem::path directory = directory_ / "out/transfer";
+  EXPECT_NE(result.out.find("report: out/transfer-transfer/report.html"), std::string::npos);
+  const std::filesystem::path directory = directory_ / "out/transfer-transfer";
   std::vector<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(directory)) {
     names.push_back(entry.path().filename().string());
@@ -100,7 +100,7 @@ TEST_F(TransferCommand, TheLinearAnswerIsThatOfClohessyAndWiltshire) {
   // with the velocity (u, v, w) seen from the rotating axes.
   succeed({"transfer", "transfer.toml", "-q", "--set", "jet.order=1", "--set",
            "transfer.tolerance_m=1000"});
-  const Json summary = read_json(directory_ / "out/transfer/summary.json");
+  const Json summary = read_json(directory_ / "out/transfer-transfer/summary.json");
   const double time = summary["best"]["time_s"];
   const double n = std::sqrt(398600.4415 / 1e12);
   const double s = std::sin(n * time), c = std::cos(n * time);
@@ -117,7 +117,7 @@ TEST_F(TransferCommand, TheLinearAnswerIsThatOfClohessyAndWiltshire) {
 
 TEST_F(TransferCommand, PrintsItsSummaryAsJson) {
   const CommandResult result = succeed({"transfer", "transfer.toml", "--json"});
-  EXPECT_EQ(Json::parse(result.out), read_json(directory_ / "out/transfer/summary.json"));
+  EXPECT_EQ(Json::parse(result.out), read_json(directory_ / "out/transfer-transfer/summary.json"));
   EXPECT_EQ(succeed({"transfer", "transfer.toml", "-q"}).out, "");
 }
 
@@ -166,7 +166,7 @@ TEST_F(TransferCommand, BeyondValidityIsMarkedAndFailsOnlyAStrictScene) {
   const CommandResult marked = succeed({"transfer", "far.toml"});
   EXPECT_NE(marked.out.find("3 of the others beyond the tolerance of 1 m"), std::string::npos)
       << marked.out;
-  Json summary = read_json(directory_ / "out/far/summary.json");
+  Json summary = read_json(directory_ / "out/far-transfer/summary.json");
   EXPECT_EQ(summary["counts"]["beyond_tolerance"], 3);
   EXPECT_TRUE(summary["best"].is_null());
   const CommandResult strict =
@@ -230,7 +230,7 @@ TEST_F(TransferCommand, StopsAtASignalAndLeavesNothing) {
 
 TEST_F(TransferCommand, ValidityIsProvedForEachOrder) {
   succeed({"validity", "validity.toml", "-q"});
-  const Json summary = read_json(directory_ / "out/validity/summary.json");
+  const Json summary = read_json(directory_ / "out/validity-validity/summary.json");
   EXPECT_EQ(summary["study"], "validity");
   const Json& times = summary["validity"]["times"];
   ASSERT_EQ(times.size(), 2U);
@@ -239,8 +239,8 @@ TEST_F(TransferCommand, ValidityIsProvedForEachOrder) {
     EXPECT_LT(time["orders"][0]["proved_m"], time["orders"][2]["proved_m"]);
     for (const Json& order : time["orders"]) EXPECT_LE(order["miss_m"], 1.0);
   }
-  EXPECT_EQ(read_table(directory_ / "out/validity/validity.csv").rows.size(), 6U);
-  EXPECT_TRUE(std::filesystem::exists(directory_ / "out/validity/report.html"));
+  EXPECT_EQ(read_table(directory_ / "out/validity-validity/validity.csv").rows.size(), 6U);
+  EXPECT_TRUE(std::filesystem::exists(directory_ / "out/validity-validity/report.html"));
 }
 
 TEST_F(TransferCommand, TakesAStoredJet) {
@@ -255,6 +255,9 @@ TEST_F(TransferCommand, TakesAStoredJet) {
   EXPECT_NEAR(stored["total_change_m_s"].get<double>(), computed["total_change_m_s"].get<double>(),
               1e-6);
   expect_error({"transfer", "transfer.toml", "--jet", "nowhere"}, 5, {"nowhere/summary.json"});
+  expect_error({"transfer", "transfer.toml", "--jet", "jets", "-o", "jets"}, 2,
+               {"--jet and -o: are the same directory"});
+  EXPECT_TRUE(std::filesystem::exists(directory_ / "jets/gauss8/jet.csv"));
   expect_error({"transfer", "transfer.toml", "--run", "gauss8"}, 2, {"--run requires --jet"});
   expect_error({"transfer", "transfer.toml", "--jet", "jets", "--set", "nominal.i_deg=31"}, 3,
                {"jets: the jet of gauss8 is about another orbit"});
@@ -262,12 +265,12 @@ TEST_F(TransferCommand, TakesAStoredJet) {
 
 TEST_F(TransferCommand, DeputiesGoToTheSlotsThatCostLeast) {
   succeed({"assign", "assignment.toml", "-q"});
-  const Json summary = read_json(directory_ / "out/assignment/summary.json");
+  const Json summary = read_json(directory_ / "out/assignment-assign/summary.json");
   ASSERT_EQ(summary["transfers"].size(), 2U);
   // Each has a slot 100 m away, and one 1900 m away.
   EXPECT_EQ(summary["transfers"][0]["slot"], 1);
   EXPECT_EQ(summary["transfers"][1]["slot"], 0);
-  const Table costs = read_table(directory_ / "out/assignment/costs.csv");
+  const Table costs = read_table(directory_ / "out/assignment-assign/costs.csv");
   ASSERT_EQ(costs.rows.size(), 4U);
   const double total = std::stod(costs.rows[1].back()) + std::stod(costs.rows[2].back());
   EXPECT_NEAR(summary["total_change_m_s"].get<double>(), total, 1e-6 * total);

@@ -53,6 +53,22 @@ TEST(Validity, SeparationGoesAsARootOfTheTolerance) {
   }
 }
 
+// Independent of the number of random deputies: the worst ones are looked for.
+TEST(Validity, MoreSamplesFindNothingMuchWorse) {
+  Scene few = scene_of(4, 1);
+  Scene many = few;
+  few.validity->samples = 10;
+  many.validity->samples = 2000;
+  const ValidityResult a = study_validity(few);
+  const ValidityResult b = study_validity(many);
+  for (std::size_t i = 0; i < a.points.size(); ++i) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      EXPECT_NEAR(a.points[i].entries[k].proved_m / b.points[i].entries[k].proved_m, 1, 0.1)
+          << i << ' ' << k + 1;
+    }
+  }
+}
+
 TEST(Validity, AFlatEllipsoidReachesAtLeastAsFarAsTheBall) {
   Scene scene = scene_of(2, 1);
   const ValidityResult ball = study_validity(scene);

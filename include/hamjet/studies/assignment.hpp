@@ -42,7 +42,8 @@ struct AssignmentResult {
 /// as study_transfer.
 AssignmentResult study_assignment(const Scene& scene, const ProgressCallback& progress = {});
 
-/// As of study_transfer, for the transfers chosen.
+/// 0; 1 if the scene is strict and a chosen transfer is beyond its tolerance or could not be
+/// refined; 4 if there is no assignment, or a chosen transfer has no answer.
 int exit_code(const AssignmentResult& result);
 
 }  // namespace hamjet

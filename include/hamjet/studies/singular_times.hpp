@@ -17,9 +17,10 @@ class LinearFlow {
  public:
   using StateTransition = Eigen::Matrix<double, 6, 6>;
 
-  /// `intervals` equal parts of the duration between checkpoints. The problem must outlive this
+  /// Checkpoints are `per_revolution` in a revolution of a circular orbit, and elsewhere at steps
+  /// that go as the distance r^(3/2), as the orbit's time scale does. The problem must outlive this
   /// object. Throws Error(usage) unless it is an orbit, expanded in all variables.
-  LinearFlow(const ComputedProblem& problem, double duration, std::size_t intervals,
+  LinearFlow(const ComputedProblem& problem, double duration, double per_revolution,
              const std::function<void(double)>& progress = {});
 
   StateTransition at(double time) const;
@@ -27,7 +28,6 @@ class LinearFlow {
   std::vector<double> chief(double time) const;
   const std::vector<double>& times() const noexcept { return times_; }  ///< of the checkpoints
   const StateTransition& checkpoint(std::size_t i) const { return matrices_[i]; }
-  double interval() const;
 
  private:
   std::size_t checkpoint_before(double time) const;
@@ -56,16 +56,22 @@ struct SingularTime {
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();
   /// The same along R, T, N of the chief at that time; absent where the chief has no orbital plane.
   std::optional<Eigen::Vector3d> direction_rtn = std::nullopt;
+
+  /// 2 at a double zero, as at the full periods of Kepler's problem: `direction` is then one of a
+  /// plane of them.
+  int directions_lost() const { return second_ratio < 1e-6 ? 2 : 1; }
 };
 
 /// The times in the span (0 and the end excluded) at which a kind's linear part is singular, in
 /// order. The function watched is the smallest singular value with the determinant's sign, which
 /// is continuous: where it changes sign between two checkpoints, and around every local minimum of
 /// its magnitude, which may hide a pair of zeros (J2 splits the double zeros of Kepler's full
-/// periods into pairs some thousandths of a time unit apart). Zeros are refined to the rounding of
-/// the time. Pairs within one checkpoint interval that leave no minimum on the checkpoints are
-/// missed; a minimum below `double_zero` of the largest singular value without a change of sign
-/// counts as a double zero.
+/// periods into pairs some thousandths of a time unit apart). Intervals about either are divided
+/// twice more, into eight and into four. Simple zeros are refined to the rounding of the time,
+/// double ones to its square root: a minimum below `double_zero` of the largest singular value
+/// without a change of sign is one, and so are two zeros nearer than round-off can tell. Missed are
+/// zeros that come in pairs between two points so divided, without a minimum there, or where none
+/// of the checkpoints showed anything.
 std::vector<SingularTime> find_singular_times(const LinearFlow& flow,
                                               const GeneratingFunctionKind& kind);
 

@@ -45,8 +45,9 @@ struct TransferPoint {
   std::string failure;  ///< not empty: no kind exists, and why; `answers` is empty
 
   bool has_answer() const { return !answers.empty() && answers.back().failure.empty(); }
-  /// The refined answer, where there is one, else that of the highest order.
-  const TransferAnswer& best() const { return refined ? *refined : answers.back(); }
+  bool is_refined() const { return refined && refined->failure.empty(); }
+  /// The refined answer, where the refinement succeeded, else that of the highest order.
+  const TransferAnswer& best() const { return is_refined() ? *refined : answers.back(); }
 };
 
 /// Condition numbers of the linear parts of all 64 kinds along time.
@@ -76,9 +77,12 @@ struct TransferResult {
   std::vector<TransferPoint> points;         ///< one a transfer time
   std::vector<SingularTime> singular_times;  ///< of all 64 kinds, in order of kind and time
   KindConditions conditions;
-  /// Distance between the chief as it was flown and the jet's nominal at the last time, metres:
-  /// misses below this say nothing.
+  /// Rounding of the flights' positions, grown with the linear flow to the last time; metres.
+  /// Misses below this say nothing.
   double flight_floor_m = 0;
+  /// Distance, at the last time, of the jet's nominal from the chief as it was flown, metres. Ends
+  /// are relative to the flown chief, so that an inaccurate integrator shows in the misses.
+  double chief_error_m = 0;
   TransferSeconds seconds;
 
   /// Index of the point with the least total velocity change among answers that are within the

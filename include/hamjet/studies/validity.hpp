@@ -12,7 +12,7 @@ namespace hamjet {
 struct ValidityEntry {
   int order = 0;
   double predicted_m = 0;  ///< from the decay of the jet's degrees
-  /// Found by flying the sampled deputies; 0 where not even the smallest separation tried holds.
+  /// Found by flying the sampled deputies; 0 where none of the separations tried holds.
   double proved_m = 0;
   double miss_m = 0;         ///< the worst sampled miss at `proved_m`
   bool is_at_limit = false;  ///< still right at the largest separation tried: a lower bound
@@ -36,7 +36,9 @@ struct ValidityResult {
 
 /// The study of table `[validity]`: deviations fill an ellipsoid in position along the chief's RTN
 /// axes, of largest semi-axis the separation, and the same ellipsoid times the mean motion in
-/// velocity; the miss is the distance between the final position that the jet's polynomial gives
+/// velocity; the samples are random ones and, for each order, those at which its error is largest
+/// by the next degree's part (found by gradient ascent from the largest samples). The miss is the
+/// distance between the final position that the jet's polynomial gives
 /// and that of the flown deputy. The prediction takes the error of order k for the part of degree k
 /// + 1, whose largest value over the samples grows as the separation to the power k + 1; that of
 /// the highest order is extrapolated from the ratio of the last two. Throws as study_transfer.
