@@ -110,6 +110,18 @@ TEST(Assignment, TotalIsTheLeastOfItsCostsAndIsFlown) {
   }
 }
 
+TEST(Assignment, AFailedRefinementCountsWithThePolynomialsAnswer) {
+  Scene scene = swarm();
+  const AssignmentResult plain = study_assignment(scene);
+  scene.transfer->refine = true;
+  scene.transfer->refined_miss_m = 1e-15;  // below the rounding of the flights
+  const AssignmentResult result = study_assignment(scene);
+  EXPECT_NEAR(result.total_change_m_s, plain.total_change_m_s, 1e-9);
+  EXPECT_EQ(exit_code(result), 0);
+  scene.transfer->strict = true;
+  EXPECT_EQ(exit_code(study_assignment(scene)), 1);
+}
+
 TEST(Assignment, EachPairsTimeIsItsBest) {
   Scene scene = swarm();
   const AssignmentResult any = study_assignment(scene);

@@ -128,6 +128,42 @@ TEST(Transfer, RefinementReachesTheStatedMiss) {
   }
 }
 
+TEST(Transfer, AnInaccurateIntegratorDoesNotProveItself) {
+  Scene scene = paper_chief(2);
+  scene.transfer = short_hop(1e3, {4.0});
+  scene.transfer->refine = true;
+  const TransferPoint right = study_transfer(scene).points[0];
+  scene.integrators[0].stages = 1;
+  scene.integrators[0].tolerance.reset();
+  scene.integrators[0].step_canonical = 0.1;
+  const TransferResult result = study_transfer(scene);
+  EXPECT_GT(result.chief_error_m, 1e4);
+  EXPECT_LT(result.flight_floor_m, 1e-5);
+  EXPECT_GT(result.points[0].answers[1].miss_m, 1);
+  EXPECT_TRUE(result.points[0].is_beyond_tolerance);
+  // Refined by flying, the answer is that of the accurate integrator.
+  ASSERT_TRUE(result.points[0].is_refined() && right.is_refined());
+  EXPECT_LT((result.points[0].refined->start_change_m_s - right.refined->start_change_m_s).norm(),
+            1e-5);
+}
+
+TEST(Transfer, AFailedRefinementLeavesTheAnswerOfTheHighestOrder) {
+  Scene scene = paper_chief(3);
+  scene.transfer = short_hop(1e3, {4.0});
+  scene.transfer->refine = true;
+  scene.transfer->refined_miss_m = 1e-15;  // below the rounding of the flights
+  const TransferResult result = study_transfer(scene);
+  const TransferPoint& point = result.points[0];
+  ASSERT_TRUE(point.refined.has_value());
+  EXPECT_FALSE(point.refined->failure.empty());
+  EXPECT_EQ(point.best().order, 3);
+  EXPECT_GT(point.best().total_change_m_s(), 0);
+  EXPECT_EQ(result.best_point(), std::optional<std::size_t>(0));
+  EXPECT_EQ(exit_code(result), 0);
+  scene.transfer->strict = true;
+  EXPECT_EQ(exit_code(study_transfer(scene)), 1);
+}
+
 TEST(Transfer, TheFlownTrajectoryJoinsTheTwoEnds) {
   Scene scene = paper_chief(4);
   scene.transfer = short_hop(1e3, {3.0});
