@@ -5,6 +5,7 @@
 #include <string>
 
 #include "energy_conserving_runs.hpp"
+#include "hamjet/dynamics/zonal_gravity.hpp"
 
 // Symplecticity, by differences in extended precision, and the equations as the paper ought
 // to print them.
@@ -138,6 +139,33 @@ TEST(EnergyConservingSymplectic, AtOneEnergyAndNoOther) {
     EXPECT_LT(defect(one_energy, false), 1e-15);
     EXPECT_GT(defect(own_energies, false), 1e-3);
     EXPECT_LT(defect(own_energies, true), 1e-15);
+  }
+}
+
+// Expected: the same two lemmas on the four systems on which every integrator is tested.
+TEST(EnergyConservingSymplectic, OnTheOscillatorTheDoubleWellKeplerAndTheEarthOrbit) {
+  const DynamicalSystem systems[] = {
+      harmonic_oscillator(1, 1), double_well(), kepler(),
+      zonal_gravity({1.0, 0x1.d283e1c01dcf3p-1, 0x1.1bcdd8a6cfd70p-10, 0x1.53e5d6a0f845cp-19})};
+  const std::vector<double> inclined = {0.4, 0.7, 0.5, -0.8, 0.5, 0.6};  // outbound, bound
+  const Vector starts[] = {{0.9, 0.6},
+                           {0.8, 0.3},
+                           {inclined.begin(), inclined.end()},
+                           {inclined.begin(), inclined.end()}};
+  for (std::size_t k = 0; k < std::size(systems); ++k) {
+    for (const Method method : {Method::stormer, Method::midpoint}) {
+      SCOPED_TRACE(systems[k].name + " " +
+                   std::string(energy_conserving_method_names()[static_cast<std::size_t>(method)]));
+      const EnergyConservingProblem<Extended> problem{&systems[k], method, starts[k],
+                                                      Extended(0.03125), 1};
+      const Tangent own_energies = tangent(problem, false);
+      EXPECT_LT(defect(tangent(problem, true), false), 1e-15);
+      // On the oscillator all steps of the midpoint form are equal, whatever the energy.
+      if (k > 0 || method == Method::stormer) {
+        EXPECT_GT(defect(own_energies, false), 1e-6);
+      }
+      EXPECT_LT(defect(own_energies, true), 1e-15);
+    }
   }
 }
 
