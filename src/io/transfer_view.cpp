@@ -26,15 +26,13 @@ void add_statistics(std::string name, std::vector<double> misses,
 }  // namespace
 
 const TransferAnswer* shown_answer(const TransferPoint& point) {
-  if (point.refined && is_answer(*point.refined)) return &*point.refined;
-  return point.has_answer() ? &point.answers.back() : nullptr;
+  return point.has_answer() ? &point.best() : nullptr;
 }
 
 std::string answer_name(const TransferPoint& point) {
   const TransferAnswer* answer = shown_answer(point);
   if (answer == nullptr) return "";
-  const bool is_refined = point.refined && answer == &*point.refined;
-  return is_refined ? "refined" : fmt::format("order {}", answer->order);
+  return point.is_refined() ? "refined" : fmt::format("order {}", answer->order);
 }
 
 const TransferAnswer* answer_of_order(const TransferPoint& point, int order) {
@@ -62,13 +60,13 @@ TransferCounts count_points(const TransferResult& result) {
   for (const TransferPoint& point : result.points) {
     const bool is_answered = shown_answer(point) != nullptr;
     const bool is_away = !point.is_near_singular;
-    const bool has_failed_refinement = point.refined && !is_answer(*point.refined);
+    const bool has_failed_refinement = point.refined && !point.is_refined();
     counts.answered += is_answered;
     counts.near_singular += point.is_near_singular;
     counts.beyond_tolerance += is_answered && point.is_beyond_tolerance;
     counts.beyond_tolerance_away += is_answered && point.is_beyond_tolerance && is_away;
     counts.unanswered_away += !is_answered && is_away;
-    counts.refined += point.refined && !has_failed_refinement;
+    counts.refined += point.is_refined();
     counts.refinement_failed += has_failed_refinement;
     counts.refinement_failed_away += has_failed_refinement && is_away;
   }
@@ -87,7 +85,7 @@ std::vector<MissStatistics> miss_statistics(const TransferResult& result) {
   }
   std::vector<double> refined;
   for (const TransferPoint& point : result.points) {
-    if (point.refined && is_answer(*point.refined) && !point.is_near_singular) {
+    if (point.is_refined() && !point.is_near_singular) {
       refined.push_back(point.refined->miss_m);
     }
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "exact_flow.hpp"
 #include "formation_problem.hpp"
 #include "hamjet/error.hpp"
 #include "jets_along_time.hpp"

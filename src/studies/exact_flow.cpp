@@ -4,6 +4,12 @@
 
 namespace hamjet {
 
+std::vector<double> nominal_of(const FlowJet<double>& jet) {
+  std::vector<double> state;
+  for (const Series<double>& component : jet) state.push_back(component[0]);
+  return state;
+}
+
 FlowProblem<double> trajectory_problem(const DynamicalSystem& system,
                                        const std::vector<double>& start, double duration) {
   FlowProblem<double> problem;
@@ -20,11 +26,8 @@ std::vector<double> exact_flow(const DynamicalSystem& system, const std::vector<
   GaussSettings settings;
   settings.tolerance = 1e-13;
   IntegrationStatistics statistics;
-  const FlowJet<double> jet =
-      integrate_gauss(trajectory_problem(system, start, duration), settings, statistics);
-  std::vector<double> state;
-  for (const Series<double>& component : jet) state.push_back(component[0]);
-  return state;
+  return nominal_of(
+      integrate_gauss(trajectory_problem(system, start, duration), settings, statistics));
 }
 
 }  // namespace hamjet

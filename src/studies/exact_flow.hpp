@@ -6,6 +6,9 @@
 
 namespace hamjet {
 
+/// The nominal's state, the constant terms of a jet.
+std::vector<double> nominal_of(const FlowJet<double>& jet);
+
 /// A flow problem for the trajectory alone: series of order 0.
 FlowProblem<double> trajectory_problem(const DynamicalSystem& system,
                                        const std::vector<double>& start, double duration);

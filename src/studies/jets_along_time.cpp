@@ -1,5 +1,6 @@
 #include "jets_along_time.hpp"
 
+#include "exact_flow.hpp"
 #include "integration.hpp"
 
 namespace hamjet {
@@ -15,7 +16,7 @@ IntegrationStatistics visit_jets(
   double reached = 0;
   for (std::size_t i = 0; i < times.size(); ++i) {
     flow.duration = times[i] - reached;
-    for (std::size_t c = 0; c < jet.size(); ++c) flow.initial_state[c] = jet[c][0];
+    flow.initial_state = nominal_of(jet);
     IntegrationStatistics statistics;
     jet = integrate<double>(flow, settings, statistics, {});
     total.steps += statistics.steps;

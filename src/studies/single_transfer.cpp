@@ -15,12 +15,6 @@ MetricUnits metric_units(const Scene& scene) {
   return {scene.units.length_km * 1000, scene.units.time_s};
 }
 
-std::vector<double> nominal_of(const FlowJet<double>& jet) {
-  std::vector<double> state;
-  for (const auto& component : jet) state.push_back(component[0]);
-  return state;
-}
-
 double rounding_of_flights(const FlowJet<double>& jet) {
   const std::vector<double> state = nominal_of(jet);
   const double position = std::hypot(state[0], state[1], state[2]);

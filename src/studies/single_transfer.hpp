@@ -11,9 +11,6 @@ namespace hamjet {
 /// SI values of a scene's units.
 MetricUnits metric_units(const Scene& scene);
 
-/// The nominal's state, the constant terms of a jet.
-std::vector<double> nominal_of(const FlowJet<double>& jet);
-
 /// Rounding of the positions of two flights, grown with the jet's linear part; canonical.
 double rounding_of_flights(const FlowJet<double>& jet);
 

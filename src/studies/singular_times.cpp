@@ -35,10 +35,7 @@ LinearArc linear_arc(const DynamicalSystem& system, const SpacePointer& space,
   settings.tolerance = 1e-14;
   IntegrationStatistics statistics;
   const FlowJet<double> jet = integrate_gauss<double>(flow, settings, statistics);
-  LinearArc arc;
-  for (const auto& component : jet) arc.state.push_back(component[0]);
-  arc.matrix = linear_part(std::span<const Series<double>>(jet));
-  return arc;
+  return {nominal_of(jet), linear_part(std::span<const Series<double>>(jet))};
 }
 
 /// The smallest singular value over the largest, with the determinant's sign.

@@ -123,12 +123,12 @@ bool has_orbital_plane(const std::vector<double>& chief) {
 
 RelativeTrajectory fly_relative(const TransferResult& result, std::size_t point, int count) {
   const Scene& scene = result.scene;
-  const ComputedProblem problem = make_problem(scene, available_memory());
+  const DynamicalSystem system = make_system(scene);
   const TransferPoint& transfer = result.points[point];
   const MetricUnits units = metric_units(scene);
   RelativeState start = scene.transfer->start;
   start.velocity_m_s += transfer.best().start_change_m_s;
-  std::vector<double> chief = problem.nominal;
+  std::vector<double> chief = scene.nominal;
   std::vector<double> deputy = chief;
   const auto deviation = ChiefFrame(chief, units, scene.transfer->frame).deviation(start);
   for (std::size_t i = 0; i < deputy.size(); ++i) deputy[i] += deviation[i];
@@ -138,8 +138,8 @@ RelativeTrajectory fly_relative(const TransferResult& result, std::size_t point,
   }
   for (int k = 0; k <= count; ++k) {
     if (k > 0) {
-      chief = exact_flow(problem.system, chief, transfer.time / count);
-      deputy = exact_flow(problem.system, deputy, transfer.time / count);
+      chief = exact_flow(system, chief, transfer.time / count);
+      deputy = exact_flow(system, deputy, transfer.time / count);
     }
     std::vector<double> difference;
     for (std::size_t i = 0; i < deputy.size(); ++i) difference.push_back(deputy[i] - chief[i]);

@@ -135,7 +135,7 @@ ChosenKind TransferPoints::choose_kind(double time, const FlowJet<double>& jet,
 }
 
 TransferPoint TransferPoints::answer(const ChosenKind& chosen, const FlowJet<double>& jet,
-                                     const RelativeTransfer& ends) const {
+                                     const RelativeTransfer& ends) {
   TransferPoint point;
   point.time = chosen.time;
   point.position_condition = chosen.conditions.front();
@@ -147,12 +147,8 @@ TransferPoint TransferPoints::answer(const ChosenKind& chosen, const FlowJet<dou
   point.condition = chosen.inversion->condition;
   const std::vector<double> chief_end = nominal_of(jet);
   // The ends are relative to the chief as it flies: an inaccurate integrator must not prove itself.
-  std::vector<double> flown_chief;
-  {
-    const Stopwatch watch(seconds_.proof);
-    flown_chief = exact_flow(problem_.system, problem_.nominal, chosen.time);
-  }
-  const SingleTransfer transfer(scene_, problem_, chosen.time, flown_chief, ends.start, ends.end);
+  const SingleTransfer transfer(scene_, problem_, chosen.time, flown_chief(chosen.time), ends.start,
+                                ends.end);
   std::vector<BoundaryMomenta> momenta(static_cast<std::size_t>(scene_.order));
   {
     const Stopwatch watch(seconds_.solution);
@@ -202,12 +198,20 @@ double TransferPoints::flight_floor_m(const FlowJet<double>& jet) const {
   return rounding_of_flights(jet) * metric_units(scene_).length_m;
 }
 
-double TransferPoints::chief_error_m(double time, const FlowJet<double>& jet) const {
-  const Stopwatch watch(seconds_.proof);
-  const std::vector<double> flown = exact_flow(problem_.system, problem_.nominal, time);
+double TransferPoints::chief_error_m(double time, const FlowJet<double>& jet) {
+  const std::vector<double>& flown = flown_chief(time);
   const std::vector<double> nominal = nominal_of(jet);
   return std::hypot(flown[0] - nominal[0], flown[1] - nominal[1], flown[2] - nominal[2]) *
          metric_units(scene_).length_m;
+}
+
+const std::vector<double>& TransferPoints::flown_chief(double time) {
+  if (flown_chief_.empty() || time != chief_time_) {
+    const Stopwatch watch(seconds_.proof);
+    flown_chief_ = exact_flow(problem_.system, problem_.nominal, time);
+    chief_time_ = time;
+  }
+  return flown_chief_;
 }
 
 }  // namespace hamjet

@@ -41,12 +41,12 @@ class TransferPoints {
                          const std::vector<RelativeTransfer>& transfers);
   /// All orders' answers, proved, and the refinement if the scene asks for it.
   TransferPoint answer(const ChosenKind& chosen, const FlowJet<double>& jet,
-                       const RelativeTransfer& ends) const;
+                       const RelativeTransfer& ends);
   /// The next choice of a kind looks at no earlier one.
   void forget_last_kind() { choice_ = {}; }
   /// See TransferResult.
   double flight_floor_m(const FlowJet<double>& jet) const;
-  double chief_error_m(double time, const FlowJet<double>& jet) const;
+  double chief_error_m(double time, const FlowJet<double>& jet);
 
  private:
   /// How fast each kind's polynomials decay: with B the block that the kind inverts and d the
@@ -58,6 +58,8 @@ class TransferPoints {
                                            double time) const;
   void find_singular_times(const ProgressCallback& progress);
   std::optional<double> singular_distance(double time) const;
+  /// The chief flown to a time; the last one is kept, for several deputies and the chief's error.
+  const std::vector<double>& flown_chief(double time);
   void measure_residual(const ChosenKind& chosen, const std::vector<double>& chief_end,
                         TransferPoint& point) const;
 
@@ -67,6 +69,8 @@ class TransferPoints {
   ComputedProblem problem_;
   std::vector<GeneratingFunctionKind> kinds_;
   KindChoice choice_;
+  double chief_time_ = 0;
+  std::vector<double> flown_chief_;  ///< at that time
   std::vector<SingularTime> singular_times_;
 };
 

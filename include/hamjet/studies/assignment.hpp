@@ -37,9 +37,9 @@ struct AssignmentResult {
 };
 
 /// The study of table `[assignment]`: a matrix of velocity changes from the generating functions of
-/// `[transfer]`'s times, and the assignment of least total (a maximum weighted matching; Boost
-/// Graph). Only transfers away from singularities count; those chosen are proved by flying. Throws
-/// as study_transfer.
+/// `[transfer]`'s times, and the assignment of least total (a flow of least cost; Boost Graph).
+/// Only transfers away from singularities count; those chosen are proved by flying. Throws as
+/// study_transfer.
 AssignmentResult study_assignment(const Scene& scene, const ProgressCallback& progress = {});
 
 /// 0; 1 if the scene is strict and a chosen transfer is beyond its tolerance or could not be
