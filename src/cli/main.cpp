@@ -10,6 +10,7 @@
 #include "interruption.hpp"
 #include "list_command.hpp"
 #include "run_command.hpp"
+#include "stability_command.hpp"
 #include "standard_streams.hpp"
 #include "transfer_command.hpp"
 #include "usage.hpp"
@@ -29,6 +30,7 @@ constexpr const char* examples = R"(Examples:
   hamjet assign scene.toml                  deputies to slots at the least total velocity change
   hamjet eval out/scene --deviation 100,0,0,0,0.1,0
                                             a relative state (RTN: m, m/s) through the stored jet
+  hamjet stability                          the suite of stiff and extreme cases; a report
   hamjet check scene.toml                   what would be computed, and the memory it takes
   hamjet list integrators
 
@@ -151,6 +153,14 @@ int dispatch(int argc, char** argv) {
   const CLI::App* assign =
       add_study("assign", "send deputies to slots at the least total velocity change");
 
+  std::optional<std::string> suite;
+  CLI::App* stability = app.add_subcommand(
+      "stability", "run the stiff and extreme cases: right, refused, marked, or wrong");
+  stability
+      ->add_option("--suite", suite, "folder of cases, or one case (default: data/scenes/extreme)")
+      ->type_name("SCENES");
+  add_run_options(*stability, options);
+
   hamjet::cli::EvalOptions evaluation;
   const CLI::App* eval = add_eval_command(app, evaluation);
 
@@ -185,6 +195,7 @@ int dispatch(int argc, char** argv) {
     return hamjet::cli::compare(comparison);
   }
   if (*transfer) return hamjet::cli::transfer(options, transfers);
+  if (*stability) return hamjet::cli::stability(options, suite);
   if (*validity) return hamjet::cli::validity(options);
   if (*assign) return hamjet::cli::assign(options);
   return hamjet::cli::run(options);

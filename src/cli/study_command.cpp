@@ -36,10 +36,13 @@ int report_study(const RunOptions& options, const std::string& scene_name,
   if (options.json) {
     print(report.summary());
   } else if (!options.quiet) {
-    const bool has_page = std::any_of(report.files.begin(), report.files.end(),
-                                      [](const auto& file) { return file.path == "report.html"; });
+    const auto page = std::find_if(report.files.begin(), report.files.end(), [](const auto& file) {
+      return file.path.extension() == ".html";
+    });
     print(report.table + fmt::format("results: {}\n", directory.string()) +
-          (has_page ? fmt::format("report: {}\n", (directory / "report.html").string()) : ""));
+          (page != report.files.end()
+               ? fmt::format("report: {}\n", (directory / page->path).string())
+               : ""));
   }
   if (report.exit_code != 0) print_error(report.failure);
   return report.exit_code;

@@ -22,7 +22,8 @@ bool is_reserved(std::string_view label) {
                                                "figure.svg",         "transfers.csv",
                                                "singular_times.csv", "conditions.csv",
                                                "validity.csv",       "assignment.csv",
-                                               "costs.csv"};
+                                               "costs.csv",          "stability.csv",
+                                               "stability.html",     "stability.json"};
   return std::find(std::begin(names), std::end(names), label) != std::end(names);
 }
 

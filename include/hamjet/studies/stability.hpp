@@ -1,0 +1,121 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "hamjet/algebra/extended.hpp"
+#include "hamjet/error.hpp"
+#include "hamjet/studies/progress.hpp"
+#include "hamjet/studies/scene.hpp"
+
+namespace hamjet {
+
+/// How a stiff or extreme case came out.
+enum class CaseOutcome {
+  right,    ///< within the stated tolerance of an independent reference
+  refused,  ///< a clear error, where that is what is right
+  marked,   ///< a result that carries its own warning, a failed self-check
+  wrong     ///< anything else: the only outcome that must never be
+};
+
+/// The outcomes' names, in the order of the enumeration.
+const char* outcome_name(CaseOutcome outcome);
+
+/// How a quantity is expected to grow along a case's duration: exponents of time that a fit through
+/// its values at 1, 1/2, 1/4, ... of the duration must not exceed, or must meet.
+struct GrowthExpectation {
+  int checkpoints = 8;                        ///< values that the fit goes through
+  std::optional<double> error_exponent;       ///< of the nominal's error: not above
+  std::optional<double> energy_exponent;      ///< of the energy error: not above
+  std::vector<double> coefficient_exponents;  ///< of the largest coefficient of degree 1, 2, ...
+  double exponent_tolerance = 0.1;            ///< of the coefficients' exponents
+};
+
+/// A condition number of a kind's inverted block that is known independently.
+struct ConditionExpectation {
+  std::string kind;  ///< as in a scene
+  double value = 0;
+};
+
+/// What is right for a case: the table `[case]` of its file.
+struct StabilityExpectation {
+  CaseOutcome outcome = CaseOutcome::right;
+  std::string source;  ///< where the reference comes from
+  /// Final nominal, canonical, 2n numbers; empty: not compared.
+  std::vector<Extended> state;
+  /// First derivatives of the final by the initial state, by rows, 2n x 2n; empty: not compared.
+  std::vector<Extended> matrix;
+  /// Error that half-ulp changes of the inputs alone cause; empty: computed (HalfUlpFloor).
+  std::vector<double> state_floor;
+  double tolerance = 0;  ///< pass: |error| <= tolerance + floor_factor * floor
+  double floor_factor = 10;
+  /// The same jet another way, compared coefficient by coefficient up to the lower order, relative
+  /// to the largest of the degree.
+  std::optional<Scene> twin;
+  bool round_trip = false;  ///< out and back: the start is compared
+  std::optional<ConditionExpectation> condition;
+  std::optional<GrowthExpectation> growth;
+  int exit_code = 0;    ///< refused
+  std::string message;  ///< refused: a part of the error
+  std::string mark;     ///< marked: the self-check that must fail
+};
+
+/// A scene with what is right for it.
+struct StabilityCase {
+  std::string name;   ///< stem of its file
+  std::string title;  ///< of the scene
+  std::string group;
+  std::string why;  ///< what is hard about it
+  StabilityExpectation expected;
+  std::variant<Scene, Error> scene;  ///< or why it was refused as it was read
+};
+
+/// An error against what it may be.
+struct MeasuredError {
+  std::string quantity;
+  double error = 0;
+  double floor = 0;
+  double tolerance = 0;
+  double floor_factor = 10;
+
+  double allowed() const { return tolerance + floor_factor * floor; }
+  /// At most 1 where the error is allowed; infinite where none is and there is one, or where it is
+  /// not a number.
+  double ratio() const;
+};
+
+/// A quantity along a case's duration, with the exponent of time fitted to it.
+struct GrowthCurve {
+  std::string quantity;
+  std::vector<std::pair<double, double>> points;  ///< canonical time, value
+  std::optional<double> exponent;                 ///< none where too few values are above round-off
+  double expected = 0;
+  bool is_upper_bound = true;
+  bool is_as_expected = false;
+};
+
+/// What a case gave.
+struct StabilityResult {
+  const StabilityCase* subject = nullptr;
+  CaseOutcome outcome = CaseOutcome::wrong;
+  std::string text;                     ///< one line: the error, the mark, or why it is wrong
+  std::optional<MeasuredError> error;   ///< the worst of those measured
+  std::vector<MeasuredError> measured;  ///< all, one a quantity
+  double seconds = 0;                   ///< of the whole case
+  std::optional<long> steps;            ///< absent where nothing was integrated
+  std::optional<double> energy_error;   ///< relative, the largest along the nominal
+  std::optional<double> symplecticity;  ///< largest scaled defect over all degrees
+  std::optional<double> exactness;      ///< largest scaled residual over kinds and degrees
+  std::optional<double> condition;      ///< of the first kind's inverted block
+  std::vector<GrowthCurve> growth;
+};
+
+/// Runs a case and says how it came out. Errors that the case does not expect make it wrong; only
+/// what `progress` throws is passed on.
+StabilityResult run_stability_case(const StabilityCase& subject,
+                                   const ProgressCallback& progress = {});
+
+}  // namespace hamjet

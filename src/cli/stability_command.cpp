@@ -1,0 +1,48 @@
+#include "stability_command.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "hamjet/error.hpp"
+#include "hamjet/io/stability_report.hpp"
+#include "report_origin.hpp"
+#include "standard_streams.hpp"
+#include "study_command.hpp"
+
+namespace hamjet::cli {
+namespace {
+
+/// Of the working directory, or of the tree that the program was built from.
+std::filesystem::path default_suite() {
+  const std::filesystem::path here = "data/scenes/extreme";
+  std::error_code ignored;
+  if (std::filesystem::is_directory(here, ignored)) return here;
+  const std::filesystem::path source = std::filesystem::path(HAMJET_SOURCE_DIR) / here;
+  if (std::filesystem::is_directory(source, ignored)) return source;
+  throw Error(ErrorKind::input_output,
+              fmt::format("{}: no such folder; --suite names a folder of cases", here.string()));
+}
+
+}  // namespace
+
+int stability(const RunOptions& options, const std::optional<std::string>& suite) {
+  const auto cases =
+      io::read_stability_suite(suite ? std::filesystem::path(*suite) : default_suite());
+  return report_study(options, "stability", [&](const ProgressCallback& progress) {
+    std::vector<StabilityResult> results;
+    std::size_t width = 0;
+    for (const StabilityCase& subject : cases) width = std::max(width, subject.name.size());
+    for (const StabilityCase& subject : cases) {
+      const auto done = static_cast<double>(results.size());
+      results.push_back(run_stability_case(subject, [&](const std::string&, double fraction) {
+        progress("stability", (done + fraction) / static_cast<double>(cases.size()));
+      }));
+      if (!options.json && !options.quiet) print(io::stability_line(results.back(), width));
+    }
+    return io::stability_report(results, report_origin(options.command));
+  });
+}
+
+}  // namespace hamjet::cli

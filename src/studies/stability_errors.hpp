@@ -1,0 +1,17 @@
+#pragma once
+
+#include <vector>
+
+#include "hamjet/studies/propagation.hpp"
+#include "hamjet/studies/stability.hpp"
+
+namespace hamjet {
+
+/// Errors of a case's first run against what the case expects, one a quantity: the worst component
+/// of the state, of the matrix, of each degree of the twin's jet, and so on. Throws Error(usage) if
+/// the expectation does not fit the scene, and as `propagate` does for what has to be run besides.
+std::vector<MeasuredError> measure_errors(const StabilityExpectation& expected,
+                                          const PropagationResult& result,
+                                          const ProgressCallback& progress);
+
+}  // namespace hamjet
