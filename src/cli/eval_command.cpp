@@ -240,7 +240,7 @@ int eval(const EvalOptions& options) {
   for (std::size_t row = 0; row < deviations.rows(); ++row) {
     const auto variables = coordinates.variables(deviations.row(row));
     if (!variables) {
-      const auto names = variable_names(stored.model);
+      const auto names = stored.variable_names();
       std::string expanded;
       for (const std::size_t v : stored.variables) expanded += fmt::format(" {}", names[v]);
       const std::string what = fmt::format(

@@ -54,7 +54,7 @@ EvalCoordinates::EvalCoordinates(const io::StoredJet& stored, const std::string&
     : stored_(stored) {
   check_frame(frame, derivatives);
   if (frame == "canonical") {
-    const auto names = variable_names(stored.model);
+    const auto names = stored.variable_names();
     for (const std::size_t v : stored.variables) initial_columns_.push_back(names[v]);
     for (const std::size_t c : stored.components) final_columns_.push_back(names[c]);
     return;
@@ -92,7 +92,7 @@ std::optional<std::vector<double>> EvalCoordinates::variables(
 
 std::vector<double> EvalCoordinates::final_state(std::span<const double> components) const {
   if (!final_) return {components.begin(), components.end()};
-  std::vector<double> full(variable_names(stored_.model).size(), 0);
+  std::vector<double> full(stored_.nominal_initial.size(), 0);
   for (std::size_t c = 0; c < components.size(); ++c) full[stored_.components[c]] = components[c];
   const RelativeState state = final_->relative(full);
   return {state.position_m[0],   state.position_m[1],   state.position_m[2],

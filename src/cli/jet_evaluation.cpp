@@ -21,10 +21,10 @@ std::vector<Series<double>> deviation_map(const FlowJet<Extended>& jet) {
 
 JetEvaluation::JetEvaluation(const io::StoredJet& stored, std::optional<int> degree)
     : evaluator_(deviation_map(stored.jet), degree),
-      positions_(static_cast<std::size_t>(
-          std::lower_bound(stored.components.begin(), stored.components.end(),
-                           variable_names(stored.model).size() / 2) -
-          stored.components.begin())),
+      positions_(static_cast<std::size_t>(std::lower_bound(stored.components.begin(),
+                                                           stored.components.end(),
+                                                           stored.nominal_initial.size() / 2) -
+                                          stored.components.begin())),
       length_m_(stored.units.length_km * 1000) {}
 
 void JetEvaluation::add(const std::vector<double>& variables) { pending_.push_back(variables); }

@@ -14,7 +14,14 @@ std::string systems() {
          "J2, J3\n"
          "kepler               Kepler's problem: mu_km3_s2\n"
          "harmonic-oscillator  one degree of freedom: mass_kg, stiffness_N_per_m\n"
-         "double-well          one degree of freedom, H = p^2/2 + (q^4 - q^2)/2\n";
+         "double-well          one degree of freedom, H = p^2/2 + (q^4 - q^2)/2\n"
+         "oscillator-pair      two oscillators without coupling: mass_kg, stiffness_N_per_m = [k1, "
+         "k2]\n"
+         "spring-pendulum      mass on a spring in a plane, q2 upwards: mass_kg, "
+         "stiffness_N_per_m, "
+         "length_m, gravity_m_s2\n"
+         "fermi-pasta-ulam     chain of stiff linear and soft quartic springs: omega_rad_per_s, "
+         "pairs (1 to 4)\n";
 }
 
 std::string integrators() {
@@ -22,7 +29,7 @@ std::string integrators() {
   return fmt::format(
       "gauss        Gauss collocation, 1 (implicit midpoint) to 12 stages, order 2 stages; "
       "symplectic; "
-      "step_canonical, step_s or tolerance\n"
+      "step_canonical, step_s or tolerance; compensated_summation\n"
       "stormer      Störmer's rule of the paper (symplectic Euler), order 1; symplectic; "
       "step_canonical or step_s\n"
       "velocity-verlet  order 2, and symmetric compositions of it of order 4, 6, 8; symplectic; "
@@ -42,7 +49,8 @@ std::string kinds() {
   std::string text =
       "A generating function takes one final and one initial variable of each pair (q, p):\n"
       "F1 (q, q0)   F2 (q, p0)   F3 (p, q0)   F4 (p, p0)   auto (the best conditioned of all)\n"
-      "For an orbit, final choice, hyphen, initial choice for x, y, z:\n";
+      "For an orbit, final choice, hyphen, initial choice for x, y, z (for another model as many "
+      "letters as\ndegrees of freedom):\n";
   const auto all = all_kinds(3);
   for (std::size_t i = 0; i < all.size(); ++i) {
     text += all[i].name() + (i % 8 == 7 ? "\n" : "  ");

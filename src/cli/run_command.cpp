@@ -76,7 +76,7 @@ namespace {
 
 void check_flow_jet(const std::string& file, const Scene& scene) {
   const ComputedProblem problem = make_problem(scene, available_memory());
-  const auto names = variable_names(scene.system.model);
+  const auto names = variable_names(scene.system);
   std::string components;
   for (const std::size_t c : problem.components) components += fmt::format(" {}", names[c]);
   std::string text = fmt::format(
@@ -97,7 +97,8 @@ void check_flow_jet(const std::string& file, const Scene& scene) {
     text += fmt::format("  integrator   {}: {}", settings.label,
                         method_names()[static_cast<std::size_t>(settings.method)]);
     if (settings.method == IntegrationMethod::gauss) {
-      text += fmt::format(", {} stages", settings.stages);
+      text += fmt::format(", {} stages{}", settings.stages,
+                          settings.compensated_summation ? "" : ", without compensated summation");
     }
     if (settings.method == IntegrationMethod::velocity_verlet) {
       text += fmt::format(", order {}", settings.order);

@@ -34,7 +34,7 @@ class GaussIntegrator {
         tableau_(gauss_tableau(static_cast<std::size_t>(settings.stages))),
         stages_(*problem.system, tableau_, problem.space, order_),
         point_(problem.system->evaluated_list(), problem.space, 0),
-        jet_(problem),
+        jet_(problem, settings.compensated_summation),
         control_(settings, tableau_, stages_, jet_, order_) {
     for (const auto& component : jet_.value()) state_.push_back(component.coefficients().data());
   }

@@ -10,15 +10,18 @@
 
 namespace hamjet {
 
-/// The flow's jet as it advances from step to step, with the round-off that each addition lost.
+/// The flow's jet as it advances from step to step, with the round-off that each addition lost
+/// unless it is summed plainly.
 template <class Real, int Lanes>
 class SummedJet {
  public:
   using P = Pack<Real, Lanes>;
 
-  explicit SummedJet(const FlowProblem<Real>& problem)
-      : jet_(starting_jet(problem)),
-        lost_(jet_.size(), std::vector<Real>(problem.space->size(), Real(0))) {}
+  SummedJet(const FlowProblem<Real>& problem, bool is_compensated)
+      : is_compensated_(is_compensated),
+        jet_(starting_jet(problem)),
+        lost_(jet_.size(), std::vector<Real>(is_compensated ? problem.space->size() : 0, Real(0))) {
+  }
 
   const FlowJet<Real>& value() const { return jet_; }
   FlowJet<Real> take() { return std::move(jet_); }
@@ -26,6 +29,22 @@ class SummedJet {
   /// z_(n+1) = z_n + h sum b_j f_j, and with the second-order form
   /// q_(n+1) = q_n + h M^-1 p_n + h^2 sum b_j (1 - c_j) M^-1 F_j, up to a degree.
   void advance(StageSlopes<Real, Lanes>& stages, const Real& h, int highest) {
+    // One choice a step: the loops over the coefficients have none.
+    if (is_compensated_) {
+      advance_with(stages, h, highest,
+                   [](Real* value, Real* lost, std::size_t k, const Real& increment) {
+                     add_compensated(value[k], lost[k], increment);
+                   });
+    } else {
+      advance_with(
+          stages, h, highest,
+          [](Real* value, Real*, std::size_t k, const Real& increment) { value[k] += increment; });
+    }
+  }
+
+ private:
+  template <class Add>
+  void advance_with(StageSlopes<Real, Lanes>& stages, const Real& h, int highest, const Add& add) {
     const auto& system = stages.system();
     const std::size_t m = system.components();
     // Newton's slopes are good to round-off where those evaluated at the stages, the small
@@ -34,12 +53,14 @@ class SummedJet {
     const std::size_t count = jet_[0].space().first(highest + 1);
     if (!system.second_order()) {
       for (std::size_t c = 0; c < m; ++c) {
-        add_slopes(c, count, system.weights(), stages.evaluator().output(c), h);
+        add_slopes(c, count, system.weights(), stages.evaluator().output(c), h, add);
       }
       return;
     }
     // Positions first: they need the momenta at the start of the step.
     for (std::size_t c = 0; c < m; ++c) {
+      Real* value = jet_[c].coefficients().data();
+      Real* lost = lost_[c].data();
       for (std::size_t k = 0; k < count; ++k) {
         Real velocity = jet_[m + c][k];
         if (!system.unit_mass()) {
@@ -48,29 +69,29 @@ class SummedJet {
             velocity += system.inverse_mass(c, i) * jet_[m + i][k];
           }
         }
-        add_compensated(
-            jet_[c][k], lost_[c][k],
+        add(value, lost, k,
             Real(h * (velocity + h * dot(system.position_weights(), stages.slope(c, k)))));
       }
     }
     for (std::size_t c = 0; c < m; ++c) {
-      add_slopes(m + c, count, system.weights(), stages.evaluator().output(c), h);
+      add_slopes(m + c, count, system.weights(), stages.evaluator().output(c), h, add);
     }
   }
 
- private:
   /// Adds h sum b_j f_j to a component.
+  template <class Add>
   void add_slopes(std::size_t component, std::size_t count, const P& weights, const P* slopes,
-                  const Real& h) {
+                  const Real& h, const Add& add) {
     Real* value = jet_[component].coefficients().data();
     Real* lost = lost_[component].data();
     for (std::size_t k = 0; k < count; ++k) {
-      add_compensated(value[k], lost[k], Real(h * dot(weights, slopes[k])));
+      add(value, lost, k, Real(h * dot(weights, slopes[k])));
     }
   }
 
+  bool is_compensated_;
   FlowJet<Real> jet_;
-  std::vector<std::vector<Real>> lost_;
+  std::vector<std::vector<Real>> lost_;  ///< empty lists if not compensated
 };
 
 }  // namespace hamjet

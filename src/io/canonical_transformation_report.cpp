@@ -23,7 +23,7 @@ std::string trajectory_file(const CanonicalTransformationRun& run) {
 /// The transformed variables have a prefix, for readers of CSV to which q and Q are the same.
 std::string trajectory_csv(const CanonicalTransformationResult& result,
                            const CanonicalTransformationRun& run) {
-  const auto names = variable_names(result.study.system.model);
+  const auto names = variable_names(result.study.system);
   std::string text = "step,time_canonical";
   for (const auto& name : names) text += fmt::format(",{}", name);
   for (const auto& name : names) text += fmt::format(",transformed_{}", name);

@@ -22,6 +22,7 @@ Json settings_json(const IntegratorSettings& settings) {
           {"stages", settings.stages},
           {"order", settings.order},
           {"beta", settings.beta},
+          {"compensated_summation", settings.compensated_summation},
           {"step_canonical", json_number(settings.step_canonical)},
           {"tolerance", json_number(settings.tolerance)},
           {"require_relative_error", json_number(settings.require_relative_error)},
@@ -97,7 +98,7 @@ Json along_time_json(const RunAlongTime& run) {
 }
 
 Json scene_json(const Scene& scene) {
-  const auto names = variable_names(scene.system.model);
+  const auto names = variable_names(scene.system);
   Json variables = Json::array();
   for (const std::size_t v : scene.variables) variables.push_back(names[v]);
   Json integrators = Json::array();

@@ -13,6 +13,7 @@ IntegratorSettings read_settings(const JsonReader& value) {
   settings.stages = value.at("stages").integer<int>();
   settings.order = value.at("order").integer<int>();
   settings.beta = value.at("beta").number();
+  settings.compensated_summation = value.at("compensated_summation").boolean();
   settings.step_canonical = value.at("step_canonical").optional_number();
   settings.tolerance = value.at("tolerance").optional_number();
   settings.require_relative_error = value.at("require_relative_error").optional_number();

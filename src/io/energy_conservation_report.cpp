@@ -43,7 +43,7 @@ std::string trajectory_csv(const EnergyConservationResult& result) {
   fmt::memory_buffer out;
   const auto write = std::back_inserter(out);
   fmt::format_to(write, "step,time_canonical,time_s,step_size_canonical,step_size_s");
-  for (const auto name : variable_names(study.system.model)) fmt::format_to(write, ",{}", name);
+  for (const auto name : variable_names(study.system)) fmt::format_to(write, ",{}", name);
   fmt::format_to(write, ",discrete_energy_error,energy_error,condition,newton_iterations\n");
   for (const EnergyConservationPoint& point : result.points) {
     const std::optional<double> size_s =

@@ -6,7 +6,7 @@ namespace hamjet::io {
 
 std::vector<std::string> generating_function_variables(const PropagationResult& result,
                                                        const GeneratingFunctionKind& kind) {
-  const auto names = variable_names(result.scene.system.model);
+  const auto names = variable_names(result.scene.system);
   std::vector<std::string> variables;
   for (std::size_t i = 0; i < kind.degrees_of_freedom(); ++i) {
     variables.emplace_back(names[result.problem.components[kind.final_variable(i)]]);

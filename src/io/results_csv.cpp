@@ -19,7 +19,7 @@ std::string number(const Extended& value, Precision precision) {
 }  // namespace
 
 std::string jet_csv(const PropagationResult& result, const RunResult& run) {
-  const auto names = variable_names(result.scene.system.model);
+  const auto names = variable_names(result.scene.system);
   const SeriesSpace& space = *result.problem.space;
   fmt::memory_buffer out;
   const auto write = std::back_inserter(out);
@@ -59,7 +59,7 @@ std::string nominal_csv(const PropagationResult& result, const RunResult& run) {
   fmt::memory_buffer out;
   const auto write = std::back_inserter(out);
   fmt::format_to(write, "time_canonical,time_s");
-  for (const auto name : variable_names(result.scene.system.model)) {
+  for (const auto name : variable_names(result.scene.system)) {
     fmt::format_to(write, ",{}", name);
   }
   fmt::format_to(write, ",energy_error\n");
@@ -94,7 +94,7 @@ std::string along_time_csv(const PropagationResult& result, const RunResult& run
 }
 
 std::string relative_hamiltonian_csv(const PropagationResult& result) {
-  const auto names = variable_names(result.scene.system.model);
+  const auto names = variable_names(result.scene.system);
   fmt::memory_buffer out;
   const auto write = std::back_inserter(out);
   fmt::format_to(write, "time_canonical");

@@ -42,15 +42,17 @@ Json run_json(const PropagationResult& result, const RunResult& run) {
   const bool is_gauss = settings.method == IntegrationMethod::gauss;
   const bool is_verlet = settings.method == IntegrationMethod::velocity_verlet;
   const bool is_newmark = settings.method == IntegrationMethod::newmark;
-  Json json = {{"label", settings.label},
-               {"method", method_names()[static_cast<std::size_t>(settings.method)]},
-               {"stages", is_gauss ? Json(settings.stages) : Json(nullptr)},
-               {"order", is_verlet ? Json(settings.order) : Json(nullptr)},
-               {"beta", is_newmark ? Json(settings.beta) : Json(nullptr)},
-               {"step_canonical", or_null(settings.step_canonical)},
-               {"tolerance", or_null(settings.tolerance)},
-               {"error", text_or_null(run.failure)},
-               {"failed_checks", run.failed_checks}};
+  Json json = {
+      {"label", settings.label},
+      {"method", method_names()[static_cast<std::size_t>(settings.method)]},
+      {"stages", is_gauss ? Json(settings.stages) : Json(nullptr)},
+      {"order", is_verlet ? Json(settings.order) : Json(nullptr)},
+      {"beta", is_newmark ? Json(settings.beta) : Json(nullptr)},
+      {"compensated_summation", is_gauss ? Json(settings.compensated_summation) : Json(nullptr)},
+      {"step_canonical", or_null(settings.step_canonical)},
+      {"tolerance", or_null(settings.tolerance)},
+      {"error", text_or_null(run.failure)},
+      {"failed_checks", run.failed_checks}};
   if (!run.failure.empty()) {
     for (const char* key : {"steps", "rejected_steps", "vector_field_evaluations",
                             "nominal_evaluations", "wall_seconds", "nominal_final", "energy_error",
@@ -92,7 +94,7 @@ Json run_json(const PropagationResult& result, const RunResult& run) {
 
 std::string summary_json(const PropagationResult& result) {
   const Scene& scene = result.scene;
-  const auto names = variable_names(scene.system.model);
+  const auto names = variable_names(scene.system);
   Json components = Json::array();
   for (const std::size_t c : result.problem.components) components.push_back(names[c]);
   Json variables = Json::array();

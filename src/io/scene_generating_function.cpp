@@ -21,7 +21,7 @@ bool is_planar_subsystem(const Scene& scene) {
 
 std::size_t degrees_of_freedom_of_kinds(const TableReader& table, std::string_view key,
                                         const Scene& scene) {
-  const std::vector<std::string_view> names = variable_names(scene.system.model);
+  const std::vector<std::string_view> names = variable_names(scene.system);
   if (is_planar_subsystem(scene)) return 2;
   if (scene.variables.size() != names.size()) {
     std::vector<std::string_view> given;

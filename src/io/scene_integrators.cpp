@@ -35,7 +35,9 @@ bool has_fixed_steps_only(IntegrationMethod method) {
 std::vector<std::string_view> keys_of(IntegrationMethod method) {
   std::vector<std::string_view> keys = {"label", "method", "require_relative_error",
                                         "require_symplecticity"};
-  if (method == IntegrationMethod::gauss) keys.push_back("stages");
+  if (method == IntegrationMethod::gauss) {
+    keys.insert(keys.end(), {"stages", "compensated_summation"});
+  }
   if (method == IntegrationMethod::velocity_verlet) keys.push_back("order");
   if (method == IntegrationMethod::newmark) keys.push_back("beta");
   if (!is_cvode(method)) keys.insert(keys.end(), {"step_canonical", "step_s"});
@@ -49,6 +51,7 @@ const std::vector<std::string_view> all_keys = {"label",
                                                 "stages",
                                                 "order",
                                                 "beta",
+                                                "compensated_summation",
                                                 "step_canonical",
                                                 "step_s",
                                                 "tolerance",
@@ -153,6 +156,9 @@ IntegratorSettings read_integrator(const TableReader& integrator, Precision prec
   }
   if (integrator.has("order")) settings.order = read_order(integrator);
   if (integrator.has("beta")) settings.beta = integrator.number_between("beta", 0, 0.5);
+  if (integrator.has("compensated_summation")) {
+    settings.compensated_summation = integrator.boolean("compensated_summation");
+  }
   const std::string_view size_key = read_size_key(integrator, settings.method);
   if (size_key == "tolerance") {
     settings.tolerance = read_tolerance(integrator, precision);

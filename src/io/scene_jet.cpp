@@ -109,14 +109,14 @@ double read_duration(const TableReader& table, bool has_orbits, const Nominal& n
   return duration;
 }
 
-JetSettings read_jet(const TableReader& jet, SystemModel model, Precision precision,
+JetSettings read_jet(const TableReader& jet, const SystemSettings& system, Precision precision,
                      const Nominal& nominal) {
-  const bool has_orbits = is_orbit(model);
+  const bool has_orbits = is_orbit(system.model);
   KnownKeys known = {{"order", "variables", "duration_s", "duration_canonical"}, {}, {}};
   (has_orbits ? known.keys : known.keys_elsewhere).push_back("duration_orbits");
-  known.owner = "the model " + std::string(model_name(model));
+  known.owner = "the model " + std::string(model_name(system.model));
   jet.check_keys(known);
-  const std::vector<std::string_view> names = variable_names(model);
+  const std::vector<std::string_view> names = variable_names(system);
   JetSettings settings;
   settings.order = read_order(jet, names.size(), precision);
   settings.variables = read_variables(jet, names);

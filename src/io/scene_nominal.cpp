@@ -22,6 +22,10 @@ std::vector<std::string_view> joined(std::vector<std::string_view> a,
   return a;
 }
 
+/// Of the nominal's distance in units that the scene chooses, and of its inverse. Coefficients of
+/// degree d go as the distance to the power -(d + 2), and must not underflow to a wrong zero.
+constexpr double greatest_distance = 1e9;
+
 double rounded(const Extended& value) { return convert<double>(value); }
 
 CartesianState read_elements(const TableReader& nominal, double mu_km3_s2) {
@@ -68,17 +72,20 @@ CartesianState read_orbit(const TableReader& nominal, const SystemSettings& syst
   nominal.fail("", fmt::format("no orbit, got neither of its forms, must be {}", right));
 }
 
-Nominal canonical_orbit(const TableReader& nominal, const CartesianState& orbit, double mu_km3_s2) {
+Nominal canonical_orbit(const TableReader& nominal, const CartesianState& orbit, double mu_km3_s2,
+                        const std::optional<double>& length_km) {
   const auto& [x, y, z] = orbit.position_km;
+  const Extended distance_km = sqrt(x * x + y * y + z * z);
   Nominal result;
   CanonicalScale& scale = result.scale;
-  scale.length_km = sqrt(x * x + y * y + z * z);
+  scale.length_km = length_km ? Extended(*length_km) : distance_km;
   scale.time_s = sqrt(scale.length_km * scale.length_km * scale.length_km / mu_km3_s2);
   for (const Extended& q : orbit.position_km) result.state.push_back(rounded(q / scale.length_km));
   for (const Extended& v : orbit.velocity_km_s) {
     result.state.push_back(rounded(v * scale.time_s / scale.length_km));
   }
   const double units[] = {rounded(scale.length_km), rounded(scale.time_s)};
+  const double distance = rounded(distance_km / scale.length_km);
   const auto usable = [](double unit) { return std::isnormal(unit); };
   const auto finite = [](double value) { return std::isfinite(value); };
   if (!std::all_of(std::begin(units), std::end(units), usable) ||
@@ -88,6 +95,12 @@ Nominal canonical_orbit(const TableReader& nominal, const CartesianState& orbit,
         fmt::format("out of range in canonical units, got a unit of length of {:.3g} km and a unit "
                     "of time of {:.3g} s, must leave units and state within binary64",
                     units[0], units[1]));
+  }
+  if (length_km && !(distance >= 1 / greatest_distance && distance <= greatest_distance)) {
+    nominal.fail("", fmt::format("out of range in canonical units, got a distance of {:.3g} from "
+                                 "the centre with units.length_km = {:g}, must be between {:g} and "
+                                 "{:g}, or higher coefficients would underflow",
+                                 distance, *length_km, 1 / greatest_distance, greatest_distance));
   }
   result.period_s = osculating_period_s(orbit, mu_km3_s2);
   return result;
@@ -101,17 +114,38 @@ double CanonicalScale::time_of_s(double seconds) const {
   return rounded(Extended(seconds) / time_s);
 }
 
-Nominal read_nominal(const TableReader& nominal, const SystemSettings& system) {
+double read_unit_of_length(const TableReader& units, SystemModel model) {
+  if (!is_orbit(model)) {
+    units.fail("", fmt::format("not available for the model {}, got a unit of length, must be left "
+                               "out: its units are metre, second and kilogram",
+                               model_name(model)));
+  }
+  units.check_keys({{"length_km"}});
+  return units.positive_number("length_km");
+}
+
+Nominal read_nominal(const TableReader& nominal, const SystemSettings& system,
+                     const std::optional<double>& length_km) {
   const std::vector<std::string_view> orbit_keys = joined(cartesian_keys, element_keys);
   const std::string owner = "the model " + std::string(model_name(system.model));
   if (is_orbit(system.model)) {
     nominal.check_keys({orbit_keys, particle_keys, owner});
-    return canonical_orbit(nominal, read_orbit(nominal, system), system.mu_km3_s2);
+    return canonical_orbit(nominal, read_orbit(nominal, system), system.mu_km3_s2, length_km);
   }
   nominal.check_keys({particle_keys, orbit_keys, owner});
   Nominal result;
   result.scale = {Extended(1) / 1000, Extended(1)};
-  result.state = {nominal.numbers("position_m", 1)[0], nominal.numbers("momentum_kg_m_s", 1)[0]};
+  const std::size_t n = degrees_of_freedom_of(system);
+  result.state = nominal.numbers("position_m", n);
+  const auto is_zero = [](double x) { return x == 0; };
+  if (system.model == SystemModel::spring_pendulum &&
+      std::all_of(result.state.begin(), result.state.end(), is_zero)) {
+    nominal.fail("position_m",
+                 "at the point of suspension, where the spring has no direction, got [0, 0], must "
+                 "be any other point");
+  }
+  const std::vector<double> momenta = nominal.numbers("momentum_kg_m_s", n);
+  result.state.insert(result.state.end(), momenta.begin(), momenta.end());
   return result;
 }
 

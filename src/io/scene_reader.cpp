@@ -14,6 +14,12 @@ Precision read_precision(const TableReader& root) {
                                                                : Precision::extended;
 }
 
+/// Table `[case]`, which `hamjet stability` alone reads.
+const std::vector<std::string_view> stability_case_keys = {
+    "group",       "why",          "outcome",   "source",       "state",     "matrix",
+    "state_floor", "matrix_floor", "tolerance", "floor_factor", "exit_code", "message",
+    "mark",        "twin",         "compare",   "condition",    "growth",    "round_trip"};
+
 }  // namespace
 
 Scene read_flow_jet(const TableReader& root) {
@@ -23,7 +29,7 @@ Scene read_flow_jet(const TableReader& root) {
   const Nominal nominal = read_start(root, scene);
   const CanonicalScale& scale = nominal.scale;
 
-  const JetSettings jet = read_jet(root.table("jet"), scene.system.model, scene.precision, nominal);
+  const JetSettings jet = read_jet(root.table("jet"), scene.system, scene.precision, nominal);
   scene.order = jet.order;
   scene.variables = jet.variables;
   scene.duration = jet.duration;
@@ -55,6 +61,7 @@ Scene read_flow_jet(const TableReader& root) {
   if (root.has("assignment")) {
     scene.assignment = read_assignment(root.table("assignment"), scene, nominal);
   }
+  if (root.has("case")) root.table("case").check_keys({stability_case_keys});
   return scene;
 }
 

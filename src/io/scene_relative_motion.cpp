@@ -64,7 +64,7 @@ void require_relative_motion(const TableReader& table, const Scene& scene) {
                                "zonal-gravity or kepler",
                                model_name(scene.system.model)));
   }
-  const std::vector<std::string_view> names = variable_names(scene.system.model);
+  const std::vector<std::string_view> names = variable_names(scene.system);
   if (scene.variables.size() != names.size()) {
     std::vector<std::string_view> given;
     for (const std::size_t variable : scene.variables) given.push_back(names[variable]);

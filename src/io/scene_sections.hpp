@@ -56,10 +56,16 @@ struct Nominal {
   std::optional<Extended> period_s;  ///< of the osculating Kepler ellipse, if there is one
 };
 
-/// Table `[nominal]`. For an orbit the unit of length is the distance from the centre, and the unit
-/// of time sqrt(length^3 / mu), so that mu = 1 and a momentum (per unit of mass) is a velocity over
-/// sqrt(mu / length). For the oscillator metre, second and kilogram stay.
-Nominal read_nominal(const TableReader& nominal, const SystemSettings& system);
+/// Table `[units]`: the canonical unit of length, `length_km`. Throws Error(scene) for a model that
+/// is no orbit, whose units are fixed.
+double read_unit_of_length(const TableReader& units, SystemModel model);
+
+/// Table `[nominal]`. For an orbit the unit of length is `length_km`, or without it the distance
+/// from the centre, and the unit of time sqrt(length^3 / mu), so that mu = 1 and a momentum (per
+/// unit of mass) is a velocity over sqrt(mu / length). For the other models metre, second and
+/// kilogram stay.
+Nominal read_nominal(const TableReader& nominal, const SystemSettings& system,
+                     const std::optional<double>& length_km);
 
 /// The nearest binary64 numbers.
 CanonicalUnits canonical_units(const CanonicalScale& scale);
@@ -68,12 +74,15 @@ CanonicalUnits canonical_units(const CanonicalScale& scale);
 double read_canonical_radius(const TableReader& system, const SystemSettings& settings,
                              const CanonicalScale& scale);
 
-/// The tables `[system]` and `[nominal]` into the members that every scene of a model has.
+/// The tables `[system]`, `[units]` and `[nominal]` into the members that every scene of a model
+/// has.
 template <class ModelScene>
 Nominal read_start(const TableReader& root, ModelScene& scene) {
   const TableReader system = root.table("system");
   scene.system = read_system(system);
-  Nominal nominal = read_nominal(root.table("nominal"), scene.system);
+  std::optional<double> length_km;
+  if (root.has("units")) length_km = read_unit_of_length(root.table("units"), scene.system.model);
+  Nominal nominal = read_nominal(root.table("nominal"), scene.system, length_km);
   scene.nominal = nominal.state;
   scene.units = canonical_units(nominal.scale);
   scene.canonical_radius = read_canonical_radius(system, scene.system, nominal.scale);
@@ -92,7 +101,7 @@ struct JetSettings {
 };
 
 /// Table `[jet]`. Throws Error(too_large) for an order above the largest.
-JetSettings read_jet(const TableReader& jet, SystemModel model, Precision precision,
+JetSettings read_jet(const TableReader& jet, const SystemSettings& system, Precision precision,
                      const Nominal& nominal);
 
 /// The tables `[[integrator]]`. Throws Error(too_large) for too many steps.

@@ -28,12 +28,20 @@ double positive_number(const JsonReader& value) {
   return number;
 }
 
-std::vector<double> state(const JsonReader& value, std::size_t dimension) {
+std::vector<double> state(const JsonReader& value, const std::vector<std::size_t>& dimensions) {
   std::vector<double> numbers = value.list(finite_number);
-  if (numbers.size() != dimension) {
-    value.fail(fmt::format("must have {} numbers, has {}", dimension, numbers.size()));
+  if (std::find(dimensions.begin(), dimensions.end(), numbers.size()) == dimensions.end()) {
+    value.fail(
+        fmt::format("must have {} numbers, has {}", fmt::join(dimensions, " or "), numbers.size()));
   }
   return numbers;
+}
+
+/// The sizes that a state of this model can have.
+std::vector<std::size_t> dimensions(SystemModel model) {
+  std::vector<std::size_t> sizes = possible_degrees_of_freedom(model);
+  for (std::size_t& size : sizes) size *= 2;
+  return sizes;
 }
 
 /// Indices of variables, which must ascend as the writer's do.
@@ -102,8 +110,8 @@ StoredJet read_stored_jet(const std::filesystem::path& directory,
   stored.units = {positive_number(root.at("units").at("length_km")),
                   positive_number(root.at("units").at("time_s"))};
   stored.duration = finite_number(root.at("duration_canonical"));
-  const auto names = variable_names(stored.model);
-  stored.nominal_initial = state(root.at("nominal_initial"), names.size());
+  stored.nominal_initial = state(root.at("nominal_initial"), dimensions(stored.model));
+  const auto names = stored.variable_names();
   stored.components = indices(root.at("components"), names);
   stored.variables = indices(root.at("variables"), names);
   if (!std::includes(stored.components.begin(), stored.components.end(), stored.variables.begin(),
@@ -121,7 +129,7 @@ StoredJet read_stored_jet(const std::filesystem::path& directory,
 
   const JsonReader run = choose_run(root, label);
   stored.label = run.at("label").text();
-  stored.nominal_final = state(run.at("nominal_final"), names.size());
+  stored.nominal_final = state(run.at("nominal_final"), {names.size()});
   const std::filesystem::path file = directory / stored.label / "jet.csv";
   stored.jet = read_coefficients(
       {printable_path(file), names, stored.components, stored.variables, order, stored.precision},

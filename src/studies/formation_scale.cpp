@@ -20,6 +20,9 @@ double momentum_per_length(const Scene& scene) {
     return std::sqrt(scene.system.mass_kg * scene.system.stiffness_N_per_m);
   }
   const auto period = nominal_period(scene);
+  if (scene.system.model == SystemModel::oscillator_pair) {
+    return scene.system.mass_kg * 2 * std::numbers::pi / *period;
+  }
   return period ? 2 * std::numbers::pi / *period : 1;
 }
 

@@ -1,5 +1,6 @@
 #include "nominal_period.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -8,6 +9,11 @@ namespace hamjet {
 std::optional<double> nominal_period(const Scene& scene) {
   if (scene.system.model == SystemModel::harmonic_oscillator) {
     return 2 * std::numbers::pi * std::sqrt(scene.system.mass_kg / scene.system.stiffness_N_per_m);
+  }
+  if (scene.system.model == SystemModel::oscillator_pair) {
+    const double softer =
+        std::min(scene.system.stiffness_N_per_m, scene.system.second_stiffness_N_per_m);
+    return 2 * std::numbers::pi * std::sqrt(scene.system.mass_kg / softer);
   }
   if (!is_orbit(scene.system.model)) return std::nullopt;
   const std::vector<double>& z = scene.nominal;

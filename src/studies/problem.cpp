@@ -4,7 +4,10 @@
 #include <numeric>
 
 #include "hamjet/dynamics/double_well.hpp"
+#include "hamjet/dynamics/fermi_pasta_ulam.hpp"
 #include "hamjet/dynamics/harmonic_oscillator.hpp"
+#include "hamjet/dynamics/oscillator_pair.hpp"
+#include "hamjet/dynamics/spring_pendulum.hpp"
 #include "hamjet/dynamics/zonal_gravity.hpp"
 #include "hamjet/integrators/cvode.hpp"
 #include "hamjet/studies/propagation.hpp"
@@ -40,6 +43,14 @@ DynamicalSystem make_system(const SystemSettings& settings, double canonical_rad
       return kepler();
     case SystemModel::double_well:
       return double_well();
+    case SystemModel::oscillator_pair:
+      return oscillator_pair(settings.mass_kg, settings.stiffness_N_per_m,
+                             settings.second_stiffness_N_per_m);
+    case SystemModel::spring_pendulum:
+      return spring_pendulum(settings.mass_kg, settings.stiffness_N_per_m, settings.length_m,
+                             settings.gravity_m_s2);
+    case SystemModel::fermi_pasta_ulam:
+      return fermi_pasta_ulam(settings.omega_rad_per_s, settings.pairs);
     case SystemModel::harmonic_oscillator:
       break;
   }

@@ -22,11 +22,26 @@ constexpr double looser = 1e4;
 std::string reference_key(const Scene& scene, int order) {
   std::string key = fmt::format(
       "reference 1; {}; {} and {} stages, factor {}; tolerance {}; J2 {} J3 {} radius {}; mass {} "
-      "stiffness {}; nominal",
+      "stiffness {}",
       model_names()[static_cast<std::size_t>(scene.system.model)], reference_stages,
       compared_stages, looser, scene.reference.value_or(ReferenceSettings{}).tolerance,
       scene.system.J2, scene.system.J3, scene.canonical_radius, scene.system.mass_kg,
       scene.system.stiffness_N_per_m);
+  const SystemSettings& system = scene.system;
+  switch (system.model) {  // what the other models have not
+    case SystemModel::oscillator_pair:
+      key += fmt::format(" {}", system.second_stiffness_N_per_m);
+      break;
+    case SystemModel::spring_pendulum:
+      key += fmt::format(" length {} gravity {}", system.length_m, system.gravity_m_s2);
+      break;
+    case SystemModel::fermi_pasta_ulam:
+      key += fmt::format(" omega {} pairs {}", system.omega_rad_per_s, system.pairs);
+      break;
+    default:
+      break;
+  }
+  key += "; nominal";
   for (const double x : scene.nominal) key += fmt::format(" {}", x);
   key += fmt::format("; duration {}; order {}; variables", scene.duration, order);
   for (const std::size_t v : scene.variables) key += fmt::format(" {}", v);

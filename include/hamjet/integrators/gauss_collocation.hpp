@@ -19,8 +19,9 @@ struct GaussProfile {
 struct GaussSettings {
   int stages = 8;              ///< 1 (the implicit midpoint rule) to 16; the order is 2 stages
   std::optional<double> step;  ///< fixed: the span is cut into equal steps not longer than this
-  std::optional<double> tolerance;  ///< adaptive: relative local error of the nominal
-  GaussProfile* profile = nullptr;  ///< filled where given; costs a few clock readings a step
+  std::optional<double> tolerance;    ///< adaptive: relative local error of the nominal
+  bool compensated_summation = true;  ///< of the steps; without it round-off grows faster
+  GaussProfile* profile = nullptr;    ///< filled where given; costs a few clock readings a step
 };
 
 /// Integrates the flow's jet with a Gauss collocation method, exactly as the method acts on series:
@@ -40,7 +41,8 @@ struct GaussSettings {
 /// 0..4, relative to the largest of their degree, then comes out near the tolerance after a few
 /// revolutions (that of the nominal some 50 times below). A step is also short enough for the
 /// linearised equations (h times their frequency), for a nominal at rest, or one that does not move
-/// where the deviations do, shows nothing of them. The update is summed with compensation.
+/// where the deviations do, shows nothing of them. The update is summed with compensation,
+/// unless the settings say not to.
 ///
 /// Source: Hairer, Lubich and Wanner, Geometric Numerical Integration, sections II.1 and VIII.6.
 /// Throws Error(usage) for settings out of range, Error(numerical) if the stage equations have no

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "hamjet/algebra/extended.hpp"
@@ -32,6 +33,10 @@ struct StoredJet {
   FlowJet<Extended> jet;
 
   int order() const { return jet.at(0).order(); }
+  /// Of the model's state.
+  std::vector<std::string_view> variable_names() const {
+    return hamjet::variable_names(model, nominal_initial.size() / 2);
+  }
 };
 
 /// Reads `summary.json` and `<label>/jet.csv` of a results directory: the run with this label, or

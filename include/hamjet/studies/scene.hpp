@@ -14,18 +14,30 @@ namespace hamjet {
 enum class Precision { double_precision, extended };
 
 /// The dynamics. Which of the numbers below count depends on the model.
-enum class SystemModel { zonal_gravity, kepler, harmonic_oscillator, double_well };
+enum class SystemModel {
+  zonal_gravity,
+  kepler,
+  harmonic_oscillator,
+  double_well,
+  oscillator_pair,
+  spring_pendulum,
+  fermi_pasta_ulam,
+};
 
 /// The models' names in scenes, in the order of the enumeration.
 const std::vector<std::string_view>& model_names();
 
 /// Whether a model is an orbit in space: three degrees of freedom, kilometres. The others have one
-/// degree of freedom and metres.
+/// or more degrees of freedom and metres.
 bool is_orbit(SystemModel model);
 
-/// Names of the variables (q, p), in the order of the state: x, y, z, px, py, pz for an orbit, else
-/// q, p.
-std::vector<std::string_view> variable_names(SystemModel model);
+/// The numbers of degrees of freedom that a model can have, ascending: a single one, but for the
+/// chain fermi-pasta-ulam, whose length the scene chooses.
+std::vector<std::size_t> possible_degrees_of_freedom(SystemModel model);
+
+/// Names of the variables (q, p), in the order of the state: x, y, z, px, py, pz for an orbit; q, p
+/// for one degree of freedom; else q1, q2, ..., p1, p2, .... `degrees_of_freedom` must be possible.
+std::vector<std::string_view> variable_names(SystemModel model, std::size_t degrees_of_freedom);
 
 /// Table `[system]`.
 struct SystemSettings {
@@ -34,12 +46,24 @@ struct SystemSettings {
   double radius_km = 0;  ///< zonal-gravity: the radius that J2 and J3 refer to; 0 if without them
   double J2 = 0;         ///< zonal-gravity: 0 where the scene has no J2
   double J3 = 0;         ///< zonal-gravity: 0 where the scene has no J3
-  double mass_kg = 1;    ///< harmonic-oscillator
-  double stiffness_N_per_m = 1;  ///< harmonic-oscillator
+  double mass_kg = 1;    ///< harmonic-oscillator, oscillator-pair, spring-pendulum
+  double stiffness_N_per_m = 1;         ///< the same; of a pair that of the first oscillator
+  double second_stiffness_N_per_m = 1;  ///< oscillator-pair: of the second oscillator
+  double length_m = 1;                  ///< spring-pendulum: of the spring at rest
+  double gravity_m_s2 = 0;              ///< spring-pendulum: toward negative q2
+  double omega_rad_per_s = 0;           ///< fermi-pasta-ulam: frequency of the stiff springs
+  std::size_t pairs = 1;                ///< fermi-pasta-ulam: number of stiff springs
 };
 
+/// The number of degrees of freedom of a system.
+std::size_t degrees_of_freedom_of(const SystemSettings& settings);
+
+/// Names of a system's variables, see above.
+std::vector<std::string_view> variable_names(const SystemSettings& settings);
+
 /// Canonical units: SI value = canonical value times these. For an orbit the length is the
-/// nominal's initial radius and mu = 1; for the other models metre and second.
+/// nominal's initial radius, or what the scene chooses, and mu = 1; for the other models metre and
+/// second.
 struct CanonicalUnits {
   double length_km = 1;
   double time_s = 1;
@@ -68,6 +92,7 @@ struct IntegratorSettings {
   int stages = 8;                        ///< Gauss only
   int order = 2;                         ///< velocity Verlet only; 4, 6, 8: symmetric compositions
   double beta = 0.25;                    ///< Newmark only
+  bool compensated_summation = true;     ///< Gauss only
   std::optional<double> step_canonical;  ///< fixed steps (positive; the sign follows the duration)
   std::optional<double> tolerance;       ///< adaptive steps; exactly one of the two is set
   std::optional<double> require_relative_error;  ///< check: largest relative error over all degrees
@@ -100,8 +125,8 @@ struct FigureSettings {
   std::string kind;  ///< whose exactness is drawn: F1..F4 or letters; empty for the energy error
 };
 
-/// A scene, read, checked and converted to canonical units. Lengths of arrays: 2n, with n = 3 for
-/// an orbit, else n = 1.
+/// A scene, read, checked and converted to canonical units. Lengths of arrays: 2n, with the n
+/// degrees of freedom of its system.
 struct Scene {
   std::string name;  ///< stem of the file name, other characters than A-Z a-z 0-9 . _ - as _
   std::string title;
