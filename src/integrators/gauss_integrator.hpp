@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "compensated_addition.hpp"
 #include "gauss_step_control.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
@@ -100,7 +101,7 @@ class GaussIntegrator {
 
   void step() {
     auto mark = Clock::now();
-    const Real remaining = problem_.duration - time_;
+    const Real remaining = (problem_.duration - time_) + lost_time_;
     Real h = proposed_;
     double growth = 1;
     while (true) {
@@ -140,7 +141,9 @@ class GaussIntegrator {
       time_ = remaining_steps_ == 0 ? problem_.duration
                                     : problem_.duration - proposed_ * Real(remaining_steps_);
     } else {
-      time_ = h == remaining ? problem_.duration : Real(time_ + h);
+      // Thousands of steps would else end beside the duration, by what each addition rounds off.
+      add_compensated(time_, lost_time_, h);
+      if (h == remaining) time_ = problem_.duration;
       proposed_ = h * Real(std::clamp(growth, 0.1, 4.0));
       limit_step_count("Gauss", statistics_.steps, static_cast<double>(time_),
                        static_cast<double>(problem_.duration));
@@ -163,17 +166,21 @@ class GaussIntegrator {
   bool solve_nominal(const Real& h) {
     if (statistics_.steps > 0) {
       extrapolate_slopes(h);
-      if (try_step(h) && !is_suspicious()) return true;
+      if (try_step(h) && !is_suspicious(h)) return true;
     }
     set_constant_slopes();
-    if (try_step(h) && !is_suspicious()) return true;
+    if (try_step(h) && !is_suspicious(h)) return true;
     return settings_.step && continue_from_start(h);
   }
 
   bool try_step(const Real& h) {
     stages_.system().set_step(h);
-    const auto state = [&](std::size_t k) -> const Real& { return jet_.value()[k][0]; };
-    return stages_.solve_constant_terms(state, statistics_.nominal_evaluations);
+    return stages_.solve_constant_terms(start(), statistics_.nominal_evaluations);
+  }
+
+  /// The state at the start of the step, by component.
+  auto start() const {
+    return [this](std::size_t k) -> const Real& { return jet_.value()[k][0]; };
   }
 
   void set_constant_slopes() {
@@ -183,16 +190,37 @@ class GaussIntegrator {
   /// Newton can converge to a detached root of the stage equations, whose map is symplectic and
   /// wrong. The slopes then have nothing to do with the slope at the start of the step.
   /// The equations of a linear system have one solution only.
-  bool is_suspicious() {
-    return !is_linear_ && control_.start_defect(end_slope_) >
-                              0.5 * stages_.largest_slope() + 2 * expected_change();
+  bool is_suspicious(const Real& h) {
+    if (is_linear_) return false;
+    if (control_.start_defect(end_slope_) > 0.5 * stages_.largest_slope() + 2 * expected_change()) {
+      return true;
+    }
+    // Controlled steps are short, and what they miss their error estimate sees.
+    return settings_.step && stages_.displacement(start()) > 4 * reach(h);
   }
 
   /// By how much the slopes may differ between the start and the stages: |Dg| times the
-  /// displacement.
-  double expected_change() {
-    const auto state = [&](std::size_t k) -> const Real& { return jet_.value()[k][0]; };
-    return stages_.largest_gradient() * stages_.displacement(state);
+  /// displacement. In a stiff system that is almost anything; see reach.
+  double expected_change() { return stages_.largest_gradient() * stages_.displacement(start()); }
+
+  /// How far a step goes with the slopes at its start.
+  double reach(const Real& h) {
+    const double size = std::abs(static_cast<double>(h));
+    auto& system = stages_.system();
+    const std::size_t m = system.components();
+    double result = 0;
+    for (std::size_t c = 0; c < m; ++c) {
+      double distance = size * std::abs(static_cast<double>(end_slope_[c]));
+      if (system.second_order()) {
+        Real velocity = system.unit_mass() ? start()(m + c) : Real(0);
+        for (std::size_t i = 0; i < m && !system.unit_mass(); ++i) {
+          velocity += system.inverse_mass(c, i) * start()(m + i);
+        }
+        distance = size * (std::abs(static_cast<double>(velocity)) + distance);
+      }
+      result = std::max(result, distance);
+    }
+    return result;
   }
 
   /// Follows the solution from a tiny step to the full one. Where neighbouring solutions differ
@@ -202,14 +230,19 @@ class GaussIntegrator {
     constexpr double first = 0x1p-10;
     constexpr double smallest = 0x1p-16;
     set_constant_slopes();
-    if (!try_step(Real(h * Real(first))) || is_suspicious()) return false;
+    const Real first_step = h * Real(first);
+    if (!try_step(first_step) || is_suspicious(first_step)) return false;
     double reached = first;
     double part = first;
+    double distance = stages_.displacement(start());
     while (reached < 1) {
       const double next = std::min(1.0, reached + part);
       const std::vector<P> before = stages_.slopes();
-      if (try_step(Real(h * Real(next))) &&
-          slope_change(before) <= 0.25 * stages_.largest_slope() + expected_change()) {
+      const Real next_step = h * Real(next);
+      if (try_step(next_step) &&
+          slope_change(before) <= 0.25 * stages_.largest_slope() + expected_change() &&
+          stages_.displacement(start()) <= 4 * std::max(distance, reach(next_step))) {
+        distance = stages_.displacement(start());
         reached = next;
         part *= 2;
         continue;
@@ -279,6 +312,7 @@ class GaussIntegrator {
   GaussStepControl<Real, Lanes> control_;
   std::vector<const Real*> state_;
   Real time_ = 0;
+  Real lost_time_ = 0;  ///< see add_compensated; with controlled steps
   Real proposed_ = 0;
   Real previous_step_ = 0;
   Real step_ = 0;  ///< being tried

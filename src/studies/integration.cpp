@@ -1,5 +1,7 @@
 #include "integration.hpp"
 
+#include <cmath>
+#include <numeric>
 #include <type_traits>
 
 #include "hamjet/integrators/cvode.hpp"
@@ -8,6 +10,7 @@
 #include "hamjet/integrators/newmark.hpp"
 #include "hamjet/integrators/stormer_verlet.hpp"
 #include "hamjet/integrators/symmetric_composition.hpp"
+#include "stability_limit.hpp"
 
 namespace hamjet {
 namespace {
@@ -28,15 +31,19 @@ FlowProblem<Real> flow_problem(const ComputedProblem& problem, double duration) 
   return flow;
 }
 
+namespace {
+
 template <class Real>
-FlowJet<Real> integrate(const FlowProblem<Real>& flow, const IntegratorSettings& settings,
-                        IntegrationStatistics& statistics, const StepObserver<Real>& observer) {
+FlowJet<Real> integrate_unchecked(const FlowProblem<Real>& flow, const IntegratorSettings& settings,
+                                  IntegrationStatistics& statistics,
+                                  const StepObserver<Real>& observer) {
   switch (settings.method) {
     case IntegrationMethod::gauss: {
       GaussSettings gauss;
       gauss.stages = settings.stages;
       gauss.step = settings.step_canonical;
       gauss.tolerance = settings.tolerance;
+      gauss.compensated_summation = settings.compensated_summation;
       return integrate_gauss<Real>(flow, gauss, statistics, observer);
     }
     case IntegrationMethod::stormer:
@@ -67,6 +74,54 @@ FlowJet<Real> integrate(const FlowProblem<Real>& flow, const IntegratorSettings&
   } else {
     throw Error(ErrorKind::usage, "CVODE computes in double precision only");
   }
+}
+
+/// Whether the method has fixed steps that can be too long for a linear system. Gauss methods are
+/// stable for every step.
+bool has_stability_limit(const IntegratorSettings& settings) {
+  return settings.method != IntegrationMethod::gauss && settings.step_canonical.has_value();
+}
+
+/// The matrix of one step on a linear system.
+Matrix<double> step_matrix(const DynamicalSystem& system, IntegratorSettings settings,
+                           double step) {
+  const std::size_t size = system.dimension();
+  FlowProblem<double> problem{&system, SeriesSpace::create(size, 1), {}, {}, step};
+  problem.variables.resize(size);
+  std::iota(problem.variables.begin(), problem.variables.end(), std::size_t{0});
+  problem.initial_state.assign(size, 0);
+  settings.step_canonical = std::abs(step);
+  IntegrationStatistics statistics;
+  const auto jet = integrate_unchecked<double>(problem, settings, statistics, {});
+  Matrix<double> matrix(size, size);
+  for (std::size_t i = 0; i < size; ++i) {
+    for (std::size_t j = 0; j < size; ++j) {
+      matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
+          jet[i][problem.space->linear_index(j)];
+    }
+  }
+  return matrix;
+}
+
+void require_stable_steps(const DynamicalSystem& system, const IntegratorSettings& settings,
+                          double duration) {
+  const double count = std::ceil(std::abs(duration) / *settings.step_canonical * (1 - 1e-12));
+  if (!(count >= 1)) return;
+  const std::string method(method_names()[static_cast<std::size_t>(settings.method)]);
+  require_stable_steps(
+      system, {method, [&](double step) { return step_matrix(system, settings, step); },
+               duration / count, duration, settings.method != IntegrationMethod::fehlberg78});
+}
+
+}  // namespace
+
+template <class Real>
+FlowJet<Real> integrate(const FlowProblem<Real>& flow, const IntegratorSettings& settings,
+                        IntegrationStatistics& statistics, const StepObserver<Real>& observer) {
+  if (has_stability_limit(settings) && flow.system->vector_field.is_linear_system()) {
+    require_stable_steps(*flow.system, settings, static_cast<double>(flow.duration));
+  }
+  return integrate_unchecked<Real>(flow, settings, statistics, observer);
 }
 
 double integration_memory(const IntegratorSettings& settings, const DynamicalSystem& system,

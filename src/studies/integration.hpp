@@ -10,7 +10,8 @@ template <class Real>
 FlowProblem<Real> flow_problem(const ComputedProblem& problem, double duration);
 
 /// Integrates with the method that the settings name. Throws as that method does; Error(usage) for
-/// CVODE with Extended.
+/// CVODE with Extended;
+/// Error(numerical) if the steps are beyond the method's limit of stability on a linear system.
 template <class Real>
 FlowJet<Real> integrate(const FlowProblem<Real>& flow, const IntegratorSettings& settings,
                         IntegrationStatistics& statistics, const StepObserver<Real>& observer);

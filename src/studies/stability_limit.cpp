@@ -1,0 +1,126 @@
+#include "stability_limit.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "hamjet/algebra/truncated_power_series.hpp"
+#include "hamjet/dynamics/relative_hamiltonian.hpp"
+#include "hamjet/error.hpp"
+
+namespace hamjet {
+namespace {
+
+/// Two eigenvalues that meet on the unit circle are only known to the square root of round-off.
+constexpr double rounding_of_eigenvalues = 1e-6;
+constexpr double tolerated_growth = 0.01;
+
+/// The Jacobian of an affine vector field.
+Matrix<double> jacobian_matrix(const OperationList& field) {
+  const std::size_t size = field.inputs();
+  const auto space = SeriesSpace::create(size, 1);
+  std::vector<Series<double>> z;
+  for (std::size_t i = 0; i < size; ++i) z.push_back(Series<double>::variable(space, i, 0.0));
+  const auto values = evaluate_on_series(field, std::span<const Series<double>>(z));
+  Matrix<double> matrix(size, size);
+  for (std::size_t i = 0; i < size; ++i) {
+    for (std::size_t j = 0; j < size; ++j) {
+      matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
+          values[i][space->linear_index(j)];
+    }
+  }
+  return matrix;
+}
+
+class StabilityLimit {
+ public:
+  StabilityLimit(const DynamicalSystem& system, const LinearSteps& steps) : steps_(steps) {
+    const Matrix<double> field = jacobian_matrix(system.vector_field);
+    scale_momenta(field);
+    const auto eigenvalues = scaled(field).eigenvalues().eval();
+    for (const auto& lambda : eigenvalues) {
+      frequency_ = std::max(frequency_, std::abs(lambda.imag()));
+      growth_rate_ = std::max(growth_rate_, std::abs(lambda.real()));
+    }
+    // The eigenvalues of an oscillation are imaginary up to round-off.
+    if (growth_rate_ < rounding_of_eigenvalues * frequency_) growth_rate_ = 0;
+  }
+
+  double frequency() const { return frequency_; }
+
+  /// Growth of an amplitude in one step, as a factor of the flow's own.
+  double growth(double step) const {
+    const auto eigenvalues = scaled(steps_.matrix(step)).eigenvalues().eval();
+    double radius = 0;
+    for (const auto& lambda : eigenvalues) radius = std::max(radius, std::abs(lambda));
+    return radius / std::exp(growth_rate_ * std::abs(step));
+  }
+
+  bool is_stable(double step) const {
+    const double excess = growth(step) - 1;
+    if (excess <= rounding_of_eigenvalues) return true;
+    return !steps_.preserves_a_two_form &&
+           std::log1p(excess) * std::abs(steps_.duration / step) <= tolerated_growth;
+  }
+
+  /// A stable step below an unstable one, at the edge of both; 0 if there is none.
+  double below(double unstable) const {
+    double stable = unstable / 2;
+    for (int halvings = 0; !is_stable(stable); stable /= 2) {
+      if (++halvings > 60) return 0;
+    }
+    unstable = 2 * stable;
+    for (int k = 0; k < 40; ++k) {
+      const double middle = (stable + unstable) / 2;
+      (is_stable(middle) ? stable : unstable) = middle;
+    }
+    return stable;
+  }
+
+ private:
+  /// Momenta in units in which each degree of freedom turns like a unit oscillator, so that a stiff
+  /// spring does not spoil the eigenvalues.
+  void scale_momenta(const Matrix<double>& field) {
+    const Eigen::Index n = field.rows() / 2;
+    units_ = Vector<double>::Ones(2 * n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const double unit = std::sqrt(std::abs(field(n + i, i) / field(i, n + i)));
+      if (std::isnormal(unit)) units_(n + i) = unit;
+    }
+  }
+
+  Matrix<double> scaled(const Matrix<double>& matrix) const {
+    return units_.cwiseInverse().asDiagonal() * matrix * units_.asDiagonal();
+  }
+
+  const LinearSteps& steps_;
+  Vector<double> units_;
+  double frequency_ = 0;
+  double growth_rate_ = 0;
+};
+
+}  // namespace
+
+void require_stable_steps(const DynamicalSystem& system, const LinearSteps& steps) {
+  const StabilityLimit limit(system, steps);
+  if (limit.is_stable(steps.step)) return;
+  const double stable = limit.below(steps.step);
+  std::string problem = fmt::format("{}: unstable: omega tau = {:.4g}", steps.method,
+                                    limit.frequency() * std::abs(steps.step));
+  if (stable == 0) {
+    problem += ", and no shorter step was found stable";
+  } else {
+    problem += fmt::format(" exceeds {:.4g}; a step of {:.6g} is stable",
+                           limit.frequency() * std::abs(stable), std::abs(stable));
+  }
+  throw Error(ErrorKind::numerical,
+              problem + fmt::format(" (with this step of {:.6g} amplitudes grow {:.4g} times a "
+                                    "step)",
+                                    std::abs(steps.step), limit.growth(steps.step)));
+}
+
+}  // namespace hamjet

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "hamjet/algebra/matrix.hpp"
+#include "hamjet/dynamics/dynamical_system.hpp"
+
+namespace hamjet {
+
+/// A fixed-step method on a linear system, as the look for its stability limit needs it.
+struct LinearSteps {
+  std::string method;  ///< for the message
+  /// The matrix of one step of this size in z = (q, p); the size has the sign of the duration.
+  std::function<Matrix<double>(double step)> matrix;
+  double step = 0;      ///< of the run, with the sign of the duration
+  double duration = 0;  ///< of the run
+  /// Whether the map preserves a two-form (in whatever variables): then no eigenvalue of a stable
+  /// step leaves the unit circle. Another method may damp or grow slowly, which is its error.
+  bool preserves_a_two_form = true;
+};
+
+/// Throws Error(numerical) if the run's step exceeds the method's limit of linear stability on a
+/// system with a constant Jacobian: some amplitude that the flow keeps would grow without bound,
+/// whatever the start. The message names omega tau, the frequency of the fastest oscillation times
+/// the step, with its limit, and the step at the limit.
+///
+/// A step is unstable if the spectral radius of its matrix, found by the matrix itself and not from
+/// a table, exceeds the growth of the flow by more than the rounding of its eigenvalues; for a
+/// method that preserves no two-form, by more than 1 % over the whole run.
+///
+/// Source: Hairer, Lubich and Wanner, Geometric Numerical Integration, section I.5.2 (linear
+/// stability of explicit symplectic methods).
+void require_stable_steps(const DynamicalSystem& system, const LinearSteps& steps);
+
+}  // namespace hamjet

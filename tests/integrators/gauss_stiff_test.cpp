@@ -1,0 +1,53 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "hamjet/dynamics/harmonic_oscillator.hpp"
+#include "hamjet/dynamics/spring_pendulum.hpp"
+#include "support/flow.hpp"
+
+// Gauss methods where the flow has a time scale far below the step.
+
+namespace hamjet {
+namespace {
+
+// Four stages with steps of 312 times the spring's period over 2 pi. Among the roots of the stage
+// equations are some with the spring stretched several times its length, and an energy of 1e8. The
+// expected state is the same discrete map by another program, in 69 decimal digits.
+TEST(GaussStiff, StaysWithTheRootOfTheStageEquationsThatIsConnectedToTheStart) {
+  const test::Flow<double> flow{spring_pendulum(1, 1e8, 1, 10), {0.6, -0.8, 0, 0}, 2, 1, {}};
+  const auto end = test::final_state(test::run_gauss(flow, test::fixed_step(4, 0x1p-5)));
+  // What half a unit in the last place of a position does to a step's momentum is 3e-10.
+  EXPECT_NEAR(end[0], 0.5962347188201002, 1e-13);
+  EXPECT_NEAR(end[1], -0.8028102443908424, 1e-13);
+  EXPECT_NEAR(end[2], 0.18984949154094477, 3e-9);
+  EXPECT_NEAR(end[3], 0.14199179504894774, 3e-9);
+}
+
+TEST(GaussStiff, KeepsTheEnergyOfAStiffPendulumWhateverStagesAndSteps) {
+  for (const double k : {1e4, 1e6, 1e8, 1e10}) {
+    for (const int stages : {1, 2, 3, 5, 8}) {
+      const test::Flow<double> flow{spring_pendulum(1, k, 1, 10), {0.6, -0.8, 0, 0}, 2, 1, {}};
+      const auto end = test::final_state(test::run_gauss(flow, test::fixed_step(stages, 0x1p-5)));
+      EXPECT_NEAR(test::energy(flow.system, end), -8, 0.5) << k << " " << stages;
+    }
+  }
+}
+
+// A hundred thousand controlled steps end at the duration: what the sum of the steps loses would
+// turn this oscillator by 1e-9 too little or too much.
+TEST(GaussStiff, ManyControlledStepsEndAtTheDuration) {
+  const double k = 1e12, m = 0.25, duration = 0.05;
+  const test::Flow<double> flow{harmonic_oscillator(m, k), {1, 0}, duration, 1, {}};
+  const auto end = test::final_state(test::run_gauss(flow, test::adaptive(8, 1e-15)));
+  const Extended w = sqrt(Extended(k) / Extended(m));
+  const Extended phase = w * Extended(duration);
+  // A phase of 1e5 is known to 1e5 half units in the last place, 1.1e-11.
+  EXPECT_NEAR(end[0], static_cast<double>(Extended(cos(phase))), 1.1e-10);
+  EXPECT_NEAR(end[1] / (m * static_cast<double>(w)), -static_cast<double>(Extended(sin(phase))),
+              1.1e-10);
+}
+
+}  // namespace
+}  // namespace hamjet
