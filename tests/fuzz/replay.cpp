@@ -1,7 +1,10 @@
+#include <fcntl.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -10,6 +13,7 @@
 #include <random>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "fuzz_target.hpp"
@@ -20,7 +24,7 @@
 //
 //   <target>_replay MUTATIONS DICTIONARY SEED_DIRECTORY...
 //
-// What it ran last when it ended early is in <target>_replay.input of the working directory.
+// The input at which it crashed or found something is left in <target>_replay.input.
 
 namespace hamjet::fuzz {
 namespace {
@@ -168,8 +172,20 @@ class Mutator {
   Generator random_{20261121};
 };
 
-void run(const std::string& input, const std::filesystem::path& kept) {
-  std::ofstream(kept, std::ios::binary | std::ios::trunc) << input;
+/// The input at work and where it is kept if the program ends early; for the handler, which may
+/// neither allocate nor lock.
+std::string_view input_at_work;
+std::string kept_input;
+
+extern "C" void keep_input(int signal) {
+  const int file = ::open(kept_input.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  [[maybe_unused]] const auto ignored = ::write(file, input_at_work.data(), input_at_work.size());
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
+}
+
+void run(const std::string& input) {
+  input_at_work = input;
   LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(input.data()), input.size());
 }
 
@@ -184,19 +200,20 @@ void limit_memory() {
 void replay(const std::vector<std::string>& arguments) {
   if (arguments.size() < 4) throw std::runtime_error("arguments: MUTATIONS DICTIONARY SEEDS...");
   limit_memory();
-  const std::filesystem::path kept =
-      std::filesystem::path(arguments[0]).filename().string() + ".input";
+  kept_input = std::filesystem::path(arguments[0]).filename().string() + ".input";
+  for (const int signal : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL}) {
+    std::signal(signal, keep_input);
+  }
   const std::vector<std::string> words = words_in(arguments[2]);
   std::vector<std::string> seeds;
   for (std::size_t i = 3; i < arguments.size(); ++i) {
     const auto more = seeds_in(arguments[i]);
     seeds.insert(seeds.end(), more.begin(), more.end());
   }
-  for (const std::string& seed : seeds) run(seed, kept);
+  for (const std::string& seed : seeds) run(seed);
   Mutator mutator(seeds, words);
   const long mutations = std::stol(arguments[1]);
-  for (long i = 0; i < mutations; ++i) run(mutator.next(), kept);
-  std::filesystem::remove(kept);
+  for (long i = 0; i < mutations; ++i) run(mutator.next());
   std::printf("%zu seeds and %ld mutations, no finding\n", seeds.size(), mutations);
 }
 
