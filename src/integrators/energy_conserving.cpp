@@ -15,11 +15,6 @@
 
 namespace hamjet {
 
-const std::vector<std::string_view>& energy_conserving_method_names() {
-  static const std::vector<std::string_view> names = {"stormer", "midpoint"};
-  return names;
-}
-
 template <class Real>
 class StepCondition<Real>::Evaluation {
  public:

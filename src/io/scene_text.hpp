@@ -21,6 +21,8 @@ std::string read_scene_file(const std::filesystem::path& file);
 ///  - the byte offset of a UTF-16 byte order mark, of a byte that is not UTF-8, or of a NUL;
 ///  - line, column and key of a number that binary64 or a 64-bit integer cannot hold (the parser
 ///    would turn 1e-400 into 0 without a word);
+///  - line and column of a character outside strings and comments that is not ASCII, at some of
+///    which the parser's behaviour is undefined;
 ///  - line and column of tables and arrays nested deeper than any scene needs (freeing a deeply
 ///    nested table recurses, so that 100 000 levels would overflow the stack).
 std::string_view check_scene_text(std::string_view text, std::string_view source);

@@ -39,6 +39,8 @@ class TokenScanner {
         skip_string(c);
       } else if (is_bare(c)) {
         take_bare_token();
+      } else if ((static_cast<unsigned char>(c) & 0x80U) != 0) {
+        refuse_character();
       } else {
         take_punctuation(c);
         advance(1);
@@ -62,6 +64,15 @@ class TokenScanner {
   void skip_to_line_end() {
     const std::size_t end = text_.find('\n', position_);
     advance(std::min(end, text_.size()) - position_);
+  }
+
+  /// Outside strings and comments TOML knows ASCII alone. toml++ 3.3 would run into undefined
+  /// behaviour at some of the others (is_non_ascii_horizontal_whitespace at U+0498).
+  [[noreturn]] void refuse_character() const {
+    const std::string_view rest = text_.substr(position_);
+    throw_scene_error(here(), fmt::format("not valid TOML: got the character {} outside quotes, "
+                                          "must be within quotes or a comment",
+                                          in_quotes(rest.substr(0, utf8_sequence_length(rest)))));
   }
 
   /// Skips a string with its quotes. One that is not closed is the parser's to report: skipping

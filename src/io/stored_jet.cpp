@@ -98,9 +98,14 @@ void require_this_version(const JsonReader& root) {
 
 StoredJet read_stored_jet(const std::filesystem::path& directory,
                           const std::optional<std::string>& label) {
+  return read_stored_jet(directory, label, read_text_file);
+}
+
+StoredJet read_stored_jet(const std::filesystem::path& directory,
+                          const std::optional<std::string>& label, const FileReader& read) {
   const std::filesystem::path summary = directory / "summary.json";
   const std::string summary_name = printable_path(summary);
-  const nlohmann::json json = JsonReader::parse(read_text_file(summary), summary_name);
+  const nlohmann::json json = JsonReader::parse(read(summary), summary_name);
   const JsonReader root(json, summary_name);
   require_this_version(root);
   StoredJet stored;
@@ -133,7 +138,7 @@ StoredJet read_stored_jet(const std::filesystem::path& directory,
   const std::filesystem::path file = directory / stored.label / "jet.csv";
   stored.jet = read_coefficients(
       {printable_path(file), names, stored.components, stored.variables, order, stored.precision},
-      read_text_file(file));
+      read(file));
   for (std::size_t c = 0; c < stored.components.size(); ++c) {
     const std::size_t i = stored.components[c];
     if (static_cast<double>(stored.jet[c].constant()) != stored.nominal_final[i]) {

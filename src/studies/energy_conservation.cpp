@@ -14,12 +14,6 @@
 #include "thinned_list.hpp"
 
 namespace hamjet {
-
-const std::vector<std::string_view>& energy_conservation_outcome_names() {
-  static const std::vector<std::string_view> names = {"completes", "stops"};
-  return names;
-}
-
 namespace {
 
 /// The zero of StepCondition along the exact flow near a stop, by the secant method from where the

@@ -52,6 +52,25 @@ TEST(SceneInputErrors, Text) {
   expect_scene_error("\"\xc3\xa9\" = 1e999\n", {"file.toml:1:7: \xc3\xa9: number out of range"});
 }
 
+// TOML 1.0 knows ASCII alone there; found by fuzzing: toml++ 3.3 runs into undefined behaviour at
+// U+0498.
+TEST(SceneInputErrors, NotAsciiOutsideQuotes) {
+  const auto refused = [](const std::string& place, const std::string& character) {
+    return std::vector<std::string>{"file.toml:" + place + ": not valid TOML",
+                                    "character \"" + character + "\" outside quotes"};
+  };
+  expect_scene_error("schema = 1\n \u0498 = 1\n", refused("2:2", "\u0498"));
+  expect_scene_error("schema = 1\na\u0498= 1\n", refused("2:2", "\u0498"));
+  expect_scene_error("gr\u00f6\u00dfe = 1\n", refused("1:3", "\u00f6"));
+  expect_scene_error("schema\u00a0= 1\n", refused("1:7", "\u00a0"));
+  expect_scene_error("[\U0001F6F0]\n", refused("1:2", "\U0001F6F0"));
+  expect_scene_error("title = \u201cx\u201d\n", refused("1:9", "\u201c"));
+  // Line ends that could break a terminal's line are escaped.
+  expect_scene_error("\u2028schema = 1\n", refused("1:1", "\\xe2\\x80\\xa8"));
+  const std::string inside = changed(oscillator, "\"oscillator\"", "\"\u0498 \u00a0\" # \u0498");
+  EXPECT_EQ(parse_scene(inside, "file.toml").title, "\u0498 \u00a0");
+}
+
 TEST(SceneInputErrors, DeepNesting) {
   std::string dots = "a";
   for (int i = 0; i < 100000; ++i) dots += ".a";

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -45,5 +46,12 @@ struct StoredJet {
 /// Error(usage) if no run has this label.
 StoredJet read_stored_jet(const std::filesystem::path& directory,
                           const std::optional<std::string>& label = {});
+
+/// The bytes of a file; throws Error(input_output) if it cannot be read.
+using FileReader = std::function<std::string(const std::filesystem::path& file)>;
+
+/// The same of files that `read` brings, for example from memory.
+StoredJet read_stored_jet(const std::filesystem::path& directory,
+                          const std::optional<std::string>& label, const FileReader& read);
 
 }  // namespace hamjet::io

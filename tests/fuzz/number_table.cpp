@@ -1,0 +1,47 @@
+#include "hamjet/io/number_table.hpp"
+
+#include <fmt/format.h>
+
+#include <cstring>
+
+#include "fuzz_target.hpp"
+
+// Target: CSV of deviations. What is read and written again, columns in another order, must come
+// back bit by bit.
+
+namespace hamjet::fuzz {
+namespace {
+
+const std::vector<std::string_view> columns = {"R_m", "T_m", "N_m", "vR_m_s", "vT_m_s", "vN_m_s"};
+constexpr const char* name = "deviations.csv";
+
+std::string written(const io::NumberTable& table) {
+  std::string text = fmt::format("{}\n", fmt::join(columns.rbegin(), columns.rend(), ","));
+  for (std::size_t i = 0; i < table.rows(); ++i) {
+    const auto row = table.row(i);
+    text += fmt::format("{}\n", fmt::join(row.rbegin(), row.rend(), ","));
+  }
+  return text;
+}
+
+void check(const io::NumberTable& table) {
+  require(table.columns == columns.size() && table.rows() >= 1, "sizes of the table");
+  require(table.numbers.size() == table.rows() * table.columns, "a row that is cut off");
+  require_finite(table.numbers, "table");
+  const io::NumberTable again = io::read_number_table("again", written(table), columns);
+  require(again.numbers.size() == table.numbers.size() &&
+              std::memcmp(again.numbers.data(), table.numbers.data(),
+                          table.numbers.size() * sizeof(double)) == 0,
+          "numbers that do not come back");
+}
+
+}  // namespace
+}  // namespace hamjet::fuzz
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace hamjet;
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  fuzz::is_read([&] { fuzz::check(io::read_number_table(fuzz::name, text, fuzz::columns)); },
+                {{ErrorKind::input_output}, {"deviations.csv:"}});
+  return 0;
+}

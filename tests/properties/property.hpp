@@ -1,0 +1,48 @@
+#pragma once
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <sstream>
+#include <string>
+#include <utility>
+
+// Properties that hold whatever the numbers are, on random ones: rapidcheck.
+
+namespace hamjet::test {
+
+/// Checks a property on `cases` random cases, the same in every run and on every machine. One that
+/// fails is made simpler as long as it fails, and its numbers are printed by the names that they
+/// were drawn with (`Gen::as`).
+template <class Property>
+void expect_property(Property&& property, int cases) {
+  const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+  rc::detail::TestMetadata metadata;
+  metadata.id = std::string(test->test_suite_name()) + "." + test->name();
+  metadata.description = test->name();
+  rc::detail::TestParams parameters;
+  parameters.seed = 20261121;
+  parameters.maxSuccess = cases;
+  const auto result =
+      rc::detail::checkTestable(std::forward<Property>(property), metadata, parameters);
+  if (result.template is<rc::detail::SuccessResult>()) return;
+  std::ostringstream message;
+  rc::detail::printResultMessage(result, message);
+  ADD_FAILURE() << message.str();
+}
+
+/// A whole number between the two, both included; simplest: the lowest.
+inline rc::Gen<int> whole_number(int lowest, int highest) {
+  // rapidcheck draws from a part of the range first; here the whole is wanted from the first case.
+  return rc::gen::resize(rc::kNominalSize, rc::gen::inRange(lowest, highest + 1));
+}
+
+/// A number between the two with many digits; simplest: the lowest.
+inline rc::Gen<double> number(double lowest, double highest) {
+  constexpr int parts = 1'000'003;
+  return rc::gen::map(whole_number(0, parts), [=](int part) {
+    return lowest + (highest - lowest) * static_cast<double>(part) / parts;
+  });
+}
+
+}  // namespace hamjet::test
