@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "hamjet/error.hpp"
+#include "hamjet/io/result_set.hpp"
 #include "hamjet/version.hpp"
 #include "json_reader.hpp"
 #include "scene_message.hpp"
@@ -90,9 +91,9 @@ void require_this_version(const JsonReader& root) {
 
 StoredJet read_stored_jet(const std::filesystem::path& directory,
                           const std::optional<std::string>& label) {
-  const std::filesystem::path summary = directory / "summary.json";
-  const std::string summary_name = printable_path(summary);
-  const nlohmann::json json = JsonReader::parse(read_text_file(summary), summary_name);
+  ResultSet set(directory, "summary.json");
+  const std::string summary_name = printable_path(set.path());
+  const nlohmann::json json = JsonReader::parse(set.summary(), summary_name);
   const JsonReader root(json, summary_name);
   require_this_version(root);
   StoredJet stored;
@@ -122,18 +123,21 @@ StoredJet read_stored_jet(const std::filesystem::path& directory,
   const JsonReader run = choose_run(root, label);
   stored.label = run.at("label").text();
   stored.nominal_final = state(run.at("nominal_final"), names.size());
-  const std::filesystem::path file = directory / stored.label / "jet.csv";
+  const std::string file = stored.label + "/jet.csv";
+  const std::string file_name = printable_path(directory / file);
   stored.jet = read_coefficients(
-      {printable_path(file), names, stored.components, stored.variables, order, stored.precision},
-      read_text_file(file));
+      {file_name, names, stored.components, stored.variables, order, stored.precision},
+      set.read(file));
   for (std::size_t c = 0; c < stored.components.size(); ++c) {
     const std::size_t i = stored.components[c];
     if (static_cast<double>(stored.jet[c].constant()) != stored.nominal_final[i]) {
       run.at("nominal_final")
           .fail(fmt::format("the {} is not that of {}: the files are of different runs", names[i],
-                            printable_path(file)));
+                            file_name));
     }
   }
+  // Last, for the checks above say better what is wrong.
+  set.verify();
   return stored;
 }
 
