@@ -2,13 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
+#include <string>
+#include <system_error>
+#include <utility>
 
+#include "../io/text_file.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/io/reference_cache.hpp"
+#include "hamjet/io/result_set.hpp"
 #include "interruption.hpp"
 #include "progress.hpp"
 #include "report_origin.hpp"
@@ -17,45 +21,41 @@
 namespace hamjet::cli {
 namespace {
 
-/// What is finished is saved at most this often.
-constexpr std::chrono::seconds checkpoint_interval(2);
+/// What is finished is saved after the first of these, then after intervals that double up to the
+/// longest.
+constexpr std::chrono::milliseconds first_checkpoint(50);
+constexpr std::chrono::milliseconds longest_interval(2000);
 
 /// Puts what an interrupted comparison left into `result`.
 void take_up(const std::filesystem::path& directory, const std::string& determinants,
              ComparisonResult& result) {
   const std::filesystem::path file = directory / "compare.json";
-  std::ifstream stream(file);
-  if (!stream) {
+  if (std::error_code ignored; !std::filesystem::exists(file, ignored)) {
     throw Error(ErrorKind::input_output,
-                fmt::format("{}: cannot be read, so there is nothing to resume; leave --resume out "
+                fmt::format("{}: is not there, so there is nothing to resume; leave --resume out "
                             "to start",
-                            file.string()));
+                            io::printable_path(file)));
   }
-  std::ostringstream text;
-  text << stream.rdbuf();
-  try {
-    io::EarlierRuns earlier = io::read_comparison_runs(text.str());
-    if (earlier.determinants != determinants) {
-      throw Error(ErrorKind::usage,
-                  "is the comparison of another scene or other settings; leave "
-                  "--resume out to start anew, or choose another -o");
-    }
-    result.runs = std::move(earlier.runs);
-    result.cost_runs = std::move(earlier.cost_runs);
-    result.along_time = std::move(earlier.along_time);
-  } catch (const Error& error) {
-    throw Error(error.kind(), fmt::format("{}: {}", file.string(), error.what()));
+  const io::ResultSet set(directory, "compare.json");
+  io::EarlierRuns earlier = io::read_comparison_runs(set.summary(), io::printable_path(file));
+  set.verify();
+  if (earlier.determinants != determinants) {
+    throw Error(ErrorKind::usage,
+                fmt::format("{}: is the comparison of another scene or other settings; leave "
+                            "--resume out to start anew, or choose another -o",
+                            io::printable_path(file)));
   }
+  result.runs = std::move(earlier.runs);
+  result.cost_runs = std::move(earlier.cost_runs);
+  result.along_time = std::move(earlier.along_time);
 }
 
-/// The runs so far, marked as partial if they are. A page of an earlier comparison would contradict
-/// them.
+/// The runs so far, marked as partial if they are. Page and plots of an earlier comparison, which
+/// would contradict them, go.
 void write_figures(const ComparisonResult& result, const io::ReportOrigin& origin,
-                   const std::filesystem::path& directory) {
-  io::OutputDirectory output(directory);
+                   io::OutputDirectory& output) {
   output.write("compare.csv", io::comparison_csv(result));
   output.write("compare.json", io::comparison_json(result, origin));
-  output.replace("report.html");
   output.commit();
 }
 
@@ -67,10 +67,12 @@ int compare(const CompareOptions& options) {
   io::ReportOrigin origin = report_origin(options.scene.command);
   origin.determinants = comparison_key(scene);
   ComparisonResult result;
-  if (options.resume) take_up(directory, origin.determinants, result);
   io::OutputDirectory output(directory);
+  const RemovedAtSuddenEnd leftovers(output.leftovers());
+  if (options.resume) take_up(directory, origin.determinants, result);
   io::ReferenceCache cache(io::ReferenceCache::user_directory());
   auto saved = std::chrono::steady_clock::now();
+  auto interval = first_checkpoint;
   try {
     Progress progress(!options.scene.quiet);
     ComparisonOptions work;
@@ -81,17 +83,18 @@ int compare(const CompareOptions& options) {
     };
     work.checkpoint = [&] {
       const auto now = std::chrono::steady_clock::now();
-      if (now - saved < checkpoint_interval) return;
+      if (now - saved < interval) return;
       saved = now;
+      interval = std::min(2 * interval, longest_interval);
       const UninterruptedWriting guard(Writing::checkpoint);
-      write_figures(result, origin, directory);
+      write_figures(result, origin, output);
     };
     compare(scene, work, result);
   } catch (const Interrupted& interrupted) {
     if (result.runs.empty()) throw;
     {
       const UninterruptedWriting guard(Writing::partial_results);
-      write_figures(result, origin, directory);
+      write_figures(result, origin, output);
     }
     print_error(
         fmt::format("interrupted; what was finished is in {}, marked as partial; the same command "
@@ -102,16 +105,17 @@ int compare(const CompareOptions& options) {
   {
     // The figures are safe before the plots are drawn.
     const UninterruptedWriting guard(Writing::checkpoint);
-    write_figures(result, origin, directory);
+    write_figures(result, origin, output);
   }
   const io::ComparisonReport report = io::make_report(result, origin, options.plots);
+  std::string summary;
   {
     const UninterruptedWriting guard;
-    io::write_report(report, output);
+    summary = io::write_report(report, output);
   }
   if (report.drawing_problem) print_error(*report.drawing_problem);
   if (options.scene.json) {
-    print(report.files.back().content);
+    print(summary);
   } else if (!options.scene.quiet) {
     print(io::comparison_table(result) + "\n" + advice(result) +
           fmt::format("\nreport: {}\n", (directory / "report.html").string()));

@@ -6,16 +6,15 @@
 #include <cmath>
 #include <filesystem>
 #include <iterator>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
+#include "../io/file_system.hpp"
 #include "../io/scene_message.hpp"
 #include "../io/text_file.hpp"
 #include "eval_coordinates.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/io/number_table.hpp"
-#include "hamjet/io/output_directory.hpp"
 #include "hamjet/io/stored_jet.hpp"
 #include "interruption.hpp"
 #include "jet_evaluation.hpp"
@@ -65,27 +64,24 @@ void check_options(const EvalOptions& options) {
 /// The one file that the user named, written in full or not at all.
 class OutputFile {
  public:
-  explicit OutputFile(const std::filesystem::path& file) : name_(file.filename()) {
+  explicit OutputFile(const std::filesystem::path& file) : file_(file) {
     std::error_code ignored;
     const auto status = std::filesystem::status(file, ignored);
     // A rename would put a file in the place of a device such as /dev/null.
-    if (name_.empty() || (exists(status) && !is_regular_file(status))) {
+    if (!file.has_filename() || (exists(status) && !is_regular_file(status))) {
       throw Error(ErrorKind::input_output, fmt::format("{}: cannot be written: not a regular file",
                                                        io::printable_path(file)));
     }
-    const auto folder = file.parent_path();
-    directory_ = std::make_unique<io::OutputDirectory>(folder.empty() ? "." : folder);
+    io::require_writable(file.has_parent_path() ? file.parent_path() : ".");
   }
 
   void write(const std::string& text) {
     const UninterruptedWriting results;
-    directory_->write(name_, text);
-    directory_->commit();
+    io::write_whole_file(file_, text);
   }
 
  private:
-  std::filesystem::path name_;
-  std::unique_ptr<io::OutputDirectory> directory_;
+  std::filesystem::path file_;
 };
 
 io::NumberTable read_deviations(const EvalOptions& options,

@@ -4,6 +4,7 @@
 
 #include <csignal>
 #include <string_view>
+#include <utility>
 
 namespace hamjet::cli {
 namespace {
@@ -14,11 +15,21 @@ volatile std::sig_atomic_t pending_signal = 0;
 volatile std::sig_atomic_t phase = computing;
 volatile std::sig_atomic_t has_checkpoint = 0;
 
+/// Of the RemovedAtSuddenEnd that lives, ended by a null pointer.
+const char* const* volatile leftovers = nullptr;
+
 constexpr unsigned seconds_to_stop = 1;
 
 /// Ends the program from within a signal handler, where nothing that allocates or locks may be
-/// called. Outside `writing` there is nothing on the disk to clean up.
+/// called. Outside `writing` there is nothing else on the disk to clean up.
 [[noreturn]] void end_at_once() {
+  if (const char* const* name = leftovers; name != nullptr) {
+    // Each call fails on what the other is for.
+    for (; *name != nullptr; ++name) {
+      ::unlink(*name);
+      ::rmdir(*name);
+    }
+  }
   if (phase == computing) {
     const std::string_view message =
         has_checkpoint != 0
@@ -54,6 +65,15 @@ void catch_signals() {
 void stop_if_interrupted() {
   if (pending_signal != 0) throw Interrupted(pending_signal);
 }
+
+RemovedAtSuddenEnd::RemovedAtSuddenEnd(std::vector<std::filesystem::path> paths)
+    : paths_(std::move(paths)) {
+  for (const auto& path : paths_) names_.push_back(path.c_str());
+  names_.push_back(nullptr);
+  leftovers = names_.data();
+}
+
+RemovedAtSuddenEnd::~RemovedAtSuddenEnd() { leftovers = nullptr; }
 
 UninterruptedWriting::UninterruptedWriting(Writing what) : what_(what) {
   phase = writing;

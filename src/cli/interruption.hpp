@@ -1,6 +1,8 @@
 #pragma once
 
 #include <exception>
+#include <filesystem>
+#include <vector>
 
 namespace hamjet::cli {
 
@@ -23,6 +25,20 @@ void catch_signals();
 
 /// Throws Interrupted if a signal has come.
 void stop_if_interrupted();
+
+/// While it lives, a signal that ends the program at once removes these paths first: files, and
+/// folders as far as they are empty, in this order.
+class RemovedAtSuddenEnd {
+ public:
+  explicit RemovedAtSuddenEnd(std::vector<std::filesystem::path> paths);
+  ~RemovedAtSuddenEnd();
+  RemovedAtSuddenEnd(const RemovedAtSuddenEnd&) = delete;
+  RemovedAtSuddenEnd& operator=(const RemovedAtSuddenEnd&) = delete;
+
+ private:
+  std::vector<std::filesystem::path> paths_;
+  std::vector<const char*> names_;
+};
 
 /// What is written.
 enum class Writing {

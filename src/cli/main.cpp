@@ -3,6 +3,7 @@
 #include <new>
 #include <sstream>
 
+#include "arithmetic.hpp"
 #include "compare_command.hpp"
 #include "eval_command.hpp"
 #include "hamjet/error.hpp"
@@ -206,6 +207,7 @@ int dispatch(int argc, char** argv) {
 int main(int argc, char** argv) {
   hamjet::cli::catch_signals();
   try {
+    hamjet::cli::reset_arithmetic();
     return dispatch(argc, argv);
   } catch (const hamjet::cli::Interrupted& interrupted) {
     hamjet::cli::print_error("interrupted; nothing was written");

@@ -4,10 +4,10 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <type_traits>
 #include <variant>
 
-#include "earlier_results.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/io/output_directory.hpp"
 #include "hamjet/io/results.hpp"
@@ -24,6 +24,7 @@ namespace {
 int run_flow_jet(const RunOptions& options, const Scene& scene) {
   const std::filesystem::path directory = output_path(options, scene.name);
   io::OutputDirectory output(directory);
+  const RemovedAtSuddenEnd leftovers(output.leftovers());
   PropagationResult result;
   {
     Progress progress(!options.quiet);
@@ -34,14 +35,14 @@ int run_flow_jet(const RunOptions& options, const Scene& scene) {
   }
   std::optional<std::string> drawing_problem;
   const std::string figure = io::figure_svg(result, drawing_problem);
+  std::string summary;
   {
     const UninterruptedWriting guard;
-    for (const auto& file : earlier_results(directory)) output.replace(file);
-    io::write_results(result, figure, output);
+    summary = io::write_results(result, figure, output);
   }
   if (drawing_problem) print_error(*drawing_problem);
   if (options.json) {
-    print(io::summary_json(result));
+    print(summary);
   } else if (!options.quiet) {
     print(io::summary_table(result) + fmt::format("results: {}\n", directory.string()));
   }

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <string>
 
-#include "earlier_results.hpp"
 #include "hamjet/io/output_directory.hpp"
 #include "interruption.hpp"
 #include "progress.hpp"
@@ -17,6 +17,7 @@ int report_study(const RunOptions& options, const std::string& scene_name,
                  const std::function<io::StudyReport(const ProgressCallback&)>& work) {
   const std::filesystem::path directory = output_path(options, scene_name);
   io::OutputDirectory output(directory);
+  const RemovedAtSuddenEnd leftovers(output.leftovers());
   io::StudyReport report;
   {
     Progress progress(!options.quiet);
@@ -25,16 +26,15 @@ int report_study(const RunOptions& options, const std::string& scene_name,
       progress.update(task, fraction);
     });
   }
+  std::string summary;
   {
     const UninterruptedWriting guard;
-    for (const auto& file : earlier_results(directory)) output.replace(file);
     for (const io::ReportFile& file : report.files) output.write(file.path, file.content);
-    output.replace("figure.svg");
-    output.commit();
+    summary = output.commit();
   }
   if (report.drawing_problem) print_error(*report.drawing_problem);
   if (options.json) {
-    print(report.summary());
+    print(report.json.empty() ? summary : report.json);
   } else if (!options.quiet) {
     const auto page = std::find_if(report.files.begin(), report.files.end(), [](const auto& file) {
       return file.path.extension() == ".html";

@@ -85,9 +85,9 @@ RunAlongTime read_along_time(const JsonReader& value) {
 
 }  // namespace
 
-EarlierRuns read_comparison_runs(std::string_view text) {
-  const nlohmann::json json = JsonReader::parse(text, "compare.json");
-  const JsonReader root(json, "compare.json");
+EarlierRuns read_comparison_runs(std::string_view text, const std::string& name) {
+  const nlohmann::json json = JsonReader::parse(text, name);
+  const JsonReader root(json, name);
   if (root.at("schema").integer<int>() != 1) {
     root.at("schema").fail("must be 1: the file is of another version");
   }

@@ -94,20 +94,13 @@ ComparisonReport make_report(const ComparisonResult& result, const ReportOrigin&
     report.files.push_back(std::move(plot));
   }
   report.files.push_back({"compare.json", comparison_json(result, origin)});
-  // Those of an earlier comparison must not be taken for plots of this one.
-  for (const Chart& chart : charts) {
-    for (const char* extension : {".pdf", ".png"}) {
-      report.earlier.push_back("plots/" + chart.name + extension);
-    }
-  }
   report.drawing_problem = drawer.problem();
   return report;
 }
 
-void write_report(const ComparisonReport& report, OutputDirectory& output) {
-  for (const std::filesystem::path& file : report.earlier) output.replace(file);
+std::string write_report(const ComparisonReport& report, OutputDirectory& output) {
   for (const ReportFile& file : report.files) output.write(file.path, file.content);
-  output.commit();
+  return output.commit();
 }
 
 }  // namespace hamjet::io

@@ -8,8 +8,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "file_system.hpp"
 #include "hamjet/error.hpp"
-#include "hamjet/io/output_directory.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -101,11 +101,9 @@ std::optional<ReferenceResult> ReferenceCache::load(const std::string& key,
 void ReferenceCache::save(const std::string& key, const ReferenceResult& reference) {
   if (directory_.empty()) return;
   try {
-    OutputDirectory output(directory_);
     Json json = json_of(key, reference);
     json["hash"] = hash_of(json.dump());
-    output.write(file_of(key).filename(), json.dump());
-    output.commit();
+    write_whole_file(file_of(key), json.dump());
   } catch (const Error&) {
     // A full or read-only disk: the reference is computed again next time.
   }

@@ -26,8 +26,8 @@ bool is_at_floor(const ExactnessEntry& entry) {
   return entry.floor && entry.residual.absolute <= 10 * entry.floor->absolute;
 }
 
-void write_results(const PropagationResult& result, const std::string& figure,
-                   OutputDirectory& output) {
+std::string write_results(const PropagationResult& result, const std::string& figure,
+                          OutputDirectory& output) {
   for (const RunResult& run : result.runs) {
     if (!run.failure.empty()) continue;
     const std::filesystem::path folder = run.settings.label;
@@ -45,7 +45,7 @@ void write_results(const PropagationResult& result, const std::string& figure,
   }
   if (!figure.empty()) output.write("figure.svg", figure);
   output.write("summary.json", summary_json(result));
-  output.commit();
+  return output.commit();
 }
 
 }  // namespace hamjet::io

@@ -99,11 +99,21 @@ std::string read_scene_file(const std::filesystem::path& file) {
     const ssize_t count = ::read(descriptor.number(), buffer.data(), buffer.size());
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) throw_unreadable(file, errno);
-    if (count == 0) return text;
+    if (count == 0) break;
     text.append(buffer.data(), static_cast<std::size_t>(count));
     // The file may have grown since its size was asked for.
     if (text.size() > largest_scene_bytes) throw_too_long(printable_path(file), text.size());
   }
+  // Half of an old scene and half of a new one can be a scene.
+  struct stat now {};
+  if (::fstat(descriptor.number(), &now) != 0) throw_unreadable(file, errno);
+  const bool is_as_before = now.st_size == status.st_size &&
+                            now.st_mtim.tv_sec == status.st_mtim.tv_sec &&
+                            now.st_mtim.tv_nsec == status.st_mtim.tv_nsec;
+  if (!is_as_before || text.size() != static_cast<std::size_t>(now.st_size)) {
+    throw_unreadable(file, "it changed meanwhile; run again when it is saved");
+  }
+  return text;
 }
 
 std::string_view check_scene_text(std::string_view text, std::string_view source) {

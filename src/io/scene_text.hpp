@@ -11,8 +11,8 @@ namespace hamjet::io {
 inline constexpr std::size_t largest_scene_bytes = std::size_t{1} << 20;
 
 /// The bytes of a scene file. Throws Error(input_output) with the path and the reason if it is
-/// missing, unreadable, or not a regular file (a directory, a pipe, a device), and Error(scene) if
-/// it is larger than `largest_scene_bytes`.
+/// missing, unreadable, not a regular file (a directory, a pipe, a device), or written to while it
+/// is read, and Error(scene) if it is larger than `largest_scene_bytes`.
 std::string read_scene_file(const std::filesystem::path& file);
 
 /// Checks the text before TOML is parsed, and returns it without a UTF-8 byte order mark. `source`

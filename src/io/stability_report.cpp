@@ -7,6 +7,7 @@
 #include "chart_drawer.hpp"
 #include "csv_values.hpp"
 #include "display_text.hpp"
+#include "hamjet/version.hpp"
 #include "json_values.hpp"
 #include "stability_page.hpp"
 
@@ -118,14 +119,20 @@ StudyReport stability_report(const std::vector<StabilityResult>& results,
     if (result.outcome == CaseOutcome::wrong) wrong += " " + result.subject->name;
   }
   report.files = {{"stability.csv", stability_csv(results)},
-                  {"stability.html", stability_page(results, origin, drawer)},
-                  {"stability.json", list.dump(2) + "\n"}};
+                  {"stability.html", stability_page(results, origin, drawer)}};
+  report.json = list.dump(2) + "\n";
   report.drawing_problem = drawer.problem();
   report.table = stability_verdict(results) + "\n";
   if (!wrong.empty()) {
     report.exit_code = static_cast<int>(ErrorKind::check_failed);
     report.failure = "wrong:" + wrong;
   }
+  const Json summary = {{"study", "stability"},
+                        {"version", version},
+                        {"verdict", stability_verdict(results)},
+                        {"exit_code", report.exit_code},
+                        {"cases", list}};
+  report.files.push_back({"summary.json", summary.dump(2) + "\n"});
   return report;
 }
 

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "hamjet/error.hpp"
+#include "hamjet/io/result_set.hpp"
 #include "hamjet/version.hpp"
 #include "json_reader.hpp"
 #include "scene_message.hpp"
@@ -98,7 +99,14 @@ void require_this_version(const JsonReader& root) {
 
 StoredJet read_stored_jet(const std::filesystem::path& directory,
                           const std::optional<std::string>& label) {
-  return read_stored_jet(directory, label, read_text_file);
+  ResultSet set(directory, "summary.json");
+  StoredJet stored = read_stored_jet(directory, label, [&](const std::filesystem::path& file) {
+    if (file == set.path()) return set.summary();
+    return set.read(file.lexically_relative(directory).generic_string());
+  });
+  // Last, for the reader's own checks say better what is wrong.
+  set.verify();
+  return stored;
 }
 
 StoredJet read_stored_jet(const std::filesystem::path& directory,

@@ -128,6 +128,23 @@ void send(pid_t process, const Signal& signal, Clock::time_point deadline) {
   }
 }
 
+/// Whether the process has ended; it is still to be waited for.
+bool has_ended(pid_t process) {
+  siginfo_t information{};
+  return ::waitid(P_PID, static_cast<id_t>(process), &information, WEXITED | WNOHANG | WNOWAIT) ==
+             0 &&
+         information.si_pid == process;
+}
+
+void send(pid_t process, const Kill& kill) {
+  constexpr std::chrono::microseconds interval(20);
+  while (!kill.path.empty() && ::access(kill.path.c_str(), F_OK) != 0 && !has_ended(process)) {
+    std::this_thread::sleep_for(interval);
+  }
+  std::this_thread::sleep_for(kill.after);
+  ::kill(process, SIGKILL);
+}
+
 /// Reads both streams until the command has closed them; false when time is up.
 bool read_streams(Pipe& out, Pipe& err, CommandResult& result, Clock::time_point deadline) {
   while (out.read_end >= 0 || err.read_end >= 0) {
@@ -178,6 +195,7 @@ CommandResult run_command(const std::vector<std::string>& arguments,
   int status = 0;
   rusage usage{};
   if (options.signal) send(process, *options.signal, deadline);
+  if (options.kill) send(process, *options.kill);
   result.is_timed_out =
       !read_streams(out, err, result, deadline) || !wait_for_end(process, status, usage, deadline);
   if (result.is_timed_out) {

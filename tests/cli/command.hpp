@@ -28,6 +28,12 @@ struct Signal {
   std::chrono::milliseconds after{200};  ///< the command's start, and between two
 };
 
+/// SIGKILL, which no program can catch.
+struct Kill {
+  std::chrono::microseconds after{0};  ///< the start, or the moment at which `path` is there
+  std::filesystem::path path = {};
+};
+
 struct CommandOptions {
   std::filesystem::path directory;  ///< the working directory
   /// Variables to set, or to remove where the value is absent.
@@ -40,6 +46,8 @@ struct CommandOptions {
   bool as_nobody = false;
   /// Sent when the command is at work.
   std::optional<Signal> signal;
+  /// Unless the command has ended before.
+  std::optional<Kill> kill;
   /// After this the command is killed, and the test fails.
   std::chrono::seconds limit{120};
 };

@@ -48,11 +48,14 @@ TEST_F(Interruption, LeavesEarlierResultsAlone) {
   EXPECT_EQ(content(directory_ / "out/quick/gauss8/jet.csv"), jet);
 }
 
-TEST_F(Interruption, KilledItLeavesNothingEither) {
-  const auto before = files();
+TEST_F(Interruption, KilledItLeavesNothingThatIsSeenOrInTheWay) {
   options_.limit = std::chrono::seconds(1);
   EXPECT_TRUE(run_command(many_steps, options_).is_timed_out);
-  EXPECT_EQ(files(), before);
+  EXPECT_EQ(files(), (std::vector<std::string>{"out", "out/quick", "out/quick/.hamjet-lock",
+                                               "quick.toml", "small.toml"}));
+  options_.limit = std::chrono::seconds(120);
+  succeed({"run", "quick.toml", "-q"});
+  EXPECT_FALSE(std::filesystem::exists(directory_ / "out/quick/.hamjet-lock"));
 }
 
 }  // namespace

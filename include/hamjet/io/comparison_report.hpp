@@ -36,8 +36,9 @@ std::string comparison_csv(const ComparisonResult& result);
 std::string comparison_json(const ComparisonResult& result, const ReportOrigin& origin);
 
 /// Reads a `compare.json`: the runs are bit for bit those that were written (of NaN only that it is
-/// one). Throws Error(input_output) in one line that names the place of the mistake.
-EarlierRuns read_comparison_runs(std::string_view text);
+/// one). Throws Error(input_output) in one line with `name`, that of the file, and the place of the
+/// mistake.
+EarlierRuns read_comparison_runs(std::string_view text, const std::string& name = "compare.json");
 
 /// `report.html`: one page that needs no other file, no network and no script. Where a plot cannot
 /// be drawn the page says why, and `drawing_problem` is set to the first reason, one line.
@@ -51,7 +52,6 @@ std::string comparison_table(const ComparisonResult& result);
 /// All files of a report.
 struct ComparisonReport {
   std::vector<ReportFile> files;  ///< `compare.csv`, `report.html`, plots, `compare.json` last
-  std::vector<std::filesystem::path> earlier;  ///< removed where they are not written anew
   std::optional<std::string> drawing_problem;  ///< one line, if gnuplot could not draw
 };
 
@@ -60,7 +60,8 @@ struct ComparisonReport {
 ComparisonReport make_report(const ComparisonResult& result, const ReportOrigin& origin,
                              PlotFormat format);
 
-/// Writes all files and commits them. Throws Error(input_output).
-void write_report(const ComparisonReport& report, OutputDirectory& output);
+/// Writes all files and commits them. Returns `compare.json` as it is there, with the checksums of
+/// the files. Throws Error(input_output).
+std::string write_report(const ComparisonReport& report, OutputDirectory& output);
 
 }  // namespace hamjet::io

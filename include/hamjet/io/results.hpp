@@ -37,9 +37,10 @@ std::string along_time_csv(const PropagationResult& result, const RunResult& run
 /// `problem`, one line, if it cannot be drawn.
 std::string figure_svg(const PropagationResult& result, std::optional<std::string>& problem);
 
-/// All of the above into a directory, the summary last. Throws Error(input_output).
-void write_results(const PropagationResult& result, const std::string& figure,
-                   OutputDirectory& output);
+/// All of the above into a directory. Returns the summary as it is there, with the checksums of the
+/// files. Throws Error(input_output).
+std::string write_results(const PropagationResult& result, const std::string& figure,
+                          OutputDirectory& output);
 
 /// The table for the terminal: residual and error of every integrator side by side.
 std::string summary_table(const PropagationResult& result);

@@ -42,7 +42,7 @@ struct StoredJet {
 
 /// Reads `summary.json` and `<label>/jet.csv` of a results directory: the run with this label, or
 /// else the first that has a result. Throws Error(input_output), one line with the file and the
-/// line or key, if anything is missing, damaged, of another version or of a failed run;
+/// line or key, if anything is missing, changed since, of another version or of a failed run;
 /// Error(usage) if no run has this label.
 StoredJet read_stored_jet(const std::filesystem::path& directory,
                           const std::optional<std::string>& label = {});

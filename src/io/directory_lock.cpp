@@ -1,0 +1,92 @@
+#include "directory_lock.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <string>
+
+namespace hamjet::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Somebody who removes the file while it is being opened makes another attempt necessary.
+constexpr int most_attempts = 100;
+
+/// Whether the path still leads to the open file.
+bool leads_to(const fs::path& path, int descriptor) {
+  struct stat open_file {};
+  struct stat named_file {};
+  return ::fstat(descriptor, &open_file) == 0 && ::lstat(path.c_str(), &named_file) == 0 &&
+         open_file.st_dev == named_file.st_dev && open_file.st_ino == named_file.st_ino;
+}
+
+/// "process 1234", as the holder wrote it.
+std::string holder(int descriptor) {
+  std::array<char, 32> text;
+  const ssize_t length = ::pread(descriptor, text.data(), text.size(), 0);
+  pid_t process = 0;
+  if (length > 0) std::from_chars(text.data(), text.data() + length, process);
+  return process > 0 ? fmt::format("process {}", process) : "a process that has just begun";
+}
+
+void write_holder(int descriptor) {
+  // It is there for a message only: a full disk must not matter.
+  const std::string text = fmt::format("{}\n", ::getpid());
+  [[maybe_unused]] const bool is_written =
+      ::ftruncate(descriptor, 0) == 0 && ::pwrite(descriptor, text.data(), text.size(), 0) > 0;
+}
+
+/// False if another process has the lock.
+bool try_to_lock(int descriptor) {
+  while (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
+    if (errno == EWOULDBLOCK) return false;
+    if (errno != EINTR) return true;  // a file system without locks
+  }
+  return true;
+}
+
+}  // namespace
+
+DirectoryLock::DirectoryLock(const fs::path& directory) : file_(directory / ".hamjet-lock") {
+  for (int attempt = 1;; ++attempt) {
+    const auto folders = create_folders(directory, "the output directory cannot be created");
+    created_.insert(created_.end(), folders.begin(), folders.end());
+    descriptor_ = Descriptor(file_, O_RDWR | O_CREAT | O_NOFOLLOW);
+    if (!descriptor_.is_open()) {
+      if (errno == ENOENT && attempt < most_attempts) continue;
+      const std::string reason = errno_text();
+      remove_empty(created_);
+      throw_file_error(directory, "the output directory cannot be written", reason);
+    }
+    if (!try_to_lock(descriptor_.value())) {
+      throw_file_error(directory, "the output directory is in use by another hamjet",
+                       holder(descriptor_.value()) + "; wait for its end or choose another -o");
+    }
+    // The one who had it may have removed the file just before.
+    if (leads_to(file_, descriptor_.value()) || attempt >= most_attempts) break;
+  }
+  write_holder(descriptor_.value());
+}
+
+DirectoryLock::~DirectoryLock() {
+  // Removed while it is locked, so that nobody else's is: whoever opens it now finds it gone.
+  if (is_in_place()) ::unlink(file_.c_str());
+  remove_empty(created_);
+}
+
+bool DirectoryLock::is_in_place() const { return leads_to(file_, descriptor_.value()); }
+
+std::vector<fs::path> DirectoryLock::leftovers() const {
+  std::vector<fs::path> paths = {file_};
+  paths.insert(paths.end(), created_.rbegin(), created_.rend());
+  return paths;
+}
+
+}  // namespace hamjet::io

@@ -1,0 +1,58 @@
+#include "hamjet/io/result_set.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "directory_lock.hpp"
+#include "file_system.hpp"
+#include "prepared_set.hpp"
+#include "sealed_summary.hpp"
+#include "text_file.hpp"
+
+namespace hamjet::io {
+namespace {
+
+constexpr const char* remedy = "run the scene again";
+
+}  // namespace
+
+ResultSet::ResultSet(std::filesystem::path directory, std::string name)
+    : directory_(std::move(directory)), name_(std::move(name)) {
+  if (is_ready(directory_)) {
+    const DirectoryLock lock(directory_);
+    put_in_place(directory_);
+  }
+  summary_ = read_text_file(path());
+}
+
+std::string ResultSet::read(const std::string& relative) {
+  std::string text = read_text_file(directory_ / relative);
+  const FileRecord found = record_of(relative, text);
+  const auto files = sealed_files(summary_);
+  const auto entry = std::find_if(files.begin(), files.end(),
+                                  [&](const FileRecord& file) { return file.path == relative; });
+  std::string problem;
+  if (entry == files.end()) {
+    problem = fmt::format("is not of the set of results that {} describes", name_);
+  } else if (found.bytes != entry->bytes || found.crc32 != entry->crc32) {
+    problem = fmt::format(
+        "was changed after it was written: {} bytes with CRC-32 {:08x}, must be "
+        "{} bytes with {:08x}",
+        found.bytes, found.crc32, entry->bytes, entry->crc32);
+  }
+  read_.push_back({relative, std::move(problem)});
+  return text;
+}
+
+void ResultSet::verify() const {
+  if (!is_sealed(summary_)) {
+    throw_file_error(path(), "its checksum is wrong or missing, so it was cut or changed", remedy);
+  }
+  for (const FileRead& file : read_) {
+    if (!file.problem.empty()) throw_file_error(directory_ / file.path, file.problem, remedy);
+  }
+}
+
+}  // namespace hamjet::io

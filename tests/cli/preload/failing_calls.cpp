@@ -1,0 +1,99 @@
+// Loaded into the command before it starts: lets one call that writes to the disk fail, as a full
+// or broken disk does. HAMJET_FAILING_CALL names it and says which of these calls, counted from 1:
+// "write:3". Counted are calls on files that were opened for writing alone; a write that fails has
+// written half of what it should.
+
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdarg>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+namespace {
+
+std::array<bool, 1024> is_written{};
+
+template <class Function>
+Function next(const char* name) {
+  return reinterpret_cast<Function>(::dlsym(RTLD_NEXT, name));
+}
+
+/// Whether this call is the one.
+bool must_fail(const char* name) {
+  static int calls = 0;
+  const char* wanted = std::getenv("HAMJET_FAILING_CALL");
+  const std::size_t length = std::strlen(name);
+  if (wanted == nullptr || std::strncmp(wanted, name, length) != 0 || wanted[length] != ':') {
+    return false;
+  }
+  if (++calls != std::atoi(wanted + length + 1)) return false;
+  errno = ENOSPC;
+  return true;
+}
+
+bool is_counted(int descriptor) {
+  return descriptor >= 0 && descriptor < static_cast<int>(is_written.size()) &&
+         is_written[static_cast<std::size_t>(descriptor)];
+}
+
+}  // namespace
+
+extern "C" {
+
+int open(const char* path, int flags, ...) {
+  va_list arguments;
+  va_start(arguments, flags);
+  const mode_t mode = (flags & O_CREAT) != 0 ? va_arg(arguments, mode_t) : 0;
+  va_end(arguments);
+  const bool is_output = (flags & O_ACCMODE) == O_WRONLY;
+  if (is_output && must_fail("open")) return -1;
+  const int descriptor = next<int (*)(const char*, int, mode_t)>("open")(path, flags, mode);
+  if (descriptor >= 0 && descriptor < static_cast<int>(is_written.size())) {
+    is_written[static_cast<std::size_t>(descriptor)] = is_output;
+  }
+  return descriptor;
+}
+
+ssize_t write(int descriptor, const void* bytes, size_t count) {
+  static const auto original = next<ssize_t (*)(int, const void*, size_t)>("write");
+  static bool is_full = false;
+  if (is_counted(descriptor) && (is_full || must_fail("write"))) {
+    errno = ENOSPC;
+    if (is_full) return -1;
+    is_full = true;
+    return count < 2 ? -1 : original(descriptor, bytes, count / 2);
+  }
+  return original(descriptor, bytes, count);
+}
+
+int fsync(int descriptor) {
+  if (is_counted(descriptor) && must_fail("fsync")) return -1;
+  return next<int (*)(int)>("fsync")(descriptor);
+}
+
+int close(int descriptor) {
+  const bool fails = is_counted(descriptor) && must_fail("close");
+  const int error = errno;
+  if (is_counted(descriptor)) is_written[static_cast<std::size_t>(descriptor)] = false;
+  const int result = next<int (*)(int)>("close")(descriptor);
+  if (!fails) return result;
+  errno = error;
+  return -1;
+}
+
+int rename(const char* from, const char* to) noexcept {
+  if (must_fail("rename")) return -1;
+  return next<int (*)(const char*, const char*)>("rename")(from, to);
+}
+
+int mkdir(const char* path, mode_t mode) noexcept {
+  if (must_fail("mkdir")) return -1;
+  return next<int (*)(const char*, mode_t)>("mkdir")(path, mode);
+}
+}
