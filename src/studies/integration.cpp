@@ -30,13 +30,15 @@ FlowProblem<Real> flow_problem(const ComputedProblem& problem, double duration) 
 
 template <class Real>
 FlowJet<Real> integrate(const FlowProblem<Real>& flow, const IntegratorSettings& settings,
-                        IntegrationStatistics& statistics, const StepObserver<Real>& observer) {
+                        IntegrationStatistics& statistics, const StepObserver<Real>& observer,
+                        bool records_step_error) {
   switch (settings.method) {
     case IntegrationMethod::gauss: {
       GaussSettings gauss;
       gauss.stages = settings.stages;
       gauss.step = settings.step_canonical;
       gauss.tolerance = settings.tolerance;
+      gauss.estimates_step_error = records_step_error;
       return integrate_gauss<Real>(flow, gauss, statistics, observer);
     }
     case IntegrationMethod::stormer:
@@ -63,6 +65,7 @@ FlowJet<Real> integrate(const FlowProblem<Real>& flow, const IntegratorSettings&
     cvode.method =
         settings.method == IntegrationMethod::cvode_adams ? CvodeMethod::adams : CvodeMethod::bdf;
     cvode.tolerance = *settings.tolerance;
+    cvode.records_step_error = records_step_error;
     return integrate_cvode(flow, cvode, statistics, observer);
   } else {
     throw Error(ErrorKind::usage, "CVODE computes in double precision only");
@@ -83,8 +86,8 @@ double integration_memory(const IntegratorSettings& settings, const DynamicalSys
 template FlowProblem<double> flow_problem(const ComputedProblem&, double);
 template FlowProblem<Extended> flow_problem(const ComputedProblem&, double);
 template FlowJet<double> integrate(const FlowProblem<double>&, const IntegratorSettings&,
-                                   IntegrationStatistics&, const StepObserver<double>&);
+                                   IntegrationStatistics&, const StepObserver<double>&, bool);
 template FlowJet<Extended> integrate(const FlowProblem<Extended>&, const IntegratorSettings&,
-                                     IntegrationStatistics&, const StepObserver<Extended>&);
+                                     IntegrationStatistics&, const StepObserver<Extended>&, bool);
 
 }  // namespace hamjet
