@@ -35,8 +35,8 @@ constexpr const char* examples = R"(Examples:
   hamjet check scene.toml                   what would be computed, and the memory it takes
   hamjet list integrators
 
-Exit codes: 0 all well; 1 a check that the scene asks for failed; 2 usage; 3 scene; 4 numerical
-failure; 5 input or output; 6 refused as too large; 130 or 143 interrupted.
+Exit codes: 0 all well; 1 a check failed; 2 usage; 3 scene; 4 numerical failure; 5 input or output;
+6 refused as too large; 130 or 143 interrupted.
 
 Taylor maps and generating functions of Hamiltonian flows.
 )";

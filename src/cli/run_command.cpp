@@ -50,7 +50,7 @@ int run_flow_jet(const RunOptions& options, const Scene& scene) {
   if (code != 0) {
     print_error(fmt::format("{}; see {}",
                             code == static_cast<int>(ErrorKind::check_failed)
-                                ? "a check that the scene asks for failed"
+                                ? "a check failed"
                                 : "a numerical failure left part of the results out",
                             (directory / "summary.json").string()));
   }

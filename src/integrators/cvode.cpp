@@ -98,8 +98,23 @@ class CvodeIntegration {
                   fmt::format("{}: a coefficient is not finite at t = {:.10g}", name_, time_));
     }
     guard_.check(numbers(), field_.coefficients(), time_);
+    if (settings_.records_step_error) {
+      clock_.exclude([&] { record_step_error(); }, statistics_.step_error_seconds);
+    }
     ++statistics_.steps;
     limit_step_count(name_.c_str(), statistics_.steps, time_, problem_.duration);
+  }
+
+  /// The root mean square that CVODE keeps below 1, times the tolerance.
+  void record_step_error() {
+    if (!errors_) {
+      errors_.reset(sundials::require(N_VClone(state_.get())));
+      error_weights_.reset(sundials::require(N_VClone(state_.get())));
+    }
+    require(CVodeGetEstLocalErrors(memory_.get(), errors_.get()));
+    require(CVodeGetErrWeights(memory_.get(), error_weights_.get()));
+    statistics_.record_step_error(settings_.tolerance *
+                                  N_VWrmsNorm(errors_.get(), error_weights_.get()));
   }
 
   /// Throws for a negative flag of CVODE, with the exception or the message that led to it.
@@ -199,6 +214,7 @@ class CvodeIntegration {
                                     &counts_.nonlinear_failures));
     statistics_.rejected_steps += counts_.error_test_failures + step_failures;
     statistics_.vector_field_evaluations += field_.evaluations();
+    statistics_.series_work = field_.work();
     if (settings_.counts != nullptr) *settings_.counts = counts_;
   }
 
@@ -221,6 +237,8 @@ class CvodeIntegration {
   // In order of construction: CVODE's memory is freed before what it uses, the context last.
   sundials::Context context_;
   sundials::Vector state_;
+  sundials::Vector errors_;         ///< where they are recorded
+  sundials::Vector error_weights_;  ///< likewise
   sundials::NonlinearSolver nonlinear_solver_;
   sundials::Matrix matrix_;
   sundials::LinearSolver linear_solver_;

@@ -36,6 +36,28 @@ struct CoefficientAlgebra : odeint::range_algebra {
   }
 };
 
+/// odeint's error test, which keeps its last result: the largest error of a coefficient c relative
+/// to tolerance (1 + |c| + h |dc/dt|).
+template <class Stepper>
+struct RecordingErrorChecker
+    : odeint::default_error_checker<typename Stepper::value_type, CoefficientAlgebra,
+                                    typename Stepper::operations_type> {
+  using Value = typename Stepper::value_type;
+  using Base =
+      odeint::default_error_checker<Value, CoefficientAlgebra, typename Stepper::operations_type>;
+
+  RecordingErrorChecker(const Value& tolerance, Value& result)
+      : Base(tolerance, tolerance), last(&result) {}
+
+  template <class State, class Derivative, class Estimates, class Time>
+  Value error(CoefficientAlgebra& algebra, const State& state, const Derivative& derivative,
+              Estimates& estimates, Time step) const {
+    return *last = Base::error(algebra, state, derivative, estimates, step);
+  }
+
+  Value* last;
+};
+
 /// One integration with Fehlberg 7(8). The loop over the steps is our own: odeint's integrate
 /// functions return without moving if the step has the wrong sign, and accept steps to NaN.
 template <class Real>
@@ -43,7 +65,8 @@ class FehlbergIntegration {
  public:
   using State = std::vector<Real>;
   using Stepper = odeint::runge_kutta_fehlberg78<State, Real, State, Real, CoefficientAlgebra>;
-  using ControlledStepper = odeint::controlled_runge_kutta<Stepper>;
+  using ErrorChecker = RecordingErrorChecker<Stepper>;
+  using ControlledStepper = odeint::controlled_runge_kutta<Stepper, ErrorChecker>;
 
   FehlbergIntegration(const FlowProblem<Real>& problem, const ExplicitRungeKuttaSettings& settings,
                       IntegrationStatistics& statistics, const StepObserver<Real>& observer)
@@ -67,6 +90,7 @@ class FehlbergIntegration {
     }
     field_.copy_to(jet_, state_.data());
     statistics_.vector_field_evaluations += field_.evaluations();
+    statistics_.series_work = field_.work();
     statistics_.wall_seconds = clock_.seconds();
     return std::move(jet_);
   }
@@ -95,7 +119,8 @@ class FehlbergIntegration {
 
   void run_controlled_steps() {
     const Real tolerance(*settings_.tolerance);
-    ControlledStepper stepper(typename ControlledStepper::error_checker_type(tolerance, tolerance));
+    Real error = 0;
+    ControlledStepper stepper(ErrorChecker(tolerance, error));
     Real proposed = first_step();
     while (time_ != problem_.duration) {
       const Real remaining = problem_.duration - time_;
@@ -106,6 +131,7 @@ class FehlbergIntegration {
         ++statistics_.rejected_steps;
         h = proposed;
       }
+      statistics_.record_step_error(static_cast<double>(Real(error * tolerance)));
       time_ = h == remaining ? problem_.duration : Real(time_ + h);
       accept();
       limit_step_count(method_name, statistics_.steps, static_cast<double>(time_), span());

@@ -46,6 +46,7 @@ class GaussIntegrator {
       step();
       if (observer) clock_.exclude([&] { observer(time_, jet_.value()); });
     }
+    statistics_.series_work = settings_.stages * stages_.evaluator().work();
     statistics_.wall_seconds = clock_.seconds();
     require_finite(jet_.value(), time_, "Gauss");
     return jet_.take();
@@ -118,6 +119,11 @@ class GaussIntegrator {
       account(&GaussProfile::nominal, mark);
       if (settings_.step) {
         if (!is_solved) fail_fixed_step(h);
+        if (settings_.estimates_step_error) {
+          clock_.exclude(
+              [&] { statistics_.record_step_error(control_.error_estimate(step_, end_slope_)); },
+              statistics_.step_error_seconds);
+        }
         break;
       }
       const double error = is_solved ? control_.error_estimate(step_, end_slope_)
@@ -125,6 +131,7 @@ class GaussIntegrator {
       growth = is_solved ? control_.step_factor(error) : 0.5;
       if (error <= largest_excess * *settings_.tolerance) {
         growth *= control_.time_scale_ratio();
+        statistics_.record_step_error(error);
         break;
       }
       ++statistics_.rejected_steps;
@@ -175,7 +182,7 @@ class GaussIntegrator {
 
   bool try_step(const Real& h) {
     stages_.system().set_step(h);
-    return stages_.solve_constant_terms(start(), statistics_.nominal_evaluations);
+    return stages_.solve_constant_terms(start(), statistics_);
   }
 
   /// The state at the start of the step, by component.

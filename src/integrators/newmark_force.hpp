@@ -96,6 +96,7 @@ class NewmarkForce {
   }
 
   const char* failure() const { return failure_; }
+  const SeriesWork& work() const { return evaluator_.work(); }
 
  private:
   using RealMatrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
@@ -178,6 +179,8 @@ class NewmarkForce {
       const Real moved = displacement(s);
       if (!is_finite(moved)) return false;
       place(s);
+      statistics_.most_newton_iterations =
+          std::max(statistics_.most_newton_iterations, iteration + 1);
       if (moved <= 4 * epsilon) return true;
       const Real ratio = iteration == 0 ? Real(0.25) : Real(moved / previous);
       if (iteration > 0 && moved * ratio * ratio <= epsilon / 4) return true;

@@ -46,6 +46,8 @@ class SeriesVectorField {
   std::size_t size() const noexcept { return dimension() * coefficients_; }
   /// Evaluations so far.
   long evaluations() const noexcept { return evaluations_; }
+  /// Products of series formed so far.
+  const SeriesWork& work() const noexcept { return evaluator_.work(); }
 
   /// The state of the starting jet.
   std::vector<Real> initial_state() const {

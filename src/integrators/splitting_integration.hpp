@@ -59,7 +59,8 @@ FlowJet<Real> integrate_splitting(const FlowProblem<Real>& problem, Splitting<Re
 ///
 ///   x(i), q(i), f(i)  the coefficients of the i-th summed position, position and force;
 ///   start(jet)        takes the initial positions and evaluates there, false if not finite;
-///   evaluate()        evaluates at the drifted x; false if there is no finite result.
+///   evaluate()        evaluates at the drifted x; false if there is no finite result;
+///   work()            the products of series formed so far.
 ///
 /// A kick at the end of a step and the one at the start of the next share their force and are one
 /// addition: between steps the momenta are those after the first kick of the next step.
@@ -113,6 +114,7 @@ class SplittingIntegration {
       if (left > 0) kick(joined_kick);
     }
     write_jet(end_kick);
+    statistics_.series_work = force_.work();
     require_finite(jet_, time_, splitting_.method);
     statistics_.wall_seconds = clock_.seconds();
     return std::move(jet_);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hamjet/dynamics/slice_evaluator.hpp"
+#include "hamjet/integrators/flow_problem.hpp"
 #include "stage_system.hpp"
 
 namespace hamjet {
@@ -121,7 +122,7 @@ class StageSlopes {
   /// Newton's method from the slopes that stand in slopes(); true if it converged to round-off.
   /// With rho = g(Y) - G and Y = base + W G:  dY = K rho,  dG = rho + Dg dY.
   template <class State>
-  bool solve_constant_terms(const State& state, long& evaluations) {
+  bool solve_constant_terms(const State& state, IntegrationStatistics& statistics) {
     const std::size_t m = system_.components();
     std::vector<P> residual(m);
     std::vector<P> change(m);
@@ -131,7 +132,7 @@ class StageSlopes {
     for (int iteration = 0; iteration < largest_iteration_count; ++iteration) {
       place_stages(state);
       evaluator_.evaluate_constant_terms();
-      ++evaluations;
+      ++statistics.nominal_evaluations;
       if (!is_factorised) {
         if (!factorise()) return false;
         is_factorised = true;
@@ -150,7 +151,9 @@ class StageSlopes {
       if (size <= 2 * epsilon || (is_stalled && size <= 100 * epsilon * amplification(state))) {
         place_stages(state);
         evaluator_.evaluate_constant_terms();
-        ++evaluations;
+        ++statistics.nominal_evaluations;
+        statistics.most_newton_iterations =
+            std::max(statistics.most_newton_iterations, iteration + 1);
         return true;
       }
       // The old linearisation serves as long as it contracts well.

@@ -37,6 +37,8 @@ class ExplicitForce {
     return result;
   }
 
+  const SeriesWork& work() const { return evaluator_.work(); }
+
   const char* failure() const {
     return "the force is not finite (a collision, or a point outside its domain)";
   }

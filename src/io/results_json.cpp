@@ -4,6 +4,7 @@
 #include "hamjet/version.hpp"
 #include "json_values.hpp"
 #include "results_names.hpp"
+#include "results_operations_json.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -37,6 +38,19 @@ Json exactness_json(const PropagationResult& result, const KindResult& kind) {
           {"by_degree", kind.failure.empty() ? by_degree : Json(nullptr)}};
 }
 
+Json checks_json(const std::vector<SelfCheck>& checks) {
+  Json json = Json::array();
+  for (const SelfCheck& check : checks) {
+    json.push_back({{"name", name_of(check.name)},
+                    {"state", name_of(check.state)},
+                    {"value", or_null(check.value)},
+                    {"limit", or_null(check.limit)},
+                    {"seconds", check.seconds},
+                    {"text", check.text}});
+  }
+  return json;
+}
+
 Json run_json(const PropagationResult& result, const RunResult& run) {
   const IntegratorSettings& settings = run.settings;
   const bool is_gauss = settings.method == IntegrationMethod::gauss;
@@ -54,13 +68,14 @@ Json run_json(const PropagationResult& result, const RunResult& run) {
       {"error", text_or_null(run.failure)},
       {"failed_checks", run.failed_checks}};
   if (!run.failure.empty()) {
-    for (const char* key : {"steps", "rejected_steps", "vector_field_evaluations",
+    for (const char* key : {"checks", "steps", "rejected_steps", "vector_field_evaluations",
                             "nominal_evaluations", "wall_seconds", "nominal_final", "energy_error",
-                            "exactness", "symplecticity_by_degree", "error_by_degree"}) {
+                            "exactness", "symplecticity_by_degree", "error_by_degree", "operations"}) {
       json[key] = nullptr;
     }
     return json;
   }
+  json["checks"] = checks_json(run.checks);
   json["steps"] = run.statistics.steps;
   json["rejected_steps"] = run.statistics.rejected_steps;
   json["vector_field_evaluations"] = run.statistics.vector_field_evaluations;
@@ -87,6 +102,7 @@ Json run_json(const PropagationResult& result, const RunResult& run) {
       json["error_by_degree"].push_back({{"degree", d}, {"relative", (*run.error_by_degree)[d]}});
     }
   }
+  json["operations"] = operations_json(result, run);
   return json;
 }
 
@@ -133,6 +149,8 @@ std::string summary_json(const PropagationResult& result) {
   json["exit_code"] = exit_code(result);
   json["runs"] = Json::array();
   for (const RunResult& run : result.runs) json["runs"].push_back(run_json(result, run));
+  json["operations"] = operations_json(result);
+  json["skipped"] = skipped_json(result);
   return json.dump(2) + "\n";
 }
 

@@ -141,6 +141,17 @@ std::string explanation(const PropagationResult& result) {
   return text;
 }
 
+/// Which self-checks the scene turned off.
+std::string checks_line(const Scene& scene) {
+  std::vector<std::string_view> off;
+  for (std::size_t i = 0; i < self_check_names().size(); ++i) {
+    const auto name = static_cast<SelfCheckName>(i);
+    if (!scene.checks[name].is_on) off.push_back(name_of(name));
+  }
+  if (off.empty()) return "";
+  return fmt::format("checks that the scene turned off: {}\n", fmt::join(off, ", "));
+}
+
 }  // namespace
 
 std::string summary_table(const PropagationResult& result) {
@@ -159,6 +170,7 @@ std::string summary_table(const PropagationResult& result) {
   std::vector<Row> rows = {header(result)};
   for (const RunResult& run : result.runs) rows.push_back(run_row(result, run));
   text += aligned(rows) + "\n" + explanation(result);
+  text += checks_line(scene);
   if (!result.relative_hamiltonian_failure.empty()) {
     text += fmt::format("FAILED: {}\n", result.relative_hamiltonian_failure);
   }

@@ -47,6 +47,7 @@ Scene read_flow_jet(const TableReader& root) {
     scene.relative_hamiltonian_times =
         read_relative_hamiltonian(root.table("relative_hamiltonian"), scene.duration);
   }
+  if (root.has("checks")) scene.checks = read_checks(root.table("checks"), scene);
   if (root.has("compare")) {
     scene.comparison = read_compare(root.table("compare"), scene.order, scene.duration);
   }

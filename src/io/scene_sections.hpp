@@ -132,6 +132,9 @@ ReferenceSettings read_reference(const TableReader& reference);
 /// Table `[compare]` of a scene with this order and canonical duration.
 ComparisonSettings read_compare(const TableReader& table, int order, double duration);
 
+/// Table `[checks]`, checked against what `scene` already holds.
+SelfCheckSettings read_checks(const TableReader& checks, const Scene& scene);
+
 /// Table `[figure]`, checked against what `scene` already holds.
 FigureSettings read_figure(const TableReader& figure, const Scene& scene);
 

@@ -21,8 +21,8 @@ const std::vector<StudyReader>& studies() {
   static const std::vector<StudyReader> readers = {
       {"flow-jet",
        {"schema", "title", "precision", "system", "units", "nominal", "jet", "integrator",
-        "formation", "generating_function", "reference", "relative_hamiltonian", "compare",
-        "figure", "transfer", "validity", "assignment", "case", "study"},
+        "formation", "generating_function", "reference", "relative_hamiltonian", "checks",
+        "compare", "figure", "transfer", "validity", "assignment", "case", "study"},
        read_flow_jet},
       {"canonical-transformation",
        {"schema", "title", "system", "units", "nominal", "canonical_transformation", "study"},

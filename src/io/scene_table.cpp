@@ -171,6 +171,16 @@ bool TableReader::boolean(std::string_view key) const {
   return node.as_boolean()->get();
 }
 
+std::optional<bool> TableReader::boolean_if_any(std::string_view key) const {
+  const auto* boolean = table_->get_as<bool>(key);
+  return boolean != nullptr ? std::optional(boolean->get()) : std::nullopt;
+}
+
+bool TableReader::is_number(std::string_view key) const {
+  const toml::node* node = table_->get(key);
+  return node != nullptr && node->is_number();
+}
+
 std::string TableReader::text(std::string_view key) const {
   const toml::node& node = required(key, "a string");
   if (!node.is_string()) {

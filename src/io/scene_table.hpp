@@ -59,6 +59,10 @@ class TableReader {
   std::vector<double> number_or_numbers(std::string_view key) const;
   /// Required: true or false.
   bool boolean(std::string_view key) const;
+  /// The key's value, if it is there and true or false.
+  std::optional<bool> boolean_if_any(std::string_view key) const;
+  /// Whether the key is there and a number, finite or not.
+  bool is_number(std::string_view key) const;
   /// Required: a string.
   std::string text(std::string_view key) const;
   /// Required: an array of strings, not empty.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/SVD>
+#include <algorithm>
 #include <limits>
 
 #include "hamjet/error.hpp"
@@ -72,6 +73,7 @@ PartialInversion<T> invert_partially(std::span<const Series<T>> jet,
                             "'auto', may exist",
                             kind.name(), values.front(), values.back(), result.condition, whole));
   }
+  result.amplification = std::max(result.condition, whole / values.back());
   // The map w(initial deviations) is inverted as a whole: its last n rows are single variables.
   const std::size_t n = kind.degrees_of_freedom();
   const SpacePointer& space = jet[0].space_pointer();

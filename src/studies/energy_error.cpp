@@ -1,5 +1,7 @@
 #include "energy_error.hpp"
 
+#include <cmath>
+
 namespace hamjet {
 
 std::vector<Extended> extended(const std::vector<double>& state) {
@@ -16,6 +18,14 @@ Extended EnergyError::value(const std::vector<Extended>& state) {
 
 double EnergyError::relative(const Extended& difference) const {
   return static_cast<double>(initial_ == 0 ? difference : Extended(difference / abs(initial_)));
+}
+
+double EnergyError::terms(const std::vector<Extended>& state) const {
+  double sum = std::abs(static_cast<double>(hamiltonian_.value(0)));
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    sum += std::abs(static_cast<double>(Extended(hamiltonian_.derivative(0, i) * state[i])));
+  }
+  return sum;
 }
 
 double EnergyError::error(const std::vector<Extended>& state) {

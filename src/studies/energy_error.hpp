@@ -19,6 +19,10 @@ class EnergyError {
   Extended value(const std::vector<Extended>& state);
   double relative(const Extended& difference) const;
   double error(const std::vector<Extended>& state);
+  const Extended& initial() const { return initial_; }
+  /// |H| + sum |z_i dH/dz_i| at the state z, of which `value` was asked last: the size of the terms
+  /// that H is made of.
+  double terms(const std::vector<Extended>& state) const;
 
  private:
   DifferentiableFunction<Extended> hamiltonian_;

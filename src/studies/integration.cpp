@@ -36,7 +36,7 @@ namespace {
 template <class Real>
 FlowJet<Real> integrate_unchecked(const FlowProblem<Real>& flow, const IntegratorSettings& settings,
                                   IntegrationStatistics& statistics,
-                                  const StepObserver<Real>& observer) {
+                                  const StepObserver<Real>& observer, bool records_step_error) {
   switch (settings.method) {
     case IntegrationMethod::gauss: {
       GaussSettings gauss;
@@ -44,6 +44,7 @@ FlowJet<Real> integrate_unchecked(const FlowProblem<Real>& flow, const Integrato
       gauss.step = settings.step_canonical;
       gauss.tolerance = settings.tolerance;
       gauss.compensated_summation = settings.compensated_summation;
+      gauss.estimates_step_error = records_step_error;
       return integrate_gauss<Real>(flow, gauss, statistics, observer);
     }
     case IntegrationMethod::stormer:
@@ -70,6 +71,7 @@ FlowJet<Real> integrate_unchecked(const FlowProblem<Real>& flow, const Integrato
     cvode.method =
         settings.method == IntegrationMethod::cvode_adams ? CvodeMethod::adams : CvodeMethod::bdf;
     cvode.tolerance = *settings.tolerance;
+    cvode.records_step_error = records_step_error;
     return integrate_cvode(flow, cvode, statistics, observer);
   } else {
     throw Error(ErrorKind::usage, "CVODE computes in double precision only");
@@ -92,7 +94,7 @@ Matrix<double> step_matrix(const DynamicalSystem& system, IntegratorSettings set
   problem.initial_state.assign(size, 0);
   settings.step_canonical = std::abs(step);
   IntegrationStatistics statistics;
-  const auto jet = integrate_unchecked<double>(problem, settings, statistics, {});
+  const auto jet = integrate_unchecked<double>(problem, settings, statistics, {}, false);
   Matrix<double> matrix(size, size);
   for (std::size_t i = 0; i < size; ++i) {
     for (std::size_t j = 0; j < size; ++j) {
@@ -117,11 +119,12 @@ void require_stable_steps(const DynamicalSystem& system, const IntegratorSetting
 
 template <class Real>
 FlowJet<Real> integrate(const FlowProblem<Real>& flow, const IntegratorSettings& settings,
-                        IntegrationStatistics& statistics, const StepObserver<Real>& observer) {
+                        IntegrationStatistics& statistics, const StepObserver<Real>& observer,
+                        bool records_step_error) {
   if (has_stability_limit(settings) && flow.system->vector_field.is_linear_system()) {
     require_stable_steps(*flow.system, settings, static_cast<double>(flow.duration));
   }
-  return integrate_unchecked<Real>(flow, settings, statistics, observer);
+  return integrate_unchecked<Real>(flow, settings, statistics, observer, records_step_error);
 }
 
 double integration_memory(const IntegratorSettings& settings, const DynamicalSystem& system,
@@ -138,8 +141,8 @@ double integration_memory(const IntegratorSettings& settings, const DynamicalSys
 template FlowProblem<double> flow_problem(const ComputedProblem&, double);
 template FlowProblem<Extended> flow_problem(const ComputedProblem&, double);
 template FlowJet<double> integrate(const FlowProblem<double>&, const IntegratorSettings&,
-                                   IntegrationStatistics&, const StepObserver<double>&);
+                                   IntegrationStatistics&, const StepObserver<double>&, bool);
 template FlowJet<Extended> integrate(const FlowProblem<Extended>&, const IntegratorSettings&,
-                                     IntegrationStatistics&, const StepObserver<Extended>&);
+                                     IntegrationStatistics&, const StepObserver<Extended>&, bool);
 
 }  // namespace hamjet

@@ -10,11 +10,13 @@ template <class Real>
 FlowProblem<Real> flow_problem(const ComputedProblem& problem, double duration);
 
 /// Integrates with the method that the settings name. Throws as that method does; Error(usage) for
-/// CVODE with Extended;
-/// Error(numerical) if the steps are beyond the method's limit of stability on a linear system.
+/// CVODE with Extended; Error(numerical) if the steps are beyond the method's limit of stability on
+/// a linear system. `records_step_error` asks for the largest local error estimate even where it
+/// takes work of its own (fixed steps of Gauss, CVODE).
 template <class Real>
 FlowJet<Real> integrate(const FlowProblem<Real>& flow, const IntegratorSettings& settings,
-                        IntegrationStatistics& statistics, const StepObserver<Real>& observer);
+                        IntegrationStatistics& statistics, const StepObserver<Real>& observer,
+                        bool records_step_error = false);
 
 /// Bytes that the series of one integration take, `coefficients` numbers of `real_bytes` a series.
 double integration_memory(const IntegratorSettings& settings, const DynamicalSystem& system,

@@ -6,6 +6,8 @@
 
 #include "formation_scale.hpp"
 #include "hamjet/error.hpp"
+#include "hamjet/maps/inversion_miss.hpp"
+#include "stopwatch.hpp"
 
 namespace hamjet {
 namespace {
@@ -46,6 +48,7 @@ const std::vector<ExactnessResidual>* MapAnalysis::floor(const GeneratingFunctio
       }
     }
     try {
+      ++floor_inversions_;
       const auto inversion = invert_partially<Extended>(JetSpan(rounded), kind, rounding(scene_));
       place->second = exactness_residual(one_form(inversion), scales(kind));
     } catch (const Error& error) {
@@ -57,15 +60,38 @@ const std::vector<ExactnessResidual>* MapAnalysis::floor(const GeneratingFunctio
   return place->second.empty() ? nullptr : &place->second;
 }
 
-KindResult MapAnalysis::invert(const FlowJet<Extended>& jet, const std::string& requested) {
+/// Keeps the worst of all kinds for the self-check.
+void MapAnalysis::compose(RunResult& run, const PartialInversion<Extended>& inversion,
+                          const std::string& requested) const {
+  if (!run.inversion) run.inversion.emplace();
+  InversionQuality& quality = *run.inversion;
+  const Stopwatch stopwatch(quality.seconds);
+  ++run.counts.compositions;
+  const double miss = inversion_miss<Extended>(JetSpan(run.jet), inversion);
+  if (quality.kinds == 0 || miss > quality.miss) {
+    quality.miss = miss;
+    quality.missing_kind = requested;
+  }
+  if (quality.kinds == 0 || inversion.amplification > quality.amplification) {
+    quality.amplification = inversion.amplification;
+    quality.amplified_kind = requested;
+  }
+  ++quality.kinds;
+}
+
+KindResult MapAnalysis::invert(RunResult& run, const std::string& requested) {
+  const FlowJet<Extended>& jet = run.jet;
   KindResult result;
   result.requested = requested;
   result.kind = requested == "auto" ? best_conditioned_kind<Extended>(JetSpan(jet))
                                     : parse_kind(requested, problem_.degrees_of_freedom.size());
   result.condition = condition_number(inverted_block<Extended>(JetSpan(jet), result.kind));
   try {
+    ++run.counts.inversions;
     const auto inversion = invert_partially<Extended>(JetSpan(jet), result.kind, rounding(scene_));
+    if (scene_.checks[SelfCheckName::inversion].is_on) compose(run, inversion, requested);
     const auto sigma = one_form(inversion);
+    ++run.counts.exactness_residuals;
     const auto residuals = exactness_residual(sigma, scales(result.kind));
     const auto* floors = floor(result.kind);
     for (std::size_t d = 0; d < residuals.size(); ++d) {
@@ -85,8 +111,10 @@ void MapAnalysis::analyse(RunResult& run) {
   if (reference_) run.error_by_degree = relative_error_by_degree(run.jet, reference_->jet);
   if (!problem_.is_full_jet) return;
   run.symplecticity = symplecticity_by_degree<Extended>(JetSpan(run.jet));
+  const auto components = static_cast<long>(run.jet.size());
+  run.counts.poisson_brackets += components * (components - 1) / 2;
   if (!scene_.kinds) return;
-  for (const std::string& kind : *scene_.kinds) run.kinds.push_back(invert(run.jet, kind));
+  for (const std::string& kind : *scene_.kinds) run.kinds.push_back(invert(run, kind));
 }
 
 }  // namespace hamjet

@@ -19,8 +19,13 @@ class MapAnalysis {
   /// Fills in all that the scene asks for; a kind that does not exist is marked in its result.
   void analyse(RunResult& run);
 
+  /// Inversions of the reference's map so far.
+  long floor_inversions() const { return floor_inversions_; }
+
  private:
-  KindResult invert(const FlowJet<Extended>& jet, const std::string& requested);
+  KindResult invert(RunResult& run, const std::string& requested);
+  void compose(RunResult& run, const PartialInversion<Extended>& inversion,
+               const std::string& requested) const;
   const std::vector<ExactnessResidual>* floor(const GeneratingFunctionKind& kind);
   std::vector<double> scales(const GeneratingFunctionKind& kind) const;
 
@@ -28,6 +33,7 @@ class MapAnalysis {
   const ComputedProblem& problem_;
   const std::optional<ReferenceResult>& reference_;
   std::map<std::string, std::vector<ExactnessResidual>> floors_;
+  long floor_inversions_ = 0;
 };
 
 }  // namespace hamjet

@@ -30,7 +30,9 @@ std::vector<double> full_state(const FlowJet<Extended>& jet, const ComputedProbl
 template <class Real>
 void run_integrator(const Scene& scene, const ComputedProblem& problem, RunResult& run,
                     const std::function<void(double)>& progress) {
-  NominalRecorder recorder(problem, scene.nominal.size());
+  const bool finds_lowest_point =
+      scene.checks[SelfCheckName::surface].is_on && scene.system.radius_km > 0;
+  NominalRecorder recorder(problem, scene.nominal.size(), finds_lowest_point);
   std::optional<AlongTimeRecorder> along_time;
   if (scene.figure) {
     along_time.emplace(run.settings.label, scene.duration, figure_kind(scene, problem),
@@ -38,7 +40,8 @@ void run_integrator(const Scene& scene, const ComputedProblem& problem, RunResul
   }
   const FlowProblem<Real> flow = flow_problem<Real>(problem, scene.duration);
   const FlowJet<Real> jet = integrate<Real>(
-      flow, run.settings, run.statistics, [&](const Real& time, const FlowJet<Real>& state) {
+      flow, run.settings, run.statistics,
+      [&](const Real& time, const FlowJet<Real>& state) {
         std::vector<Extended> point;
         for (const auto& component : state) point.push_back(convert<Extended>(component[0]));
         recorder.record(static_cast<double>(time), point);
@@ -46,10 +49,13 @@ void run_integrator(const Scene& scene, const ComputedProblem& problem, RunResul
           along_time->record(static_cast<double>(time), state, recorder.last_energy_error());
         }
         progress(static_cast<double>(time) / scene.duration);
-      });
+      },
+      scene.checks[SelfCheckName::step_error].is_on);
   run.jet = convert_map<Extended>(jet);
   run.nominal_final = full_state(run.jet, problem, scene.nominal.size());
   run.energy_error = recorder.largest_energy_error();
+  run.energy = recorder.energy();
+  run.lowest_point = recorder.lowest_point();
   run.nominal = recorder.take();
   if (along_time) run.along_time = along_time->take();
 }
@@ -156,12 +162,18 @@ PropagationResult propagate(const Scene& scene, const ProgressCallback& progress
       report(settings.label + ": inversion", 1);
       analysis.analyse(run);
       check(run, result.reference);
+      run.checks = self_checks(scene, run);
+      for (const SelfCheck& entry : run.checks) {
+        if (entry.state != SelfCheckState::failed) continue;
+        run.failed_checks.push_back(fmt::format("{}: {}", name_of(entry.name), entry.text));
+      }
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::numerical) throw;
       run.failure = error.what();
     }
     result.runs.push_back(std::move(run));
   }
+  result.floor_inversions = analysis.floor_inversions();
   return result;
 }
 

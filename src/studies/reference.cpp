@@ -91,6 +91,7 @@ ReferenceResult compute_reference(const ComputedProblem& problem, double duratio
     throw;
   }
   result.uncertainty_by_degree = relative_error_by_degree(coarse.get(), result.jet);
+  result.runs = 2;
   return result;
 }
 

@@ -8,6 +8,7 @@
 
 #include "hamjet/algebra/slice_recurrences.hpp"
 #include "hamjet/dynamics/operation_list.hpp"
+#include "hamjet/dynamics/series_work.hpp"
 
 namespace hamjet {
 
@@ -94,6 +95,9 @@ class SliceEvaluator {
       }
     }
   }
+
+  /// The products of series formed so far.
+  const SeriesWork& work() const noexcept { return work_; }
 
   /// Everything at once, the inputs being known in full: for explicit methods.
   void evaluate_all() {
@@ -199,30 +203,40 @@ class SliceEvaluator {
         return;
       case OperationCode::product:
         interior_product(space, d, u, value(o.v), w);
+        count_product(d);
         break;
       case OperationCode::square:
         interior_square(space, d, u, w);
+        count_square(d);
         break;
       case OperationCode::quotient:
         quotient_interior(space, d, value(o.v), w);
+        count_product(d);
         break;
       case OperationCode::power:
         if (constants_[i] == Real(-1)) {
           reciprocal_interior(space, d, u, w);
+          count_product(d);
         } else if (constants_[i] == Real(0.5)) {
           square_root_interior(space, d, w);
+          count_square(d);
         } else {
           power_interior(space, d, constants_[i], u, w, scratch_.data());
+          count_product(d);
         }
         break;
       case OperationCode::exponential:
         exponential_interior<Real>(space, d, u, w, scratch_.data());
+        count_product(d);
         break;
       case OperationCode::logarithm:
         logarithm_interior<Real>(space, d, u, w, scratch_.data());
+        count_product(d);
         break;
       case OperationCode::sine:
         sine_cosine_interior<Real>(space, d, u, w, value(o.v), scratch_.data());
+        count_product(d);
+        count_product(d);
         break;
       case OperationCode::cosine:
         break;  // its interior part was written with the sine's
@@ -231,6 +245,15 @@ class SliceEvaluator {
     if (!list_->is_affine(o.u)) terms.add(partial_u_[i], value(o.u));
     if (has_two_operands(o.code) && !list_->is_affine(o.v)) terms.add(partial_v_[i], value(o.v));
     add_terms(terms, d, w, true);
+  }
+
+  void count_product(int d) {
+    ++work_.slice_products;
+    work_.multiply_adds += static_cast<double>(space_->products(d).multiply_adds);
+  }
+  void count_square(int d) {
+    ++work_.slice_products;
+    work_.multiply_adds += static_cast<double>(space_->products(d).square_multiply_adds);
   }
 
   /// A sum of factors times series, gathered so that the result is read and written once.
@@ -317,6 +340,7 @@ class SliceEvaluator {
   std::vector<Real> constants_;
   std::vector<Real> coefficients_;
   std::vector<std::size_t> first_term_;
+  SeriesWork work_;
 };
 
 }  // namespace hamjet

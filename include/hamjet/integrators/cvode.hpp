@@ -25,6 +25,8 @@ struct CvodeSettings {
   CvodeMethod method = CvodeMethod::adams;
   double tolerance = 1e-6;        ///< relative and absolute, see below
   CvodeCounts* counts = nullptr;  ///< filled where given
+  /// Also record the error estimates of the accepted steps; one pass over the coefficients a step.
+  bool records_step_error = false;
 };
 
 /// Whether this build contains CVODE.

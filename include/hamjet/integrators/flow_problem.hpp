@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "hamjet/algebra/truncated_power_series.hpp"
 #include "hamjet/dynamics/dynamical_system.hpp"
+#include "hamjet/dynamics/series_work.hpp"
 
 namespace hamjet {
 
@@ -43,6 +45,18 @@ struct IntegrationStatistics {
   long vector_field_evaluations = 0;
   long nominal_evaluations = 0;  ///< on plain numbers, of all stages at once for implicit methods
   double wall_seconds = 0;       ///< of the integration alone
+  SeriesWork series_work;        ///< products of series, of all evaluations and stages
+  /// Of Newton's method on the nominal, the most that one solution took; 0 for explicit methods and
+  /// CVODE, which has an iteration of its own.
+  int most_newton_iterations = 0;
+  /// The largest estimate of the relative local error of an accepted step, in the sense in which
+  /// the method compares it with its tolerance; none where the method makes none.
+  std::optional<double> largest_step_error;
+  double step_error_seconds = 0;  ///< of estimates made for this alone; not in wall_seconds
+
+  void record_step_error(double estimate) {
+    largest_step_error = std::max(largest_step_error.value_or(estimate), estimate);
+  }
 };
 
 /// Called after every accepted step with the time and the jet so far. May throw to stop.

@@ -21,7 +21,10 @@ struct GaussSettings {
   std::optional<double> step;  ///< fixed: the span is cut into equal steps not longer than this
   std::optional<double> tolerance;    ///< adaptive: relative local error of the nominal
   bool compensated_summation = true;  ///< of the steps; without it round-off grows faster
-  GaussProfile* profile = nullptr;    ///< filled where given; costs a few clock readings a step
+  /// Also estimate the error of fixed steps (adaptive ones are always estimated); some hundred
+  /// operations a step on plain numbers.
+  bool estimates_step_error = false;
+  GaussProfile* profile = nullptr;  ///< filled where given; costs a few clock readings a step
 };
 
 /// Integrates the flow's jet with a Gauss collocation method, exactly as the method acts on series:

@@ -17,7 +17,11 @@ namespace hamjet {
 template <class T>
 struct PartialInversion {
   GeneratingFunctionKind kind;
-  double condition = 0;                      ///< of the matrix inverted, in the 2-norm
+  double condition = 0;  ///< of the matrix inverted, in the 2-norm
+  /// By how much more than themselves relative errors of the map's linear part may show in the
+  /// inverse's: the condition, or the ratio of the whole linear part's norm to the smallest
+  /// singular value of the matrix inverted, whichever is larger.
+  double amplification = 0;
   std::vector<Series<T>> remaining_final;    ///< n series in w
   std::vector<Series<T>> remaining_initial;  ///< n series in w
 };

@@ -14,6 +14,7 @@
 #include "hamjet/studies/progress.hpp"
 #include "hamjet/studies/run_along_time.hpp"
 #include "hamjet/studies/scene.hpp"
+#include "hamjet/studies/self_checks.hpp"
 
 namespace hamjet {
 
@@ -41,16 +42,29 @@ struct KindResult {
   std::string failure;  ///< not empty: the kind does not exist at the final time, and why
 };
 
+/// What was done with a run's jet, counted where it is done.
+struct AnalysisCounts {
+  long inversions = 0;           ///< partial inversions of the map
+  long compositions = 0;         ///< of an inverted map with the map, along a line
+  long exactness_residuals = 0;  ///< of a one-form
+  long poisson_brackets = 0;     ///< of two components of the map
+};
+
 /// What one integrator gave.
 struct RunResult {
   IntegratorSettings settings;
   IntegrationStatistics statistics;
-  std::vector<std::string> failed_checks;  ///< checks that the scene asked for and that failed
+  std::vector<std::string> failed_checks;  ///< those of the scene and self-checks, one line each
+  std::vector<SelfCheck> checks;           ///< all self-checks; empty if the run failed
   std::string failure;                     ///< not empty: no result, and why
   /// The components of the flow's jet that were computed, exact copies in extended precision.
   FlowJet<Extended> jet;
   std::vector<double> nominal_final;
   double energy_error = 0;  ///< the largest magnitude along the nominal
+  EnergyAlongNominal energy;
+  AnalysisCounts counts;
+  std::optional<LowestPoint> lowest_point;    ///< if it was watched
+  std::optional<InversionQuality> inversion;  ///< if a map was inverted and composed
   std::vector<NominalPoint> nominal;
   std::vector<KindResult> kinds;
   std::vector<SymplecticityDefect> symplecticity;  ///< empty if not all variables are expanded in
@@ -63,6 +77,7 @@ struct ReferenceResult {
   FlowJet<Extended> jet;
   std::vector<double> uncertainty_by_degree;  ///< relative difference of the two runs
   IntegrationStatistics statistics;           ///< of the finer run
+  int runs = 0;                               ///< integrations that were done for it
   int stages = 0;
   double tolerance = 0;
 
@@ -99,6 +114,7 @@ struct PropagationResult {
   std::string
       reference_failure;  ///< not empty: the scene asks for a reference that failed, and why
   std::vector<RunResult> runs;
+  long floor_inversions = 0;  ///< of the reference's map, for the floors of exactness residuals
   std::vector<RelativeHamiltonianResult> relative_hamiltonians;
   std::string relative_hamiltonian_failure;  ///< not empty: times are missing above, and why
 };

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "hamjet/studies/self_check_settings.hpp"
 #include "hamjet/studies/transfer_settings.hpp"
 
 namespace hamjet {
@@ -147,6 +148,7 @@ struct Scene {
   std::optional<ReferenceSettings> reference;  ///< absent: no reference is run
   /// `[relative_hamiltonian]`, canonical times between 0 and the duration; empty: not computed.
   std::vector<double> relative_hamiltonian_times;
+  SelfCheckSettings checks;
   ComparisonSettings comparison;
   std::optional<FigureSettings> figure;  ///< absent: no figure, and nothing is watched along time
   std::optional<TransferSettings> transfer;

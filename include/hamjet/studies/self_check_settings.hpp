@@ -1,0 +1,49 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace hamjet {
+
+/// What a run checks of its own result; see self_checks.
+enum class SelfCheckName {
+  finite,         ///< no number of the result is infinite or none
+  convergence,    ///< Newton's iteration of implicit methods came to round-off in every step
+  step_error,     ///< the method's own estimate of its local error
+  energy,         ///< the energy along the nominal
+  symplecticity,  ///< Poisson brackets of the linear part, of symplectic methods
+  inversion,      ///< inverted maps composed with the map are the identity
+  surface,        ///< the nominal's smallest distance from the centre
+};
+
+/// The checks' names in scenes and results, in the order of the enumeration.
+const std::vector<std::string_view>& self_check_names();
+
+inline std::string_view name_of(SelfCheckName name) {
+  return self_check_names()[static_cast<std::size_t>(name)];
+}
+
+/// One key of the table `[checks]`.
+struct SelfCheckSetting {
+  bool is_on = true;
+  std::optional<double> limit;  ///< in place of the one that self_checks chooses
+};
+
+/// Table `[checks]`: all are on unless a scene says otherwise.
+class SelfCheckSettings {
+ public:
+  SelfCheckSetting& operator[](SelfCheckName name) {
+    return settings_[static_cast<std::size_t>(name)];
+  }
+  const SelfCheckSetting& operator[](SelfCheckName name) const {
+    return settings_[static_cast<std::size_t>(name)];
+  }
+
+ private:
+  std::array<SelfCheckSetting, 7> settings_;
+};
+
+}  // namespace hamjet

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "hamjet/studies/propagation.hpp"
+
+namespace hamjet {
+
+/// A part of the work that was not done because the scene does not need it.
+struct SkippedWork {
+  std::string what;
+  std::string why;
+};
+
+/// All that `propagate` left out: force terms, degrees of freedom, variables, degrees, reference,
+/// inversions, figure, relative Hamiltonian, and each self-check that is off.
+std::vector<SkippedWork> skipped_work(const PropagationResult& result);
+
+}  // namespace hamjet

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <vector>
+
+#include "hamjet/studies/propagation.hpp"
+
+namespace hamjet {
+
+/// Looks along a nominal for its smallest distance from the centre, between its points too. For
+/// orbits, whose momentum is the velocity.
+class LowestPointSearch {
+ public:
+  explicit LowestPointSearch(const ComputedProblem& problem);
+
+  /// To be called with every point in turn, the start first: time and components, canonical.
+  void record(double time, const std::vector<double>& state);
+
+  /// Follows the nominal down to where r.v changes sign from falling to rising, by integration from
+  /// the last point before; of more than 64 such passages those that are lowest by interpolation.
+  LowestPoint take();
+
+ private:
+  struct Point {
+    double time = 0;
+    std::vector<double> state;
+    double distance = 0;
+    double radial = 0;  ///< r.v, positive where the distance grows with the time that passes
+  };
+  /// A step in which the distance stops falling.
+  struct Passage {
+    Point start;
+    double duration = 0;
+    double estimate = 0;  ///< of the smallest squared distance
+  };
+
+  Point point(double time, const std::vector<double>& state, double direction) const;
+  Point advanced(const Point& start, double duration, double direction) const;
+  void keep_lower(const Point& candidate);
+  void keep_passage(const Point& end);
+  void refine(const Passage& passage);
+
+  const ComputedProblem& problem_;
+  FlowProblem<double> flow_;
+  Point last_;
+  bool is_started_ = false;
+  double direction_ = 1;  ///< of the time
+  std::vector<Passage> passages_;
+  LowestPoint result_;
+};
+
+}  // namespace hamjet

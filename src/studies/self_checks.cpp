@@ -1,0 +1,280 @@
+#include "hamjet/studies/self_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "hamjet/studies/propagation.hpp"
+#include "number_scan.hpp"
+#include "stopwatch.hpp"
+
+namespace hamjet {
+namespace {
+
+constexpr double largest_fixed_step_error = 1;
+constexpr double gauss_excess = 10;  ///< up to which a Gauss method accepts a step
+constexpr double largest_energy_change = 0.1;
+constexpr double largest_inversion_miss = 1e-28;
+constexpr double largest_amplified_rounding = 1e-4;
+
+std::string method_name(const RunResult& run) {
+  return std::string(method_names()[static_cast<std::size_t>(run.settings.method)]);
+}
+
+double rounding(const Scene& scene) {
+  return scene.precision == Precision::extended
+             ? static_cast<double>(std::numeric_limits<Extended>::epsilon())
+             : std::numeric_limits<double>::epsilon();
+}
+
+bool is_gauss(const RunResult& run) { return run.settings.method == IntegrationMethod::gauss; }
+
+void not_applicable(SelfCheck& check, std::string why) {
+  check.state = SelfCheckState::not_applicable;
+  check.limit.reset();
+  check.text = std::move(why);
+}
+
+/// Judges a value that may be at most the limit; what is not finite fails.
+bool judge(SelfCheck& check, double value, double limit) {
+  if (!check.limit) check.limit = limit;
+  const bool is_good = value <= *check.limit;
+  if (std::isfinite(value)) check.value = value;
+  check.state = is_good ? SelfCheckState::passed : SelfCheckState::failed;
+  return is_good;
+}
+
+void check_finite(SelfCheck& check, const Scene& scene, const RunResult& run) {
+  const NumberScan scan = scan_numbers(scene, run);
+  if (judge(check, static_cast<double>(scan.not_finite), 0)) {
+    check.text = fmt::format("all {} numbers of the result are finite", scan.numbers);
+  } else {
+    check.text = fmt::format("{} of {} numbers of the result are not finite, the first in {}",
+                             scan.not_finite, scan.numbers, scan.first);
+  }
+}
+
+void check_convergence(SelfCheck& check, const RunResult& run) {
+  switch (run.settings.method) {
+    case IntegrationMethod::cvode_adams:
+    case IntegrationMethod::cvode_bdf:
+      return not_applicable(check,
+                            "CVODE iterates as far as its tolerance asks, and repeats a step whose "
+                            "iteration does not come to that");
+    case IntegrationMethod::gauss:
+      break;
+    case IntegrationMethod::newmark:
+      if (run.settings.beta > 0) break;
+      [[fallthrough]];
+    default:
+      return not_applicable(check, "an explicit method solves no equations");
+  }
+  if (run.statistics.steps == 0) return not_applicable(check, "no step was taken");
+  const int iterations = run.statistics.most_newton_iterations;
+  check.value = iterations;
+  check.state = SelfCheckState::passed;
+  if (check.limit && iterations > *check.limit) {
+    check.state = SelfCheckState::failed;
+    check.text = fmt::format("Newton's iteration took {} iterations in a step", iterations);
+  } else {
+    check.text = fmt::format(
+        "Newton's iteration came to round-off in every step (one that does not is an error), in {} "
+        "iterations at most",
+        iterations);
+  }
+}
+
+void check_step_error(SelfCheck& check, const RunResult& run) {
+  const auto& tolerance = run.settings.tolerance;
+  if (run.statistics.steps == 0) return not_applicable(check, "no step was taken");
+  if (!run.statistics.largest_step_error) {
+    return not_applicable(check, method_name(run) +
+                                     " with fixed steps estimates no local error; the "
+                                     "energy shows steps that are far too large");
+  }
+  check.seconds += run.statistics.step_error_seconds;
+  const double value = *run.statistics.largest_step_error;
+  const double limit =
+      tolerance ? (is_gauss(run) ? gauss_excess : 1) * *tolerance : largest_fixed_step_error;
+  const bool is_good = judge(check, value, limit);
+  if (tolerance) {
+    check.text =
+        fmt::format("the largest local error estimate of a step is {:.2g} of the tolerance",
+                    value / *tolerance);
+  } else if (is_good) {
+    check.text = fmt::format("the largest local error estimate of a step is {:.2g}", value);
+  } else {
+    check.text = fmt::format(
+        "the local error estimate of a step comes to {:.2g}: the step is too large to resolve the "
+        "motion",
+        value);
+  }
+}
+
+void check_energy(SelfCheck& check, const Scene& scene, const RunResult& run) {
+  const EnergyAlongNominal& energy = run.energy;
+  check.seconds += energy.seconds;
+  const double scale = std::max(std::abs(energy.initial), energy.initial_terms / 100);
+  const double value = energy.largest_change > 0 ? energy.largest_change / scale : 0;
+  double limit = largest_energy_change;
+  if (run.settings.tolerance) {
+    const double steps = static_cast<double>(std::max(run.statistics.steps, 1L));
+    const double terms = energy.largest_terms > 0 ? energy.largest_terms / scale : 0;
+    limit = std::min(limit, 10 * steps * (*run.settings.tolerance + rounding(scene)) * terms);
+  }
+  if (judge(check, value, limit)) {
+    check.text =
+        fmt::format("the energy along the nominal changed by at most {:.2g} of its size", value);
+  } else {
+    check.text = fmt::format(
+        "the energy along the nominal changed by {:.3g} from {:.6g}: the nominal left its orbit, "
+        "through a collision or steps that are too large",
+        energy.largest_change, energy.initial);
+  }
+}
+
+void check_symplecticity(SelfCheck& check, const Scene& scene, const RunResult& run) {
+  switch (run.settings.method) {
+    case IntegrationMethod::gauss:
+    case IntegrationMethod::stormer:
+    case IntegrationMethod::velocity_verlet:
+      break;
+    case IntegrationMethod::newmark:
+      return not_applicable(check, "newmark is symplectic in other variables than (q, p)");
+    default:
+      return not_applicable(check, method_name(run) + " is not symplectic");
+  }
+  if (run.symplecticity.empty()) {
+    return not_applicable(check, "the jet is not expanded in all variables");
+  }
+  const double value = run.symplecticity[0].scaled;
+  const double limit =
+      100 * rounding(scene) * std::sqrt(1 + static_cast<double>(run.statistics.steps));
+  if (judge(check, value, limit)) {
+    check.text = fmt::format("the linear part is symplectic to {:.2g}", value);
+  } else {
+    check.text = fmt::format(
+        "the linear part misses symplecticity by {:.2g}, more than rounding explains", value);
+  }
+}
+
+void check_inversion(SelfCheck& check, const Scene& scene, const RunResult& run) {
+  if (!scene.kinds) return not_applicable(check, "no generating function was asked for");
+  if (!run.inversion || run.inversion->kinds == 0) {
+    return not_applicable(check, "no map was inverted");
+  }
+  const InversionQuality& inversion = *run.inversion;
+  check.seconds += inversion.seconds;
+  if (!(inversion.miss <= largest_inversion_miss)) {
+    check.limit.reset();
+    judge(check, inversion.miss, largest_inversion_miss);
+    check.text = fmt::format(
+        "{}: the inverted map composed with the map misses the identity by {:.2g} of its terms",
+        inversion.missing_kind, inversion.miss);
+    return;
+  }
+  const double value = rounding(scene) * inversion.amplification;
+  if (judge(check, value, largest_amplified_rounding)) {
+    check.text = fmt::format(
+        "inverted maps composed with the map are the identity to {:.2g} of their terms; rounding "
+        "of the map shows as {:.2g} in the linear part of {}",
+        inversion.miss, value, inversion.amplified_kind);
+  } else {
+    check.text = fmt::format(
+        "{} is ill-conditioned: it amplifies the rounding of the map to {:.2g} in its linear part; "
+        "another kind, or 'auto', may be better",
+        inversion.amplified_kind, value);
+  }
+}
+
+void check_surface(SelfCheck& check, const Scene& scene, const RunResult& run) {
+  if (!(scene.system.radius_km > 0)) {
+    return not_applicable(check, "the model has no radius");
+  }
+  if (!run.lowest_point) return not_applicable(check, "the nominal was not watched");
+  const LowestPoint& lowest = *run.lowest_point;
+  check.seconds += lowest.seconds;
+  const bool is_own_limit = check.limit.has_value();
+  const double limit = check.limit.value_or(scene.system.radius_km);
+  check.limit = limit;
+  const double time_s = lowest.time * scene.units.time_s;
+  const double distance = lowest.distance * scene.units.length_km;
+  check.value = distance;
+  const std::string where =
+      is_own_limit ? fmt::format("the distance of {:.10g} km", limit) : std::string("the surface");
+  if (!lowest.failure.empty()) {
+    check.state = SelfCheckState::failed;
+    check.text = fmt::format("after t = {:.6g} s the nominal cannot be followed down: {}",
+                             lowest.failure_time * scene.units.time_s, lowest.failure);
+  } else if (distance >= limit) {
+    check.state = SelfCheckState::passed;
+    check.text = fmt::format("the nominal stays {:.6g} km above {}, lowest at t = {:.6g} s",
+                             distance - limit, where, time_s);
+  } else {
+    check.state = SelfCheckState::failed;
+    check.text = fmt::format("the nominal passes {:.6g} km below {} at t = {:.6g} s",
+                             limit - distance, where, time_s);
+  }
+}
+
+void run_check(SelfCheck& check, const Scene& scene, const RunResult& run) {
+  switch (check.name) {
+    case SelfCheckName::finite:
+      return check_finite(check, scene, run);
+    case SelfCheckName::convergence:
+      return check_convergence(check, run);
+    case SelfCheckName::step_error:
+      return check_step_error(check, run);
+    case SelfCheckName::energy:
+      return check_energy(check, scene, run);
+    case SelfCheckName::symplecticity:
+      return check_symplecticity(check, scene, run);
+    case SelfCheckName::inversion:
+      return check_inversion(check, scene, run);
+    case SelfCheckName::surface:
+      return check_surface(check, scene, run);
+  }
+}
+
+}  // namespace
+
+const std::vector<std::string_view>& self_check_names() {
+  static const std::vector<std::string_view> names = {
+      "finite", "convergence", "step-error", "energy", "symplecticity", "inversion", "surface"};
+  return names;
+}
+
+std::string_view name_of(SelfCheckState state) {
+  switch (state) {
+    case SelfCheckState::passed:
+      return "passed";
+    case SelfCheckState::failed:
+      return "failed";
+    case SelfCheckState::off:
+      return "off";
+    case SelfCheckState::not_applicable:
+      break;
+  }
+  return "not applicable";
+}
+
+std::vector<SelfCheck> self_checks(const Scene& scene, const RunResult& run) {
+  std::vector<SelfCheck> checks;
+  for (std::size_t i = 0; i < self_check_names().size(); ++i) {
+    SelfCheck& check = checks.emplace_back();
+    check.name = static_cast<SelfCheckName>(i);
+    const SelfCheckSetting& setting = scene.checks[check.name];
+    if (!setting.is_on) {
+      check.text = "turned off in the scene";
+      continue;
+    }
+    check.limit = setting.limit;
+    const Stopwatch stopwatch(check.seconds);
+    run_check(check, scene, run);
+  }
+  return checks;
+}
+
+}  // namespace hamjet

@@ -1,0 +1,85 @@
+#include "hamjet/studies/skipped_work.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "hamjet/integrators/flow_problem.hpp"
+
+namespace hamjet {
+namespace {
+
+/// The names of the model's variables of which `is_left_out(index)`, each with its own reason.
+template <class IsLeftOut>
+std::vector<std::string_view> names_of(const Scene& scene, const IsLeftOut& is_left_out) {
+  std::vector<std::string_view> result;
+  const auto names = variable_names(scene.system.model);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (is_left_out(i)) result.push_back(names[i]);
+  }
+  return result;
+}
+
+bool contains(const std::vector<std::size_t>& list, std::size_t value) {
+  return std::find(list.begin(), list.end(), value) != list.end();
+}
+
+void add_dynamics(const PropagationResult& result, std::vector<SkippedWork>& skipped) {
+  const Scene& scene = result.scene;
+  const ComputedProblem& problem = result.problem;
+  if (scene.system.model == SystemModel::zonal_gravity) {
+    if (scene.system.J2 == 0) skipped.push_back({"J2", "the scene has none: no term of the force"});
+    if (scene.system.J3 == 0) skipped.push_back({"J3", "the scene has none: no term of the force"});
+  }
+  const auto still =
+      names_of(scene, [&](std::size_t i) { return !contains(problem.components, i); });
+  if (!still.empty()) {
+    skipped.push_back({fmt::format("components {}", fmt::join(still, ", ")),
+                       "they stay zero, and the jet is not expanded in them"});
+  }
+  const auto fixed = names_of(scene, [&](std::size_t i) {
+    return contains(problem.components, i) && !contains(scene.variables, i);
+  });
+  if (!fixed.empty()) {
+    skipped.push_back({fmt::format("variables {}", fmt::join(fixed, ", ")),
+                       "the scene does not expand in them"});
+  }
+  const int degrees = working_order(problem.system, scene.order);
+  if (degrees < scene.order) {
+    skipped.push_back({fmt::format("degrees {} to {}", degrees + 1, scene.order),
+                       "the system is linear: its flow has none"});
+  }
+}
+
+void add_parts(const PropagationResult& result, std::vector<SkippedWork>& skipped) {
+  const Scene& scene = result.scene;
+  if (!scene.reference) {
+    skipped.push_back({"reference", "the scene has no table [reference]: no errors, no floors"});
+  }
+  if (!result.problem.is_full_jet) {
+    skipped.push_back({"Poisson brackets", "the jet is not expanded in all variables"});
+  }
+  if (!scene.kinds) {
+    skipped.push_back({"generating functions", "the scene has no table [generating_function]"});
+  }
+  if (scene.relative_hamiltonian_times.empty()) {
+    skipped.push_back({"relative Hamiltonian", "the scene has no table [relative_hamiltonian]"});
+  }
+  if (!scene.figure) skipped.push_back({"figure", "the scene has no table [figure]"});
+  for (std::size_t i = 0; i < self_check_names().size(); ++i) {
+    const auto name = static_cast<SelfCheckName>(i);
+    if (scene.checks[name].is_on) continue;
+    skipped.push_back({fmt::format("check {}", name_of(name)), "turned off in the scene"});
+  }
+}
+
+}  // namespace
+
+std::vector<SkippedWork> skipped_work(const PropagationResult& result) {
+  std::vector<SkippedWork> skipped;
+  add_dynamics(result, skipped);
+  add_parts(result, skipped);
+  return skipped;
+}
+
+}  // namespace hamjet

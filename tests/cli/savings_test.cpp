@@ -1,0 +1,193 @@
+#include <algorithm>
+
+#include "command_test.hpp"
+
+// What a scene does not need is not done: for every saving, its counter in summary.json with and
+// without, and its entry in the list of what was skipped.
+
+namespace hamjet::test {
+namespace {
+
+const char* const oblate_scene = R"(schema = 1
+title = "oblate"
+[system]
+model = "zonal-gravity"
+mu_km3_s2 = 398600.4415
+radius_km = 6378
+J2 = 1e-3
+J3 = -2.5e-6
+[nominal]
+a_km = 10000
+e = 0.1
+i_deg = 30
+raan_deg = 10
+argp_deg = 20
+ta_deg = 30
+[jet]
+order = 3
+duration_canonical = 1
+[[integrator]]
+label = "a"
+method = "gauss"
+stages = 4
+step_canonical = 0.1
+)";
+
+class Savings : public CommandTest {
+ protected:
+  Savings() { write("scene.toml", oblate_scene); }
+
+  Json run(const std::vector<std::string>& overrides, const std::string& scene = "scene.toml") {
+    std::vector<std::string> arguments = {"run", scene, "-q", "-o", "results"};
+    for (const std::string& text : overrides) {
+      arguments.emplace_back("--set");
+      arguments.push_back(text);
+    }
+    succeed(arguments);
+    return read_json(directory_ / "results/summary.json");
+  }
+
+  static bool skips(const Json& summary, const std::string& what) {
+    const Json& list = summary["skipped"];
+    return std::any_of(list.begin(), list.end(), [&](const Json& entry) {
+      EXPECT_FALSE(entry["why"].get<std::string>().empty());
+      return entry["what"] == what;
+    });
+  }
+  static double count(const Json& summary, const std::string& key) {
+    return summary["runs"][0]["operations"][key].get<double>();
+  }
+
+  /// What only the second run does is not done by the first, and the first says so.
+  static void expect_saving(const Json& without, const Json& with, const std::string& what,
+                            const std::vector<std::string>& counters) {
+    EXPECT_TRUE(skips(without, what)) << what << without["skipped"];
+    EXPECT_FALSE(skips(with, what)) << what << with["skipped"];
+    for (const std::string& key : counters) {
+      EXPECT_LT(count(without, key), count(with, key)) << what << " " << key;
+    }
+  }
+};
+
+TEST_F(Savings, ForceTerms) {
+  const std::vector<std::string> counters = {"operations_per_evaluation",
+                                             "nonlinear_operations_per_evaluation",
+                                             "multiply_adds_per_evaluation", "slice_products",
+                                             "multiply_adds"};
+  const Json whole = run({});
+  expect_saving(run({"system.J2=null"}), whole, "J2", counters);
+  expect_saving(run({"system.J3=null"}), whole, "J3", counters);
+  // A coefficient of zero is none.
+  EXPECT_EQ(run({"system.J3=0"})["runs"][0]["operations"],
+            run({"system.J3=null"})["runs"][0]["operations"]);
+}
+
+TEST_F(Savings, DegreesOfFreedomThatStayZero) {
+  const std::string equatorial = "nominal.i_deg=0";
+  const std::string plane = "jet.variables=[\"x\", \"y\", \"px\", \"py\"]";
+  // With J3 the plane is left, though not expanded out of.
+  const Json without = run({equatorial, plane, "system.J3=null"});
+  const Json with = run({equatorial, "system.J3=null"});
+  expect_saving(without, with, "components z, pz",
+                {"operations_per_evaluation", "multiply_adds", "poisson_brackets"});
+  EXPECT_FALSE(skips(run({equatorial, plane}), "components z, pz"));
+}
+
+TEST_F(Savings, VariablesNotExpandedIn) {
+  const Json without = run({"jet.variables=[\"x\", \"y\", \"z\"]"});
+  const Json with = run({});
+  expect_saving(without, with, "variables px, py, pz",
+                {"multiply_adds_per_evaluation", "multiply_adds", "poisson_brackets"});
+  EXPECT_TRUE(skips(without, "Poisson brackets"));
+  EXPECT_EQ(count(without, "poisson_brackets"), 0);
+  EXPECT_EQ(count(with, "poisson_brackets"), 15);  // pairs of six components
+}
+
+TEST_F(Savings, DegreesOfALinearSystem) {
+  write("spring.toml", R"(schema = 1
+title = "spring"
+[system]
+model = "harmonic-oscillator"
+[nominal]
+position_m = [1]
+momentum_kg_m_s = [0]
+[jet]
+order = 4
+duration_canonical = 1
+[[integrator]]
+label = "a"
+method = "gauss"
+tolerance = 1e-12
+)");
+  const Json linear = run({}, "spring.toml");
+  EXPECT_TRUE(skips(linear, "degrees 2 to 4"));
+  EXPECT_EQ(count(linear, "slice_products"), 0);
+  EXPECT_EQ(count(linear, "nonlinear_operations_per_evaluation"), 0);
+  EXPECT_FALSE(skips(run({"jet.order=1"}, "spring.toml"), "degrees 2 to 4"));
+  const Json nonlinear = run({"system={model=\"double-well\"}"}, "spring.toml");
+  EXPECT_FALSE(skips(nonlinear, "degrees 2 to 4"));
+  EXPECT_GT(count(nonlinear, "slice_products"), 0);
+  // Order 1 forms no products of any system.
+  EXPECT_EQ(count(run({"jet.order=1"}), "slice_products"), 0);
+}
+
+TEST_F(Savings, PartsOfTheScene) {
+  const Json without = run({"jet.order=1"});
+  const Json with =
+      run({"jet.order=1", "reference={}", "generating_function={kinds=[\"F1\", \"F2\"]}",
+           "figure={quantity=\"energy-error\"}", "relative_hamiltonian={times_canonical=[0, 1]}"});
+  for (const char* what :
+       {"reference", "generating functions", "figure", "relative Hamiltonian"}) {
+    expect_saving(without, with, what, {});
+  }
+  const std::vector<std::pair<const char*, int>> counters = {
+      {"reference_runs", 2},        // two of different step size, to know the uncertainty
+      {"inversions", 2},            // one a kind
+      {"floor_inversions", 2},      // of the reference's map, one a kind
+      {"compositions", 2},          // self-check, one a kind
+      {"exactness_residuals", 2},   //
+      {"figures", 1},               //
+      {"relative_hamiltonians", 2}  // times
+  };
+  for (const auto& [key, expected] : counters) {
+    EXPECT_EQ(without["operations"][key], 0) << key;
+    EXPECT_EQ(with["operations"][key], expected) << key;
+  }
+  EXPECT_EQ(count(without, "points_watched_for_figure"), 0);
+  EXPECT_EQ(count(with, "points_watched_for_figure"), 10);  // one a step
+  EXPECT_GT(with["operations"]["reference_evaluations"], 0);
+  EXPECT_EQ(without["operations"]["reference_evaluations"], 0);
+}
+
+TEST_F(Savings, SelfChecks) {
+  const Json with = run({"generating_function={kinds=[\"F1\"]}"});
+  EXPECT_EQ(count(with, "self_checks"), 7);
+  for (const Json& entry : with["runs"][0]["checks"]) {
+    const std::string name = entry["name"];
+    const Json without =
+        run({"generating_function={kinds=[\"F1\"]}", "checks." + name + "=false"});
+    expect_saving(without, with, "check " + name, {"self_checks"});
+    EXPECT_EQ(count(without, "self_checks"), 6);
+    for (const Json& check : without["runs"][0]["checks"]) {
+      if (check["name"] == name) EXPECT_EQ(check["seconds"], 0) << name;
+    }
+    if (name == "inversion") EXPECT_EQ(count(without, "compositions"), 0);
+  }
+}
+
+TEST_F(Savings, CountsAreThoseOfTheEvaluations) {
+  // Counted in the evaluator, and predicted from the list of operations.
+  const Json summary = run({});
+  EXPECT_EQ(count(summary, "evaluations"), 40);  // ten steps of four stages
+  EXPECT_EQ(count(summary, "multiply_adds"), 40 * count(summary, "multiply_adds_per_evaluation"));
+  for (const char* method : {"velocity-verlet", "fehlberg78", "newmark"}) {
+    const Json other = run({std::string("integrator=[{label=\"a\", method=\"") + method +
+                            "\", step_canonical=0.05}]"});
+    EXPECT_EQ(count(other, "multiply_adds"),
+              count(other, "evaluations") * count(other, "multiply_adds_per_evaluation"))
+        << method;
+  }
+}
+
+}  // namespace
+}  // namespace hamjet::test
