@@ -151,7 +151,7 @@ void check_symplecticity(SelfCheck& check, const Scene& scene, const RunResult& 
   }
   const double value = run.symplecticity[0].scaled;
   const double limit =
-      100 * rounding(scene) * std::sqrt(1 + static_cast<double>(run.statistics.steps));
+      1000 * rounding(scene) * std::sqrt(1 + static_cast<double>(run.statistics.steps));
   if (judge(check, value, limit)) {
     check.text = fmt::format("the linear part is symplectic to {:.2g}", value);
   } else {

@@ -13,7 +13,7 @@ namespace {
 template <class IsLeftOut>
 std::vector<std::string_view> names_of(const Scene& scene, const IsLeftOut& is_left_out) {
   std::vector<std::string_view> result;
-  const auto names = variable_names(scene.system.model);
+  const auto names = variable_names(scene.system);
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (is_left_out(i)) result.push_back(names[i]);
   }

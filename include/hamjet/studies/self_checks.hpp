@@ -73,7 +73,7 @@ struct InversionQuality {
 /// adaptive steps at most 10 (tolerance + epsilon) a step, times the largest T over that scale.
 ///
 /// symplecticity: scaled defect of degree 0, of methods that are symplectic in (q, p). Limit:
-/// 100 epsilon sqrt(1 + steps).
+/// 1000 epsilon sqrt(1 + steps), for stiff systems amplify rounding.
 ///
 /// inversion: fails where the composition misses the identity by more than 1e-28 of its terms; else
 /// the value is epsilon times the amplification of rounding in the inverted linear part, and the
