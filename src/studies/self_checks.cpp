@@ -13,10 +13,10 @@
 namespace hamjet {
 namespace {
 
-constexpr double largest_fixed_step_error = 1;
+constexpr double largest_fixed_step_error = 3;
 constexpr double gauss_excess = 10;  ///< up to which a Gauss method accepts a step
 constexpr double largest_energy_change = 0.1;
-constexpr double largest_inversion_miss = 1e-28;
+constexpr double largest_inversion_miss = 1e-20;  ///< or epsilon, where that is larger
 constexpr double largest_amplified_rounding = 1e-4;
 
 std::string method_name(const RunResult& run) {
@@ -167,9 +167,10 @@ void check_inversion(SelfCheck& check, const Scene& scene, const RunResult& run)
   }
   const InversionQuality& inversion = *run.inversion;
   check.seconds += inversion.seconds;
-  if (!(inversion.miss <= largest_inversion_miss)) {
+  const double miss_limit = std::max(largest_inversion_miss, rounding(scene));
+  if (!(inversion.miss <= miss_limit)) {
     check.limit.reset();
-    judge(check, inversion.miss, largest_inversion_miss);
+    judge(check, inversion.miss, miss_limit);
     check.text = fmt::format(
         "{}: the inverted map composed with the map misses the identity by {:.2g} of its terms",
         inversion.missing_kind, inversion.miss);

@@ -41,8 +41,8 @@ void add_dynamics(const PropagationResult& result, std::vector<SkippedWork>& ski
     return contains(problem.components, i) && !contains(scene.variables, i);
   });
   if (!fixed.empty()) {
-    skipped.push_back({fmt::format("variables {}", fmt::join(fixed, ", ")),
-                       "the scene does not expand in them"});
+    skipped.push_back(
+        {fmt::format("variables {}", fmt::join(fixed, ", ")), "the scene does not expand in them"});
   }
   const int degrees = working_order(problem.system, scene.order);
   if (degrees < scene.order) {

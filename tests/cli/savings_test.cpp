@@ -70,10 +70,9 @@ class Savings : public CommandTest {
 };
 
 TEST_F(Savings, ForceTerms) {
-  const std::vector<std::string> counters = {"operations_per_evaluation",
-                                             "nonlinear_operations_per_evaluation",
-                                             "multiply_adds_per_evaluation", "slice_products",
-                                             "multiply_adds"};
+  const std::vector<std::string> counters = {
+      "operations_per_evaluation", "nonlinear_operations_per_evaluation",
+      "multiply_adds_per_evaluation", "slice_products", "multiply_adds"};
   const Json whole = run({});
   expect_saving(run({"system.J2=null"}), whole, "J2", counters);
   expect_saving(run({"system.J3=null"}), whole, "J3", counters);
@@ -136,8 +135,7 @@ TEST_F(Savings, PartsOfTheScene) {
   const Json with =
       run({"jet.order=1", "reference={}", "generating_function={kinds=[\"F1\", \"F2\"]}",
            "figure={quantity=\"energy-error\"}", "relative_hamiltonian={times_canonical=[0, 1]}"});
-  for (const char* what :
-       {"reference", "generating functions", "figure", "relative Hamiltonian"}) {
+  for (const char* what : {"reference", "generating functions", "figure", "relative Hamiltonian"}) {
     expect_saving(without, with, what, {});
   }
   const std::vector<std::pair<const char*, int>> counters = {
@@ -164,8 +162,7 @@ TEST_F(Savings, SelfChecks) {
   EXPECT_EQ(count(with, "self_checks"), 7);
   for (const Json& entry : with["runs"][0]["checks"]) {
     const std::string name = entry["name"];
-    const Json without =
-        run({"generating_function={kinds=[\"F1\"]}", "checks." + name + "=false"});
+    const Json without = run({"generating_function={kinds=[\"F1\"]}", "checks." + name + "=false"});
     expect_saving(without, with, "check " + name, {"self_checks"});
     EXPECT_EQ(count(without, "self_checks"), 6);
     for (const Json& check : without["runs"][0]["checks"]) {

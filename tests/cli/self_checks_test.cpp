@@ -91,10 +91,10 @@ TEST_F(SelfChecks, ThatTheSceneTurnsOffAreSaidToBeOff) {
 }
 
 TEST_F(SelfChecks, FailedRunHasNone) {
-  const Json summary = run("quick.toml",
-                           {"nominal={position_km=[10000, 0, 0], velocity_km_s=[0, 0, 0]}",
-                            "jet.duration_canonical=2"},
-                           4);
+  const Json summary = run(
+      "quick.toml",
+      {"nominal={position_km=[10000, 0, 0], velocity_km_s=[0, 0, 0]}", "jet.duration_canonical=2"},
+      4);
   for (const Json& entry : summary["runs"]) {
     EXPECT_TRUE(entry["error"].is_string());
     EXPECT_TRUE(entry["checks"].is_null());
@@ -150,7 +150,8 @@ TEST_F(SelfChecks, PerigeeBelowTheSurface) {
   EXPECT_NEAR(surface["value"], 6000, 1e-3);  // a (1 - e)
   EXPECT_EQ(surface["limit"], 6378);
   // Half a period: pi sqrt(a^3 / mu) = 3560.5 s.
-  expect_printed("CHECK FAILED: a: surface: the nominal passes 378 km below the surface at t = 3560.");
+  expect_printed(
+      "CHECK FAILED: a: surface: the nominal passes 378 km below the surface at t = 3560.");
   with_radius.emplace_back("checks.surface=5999");
   EXPECT_EQ(check(run("quick.toml", with_radius, 0)["runs"][0], "surface")["state"], "passed");
 }

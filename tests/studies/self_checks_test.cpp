@@ -279,12 +279,12 @@ TEST(SelfChecks, InversionThatIsNone) {
   RunResult wrong = good_run();
   ASSERT_TRUE(wrong.inversion);
   EXPECT_EQ(wrong.inversion->kinds, 2);
-  EXPECT_LE(wrong.inversion->miss, 1e-31);
-  wrong.inversion->miss = 1e-20;
+  EXPECT_LE(wrong.inversion->miss, 1e-26);
+  wrong.inversion->miss = 1e-14;
   const SelfCheck failed = check(scene, wrong, SelfCheckName::inversion);
-  expect_state(failed, SelfCheckState::failed, "misses the identity by 1e-20");
-  EXPECT_EQ(failed.value, 1e-20);
-  EXPECT_EQ(failed.limit, 1e-28);
+  expect_state(failed, SelfCheckState::failed, "misses the identity by 1e-14");
+  EXPECT_EQ(failed.value, 1e-14);
+  EXPECT_EQ(failed.limit, std::numeric_limits<double>::epsilon());
   wrong.inversion->miss = std::numeric_limits<double>::infinity();
   expect_state(check(scene, wrong, SelfCheckName::inversion), SelfCheckState::failed);
   Scene none = scene;

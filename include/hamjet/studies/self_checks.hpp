@@ -65,8 +65,8 @@ struct InversionQuality {
 /// step whose iteration does not come to round-off is an error.
 ///
 /// step-error: the largest local error estimate of an accepted step. Limits: the tolerance, ten
-/// times that for Gauss, which repeats a step beyond that; 1 for fixed steps of Gauss: at 1 and
-/// above, the estimate says that the step does not resolve the motion.
+/// times that for Gauss, which repeats a step beyond that; 3 for fixed steps of Gauss: the slope at
+/// the start of a step is then missed by a sixth, and the motion is not resolved.
 ///
 /// energy: the largest change of H along the nominal, relative to max(|H|, T/100), T being the
 /// terms that cancel in H at the start. Limit: 0.1, beyond which the nominal is another orbit; with
@@ -75,9 +75,9 @@ struct InversionQuality {
 /// symplecticity: scaled defect of degree 0, of methods that are symplectic in (q, p). Limit:
 /// 1000 epsilon sqrt(1 + steps), for stiff systems amplify rounding.
 ///
-/// inversion: fails where the composition misses the identity by more than 1e-28 of its terms; else
-/// the value is epsilon times the amplification of rounding in the inverted linear part, and the
-/// limit 1e-4.
+/// inversion: fails where the composition misses the identity by more than max(1e-20, epsilon) of
+/// its terms; else the value is epsilon times the amplification of rounding in the inverted linear
+/// part, and the limit 1e-4.
 ///
 /// surface: smallest distance from the centre in km, between steps too. Limit: radius_km.
 std::vector<SelfCheck> self_checks(const Scene& scene, const RunResult& run);
