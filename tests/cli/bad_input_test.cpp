@@ -2,8 +2,75 @@
 
 #include "command_test.hpp"
 
-// Scenes and places that are wrong: exit code, one line that says where and what, nothing left
-// behind. Lines are those of small_scene, counted by hand.
+// Bad input and bad surroundings, each tried on the built command: exit code, what the message must
+// hold, nothing on standard output, no file left. This is the table of the 72 kinds that the tests
+// go by; a name without a class is of the file bad_input_scene_test.cpp (class BadScene), S. is
+// bad_input_surroundings_test.cpp.
+//
+//  1 no arguments; --help          Usage.NoArgumentsPrintTheUsage, HelpBeginsWithExamples
+//  2 unknown option                Usage.MistakesOnTheCommandLine
+//  3 option without a value        Usage.MistakesOnTheCommandLine
+//  4 option repeated               Usage.MistakesOnTheCommandLine
+//  5 scene missing                 BadInput.ScenesThatCannotBeRead
+//  6 directory, pipe, /dev/zero    BadInput.ScenesThatCannotBeRead
+//  7 scene not readable            Permissions.SceneMayNotBeRead
+//  8 empty scene                   BadInput.ScenesThatBreakARule
+//  9 scene of 1 GB                 BadInput.ScenesThatCannotBeRead
+// 10 not UTF-8, UTF-16, NUL        BadInput.ScenesThatBreakARule, Text
+// 11 CR LF, byte order mark        RunOptions.ByteOrderMarkAndCarriageReturnsAreAccepted
+// 12 unclosed string or array      Toml
+// 13, 14 duplicate key, table      Toml
+// 15, 16 unknown key, table        BadInput.ScenesThatBreakARule, Toml
+// 17-20 order of another type, 0,  BadInput.ScenesThatBreakARule, Numbers (4.0 is refused: an order
+//    negative, fractional          is an integer)
+// 21 order 99                      BadInput.ScenesThatBreakARule
+// 22 beyond 64 bits                Numbers
+// 23 nan, inf                      BadInput.ScenesThatBreakARule, ZonalHarmonics
+// 24-26 vector of another length,  BadInput.ScenesThatBreakARule, Numbers
+//    another type, at the centre
+// 27, 28 mu and radius             Numbers, ZonalHarmonics
+// 29, 30 over- and underflow       BadInput.ScenesThatBreakARule, ZonalHarmonics
+// 31 J2 = 10                       ZonalHarmonics (refused: the limit is 1)
+// 32 unknown method                BadInput.ScenesThatBreakARule
+// 33 stages                        BadInput.ScenesThatBreakARule, Numbers
+// 34 step 0, negative, nan         BadInput.ScenesThatBreakARule, Numbers
+// 35 step above the duration       StepLongerThanTheDuration (one step, and the summary says so)
+// 36, 37 step too small            BadInput.ScenesThatBreakARule, Numbers
+// 38 tolerance                     BadInput.ScenesThatBreakARule, Numbers
+// 39 key of another method         KeysOfAnotherMethod, BadInput.ScenesThatBreakARule
+// 40 unknown kind; singular kind   BadInput.ScenesThatBreakARule; Outcomes.KindThatDoesNotExist...,
+//                                  SingularKindIsNamedWithItsCondition
+// 41 times out of order            Times
+// 42 deviations missing, NaN, ...  EvalErrors.BadTables, PlacesThatCannotBeReadOrWritten
+// 43 deviations outside the radius Eval.MarksWhatTheSeriesDoesNotSupport;
+//                                  TransferCommand.BeyondValidityIsMarkedAndFailsOnlyAStrictScene
+// 44 output directory missing      S.OutputInPlaceOfTheScene (it is created)
+// 45 not writable                  Permissions.OutputMayNotBeWritten
+// 46 output exists                 Repetition.* (results are replaced whole, other files stay)
+// 47 output is the scene           S.OutputInPlaceOfTheScene (5, as for any file)
+// 48 disk full                     SmallDisk.*, FailingCalls.*, BadOutput.StandardOutputIsFull
+// 49 full at close or flush        FailingCalls.Flush, Close
+// 50 standard output closed        BadOutput.StandardOutputHasNoReader, WithBothStreamsClosed...
+// 51 file-size limit               BadOutput.TakesNoMoreBytes
+// 52 memory limit                  S.MemoryRunsOutAnywhere, LessMemoryThanTheSceneTakes
+// 53, 54 signals                   Interruption.*
+// 55 kill -9                       KillRun.*, KillComparison.*
+// 56, 57 stored results cut or a   ChangedResults.* (ResultSets.* of the io tests: every byte and
+//    bit flipped                   bit)
+// 58 of another scene, version     Compare.InterruptedAndResumed..., StoredJetTest.DamagedSummary
+// 60 JSON with NaN                 S.FailedRunsLeaveValidJson
+// 61 two runs in one directory     Faults.ASecondRunInTheSameDirectoryIsRefusedAtOnce
+// 63 hostile names                 S.NamesThatLeadElsewhereOrHoldMarkup, TitlesAreText...
+// 64 CSV field with =              S.LabelsAreNoFormulas
+// 65, 66 locale, TZ, HOME, ...     RunOptions.EnvironmentDoesNotMatter, S.WorkingDirectory...
+// 68 arithmetic of the host        S.ArithmeticOfTheHostIsReset
+// 69 deep nesting                  DeepNesting
+// 70-72 library                    tests of the layers: SeriesOfTwoSpaces.*, MakeSystem.*, ...
+//
+// Left out: 59 and 62 (no file is HDF5), 67 (there is no option for threads); 70 to 72 on the
+// command, which takes no code of the user's.
+//
+// Lines in the messages are those of small_scene, counted by hand.
 
 namespace hamjet::test {
 namespace {

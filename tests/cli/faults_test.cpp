@@ -113,7 +113,7 @@ TEST_F(Faults, OneOfManyRunsAtTheSameMomentWins) {
 
 TEST_F(Faults, ADirectoryThatVanishesDuringTheRunIsMadeAnew) {
   std::vector<std::string> second_or_so = endless;
-  second_or_so.back() = "integrator.midpoint.step_canonical=1e-6";
+  second_or_so.back() = "integrator.midpoint.step_canonical=1e-5";
   start(second_or_so);
   holder(directory_ / "out/quick");
   fs::remove_all(directory_ / "out");
@@ -123,7 +123,7 @@ TEST_F(Faults, ADirectoryThatVanishesDuringTheRunIsMadeAnew) {
 
 TEST_F(Faults, ADirectoryThatBecomesAFileDuringTheRun) {
   std::vector<std::string> second_or_so = endless;
-  second_or_so.back() = "integrator.midpoint.step_canonical=1e-6";
+  second_or_so.back() = "integrator.midpoint.step_canonical=1e-5";
   start(second_or_so);
   holder(directory_ / "out/quick");
   fs::remove_all(directory_ / "out/quick");

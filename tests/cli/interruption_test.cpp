@@ -58,5 +58,51 @@ TEST_F(Interruption, KilledItLeavesNothingThatIsSeenOrInTheWay) {
   EXPECT_FALSE(std::filesystem::exists(directory_ / "out/quick/.hamjet-lock"));
 }
 
+// From the very start to the second in which the command is deep at work; each would take minutes.
+TEST_F(Interruption, AtAnyMomentOfAnyCommand) {
+  const std::string transfer =
+      "transfer={frame=\"RTN\", count=10000, start={position_m=[0, -1000, 0]}, "
+      "end={position_m=[0, -100, 0]}}";
+  const std::vector<std::string> commands[] = {
+      many_steps,
+      {"compare", "quick.toml", "--set",
+       "compare={methods=[\"gauss\"], stages=[1], steps_canonical=[0.4, 1e-8], "
+       "tolerances=[1e-5], orders=[1], repeats=1, time_budget_s=1e6}"},
+      {"transfer", "quick.toml", "--set", transfer, "--set", "jet.order=8"},
+      {"validity", "quick.toml", "--set", "validity={count=1000, samples=1000}", "--set",
+       "jet.order=8"},
+      {"run", std::string(HAMJET_SOURCE_DIR) + "/data/scenes/paper/energy-midpoint-kepler.toml",
+       "--set", "energy_conservation.duration_orbits=8000"},
+  };
+  options_.environment = {{"XDG_CACHE_HOME", (directory_ / "cache").string()}};
+  options_.limit = std::chrono::seconds(20);
+  const auto before = files();
+  int number = 0;
+  for (const std::vector<std::string>& command : commands) {
+    SCOPED_TRACE(::testing::PrintToString(command));
+    for (const int milliseconds : {0, 3, 10, 30, 100, 300}) {
+      const int signal = ++number % 2 == 0 ? SIGINT : SIGTERM;
+      const int times = number % 3 == 0 ? 2 : 1;
+      options_.signal = Signal{signal, times, std::chrono::milliseconds(milliseconds)};
+      const CommandResult result = hamjet(command);
+      EXPECT_EQ(result.exit_code, 128 + signal) << milliseconds << " ms: " << result.err;
+      EXPECT_EQ(result.out, "");
+      EXPECT_EQ(result.err.rfind("hamjet: interrupted; ", 0), 0U) << result.err;
+      EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+      std::filesystem::remove_all(directory_ / "cache");
+      if (result.err.find("nothing was written") == std::string::npos) {
+        // A comparison keeps what it has, as a set of its own.
+        EXPECT_EQ(read_json(directory_ / "out/quick/compare.json")["complete"], false);
+        EXPECT_EQ(read_json(directory_ / "out/quick/compare.json")["files"].size(), 1U);
+        std::filesystem::remove(directory_ / "out/quick/compare.json");
+        std::filesystem::remove(directory_ / "out/quick/compare.csv");
+        std::filesystem::remove(directory_ / "out/quick");
+        std::filesystem::remove(directory_ / "out");
+      }
+      EXPECT_EQ(files(), before) << milliseconds;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace hamjet::test

@@ -1,7 +1,8 @@
 // Loaded into the command before it starts: lets one call that writes to the disk fail, as a full
-// or broken disk does. HAMJET_FAILING_CALL names it and says which of these calls, counted from 1:
-// "write:3". Counted are calls on files that were opened for writing alone; a write that fails has
-// written half of what it should.
+// or broken disk does, or one that takes memory. HAMJET_FAILING_CALL names it and says which of
+// these calls, counted from 1: "write:3", "malloc:200". Of those with a descriptor the ones on
+// files that were opened for writing alone are counted; a write that fails has written half of what
+// it should.
 
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -45,6 +46,14 @@ bool is_counted(int descriptor) {
 }  // namespace
 
 extern "C" {
+
+void* __libc_malloc(size_t bytes);  // NOLINT: the GNU library's name
+
+void* malloc(size_t bytes) noexcept {
+  if (!must_fail("malloc")) return __libc_malloc(bytes);
+  errno = ENOMEM;
+  return nullptr;
+}
 
 int open(const char* path, int flags, ...) {
   va_list arguments;
