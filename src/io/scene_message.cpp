@@ -52,12 +52,15 @@ bool is_path_to(std::string_view outer, std::string_view inner) {
 }  // namespace
 
 std::string printable(std::string_view text, std::size_t most_characters) {
+  constexpr std::size_t escape_length = 4;
   std::string result;
-  for (std::size_t count = 0; !text.empty(); ++count) {
-    if (count == most_characters) return result + "...";
+  for (std::size_t count = 0; !text.empty();) {
     const std::size_t length = utf8_sequence_length(text);
     const std::string_view sequence = text.substr(0, std::max<std::size_t>(length, 1));
-    if (length == 0 || breaks_line(sequence)) {
+    const bool is_escaped = length == 0 || breaks_line(sequence);
+    count += is_escaped ? escape_length * sequence.size() : 1;
+    if (count > most_characters) return result + "...";
+    if (is_escaped) {
       for (const char c : sequence) {
         result += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
       }

@@ -10,7 +10,7 @@
 namespace hamjet::io {
 
 /// `text` on one line and in valid UTF-8: control characters, line separators and bytes that are
-/// not UTF-8 are escaped, and what goes beyond `most_characters` is cut off with "...".
+/// not UTF-8 are escaped, and what goes beyond `most_characters` as shown is cut off with "...".
 std::string printable(std::string_view text, std::size_t most_characters = 80);
 
 /// The printable form in double quotes.

@@ -36,6 +36,7 @@ class TokenScanner {
       if (c == '#') {
         skip_to_line_end();
       } else if (c == '"' || c == '\'') {
+        check_start_of_string();
         skip_string(c);
       } else if (is_bare(c)) {
         take_bare_token();
@@ -73,6 +74,16 @@ class TokenScanner {
     throw_scene_error(here(), fmt::format("not valid TOML: got the character {} outside quotes, "
                                           "must be within quotes or a comment",
                                           in_quotes(rest.substr(0, utf8_sequence_length(rest)))));
+  }
+
+  /// Elsewhere than after these no string begins: what then looks like one to this scanner is not
+  /// one to the parser, which goes on as if outside quotes.
+  void check_start_of_string() const {
+    constexpr std::string_view right = "\n\r\t =[{,.";
+    if (position_ == 0 || right.find(text_[position_ - 1]) != right.npos) return;
+    throw_scene_error(here(),
+                      "not valid TOML: got a quotation mark within or behind a word or "
+                      "a string, must be at the start of a key or a value");
   }
 
   /// Skips a string with its quotes. One that is not closed is the parser's to report: skipping

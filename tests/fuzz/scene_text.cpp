@@ -29,14 +29,17 @@ std::vector<io::Override> overrides_in(std::string_view text) {
 
 template <class ModelScene>
 void check_start(const ModelScene& scene) {
-  const std::size_t dimension = variable_names(scene.system.model).size();
+  const std::size_t dimension = 2 * degrees_of_freedom_of(scene.system);
   require(scene.name == "scene", "the scene's name");
   require(scene.nominal.size() == dimension, "the nominal has another dimension than the model");
   require_finite(scene.nominal, "nominal");
-  require_finite({scene.system.mu_km3_s2, scene.system.radius_km, scene.system.J2, scene.system.J3,
-                  scene.system.mass_kg, scene.system.stiffness_N_per_m, scene.canonical_radius,
-                  scene.duration},
-                 "system");
+  require(dimension == variable_names(scene.system).size(), "names of the variables");
+  const SystemSettings& system = scene.system;
+  require_finite(
+      {system.mu_km3_s2, system.radius_km, system.J2, system.J3, system.mass_kg,
+       system.stiffness_N_per_m, system.second_stiffness_N_per_m, system.length_m,
+       system.gravity_m_s2, system.omega_rad_per_s, scene.canonical_radius, scene.duration},
+      "system");
   require(std::isnormal(scene.units.length_km) && scene.units.length_km > 0 &&
               std::isnormal(scene.units.time_s) && scene.units.time_s > 0,
           "canonical units");
@@ -81,6 +84,9 @@ void check(const Scene& scene) {
   require(scene.order >= 1 && scene.order <= 20, "order");
   require_ascending(scene.variables, scene.nominal.size(), "variables");
   check_integrators(scene);
+  for (std::size_t i = 0; i < self_check_names().size(); ++i) {
+    check_positive(scene.checks[static_cast<SelfCheckName>(i)].limit, "limit of a check");
+  }
   check_positive(scene.separation, "separation");
   require(!scene.kinds || !scene.kinds->empty(), "no kinds");
   check_times(scene.relative_hamiltonian_times, "relative_hamiltonian");

@@ -39,7 +39,7 @@ StoredFiles split(std::string_view text) {
 }
 
 void check(const io::StoredJet& stored) {
-  const std::size_t dimension = variable_names(stored.model).size();
+  const std::size_t dimension = stored.variable_names().size();
   require(stored.nominal_initial.size() == dimension && stored.nominal_final.size() == dimension,
           "dimension of the nominal");
   require_finite(stored.nominal_initial, "nominal_initial");

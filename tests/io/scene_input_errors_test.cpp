@@ -67,6 +67,11 @@ TEST(SceneInputErrors, NotAsciiOutsideQuotes) {
   expect_scene_error("title = \u201cx\u201d\n", refused("1:9", "\u201c"));
   // Line ends that could break a terminal's line are escaped.
   expect_scene_error("\u2028schema = 1\n", refused("1:1", "\\xe2\\x80\\xa8"));
+  // What the parser does not take for a string is none.
+  for (const std::string text : {"a = 5\"\u0498.\"", "a = (\"\u0498\"", "a\"\u0498\" = 1",
+                                 "a = \"\"'\u0498'", "a = 'x''\u0498'"}) {
+    expect_scene_error(text + "\n", {"file.toml:1:", "not valid TOML: got a quotation mark"});
+  }
   const std::string inside = changed(oscillator, "\"oscillator\"", "\"\u0498 \u00a0\" # \u0498");
   EXPECT_EQ(parse_scene(inside, "file.toml").title, "\u0498 \u00a0");
 }
@@ -86,6 +91,14 @@ TEST(SceneInputErrors, DeepNesting) {
 
 TEST(SceneInputErrors, QuotesStayShort) {
   expect_scene_error(std::string(5000, 'k') + " = 1\n", {std::string(80, 'k') + "..."});
+  // An escape is as long as it is shown; found by fuzzing.
+  expect_scene_error("\"" + std::string(5000, '\t') + "\" = 1\n",
+                     {"got \\x09", "\\x09..., must be"});
+  expect_error(
+      [] {
+        parse_scene(orbit, "file.toml", {{std::string(200, '\t') + ".x", "1"}});
+      },
+      ErrorKind::scene, {"--set \\x09"}, "override");
   expect_scene_error(changed(orbit, "gauss8", std::string(5000, '?')),
                      {std::string(80, '?') + "..."});
   expect_scene_error(changed(orbit, "\"gauss8\"", "\"\\u0085\\u2028\""),

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <cstdlib>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -11,9 +12,10 @@
 
 namespace hamjet::test {
 
-/// Checks a property on `cases` random cases, the same in every run and on every machine. One that
-/// fails is made simpler as long as it fails, and its numbers are printed by the names that they
-/// were drawn with (`Gen::as`).
+/// Checks a property on `cases` random cases, the same in every run and on every machine; times
+/// the number in the variable HAMJET_PROPERTY_FACTOR, for a longer search. One that fails is made
+/// simpler as long as it fails, and its numbers are printed by the names that they were drawn with
+/// (`Gen::as`).
 template <class Property>
 void expect_property(Property&& property, int cases) {
   const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
@@ -22,7 +24,8 @@ void expect_property(Property&& property, int cases) {
   metadata.description = test->name();
   rc::detail::TestParams parameters;
   parameters.seed = 20261121;
-  parameters.maxSuccess = cases;
+  const char* const factor = std::getenv("HAMJET_PROPERTY_FACTOR");
+  parameters.maxSuccess = cases * (factor != nullptr ? std::stoi(factor) : 1);
   const auto result =
       rc::detail::checkTestable(std::forward<Property>(property), metadata, parameters);
   if (result.template is<rc::detail::SuccessResult>()) return;

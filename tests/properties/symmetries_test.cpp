@@ -71,7 +71,7 @@ TEST(Symmetries, MirrorAtTheEquator) {
           require_reflected(run(orbit.flow(3), settings), run(image.flow(3), settings), {z, pz});
         }
       },
-      10);
+      25);
 }
 
 // Phi_(-t) R = R Phi_t with R the change of sign of the momenta.
@@ -86,7 +86,7 @@ TEST(Symmetries, MirrorOfTime) {
           require_reflected(run(orbit.flow(3), settings), run(image.flow(3), settings), {3, 4, 5});
         }
       },
-      10);
+      25);
 }
 
 // Lengths times 4^k and times times 8^k leave mu = length^3 / time^2 as it is.
@@ -119,7 +119,7 @@ TEST(Symmetries, PowersOfTwo) {
           }
         }
       },
-      10);
+      25);
 }
 
 // A coefficient does not depend on how many degrees above it are computed. (Steps that a tolerance
@@ -141,7 +141,7 @@ TEST(Symmetries, LowerOrdersAreCutOffHigherOnes) {
           }
         }
       },
-      10);
+      25);
 }
 
 }  // namespace
