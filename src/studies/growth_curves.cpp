@@ -9,6 +9,7 @@
 
 #include "convergence_fit.hpp"
 #include "energy_error.hpp"
+#include "hamjet/error.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
 #include "integration.hpp"
 
@@ -22,10 +23,18 @@ struct Checkpoint {
   double largest_energy_error = 0;  ///< up to this time
 };
 
-std::vector<Checkpoint> checkpoints(const Scene& scene, const ComputedProblem& problem, int count,
+/// 1, 1/2, 1/4, ... of the duration, the smallest first, where no times are given.
+std::vector<double> wanted_times(const Scene& scene, const GrowthExpectation& expected) {
+  if (!expected.times.empty()) return expected.times;
+  std::vector<double> times;
+  for (int k = expected.checkpoints - 1; k >= 0; --k)
+    times.push_back(std::ldexp(scene.duration, -k));
+  return times;
+}
+
+std::vector<Checkpoint> checkpoints(const Scene& scene, const ComputedProblem& problem,
+                                    const std::vector<double>& wanted,
                                     const std::function<void(double)>& progress) {
-  std::vector<double> wanted;  // 1, 1/2, 1/4, ... of the duration, the smallest first
-  for (int k = count - 1; k >= 0; --k) wanted.push_back(std::ldexp(scene.duration, -k));
   const FlowProblem<double> flow = flow_problem<double>(problem, scene.duration);
   EnergyError energy(problem.system, problem.nominal);
   std::vector<Checkpoint> reached;
@@ -45,32 +54,64 @@ std::vector<Checkpoint> checkpoints(const Scene& scene, const ComputedProblem& p
   return reached;
 }
 
-/// Largest distance of a component of the nominal from the true one, relative to the largest
-/// component, at each checkpoint.
-std::vector<double> nominal_errors(const ComputedProblem& problem,
-                                   const std::vector<Checkpoint>& points) {
+/// The true nominal at the times, by integration in extended precision.
+std::vector<Extended> true_states(const Scene& scene, const ComputedProblem& problem,
+                                  const std::vector<Checkpoint>& points) {
   FlowProblem<Extended> flow = flow_problem<Extended>(problem, 0);
   flow.space = SeriesSpace::create(problem.variables.size(), 0);
   GaussSettings gauss;
   gauss.stages = 16;
   gauss.tolerance = 1e-24;
   Extended reached = 0;
-  std::vector<double> errors;
-  for (const Checkpoint& point : points) {
-    flow.duration = Extended(point.time) - reached;
+  const std::size_t dimension = scene.nominal.size();
+  std::vector<Extended> states(points.size() * dimension, Extended(0));
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    flow.duration = Extended(points[k].time) - reached;
     IntegrationStatistics statistics;
     const FlowJet<Extended> nominal = integrate_gauss<Extended>(flow, gauss, statistics);
-    reached = Extended(point.time);
-    Extended largest = 0;
-    Extended error = 0;
+    reached = Extended(points[k].time);
     for (std::size_t i = 0; i < nominal.size(); ++i) {
       flow.initial_state[i] = nominal[i][0];
-      largest = std::max(largest, Extended(abs(nominal[i][0])));
-      error = std::max(error, Extended(abs(nominal[i][0] - Extended(point.jet[i][0]))));
+      states[k * dimension + problem.components[i]] = nominal[i][0];
+    }
+  }
+  return states;
+}
+
+/// Largest distance of a component of the nominal from the true one, relative to the largest
+/// component, at each checkpoint.
+std::vector<double> nominal_errors(const ComputedProblem& problem,
+                                   const std::vector<Checkpoint>& points,
+                                   const std::vector<Extended>& states) {
+  const std::size_t dimension = states.size() / points.size();
+  std::vector<double> errors;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    Extended largest = 0;
+    Extended error = 0;
+    for (std::size_t i = 0; i < problem.components.size(); ++i) {
+      const Extended& truth = states[k * dimension + problem.components[i]];
+      largest = std::max(largest, Extended(abs(truth)));
+      error = std::max(error, Extended(abs(truth - Extended(points[k].jet[i][0]))));
     }
     errors.push_back(static_cast<double>(Extended(error / largest)));
   }
   return errors;
+}
+
+/// Throws Error(usage) if a checkpoint is not at the time of a given state.
+void require_times(const GrowthExpectation& expected, const std::vector<Checkpoint>& points,
+                   std::size_t dimension) {
+  if (expected.times.empty()) return;
+  for (std::size_t k = 0; k < expected.times.size(); ++k) {
+    if (k < points.size() && points[k].time == expected.times[k]) continue;
+    throw Error(ErrorKind::usage,
+                fmt::format("case.growth.times: no step ends at {:g}", expected.times[k]));
+  }
+  if (!expected.states.empty() && expected.states.size() != points.size() * dimension) {
+    throw Error(ErrorKind::usage,
+                fmt::format("case.growth.states: {} numbers, must be {} for each time",
+                            expected.states.size(), dimension));
+  }
 }
 
 double largest_coefficient(const FlowJet<double>& jet, int degree) {
@@ -107,7 +148,8 @@ std::vector<GrowthCurve> growth_curves(const Scene& scene, const ComputedProblem
                                        const GrowthExpectation& expected,
                                        const std::function<void(double)>& progress) {
   constexpr double round_off = 4 * std::numeric_limits<double>::epsilon();
-  const auto points = checkpoints(scene, problem, expected.checkpoints, progress);
+  const auto points = checkpoints(scene, problem, wanted_times(scene, expected), progress);
+  require_times(expected, points, scene.nominal.size());
   std::vector<GrowthCurve> curves;
   const auto add = [&](GrowthCurve curve, double least) {
     fit(curve, least, expected.exponent_tolerance);
@@ -117,7 +159,9 @@ std::vector<GrowthCurve> growth_curves(const Scene& scene, const ComputedProblem
     GrowthCurve curve;
     curve.quantity = "error of the nominal";
     curve.expected = *expected.error_exponent;
-    const std::vector<double> errors = nominal_errors(problem, points);
+    const std::vector<double> errors = nominal_errors(
+        problem, points,
+        expected.states.empty() ? true_states(scene, problem, points) : expected.states);
     for (std::size_t i = 0; i < points.size(); ++i) {
       curve.points.emplace_back(points[i].time, errors[i]);
     }

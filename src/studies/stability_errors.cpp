@@ -46,18 +46,14 @@ MeasuredError worst_of_state(const StabilityExpectation& expected, const Propaga
 }
 
 MeasuredError worst_of_matrix(const StabilityExpectation& expected, const PropagationResult& result,
-                              const std::vector<double>& floor) {
+                              double floor) {
   const std::size_t dimension = result.scene.nominal.size();
   std::optional<MeasuredError> worst;
   for (std::size_t i = 0; i < dimension; ++i) {
-    // Of the row: round-off on the way moves the state in all directions, those too in which the
-    // start, whose components may be 0, has no round-off.
-    const auto row = floor.begin() + static_cast<std::ptrdiff_t>(i * dimension);
-    const double largest = *std::max_element(row, row + static_cast<std::ptrdiff_t>(dimension));
     for (std::size_t k = 0; k < result.scene.variables.size(); ++k) {
       const std::size_t entry = i * dimension + result.scene.variables[k];
       const Extended value = coefficient(result, i, result.problem.space->linear_index(k));
-      keep_worse(worst, {"matrix", distance(value, expected.matrix[entry]), largest,
+      keep_worse(worst, {"matrix", distance(value, expected.matrix[entry]), floor,
                          expected.tolerance, expected.floor_factor});
     }
   }
@@ -77,9 +73,9 @@ void add_reference_errors(const StabilityExpectation& expected, const Propagatio
   }
   if (!expected.matrix.empty()) {
     require_size("matrix", expected.matrix.size(), dimension * dimension);
-    // The floor of the first derivatives takes the second ones.
-    if (floor.matrix.empty()) floor.matrix.assign(dimension * dimension, 0);
-    errors.push_back(worst_of_matrix(expected, result, floor.matrix));
+    errors.push_back(worst_of_matrix(
+        expected, result,
+        matrix_floor(result.scene, result.problem, result.runs.front().jet, floor.state)));
   }
 }
 

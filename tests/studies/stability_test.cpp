@@ -133,6 +133,21 @@ TEST(Stability, ARefusalWhereAResultIsRightIsWrong) {
   EXPECT_NE(result.text.find("mass_kg"), std::string::npos) << result.text;
 }
 
+TEST(Stability, AFailedCheckMarksTheResult) {
+  // The explicit method jumps over the centre, and its energy shows it.
+  StabilityCase subject = case_of(kepler_orbit, {{"nominal.velocity_km_s", "[0, 0, 0]"},
+                                                 {"jet.duration_canonical", "2"},
+                                                 {"jet.order", "1"},
+                                                 {"integrator.gauss8.stages", "null"},
+                                                 {"integrator.gauss8.method", "velocity-verlet"},
+                                                 {"integrator.gauss8.step_canonical", "0.01"}});
+  subject.expected.outcome = CaseOutcome::marked;
+  subject.expected.mark = "energy";
+  EXPECT_EQ(run_stability_case(subject).outcome, CaseOutcome::marked);
+  subject.expected.mark = "surface";
+  EXPECT_EQ(run_stability_case(subject).outcome, CaseOutcome::wrong);
+}
+
 TEST(Stability, ATwinOfAnotherOrderIsEqualToTheBit) {
   StabilityCase subject = case_of(kepler_orbit, {{"jet.duration_canonical", "3"}});
   Scene twin = std::get<Scene>(subject.scene);
@@ -215,9 +230,9 @@ TEST(HalfUlpFloor, IsTheOscillatorsClosedForm) {
   constexpr double u = 0x1p-53;
   EXPECT_NEAR(floor.state[0] / u, c + s / 2 + 2 * std::abs(p) + std::abs(q), 1e-12);
   EXPECT_NEAR(floor.state[1] / u, s + c / 2 + 2 * std::abs(q) + std::abs(p), 1e-12);
-  // A linear flow has no second derivatives: what is left is df/dx0 t and the entry itself.
-  EXPECT_NEAR(floor.matrix[0] / u, 2 * s + c, 1e-12);
-  EXPECT_NEAR(floor.matrix[1] / u, 2 * c + s, 1e-12);
+  // Largest entry: s. Sizes: 1 of the positions, |p| at the end of the momenta.
+  EXPECT_NEAR(matrix_floor(result.scene, result.problem, result.runs[0].jet, floor.state) / u,
+              s * std::max(floor.state[0] / 1, floor.state[1] / std::abs(p)) / u, 1e-12);
 }
 
 }  // namespace

@@ -25,9 +25,12 @@ enum class CaseOutcome {
 const char* outcome_name(CaseOutcome outcome);
 
 /// How a quantity is expected to grow along a case's duration: exponents of time that a fit through
-/// its values at 1, 1/2, 1/4, ... of the duration must not exceed, or must meet.
+/// its values at some times must not exceed, or must meet.
 struct GrowthExpectation {
-  int checkpoints = 8;                        ///< values that the fit goes through
+  /// That many values, at 1, 1/2, 1/4, ... of the duration, where no times are given.
+  int checkpoints = 8;
+  std::vector<double> times;     ///< canonical, away from 0; each must be the end of a step
+  std::vector<Extended> states;  ///< true nominal at these times, 2n numbers each; empty: computed
   std::optional<double> error_exponent;       ///< of the nominal's error: not above
   std::optional<double> energy_exponent;      ///< of the energy error: not above
   std::vector<double> coefficient_exponents;  ///< of the largest coefficient of degree 1, 2, ...
