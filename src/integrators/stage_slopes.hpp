@@ -189,7 +189,8 @@ class StageSlopes {
   template <class State>
   void place_stages(const State& state) {
     for (std::size_t c = 0; c < system_.components(); ++c) {
-      evaluator_.input(c)[0] = system_.base(c, state) + system_.couple(slopes_[c]);
+      evaluator_.input(c)[0] = system_.base(c, state) +
+                               (system_.couple(slopes_[c]) + system_.lost(c, state, slopes_[c]));
     }
   }
 

@@ -53,7 +53,7 @@ class SummedJet {
     const std::size_t count = jet_[0].space().first(highest + 1);
     if (!system.second_order()) {
       for (std::size_t c = 0; c < m; ++c) {
-        add_slopes(c, count, system.weights(), stages.evaluator().output(c), h, add);
+        add_slopes(c, count, system, stages.evaluator().output(c), h, add);
       }
       return;
     }
@@ -72,21 +72,23 @@ class SummedJet {
         add(value, lost, k,
             Real(h * (velocity + h * dot(system.position_weights(), stages.slope(c, k)))));
       }
+      add(value, lost, 0, Real(h * h * dot(system.position_weights_lost(), stages.slope(c, 0))));
     }
     for (std::size_t c = 0; c < m; ++c) {
-      add_slopes(m + c, count, system.weights(), stages.evaluator().output(c), h, add);
+      add_slopes(m + c, count, system, stages.evaluator().output(c), h, add);
     }
   }
 
-  /// Adds h sum b_j f_j to a component.
+  /// Adds h sum b_j f_j to a component; of the nominal, with what rounding has taken from b_j.
   template <class Add>
-  void add_slopes(std::size_t component, std::size_t count, const P& weights, const P* slopes,
-                  const Real& h, const Add& add) {
+  void add_slopes(std::size_t component, std::size_t count, const StageSystem<Real, Lanes>& system,
+                  const P* slopes, const Real& h, const Add& add) {
     Real* value = jet_[component].coefficients().data();
     Real* lost = lost_[component].data();
     for (std::size_t k = 0; k < count; ++k) {
-      add(value, lost, k, Real(h * dot(weights, slopes[k])));
+      add(value, lost, k, Real(h * dot(system.weights(), slopes[k])));
     }
+    add(value, lost, 0, Real(h * dot(system.weights_lost(), slopes[0])));
   }
 
   bool is_compensated_;

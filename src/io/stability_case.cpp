@@ -35,11 +35,14 @@ std::vector<Extended> decimals(const TableReader& table, std::string_view key) {
 }
 
 GrowthExpectation read_growth(const TableReader& growth) {
-  growth.check_keys({{"checkpoints", "times", "states", "error_exponent", "energy_exponent",
-                      "coefficient_exponents", "exponent_tolerance"}});
+  growth.check_keys({{"checkpoints", "times", "states", "samples", "error_exponent",
+                      "energy_exponent", "coefficient_exponents", "exponent_tolerance"}});
   GrowthExpectation expected;
   if (growth.has("checkpoints")) {
     expected.checkpoints = static_cast<int>(growth.integer_between("checkpoints", 3, 20));
+  }
+  if (growth.has("samples")) {
+    expected.samples = static_cast<int>(growth.integer_between("samples", 1, 64));
   }
   if (growth.has("times")) expected.times = growth.numbers("times");
   if (growth.has("states")) expected.states = decimals(growth, "states");

@@ -78,9 +78,18 @@ std::vector<Extended> true_states(const Scene& scene, const ComputedProblem& pro
   return states;
 }
 
+/// The problem with every component of the start that is not 0 this many ulps further from 0.
+ComputedProblem moved_start(ComputedProblem problem, int ulps) {
+  for (double& x : problem.nominal) {
+    for (int i = 0; i < ulps && x != 0; ++i) x = std::nextafter(x, 2 * x);
+  }
+  return problem;
+}
+
 /// Largest distance of a component of the nominal from the true one, relative to the largest
-/// component, at each checkpoint.
-std::vector<double> nominal_errors(const ComputedProblem& problem,
+/// component, at each checkpoint. The states are those of the scene's start; `moved` is another
+/// start so near that the linear part of the jet gives the difference.
+std::vector<double> nominal_errors(const ComputedProblem& problem, const ComputedProblem& moved,
                                    const std::vector<Checkpoint>& points,
                                    const std::vector<Extended>& states) {
   const std::size_t dimension = states.size() / points.size();
@@ -89,7 +98,12 @@ std::vector<double> nominal_errors(const ComputedProblem& problem,
     Extended largest = 0;
     Extended error = 0;
     for (std::size_t i = 0; i < problem.components.size(); ++i) {
-      const Extended& truth = states[k * dimension + problem.components[i]];
+      Extended truth = states[k * dimension + problem.components[i]];
+      for (std::size_t j = 0; j < problem.variables.size(); ++j) {
+        const std::size_t variable = problem.variables[j];
+        truth += Extended(points[k].jet[i][problem.space->linear_index(j)]) *
+                 (Extended(moved.nominal[variable]) - Extended(problem.nominal[variable]));
+      }
       largest = std::max(largest, Extended(abs(truth)));
       error = std::max(error, Extended(abs(truth - Extended(points[k].jet[i][0]))));
     }
@@ -125,6 +139,10 @@ double largest_coefficient(const FlowJet<double>& jet, int degree) {
   return largest;
 }
 
+void add_squares(std::vector<double>& sums, const std::vector<double>& values) {
+  for (std::size_t i = 0; i < values.size(); ++i) sums[i] += values[i] * values[i];
+}
+
 /// Fits the exponent through the values above the least one that means something.
 void fit(GrowthCurve& curve, double least, double tolerance) {
   std::vector<ConvergencePoint> usable;
@@ -148,34 +166,45 @@ std::vector<GrowthCurve> growth_curves(const Scene& scene, const ComputedProblem
                                        const GrowthExpectation& expected,
                                        const std::function<void(double)>& progress) {
   constexpr double round_off = 4 * std::numeric_limits<double>::epsilon();
-  const auto points = checkpoints(scene, problem, wanted_times(scene, expected), progress);
-  require_times(expected, points, scene.nominal.size());
+  const std::vector<double> times = wanted_times(scene, expected);
+  std::vector<Checkpoint> points;  // of the scene's own start
+  std::vector<Extended> states = expected.states;
+  std::vector<double> squared_errors(times.size(), 0);
+  std::vector<double> squared_energy_errors(times.size(), 0);
+  for (int sample = 0; sample < expected.samples; ++sample) {
+    const ComputedProblem moved = moved_start(problem, sample);
+    const auto reached = checkpoints(
+        scene, moved, times, [&](double done) { progress((sample + done) / expected.samples); });
+    if (sample == 0) {
+      points = reached;
+      require_times(expected, points, scene.nominal.size());
+      if (expected.error_exponent && states.empty()) states = true_states(scene, problem, points);
+    }
+    if (expected.error_exponent) {
+      add_squares(squared_errors, nominal_errors(problem, moved, reached, states));
+    }
+    std::vector<double> energy_errors;
+    for (const Checkpoint& point : reached) energy_errors.push_back(point.largest_energy_error);
+    add_squares(squared_energy_errors, energy_errors);
+  }
   std::vector<GrowthCurve> curves;
   const auto add = [&](GrowthCurve curve, double least) {
     fit(curve, least, expected.exponent_tolerance);
     curves.push_back(std::move(curve));
   };
-  if (expected.error_exponent) {
+  const auto add_error = [&](const char* quantity, const std::optional<double>& exponent,
+                             const std::vector<double>& squares) {
+    if (!exponent) return;
     GrowthCurve curve;
-    curve.quantity = "error of the nominal";
-    curve.expected = *expected.error_exponent;
-    const std::vector<double> errors = nominal_errors(
-        problem, points,
-        expected.states.empty() ? true_states(scene, problem, points) : expected.states);
+    curve.quantity = quantity;
+    curve.expected = *exponent;
     for (std::size_t i = 0; i < points.size(); ++i) {
-      curve.points.emplace_back(points[i].time, errors[i]);
+      curve.points.emplace_back(points[i].time, std::sqrt(squares[i] / expected.samples));
     }
     add(std::move(curve), round_off);
-  }
-  if (expected.energy_exponent) {
-    GrowthCurve curve;
-    curve.quantity = "largest energy error";
-    curve.expected = *expected.energy_exponent;
-    for (const Checkpoint& point : points) {
-      curve.points.emplace_back(point.time, point.largest_energy_error);
-    }
-    add(std::move(curve), round_off);
-  }
+  };
+  add_error("error of the nominal", expected.error_exponent, squared_errors);
+  add_error("largest energy error", expected.energy_exponent, squared_energy_errors);
   for (std::size_t d = 1; d <= expected.coefficient_exponents.size(); ++d) {
     GrowthCurve curve;
     curve.quantity = fmt::format("largest coefficient of degree {}", d);

@@ -31,6 +31,9 @@ struct GrowthExpectation {
   int checkpoints = 8;
   std::vector<double> times;     ///< canonical, away from 0; each must be the end of a step
   std::vector<Extended> states;  ///< true nominal at these times, 2n numbers each; empty: computed
+  /// Errors are the root mean square over that many starts, each an ulp further from the scene's in
+  /// every component: round-off is random, and a fit to one sample of it would be too.
+  int samples = 1;
   std::optional<double> error_exponent;       ///< of the nominal's error: not above
   std::optional<double> energy_exponent;      ///< of the energy error: not above
   std::vector<double> coefficient_exponents;  ///< of the largest coefficient of degree 1, 2, ...
