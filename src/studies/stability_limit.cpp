@@ -67,13 +67,26 @@ class StabilityLimit {
            std::log1p(excess) * std::abs(steps_.duration / step) <= tolerated_growth;
   }
 
-  /// A stable step below an unstable one, at the edge of both; 0 if there is none.
-  double below(double unstable) const {
-    double stable = unstable / 2;
-    for (int halvings = 0; !is_stable(stable); stable /= 2) {
-      if (++halvings > 60) return 0;
+  /// The stable step at the first edge below an unstable one; 0 if there is none. Compositions have
+  /// several ranges of stable steps, of which only the first is of use.
+  double first_edge(double unstable) const {
+    constexpr int parts = 256;
+    double stable = 0;
+    for (int k = 1; k < parts; ++k) {
+      const double step = unstable * k / parts;
+      if (!is_stable(step)) {
+        unstable = step;
+        break;
+      }
+      stable = step;
     }
-    unstable = 2 * stable;
+    if (stable == 0) {  // far below
+      for (int halvings = 0; halvings < 60 && stable == 0; ++halvings) {
+        if (is_stable(unstable / 2)) stable = unstable / 2;
+        if (stable == 0) unstable /= 2;
+      }
+      if (stable == 0) return 0;
+    }
     for (int k = 0; k < 40; ++k) {
       const double middle = (stable + unstable) / 2;
       (is_stable(middle) ? stable : unstable) = middle;
@@ -108,7 +121,7 @@ class StabilityLimit {
 void require_stable_steps(const DynamicalSystem& system, const LinearSteps& steps) {
   const StabilityLimit limit(system, steps);
   if (limit.is_stable(steps.step)) return;
-  const double stable = limit.below(steps.step);
+  const double stable = limit.first_edge(steps.step);
   std::string problem = fmt::format("{}: unstable: omega tau = {:.4g}", steps.method,
                                     limit.frequency() * std::abs(steps.step));
   if (stable == 0) {
