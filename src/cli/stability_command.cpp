@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "hamjet/error.hpp"
+#include "hamjet/integrators/cvode.hpp"
 #include "hamjet/io/stability_report.hpp"
 #include "report_origin.hpp"
 #include "standard_streams.hpp"
@@ -25,11 +26,23 @@ std::filesystem::path default_suite() {
               fmt::format("{}: no such folder; --suite names a folder of cases", here.string()));
 }
 
+/// Cases of CVODE where this build has none.
+void leave_out_what_is_not_built(std::vector<StabilityCase>& cases) {
+  if (cvode_available()) return;
+  const auto count = std::erase_if(cases, [](const StabilityCase& subject) {
+    const Scene* scene = std::get_if<Scene>(&subject.scene);
+    return scene != nullptr &&
+           std::any_of(scene->integrators.begin(), scene->integrators.end(),
+                       [](const auto& settings) { return is_cvode(settings.method); });
+  });
+  if (count > 0) print_error(fmt::format("this build has no CVODE: {} cases are left out", count));
+}
+
 }  // namespace
 
 int stability(const RunOptions& options, const std::optional<std::string>& suite) {
-  const auto cases =
-      io::read_stability_suite(suite ? std::filesystem::path(*suite) : default_suite());
+  auto cases = io::read_stability_suite(suite ? std::filesystem::path(*suite) : default_suite());
+  leave_out_what_is_not_built(cases);
   return report_study(options, "stability", [&](const ProgressCallback& progress) {
     std::vector<StabilityResult> results;
     std::size_t width = 0;
