@@ -19,14 +19,13 @@ Chart ratio_chart(const std::vector<StabilityResult>& results) {
   Chart chart;
   chart.name = "error-over-floor";
   chart.title = "How close to the floor";
-  chart.x.label = "cases that have a floor, in the order of their ratio";
-  chart.x.is_integer = true;
-  chart.x.margin = 0.02;
+  chart.x.label = "errors without a tolerance of their own, in the order of their ratio";
   chart.y = logarithmic_axis("error / floor");
+  chart.y.smallest = 1e-3;
   std::vector<double> ratios;
   for (const StabilityResult& result : results) {
     for (const MeasuredError& error : result.measured) {
-      if (error.floor > 0) ratios.push_back(error.error / error.floor);
+      if (error.floor > 0 && error.tolerance == 0) ratios.push_back(error.error / error.floor);
     }
   }
   std::sort(ratios.begin(), ratios.end());

@@ -15,7 +15,11 @@ inline ComparedRun sample_run(const std::string& series, const std::string& labe
   run.settings.stages = 4;
   run.settings.step_canonical = 0.1;
   run.order = 2;
-  run.statistics = {314, 3, 1256, 2048, 0.1 + 0.2};
+  run.statistics.steps = 314;
+  run.statistics.rejected_steps = 3;
+  run.statistics.vector_field_evaluations = 1256;
+  run.statistics.nominal_evaluations = 2048;
+  run.statistics.wall_seconds = 0.1 + 0.2;
   run.multiply_adds = 1.0 / 3.0;
   run.memory_bytes = 123456;
   run.seconds = {0.003, 0.0020000000000000001, 1.0 / 300};
