@@ -135,6 +135,17 @@ void check_energy(SelfCheck& check, const Scene& scene, const RunResult& run) {
   }
 }
 
+/// The largest coefficient of degree 1, at least 1.
+double size_of_linear_part(const FlowJet<Extended>& jet) {
+  double largest = 1;
+  for (const auto& component : jet) {
+    for (const Extended& x : component.slice(1)) {
+      largest = std::max(largest, std::abs(static_cast<double>(x)));
+    }
+  }
+  return largest;
+}
+
 void check_symplecticity(SelfCheck& check, const Scene& scene, const RunResult& run) {
   switch (run.settings.method) {
     case IntegrationMethod::gauss:
@@ -150,8 +161,9 @@ void check_symplecticity(SelfCheck& check, const Scene& scene, const RunResult& 
     return not_applicable(check, "the jet is not expanded in all variables");
   }
   const double value = run.symplecticity[0].scaled;
+  const double steps = static_cast<double>(run.statistics.steps);
   const double limit =
-      1000 * rounding(scene) * std::sqrt(1 + static_cast<double>(run.statistics.steps));
+      1000 * rounding(scene) * std::sqrt((1 + steps) * size_of_linear_part(run.jet));
   if (judge(check, value, limit)) {
     check.text = fmt::format("the linear part is symplectic to {:.2g}", value);
   } else {
