@@ -73,7 +73,8 @@ struct InversionQuality {
 /// adaptive steps at most 10 (tolerance + epsilon) a step, times the largest T over that scale.
 ///
 /// symplecticity: scaled defect of degree 0, of methods that are symplectic in (q, p). Limit:
-/// 1000 epsilon sqrt(1 + steps), for stiff systems amplify rounding.
+/// 1000 epsilon sqrt((1 + steps) M), M >= 1 being the largest coefficient of degree 1: stiff
+/// systems amplify rounding, and so do close passages, whose linear part grows and shrinks again.
 ///
 /// inversion: fails where the composition misses the identity by more than max(1e-20, epsilon) of
 /// its terms; else the value is epsilon times the amplification of rounding in the inverted linear
