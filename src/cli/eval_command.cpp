@@ -76,6 +76,7 @@ class OutputFile {
   }
 
   void write(const std::string& text) {
+    const RemovedAtSuddenEnd leftovers({io::temporary_beside(file_)});
     const UninterruptedWriting results;
     io::write_whole_file(file_, text);
   }

@@ -21,7 +21,8 @@ const char* const* volatile leftovers = nullptr;
 constexpr unsigned seconds_to_stop = 1;
 
 /// Ends the program from within a signal handler, where nothing that allocates or locks may be
-/// called. Outside `writing` there is nothing else on the disk to clean up.
+/// called. In the midst of writing this is as if it were killed: the results in the directory are
+/// whole, the old ones or the new.
 [[noreturn]] void end_at_once() {
   if (const char* const* name = leftovers; name != nullptr) {
     // Each call fails on what the other is for.
@@ -30,9 +31,12 @@ constexpr unsigned seconds_to_stop = 1;
       ::rmdir(*name);
     }
   }
-  if (phase == computing) {
+  if (phase != written) {
     const std::string_view message =
-        has_checkpoint != 0
+        phase == writing
+            ? "hamjet: interrupted while the results were written; the old ones or the new ones "
+              "are there, whole\n"
+        : has_checkpoint != 0
             ? "hamjet: interrupted; the results hold what was finished shortly before\n"
             : "hamjet: interrupted; nothing was written\n";
     [[maybe_unused]] const auto ignored = ::write(STDERR_FILENO, message.data(), message.size());
@@ -43,14 +47,11 @@ constexpr unsigned seconds_to_stop = 1;
 extern "C" void remember_signal(int signal) {
   const bool is_repeated = pending_signal != 0;
   pending_signal = signal;
-  if (phase == written || (phase == computing && is_repeated)) end_at_once();
+  if (phase == written || is_repeated) end_at_once();
   ::alarm(seconds_to_stop);
 }
 
-extern "C" void lose_patience(int /*signal*/) {
-  if (phase != writing) end_at_once();
-  ::alarm(seconds_to_stop);
-}
+extern "C" void lose_patience(int /*signal*/) { end_at_once(); }
 
 }  // namespace
 
@@ -77,6 +78,8 @@ RemovedAtSuddenEnd::~RemovedAtSuddenEnd() { leftovers = nullptr; }
 
 UninterruptedWriting::UninterruptedWriting(Writing what) : what_(what) {
   phase = writing;
+  // What is finished gets a second of its own.
+  if (pending_signal != 0 && what == Writing::partial_results) ::alarm(seconds_to_stop);
   if (pending_signal != 0 && what != Writing::partial_results) {
     phase = computing;
     throw Interrupted(pending_signal);

@@ -47,8 +47,9 @@ enum class Writing {
   partial_results  ///< a signal has come, and what is finished is kept
 };
 
-/// While it lives something is being written, which takes a moment and is not broken off. Throws
-/// Interrupted at the start if a signal has come, unless partial results are written.
+/// While it lives something is being written, which takes a moment and is not broken off, unless
+/// the disk takes longer than the second or a second signal comes. Throws Interrupted at the start
+/// if a signal has come, unless partial results are written.
 class UninterruptedWriting {
  public:
   explicit UninterruptedWriting(Writing what = Writing::results);

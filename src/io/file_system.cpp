@@ -84,11 +84,16 @@ void require_writable(const fs::path& folder) {
   remove_empty(created);
 }
 
+fs::path temporary_beside(const fs::path& path) {
+  fs::path temporary = path;
+  temporary += fmt::format(".{}.tmp", ::getpid());
+  return temporary;
+}
+
 void write_whole_file(const fs::path& path, std::string_view content) {
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   const auto created = create_folders(folder, "the directory cannot be created");
-  fs::path temporary = path;
-  temporary += fmt::format(".{}.tmp", ::getpid());
+  const fs::path temporary = temporary_beside(path);
   try {
     write_and_flush(temporary, content, path);
     if (::rename(temporary.c_str(), path.c_str()) != 0) {

@@ -60,6 +60,9 @@ void remove_empty(const std::vector<std::filesystem::path>& folders);
 /// Throws if no file can be created in the folder, which need not exist. Leaves nothing behind.
 void require_writable(const std::filesystem::path& folder);
 
+/// The file beside it in which write_whole_file() writes.
+std::filesystem::path temporary_beside(const std::filesystem::path& path);
+
 /// Writes one file in full, or leaves what was there untouched; its folder is created.
 void write_whole_file(const std::filesystem::path& path, std::string_view content);
 

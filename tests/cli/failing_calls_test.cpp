@@ -1,3 +1,5 @@
+#include <csignal>
+
 #include "two_results.hpp"
 
 // Every call that writes to the disk fails once, as on a full disk: the command says so with exit
@@ -51,6 +53,27 @@ TEST_F(FailingCalls, Flush) { EXPECT_EQ(fail_each("fsync"), 7); }
 TEST_F(FailingCalls, Close) { EXPECT_EQ(fail_each("close"), 7); }
 TEST_F(FailingCalls, MakeFolder) { EXPECT_GE(fail_each("mkdir"), 5); }
 TEST_F(FailingCalls, Rename) { EXPECT_GE(fail_each("rename"), 8); }
+
+// A disk that does not answer does not keep the program from ending.
+TEST_F(FailingCalls, SignalsWhileTheDiskHangs) {
+  for (const int number : {1, 4, 7}) {
+    for (const int times : {1, 2}) {
+      options_.environment = {{"LD_PRELOAD", HAMJET_FAILING_CALLS},
+                              {"HAMJET_FAILING_CALL", fmt::format("stall:{}", number)}};
+      options_.signal = Signal{SIGINT, times, std::chrono::milliseconds(500)};
+      options_.limit = std::chrono::seconds(20);
+      const CommandResult result = hamjet(command(1, results));
+      EXPECT_EQ(result.exit_code, 130);
+      EXPECT_EQ(result.err,
+                "hamjet: interrupted while the results were written; the old ones or the new ones "
+                "are there, whole\n");
+      options_.environment.clear();
+      options_.signal.reset();
+      EXPECT_FALSE(std::filesystem::exists(directory_ / results / ".hamjet-lock"));
+      EXPECT_EQ(found(), 0);
+    }
+  }
+}
 
 }  // namespace
 }  // namespace hamjet::test

@@ -43,13 +43,16 @@ class Faults : public CommandTest {
   /// The process that has locked the directory, once there is one.
   static std::string holder(const fs::path& directory) {
     const fs::path file = directory / ".hamjet-lock";
-    while (true) {
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    while (std::chrono::steady_clock::now() < deadline) {
       if (fs::exists(file)) {
         const std::string text = content(file);
         if (text.ends_with('\n')) return text.substr(0, text.size() - 1);
       }
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
+    ADD_FAILURE() << "nobody has locked " << directory;
+    return "";
   }
 
   std::map<std::string, std::string> contents(const fs::path& directory) const {

@@ -97,24 +97,49 @@ TEST_F(KillRun, LeavesTheOldOrTheNewResultsWhole) {
       count_new, count_completed, count_ended, HasFailure() ? "see above" : "0");
 }
 
+/// One degree of freedom, so that a comparison takes a fraction of a second.
+constexpr const char* oscillator = R"(schema = 1
+title = "oscillator"
+[system]
+model = "harmonic-oscillator"
+mass_kg = 1
+stiffness_N_per_m = 1
+[nominal]
+position_m = [1]
+momentum_kg_m_s = [0]
+[jet]
+order = 1
+duration_canonical = 1
+[[integrator]]
+label = "gauss8"
+method = "gauss"
+tolerance = 1e-13
+[formation]
+separation_m = 0.01
+[generating_function]
+kinds = ["F1"]
+[reference]
+[compare]
+methods = ["gauss", "fehlberg78"]
+stages = [1, 2, 4, 8]
+steps_canonical = [0.4, 0.05, 0.001]
+tolerances = [1e-5, 1e-8]
+orders = [1]
+repeats = 1
+time_budget_s = 1000
+)";
+
 class KillComparison : public KillTest {
  protected:
   KillComparison() {
+    write("oscillator.toml", oscillator);
     // Without gnuplot, which would take most of the time.
     options_.environment = {{"XDG_CACHE_HOME", (directory_ / "cache").string()},
                             {"PATH", "/nowhere"}};
   }
 
   static std::vector<std::string> comparison(const std::string& directory, bool resume = false) {
-    std::vector<std::string> arguments = {
-        "compare",
-        "quick.toml",
-        "-q",
-        "-o",
-        directory,
-        "--set",
-        "compare={methods=[\"gauss\"], stages=[4, 8], steps_canonical=[0.4, 0.05], "
-        "tolerances=[1e-5, 1e-8], orders=[1], repeats=1, time_budget_s=1000}"};
+    std::vector<std::string> arguments = {"compare", "oscillator.toml", "-q", "-o", directory};
     if (resume) arguments.emplace_back("--resume");
     return arguments;
   }

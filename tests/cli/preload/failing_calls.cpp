@@ -2,7 +2,7 @@
 // or broken disk does, or one that takes memory. HAMJET_FAILING_CALL names it and says which of
 // these calls, counted from 1: "write:3", "malloc:200". Of those with a descriptor the ones on
 // files that were opened for writing alone are counted; a write that fails has written half of what
-// it should.
+// it should. "stall:3" is the third flush, which never ends.
 
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -83,6 +83,9 @@ ssize_t write(int descriptor, const void* bytes, size_t count) {
 
 int fsync(int descriptor) {
   if (is_counted(descriptor) && must_fail("fsync")) return -1;
+  if (is_counted(descriptor) && must_fail("stall")) {
+    while (true) ::sleep(1000);
+  }
   return next<int (*)(int)>("fsync")(descriptor);
 }
 
