@@ -68,9 +68,10 @@ Json run_json(const PropagationResult& result, const RunResult& run) {
       {"error", text_or_null(run.failure)},
       {"failed_checks", run.failed_checks}};
   if (!run.failure.empty()) {
-    for (const char* key : {"checks", "steps", "rejected_steps", "vector_field_evaluations",
-                            "nominal_evaluations", "wall_seconds", "nominal_final", "energy_error",
-                            "exactness", "symplecticity_by_degree", "error_by_degree", "operations"}) {
+    for (const char* key :
+         {"checks", "steps", "rejected_steps", "vector_field_evaluations", "nominal_evaluations",
+          "wall_seconds", "nominal_final", "energy_error", "exactness", "symplecticity_by_degree",
+          "error_by_degree", "operations"}) {
       json[key] = nullptr;
     }
     return json;
