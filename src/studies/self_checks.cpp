@@ -253,12 +253,6 @@ void run_check(SelfCheck& check, const Scene& scene, const RunResult& run) {
 
 }  // namespace
 
-const std::vector<std::string_view>& self_check_names() {
-  static const std::vector<std::string_view> names = {
-      "finite", "convergence", "step-error", "energy", "symplecticity", "inversion", "surface"};
-  return names;
-}
-
 std::string_view name_of(SelfCheckState state) {
   switch (state) {
     case SelfCheckState::passed:
