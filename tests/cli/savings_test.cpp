@@ -169,9 +169,13 @@ TEST_F(Savings, SelfChecks) {
     expect_saving(without, with, "check " + name, {"self_checks"});
     EXPECT_EQ(count(without, "self_checks"), 6);
     for (const Json& check : without["runs"][0]["checks"]) {
-      if (check["name"] == name) EXPECT_EQ(check["seconds"], 0) << name;
+      if (check["name"] == name) {
+        EXPECT_EQ(check["seconds"], 0) << name;
+      }
     }
-    if (name == "inversion") EXPECT_EQ(count(without, "compositions"), 0);
+    if (name == "inversion") {
+      EXPECT_EQ(count(without, "compositions"), 0);
+    }
   }
 }
 
