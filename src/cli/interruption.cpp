@@ -3,8 +3,14 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdlib>
+#include <exception>
+#include <new>
 #include <string_view>
 #include <utility>
+
+#include "hamjet/error.hpp"
+#include "standard_streams.hpp"
 
 namespace hamjet::cli {
 namespace {
@@ -20,17 +26,20 @@ const char* const* volatile leftovers = nullptr;
 
 constexpr unsigned seconds_to_stop = 1;
 
+void remove_leftovers() {
+  const char* const* name = leftovers;
+  // Each call fails on what the other is for.
+  for (; name != nullptr && *name != nullptr; ++name) {
+    ::unlink(*name);
+    ::rmdir(*name);
+  }
+}
+
 /// Ends the program from within a signal handler, where nothing that allocates or locks may be
 /// called. In the midst of writing this is as if it were killed: the results in the directory are
 /// whole, the old ones or the new.
 [[noreturn]] void end_at_once() {
-  if (const char* const* name = leftovers; name != nullptr) {
-    // Each call fails on what the other is for.
-    for (; *name != nullptr; ++name) {
-      ::unlink(*name);
-      ::rmdir(*name);
-    }
-  }
+  remove_leftovers();
   if (phase != written) {
     const std::string_view message =
         phase == writing
@@ -61,6 +70,19 @@ void catch_signals() {
   std::signal(SIGTERM, remember_signal);
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
+}
+
+void end_after_unhandled_exception() noexcept {
+  try {
+    if (const auto cause = std::current_exception()) std::rethrow_exception(cause);
+  } catch (const std::bad_alloc&) {
+    remove_leftovers();
+    print_error(out_of_memory);
+    ::_exit(static_cast<int>(ErrorKind::too_large));
+  } catch (...) {
+    remove_leftovers();
+  }
+  std::abort();
 }
 
 void stop_if_interrupted() {

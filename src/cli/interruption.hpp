@@ -23,6 +23,14 @@ class Interrupted : public std::exception {
 /// program ends at once. SIGPIPE and SIGXFSZ become errors of the write.
 void catch_signals();
 
+/// What is said where memory runs out.
+inline constexpr const char* out_of_memory =
+    "out of memory; a lower order or fewer variables would fit";
+
+/// For std::set_terminate: ends the program as main() does where memory runs out, for then an
+/// exception can come out of a destructor too (of nlohmann's JSON values, which allocate there).
+[[noreturn]] void end_after_unhandled_exception() noexcept;
+
 /// Throws Interrupted if a signal has come.
 void stop_if_interrupted();
 

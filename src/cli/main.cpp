@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <exception>
 #include <new>
 #include <sstream>
 
@@ -206,6 +207,7 @@ int dispatch(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   hamjet::cli::catch_signals();
+  std::set_terminate(hamjet::cli::end_after_unhandled_exception);
   try {
     hamjet::cli::reset_arithmetic();
     return dispatch(argc, argv);
@@ -216,7 +218,7 @@ int main(int argc, char** argv) {
     hamjet::cli::print_error(error.what());
     return error.exit_code();
   } catch (const std::bad_alloc&) {
-    hamjet::cli::print_error("out of memory; a lower order or fewer variables would fit");
+    hamjet::cli::print_error(hamjet::cli::out_of_memory);
     return static_cast<int>(ErrorKind::too_large);
   } catch (const std::exception& error) {
     hamjet::cli::print_error(error.what());

@@ -92,8 +92,8 @@ TEST_F(Stability, MistakesInACaseAreErrors) {
     expect_error({"stability", "--suite", "case.toml", "-o", "out"}, code, words);
   };
   refuse("\"right\"", "\"wright\"", 3, {"case.toml:6", "case.outcome", "right, refused, marked"});
-  refuse("source = ", "sauce = ", 3, {"case.sauce"});
-  refuse("\"0.54030230", "\"0.54x", 3, {"case.state[0]", "decimal digits"});
+  refuse("source = ", "sauce = ", 3, {"case.source", "missing"});
+  refuse("\"0.54030230", "\"0.54x", 3, {"case.state.0", "decimal digits"});
   refuse("[case]\n", "[casus]\n", 3, {"case"});
   std::filesystem::create_directory(directory_ / "empty");
   expect_error({"stability", "--suite", "empty", "-o", "out"}, 5, {"empty", "no case"});

@@ -41,7 +41,7 @@ TEST(SceneErrors, Top) {
        {"title", "precision = 2\ntitle", {"precision: wrong type"}},
        {"title",
         "zzz = 1\ntitle",
-        {":2:1: zzz: unknown key", "must be one of: schema, title, precision, system, nominal"}},
+        {":2:1: zzz: unknown key", "must be one of: schema, title, precision, system, units, nominal"}},
        {"[reference]", "[refrence]", {":27:2: refrence: unknown key", "did you mean reference?"}},
        {"[reference]", "[methd]", {"methd: unknown key", "integrator"}},
        {"[jet]", "[jet.jet]", {":11:6: jet.jet: unknown key"}},

@@ -270,6 +270,8 @@ TEST(ShippedScenes, AreAllRead) {
   int count = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(scenes)) {
     if (entry.path().extension() != ".toml") continue;
+    // The cases of `hamjet stability`, some of which are there to be refused.
+    if (entry.path().parent_path().filename() == "extreme") continue;
     ++count;
     Study study;
     ASSERT_NO_THROW(study = read_study(entry.path())) << entry.path();

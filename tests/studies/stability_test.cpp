@@ -182,9 +182,9 @@ TEST(Stability, TheConditionIsThatOfTheInvertedBlock) {
 }
 
 TEST(Stability, CoefficientsOfKeplersProblemGrowAsPowersOfTime) {
-  StabilityCase subject = case_of(kepler_orbit);
+  StabilityCase subject = case_of(kepler_orbit, {{"jet.duration_canonical", "1600"}});
   GrowthExpectation growth;
-  growth.checkpoints = 4;
+  growth.checkpoints = 8;
   growth.coefficient_exponents = {1, 2, 3};
   growth.exponent_tolerance = 0.2;
   subject.expected.growth = growth;
