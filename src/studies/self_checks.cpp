@@ -13,7 +13,7 @@
 namespace hamjet {
 namespace {
 
-constexpr double largest_fixed_step_error = 30;
+constexpr double largest_fixed_step_error = 5;
 constexpr double gauss_excess = 10;  ///< up to which a Gauss method accepts a step
 constexpr double largest_energy_change = 0.1;
 constexpr double largest_inversion_miss = 1e-20;  ///< or epsilon, where that is larger

@@ -163,7 +163,7 @@ TEST(SelfChecks, StepErrorOfFixedSteps) {
   // Coarse and sensible; a fifth of a revolution, which resolves nothing.
   const RunResult coarse = run(scene, with_step(IntegrationMethod::gauss, 0.05));
   expect_state(check(scene, coarse, SelfCheckName::step_error), SelfCheckState::passed);
-  const RunResult wrong = run(scene, with_step(IntegrationMethod::gauss, 0.4));
+  const RunResult wrong = run(scene, with_step(IntegrationMethod::gauss, 0.6));
   expect_state(check(scene, wrong, SelfCheckName::step_error), SelfCheckState::failed,
                "too large to resolve the motion");
   const RunResult verlet = run(scene, with_step(IntegrationMethod::velocity_verlet, 0.01));

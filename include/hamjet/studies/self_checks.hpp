@@ -65,7 +65,7 @@ struct InversionQuality {
 /// step whose iteration does not come to round-off is an error.
 ///
 /// step-error: the largest local error estimate of an accepted step. Limits: the tolerance, ten
-/// times that for Gauss, which repeats a step beyond that; 30 for fixed steps of Gauss: the slope
+/// times that for Gauss, which repeats a step beyond that; 5 for fixed steps of Gauss: the slope
 /// at the start of a step is then missed by a sixth, and the motion is not resolved.
 ///
 /// energy: the largest change of H along the nominal, relative to max(|H|, T/100), T being the
