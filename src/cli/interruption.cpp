@@ -1,5 +1,6 @@
 #include "interruption.hpp"
 
+#include <sys/time.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -24,7 +25,14 @@ volatile std::sig_atomic_t has_checkpoint = 0;
 /// Of the RemovedAtSuddenEnd that lives, ended by a null pointer.
 const char* const* volatile leftovers = nullptr;
 
-constexpr unsigned seconds_to_stop = 1;
+/// So that the end comes within a second.
+constexpr suseconds_t microseconds_to_stop = 700'000;
+
+void set_alarm() {
+  itimerval timer{};
+  timer.it_value.tv_usec = microseconds_to_stop;
+  ::setitimer(ITIMER_REAL, &timer, nullptr);
+}
 
 void remove_leftovers() {
   const char* const* name = leftovers;
@@ -57,7 +65,7 @@ extern "C" void remember_signal(int signal) {
   const bool is_repeated = pending_signal != 0;
   pending_signal = signal;
   if (phase == written || is_repeated) end_at_once();
-  ::alarm(seconds_to_stop);
+  set_alarm();
 }
 
 extern "C" void lose_patience(int /*signal*/) { end_at_once(); }
@@ -101,7 +109,7 @@ RemovedAtSuddenEnd::~RemovedAtSuddenEnd() { leftovers = nullptr; }
 UninterruptedWriting::UninterruptedWriting(Writing what) : what_(what) {
   phase = writing;
   // What is finished gets a second of its own.
-  if (pending_signal != 0 && what == Writing::partial_results) ::alarm(seconds_to_stop);
+  if (pending_signal != 0 && what == Writing::partial_results) set_alarm();
   if (pending_signal != 0 && what != Writing::partial_results) {
     phase = computing;
     throw Interrupted(pending_signal);

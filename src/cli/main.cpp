@@ -161,7 +161,10 @@ int dispatch(int argc, char** argv) {
   stability
       ->add_option("--suite", suite, "folder of cases, or one case (default: data/scenes/extreme)")
       ->type_name("SCENES");
-  add_run_options(*stability, options);
+  stability->add_option("-o,--output", options.output,
+                        "directory for the report (default: out/stability)");
+  stability->add_flag("--json", options.json, "print a list of one object a case");
+  stability->add_flag("-q,--quiet", options.quiet, "print nothing but errors");
 
   hamjet::cli::EvalOptions evaluation;
   const CLI::App* eval = add_eval_command(app, evaluation);

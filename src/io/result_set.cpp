@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <system_error>
 #include <utility>
 
 #include "directory_lock.hpp"
@@ -16,6 +17,16 @@ namespace {
 
 constexpr const char* remedy = "run the scene again";
 
+/// A pipe in the place of a result would be waited for.
+std::string read_result(const std::filesystem::path& file) {
+  std::error_code ignored;
+  const auto status = std::filesystem::status(file, ignored);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+    throw_file_error(file, "is not a regular file", remedy);
+  }
+  return read_text_file(file);
+}
+
 }  // namespace
 
 ResultSet::ResultSet(std::filesystem::path directory, std::string name)
@@ -24,11 +35,11 @@ ResultSet::ResultSet(std::filesystem::path directory, std::string name)
     const DirectoryLock lock(directory_);
     put_in_place(directory_);
   }
-  summary_ = read_text_file(path());
+  summary_ = read_result(path());
 }
 
 std::string ResultSet::read(const std::string& relative) {
-  std::string text = read_text_file(directory_ / relative);
+  std::string text = read_result(directory_ / relative);
   const FileRecord found = record_of(relative, text);
   const auto files = sealed_files(summary_);
   const auto entry = std::find_if(files.begin(), files.end(),

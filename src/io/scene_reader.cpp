@@ -16,9 +16,9 @@ Precision read_precision(const TableReader& root) {
 
 /// Table `[case]`, which `hamjet stability` alone reads.
 const std::vector<std::string_view> stability_case_keys = {
-    "group",       "why",          "outcome",   "source",       "state",     "matrix",
-    "state_floor", "matrix_floor", "tolerance", "floor_factor", "exit_code", "message",
-    "mark",        "twin",         "compare",   "condition",    "growth",    "round_trip"};
+    "group",       "why",       "outcome",      "source",    "state",   "matrix",
+    "state_floor", "tolerance", "floor_factor", "exit_code", "message", "mark",
+    "twin",        "condition", "growth",       "round_trip"};
 
 }  // namespace
 

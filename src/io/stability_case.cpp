@@ -1,12 +1,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <hamjet/algebra/extended.hpp>
+#include <limits>
 #include <system_error>
 
 #include "hamjet/error.hpp"
 #include "hamjet/io/stability_report.hpp"
+#include "hamjet/studies/self_check_settings.hpp"
 #include "scene_document.hpp"
 #include "scene_message.hpp"
 #include "scene_sections.hpp"
@@ -14,6 +15,15 @@
 
 namespace hamjet::io {
 namespace {
+
+constexpr double largest_number = std::numeric_limits<double>::max();
+
+/// Keys of every case, of one that is refused, of one that is marked, and of what is measured.
+const std::vector<std::string_view> common_keys = {"group", "why", "outcome"};
+const std::vector<std::string_view> refusal_keys = {"exit_code", "message"};
+const std::vector<std::string_view> reference_keys = {
+    "source",       "state", "matrix",    "state_floor", "tolerance",
+    "floor_factor", "twin",  "condition", "growth",      "round_trip"};
 
 /// Decimal texts of more digits than binary64 has.
 std::vector<Extended> decimals(const TableReader& table, std::string_view key) {
@@ -45,7 +55,10 @@ GrowthExpectation read_growth(const TableReader& growth) {
     expected.samples = static_cast<int>(growth.integer_between("samples", 1, 64));
   }
   if (growth.has("times")) expected.times = growth.numbers("times");
-  if (growth.has("states")) expected.states = decimals(growth, "states");
+  if (growth.has("states")) {
+    if (expected.times.empty()) growth.fail("states", "without times, must stand beside times");
+    expected.states = decimals(growth, "states");
+  }
   if (growth.has("error_exponent")) expected.error_exponent = growth.number("error_exponent");
   if (growth.has("energy_exponent")) expected.energy_exponent = growth.number("energy_exponent");
   if (growth.has("coefficient_exponents")) {
@@ -81,12 +94,17 @@ void read_right(const TableReader& table, std::string_view text, const std::stri
   expected.source = table.text("source");
   if (table.has("state")) expected.state = decimals(table, "state");
   if (table.has("matrix")) expected.matrix = decimals(table, "matrix");
-  if (table.has("state_floor")) expected.state_floor = table.numbers("state_floor");
+  if (table.has("state_floor")) {
+    expected.state_floor = table.numbers("state_floor");
+    for (std::size_t i = 0; i < expected.state_floor.size(); ++i) {
+      if (expected.state_floor[i] < 0) table.fail_element("state_floor", i, "must be at least 0");
+    }
+  }
   if (table.has("tolerance")) {
-    expected.tolerance = table.number_between("tolerance", 0, HUGE_VAL);
+    expected.tolerance = table.number_between("tolerance", 0, largest_number);
   }
   if (table.has("floor_factor")) {
-    expected.floor_factor = table.number_between("floor_factor", 0, HUGE_VAL);
+    expected.floor_factor = table.number_between("floor_factor", 0, largest_number);
   }
   if (table.has("round_trip")) expected.round_trip = table.boolean("round_trip");
   if (table.has("condition")) expected.condition = read_condition(table.table("condition"));
@@ -99,15 +117,27 @@ StabilityExpectation read_expectation(const TableReader& table, std::string_view
   StabilityExpectation expected;
   expected.outcome =
       static_cast<CaseOutcome>(table.choice("outcome", {"right", "refused", "marked"}));
-  if (expected.outcome == CaseOutcome::refused) {
+  std::vector<std::string_view> keys = common_keys;
+  const auto allow = [&](const std::vector<std::string_view>& more) {
+    keys.insert(keys.end(), more.begin(), more.end());
+  };
+  const bool is_refused = expected.outcome == CaseOutcome::refused;
+  const bool is_marked = expected.outcome == CaseOutcome::marked;
+  allow(is_refused ? refusal_keys : reference_keys);
+  if (is_marked) keys.push_back("mark");
+  table.check_keys({keys});
+  if (is_refused) {
     expected.exit_code = static_cast<int>(table.integer_between("exit_code", 2, 6));
     expected.message = table.text("message");
-  } else if (expected.outcome == CaseOutcome::marked) {
-    expected.mark = table.text("mark");
-    if (table.has("source")) read_right(table, text, file, expected);
-  } else {
-    read_right(table, text, file, expected);
+    if (expected.message.empty()) table.fail("message", "empty, must be a part of the error");
+    return expected;
   }
+  if (is_marked) {
+    expected.mark = self_check_names()[table.choice("mark", self_check_names())];
+  }
+  const bool has_reference = std::any_of(reference_keys.begin(), reference_keys.end(),
+                                         [&](std::string_view key) { return table.has(key); });
+  if (!is_marked || has_reference) read_right(table, text, file, expected);
   return expected;
 }
 
@@ -137,8 +167,9 @@ std::vector<StabilityCase> read_stability_suite(const std::filesystem::path& sui
   std::error_code error;
   if (!std::filesystem::is_directory(suite, error)) return {read_case(suite)};
   std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(suite, error)) {
-    if (entry.path().extension() == ".toml") files.push_back(entry.path());
+  for (std::filesystem::directory_iterator entry(suite, error), end; !error && entry != end;
+       entry.increment(error)) {
+    if (entry->path().extension() == ".toml") files.push_back(entry->path());
   }
   const std::string name = printable(suite.string(), std::string::npos);
   if (error) {

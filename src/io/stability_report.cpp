@@ -49,6 +49,7 @@ Json case_json(const StabilityResult& result) {
                {"error", nullptr},
                {"floor", nullptr},
                {"tolerance", nullptr},
+               {"floor_factor", nullptr},
                {"seconds", result.seconds},
                {"source", text_or_null(subject.expected.source)},
                {"measured", Json::array()},
@@ -62,6 +63,7 @@ Json case_json(const StabilityResult& result) {
     json["error"] = json_number(result.error->error);
     json["floor"] = json_number(result.error->floor);
     json["tolerance"] = json_number(result.error->tolerance);
+    json["floor_factor"] = json_number(result.error->floor_factor);
   }
   for (const MeasuredError& error : result.measured) json["measured"].push_back(error_json(error));
   for (const GrowthCurve& curve : result.growth) json["growth"].push_back(growth_json(curve));

@@ -112,19 +112,30 @@ std::vector<double> nominal_errors(const ComputedProblem& problem, const Compute
   return errors;
 }
 
-/// Throws Error(usage) if a checkpoint is not at the time of a given state.
-void require_times(const GrowthExpectation& expected, const std::vector<Checkpoint>& points,
-                   std::size_t dimension) {
-  if (expected.times.empty()) return;
-  for (std::size_t k = 0; k < expected.times.size(); ++k) {
-    if (k < points.size() && points[k].time == expected.times[k]) continue;
+/// Throws Error(usage) unless there is a checkpoint at each of the times. Steps that a tolerance
+/// chooses end elsewhere, and elsewhere for every start.
+void require_times(const std::vector<double>& times, bool are_exact,
+                   const std::vector<Checkpoint>& points) {
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    if (k < points.size() && (!are_exact || points[k].time == times[k])) continue;
     throw Error(ErrorKind::usage,
-                fmt::format("case.growth.times: no step ends at {:g}", expected.times[k]));
+                fmt::format("case.growth: no step ends at t = {:g}; fixed steps that divide the "
+                            "times are needed",
+                            times[k]));
   }
-  if (!expected.states.empty() && expected.states.size() != points.size() * dimension) {
+}
+
+void require_sizes(const GrowthExpectation& expected, const Scene& scene) {
+  if (!expected.states.empty() &&
+      expected.states.size() != expected.times.size() * scene.nominal.size()) {
     throw Error(ErrorKind::usage,
                 fmt::format("case.growth.states: {} numbers, must be {} for each time",
-                            expected.states.size(), dimension));
+                            expected.states.size(), scene.nominal.size()));
+  }
+  if (expected.coefficient_exponents.size() > static_cast<std::size_t>(scene.order)) {
+    throw Error(ErrorKind::usage,
+                fmt::format("case.growth.coefficient_exponents: {} degrees, but the order is {}",
+                            expected.coefficient_exponents.size(), scene.order));
   }
 }
 
@@ -133,7 +144,7 @@ double largest_coefficient(const FlowJet<double>& jet, int degree) {
   for (const auto& component : jet) {
     for (std::size_t k = component.space().first(degree); k < component.space().first(degree + 1);
          ++k) {
-      largest = std::max(largest, std::abs(component[k]));
+      if (!(std::abs(component[k]) <= largest)) largest = std::abs(component[k]);  // NaN stays
     }
   }
   return largest;
@@ -148,6 +159,10 @@ void fit(GrowthCurve& curve, double least, double tolerance) {
   std::vector<ConvergencePoint> usable;
   for (const auto& [time, value] : curve.points) {
     if (value > least) usable.push_back({std::abs(time), value, ""});
+  }
+  if (!std::all_of(curve.points.begin(), curve.points.end(),
+                   [](const auto& point) { return std::isfinite(point.second); })) {
+    return;  // not as expected
   }
   if (usable.size() >= 3) curve.exponent = fit_logarithms(usable, 0).slope;
   if (!curve.exponent) {
@@ -166,6 +181,7 @@ std::vector<GrowthCurve> growth_curves(const Scene& scene, const ComputedProblem
                                        const GrowthExpectation& expected,
                                        const std::function<void(double)>& progress) {
   constexpr double round_off = 4 * std::numeric_limits<double>::epsilon();
+  require_sizes(expected, scene);
   const std::vector<double> times = wanted_times(scene, expected);
   std::vector<Checkpoint> points;  // of the scene's own start
   std::vector<Extended> states = expected.states;
@@ -175,9 +191,14 @@ std::vector<GrowthCurve> growth_curves(const Scene& scene, const ComputedProblem
     const ComputedProblem moved = moved_start(problem, sample);
     const auto reached = checkpoints(
         scene, moved, times, [&](double done) { progress((sample + done) / expected.samples); });
+    require_times(times, !expected.times.empty(), reached);
+    if (sample > 0) {
+      std::vector<double> own_times;
+      for (const Checkpoint& point : points) own_times.push_back(point.time);
+      require_times(own_times, true, reached);
+    }
     if (sample == 0) {
       points = reached;
-      require_times(expected, points, scene.nominal.size());
       if (expected.error_exponent && states.empty()) states = true_states(scene, problem, points);
     }
     if (expected.error_exponent) {

@@ -162,8 +162,8 @@ void check_symplecticity(SelfCheck& check, const Scene& scene, const RunResult& 
   }
   const double value = run.symplecticity[0].scaled;
   const double steps = static_cast<double>(run.statistics.steps);
-  const double limit =
-      1000 * rounding(scene) * std::sqrt((1 + steps) * size_of_linear_part(run.jet));
+  const double limit = std::min(
+      1e-6, 1000 * rounding(scene) * std::sqrt((1 + steps) * size_of_linear_part(run.jet)));
   if (judge(check, value, limit)) {
     check.text = fmt::format("the linear part is symplectic to {:.2g}", value);
   } else {

@@ -37,8 +37,9 @@ class Stability : public CommandTest {
 
   void add_refused() const {
     std::string text = changed(right_case, "duration_canonical = 1", "duration_canonical = nan");
-    text =
-        changed(text, "\"right\"\nsource", "\"refused\"\nexit_code = 3\nmessage = \"nan\"\nsource");
+    const std::size_t expectation = text.find("outcome = ");
+    text.replace(expectation, text.find("[system]") - expectation,
+                 "outcome = \"refused\"\nexit_code = 3\nmessage = \"nan\"\n");
     write("suite/refused.toml", text);
   }
 };
@@ -92,7 +93,9 @@ TEST_F(Stability, MistakesInACaseAreErrors) {
     expect_error({"stability", "--suite", "case.toml", "-o", "out"}, code, words);
   };
   refuse("\"right\"", "\"wright\"", 3, {"case.toml:6", "case.outcome", "right, refused, marked"});
-  refuse("source = ", "sauce = ", 3, {"case.source", "missing"});
+  refuse("source = ", "sauce = ", 3, {"case.sauce", "unknown key", "did you mean source?"});
+  refuse("\"right\"\n", "\"refused\"\nexit_code = 3\nmessage = \"nan\"\n", 3, {"case.source"});
+  refuse("\"right\"\n", "\"marked\"\nmark = \"colour\"\n", 3, {"case.mark", "energy"});
   refuse("\"0.54030230", "\"0.54x", 3, {"case.state.0", "decimal digits"});
   refuse("[case]\n", "[casus]\n", 3, {"case"});
   std::filesystem::create_directory(directory_ / "empty");

@@ -212,6 +212,41 @@ TEST(Stability, TheErrorOfASymplecticMethodGrowsWithTimeAndItsEnergyErrorDoesNot
   EXPECT_EQ(run_stability_case(subject).outcome, CaseOutcome::wrong);
 }
 
+TEST(Stability, GrowthThatCannotBeFollowedIsWrong) {
+  const auto outcome = [](const std::vector<io::Override>& changes,
+                          const GrowthExpectation& growth) {
+    StabilityCase subject = case_of(kepler_orbit, changes);
+    subject.expected.growth = growth;
+    return run_stability_case(subject).outcome;
+  };
+  GrowthExpectation growth;
+  growth.error_exponent = 3;
+  growth.checkpoints = 3;
+  const std::vector<io::Override> small = {{"jet.order", "1"}, {"jet.duration_canonical", "16"}};
+  EXPECT_EQ(outcome(small, growth), CaseOutcome::right);
+  EXPECT_EQ(outcome({{"jet.order", "1"}, {"jet.duration_canonical", "0"}}, growth),
+            CaseOutcome::wrong);
+  GrowthExpectation beyond = growth;
+  beyond.coefficient_exponents = {1, 2};
+  EXPECT_EQ(outcome(small, beyond), CaseOutcome::wrong);
+  GrowthExpectation elsewhere = growth;
+  elsewhere.times = {1, 2, 3.3};
+  EXPECT_EQ(outcome(small, elsewhere), CaseOutcome::wrong);
+}
+
+TEST(Stability, AnEntryThatIsZeroStaysZero) {
+  StabilityCase subject =
+      case_of(kepler_orbit, {{"jet.order", "1"}, {"jet.duration_canonical", "0"}});
+  for (int i = 0; i < 36; ++i) subject.expected.matrix.emplace_back(i % 7 == 0 ? 1 : 0);
+  EXPECT_EQ(run_stability_case(subject).outcome, CaseOutcome::right);
+  subject.expected.matrix[1] = Extended(1e-20);
+  EXPECT_EQ(run_stability_case(subject).outcome, CaseOutcome::right);  // within the floor of 1
+  subject = case_of(kepler_orbit, {{"jet.order", "1"}, {"jet.duration_canonical", "1"}});
+  subject.expected.matrix.assign(36, Extended(0));
+  subject.expected.tolerance = 100;
+  EXPECT_EQ(run_stability_case(subject).outcome, CaseOutcome::wrong);
+}
+
 TEST(Stability, WhatProgressThrowsIsPassedOn) {
   struct Stop {};
   EXPECT_THROW(
