@@ -21,8 +21,9 @@ constexpr const char* remedy = "run the scene again";
 std::string read_result(const std::filesystem::path& file) {
   std::error_code ignored;
   const auto status = std::filesystem::status(file, ignored);
-  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
-    throw_file_error(file, "is not a regular file", remedy);
+  if (std::filesystem::is_fifo(status) || std::filesystem::is_socket(status) ||
+      std::filesystem::is_character_file(status)) {
+    throw_file_error(file, "cannot be read: not a regular file", remedy);
   }
   return read_text_file(file);
 }
