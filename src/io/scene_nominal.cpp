@@ -16,12 +16,6 @@ const std::vector<std::string_view> element_keys = {"a_km",     "e",        "i_d
                                                     "raan_deg", "argp_deg", "ta_deg"};
 const std::vector<std::string_view> particle_keys = {"position_m", "momentum_kg_m_s"};
 
-std::vector<std::string_view> joined(std::vector<std::string_view> a,
-                                     const std::vector<std::string_view>& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
-
 /// Of the nominal's distance in units that the scene chooses, and of its inverse. Coefficients of
 /// degree d go as the distance to the power -(d + 2), and must not underflow to a wrong zero.
 constexpr double greatest_distance = 1e9;

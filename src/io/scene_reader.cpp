@@ -4,6 +4,7 @@
 
 #include "scene_message.hpp"
 #include "scene_sections.hpp"
+#include "stability_case_keys.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -13,12 +14,6 @@ Precision read_precision(const TableReader& root) {
   return root.choice("precision", {"double", "extended"}) == 0 ? Precision::double_precision
                                                                : Precision::extended;
 }
-
-/// Table `[case]`, which `hamjet stability` alone reads.
-const std::vector<std::string_view> stability_case_keys = {
-    "group",       "why",       "outcome",      "source",    "state",   "matrix",
-    "state_floor", "tolerance", "floor_factor", "exit_code", "message", "mark",
-    "twin",        "condition", "growth",       "round_trip"};
 
 }  // namespace
 
@@ -62,7 +57,10 @@ Scene read_flow_jet(const TableReader& root) {
   if (root.has("assignment")) {
     scene.assignment = read_assignment(root.table("assignment"), scene, nominal);
   }
-  if (root.has("case")) root.table("case").check_keys({stability_case_keys});
+  if (root.has("case")) {
+    root.table("case").check_keys({joined(joined(common_case_keys, reference_case_keys),
+                                          joined(refusal_case_keys, mark_case_keys))});
+  }
   return scene;
 }
 

@@ -21,6 +21,13 @@ struct KnownKeys {
   std::string owner = {};  ///< what `keys` belong to, for example "the model kepler"
 };
 
+/// Two lists of keys, one after the other.
+inline std::vector<std::string_view> joined(std::vector<std::string_view> keys,
+                                            const std::vector<std::string_view>& more) {
+  keys.insert(keys.end(), more.begin(), more.end());
+  return keys;
+}
+
 /// Typed reader of one TOML table. Every function that reads throws Error(scene) with location,
 /// dotted key, what is wrong, what was found and what would be right. "Required" functions take a
 /// missing key for an error too; for an optional key ask `has` first.

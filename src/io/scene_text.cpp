@@ -10,31 +10,13 @@
 #include <hamjet/error.hpp>
 #include <system_error>
 
+#include "file_system.hpp"
 #include "scene_message.hpp"
 #include "scene_token_scanner.hpp"
+#include "text_file.hpp"
 
 namespace hamjet::io {
 namespace {
-
-/// Closes the file at the end of the scope.
-class FileDescriptor {
- public:
-  explicit FileDescriptor(int number) : number_(number) {}
-  ~FileDescriptor() {
-    if (number_ >= 0) ::close(number_);
-  }
-  FileDescriptor(const FileDescriptor&) = delete;
-  FileDescriptor& operator=(const FileDescriptor&) = delete;
-  int number() const { return number_; }
-
- private:
-  int number_;
-};
-
-/// A path is worth printing whole: the user has to find the file.
-std::string printable_path(const std::filesystem::path& file) {
-  return printable(file.string(), std::string::npos);
-}
 
 [[noreturn]] void throw_unreadable(const std::filesystem::path& file, const std::string& reason) {
   throw Error(ErrorKind::input_output,
@@ -83,10 +65,10 @@ void check_encoding(std::string_view text, std::string_view source) {
 
 std::string read_scene_file(const std::filesystem::path& file) {
   // Without O_NONBLOCK, opening a pipe would wait for its writer for ever.
-  const FileDescriptor descriptor(::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
-  if (descriptor.number() < 0) throw_unreadable(file, errno);
+  const Descriptor descriptor(file, O_RDONLY | O_NONBLOCK);
+  if (!descriptor.is_open()) throw_unreadable(file, errno);
   struct stat status {};
-  if (::fstat(descriptor.number(), &status) != 0) throw_unreadable(file, errno);
+  if (::fstat(descriptor.value(), &status) != 0) throw_unreadable(file, errno);
   if (!S_ISREG(status.st_mode)) {
     throw_unreadable(file, fmt::format("it is {}", kind_of_file(status.st_mode)));
   }
@@ -96,7 +78,7 @@ std::string read_scene_file(const std::filesystem::path& file) {
   std::string text;
   std::array<char, 65536> buffer;
   while (true) {
-    const ssize_t count = ::read(descriptor.number(), buffer.data(), buffer.size());
+    const ssize_t count = ::read(descriptor.value(), buffer.data(), buffer.size());
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) throw_unreadable(file, errno);
     if (count == 0) break;
@@ -106,7 +88,7 @@ std::string read_scene_file(const std::filesystem::path& file) {
   }
   // Half of an old scene and half of a new one can be a scene.
   struct stat now {};
-  if (::fstat(descriptor.number(), &now) != 0) throw_unreadable(file, errno);
+  if (::fstat(descriptor.value(), &now) != 0) throw_unreadable(file, errno);
   const bool is_as_before = now.st_size == status.st_size &&
                             now.st_mtim.tv_sec == status.st_mtim.tv_sec &&
                             now.st_mtim.tv_nsec == status.st_mtim.tv_nsec;

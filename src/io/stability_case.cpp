@@ -4,6 +4,7 @@
 #include <hamjet/algebra/extended.hpp>
 #include <limits>
 #include <system_error>
+#include <utility>
 
 #include "hamjet/error.hpp"
 #include "hamjet/io/stability_report.hpp"
@@ -12,18 +13,13 @@
 #include "scene_message.hpp"
 #include "scene_sections.hpp"
 #include "scene_text.hpp"
+#include "stability_case_keys.hpp"
+#include "text_file.hpp"
 
 namespace hamjet::io {
 namespace {
 
 constexpr double largest_number = std::numeric_limits<double>::max();
-
-/// Keys of every case, of one that is refused, of one that is marked, and of what is measured.
-const std::vector<std::string_view> common_keys = {"group", "why", "outcome"};
-const std::vector<std::string_view> refusal_keys = {"exit_code", "message"};
-const std::vector<std::string_view> reference_keys = {
-    "source",       "state", "matrix",    "state_floor", "tolerance",
-    "floor_factor", "twin",  "condition", "growth",      "round_trip"};
 
 /// Decimal texts of more digits than binary64 has.
 std::vector<Extended> decimals(const TableReader& table, std::string_view key) {
@@ -117,14 +113,11 @@ StabilityExpectation read_expectation(const TableReader& table, std::string_view
   StabilityExpectation expected;
   expected.outcome =
       static_cast<CaseOutcome>(table.choice("outcome", {"right", "refused", "marked"}));
-  std::vector<std::string_view> keys = common_keys;
-  const auto allow = [&](const std::vector<std::string_view>& more) {
-    keys.insert(keys.end(), more.begin(), more.end());
-  };
   const bool is_refused = expected.outcome == CaseOutcome::refused;
   const bool is_marked = expected.outcome == CaseOutcome::marked;
-  allow(is_refused ? refusal_keys : reference_keys);
-  if (is_marked) keys.push_back("mark");
+  std::vector<std::string_view> keys =
+      joined(common_case_keys, is_refused ? refusal_case_keys : reference_case_keys);
+  if (is_marked) keys = joined(std::move(keys), mark_case_keys);
   table.check_keys({keys});
   if (is_refused) {
     expected.exit_code = static_cast<int>(table.integer_between("exit_code", 2, 6));
@@ -135,7 +128,7 @@ StabilityExpectation read_expectation(const TableReader& table, std::string_view
   if (is_marked) {
     expected.mark = self_check_names()[table.choice("mark", self_check_names())];
   }
-  const bool has_reference = std::any_of(reference_keys.begin(), reference_keys.end(),
+  const bool has_reference = std::any_of(reference_case_keys.begin(), reference_case_keys.end(),
                                          [&](std::string_view key) { return table.has(key); });
   if (!is_marked || has_reference) read_right(table, text, file, expected);
   return expected;
@@ -144,7 +137,7 @@ StabilityExpectation read_expectation(const TableReader& table, std::string_view
 StabilityCase read_case(const std::filesystem::path& path) {
   const std::string file = path.string();
   const std::string text = read_scene_file(path);
-  const SceneDocument document = parse_document(text, printable(file, std::string::npos), {});
+  const SceneDocument document = parse_document(text, printable_path(path), {});
   const TableReader root(document.table, "", document.source);
   const TableReader table = root.table("case");
   StabilityCase subject{path.stem().string(),
@@ -171,7 +164,7 @@ std::vector<StabilityCase> read_stability_suite(const std::filesystem::path& sui
        entry.increment(error)) {
     if (entry->path().extension() == ".toml") files.push_back(entry->path());
   }
-  const std::string name = printable(suite.string(), std::string::npos);
+  const std::string name = printable_path(suite);
   if (error) {
     throw Error(ErrorKind::input_output,
                 fmt::format("{}: cannot be read: {}", name, error.message()));

@@ -9,9 +9,10 @@
 
 #include "convergence_fit.hpp"
 #include "energy_error.hpp"
+#include "followed_nominal.hpp"
 #include "hamjet/error.hpp"
-#include "hamjet/integrators/gauss_collocation.hpp"
 #include "integration.hpp"
+#include "largest_coefficient.hpp"
 
 namespace hamjet {
 namespace {
@@ -54,27 +55,18 @@ std::vector<Checkpoint> checkpoints(const Scene& scene, const ComputedProblem& p
   return reached;
 }
 
-/// The true nominal at the times, by integration in extended precision.
+/// The true nominal at the checkpoints, of all components of the model.
 std::vector<Extended> true_states(const Scene& scene, const ComputedProblem& problem,
                                   const std::vector<Checkpoint>& points) {
-  FlowProblem<Extended> flow = flow_problem<Extended>(problem, 0);
-  flow.space = SeriesSpace::create(problem.variables.size(), 0);
-  GaussSettings gauss;
-  gauss.stages = 16;
-  gauss.tolerance = 1e-24;
-  Extended reached = 0;
+  std::vector<double> times;
+  for (const Checkpoint& point : points) times.push_back(point.time);
   const std::size_t dimension = scene.nominal.size();
   std::vector<Extended> states(points.size() * dimension, Extended(0));
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    flow.duration = Extended(points[k].time) - reached;
-    IntegrationStatistics statistics;
-    const FlowJet<Extended> nominal = integrate_gauss<Extended>(flow, gauss, statistics);
-    reached = Extended(points[k].time);
-    for (std::size_t i = 0; i < nominal.size(); ++i) {
-      flow.initial_state[i] = nominal[i][0];
-      states[k * dimension + problem.components[i]] = nominal[i][0];
+  follow_nominal(problem, times, 1e-24, [&](std::size_t k, const std::vector<Extended>& state) {
+    for (std::size_t i = 0; i < state.size(); ++i) {
+      states[k * dimension + problem.components[i]] = state[i];
     }
-  }
+  });
   return states;
 }
 
@@ -137,17 +129,6 @@ void require_sizes(const GrowthExpectation& expected, const Scene& scene) {
                 fmt::format("case.growth.coefficient_exponents: {} degrees, but the order is {}",
                             expected.coefficient_exponents.size(), scene.order));
   }
-}
-
-double largest_coefficient(const FlowJet<double>& jet, int degree) {
-  double largest = 0;
-  for (const auto& component : jet) {
-    for (std::size_t k = component.space().first(degree); k < component.space().first(degree + 1);
-         ++k) {
-      if (!(std::abs(component[k]) <= largest)) largest = std::abs(component[k]);  // NaN stays
-    }
-  }
-  return largest;
 }
 
 void add_squares(std::vector<double>& sums, const std::vector<double>& values) {

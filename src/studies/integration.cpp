@@ -2,8 +2,10 @@
 
 #include <cmath>
 #include <numeric>
+#include <span>
 #include <type_traits>
 
+#include "hamjet/algebra/composition.hpp"
 #include "hamjet/integrators/cvode.hpp"
 #include "hamjet/integrators/explicit_runge_kutta.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
@@ -95,14 +97,7 @@ Matrix<double> step_matrix(const DynamicalSystem& system, IntegratorSettings set
   settings.step_canonical = std::abs(step);
   IntegrationStatistics statistics;
   const auto jet = integrate_unchecked<double>(problem, settings, statistics, {}, false);
-  Matrix<double> matrix(size, size);
-  for (std::size_t i = 0; i < size; ++i) {
-    for (std::size_t j = 0; j < size; ++j) {
-      matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
-          jet[i][problem.space->linear_index(j)];
-    }
-  }
-  return matrix;
+  return linear_part(std::span<const Series<double>>(jet));
 }
 
 void require_stable_steps(const DynamicalSystem& system, const IntegratorSettings& settings,

@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <utility>
 
+#include "exact_flow.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
-#include "integration.hpp"
 #include "stopwatch.hpp"
 
 namespace hamjet {
@@ -32,11 +32,6 @@ double smallest_of_cubic(double h, double start, double start_slope, double end,
 }
 
 }  // namespace
-
-LowestPointSearch::LowestPointSearch(const ComputedProblem& problem)
-    : problem_(problem), flow_(flow_problem<double>(problem, 0)) {
-  flow_.space = SeriesSpace::create(problem.variables.size(), 0);  // the nominal alone
-}
 
 LowestPointSearch::Point LowestPointSearch::point(double time, const std::vector<double>& state,
                                                   double direction) const {
@@ -94,17 +89,12 @@ void LowestPointSearch::keep_passage(const Point& end) {
 LowestPointSearch::Point LowestPointSearch::advanced(const Point& start, double duration,
                                                      double direction) const {
   if (duration == 0) return start;
-  FlowProblem<double> flow = flow_;
-  flow.initial_state = start.state;
-  flow.duration = duration;
   GaussSettings gauss;
   gauss.tolerance = refinement_tolerance;
   IntegrationStatistics statistics;
-  std::vector<double> state;
-  for (const auto& component : integrate_gauss<double>(flow, gauss, statistics)) {
-    state.push_back(component[0]);
-  }
-  return point(start.time + duration, state, direction);
+  const auto jet = integrate_gauss(trajectory_problem(problem_.system, start.state, duration),
+                                   gauss, statistics);
+  return point(start.time + duration, nominal_of(jet), direction);
 }
 
 void LowestPointSearch::refine(const Passage& passage) {

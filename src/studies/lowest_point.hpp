@@ -10,7 +10,7 @@ namespace hamjet {
 /// orbits, whose momentum is the velocity.
 class LowestPointSearch {
  public:
-  explicit LowestPointSearch(const ComputedProblem& problem);
+  explicit LowestPointSearch(const ComputedProblem& problem) : problem_(problem) {}
 
   /// To be called with every point in turn, the start first: time and components, canonical.
   void record(double time, const std::vector<double>& state);
@@ -40,7 +40,6 @@ class LowestPointSearch {
   void refine(const Passage& passage);
 
   const ComputedProblem& problem_;
-  FlowProblem<double> flow_;
   Point last_;
   bool is_started_ = false;
   double direction_ = 1;  ///< of the time

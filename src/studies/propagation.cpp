@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "along_time_recorder.hpp"
+#include "followed_nominal.hpp"
 #include "hamjet/dynamics/relative_hamiltonian.hpp"
-#include "hamjet/integrators/gauss_collocation.hpp"
 #include "integration.hpp"
 #include "map_analysis.hpp"
 #include "nominal_recorder.hpp"
@@ -93,24 +93,14 @@ void add_relative_hamiltonians(PropagationResult& result,
                                const std::function<void(double)>& progress) {
   const Scene& scene = result.scene;
   const ComputedProblem& problem = result.problem;
-  FlowProblem<Extended> flow = flow_problem<Extended>(problem, scene.duration);
-  flow.space = SeriesSpace::create(problem.variables.size(), 0);  // the nominal alone
-  Extended reached = 0;
-  for (const double time : scene.relative_hamiltonian_times) {
-    flow.duration = Extended(time) - reached;
-    IntegrationStatistics statistics;
-    GaussSettings gauss;
-    gauss.stages = 16;
-    gauss.tolerance = scene.precision == Precision::extended ? 1e-28 : 1e-20;
-    const FlowJet<Extended> nominal = integrate_gauss<Extended>(
-        flow, gauss, statistics, [&](const Extended& since, const FlowJet<Extended>&) {
-          progress(static_cast<double>(Extended(reached + since)) / scene.duration);
-        });
-    for (std::size_t i = 0; i < nominal.size(); ++i) flow.initial_state[i] = nominal[i][0];
-    reached = Extended(time);
-    result.relative_hamiltonians.push_back(
-        {time, relative_hamiltonian<Extended>(problem.system, flow.initial_state, scene.order)});
-  }
+  const std::vector<double>& times = scene.relative_hamiltonian_times;
+  follow_nominal(
+      problem, times, scene.precision == Precision::extended ? 1e-28 : 1e-20,
+      [&](std::size_t k, const std::vector<Extended>& state) {
+        result.relative_hamiltonians.push_back(
+            {times[k], relative_hamiltonian<Extended>(problem.system, state, scene.order)});
+      },
+      [&](double time) { progress(time / scene.duration); });
 }
 
 /// Does one part of a scene, of which a numerical failure does not end the others.
@@ -181,7 +171,7 @@ std::vector<double> relative_error_by_degree(const FlowJet<Extended>& jet,
                                              const FlowJet<Extended>& reference) {
   const SeriesSpace& space = reference[0].space();
   std::vector<double> errors;
-  for (int d = 0; d <= space.order(); ++d) {
+  for (int d = 0; d <= std::min(space.order(), jet[0].order()); ++d) {
     Extended difference = 0;
     Extended largest = 0;
     for (std::size_t i = 0; i < reference.size(); ++i) {

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "hamjet/studies/propagation.hpp"
+#include "largest_coefficient.hpp"
 #include "number_scan.hpp"
 #include "stopwatch.hpp"
 
@@ -135,17 +136,6 @@ void check_energy(SelfCheck& check, const Scene& scene, const RunResult& run) {
   }
 }
 
-/// The largest coefficient of degree 1, at least 1.
-double size_of_linear_part(const FlowJet<Extended>& jet) {
-  double largest = 1;
-  for (const auto& component : jet) {
-    for (const Extended& x : component.slice(1)) {
-      largest = std::max(largest, std::abs(static_cast<double>(x)));
-    }
-  }
-  return largest;
-}
-
 void check_symplecticity(SelfCheck& check, const Scene& scene, const RunResult& run) {
   switch (run.settings.method) {
     case IntegrationMethod::gauss:
@@ -162,8 +152,9 @@ void check_symplecticity(SelfCheck& check, const Scene& scene, const RunResult& 
   }
   const double value = run.symplecticity[0].scaled;
   const double steps = static_cast<double>(run.statistics.steps);
-  const double limit = std::min(
-      1e-6, 1000 * rounding(scene) * std::sqrt((1 + steps) * size_of_linear_part(run.jet)));
+  const double limit =
+      std::min(1e-6, 1000 * rounding(scene) *
+                         std::sqrt((1 + steps) * std::max(1.0, largest_coefficient(run.jet, 1))));
   if (judge(check, value, limit)) {
     check.text = fmt::format("the linear part is symplectic to {:.2g}", value);
   } else {

@@ -11,12 +11,12 @@
 namespace hamjet {
 namespace {
 
-/// The coefficient of a component of the model; of one that vanishes identically it is 0.
-Extended coefficient(const PropagationResult& result, std::size_t component, std::size_t monomial) {
-  const auto& components = result.problem.components;
-  const auto place = std::find(components.begin(), components.end(), component);
-  if (place == components.end()) return 0;
-  return result.runs.front().jet[static_cast<std::size_t>(place - components.begin())][monomial];
+/// The jet of all components of the model; those that vanish identically are zero series.
+FlowJet<Extended> full_jet(const PropagationResult& result) {
+  FlowJet<Extended> full(result.scene.nominal.size(), Series<Extended>(result.problem.space));
+  const FlowJet<Extended>& jet = result.runs.front().jet;
+  for (std::size_t i = 0; i < jet.size(); ++i) full[result.problem.components[i]] = jet[i];
+  return full;
 }
 
 double distance(const Extended& value, const Extended& reference) {
@@ -35,24 +35,24 @@ void require_size(const char* key, std::size_t got, std::size_t wanted) {
   throw Error(ErrorKind::usage, fmt::format("case.{}: {} numbers, must be {}", key, got, wanted));
 }
 
-MeasuredError worst_of_state(const StabilityExpectation& expected, const PropagationResult& result,
+MeasuredError worst_of_state(const StabilityExpectation& expected, const FlowJet<Extended>& jet,
                              const std::vector<double>& floor) {
   std::optional<MeasuredError> worst;
   for (std::size_t i = 0; i < expected.state.size(); ++i) {
-    keep_worse(worst, {"state", distance(coefficient(result, i, 0), expected.state[i]), floor[i],
+    keep_worse(worst, {"state", distance(jet[i][0], expected.state[i]), floor[i],
                        expected.tolerance, expected.floor_factor});
   }
   return *worst;
 }
 
-MeasuredError worst_of_matrix(const StabilityExpectation& expected, const PropagationResult& result,
-                              double floor) {
-  const std::size_t dimension = result.scene.nominal.size();
+MeasuredError worst_of_matrix(const StabilityExpectation& expected, const FlowJet<Extended>& jet,
+                              const std::vector<std::size_t>& variables, double floor) {
+  const std::size_t dimension = jet.size();
   std::optional<MeasuredError> worst;
   for (std::size_t i = 0; i < dimension; ++i) {
-    for (std::size_t k = 0; k < result.scene.variables.size(); ++k) {
-      const std::size_t entry = i * dimension + result.scene.variables[k];
-      const Extended value = coefficient(result, i, result.problem.space->linear_index(k));
+    for (std::size_t k = 0; k < variables.size(); ++k) {
+      const std::size_t entry = i * dimension + variables[k];
+      const Extended& value = jet[i][jet[i].space().linear_index(k)];
       // Symmetry alone makes an entry exactly 0, and it must be kept.
       const bool is_zero = expected.matrix[entry] == 0;
       keep_worse(worst, {"matrix", distance(value, expected.matrix[entry]), is_zero ? 0 : floor,
@@ -66,18 +66,20 @@ void add_reference_errors(const StabilityExpectation& expected, const Propagatio
                           std::vector<MeasuredError>& errors) {
   if (expected.state.empty() && expected.matrix.empty()) return;
   const std::size_t dimension = result.scene.nominal.size();
-  HalfUlpFloor floor = half_ulp_floor(result.scene, result.problem, result.runs.front().jet);
-  if (!expected.state_floor.empty()) floor.state = expected.state_floor;
-  require_size("state_floor", floor.state.size(), dimension);
+  const FlowJet<Extended>& computed = result.runs.front().jet;
+  const FlowJet<Extended> jet = full_jet(result);
+  const std::vector<double> floor = expected.state_floor.empty()
+                                        ? half_ulp_floor(result.scene, result.problem, computed)
+                                        : expected.state_floor;
+  require_size("state_floor", floor.size(), dimension);
   if (!expected.state.empty()) {
     require_size("state", expected.state.size(), dimension);
-    errors.push_back(worst_of_state(expected, result, floor.state));
+    errors.push_back(worst_of_state(expected, jet, floor));
   }
   if (!expected.matrix.empty()) {
     require_size("matrix", expected.matrix.size(), dimension * dimension);
-    errors.push_back(worst_of_matrix(
-        expected, result,
-        matrix_floor(result.scene, result.problem, result.runs.front().jet, floor.state)));
+    errors.push_back(worst_of_matrix(expected, jet, result.scene.variables,
+                                     matrix_floor(result.scene, result.problem, computed, floor)));
   }
 }
 
@@ -97,19 +99,9 @@ void add_twin_errors(const StabilityExpectation& expected, const PropagationResu
   if (twin.scene.variables != result.scene.variables) {
     throw Error(ErrorKind::usage, "case.twin: is expanded in other variables than the case");
   }
-  const SeriesSpace& space = *result.problem.space;
-  for (int d = 0; d <= std::min(result.scene.order, twin.scene.order); ++d) {
-    double difference = 0;
-    double largest = 0;
-    for (std::size_t i = 0; i < result.scene.nominal.size(); ++i) {
-      for (std::size_t k = space.first(d); k < space.first(d + 1); ++k) {
-        const Extended value = coefficient(twin, i, k);
-        difference = std::max(difference, distance(coefficient(result, i, k), value));
-        largest = std::max(largest, std::abs(static_cast<double>(value)));
-      }
-    }
-    errors.push_back({fmt::format("twin, degree {}", d),
-                      largest > 0 ? difference / largest : difference, 0, expected.tolerance,
+  const auto by_degree = relative_error_by_degree(full_jet(result), full_jet(twin));
+  for (std::size_t d = 0; d < by_degree.size(); ++d) {
+    errors.push_back({fmt::format("twin, degree {}", d), by_degree[d], 0, expected.tolerance,
                       expected.floor_factor});
   }
 }
@@ -121,19 +113,19 @@ void add_round_trip_error(const StabilityExpectation& expected, const Propagatio
   back.nominal = result.runs.front().nominal_final;
   back.duration = -back.duration;
   const PropagationResult returned = propagate_well(back, progress);
-  const auto out = half_ulp_floor(result.scene, result.problem, result.runs.front().jet).state;
-  const auto home = half_ulp_floor(back, returned.problem, returned.runs.front().jet).state;
+  const auto out = half_ulp_floor(result.scene, result.problem, result.runs.front().jet);
+  const auto home = half_ulp_floor(back, returned.problem, returned.runs.front().jet);
+  const FlowJet<Extended> jet = full_jet(returned);
   std::optional<MeasuredError> worst;
   for (std::size_t i = 0; i < back.nominal.size(); ++i) {
     double floor = home[i];  // and what the way out has lost, carried back
     for (std::size_t k = 0; k < back.variables.size(); ++k) {
       const std::size_t linear = returned.problem.space->linear_index(k);
-      floor +=
-          std::abs(static_cast<double>(coefficient(returned, i, linear))) * out[back.variables[k]];
+      floor += std::abs(static_cast<double>(jet[i][linear])) * out[back.variables[k]];
     }
-    keep_worse(worst, {"start, out and back",
-                       distance(coefficient(returned, i, 0), Extended(result.scene.nominal[i])),
-                       floor, expected.tolerance, expected.floor_factor});
+    keep_worse(worst,
+               {"start, out and back", distance(jet[i][0], Extended(result.scene.nominal[i])),
+                floor, expected.tolerance, expected.floor_factor});
   }
   errors.push_back(*worst);
 }

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "hamjet/algebra/truncated_power_series.hpp"
+#include "hamjet/algebra/composition.hpp"
 #include "hamjet/dynamics/relative_hamiltonian.hpp"
 #include "hamjet/error.hpp"
 
@@ -26,14 +26,7 @@ Matrix<double> jacobian_matrix(const OperationList& field) {
   std::vector<Series<double>> z;
   for (std::size_t i = 0; i < size; ++i) z.push_back(Series<double>::variable(space, i, 0.0));
   const auto values = evaluate_on_series(field, std::span<const Series<double>>(z));
-  Matrix<double> matrix(size, size);
-  for (std::size_t i = 0; i < size; ++i) {
-    for (std::size_t j = 0; j < size; ++j) {
-      matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
-          values[i][space->linear_index(j)];
-    }
-  }
-  return matrix;
+  return linear_part(std::span<const Series<double>>(values));
 }
 
 class StabilityLimit {

@@ -145,7 +145,8 @@ std::optional<GeneratingFunctionKind> figure_kind(const Scene& scene,
                                                   const ComputedProblem& problem);
 
 /// For each degree the largest difference of a coefficient from the reference's, relative to the
-/// reference's largest coefficient of that degree (over all components); 0 where both vanish.
+/// reference's largest coefficient of that degree (over all components); 0 where both vanish. Up to
+/// the lower of the two orders.
 std::vector<double> relative_error_by_degree(const FlowJet<Extended>& jet,
                                              const FlowJet<Extended>& reference);
 

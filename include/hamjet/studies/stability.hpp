@@ -54,7 +54,7 @@ struct StabilityExpectation {
   std::vector<Extended> state;
   /// First derivatives of the final by the initial state, by rows, 2n x 2n; empty: not compared.
   std::vector<Extended> matrix;
-  /// Error that half-ulp changes of the inputs alone cause; empty: computed (HalfUlpFloor).
+  /// Error that half-ulp changes of the inputs alone cause; empty: computed (half_ulp_floor).
   std::vector<double> state_floor;
   double tolerance = 0;  ///< pass: |error| <= tolerance + floor_factor * floor
   double floor_factor = 10;
