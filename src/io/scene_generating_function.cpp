@@ -13,7 +13,7 @@ namespace {
 /// 0), so that x, y, px, py are a system of their own, with two degrees of freedom.
 bool is_planar_subsystem(const Scene& scene) {
   constexpr std::size_t z = 2, pz = 5;
-  return is_orbit(scene.system.model) && scene.system.J[3] == 0 && scene.nominal[z] == 0 &&
+  return is_orbit(scene.system.model) && scene.system.J3 == 0 && scene.nominal[z] == 0 &&
          scene.nominal[pz] == 0 && scene.variables == std::vector<std::size_t>{0, 1, 3, 4};
 }
 

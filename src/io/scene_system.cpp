@@ -86,8 +86,8 @@ SystemSettings read_system(const TableReader& system) {
   }
   settings.mu_km3_s2 = system.positive_number("mu_km3_s2");
   if (settings.model == SystemModel::zonal_gravity) {
-    settings.J[2] = zonal_coefficient(system, "J2");
-    settings.J[3] = zonal_coefficient(system, "J3");
+    settings.J2 = zonal_coefficient(system, "J2");
+    settings.J3 = zonal_coefficient(system, "J3");
     // Without J2 and J3 nothing refers to the radius.
     if (system.has("J2") || system.has("J3") || system.has("radius_km")) {
       settings.radius_km = system.positive_number("radius_km");

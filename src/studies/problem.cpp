@@ -38,7 +38,7 @@ double schedule_bytes(std::size_t variables, int order) {
 DynamicalSystem make_system(const SystemSettings& settings, double canonical_radius) {
   switch (settings.model) {
     case SystemModel::zonal_gravity:
-      return zonal_gravity({1.0, canonical_radius, settings.J});
+      return zonal_gravity({1.0, canonical_radius, settings.J2, settings.J3});
     case SystemModel::kepler:
       return kepler();
     case SystemModel::double_well:

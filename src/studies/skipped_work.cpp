@@ -28,10 +28,8 @@ void add_dynamics(const PropagationResult& result, std::vector<SkippedWork>& ski
   const Scene& scene = result.scene;
   const ComputedProblem& problem = result.problem;
   if (scene.system.model == SystemModel::zonal_gravity) {
-    if (scene.system.J[2] == 0)
-      skipped.push_back({"J2", "the scene has none: no term of the force"});
-    if (scene.system.J[3] == 0)
-      skipped.push_back({"J3", "the scene has none: no term of the force"});
+    if (scene.system.J2 == 0) skipped.push_back({"J2", "the scene has none: no term of the force"});
+    if (scene.system.J3 == 0) skipped.push_back({"J3", "the scene has none: no term of the force"});
   }
   const auto still =
       names_of(scene, [&](std::size_t i) { return !contains(problem.components, i); });

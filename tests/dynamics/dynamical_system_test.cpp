@@ -20,10 +20,9 @@ ZonalGravity paper_field() { return test::paper_orbit().field; }
 
 TEST(ZonalGravity, HandWrittenVectorFieldIsTheHamiltonians) {
   test::RandomNumbers random(51);
-  const ZonalGravity strong{.mu = 1.25, .radius = 0.9, .J = {{2, 0.3}, {3, -0.2}}};
-  for (const ZonalGravity& field :
-       {paper_field(), strong, ZonalGravity{.radius = 0.9, .J = {{2, 0.3}}},
-        ZonalGravity{.radius = 0.9, .J = {{3, 0.3}}}, ZonalGravity{}}) {
+  const ZonalGravity strong{.mu = 1.25, .radius = 0.9, .J2 = 0.3, .J3 = -0.2};
+  for (const ZonalGravity& field : {paper_field(), strong, ZonalGravity{.radius = 0.9, .J2 = 0.3},
+                                    ZonalGravity{.radius = 0.9, .J3 = 0.3}, ZonalGravity{}}) {
     const auto written = zonal_gravity(field);
     const auto derived = make_system("derived", written.hamiltonian);
     for (int trial = 0; trial < 10; ++trial) {
@@ -57,7 +56,7 @@ TEST(ZonalGravity, HasThePrintedSignOfJ3) {
   const Extended R = 0.75;
   const Extended J2 = 0.125;
   const Extended J3 = 0.0625;
-  const auto system = zonal_gravity({.mu = 1, .radius = 0.75, .J = {{2, 0.125}, {3, 0.0625}}});
+  const auto system = zonal_gravity({.mu = 1, .radius = 0.75, .J2 = 0.125, .J3 = 0.0625});
   const Extended r = 1.5;
   const auto potential = [&](const Extended& z) {
     return test::energy(system, std::vector<Extended>{0, 0, z, 0, 0, 0});
@@ -69,7 +68,7 @@ TEST(ZonalGravity, HasThePrintedSignOfJ3) {
   EXPECT_LE(magnitude_of(potential(-r) - south), 1e-32);
   EXPECT_GT(potential(r), potential(-r));
   // Mirrored space, mirrored J3.
-  const auto mirrored = zonal_gravity({.mu = 1, .radius = 0.75, .J = {{2, 0.125}, {3, -0.0625}}});
+  const auto mirrored = zonal_gravity({.mu = 1, .radius = 0.75, .J2 = 0.125, .J3 = -0.0625});
   const std::vector<double> point{0.7, 0.4, 0.9, 0.1, 0.2, 0.3};
   const std::vector<double> image{0.7, 0.4, -0.9, 0.1, 0.2, -0.3};
   EXPECT_EQ(test::energy(system, point), test::energy(mirrored, image));
@@ -160,7 +159,7 @@ TEST(NeededDegreesOfFreedom, AreThoseOfTheInvariantSubspace) {
   EXPECT_EQ(needed(field, equatorial, {0, 1, 3, 4}),
             (Indices{0, 1, 2}));  // J3 pulls out of the plane
   EXPECT_EQ(needed(field, polar, {0, 2, 3, 5}), (Indices{0, 2}));
-  field.J[3] = 0;
+  field.J3 = 0;
   EXPECT_EQ(needed(field, equatorial, {0, 1, 3, 4}), (Indices{0, 1}));
   EXPECT_EQ(needed(field, equatorial, {0, 5}), (Indices{0, 1, 2}));  // p_z is asked for
   EXPECT_EQ(needed(field, polar, {0}), (Indices{0, 2}));
@@ -171,7 +170,7 @@ TEST(NeededDegreesOfFreedom, AreThoseOfTheInvariantSubspace) {
 
 TEST(RestrictSystem, IsTheSystemOnTheSubspace) {
   ZonalGravity field = paper_field();
-  field.J[3] = 0;
+  field.J3 = 0;
   const auto full = zonal_gravity(field);
   const std::vector<std::size_t> kept{0, 1};
   const auto planar = restrict_system(full, kept);

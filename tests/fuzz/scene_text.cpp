@@ -36,7 +36,7 @@ void check_start(const ModelScene& scene) {
   require(dimension == variable_names(scene.system).size(), "names of the variables");
   const SystemSettings& system = scene.system;
   require_finite(
-      {system.mu_km3_s2, system.radius_km, system.J[2], system.J[3], system.mass_kg,
+      {system.mu_km3_s2, system.radius_km, system.J2, system.J3, system.mass_kg,
        system.stiffness_N_per_m, system.second_stiffness_N_per_m, system.length_m,
        system.gravity_m_s2, system.omega_rad_per_s, scene.canonical_radius, scene.duration},
       "system");

@@ -146,8 +146,7 @@ TEST(EnergyConservingSymplectic, AtOneEnergyAndNoOther) {
 TEST(EnergyConservingSymplectic, OnTheOscillatorTheDoubleWellKeplerAndTheEarthOrbit) {
   const DynamicalSystem systems[] = {
       harmonic_oscillator(1, 1), double_well(), kepler(),
-      zonal_gravity(
-          {1.0, 0x1.d283e1c01dcf3p-1, {{2, 0x1.1bcdd8a6cfd70p-10}, {3, 0x1.53e5d6a0f845cp-19}}})};
+      zonal_gravity({1.0, 0x1.d283e1c01dcf3p-1, 0x1.1bcdd8a6cfd70p-10, 0x1.53e5d6a0f845cp-19})};
   const std::vector<double> inclined = {0.4, 0.7, 0.5, -0.8, 0.5, 0.6};  // outbound, bound
   const Vector starts[] = {{0.9, 0.6},
                            {0.8, 0.3},

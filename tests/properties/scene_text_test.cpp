@@ -25,7 +25,7 @@ std::string all_of(const Scene& scene) {
   };
   add_text(scene.title);
   for (const double x :
-       {scene.system.mu_km3_s2, scene.system.radius_km, scene.system.J[2], scene.system.J[3],
+       {scene.system.mu_km3_s2, scene.system.radius_km, scene.system.J2, scene.system.J3,
         scene.system.mass_kg, scene.system.stiffness_N_per_m, scene.units.length_km,
         scene.units.time_s, scene.canonical_radius, scene.duration,
         static_cast<double>(scene.system.model), static_cast<double>(scene.order)}) {

@@ -64,7 +64,7 @@ TEST(Symmetries, MirrorAtTheEquator) {
       [] {
         const auto orbit = test::random_orbit();
         auto image = orbit;
-        image.field.J[3] = -orbit.field.J[3];
+        image.field.J3 = -orbit.field.J3;
         image.start[z] = -orbit.start[z];
         image.start[pz] = -orbit.start[pz];
         for (const IntegratorSettings& settings : methods(0.1)) {

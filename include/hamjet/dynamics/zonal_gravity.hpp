@@ -4,15 +4,15 @@
 #include <vector>
 
 #include "hamjet/dynamics/dynamical_system.hpp"
-#include "hamjet/dynamics/zonal_coefficients.hpp"
 
 namespace hamjet {
 
 /// Constants of a zonal gravity field, in any consistent units (canonical: mu = 1).
 struct ZonalGravity {
   double mu = 1;
-  double radius = 0;         ///< reference radius of the zonal coefficients
-  ZonalCoefficients J = {};  ///< the Earth's J_2 is positive, its J_3 negative
+  double radius = 0;  ///< reference radius of the zonal coefficients
+  double J2 = 0;      ///< 0: absent
+  double J3 = 0;      ///< 0: absent; the Earth's own is negative
 };
 
 /// H = |p|^2/2 - mu/r [1 - J2 (R/r)^2 P2(z/r) - J3 (R/r)^3 P3(z/r)],
@@ -30,12 +30,12 @@ struct ZonalGravityHamiltonian {
     const T inverse_s2 = T(1) / s2;
     const T z2 = q[2] * q[2];
     T bracket(1);
-    if (field.J[2] != 0) {
-      const T c2 = T(field.J[2]) * radius * radius / T(2);
+    if (field.J2 != 0) {
+      const T c2 = T(field.J2) * radius * radius / T(2);
       bracket -= c2 * inverse_s2 * (T(3) * z2 * inverse_s2 - T(1));
     }
-    if (field.J[3] != 0) {
-      const T c3 = T(field.J[3]) * radius * radius * radius / T(2);
+    if (field.J3 != 0) {
+      const T c3 = T(field.J3) * radius * radius * radius / T(2);
       bracket -= c3 * inverse_s2 * inverse_s2 * q[2] * (T(5) * z2 * inverse_s2 - T(3));
     }
     return (p[0] * p[0] + p[1] * p[1] + p[2] * p[2]) / T(2) - mu * bracket / sqrt(s2);
@@ -56,17 +56,17 @@ struct ZonalGravityForce {
     const T radius(field.radius);
     const T s2 = q[0] * q[0] + q[1] * q[1] + q[2] * q[2];
     const T w = mu * pow(s2, T(-1.5));
-    if (field.J[2] == 0 && field.J[3] == 0) return {-w * q[0], -w * q[1], -w * q[2]};
+    if (field.J2 == 0 && field.J3 == 0) return {-w * q[0], -w * q[1], -w * q[2]};
 
-    const T c2 = T(1.5) * T(field.J[2]) * radius * radius;
-    const T c3 = T(2.5) * T(field.J[3]) * radius * radius * radius;
+    const T c2 = T(1.5) * T(field.J2) * radius * radius;
+    const T c3 = T(2.5) * T(field.J3) * radius * radius * radius;
     const T u = T(1) / s2;
     const T t = q[2] * u;
     const T sine2 = q[2] * t;
     const T latitude = u * (T(1) - T(5) * sine2);
     T bracket = c2 * latitude;
     T axial = T(2) * c2 * t;
-    if (field.J[3] != 0) {
+    if (field.J3 != 0) {
       bracket += c3 * (u * (t * (T(3) - T(7) * sine2)));
       axial -= T(3) / T(5) * c3 * latitude;
     }

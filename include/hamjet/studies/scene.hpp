@@ -6,7 +6,6 @@
 #include <string_view>
 #include <vector>
 
-#include "hamjet/dynamics/zonal_coefficients.hpp"
 #include "hamjet/studies/self_check_settings.hpp"
 #include "hamjet/studies/transfer_settings.hpp"
 
@@ -45,8 +44,9 @@ std::vector<std::string_view> variable_names(SystemModel model, std::size_t degr
 struct SystemSettings {
   SystemModel model = SystemModel::zonal_gravity;
   double mu_km3_s2 = 0;  ///< zonal-gravity, kepler: gravitational parameter
-  double radius_km = 0;  ///< zonal-gravity: the radius that the J_n refer to; 0 if without them
-  ZonalCoefficients J;   ///< zonal-gravity: 0 where the scene has none
+  double radius_km = 0;  ///< zonal-gravity: the radius that J2 and J3 refer to; 0 if without them
+  double J2 = 0;         ///< zonal-gravity: 0 where the scene has no J2
+  double J3 = 0;         ///< zonal-gravity: 0 where the scene has no J3
   double mass_kg = 1;    ///< harmonic-oscillator, oscillator-pair, spring-pendulum
   double stiffness_N_per_m = 1;         ///< the same; of a pair that of the first oscillator
   double second_stiffness_N_per_m = 1;  ///< oscillator-pair: of the second oscillator
@@ -126,23 +126,6 @@ struct FigureSettings {
   std::string kind;  ///< whose exactness is drawn: F1..F4 or letters; empty for the energy error
 };
 
-/// Table `[output]`: what `hamjet run` writes beside CSV and JSON.
-struct OutputSettings {
-  bool hdf5 = false;  ///< jets.h5
-  bool dace = false;  ///< polynomials in the text format of DACE
-  bool oem = false;   ///< the nominal as CCSDS orbit ephemeris message; needs `[ephemeris]`
-};
-
-/// Table `[ephemeris]`: what a CCSDS message says of an orbit beyond its numbers.
-struct EphemerisSettings {
-  std::string epoch;            ///< of the nominal's start, ISO 8601, in the time system
-  std::string time_system;      ///< for example UTC, TDB
-  std::string reference_frame;  ///< inertial; its z axis is taken as the axis of the zonal field
-  std::string center_name;      ///< for example EARTH
-  std::string object_name;
-  std::string object_id;  ///< international designator
-};
-
 /// A scene, read, checked and converted to canonical units. Lengths of arrays: 2n, with the n
 /// degrees of freedom of its system.
 struct Scene {
@@ -155,8 +138,6 @@ struct Scene {
   std::vector<double> nominal;  ///< initial state (q, p), canonical
   double duration = 0;          ///< canonical; negative is backwards
   int order = 1;
-  /// `jet.arcs`: pieces that the flow is split into; absent ("auto"): from the operation counts.
-  std::optional<std::size_t> arcs = 1;
   std::vector<std::size_t> variables;  ///< indices into (q, p) to expand in, ascending
   std::vector<IntegratorSettings> integrators;
   /// `[formation]`, canonical length (metres where that is the unit).
@@ -173,8 +154,6 @@ struct Scene {
   std::optional<TransferSettings> transfer;
   std::optional<ValiditySettings> validity;
   std::optional<AssignmentSettings> assignment;
-  OutputSettings output;
-  std::optional<EphemerisSettings> ephemeris;
 };
 
 }  // namespace hamjet
