@@ -9,15 +9,16 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
-#include "../io/file_system.hpp"
 #include "../io/scene_message.hpp"
 #include "../io/text_file.hpp"
 #include "eval_coordinates.hpp"
 #include "hamjet/error.hpp"
+#include "hamjet/io/jet_file.hpp"
 #include "hamjet/io/number_table.hpp"
-#include "hamjet/io/stored_jet.hpp"
 #include "interruption.hpp"
 #include "jet_evaluation.hpp"
+#include "output_file.hpp"
+#include "refusal.hpp"
 #include "standard_streams.hpp"
 
 namespace hamjet::cli {
@@ -28,8 +29,6 @@ using Support = TruncationEstimate::Support;
 
 /// More rows than this are not printed as JSON, but counted only.
 constexpr std::size_t most_json_rows = 100;
-
-[[noreturn]] void refuse(const std::string& what) { throw Error(ErrorKind::usage, what); }
 
 void refuse_empty(const std::optional<std::string>& value, const char* option, const char* what) {
   if (value && value->empty()) refuse(fmt::format("{}: empty, must name {}", option, what));
@@ -50,9 +49,12 @@ void check_options(const EvalOptions& options) {
       return std::filesystem::equivalent(file, *options.output, none);
     };
     const std::filesystem::path name = std::filesystem::path(*options.output).filename();
-    const bool is_result = (name == "jet.csv" || name == "summary.json") &&
-                           std::filesystem::exists(*options.output, none);
-    if ((options.deviations && replaces(*options.deviations)) || is_result) {
+    const bool is_result =
+        (name == "jet.csv" || name == "summary.json" || name == "jet.dace" || name == "jets.h5") &&
+        std::filesystem::exists(*options.output, none);
+    if ((options.deviations && replaces(*options.deviations)) ||
+        (std::filesystem::is_regular_file(*options.output, none) && replaces(options.directory)) ||
+        is_result) {
       refuse("--output: is a file that this command reads; choose another");
     }
   }
@@ -60,30 +62,6 @@ void check_options(const EvalOptions& options) {
     refuse("nothing to evaluate; give --deviation with numbers or --deviations with a CSV file");
   }
 }
-
-/// The one file that the user named, written in full or not at all.
-class OutputFile {
- public:
-  explicit OutputFile(const std::filesystem::path& file) : file_(file) {
-    std::error_code ignored;
-    const auto status = std::filesystem::status(file, ignored);
-    // A rename would put a file in the place of a device such as /dev/null.
-    if (!file.has_filename() || (exists(status) && !is_regular_file(status))) {
-      throw Error(ErrorKind::input_output, fmt::format("{}: cannot be written: not a regular file",
-                                                       io::printable_path(file)));
-    }
-    io::require_writable(file.has_parent_path() ? file.parent_path() : ".");
-  }
-
-  void write(const std::string& text) {
-    const RemovedAtSuddenEnd leftovers({io::temporary_beside(file_)});
-    const UninterruptedWriting results;
-    io::write_whole_file(file_, text);
-  }
-
- private:
-  std::filesystem::path file_;
-};
 
 io::NumberTable read_deviations(const EvalOptions& options,
                                 const std::vector<std::string_view>& columns) {
@@ -222,7 +200,7 @@ void report(const JetEvaluation& evaluation, const Output& output) {
 
 int eval(const EvalOptions& options) {
   check_options(options);
-  const io::StoredJet stored = io::read_stored_jet(options.directory, options.run);
+  const io::StoredJet stored = io::read_jet_file(options.directory, options.run);
   if (options.degree && (*options.degree < 1 || *options.degree > stored.order())) {
     refuse(fmt::format("--degree {}: must be 1 to the order of the jet, {}", *options.degree,
                        stored.order()));

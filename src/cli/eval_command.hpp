@@ -6,7 +6,7 @@
 namespace hamjet::cli {
 
 struct EvalOptions {
-  std::string directory;                  ///< results of `hamjet run`
+  std::string directory;                  ///< results of `hamjet run`, or a file of theirs
   std::optional<std::string> deviation;   ///< one deviation, numbers between commas
   std::optional<std::string> deviations;  ///< a CSV file of them
   std::optional<std::string> run;         ///< label of the integrator's run

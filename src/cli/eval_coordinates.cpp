@@ -8,6 +8,7 @@
 
 #include "../io/scene_message.hpp"
 #include "hamjet/error.hpp"
+#include "refusal.hpp"
 
 namespace hamjet::cli {
 namespace {
@@ -17,8 +18,6 @@ const std::vector<std::string_view> rtn_columns = {"R_m",    "T_m",    "N_m",
                                                    "vR_m_s", "vT_m_s", "vN_m_s"};
 const std::vector<std::string_view> inertial_columns = {"x_m",    "y_m",    "z_m",
                                                         "vx_m_s", "vy_m_s", "vz_m_s"};
-
-[[noreturn]] void refuse(const std::string& what) { throw Error(ErrorKind::usage, what); }
 
 RelativeFrame relative_frame(const std::string& frame,
                              const std::optional<std::string>& derivatives) {

@@ -12,7 +12,8 @@ std::vector<Series<double>> deviation_map(const FlowJet<Extended>& jet) {
   std::vector<Series<double>> map;
   for (const Series<Extended>& component : jet) {
     Series<double>& rounded = map.emplace_back(component.space_pointer());
-    for (std::size_t k = 1; k < component.size(); ++k) rounded[k] = convert<double>(component[k]);
+    for (std::size_t k = 1; k < component.size(); ++k)
+      rounded[k] = hamjet::convert<double>(component[k]);
   }
   return map;
 }

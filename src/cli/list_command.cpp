@@ -10,8 +10,9 @@ namespace hamjet::cli {
 namespace {
 
 std::string systems() {
-  return "zonal-gravity        Earth orbit with J2 and J3, each optional: mu_km3_s2, radius_km, "
-         "J2, J3\n"
+  return "zonal-gravity        Earth orbit with J2 to J20, each optional: mu_km3_s2, radius_km, "
+         "J2, "
+         "..., J20; or gravity_file (ICGEM .gfc) with highest_zonal or zonals\n"
          "kepler               Kepler's problem: mu_km3_s2\n"
          "harmonic-oscillator  one degree of freedom: mass_kg, stiffness_N_per_m\n"
          "double-well          one degree of freedom, H = p^2/2 + (q^4 - q^2)/2\n"

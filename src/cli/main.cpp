@@ -4,8 +4,11 @@
 #include <new>
 #include <sstream>
 
+#include "../io/shell_text.hpp"
 #include "arithmetic.hpp"
+#include "bash_completion.hpp"
 #include "compare_command.hpp"
+#include "convert_command.hpp"
 #include "eval_command.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/version.hpp"
@@ -14,6 +17,7 @@
 #include "run_command.hpp"
 #include "stability_command.hpp"
 #include "standard_streams.hpp"
+#include "sweep_command.hpp"
 #include "transfer_command.hpp"
 #include "usage.hpp"
 
@@ -26,27 +30,48 @@ constexpr const char* examples = R"(Examples:
   hamjet run scene.toml                     results in out/scene
   hamjet run scene.toml -o results --json   summary on standard output as JSON
   hamjet run scene.toml --set jet.order=6 --set integrator.gauss8.tolerance=1e-13
+                                            the same with two keys changed
   hamjet compare scene.toml                 error against run time of many integrators; a report
   hamjet transfer scene.toml                velocity changes between relative positions; a report
   hamjet validity scene.toml                how far from the chief the polynomials are right
   hamjet assign scene.toml                  deputies to slots at the least total velocity change
   hamjet eval out/scene --deviation 100,0,0,0,0.1,0
                                             a relative state (RTN: m, m/s) through the stored jet
+  hamjet convert out/scene scene.h5         a stored jet as HDF5, DACE text or CSV
   hamjet stability                          the suite of stiff and extreme cases; a report
+  hamjet sweep study.toml                   a scene over a grid of values; a table and a map
   hamjet check scene.toml                   what would be computed, and the memory it takes
-  hamjet list integrators
+  hamjet list integrators                   the methods of this build
 
-Exit codes: 0 all well; 1 a check failed; 2 usage; 3 scene; 4 numerical failure; 5 input or output;
-6 refused as too large; 130 or 143 interrupted.
+Exit codes:
+  0 all well; 1 a check failed; 2 usage; 3 scene; 4 numerical failure; 5 input or output;
+  6 refused as too large; 130 or 143 interrupted.
 
 Taylor maps and generating functions of Hamiltonian flows.
 )";
 
+void add_scene_argument(CLI::App& command, hamjet::cli::RunOptions& options) {
+  command.add_option("scene", options.scene_file, "scene file (TOML)")
+      ->required()
+      ->type_name("SCENE");
+}
+
 void add_run_options(CLI::App& command, hamjet::cli::RunOptions& options) {
-  command.add_option("-o,--output", options.output,
-                     "directory for the results (default: out/<scene name>)");
+  command
+      .add_option("-o,--output", options.output,
+                  "directory for the results (default: out/<scene name>)")
+      ->type_name("DIRECTORY");
   command.add_flag("--json", options.json, "print summary.json instead of the table");
   command.add_flag("-q,--quiet", options.quiet, "print nothing but errors");
+}
+
+void add_threads_option(CLI::App& command, hamjet::cli::RunOptions& options) {
+  command
+      .add_option("--threads", options.threads,
+                  "threads for the arcs of a scene with jet.arcs; the results do not depend on it "
+                  "(default: as many as the machine runs at once)")
+      ->check(CLI::Range(1, 1024))
+      ->type_name("N");
 }
 
 void add_override_option(CLI::App& command, hamjet::cli::RunOptions& options) {
@@ -63,7 +88,10 @@ CLI::App* add_eval_command(CLI::App& app, hamjet::cli::EvalOptions& options) {
       "eval",
       "map relative states at the start through a stored jet to the end of its duration\n"
       "Example: hamjet eval out/scene --deviations start.csv -o end.csv");
-  eval->add_option("directory", options.directory, "results of hamjet run")->required();
+  eval->add_option("directory", options.directory,
+                   "results of hamjet run, or one of their files .h5, .dace or .csv")
+      ->required()
+      ->type_name("FILE");
   eval->add_option("--deviation", options.deviation,
                    "one deviation, x,y,z,vx,vy,vz along the axes of the frame in m and m/s; in the "
                    "frame canonical one number a variable of the jet")
@@ -77,11 +105,11 @@ CLI::App* add_eval_command(CLI::App& app, hamjet::cli::EvalOptions& options) {
       ->type_name("LABEL");
   eval->add_option("--frame", options.frame,
                    "RTN (default: radial, transverse, normal of the chief), inertial, or canonical")
-      ->type_name("FRAME");
+      ->type_name("{RTN,inertial,canonical}");
   eval->add_option("--derivatives", options.derivatives,
                    "of RTN: rotating (default: velocities as seen from the turning axes) or "
                    "inertial")
-      ->type_name("KIND");
+      ->type_name("{rotating,inertial}");
   eval->add_option("--degree", options.degree, "leave out terms above this degree")->type_name("K");
   eval->add_option("-o,--output", options.output,
                    "CSV file of the final states with estimates of the miss (default: standard "
@@ -93,14 +121,35 @@ CLI::App* add_eval_command(CLI::App& app, hamjet::cli::EvalOptions& options) {
   return eval;
 }
 
-/// A word as a shell takes it literally.
-std::string in_shell_quotes(const std::string& word) {
-  constexpr const char* plain =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-./=:,+@%";
-  if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
+CLI::App* add_sweep_command(CLI::App& app, hamjet::cli::RunOptions& run,
+                            hamjet::cli::SweepOptions& options) {
+  CLI::App* sweep =
+      app.add_subcommand("sweep",
+                         "a scene many times with other values of some keys: one table, and a map\n"
+                         "Example: hamjet sweep study.toml");
+  sweep
+      ->add_option("study", options.study,
+                   "study (TOML): base scene, command, axes or items, columns")
+      ->type_name("SCENE");
+  add_run_options(*sweep, run);
+  sweep->add_option("--threads", options.threads, "items at a time (default: all cores)")
+      ->type_name("N");
+  sweep
+      ->add_option("--shard", options.shard,
+                   "compute part k of n alone, without a table (default in an array of Slurm: the "
+                   "task)")
+      ->type_name("K/N");
+  sweep->add_flag("--resume", options.resume, "leave out the items whose rows are there, whole");
+  sweep->add_flag("--merge", options.merge,
+                  "compute nothing: the table of the rows that are there; with -o alone, of the "
+                  "study in that directory");
+  sweep->add_option("--emit", options.emit, "write a job script: slurm or parallel")
+      ->check(CLI::IsMember({"slurm", "parallel"}));
+  sweep
+      ->add_option("--tasks", options.tasks,
+                   "parts in the job script (default: 32 to 1000, of about 50 items)")
+      ->type_name("N");
+  return sweep;
 }
 
 int dispatch(int argc, char** argv) {
@@ -110,12 +159,13 @@ int dispatch(int argc, char** argv) {
 
   hamjet::cli::RunOptions options;
   CLI::App* run = app.add_subcommand("run", "run a scene and write its results");
-  run->add_option("scene", options.scene_file, "scene file (TOML)")->required();
+  add_scene_argument(*run, options);
   add_run_options(*run, options);
+  add_threads_option(*run, options);
   add_override_option(*run, options);
 
   CLI::App* check = app.add_subcommand("check", "read a scene and say what would be computed");
-  check->add_option("scene", options.scene_file, "scene file (TOML)")->required();
+  add_scene_argument(*check, options);
   add_override_option(*check, options);
 
   CLI::App* demo = app.add_subcommand("demo", "run the paper's Earth orbit, which is built in");
@@ -125,7 +175,7 @@ int dispatch(int argc, char** argv) {
   hamjet::cli::CompareOptions comparison;
   CLI::App* compare =
       app.add_subcommand("compare", "measure error against run time of many integrators");
-  compare->add_option("scene", comparison.scene.scene_file, "scene file (TOML)")->required();
+  add_scene_argument(*compare, comparison.scene);
   add_run_options(*compare, comparison.scene);
   add_override_option(*compare, comparison.scene);
   compare->add_flag("--resume", comparison.resume,
@@ -136,7 +186,7 @@ int dispatch(int argc, char** argv) {
 
   const auto add_study = [&](const char* name, const char* description) {
     CLI::App* study = app.add_subcommand(name, description);
-    study->add_option("scene", options.scene_file, "scene file (TOML)")->required();
+    add_scene_argument(*study, options);
     add_run_options(*study, options);
     add_override_option(*study, options);
     return study;
@@ -145,11 +195,15 @@ int dispatch(int argc, char** argv) {
   CLI::App* transfer = add_study(
       "transfer", "velocity changes from one relative position to another, for every time");
   CLI::Option* jet =
-      transfer->add_option("--jet", transfers.directory,
-                           "directory with the results of `hamjet run`: take the jet stored there "
-                           "instead of computing; its duration is the transfer time");
+      transfer
+          ->add_option("--jet", transfers.directory,
+                       "directory with the results of `hamjet run`, or a file .h5 of "
+                       "them: take the jet stored there instead of computing; its "
+                       "duration is the transfer time")
+          ->type_name("FILE");
   transfer->add_option("--run", transfers.run, "whose jet: the label of the integrator")
-      ->needs(jet);
+      ->needs(jet)
+      ->type_name("LABEL");
   const CLI::App* validity =
       add_study("validity", "how far from the chief the polynomials are right, along time");
   const CLI::App* assign =
@@ -161,19 +215,33 @@ int dispatch(int argc, char** argv) {
   stability
       ->add_option("--suite", suite, "folder of cases, or one case (default: data/scenes/extreme)")
       ->type_name("SCENES");
-  stability->add_option("-o,--output", options.output,
-                        "directory for the report (default: out/stability)");
+  stability
+      ->add_option("-o,--output", options.output,
+                   "directory for the report (default: out/stability)")
+      ->type_name("DIRECTORY");
   stability->add_flag("--json", options.json, "print a list of one object a case");
   stability->add_flag("-q,--quiet", options.quiet, "print nothing but errors");
 
   hamjet::cli::EvalOptions evaluation;
   const CLI::App* eval = add_eval_command(app, evaluation);
 
+  hamjet::cli::ConvertOptions conversion;
+  const CLI::App* convert = hamjet::cli::add_convert_command(app, conversion);
+  hamjet::cli::SweepOptions sweeps;
+  const CLI::App* sweep = add_sweep_command(app, options, sweeps);
+
   std::string what;
   CLI::App* list = app.add_subcommand("list", "list systems, integrators or kinds");
   list->add_option("what", what, "systems, integrators or kinds")
       ->required()
       ->check(CLI::IsMember({"systems", "integrators", "kinds"}));
+
+  std::string shell;
+  CLI::App* completion = app.add_subcommand(
+      "completion",
+      "print a script with which a shell completes command lines\n"
+      "Example: hamjet completion bash > ~/.local/share/bash-completion/completions/hamjet");
+  completion->add_option("shell", shell, "bash")->required()->check(CLI::IsMember({"bash"}));
 
   if (argc <= 1) {
     std::fputs(app.help().c_str(), stderr);
@@ -189,9 +257,15 @@ int dispatch(int argc, char** argv) {
     hamjet::cli::print(text.str());
     return 0;
   }
-  for (int i = 0; i < argc; ++i) options.command += (i == 0 ? "" : " ") + in_shell_quotes(argv[i]);
+  for (int i = 0; i < argc; ++i)
+    options.command += (i == 0 ? "" : " ") + hamjet::io::in_shell_quotes(argv[i]);
   if (*list) return hamjet::cli::list(what);
+  if (*completion) {
+    hamjet::cli::print(hamjet::cli::bash_completion(app));
+    return 0;
+  }
   if (*eval) return hamjet::cli::eval(evaluation);
+  if (*convert) return hamjet::cli::convert(conversion);
   if (*check) return hamjet::cli::check(options);
   if (*compare) {
     comparison.scene.command = options.command;
@@ -201,6 +275,7 @@ int dispatch(int argc, char** argv) {
   }
   if (*transfer) return hamjet::cli::transfer(options, transfers);
   if (*stability) return hamjet::cli::stability(options, suite);
+  if (*sweep) return hamjet::cli::sweep(options, sweeps);
   if (*validity) return hamjet::cli::validity(options);
   if (*assign) return hamjet::cli::assign(options);
   return hamjet::cli::run(options);

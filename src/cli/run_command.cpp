@@ -12,6 +12,7 @@
 #include "hamjet/io/output_directory.hpp"
 #include "hamjet/io/results.hpp"
 #include "hamjet/io/study_report.hpp"
+#include "hamjet/studies/arcs.hpp"
 #include "hamjet/studies/propagation.hpp"
 #include "interruption.hpp"
 #include "progress.hpp"
@@ -28,10 +29,13 @@ int run_flow_jet(const RunOptions& options, const Scene& scene) {
   PropagationResult result;
   {
     Progress progress(!options.quiet);
-    result = propagate(scene, [&](const std::string& task, double fraction) {
-      stop_if_interrupted();
-      progress.update(task, fraction);
-    });
+    result = propagate(
+        scene,
+        [&](const std::string& task, double fraction) {
+          stop_if_interrupted();
+          progress.update(task, fraction);
+        },
+        thread_count(options));
   }
   std::optional<std::string> drawing_problem;
   const std::string figure = io::figure_svg(result, drawing_problem);
@@ -75,8 +79,9 @@ int run(const RunOptions& options) {
 
 namespace {
 
-void check_flow_jet(const std::string& file, const Scene& scene) {
-  const ComputedProblem problem = make_problem(scene, available_memory());
+void check_flow_jet(const RunOptions& options, const std::string& file, const Scene& scene) {
+  const std::size_t threads = thread_count(options);
+  const ComputedProblem problem = make_problem(scene, available_memory(), threads);
   const auto names = variable_names(scene.system);
   std::string components;
   for (const std::size_t c : problem.components) components += fmt::format(" {}", names[c]);
@@ -93,7 +98,7 @@ void check_flow_jet(const std::string& file, const Scene& scene) {
       "  memory       about {:.0f} MB\n",
       scene.duration, scene.duration * scene.units.time_s, scene.order, scene.variables.size(),
       problem.space->size(), components,
-      estimate_memory(scene, problem.system, scene.variables.size()) / 1e6);
+      estimate_memory(scene, problem.system, scene.variables.size(), threads) / 1e6);
   for (const IntegratorSettings& settings : scene.integrators) {
     text += fmt::format("  integrator   {}: {}", settings.label,
                         method_names()[static_cast<std::size_t>(settings.method)]);
@@ -111,6 +116,10 @@ void check_flow_jet(const std::string& file, const Scene& scene) {
     if (settings.step_canonical)
       text += fmt::format(", step {:g} canonical", *settings.step_canonical);
     text += "\n";
+    if (scene.arcs == std::optional<std::size_t>(1)) continue;
+    const ArcPlan plan = plan_arcs(scene, problem, settings,
+                                   [](const std::string&, double) { stop_if_interrupted(); });
+    text += fmt::format("  arcs         {}: {}\n", settings.label, io::arcs_text(scene, plan));
   }
   if (scene.transfer) {
     text +=
@@ -138,7 +147,7 @@ int check(const RunOptions& options) {
   std::visit(
       [&](const auto& study) {
         if constexpr (std::is_same_v<std::decay_t<decltype(study)>, Scene>) {
-          check_flow_jet(*options.scene_file, study);
+          check_flow_jet(options, *options.scene_file, study);
         } else {
           print(fmt::format("{}: the scene is good\n  title        {}\n", *options.scene_file,
                             study.title));

@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <thread>
 #include <vector>
 
 #include "../io/scene_message.hpp"
 #include "demo_scene.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/integrators/cvode.hpp"
+#include "hamjet/studies/arcs.hpp"
 #include "standard_streams.hpp"
 
 namespace hamjet::cli {
@@ -61,6 +64,24 @@ io::Study read_study(const RunOptions& options) {
 Scene read_scene(const RunOptions& options) {
   // The built-in scene is a flow jet.
   return io::require_flow_jet(read_study(options), options.scene_file.value_or(""));
+}
+
+Scene read_unsplit_scene(const RunOptions& options, const std::string& command) {
+  Scene scene = read_scene(options);
+  try {
+    require_unsplit(scene, command);
+  } catch (const Error& error) {
+    throw Error(
+        error.kind(),
+        fmt::format("{}: {}", io::printable(options.scene_file.value_or(""), std::string::npos),
+                    error.what()));
+  }
+  return scene;
+}
+
+std::size_t thread_count(const RunOptions& options) {
+  if (options.threads > 0) return options.threads;
+  return std::max<std::size_t>(1, std::thread::hardware_concurrency());
 }
 
 std::filesystem::path output_path(const RunOptions& options, const std::string& scene_name) {

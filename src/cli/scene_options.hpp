@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -16,7 +17,8 @@ struct RunOptions {
   std::vector<std::string> overrides;  ///< key=value
   bool json = false;
   bool quiet = false;
-  std::string command;  ///< the command line, for reports
+  std::size_t threads = 0;  ///< for arcs; 0: as many as the machine runs at once
+  std::string command;      ///< the command line, for reports
 };
 
 /// The scene that the options name, with their changes, of any study. Throws Error(usage),
@@ -26,6 +28,13 @@ io::Study read_study(const RunOptions& options);
 /// The same for what takes a flow jet alone. Throws Error(usage), Error(scene),
 /// Error(input_output).
 Scene read_scene(const RunOptions& options);
+
+/// The same for `command`, which does not split flows into arcs: throws Error(scene) too where the
+/// scene asks for that.
+Scene read_unsplit_scene(const RunOptions& options, const std::string& command);
+
+/// The number of threads that the options ask for, at least 1.
+std::size_t thread_count(const RunOptions& options);
 
 /// Where the results go: as asked for, or `out/<scene name>`.
 std::filesystem::path output_path(const RunOptions& options, const std::string& scene_name);

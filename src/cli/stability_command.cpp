@@ -15,13 +15,16 @@
 namespace hamjet::cli {
 namespace {
 
-/// Of the working directory, or of the tree that the program was built from.
+/// Of the working directory, of the tree that the program was built in, or of the installation that
+/// it belongs to, wherever that was moved.
 std::filesystem::path default_suite() {
   const std::filesystem::path here = "data/scenes/extreme";
   std::error_code ignored;
-  if (std::filesystem::is_directory(here, ignored)) return here;
-  const std::filesystem::path source = std::filesystem::path(HAMJET_SOURCE_DIR) / here;
-  if (std::filesystem::is_directory(source, ignored)) return source;
+  const auto program = std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path();
+  for (const std::filesystem::path& folder :
+       {here, program / here, program / HAMJET_DATA_FROM_PROGRAM / "scenes/extreme"}) {
+    if (std::filesystem::is_directory(folder, ignored)) return folder.lexically_normal();
+  }
   throw Error(ErrorKind::input_output,
               fmt::format("{}: no such folder; --suite names a folder of cases", here.string()));
 }

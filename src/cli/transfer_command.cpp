@@ -4,15 +4,15 @@
 
 #include <filesystem>
 #include <optional>
-#include <string_view>
 #include <system_error>
 
 #include "../io/scene_message.hpp"
 #include "hamjet/algebra/composition.hpp"
 #include "hamjet/error.hpp"
+#include "hamjet/io/jet_file.hpp"
 #include "hamjet/io/relative_motion_report.hpp"
-#include "hamjet/io/stored_jet.hpp"
 #include "report_origin.hpp"
+#include "required_tables.hpp"
 #include "standard_streams.hpp"
 #include "study_command.hpp"
 
@@ -22,42 +22,9 @@ namespace {
 /// Points of the trajectory that is drawn.
 constexpr int trajectory_intervals = 400;
 
-[[noreturn]] void refuse(const RunOptions& options, std::string_view key,
-                         const std::string& problem) {
-  throw Error(ErrorKind::scene,
-              fmt::format("{}: {}: {}", io::printable(*options.scene_file, std::string::npos), key,
-                          problem));
-}
-
-/// `example` is the smallest such table, in one line that can stand above the scene's first table.
-void require_table(const RunOptions& options, bool is_there, std::string_view key,
-                   std::string_view example) {
-  if (is_there) return;
-  refuse(
-      options, key,
-      fmt::format("missing, must be a table [{}]; the smallest is {} = {{{}}}", key, key, example));
-}
-
-/// What a study says of the scene, with the file's name.
-template <class Study>
-auto study_of(const RunOptions& options, const Study& study) {
-  try {
-    return study();
-  } catch (const Error& error) {
-    if (error.kind() != ErrorKind::scene) throw;
-    throw Error(
-        ErrorKind::scene,
-        fmt::format("{}: {}", io::printable(*options.scene_file, std::string::npos), error.what()));
-  }
-}
-
-bool is_zero(const RelativeState& state) {
-  return state.position_m.isZero(0) && state.velocity_m_s.isZero(0);
-}
-
 /// The stored jet, if it is of the scene's chief.
 EarlierJet earlier_jet(const TransferOptions& transfers, const Scene& scene) {
-  const io::StoredJet stored = io::read_stored_jet(*transfers.directory, transfers.run);
+  const io::StoredJet stored = io::read_jet_file(*transfers.directory, transfers.run);
   const auto refuse_jet = [&](const std::string& problem) {
     throw Error(
         ErrorKind::scene,
@@ -79,7 +46,8 @@ EarlierJet earlier_jet(const TransferOptions& transfers, const Scene& scene) {
 /// The results of a study take the place of what was in their directory.
 void refuse_to_replace(const std::filesystem::path& jet, const std::filesystem::path& output) {
   std::error_code none;
-  if (!std::filesystem::equivalent(jet, output, none)) return;
+  const bool is_file = std::filesystem::is_regular_file(jet, none);
+  if (!std::filesystem::equivalent(is_file ? jet.parent_path() : jet, output, none)) return;
   throw Error(ErrorKind::usage,
               fmt::format("--jet and -o: are the same directory, {}, whose jet the results would "
                           "replace; choose another -o",
@@ -89,15 +57,11 @@ void refuse_to_replace(const std::filesystem::path& jet, const std::filesystem::
 }  // namespace
 
 int transfer(const RunOptions& options, const TransferOptions& transfers) {
-  const Scene scene = read_scene(options);
-  require_table(options, scene.transfer.has_value(), "transfer",
-                "frame = \"RTN\", times_s = [1200, 1800], start = {position_m = [0, -1000, 0]}, "
-                "end = {position_m = [0, -100, 0]}");
-  if (scene.assignment && is_zero(scene.transfer->start) && is_zero(scene.transfer->end)) {
-    refuse(options, "transfer.start",
-           "missing, must be a table with position_m, as must transfer.end; `hamjet assign` works "
-           "on this scene's deputies and slots");
-  }
+  // A stored jet may well have been composed of arcs.
+  const Scene scene = transfers.directory && !transfers.directory->empty()
+                          ? read_scene(options)
+                          : read_unsplit_scene(options, "hamjet transfer");
+  require_transfer(scene, *options.scene_file);
   std::optional<EarlierJet> earlier;
   const std::string name = scene.name + "-transfer";
   if (transfers.directory) {
@@ -111,8 +75,9 @@ int transfer(const RunOptions& options, const TransferOptions& transfers) {
     }
   }
   return report_study(options, name, [&](const ProgressCallback& progress) {
-    const TransferResult result = study_of(
-        options, [&] { return study_transfer(scene, progress, earlier ? &*earlier : nullptr); });
+    const TransferResult result = study_of(*options.scene_file, [&] {
+      return study_transfer(scene, progress, earlier ? &*earlier : nullptr);
+    });
     std::optional<RelativeTrajectory> trajectory;
     if (const auto best = result.best_point()) {
       trajectory = fly_relative(result, *best, trajectory_intervals);
@@ -124,21 +89,21 @@ int transfer(const RunOptions& options, const TransferOptions& transfers) {
 }
 
 int validity(const RunOptions& options) {
-  const Scene scene = read_scene(options);
-  require_table(options, scene.validity.has_value(), "validity", "tolerance_m = 1, count = 12");
+  const Scene scene = read_unsplit_scene(options, "hamjet validity");
+  require_validity(scene, *options.scene_file);
   return report_study(options, scene.name + "-validity", [&](const ProgressCallback& progress) {
-    return io::validity_report(study_of(options, [&] { return study_validity(scene, progress); }),
-                               report_origin(options.command));
+    return io::validity_report(
+        study_of(*options.scene_file, [&] { return study_validity(scene, progress); }),
+        report_origin(options.command));
   });
 }
 
 int assign(const RunOptions& options) {
-  const Scene scene = read_scene(options);
-  require_table(options, scene.assignment.has_value(), "assignment",
-                "deputy = [{position_m = [0, -100, 0]}], slot = [{position_m = [0, 100, 0]}]");
+  const Scene scene = read_unsplit_scene(options, "hamjet assign");
+  require_assignment(scene, *options.scene_file);
   return report_study(options, scene.name + "-assign", [&](const ProgressCallback& progress) {
     return io::assignment_report(
-        study_of(options, [&] { return study_assignment(scene, progress); }));
+        study_of(*options.scene_file, [&] { return study_assignment(scene, progress); }));
   });
 }
 

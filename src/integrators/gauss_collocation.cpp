@@ -7,12 +7,7 @@
 
 namespace hamjet {
 
-template <class Real>
-FlowJet<Real> integrate_gauss(const FlowProblem<Real>& problem, const GaussSettings& settings,
-                              IntegrationStatistics& statistics,
-                              const StepObserver<Real>& observer) {
-  validate(problem);
-  statistics = {};
+void validate_gauss(const GaussSettings& settings) {
   if (settings.stages < 1 || settings.stages > 16) {
     throw Error(ErrorKind::usage,
                 fmt::format("Gauss: {} stages, allowed are 1..16", settings.stages));
@@ -25,12 +20,18 @@ FlowJet<Real> integrate_gauss(const FlowProblem<Real>& problem, const GaussSetti
     throw Error(ErrorKind::usage,
                 "Gauss: the step must be positive, the tolerance between 0 and 1");
   }
-  // The stages fill the lanes of a pack; the smallest of five widths that holds them is taken.
-  if (settings.stages == 1) return run_gauss<1>(problem, settings, statistics, observer);
-  if (settings.stages == 2) return run_gauss<2>(problem, settings, statistics, observer);
-  if (settings.stages <= 4) return run_gauss<4>(problem, settings, statistics, observer);
-  if (settings.stages <= 8) return run_gauss<8>(problem, settings, statistics, observer);
-  return run_gauss<16>(problem, settings, statistics, observer);
+}
+
+template <class Real>
+FlowJet<Real> integrate_gauss(const FlowProblem<Real>& problem, const GaussSettings& settings,
+                              IntegrationStatistics& statistics,
+                              const StepObserver<Real>& observer) {
+  validate(problem);
+  statistics = {};
+  validate_gauss(settings);
+  return with_lanes(settings.stages, [&]<int Lanes>(std::integral_constant<int, Lanes>) {
+    return run_gauss<Lanes>(problem, settings, statistics, observer);
+  });
 }
 
 template FlowJet<double> integrate_gauss(const FlowProblem<double>&, const GaussSettings&,

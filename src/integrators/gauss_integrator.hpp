@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "compensated_addition.hpp"
+#include "gauss_checkpoint.hpp"
 #include "gauss_step_control.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
@@ -27,6 +28,11 @@ class GaussIntegrator {
 
   GaussIntegrator(const FlowProblem<Real>& problem, const GaussSettings& settings,
                   IntegrationStatistics& statistics)
+      : GaussIntegrator(problem, settings, statistics, working_order(problem)) {}
+
+  /// Steps are chosen as for a jet of order `controlled_order`, which can be above the problem's.
+  GaussIntegrator(const FlowProblem<Real>& problem, const GaussSettings& settings,
+                  IntegrationStatistics& statistics, int controlled_order)
       : problem_(problem),
         settings_(settings),
         statistics_(statistics),
@@ -36,23 +42,68 @@ class GaussIntegrator {
         stages_(*problem.system, tableau_, problem.space, order_),
         point_(problem.system->evaluated_list(), problem.space, 0),
         jet_(problem, settings.compensated_summation),
-        control_(settings, tableau_, stages_, jet_, order_) {
+        control_(settings, tableau_, stages_, jet_, controlled_order) {
     for (const auto& component : jet_.value()) state_.push_back(component.coefficients().data());
   }
 
   FlowJet<Real> run(const StepObserver<Real>& observer) {
     begin();
-    while (time_ != problem_.duration) {
+    while (at_.time != problem_.duration) {
       step();
-      if (observer) clock_.exclude([&] { observer(time_, jet_.value()); });
+      if (observer) clock_.exclude([&] { observer(at_.time, jet_.value()); });
     }
-    statistics_.series_work = settings_.stages * stages_.evaluator().work();
-    statistics_.wall_seconds = clock_.seconds();
-    require_finite(jet_.value(), time_, "Gauss");
-    return jet_.take();
+    return finish();
+  }
+
+  /// As `run`, telling `keep` where the nominal stands at the start and after every step, if
+  /// `is_kept(taken)`.
+  template <class IsKept, class Keep>
+  FlowJet<Real> run_nominal(const StepObserver<Real>& observer, const IsKept& is_kept,
+                            const Keep& keep) {
+    begin();
+    while (at_.time != problem_.duration) {
+      if (is_kept(at_.taken)) keep(checkpoint());
+      step();
+      if (observer) clock_.exclude([&] { observer(at_.time, jet_.value()); });
+    }
+    if (is_kept(at_.taken)) keep(checkpoint());
+    return finish();
+  }
+
+  /// The steps of an earlier run of the same nominal from a checkpoint on, to the `last`-th. What
+  /// that run found is taken over where `after(taken)` has the checkpoint of so many steps, and
+  /// found again, with the same result, where it is null.
+  template <class After>
+  FlowJet<Real> run_from(const GaussCheckpoint<Real, Lanes>& start, long last, const After& after,
+                         const StepObserver<Real>& observer) {
+    jet_.resume(start.state, start.lost);
+    at_ = start.at;
+    stages_.slopes() = start.slopes;
+    end_slope_ = start.end_slope;
+    while (at_.taken < last) {
+      const GaussCheckpoint<Real, Lanes>* const end = after(at_.taken + 1);
+      if (end != nullptr) {
+        repeat_step(*end);
+      } else {
+        step();
+      }
+      if (observer) clock_.exclude([&] { observer(at_.time, jet_.value()); });
+    }
+    return finish();
   }
 
  private:
+  FlowJet<Real> finish() {
+    statistics_.series_work = settings_.stages * stages_.evaluator().work();
+    statistics_.wall_seconds = clock_.seconds();
+    require_finite(jet_.value(), at_.time, "Gauss");
+    return jet_.take();
+  }
+
+  GaussCheckpoint<Real, Lanes> checkpoint() {
+    return {jet_.constants(), jet_.lost_constants(), at_, stages_.slopes(), end_slope_};
+  }
+
   /// A step is repeated if its error estimate exceeds the tolerance more than this: the estimate
   /// goes as h^(2s), so that a step hardly too long is not worth repeating.
   static constexpr double largest_excess = 10;
@@ -69,10 +120,10 @@ class GaussIntegrator {
     if (problem_.duration == 0) return;
     evaluate_end_slope(end_slope_);
     if (settings_.step) {
-      remaining_steps_ = equal_step_count(problem_.duration, *settings_.step, "Gauss");
-      proposed_ = problem_.duration / Real(remaining_steps_);
+      at_.remaining_steps = equal_step_count(problem_.duration, *settings_.step, "Gauss");
+      at_.proposed = problem_.duration / Real(at_.remaining_steps);
     } else {
-      proposed_ = control_.first_step(point_, problem_.duration);
+      at_.proposed = control_.first_step(point_, problem_.duration);
     }
   }
 
@@ -95,24 +146,24 @@ class GaussIntegrator {
             ErrorKind::numerical,
             fmt::format("Gauss: the vector field is not finite at t = {:.10g}: a collision, "
                         "or a point outside its domain",
-                        static_cast<double>(time_)));
+                        static_cast<double>(at_.time)));
       }
     }
   }
 
   void step() {
     auto mark = Clock::now();
-    const Real remaining = (problem_.duration - time_) + lost_time_;
-    Real h = proposed_;
+    const Real remaining = (problem_.duration - at_.time) + at_.lost_time;
+    Real h = at_.proposed;
     double growth = 1;
     while (true) {
       if (!settings_.step) h = fit_to_span(h, remaining);
-      if (time_ + h == time_) {
+      if (at_.time + h == at_.time) {
         throw Error(
             ErrorKind::numerical,
             fmt::format("Gauss: the step size fell to {:.3g} at t = {:.15g}: a collision or "
                         "another singularity lies ahead",
-                        static_cast<double>(h), static_cast<double>(time_)));
+                        static_cast<double>(h), static_cast<double>(at_.time)));
       }
       step_ = h;
       const bool is_solved = solve_nominal(h);
@@ -137,25 +188,42 @@ class GaussIntegrator {
       ++statistics_.rejected_steps;
       h *= Real(std::min(growth, 0.9));
     }
-    if (!stages_.factorise()) fail_fixed_step(h);
+    // For the degrees above 0 alone.
+    if (order_ > 0 && !stages_.factorise()) fail_fixed_step(h);
     account(&GaussProfile::factorisation, mark);
     advance_jet(h, mark);
-    previous_step_ = h;
+    at_.previous_step = h;
+    ++at_.taken;
     ++statistics_.steps;
     statistics_.vector_field_evaluations += settings_.stages;
     if (settings_.step) {
-      --remaining_steps_;
-      time_ = remaining_steps_ == 0 ? problem_.duration
-                                    : problem_.duration - proposed_ * Real(remaining_steps_);
+      --at_.remaining_steps;
+      at_.time = at_.remaining_steps == 0
+                     ? problem_.duration
+                     : problem_.duration - at_.proposed * Real(at_.remaining_steps);
     } else {
       // Thousands of steps would else end beside the duration, by what each addition rounds off.
-      add_compensated(time_, lost_time_, h);
-      if (h == remaining) time_ = problem_.duration;
-      proposed_ = h * Real(std::clamp(growth, 0.1, 4.0));
-      limit_step_count("Gauss", statistics_.steps, static_cast<double>(time_),
+      add_compensated(at_.time, at_.lost_time, h);
+      if (h == remaining) at_.time = problem_.duration;
+      at_.proposed = h * Real(std::clamp(growth, 0.1, 4.0));
+      limit_step_count("Gauss", at_.taken, static_cast<double>(at_.time),
                        static_cast<double>(problem_.duration));
     }
     account(&GaussProfile::update, mark);
+  }
+
+  /// A step that an earlier run of the same nominal took.
+  void repeat_step(const GaussCheckpoint<Real, Lanes>& end) {
+    auto mark = Clock::now();
+    step_ = end.at.previous_step;
+    stages_.system().set_step(step_);
+    stages_.slopes() = end.slopes;
+    stages_.evaluate_at_slopes(start(), statistics_);
+    if (!stages_.factorise()) fail_fixed_step(step_);
+    advance_jet(step_, mark);
+    at_ = end.at;
+    ++statistics_.steps;
+    statistics_.vector_field_evaluations += settings_.stages;
   }
 
   [[noreturn]] void fail_fixed_step(const Real& h) const {
@@ -164,14 +232,14 @@ class GaussIntegrator {
         fmt::format("Gauss with {} stages: the implicit equations of the step of {:.6g} from "
                     "t = {:.10g} have no solution connected to its start; a smaller step is "
                     "needed",
-                    settings_.stages, static_cast<double>(h), static_cast<double>(time_)));
+                    settings_.stages, static_cast<double>(h), static_cast<double>(at_.time)));
   }
 
   /// Degree 0 of a step: Newton from the extrapolated slopes, from constant slopes if that fails,
   /// and along growing step sizes where the solution found might not be the one connected to the
   /// start.
   bool solve_nominal(const Real& h) {
-    if (statistics_.steps > 0) {
+    if (at_.taken > 0) {
       extrapolate_slopes(h);
       if (try_step(h) && !is_suspicious(h)) return true;
     }
@@ -275,7 +343,7 @@ class GaussIntegrator {
   /// Lagrange extrapolation of the last step's slopes: node i lies at 1 + (h/h_previous) c_i there.
   void extrapolate_slopes(const Real& h) {
     const std::size_t s = tableau_.stages;
-    const P x = P(Real(1)) + P(Real(h / previous_step_)) * stages_.system().nodes();
+    const P x = P(Real(1)) + P(Real(h / at_.previous_step)) * stages_.system().nodes();
     const std::vector<P> old = stages_.slopes();
     for (auto& slope : stages_.slopes()) slope = P(Real(0));
     for (std::size_t j = 0; j < s; ++j) {
@@ -318,12 +386,8 @@ class GaussIntegrator {
   SummedJet<Real, Lanes> jet_;
   GaussStepControl<Real, Lanes> control_;
   std::vector<const Real*> state_;
-  Real time_ = 0;
-  Real lost_time_ = 0;  ///< see add_compensated; with controlled steps
-  Real proposed_ = 0;
-  Real previous_step_ = 0;
-  Real step_ = 0;  ///< being tried
-  long remaining_steps_ = 0;
+  GaussStepping<Real> at_;
+  Real step_ = 0;                ///< being tried
   std::vector<Real> end_slope_;  ///< at the end of the last step, where the next one starts
 };
 

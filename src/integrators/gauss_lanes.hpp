@@ -1,12 +1,36 @@
 #pragma once
 
+#include <memory>
+
 #include "hamjet/integrators/gauss_collocation.hpp"
 
 namespace hamjet {
+
+template <class Real>
+class ArcIntegrator;
 
 /// integrate_gauss for one number of lanes; each is compiled in a file of its own.
 template <int Lanes, class Real>
 FlowJet<Real> run_gauss(const FlowProblem<Real>& problem, const GaussSettings& settings,
                         IntegrationStatistics& statistics, const StepObserver<Real>& observer);
+
+/// The same in arcs.
+template <int Lanes, class Real>
+std::unique_ptr<ArcIntegrator<Real>> make_gauss_arcs(const FlowProblem<Real>& problem,
+                                                     const GaussSettings& settings);
+
+/// Calls with the number of lanes, an integral constant: the stages fill the lanes of a pack, and
+/// the smallest of five widths that holds them is taken.
+template <class Call>
+auto with_lanes(int stages, const Call& call) {
+  if (stages == 1) return call(std::integral_constant<int, 1>{});
+  if (stages == 2) return call(std::integral_constant<int, 2>{});
+  if (stages <= 4) return call(std::integral_constant<int, 4>{});
+  if (stages <= 8) return call(std::integral_constant<int, 8>{});
+  return call(std::integral_constant<int, 16>{});
+}
+
+/// Throws Error(usage) for settings out of range.
+void validate_gauss(const GaussSettings& settings);
 
 }  // namespace hamjet

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <utility>
 #include <vector>
 
+#include "arc_integrator.hpp"
 #include "compensated_addition.hpp"
 #include "hamjet/algebra/extended.hpp"
 #include "hamjet/error.hpp"
@@ -49,6 +51,30 @@ inline void validate_splitting(const DynamicalSystem& system, double step, const
   }
 }
 
+/// Where the nominal of an explicit splitting stands between two steps, without the kicks that join
+/// them.
+template <class Real>
+struct SplittingCheckpoint {
+  std::vector<Real> state;           ///< with the kick that ends the step
+  std::vector<Real> summed_momenta;  ///< without it
+  std::vector<Real> lost;            ///< to rounding; positions, then momenta
+  long taken = 0;                    ///< steps
+  Real time = 0;
+};
+
+/// The methods as splittings.
+template <class Real>
+Splitting<Real> splitting_of(const StormerSettings& settings);
+template <class Real>
+Splitting<Real> splitting_of(const VelocityVerletSettings& settings);
+template <class Real>
+Splitting<Real> splitting_of(const SymmetricCompositionSettings& settings);
+
+/// Any explicit splitting in arcs. Throws as integrate_splitting does for what it is given.
+template <class Real>
+std::unique_ptr<ArcIntegrator<Real>> make_splitting_arcs(const FlowProblem<Real>& problem,
+                                                         Splitting<Real> splitting);
+
 /// Integrates with any explicit splitting.
 template <class Real>
 FlowJet<Real> integrate_splitting(const FlowProblem<Real>& problem, Splitting<Real> splitting,
@@ -80,7 +106,8 @@ class SplittingIntegration {
         count_(problem.space->first(working_order(problem) + 1)),
         jet_(starting_jet(problem)),
         momenta_(n_ * count_),
-        lost_(2 * n_ * count_, Real(0)) {
+        lost_(2 * n_ * count_, Real(0)),
+        products_(count_) {
     for (const Extended& entry : problem.system->second_order->inverse_mass) {
       inverse_mass_.push_back(convert<Real>(entry));
     }
@@ -90,61 +117,130 @@ class SplittingIntegration {
   }
 
   FlowJet<Real> run() {
-    const Real h = problem_.duration / Real(steps_);
+    set_kicks();
+    start();
+    take_steps(steps_, [] {});
+    return finish();
+  }
+
+  /// As `run`, telling `keep` where the nominal stands at the start and after every step but the
+  /// last, if `is_kept(taken)`.
+  template <class IsKept, class Keep>
+  FlowJet<Real> run_nominal(const IsKept& is_kept, const Keep& keep) {
+    set_kicks();
+    if (is_kept(0)) keep(checkpoint());
+    start();
+    take_steps(steps_, [&] {
+      if (taken_ < steps_ && is_kept(taken_)) keep(checkpoint());
+    });
+    return finish();
+  }
+
+  /// The steps of an earlier run of the same nominal from a checkpoint on, to the `last`-th. The
+  /// problem's starting jet is about the checkpoint's state.
+  template <class AfterStep>
+  FlowJet<Real> run_from(const SplittingCheckpoint<Real>& checkpoint, long last,
+                         const AfterStep& after_step) {
+    set_kicks();
+    taken_ = checkpoint.taken;
+    time_ = checkpoint.time;
+    start();
+    if (taken_ > 0) {
+      // The nominal takes the joined kick, as it did then.
+      for (std::size_t i = 0; i < n_; ++i) {
+        *lost(i) = checkpoint.lost[i];
+        *lost(n_ + i) = checkpoint.lost[n_ + i];
+        momenta_[i * count_] = checkpoint.summed_momenta[i];
+        add(&momenta_[i * count_], lost(n_ + i), joined_kick_, force_.f(i), 1);
+      }
+    }
+    take_steps(last, after_step);
+    return finish();
+  }
+
+ private:
+  void set_kicks() {
     const std::size_t stages = splitting_.drifts.size();
-    const Real end_kick = h * splitting_.kicks[stages];
-    const Real joined_kick = h * (splitting_.kicks[stages] + splitting_.kicks[0]);
-    require(force_.start(jet_), h);
+    step_ = problem_.duration / Real(steps_);
+    end_kick_ = step_ * splitting_.kicks[stages];
+    joined_kick_ = step_ * (splitting_.kicks[stages] + splitting_.kicks[0]);
+  }
+
+  /// The first kick.
+  void start() {
+    require(force_.start(jet_));
     ++statistics_.vector_field_evaluations;
-    kick(h * splitting_.kicks[0]);
-    for (long left = steps_ - 1; left >= 0; --left) {
+    kick(step_ * splitting_.kicks[0]);
+  }
+
+  /// Takes steps until `last` are done.
+  template <class AfterStep>
+  void take_steps(long last, const AfterStep& after_step) {
+    const std::size_t stages = splitting_.drifts.size();
+    while (taken_ < last) {
       for (std::size_t s = 0; s < stages; ++s) {
         if (s > 0) {
-          evaluate(h);
-          kick(h * splitting_.kicks[s]);
+          evaluate();
+          kick(step_ * splitting_.kicks[s]);
         }
-        drift(h * splitting_.drifts[s]);
+        drift(step_ * splitting_.drifts[s]);
       }
       // Störmer's rule ends with a drift: the force there is not needed.
-      if (left > 0 || end_kick != 0) evaluate(h);
+      if (taken_ + 1 < last || end_kick_ != 0) evaluate();
       ++statistics_.steps;
       ++taken_;
-      time_ = left == 0 ? problem_.duration : Real(problem_.duration - h * Real(left));
-      if (observer_) observe(end_kick);
-      if (left > 0) kick(joined_kick);
+      time_ = taken_ == steps_ ? problem_.duration
+                               : Real(problem_.duration - step_ * Real(steps_ - taken_));
+      if (observer_) observe();
+      after_step();
+      if (taken_ < last) kick(joined_kick_);
     }
-    write_jet(end_kick);
+  }
+
+  FlowJet<Real> finish() {
+    write_jet(end_kick_);
     statistics_.series_work = force_.work();
     require_finite(jet_, time_, splitting_.method);
     statistics_.wall_seconds = clock_.seconds();
     return std::move(jet_);
   }
 
- private:
-  void evaluate(const Real& h) {
-    ++statistics_.vector_field_evaluations;
-    require(force_.evaluate(), h);
+  SplittingCheckpoint<Real> checkpoint() {
+    SplittingCheckpoint<Real> result;
+    result.taken = taken_;
+    result.time = time_;
+    if (taken_ > 0) write_jet(end_kick_);
+    for (const Series<Real>& component : jet_) result.state.push_back(component[0]);
+    for (std::size_t i = 0; i < n_; ++i) result.summed_momenta.push_back(momenta_[i * count_]);
+    for (std::size_t c = 0; c < 2 * n_; ++c) result.lost.push_back(*lost(c));
+    return result;
   }
 
-  void require(bool is_good, const Real& h) const {
+  void evaluate() {
+    ++statistics_.vector_field_evaluations;
+    require(force_.evaluate());
+  }
+
+  void require(bool is_good) const {
     if (is_good) return;
     throw Error(ErrorKind::numerical,
                 fmt::format("{}: {} in step {} of {}, of size {:.6g} from t = {:.10g}",
                             splitting_.method, force_.failure(), taken_ + 1, steps_,
-                            static_cast<double>(h), static_cast<double>(time_)));
+                            static_cast<double>(step_), static_cast<double>(time_)));
   }
 
-  /// value += factor series.
-  void add(Real* value, Real* lost, const Real& factor, const Real* series) const {
-    for (std::size_t k = 0; k < count_; ++k) {
-      add_compensated(value[k], lost[k], Real(factor * series[k]));
-    }
+  /// value += factor series, so many numbers. The products are rounded apart from the sums: a
+  /// compiler that fuses the two does so in vectors and not in what is left of them, and a nominal
+  /// alone would have other last bits than the same nominal with its jet.
+  void add(Real* value, Real* lost, const Real& factor, const Real* series, std::size_t count) {
+    for (std::size_t k = 0; k < count; ++k) products_[k] = factor * series[k];
+    for (std::size_t k = 0; k < count; ++k) add_compensated(value[k], lost[k], products_[k]);
   }
 
   /// p += factor F(q).
   void kick(const Real& factor) {
     for (std::size_t i = 0; i < n_; ++i) {
-      add(&momenta_[i * count_], lost(n_ + i), factor, force_.f(i));
+      add(&momenta_[i * count_], lost(n_ + i), factor, force_.f(i), count_);
     }
   }
 
@@ -153,7 +249,8 @@ class SplittingIntegration {
     for (std::size_t i = 0; i < n_; ++i) {
       for (std::size_t j = 0; j < n_; ++j) {
         const Real& entry = inverse_mass_[i * n_ + j];
-        if (entry != 0) add(force_.x(i), lost(i), Real(factor * entry), &momenta_[j * count_]);
+        if (entry != 0)
+          add(force_.x(i), lost(i), Real(factor * entry), &momenta_[j * count_], count_);
       }
     }
   }
@@ -172,13 +269,14 @@ class SplittingIntegration {
       }
       const Real* f = force_.f(i);
       const Real* lost_part = lost(n_ + i);
-      for (std::size_t k = 0; k < count_; ++k) target[k] = p[k] + (factor * f[k] - lost_part[k]);
+      for (std::size_t k = 0; k < count_; ++k) products_[k] = factor * f[k];
+      for (std::size_t k = 0; k < count_; ++k) target[k] = p[k] + (products_[k] - lost_part[k]);
     }
   }
 
-  void observe(const Real& end_kick) {
+  void observe() {
     clock_.exclude([&] {
-      write_jet(end_kick);
+      write_jet(end_kick_);
       observer_(time_, jet_);
     });
   }
@@ -194,8 +292,12 @@ class SplittingIntegration {
   std::size_t count_;  ///< coefficients of one component
   FlowJet<Real> jet_;
   std::vector<Real> momenta_;
-  std::vector<Real> lost_;  ///< to rounding, so far; positions, then momenta
+  std::vector<Real> lost_;      ///< to rounding, so far; positions, then momenta
+  std::vector<Real> products_;  ///< work space of one component
   std::vector<Real> inverse_mass_;
+  Real step_ = 0;
+  Real end_kick_ = 0;
+  Real joined_kick_ = 0;  ///< at the end of a step and at the start of the next
   Real time_ = 0;
   long taken_ = 0;
 };

@@ -163,6 +163,14 @@ class StageSlopes {
     return false;
   }
 
+  /// The stages and all values there from the slopes of an earlier solution.
+  template <class State>
+  void evaluate_at_slopes(const State& state, IntegrationStatistics& statistics) {
+    place_stages(state);
+    evaluator_.evaluate_constant_terms();
+    ++statistics.nominal_evaluations;
+  }
+
   /// K and B at the stages as they stand.
   bool factorise() {
     return system_.factorise(

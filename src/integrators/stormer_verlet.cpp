@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "hamjet/dynamics/operation_count.hpp"
 #include "hamjet/dynamics/slice_evaluator.hpp"
 #include "splitting_integration.hpp"
 
@@ -49,7 +50,91 @@ class ExplicitForce {
   SliceEvaluator<Real, Real> evaluator_;
 };
 
+/// An explicit splitting in arcs.
+template <class Real>
+class SplittingArcs : public ArcIntegrator<Real> {
+ public:
+  SplittingArcs(const FlowProblem<Real>& problem, Splitting<Real> splitting)
+      : problem_(problem),
+        splitting_(std::move(splitting)),
+        steps_(equal_step_count(problem.duration, splitting_.step, splitting_.method)) {}
+
+  FlowJet<Real> run_nominal(IntegrationStatistics& statistics,
+                            const StepObserver<Real>& observer) override {
+    const FlowProblem<Real> nominal = nominal_problem(problem_);
+    ExplicitForce<Real> force(nominal);
+    return integration(nominal, force, statistics, observer)
+        .run_nominal([&](long taken) { return checkpoints_.is_kept(taken); },
+                     [&](auto checkpoint) { checkpoints_.add(std::move(checkpoint)); });
+  }
+
+  std::size_t checkpoints() const override { return checkpoints_.size(); }
+  long step(std::size_t checkpoint) const override { return checkpoints_[checkpoint].taken; }
+  const std::vector<Real>& state(std::size_t checkpoint) const override {
+    return checkpoints_[checkpoint].state;
+  }
+
+  FlowJet<Real> run_arc(std::size_t checkpoint, long last, const SpacePointer& space,
+                        const std::vector<std::size_t>& variables, const FlowJet<Real>& start,
+                        IntegrationStatistics& statistics,
+                        const std::function<void()>& after_step) const override {
+    const auto& from = checkpoints_[checkpoint];
+    const FlowProblem<Real> arc = arc_problem(problem_, from.state, space, variables, start);
+    ExplicitForce<Real> force(arc);
+    const StepObserver<Real> none;
+    return integration(arc, force, statistics, none).run_from(from, last, after_step);
+  }
+
+  StepCost cost(const SeriesSpace& space) const override {
+    const OperationList& list = problem_.system->evaluated_list();
+    const int order = working_order(*problem_.system, space.order());
+    const double components = static_cast<double>(list.inputs());
+    const double stages = static_cast<double>(splitting_.drifts.size());
+    const double values = static_cast<double>(list.operations().size());
+    const double coefficients = static_cast<double>(space.first(order + 1));
+    // Linear parts of all values; kicks and drifts, summed with compensation, count four each.
+    const double linear = components * values + 8 * components;
+    const double nominal = nominal_weight * stages * (values * (1 + components) + 8 * components);
+    const double series =
+        stages * (series_multiply_adds(list, space, order) + linear * coefficients);
+    return {nominal, series, series + nominal};
+  }
+
+ private:
+  /// Operations on single numbers one after the other, against runs of multiply-adds.
+  static constexpr double nominal_weight = 4;
+
+  SplittingIntegration<Real, ExplicitForce<Real>> integration(
+      const FlowProblem<Real>& problem, ExplicitForce<Real>& force,
+      IntegrationStatistics& statistics, const StepObserver<Real>& observer) const {
+    return {problem, splitting_, force, steps_, statistics, observer};
+  }
+
+  FlowProblem<Real> problem_;
+  Splitting<Real> splitting_;
+  long steps_;
+  CheckpointList<SplittingCheckpoint<Real>> checkpoints_;
+};
+
 }  // namespace
+
+template <class Real>
+Splitting<Real> splitting_of(const StormerSettings& settings) {
+  return {"Störmer's rule", settings.step, {Real(1)}, {Real(1), Real(0)}};
+}
+
+template <class Real>
+Splitting<Real> splitting_of(const VelocityVerletSettings& settings) {
+  const Real half = Real(1) / 2;
+  return {"velocity Verlet", settings.step, {Real(1)}, {half, half}};
+}
+
+template <class Real>
+std::unique_ptr<ArcIntegrator<Real>> make_splitting_arcs(const FlowProblem<Real>& problem,
+                                                         Splitting<Real> splitting) {
+  validate_splitting(*problem.system, splitting.step, splitting.method);
+  return std::make_unique<SplittingArcs<Real>>(problem, std::move(splitting));
+}
 
 template <class Real>
 FlowJet<Real> integrate_splitting(const FlowProblem<Real>& problem, Splitting<Real> splitting,
@@ -70,9 +155,7 @@ template <class Real>
 FlowJet<Real> integrate_stormer(const FlowProblem<Real>& problem, const StormerSettings& settings,
                                 IntegrationStatistics& statistics,
                                 const StepObserver<Real>& observer) {
-  return integrate_splitting<Real>(problem,
-                                   {"Störmer's rule", settings.step, {Real(1)}, {Real(1), Real(0)}},
-                                   statistics, observer);
+  return integrate_splitting(problem, splitting_of<Real>(settings), statistics, observer);
 }
 
 template <class Real>
@@ -80,11 +163,17 @@ FlowJet<Real> integrate_velocity_verlet(const FlowProblem<Real>& problem,
                                         const VelocityVerletSettings& settings,
                                         IntegrationStatistics& statistics,
                                         const StepObserver<Real>& observer) {
-  const Real half = Real(1) / 2;
-  return integrate_splitting<Real>(
-      problem, {"velocity Verlet", settings.step, {Real(1)}, {half, half}}, statistics, observer);
+  return integrate_splitting(problem, splitting_of<Real>(settings), statistics, observer);
 }
 
+template Splitting<double> splitting_of(const StormerSettings&);
+template Splitting<Extended> splitting_of(const StormerSettings&);
+template Splitting<double> splitting_of(const VelocityVerletSettings&);
+template Splitting<Extended> splitting_of(const VelocityVerletSettings&);
+template std::unique_ptr<ArcIntegrator<double>> make_splitting_arcs(const FlowProblem<double>&,
+                                                                    Splitting<double>);
+template std::unique_ptr<ArcIntegrator<Extended>> make_splitting_arcs(const FlowProblem<Extended>&,
+                                                                      Splitting<Extended>);
 template FlowJet<double> integrate_splitting(const FlowProblem<double>&, Splitting<double>,
                                              IntegrationStatistics&, const StepObserver<double>&);
 template FlowJet<Extended> integrate_splitting(const FlowProblem<Extended>&, Splitting<Extended>,

@@ -26,6 +26,27 @@ class SummedJet {
   const FlowJet<Real>& value() const { return jet_; }
   FlowJet<Real> take() { return std::move(jet_); }
 
+  /// The constant terms, and what they lost (empty if not compensated).
+  std::vector<Real> constants() const {
+    std::vector<Real> result;
+    for (const Series<Real>& component : jet_) result.push_back(component[0]);
+    return result;
+  }
+  std::vector<Real> lost_constants() const {
+    std::vector<Real> result;
+    for (const auto& component : lost_) {
+      if (is_compensated_) result.push_back(component[0]);
+    }
+    return result;
+  }
+  /// Takes up constant terms with what they lost.
+  void resume(const std::vector<Real>& constants, const std::vector<Real>& lost) {
+    for (std::size_t c = 0; c < jet_.size(); ++c) {
+      jet_[c][0] = constants[c];
+      if (is_compensated_) lost_[c][0] = lost[c];
+    }
+  }
+
   /// z_(n+1) = z_n + h sum b_j f_j, and with the second-order form
   /// q_(n+1) = q_n + h M^-1 p_n + h^2 sum b_j (1 - c_j) M^-1 F_j, up to a degree.
   void advance(StageSlopes<Real, Lanes>& stages, const Real& h, int highest) {

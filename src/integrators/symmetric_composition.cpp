@@ -74,10 +74,7 @@ std::vector<Extended> composition_substeps(int order) {
 }
 
 template <class Real>
-FlowJet<Real> integrate_symmetric_composition(const FlowProblem<Real>& problem,
-                                              const SymmetricCompositionSettings& settings,
-                                              IntegrationStatistics& statistics,
-                                              const StepObserver<Real>& observer) {
+Splitting<Real> splitting_of(const SymmetricCompositionSettings& settings) {
   Splitting<Real> splitting{method_name(settings.order), settings.step, {}, {}};
   // The half kicks at the end of one Verlet step and at the start of the next are one kick.
   Extended previous = 0;
@@ -87,9 +84,19 @@ FlowJet<Real> integrate_symmetric_composition(const FlowProblem<Real>& problem,
     previous = gamma;
   }
   splitting.kicks.push_back(convert<Real>(Extended(previous / 2)));
-  return integrate_splitting(problem, std::move(splitting), statistics, observer);
+  return splitting;
 }
 
+template <class Real>
+FlowJet<Real> integrate_symmetric_composition(const FlowProblem<Real>& problem,
+                                              const SymmetricCompositionSettings& settings,
+                                              IntegrationStatistics& statistics,
+                                              const StepObserver<Real>& observer) {
+  return integrate_splitting(problem, splitting_of<Real>(settings), statistics, observer);
+}
+
+template Splitting<double> splitting_of(const SymmetricCompositionSettings&);
+template Splitting<Extended> splitting_of(const SymmetricCompositionSettings&);
 template FlowJet<double> integrate_symmetric_composition(const FlowProblem<double>&,
                                                          const SymmetricCompositionSettings&,
                                                          IntegrationStatistics&,

@@ -162,12 +162,12 @@ std::string failure(const CanonicalTransformationResult& result) {
 }  // namespace
 
 template <>
-StudyReport study_report(const CanonicalTransformationResult& result) {
+StudyReport study_report(const CanonicalTransformationResult& result, Figure figure) {
   StudyReport report;
   for (const CanonicalTransformationRun& run : result.runs) {
     report.files.push_back({trajectory_file(run), trajectory_csv(result, run)});
   }
-  add_figure(report, canonical_transformation_charts(result));
+  if (figure == Figure::drawn) add_figure(report, canonical_transformation_charts(result));
   report.files.push_back({"summary.json", summary_json(result)});
   report.table = table(result);
   report.exit_code = exit_code(result);

@@ -107,9 +107,15 @@ void fit_axes(Chart& chart) {
         "A triangle that points down at the lower edge is a value of zero, which a logarithmic "
         "axis has no place for, or one below the axis.");
   }
-  if (x.is_empty()) return;
+  if (x.is_empty() && !chart.map) return;
   // All values are zero, or none exists: some decades to draw the marks in.
-  if (y.is_empty()) y = {1e-16, 1};
+  if (y.is_empty() && !chart.map) y = {1e-16, 1};
+  if (chart.map) {
+    for (const ChartCell& cell : chart.map->cells) {
+      for (const double place : {cell.left, cell.right}) x.include(place);
+      for (const double place : {cell.lower, cell.upper}) y.include(place);
+    }
+  }
   for (const double place : chart.x.includes) x.include(place);
   for (const ChartRule& rule : chart.rules) (rule.is_vertical ? x : y).include(rule.place);
   if (chart.is_isometric) {
@@ -148,7 +154,8 @@ void fit(Chart& chart) {
   std::erase_if(chart.curves, is_empty);
   fit_axes(chart);
   std::erase_if(chart.curves, is_empty);
-  if (chart.curves.empty() && chart.at_limit.empty() && chart.missing.empty()) {
+  const bool is_without = chart.curves.empty() && chart.at_limit.empty() && !chart.map;
+  if (is_without && chart.missing.empty()) {
     chart.missing = "No run has values for this plot.";
   }
   // An empty plot says why, and has no marks left to explain.

@@ -55,6 +55,20 @@ struct ChartCornerText {
   std::string text;
 };
 
+/// A value over the plane, in colour.
+struct ChartCell {
+  double left = 0;
+  double right = 0;
+  double lower = 0;
+  double upper = 0;
+  double value = 0;
+};
+struct ChartMap {
+  std::string label;  ///< of the colours
+  bool is_logarithmic = false;
+  std::vector<ChartCell> cells;  ///< not empty; where one has no width or height, all are points
+};
+
 /// A plot before it is drawn.
 struct Chart {
   std::string name;                ///< of the file; letters, digits and hyphens
@@ -65,6 +79,7 @@ struct Chart {
   bool is_isometric = false;       ///< a unit is as long along x as along y
   ChartAxis x;
   ChartAxis y;
+  std::optional<ChartMap> map;  ///< behind the curves
   std::vector<ChartCurve> curves;
   std::vector<ChartCurve> at_limit;  ///< below a logarithmic axis, and put at its limit
   std::vector<ChartRule> rules;
@@ -80,6 +95,10 @@ void fit(Chart& chart);
 
 /// What a chart is drawn as.
 enum class Drawing { wide_svg, narrow_svg, pdf, png };
+
+/// Of a map: the commands before `plot`, with the data, and what is plotted.
+std::string map_commands(const ChartMap& map);
+std::string map_plot(const ChartMap& map);
 
 /// The gnuplot script that draws a fitted chart to the standard output.
 std::string gnuplot_script(const Chart& chart, Drawing drawing);

@@ -194,8 +194,8 @@ std::string gnuplot_script(const Chart& chart, Drawing drawing) {
   script += "set grid xtics ytics lc rgb '#DDDDDD' lw 0.7 dt 1\n";
   if (layout.is_narrow) {
     script += "set key outside bottom center vertical Left reverse maxcols 1 samplen 3 height 1\n";
-  } else if (!chart.corners.empty()) {
-    // Names in the corners need the whole width.
+  } else if (!chart.corners.empty() || chart.map) {
+    // Names in the corners need the whole width, as does the scale of the colours.
     script += "set key outside bottom center horizontal Left reverse samplen 2 height 1\n";
   } else {
     script += "set key outside right top vertical Left reverse samplen 3 spacing 1.2\n";
@@ -205,6 +205,10 @@ std::string gnuplot_script(const Chart& chart, Drawing drawing) {
             axis_commands("y", chart.y, layout.is_narrow ? 8 : 10) +
             (chart.is_isometric ? isometric_ticks(chart) : "") + decorations(chart);
   std::vector<std::string> plots;
+  if (chart.map) {
+    script += map_commands(*chart.map);
+    plots.push_back(map_plot(*chart.map));
+  }
   const auto rows = static_cast<std::size_t>(
       std::count_if(chart.curves.begin(), chart.curves.end(),
                     [](const ChartCurve& curve) { return !curve.ticks.empty(); }));

@@ -162,11 +162,11 @@ std::string table(const EnergyConservationResult& result) {
 }  // namespace
 
 template <>
-StudyReport study_report(const EnergyConservationResult& result) {
+StudyReport study_report(const EnergyConservationResult& result, Figure figure) {
   StudyReport report;
   report.files = {{"trajectory.csv", trajectory_csv(result)},
                   {"fixed_step.csv", fixed_step_csv(result)}};
-  add_figure(report, energy_conservation_charts(result));
+  if (figure == Figure::drawn) add_figure(report, energy_conservation_charts(result));
   report.table = table(result);
   report.exit_code = result.exit_code();
   report.failure = result.failure();

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <system_error>
 
@@ -14,6 +15,49 @@ namespace hamjet::io {
 namespace {
 
 namespace fs = std::filesystem;
+
+fs::path folder_of(const fs::path& path) {
+  return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
+/// Whether to wait until the disk has it.
+enum class Flush { no, yes };
+
+void write_file(const fs::path& path, std::string_view content, const fs::path& shown,
+                Flush flush) {
+  Descriptor file(path, O_WRONLY | O_CREAT | O_TRUNC);
+  if (!file.is_open()) throw_file_error(shown, "cannot be written", errno_text());
+  while (!content.empty()) {
+    const ssize_t written = ::write(file.value(), content.data(), content.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) {
+      throw_file_error(shown, fmt::format("cannot be written ({} bytes left)", content.size()),
+                       errno_text());
+    }
+    content.remove_prefix(static_cast<std::size_t>(written));
+  }
+  if (flush == Flush::yes && ::fsync(file.value()) != 0 && errno != EINVAL) {
+    throw_file_error(shown, "cannot be flushed", errno_text());
+  }
+  if (!file.close()) throw_file_error(shown, "cannot be closed", errno_text());
+}
+
+/// Writes beside the file and takes its place.
+void replace_file(const fs::path& path, std::string_view content, Flush flush) {
+  const fs::path folder = folder_of(path);
+  const auto created = create_folders(folder, "the directory cannot be created");
+  const fs::path temporary = temporary_beside(path);
+  try {
+    write_file(temporary, content, path, flush);
+    if (::rename(temporary.c_str(), path.c_str()) != 0) {
+      throw_file_error(path, "cannot be put in its place", errno_text());
+    }
+  } catch (...) {
+    ::unlink(temporary.c_str());
+    remove_empty(created);
+    throw;
+  }
+}
 
 }  // namespace
 
@@ -30,21 +74,7 @@ void throw_file_error(const fs::path& path, std::string_view what, std::string_v
 std::string errno_text() { return std::generic_category().message(errno); }
 
 void write_and_flush(const fs::path& path, std::string_view content, const fs::path& shown) {
-  Descriptor file(path, O_WRONLY | O_CREAT | O_TRUNC);
-  if (!file.is_open()) throw_file_error(shown, "cannot be written", errno_text());
-  while (!content.empty()) {
-    const ssize_t written = ::write(file.value(), content.data(), content.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) {
-      throw_file_error(shown, fmt::format("cannot be written ({} bytes left)", content.size()),
-                       errno_text());
-    }
-    content.remove_prefix(static_cast<std::size_t>(written));
-  }
-  if (::fsync(file.value()) != 0 && errno != EINVAL) {
-    throw_file_error(shown, "cannot be flushed", errno_text());
-  }
-  if (!file.close()) throw_file_error(shown, "cannot be closed", errno_text());
+  write_file(path, content, shown, Flush::yes);
 }
 
 void flush_folder(const fs::path& folder) {
@@ -86,25 +116,20 @@ void require_writable(const fs::path& folder) {
 
 fs::path temporary_beside(const fs::path& path) {
   fs::path temporary = path;
-  temporary += fmt::format(".{}.tmp", ::getpid());
+  std::array<char, 64> host{};
+  // Machines that share a folder may have the same process numbers.
+  ::gethostname(host.data(), host.size() - 1);
+  temporary += fmt::format(".{}-{}.tmp", host.data(), ::getpid());
   return temporary;
 }
 
+void replace_sealed_file(const fs::path& path, std::string_view content) {
+  replace_file(path, content, Flush::no);
+}
+
 void write_whole_file(const fs::path& path, std::string_view content) {
-  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  const auto created = create_folders(folder, "the directory cannot be created");
-  const fs::path temporary = temporary_beside(path);
-  try {
-    write_and_flush(temporary, content, path);
-    if (::rename(temporary.c_str(), path.c_str()) != 0) {
-      throw_file_error(path, "cannot be put in its place", errno_text());
-    }
-  } catch (...) {
-    ::unlink(temporary.c_str());
-    remove_empty(created);
-    throw;
-  }
-  flush_folder(folder);
+  replace_file(path, content, Flush::yes);
+  flush_folder(folder_of(path));
 }
 
 }  // namespace hamjet::io

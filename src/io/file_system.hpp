@@ -63,7 +63,11 @@ void require_writable(const std::filesystem::path& folder);
 /// The file beside it in which write_whole_file() writes.
 std::filesystem::path temporary_beside(const std::filesystem::path& path);
 
-/// Writes one file in full, or leaves what was there untouched; its folder is created.
+/// Writes one file in full, or leaves what was there untouched; its folder is created. Does not
+/// wait for the disk: after a power failure the file may be cut or missing, so it must have a seal.
+void replace_sealed_file(const std::filesystem::path& path, std::string_view content);
+
+/// The same for any file, and to stay: after a power failure it is there, whole.
 void write_whole_file(const std::filesystem::path& path, std::string_view content);
 
 }  // namespace hamjet::io

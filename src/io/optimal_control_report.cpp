@@ -212,11 +212,11 @@ std::string table(const OptimalControlResult& result) {
 }  // namespace
 
 template <>
-StudyReport study_report(const OptimalControlResult& result) {
+StudyReport study_report(const OptimalControlResult& result, Figure figure) {
   StudyReport report;
   report.files = {{"trajectory.csv", trajectory_csv(result)},
                   {"convergence.csv", convergence_csv(result)}};
-  add_figure(report, optimal_control_charts(result));
+  if (figure == Figure::drawn) add_figure(report, optimal_control_charts(result));
   report.files.push_back({"summary.json", summary(result)});
   report.table = table(result);
   report.exit_code = result.exit_code();

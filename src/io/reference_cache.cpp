@@ -14,8 +14,6 @@
 namespace hamjet::io {
 namespace {
 
-using Json = nlohmann::json;
-
 /// 36 significant digits bring back the same number of 113 bits.
 std::string text_of(const Extended& value) { return value.str(36, std::ios_base::scientific); }
 
@@ -24,10 +22,10 @@ std::string hash_of(const std::string& text) {
   return boost::uuids::to_string(generator(text));
 }
 
-Json json_of(const std::string& key, const ReferenceResult& reference) {
-  Json jet = Json::array();
+nlohmann::json json_of(const std::string& key, const ReferenceResult& reference) {
+  nlohmann::json jet = nlohmann::json::array();
   for (const auto& component : reference.jet) {
-    Json numbers = Json::array();
+    nlohmann::json numbers = nlohmann::json::array();
     for (const Extended& c : component.coefficients()) numbers.push_back(text_of(c));
     jet.push_back(std::move(numbers));
   }
@@ -41,11 +39,11 @@ Json json_of(const std::string& key, const ReferenceResult& reference) {
 }
 
 /// Throws if anything is not as it was written.
-ReferenceResult reference_of(const Json& json, const SpacePointer& space) {
+ReferenceResult reference_of(const nlohmann::json& json, const SpacePointer& space) {
   ReferenceResult result;
-  for (const Json& numbers : json.at("jet")) {
+  for (const nlohmann::json& numbers : json.at("jet")) {
     std::vector<Extended> coefficients;
-    for (const Json& text : numbers) {
+    for (const nlohmann::json& text : numbers) {
       coefficients.emplace_back(text.get<std::string>());
       if (!isfinite(coefficients.back())) {
         throw Error(ErrorKind::input_output, "a coefficient is not finite");
@@ -88,7 +86,7 @@ std::optional<ReferenceResult> ReferenceCache::load(const std::string& key,
   try {
     std::ifstream file(file_of(key));
     if (!file) return std::nullopt;
-    Json json = Json::parse(file);
+    nlohmann::json json = nlohmann::json::parse(file);
     const std::string hash = json.at("hash");
     json.erase("hash");
     if (hash_of(json.dump()) != hash || json.at("key") != key) return std::nullopt;
@@ -101,7 +99,7 @@ std::optional<ReferenceResult> ReferenceCache::load(const std::string& key,
 void ReferenceCache::save(const std::string& key, const ReferenceResult& reference) {
   if (directory_.empty()) return;
   try {
-    Json json = json_of(key, reference);
+    nlohmann::json json = json_of(key, reference);
     json["hash"] = hash_of(json.dump());
     write_whole_file(file_of(key), json.dump());
   } catch (const Error&) {

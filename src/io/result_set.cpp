@@ -3,7 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <system_error>
+#include <cstddef>
+#include <limits>
 #include <utility>
 
 #include "directory_lock.hpp"
@@ -19,13 +20,9 @@ constexpr const char* remedy = "run the scene again";
 
 /// A pipe in the place of a result would be waited for.
 std::string read_result(const std::filesystem::path& file) {
-  std::error_code ignored;
-  const auto status = std::filesystem::status(file, ignored);
-  if (std::filesystem::is_fifo(status) || std::filesystem::is_socket(status) ||
-      std::filesystem::is_character_file(status)) {
-    throw_file_error(file, "cannot be read: not a regular file", remedy);
-  }
-  return read_text_file(file);
+  FileContent content = read_regular_file(file, std::numeric_limits<std::size_t>::max());
+  if (!content.problem.empty()) throw_file_error(file, "cannot be read", content.problem);
+  return std::move(content.text);
 }
 
 }  // namespace

@@ -1,5 +1,9 @@
 #include "hamjet/io/results.hpp"
 
+#include "hamjet/io/dace_text.hpp"
+#include "hamjet/io/hdf5_jets.hpp"
+#include "jet_description.hpp"
+#include "orbit_ephemeris.hpp"
 #include "results_names.hpp"
 
 namespace hamjet::io {
@@ -32,7 +36,12 @@ std::string write_results(const PropagationResult& result, const std::string& fi
     if (!run.failure.empty()) continue;
     const std::filesystem::path folder = run.settings.label;
     output.write(folder / "jet.csv", jet_csv(result, run));
+    if (result.scene.output.dace) {
+      output.write(folder / "jet.dace",
+                   dace_text(run.jet, jet_notes(describe_jet(result, run), result.scene.order)));
+    }
     output.write(folder / "nominal.csv", nominal_csv(result, run));
+    if (result.scene.output.oem) output.write(folder / "nominal.oem", nominal_oem(result, run));
     if (run.along_time) output.write(folder / "along_time.csv", along_time_csv(result, run));
     for (const KindResult& kind : run.kinds) {
       if (!kind.generating_function) continue;
@@ -43,6 +52,7 @@ std::string write_results(const PropagationResult& result, const std::string& fi
   if (!result.relative_hamiltonians.empty()) {
     output.write("relative_hamiltonian.csv", relative_hamiltonian_csv(result));
   }
+  if (result.scene.output.hdf5) output.write("jets.h5", jets_hdf5(result));
   if (!figure.empty()) output.write("figure.svg", figure);
   output.write("summary.json", summary_json(result));
   return output.commit();

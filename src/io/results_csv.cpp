@@ -3,7 +3,9 @@
 #include <iterator>
 
 #include "hamjet/io/results.hpp"
+#include "jet_csv.hpp"
 #include "results_names.hpp"
+#include "stored_coefficients.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -13,31 +15,38 @@ std::string number(const Extended& value, Precision precision) {
   if (precision == Precision::double_precision) {
     return fmt::format("{:.17g}", static_cast<double>(value));
   }
-  return value.str(36, std::ios_base::scientific);
+  return extended_digits(value);
 }
 
 }  // namespace
 
-std::string jet_csv(const PropagationResult& result, const RunResult& run) {
-  const auto names = variable_names(result.scene.system);
-  const SeriesSpace& space = *result.problem.space;
+std::string coefficients_csv(const std::vector<std::string_view>& names,
+                             const std::vector<std::size_t>& components,
+                             const std::vector<std::size_t>& variables, Precision precision,
+                             const FlowJet<Extended>& jet) {
+  const SeriesSpace& space = jet.at(0).space();
   fmt::memory_buffer out;
   const auto write = std::back_inserter(out);
   fmt::format_to(write, "component");
   for (const auto name : names) fmt::format_to(write, ",e_{}", name);
   fmt::format_to(write, ",coefficient\n");
-  for (std::size_t c = 0; c < run.jet.size(); ++c) {
+  for (std::size_t c = 0; c < jet.size(); ++c) {
     for (std::size_t k = 0; k < space.size(); ++k) {
       std::vector<int> exponents(names.size(), 0);
       for (std::size_t v = 0; v < space.variables(); ++v) {
-        exponents[result.problem.components[result.problem.variables[v]]] = space.exponents(k)[v];
+        exponents[variables[v]] = space.exponents(k)[v];
       }
-      fmt::format_to(write, "{}", names[result.problem.components[c]]);
+      fmt::format_to(write, "{}", names[components[c]]);
       for (const int e : exponents) fmt::format_to(write, ",{}", e);
-      fmt::format_to(write, ",{}\n", number(run.jet[c][k], result.scene.precision));
+      fmt::format_to(write, ",{}\n", number(jet[c][k], precision));
     }
   }
   return fmt::to_string(out);
+}
+
+std::string jet_csv(const PropagationResult& result, const RunResult& run) {
+  return coefficients_csv(variable_names(result.scene.system), result.problem.components,
+                          result.scene.variables, result.scene.precision, run.jet);
 }
 
 std::string generating_function_csv(const PropagationResult& result, const KindResult& kind) {

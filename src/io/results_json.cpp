@@ -3,8 +3,10 @@
 #include "hamjet/io/results.hpp"
 #include "hamjet/version.hpp"
 #include "json_values.hpp"
+#include "orbit_ephemeris.hpp"
 #include "results_names.hpp"
 #include "results_operations_json.hpp"
+#include "system_json.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -49,6 +51,29 @@ Json checks_json(const std::vector<SelfCheck>& checks) {
                     {"text", check.text}});
   }
   return json;
+}
+
+/// How a run was split, and why.
+Json arcs_json(const Scene& scene, const ArcStatistics& arcs) {
+  const ArcPlan& plan = arcs.plan;
+  Json speed_ups = Json::object();
+  for (std::size_t i = 0; i < plan.speed_ups.size(); ++i) {
+    speed_ups[std::to_string(ArcPlan::thread_counts[i])] = plan.speed_ups[i];
+  }
+  return {{"asked", scene.arcs ? Json(*scene.arcs) : Json("auto")},
+          {"count", plan.arcs},
+          {"reason", plan.reason},
+          {"estimated_speed_up_by_threads", speed_ups},
+          {"multiply_adds",
+           {{"nominal_step", plan.nominal_multiply_adds},
+            {"step", plan.step_multiply_adds},
+            {"step_of_later_arcs", plan.arc_step_multiply_adds},
+            {"composition", plan.composition_multiply_adds}}},
+          {"compositions", arcs.compositions},
+          {"threads", arcs.threads},
+          {"nominal_seconds", arcs.nominal_seconds},
+          {"arcs_seconds", arcs.arcs_seconds},
+          {"composition_seconds", arcs.composition_seconds}};
 }
 
 Json run_json(const PropagationResult& result, const RunResult& run) {
@@ -104,6 +129,7 @@ Json run_json(const PropagationResult& result, const RunResult& run) {
     }
   }
   json["operations"] = operations_json(result, run);
+  if (run.arcs) json["arcs"] = arcs_json(result.scene, *run.arcs);
   return json;
 }
 
@@ -120,6 +146,7 @@ std::string summary_json(const PropagationResult& result) {
                {"title", scene.title},
                {"version", version},
                {"model", model_names()[static_cast<std::size_t>(scene.system.model)]},
+               {"system", system_json(scene.system)},
                {"precision", scene.precision == Precision::extended ? "extended" : "double"},
                {"units", {{"length_km", scene.units.length_km}, {"time_s", scene.units.time_s}}},
                {"order", scene.order},
@@ -128,6 +155,8 @@ std::string summary_json(const PropagationResult& result) {
                {"coefficients_per_component", result.problem.space->size()},
                {"duration_canonical", scene.duration},
                {"nominal_initial", scene.nominal},
+               {"ephemeris", ephemeris_json(scene)},
+               {"nominal_file", nominal_file_json(scene)},
                {"separation_canonical", or_null(scene.separation)},
                {"reference", nullptr}};
   if (result.reference) {

@@ -32,7 +32,7 @@ Json operations_json(const PropagationResult& result, const RunResult& run) {
       {"multiply_adds", run.statistics.series_work.multiply_adds},
       {"poisson_brackets", run.counts.poisson_brackets},
       {"inversions", run.counts.inversions},
-      {"compositions", run.counts.compositions},
+      {"compositions", run.counts.compositions + (run.arcs ? run.arcs->compositions : 0)},
       {"exactness_residuals", run.counts.exactness_residuals},
       {"self_checks", checks_done(run)},
       {"points_watched_for_figure", run.along_time ? run.along_time->points.size() : 0}};
@@ -51,7 +51,7 @@ Json operations_json(const PropagationResult& result) {
     has_figure = has_figure || run.along_time;
     counts.poisson_brackets += run.counts.poisson_brackets;
     counts.inversions += run.counts.inversions;
-    counts.compositions += run.counts.compositions;
+    counts.compositions += run.counts.compositions + (run.arcs ? run.arcs->compositions : 0);
     counts.exactness_residuals += run.counts.exactness_residuals;
   }
   const bool has_reference = result.reference.has_value();

@@ -152,7 +152,34 @@ std::string checks_line(const Scene& scene) {
   return fmt::format("checks that the scene turned off: {}\n", fmt::join(off, ", "));
 }
 
+/// How the runs were split.
+std::string arcs_lines(const PropagationResult& result) {
+  std::string text;
+  for (const RunResult& run : result.runs) {
+    if (!run.arcs || !run.failure.empty()) continue;
+    text += fmt::format("{}: {}", run.settings.label, arcs_text(result.scene, run.arcs->plan));
+    if (run.arcs->plan.arcs > 1) {
+      text += fmt::format("; ran on {} {}", run.arcs->threads,
+                          run.arcs->threads == 1 ? "thread" : "threads");
+    }
+    text += "\n";
+  }
+  return text;
+}
+
 }  // namespace
+
+std::string arcs_text(const Scene& scene, const ArcPlan& plan) {
+  std::string text = fmt::format("{} {} ({}{})", plan.arcs, plan.arcs == 1 ? "arc" : "arcs",
+                                 scene.arcs ? "" : "auto: ", plan.reason);
+  if (plan.arcs == 1) return text;
+  text += ", estimated speed-up";
+  for (std::size_t i = 0; i < plan.speed_ups.size(); ++i) {
+    text += fmt::format("{} {:.2f} on {}", i == 0 ? "" : ",", plan.speed_ups[i],
+                        ArcPlan::thread_counts[i]);
+  }
+  return text + " threads";
+}
 
 std::string summary_table(const PropagationResult& result) {
   const Scene& scene = result.scene;
@@ -171,6 +198,7 @@ std::string summary_table(const PropagationResult& result) {
   for (const RunResult& run : result.runs) rows.push_back(run_row(result, run));
   text += aligned(rows) + "\n" + explanation(result);
   text += checks_line(scene);
+  text += arcs_lines(result);
   if (!result.relative_hamiltonian_failure.empty()) {
     text += fmt::format("FAILED: {}\n", result.relative_hamiltonian_failure);
   }

@@ -203,15 +203,26 @@ std::string apply(const Override& change, toml::table& table) {
   return assignment.path;
 }
 
-}  // namespace
-
-SceneDocument parse_document(std::string_view text, const std::string& name,
-                             const std::vector<Override>& overrides) {
-  SceneDocument document{parse_toml(text, name), {name, {}}};
+void apply(const std::vector<Override>& overrides, SceneDocument& document) {
   for (const Override& change : overrides) {
     const std::string path = apply(change, document.table);
     document.source.override_paths.insert_or_assign(override_source(change.key), path);
   }
+}
+
+}  // namespace
+
+SceneDocument parse_document(std::string_view text, const std::string& name,
+                             const std::vector<Override>& overrides) {
+  SceneDocument document{parse_toml(text, name), {name, true, {}}};
+  apply(overrides, document);
+  return document;
+}
+
+SceneDocument make_document(toml::table tables, const std::string& name,
+                            const std::vector<Override>& overrides) {
+  SceneDocument document{std::move(tables), {name, false, {}}};
+  apply(overrides, document);
   return document;
 }
 

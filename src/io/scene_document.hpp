@@ -30,4 +30,11 @@ struct SceneDocument {
 SceneDocument parse_document(std::string_view text, const std::string& name,
                              const std::vector<Override>& overrides);
 
+/// The same of tables that a program has made, which have no lines.
+SceneDocument make_document(toml::table tables, const std::string& name,
+                            const std::vector<Override>& overrides);
+
+/// Reads the document; `file_name` names the scene. Throws as parse_study does.
+Study read_document(const SceneDocument& document, const std::string& file_name);
+
 }  // namespace hamjet::io

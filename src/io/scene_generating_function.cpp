@@ -9,11 +9,11 @@
 namespace hamjet::io {
 namespace {
 
-/// An orbit in the equatorial plane stays there if the gravity field is symmetric about it (J3 =
-/// 0), so that x, y, px, py are a system of their own, with two degrees of freedom.
+/// An orbit in the equatorial plane stays there if the gravity field is symmetric about it (no odd
+/// zonal coefficient), so that x, y, px, py are a system of their own, with two degrees of freedom.
 bool is_planar_subsystem(const Scene& scene) {
   constexpr std::size_t z = 2, pz = 5;
-  return is_orbit(scene.system.model) && scene.system.J3 == 0 && scene.nominal[z] == 0 &&
+  return is_orbit(scene.system.model) && scene.system.J.is_even() && scene.nominal[z] == 0 &&
          scene.nominal[pz] == 0 && scene.variables == std::vector<std::size_t>{0, 1, 3, 4};
 }
 
@@ -26,11 +26,12 @@ std::size_t degrees_of_freedom_of_kinds(const TableReader& table, std::string_vi
   if (scene.variables.size() != names.size()) {
     std::vector<std::string_view> given;
     for (const std::size_t variable : scene.variables) given.push_back(names[variable]);
-    table.fail(key, fmt::format("not defined for these jet.variables, got {}, must be all of {}{}",
-                                listed(given), listed(names),
-                                is_orbit(scene.system.model)
-                                    ? " (or x, y, px, py on an exactly equatorial orbit without J3)"
-                                    : ""));
+    table.fail(key,
+               fmt::format("not defined for these jet.variables, got {}, must be all of {}{}",
+                           listed(given), listed(names),
+                           is_orbit(scene.system.model)
+                               ? " (or x, y, px, py on an exactly equatorial orbit without odd J_n)"
+                               : ""));
   }
   return names.size() / 2;
 }

@@ -81,6 +81,17 @@ std::vector<std::size_t> read_variables(const TableReader& jet,
   return variables;
 }
 
+/// jet.arcs: a number, or "auto".
+std::optional<std::size_t> read_arcs(const TableReader& jet) {
+  constexpr std::int64_t most = 1000;
+  if (!jet.has("arcs")) return 1;
+  const std::optional<std::int64_t> asked = jet.integer_if_any("arcs");
+  if (asked && *asked >= 1 && *asked <= most) return static_cast<std::size_t>(*asked);
+  if (jet.found("arcs") == "the string \"auto\"") return std::nullopt;
+  jet.fail("arcs", fmt::format("out of range, got {}, must be \"auto\" or an integer from 1 to {}",
+                               jet.found("arcs"), most));
+}
+
 }  // namespace
 
 double read_duration(const TableReader& table, bool has_orbits, const Nominal& nominal) {
@@ -112,7 +123,7 @@ double read_duration(const TableReader& table, bool has_orbits, const Nominal& n
 JetSettings read_jet(const TableReader& jet, const SystemSettings& system, Precision precision,
                      const Nominal& nominal) {
   const bool has_orbits = is_orbit(system.model);
-  KnownKeys known = {{"order", "variables", "duration_s", "duration_canonical"}, {}, {}};
+  KnownKeys known = {{"order", "variables", "duration_s", "duration_canonical", "arcs"}, {}, {}};
   (has_orbits ? known.keys : known.keys_elsewhere).push_back("duration_orbits");
   known.owner = "the model " + std::string(model_name(system.model));
   jet.check_keys(known);
@@ -121,6 +132,7 @@ JetSettings read_jet(const TableReader& jet, const SystemSettings& system, Preci
   settings.order = read_order(jet, names.size(), precision);
   settings.variables = read_variables(jet, names);
   settings.duration = read_duration(jet, has_orbits, nominal);
+  settings.arcs = read_arcs(jet);
   return settings;
 }
 

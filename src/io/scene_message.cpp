@@ -103,7 +103,7 @@ std::string suggestion(std::string_view name, const std::vector<std::string_view
 }
 
 std::string location(std::string_view source, std::size_t line, std::size_t column) {
-  if (source.starts_with(override_prefix)) return std::string(source);
+  if (line == 0 || source.starts_with(override_prefix)) return std::string(source);
   return fmt::format("{}:{}:{}", source, line, column);
 }
 

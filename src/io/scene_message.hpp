@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
@@ -28,7 +29,7 @@ std::string listed(const std::vector<std::string_view>& names);
 std::string suggestion(std::string_view name, const std::vector<std::string_view>& candidates);
 
 /// Where a value stands: `source:line:column`, or `source` alone for a command-line override,
-/// which has no lines (see `override_source`).
+/// which has no lines (see `override_source`), and for line 0, of tables that no text was.
 std::string location(std::string_view source, std::size_t line, std::size_t column);
 
 /// The source name of values that come from `--set key=value`: the option with the key as written.
@@ -36,9 +37,11 @@ std::string override_source(std::string_view key);
 
 /// Where the values of a scene come from.
 struct SceneSource {
-  std::string name;  ///< of the file, printable
+  std::string name;       ///< of the file, printable
+  bool has_lines = true;  ///< false: tables that a program has made
   /// What each override changed: its source name, and the path with indices in place of labels.
   std::map<std::string, std::string, std::less<>> override_paths;
+  std::filesystem::path folder = {};  ///< what files that the scene names are relative to
 };
 
 /// The head of a message about the value of `key` at `where` (see `location`): `where: key`, but

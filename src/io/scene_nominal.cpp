@@ -6,6 +6,7 @@
 #include <hamjet/dynamics/osculating_elements.hpp>
 
 #include "scene_message.hpp"
+#include "scene_nominal_file.hpp"
 #include "scene_sections.hpp"
 
 namespace hamjet::io {
@@ -14,6 +15,7 @@ namespace {
 const std::vector<std::string_view> cartesian_keys = {"position_km", "velocity_km_s"};
 const std::vector<std::string_view> element_keys = {"a_km",     "e",        "i_deg",
                                                     "raan_deg", "argp_deg", "ta_deg"};
+const std::vector<std::string_view> file_keys = {"oem_file", "opm_file", "epoch", "object"};
 const std::vector<std::string_view> particle_keys = {"position_m", "momentum_kg_m_s"};
 
 /// Of the nominal's distance in units that the scene chooses, and of its inverse. Coefficients of
@@ -51,19 +53,32 @@ CartesianState read_position_and_velocity(const TableReader& nominal) {
   return state;
 }
 
-CartesianState read_orbit(const TableReader& nominal, const SystemSettings& system) {
-  const auto given = [&nominal](std::string_view key) { return nominal.has(key); };
-  const auto cartesian = std::find_if(cartesian_keys.begin(), cartesian_keys.end(), given);
-  const auto element = std::find_if(element_keys.begin(), element_keys.end(), given);
-  const std::string right = fmt::format("either {} or all of {}",
-                                        fmt::join(cartesian_keys, " and "), listed(element_keys));
-  if (cartesian != cartesian_keys.end() && element != element_keys.end()) {
-    nominal.fail(*element, fmt::format("both forms of an orbit, got {} and {}, must be {}",
-                                       *cartesian, *element, right));
-  }
-  if (cartesian != cartesian_keys.end()) return read_position_and_velocity(nominal);
-  if (element != element_keys.end()) return read_elements(nominal, system.mu_km3_s2);
-  nominal.fail("", fmt::format("no orbit, got neither of its forms, must be {}", right));
+CartesianState read_orbit(const TableReader& nominal, const SystemSettings& system,
+                          std::optional<NominalFile>& file) {
+  const auto any_of = [&nominal](const std::vector<std::string_view>& keys) {
+    const auto given = std::find_if(keys.begin(), keys.end(),
+                                    [&](std::string_view key) { return nominal.has(key); });
+    return given != keys.end() ? std::optional(*given) : std::nullopt;
+  };
+  const auto cartesian = any_of(cartesian_keys);
+  const auto element = any_of(element_keys);
+  const auto of_file = any_of(file_keys);
+  const std::string right =
+      fmt::format("either {}, all of {}, or the file of an orbit message, oem_file or opm_file",
+                  fmt::join(cartesian_keys, " and "), listed(element_keys));
+  const auto refuse_both = [&](std::string_view one, std::string_view other) {
+    nominal.fail(
+        other, fmt::format("both forms of an orbit, got {} and {}, must be {}", one, other, right));
+  };
+  if (cartesian && element) refuse_both(*cartesian, *element);
+  if (cartesian && of_file) refuse_both(*cartesian, *of_file);
+  if (element && of_file) refuse_both(*element, *of_file);
+  if (cartesian) return read_position_and_velocity(nominal);
+  if (element) return read_elements(nominal, system.mu_km3_s2);
+  if (!of_file) nominal.fail("", "no orbit, got neither of its forms, must be " + right);
+  NominalFromFile read = read_nominal_file(nominal);
+  file = std::move(read.file);
+  return read.state;
 }
 
 Nominal canonical_orbit(const TableReader& nominal, const CartesianState& orbit, double mu_km3_s2,
@@ -120,11 +135,16 @@ double read_unit_of_length(const TableReader& units, SystemModel model) {
 
 Nominal read_nominal(const TableReader& nominal, const SystemSettings& system,
                      const std::optional<double>& length_km) {
-  const std::vector<std::string_view> orbit_keys = joined(cartesian_keys, element_keys);
+  const std::vector<std::string_view> orbit_keys =
+      joined(joined(cartesian_keys, element_keys), file_keys);
   const std::string owner = "the model " + std::string(model_name(system.model));
   if (is_orbit(system.model)) {
     nominal.check_keys({orbit_keys, particle_keys, owner});
-    return canonical_orbit(nominal, read_orbit(nominal, system), system.mu_km3_s2, length_km);
+    std::optional<NominalFile> file;
+    const CartesianState orbit = read_orbit(nominal, system, file);
+    Nominal result = canonical_orbit(nominal, orbit, system.mu_km3_s2, length_km);
+    result.file = std::move(file);
+    return result;
   }
   nominal.check_keys({particle_keys, orbit_keys, owner});
   Nominal result;

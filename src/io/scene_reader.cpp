@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <hamjet/studies/arcs.hpp>
 
 #include "scene_message.hpp"
 #include "scene_sections.hpp"
@@ -15,6 +16,36 @@ Precision read_precision(const TableReader& root) {
                                                                : Precision::extended;
 }
 
+/// The tables `[output]` and `[ephemeris]`; both may be left out.
+void read_output_and_ephemeris(const TableReader& root, Scene& scene) {
+  if (root.has("output")) scene.output = read_output(root.table("output"), scene.system.model);
+  if (scene.nominal_file) scene.ephemeris = scene.nominal_file->ephemeris;
+  if (root.has("ephemeris")) {
+    scene.ephemeris = read_ephemeris(root.table("ephemeris"), scene.nominal_file);
+  }
+  if (!scene.output.oem) return;
+  if (!scene.ephemeris) {
+    root.table("output").fail(
+        "formats",
+        "\"oem\" without a date, got no table [ephemeris], must have one with "
+        "epoch, time_system, reference_frame and center_name");
+  }
+  require_calendar(root.table(root.has("ephemeris") ? "ephemeris" : "nominal"), scene);
+}
+
+/// What cannot be split is refused where the scene asks for a number of arcs.
+void require_splittable(const TableReader& jet, const Scene& scene) {
+  if (scene.arcs.value_or(1) == 1) return;
+  for (const IntegratorSettings& settings : scene.integrators) {
+    const auto reason = reason_not_to_split(scene, settings);
+    if (!reason) continue;
+    jet.fail("arcs", fmt::format("not possible, got {} for the integrator {}, but {}, must be "
+                                 "\"auto\", which splits those of gauss, stormer and "
+                                 "velocity-verlet that pay, or 1",
+                                 jet.found("arcs"), settings.label, *reason));
+  }
+}
+
 }  // namespace
 
 Scene read_flow_jet(const TableReader& root) {
@@ -23,11 +54,13 @@ Scene read_flow_jet(const TableReader& root) {
   scene.precision = read_precision(root);
   const Nominal nominal = read_start(root, scene);
   const CanonicalScale& scale = nominal.scale;
+  scene.nominal_file = nominal.file;
 
   const JetSettings jet = read_jet(root.table("jet"), scene.system, scene.precision, nominal);
   scene.order = jet.order;
   scene.variables = jet.variables;
   scene.duration = jet.duration;
+  scene.arcs = jet.arcs;
 
   scene.integrators =
       read_integrators(root.tables("integrator"), scene.precision, scene.duration, scale);
@@ -47,6 +80,7 @@ Scene read_flow_jet(const TableReader& root) {
     scene.comparison = read_compare(root.table("compare"), scene.order, scene.duration);
   }
   if (root.has("figure")) scene.figure = read_figure(root.table("figure"), scene);
+  require_splittable(root.table("jet"), scene);
   if (root.has("transfer")) {
     // An assignment gives the ends itself.
     scene.transfer = read_transfer(root.table("transfer"), scene, nominal, !root.has("assignment"));
@@ -57,6 +91,7 @@ Scene read_flow_jet(const TableReader& root) {
   if (root.has("assignment")) {
     scene.assignment = read_assignment(root.table("assignment"), scene, nominal);
   }
+  read_output_and_ephemeris(root, scene);
   if (root.has("case")) {
     root.table("case").check_keys({joined(joined(common_case_keys, reference_case_keys),
                                           joined(refusal_case_keys, mark_case_keys))});

@@ -54,6 +54,7 @@ struct Nominal {
   CanonicalScale scale;
   std::vector<double> state;         ///< (q, p), canonical, 2n numbers
   std::optional<Extended> period_s;  ///< of the osculating Kepler ellipse, if there is one
+  std::optional<NominalFile> file;   ///< that it was read from
 };
 
 /// Table `[units]`: the canonical unit of length, `length_km`. Throws Error(scene) for a model that
@@ -96,8 +97,9 @@ double read_duration(const TableReader& table, bool has_orbits, const Nominal& n
 /// What the table `[jet]` holds.
 struct JetSettings {
   int order = 1;
-  std::vector<std::size_t> variables;  ///< indices into (q, p), ascending
-  double duration = 0;                 ///< canonical
+  std::vector<std::size_t> variables;   ///< indices into (q, p), ascending
+  double duration = 0;                  ///< canonical
+  std::optional<std::size_t> arcs = 1;  ///< none: auto
 };
 
 /// Table `[jet]`. Throws Error(too_large) for an order above the largest.
@@ -134,6 +136,18 @@ ComparisonSettings read_compare(const TableReader& table, int order, double dura
 
 /// Table `[checks]`, checked against what `scene` already holds.
 SelfCheckSettings read_checks(const TableReader& checks, const Scene& scene);
+
+/// Table `[output]`: the formats besides CSV and JSON.
+OutputSettings read_output(const TableReader& output, SystemModel model);
+
+/// Table `[ephemeris]`. What the nominal's file says of time, frame and centre need not be said
+/// again, and cannot be changed.
+EphemerisSettings read_ephemeris(const TableReader& ephemeris,
+                                 const std::optional<NominalFile>& file);
+
+/// Throws, about the key `epoch` of this table, if the moments of the scene cannot be dated by
+/// adding seconds: before or across leap seconds of UTC, or outside of the years 1 to 9999.
+void require_calendar(const TableReader& table, const Scene& scene);
 
 /// Table `[figure]`, checked against what `scene` already holds.
 FigureSettings read_figure(const TableReader& figure, const Scene& scene);

@@ -4,6 +4,7 @@
 #include "hamjet/error.hpp"
 #include "scene_document.hpp"
 #include "scene_message.hpp"
+#include "scene_name.hpp"
 #include "scene_sections.hpp"
 #include "scene_text.hpp"
 
@@ -20,9 +21,17 @@ struct StudyReader {
 const std::vector<StudyReader>& studies() {
   static const std::vector<StudyReader> readers = {
       {"flow-jet",
-       {"schema", "title", "precision", "system", "units", "nominal", "jet", "integrator",
-        "formation", "generating_function", "reference", "relative_hamiltonian", "checks",
-        "compare", "figure", "transfer", "validity", "assignment", "case", "study"},
+       {"schema",    "title",
+        "precision", "system",
+        "units",     "nominal",
+        "jet",       "integrator",
+        "formation", "generating_function",
+        "reference", "relative_hamiltonian",
+        "checks",    "compare",
+        "figure",    "transfer",
+        "validity",  "assignment",
+        "output",    "ephemeris",
+        "case",      "study"},
        read_flow_jet},
       {"canonical-transformation",
        {"schema", "title", "system", "units", "nominal", "canonical_transformation", "study"},
@@ -34,18 +43,6 @@ const std::vector<StudyReader>& studies() {
       {"optimal-control", {"schema", "title", "study", "optimal_control"}, read_optimal_control},
   };
   return readers;
-}
-
-/// The stem of the file's name, made fit for the name of a directory.
-std::string scene_name(const std::string& file_name) {
-  std::string name = std::filesystem::path(file_name).stem().string();
-  for (char& c : name) {
-    const bool allowed = (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') ||
-                         (c >= '0' && c <= '9') || c == '.' || c == '_' || c == '-';
-    if (!allowed) c = '_';
-  }
-  name.erase(0, name.find_first_not_of('.'));
-  return name.empty() ? "scene" : name;
 }
 
 Study read_tables(const TableReader& root) {
@@ -62,10 +59,25 @@ Study read_tables(const TableReader& root) {
 
 }  // namespace
 
+std::string scene_name(const std::string& file_name) {
+  std::string name = std::filesystem::path(file_name).stem().string();
+  for (char& c : name) {
+    const bool allowed = (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') ||
+                         (c >= '0' && c <= '9') || c == '.' || c == '_' || c == '-';
+    if (!allowed) c = '_';
+  }
+  name.erase(0, name.find_first_not_of('.'));
+  return name.empty() ? "scene" : name;
+}
+
 Study parse_study(std::string_view text, const std::string& file_name,
                   const std::vector<Override>& overrides) {
-  const SceneDocument document =
-      parse_document(text, printable(file_name, std::string::npos), overrides);
+  SceneDocument document = parse_document(text, printable(file_name, std::string::npos), overrides);
+  document.source.folder = std::filesystem::path(file_name).parent_path();
+  return read_document(document, file_name);
+}
+
+Study read_document(const SceneDocument& document, const std::string& file_name) {
   Study study = read_tables(TableReader(document.table, "", document.source));
   std::visit([&](auto& scene) { scene.name = scene_name(file_name); }, study);
   return study;

@@ -189,6 +189,15 @@ std::string TableReader::text(std::string_view key) const {
   return node.as_string()->get();
 }
 
+std::filesystem::path TableReader::path_beside_scene(std::string_view key) const {
+  const std::string path = text(key);
+  // The system would take the path to end at a NUL.
+  if (path.empty() || path.find('\0') != std::string::npos) {
+    fail(key, fmt::format("no path, got {}, must be the path of a file", found(key)));
+  }
+  return source_->folder / path;
+}
+
 std::vector<std::string> TableReader::texts(std::string_view key) const {
   constexpr std::string_view right = "an array of strings, at least one";
   const toml::array& array = required_array(key, right);
@@ -343,7 +352,7 @@ double TableReader::finite(const toml::node& node, const std::string& dotted_key
 
 std::string TableReader::location_of(const toml::node& node) const {
   const auto& source = node.source();
-  if (!source.begin) return location(source_->name, 1, 1);
+  if (!source.begin) return location(source_->name, source_->has_lines ? 1 : 0, 1);
   return location(source.path ? *source.path : source_->name, source.begin.line,
                   source.begin.column);
 }

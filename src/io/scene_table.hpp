@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -72,6 +73,8 @@ class TableReader {
   bool is_number(std::string_view key) const;
   /// Required: a string.
   std::string text(std::string_view key) const;
+  /// Required: the path of a file, relative to the folder of the scene.
+  std::filesystem::path path_beside_scene(std::string_view key) const;
   /// Required: an array of strings, not empty.
   std::vector<std::string> texts(std::string_view key) const;
   /// Required: one of `choices`; returns its index.

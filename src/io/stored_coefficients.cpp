@@ -56,14 +56,7 @@ std::optional<Extended> extended_number(std::string_view text) {
   if (!rest.empty()) return std::nullopt;
   Extended number{std::string(text)};
   if (!isfinite(number)) return std::nullopt;
-  return number;
-}
-
-std::optional<Extended> coefficient(std::string_view text, Precision precision) {
-  if (precision == Precision::extended) return extended_number(text);
-  const auto number = whole_number<double>(text);
-  if (!number || !std::isfinite(*number)) return std::nullopt;
-  return Extended(*number);
+  return text.starts_with('-') == signbit(number) ? number : -number;  // -0
 }
 
 class CoefficientReader {
@@ -126,7 +119,7 @@ class CoefficientReader {
       fail(fmt::format("the same coefficient as in line {}, so that another is missing", seen));
     }
     seen = line_;
-    const auto number = coefficient(fields_.back(), file_.precision);
+    const auto number = parse_coefficient(fields_.back(), file_.precision);
     if (!number) {
       fail(fmt::format("coefficient: must be a finite number, got {}", in_quotes(fields_.back())));
     }
@@ -177,6 +170,19 @@ class CoefficientReader {
 };
 
 }  // namespace
+
+std::string extended_digits(const Extended& number) {
+  std::string digits = number.str(36, std::ios_base::scientific);
+  if (signbit(number) && !digits.starts_with('-')) digits.insert(0, "-");  // -0
+  return digits;
+}
+
+std::optional<Extended> parse_coefficient(std::string_view text, Precision precision) {
+  if (precision == Precision::extended) return extended_number(text);
+  const auto number = whole_number<double>(text);
+  if (!number || !std::isfinite(*number)) return std::nullopt;
+  return Extended(*number);
+}
 
 FlowJet<Extended> read_coefficients(const CoefficientFile& file, std::string_view text) {
   return CoefficientReader(file).read(text);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,6 +11,12 @@
 #include "hamjet/studies/scene.hpp"
 
 namespace hamjet::io {
+
+/// 36 digits, which bring back the same 113 bits, and the sign of zero.
+std::string extended_digits(const Extended& number);
+
+/// A finite number as jet.csv has it; nothing if the text is anything else.
+std::optional<Extended> parse_coefficient(std::string_view text, Precision precision);
 
 /// What a file `jet.csv` must hold, as its `summary.json` says.
 struct CoefficientFile {

@@ -11,7 +11,7 @@
 #include "hamjet/version.hpp"
 #include "json_reader.hpp"
 #include "scene_message.hpp"
-#include "stored_coefficients.hpp"
+#include "stored_jet_source.hpp"
 #include "text_file.hpp"
 
 namespace hamjet::io {
@@ -111,6 +111,12 @@ StoredJet read_stored_jet(const std::filesystem::path& directory,
 
 StoredJet read_stored_jet(const std::filesystem::path& directory,
                           const std::optional<std::string>& label, const FileReader& read) {
+  return read_stored_jet(directory, label, read, {{}, read_coefficients});
+}
+
+StoredJet read_stored_jet(const std::filesystem::path& directory,
+                          const std::optional<std::string>& label, const FileReader& read,
+                          const CoefficientSource& source) {
   const std::filesystem::path summary = directory / "summary.json";
   const std::string summary_name = printable_path(summary);
   const nlohmann::json json = JsonReader::parse(read(summary), summary_name);
@@ -143,8 +149,9 @@ StoredJet read_stored_jet(const std::filesystem::path& directory,
   const JsonReader run = choose_run(root, label);
   stored.label = run.at("label").text();
   stored.nominal_final = state(run.at("nominal_final"), {names.size()});
-  const std::filesystem::path file = directory / stored.label / "jet.csv";
-  stored.jet = read_coefficients(
+  const std::filesystem::path file =
+      source.file.empty() ? directory / stored.label / "jet.csv" : source.file;
+  stored.jet = source.read(
       {printable_path(file), names, stored.components, stored.variables, order, stored.precision},
       read(file));
   for (std::size_t c = 0; c < stored.components.size(); ++c) {

@@ -1,12 +1,17 @@
 #include "text_file.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <array>
 #include <cerrno>
+#include <cstdint>
 #include <fstream>
 #include <system_error>
 
+#include "file_system.hpp"
 #include "hamjet/error.hpp"
 #include "scene_message.hpp"
 
@@ -18,7 +23,55 @@ namespace {
                                                    std::generic_category().message(errno)));
 }
 
+const char* kind_of_file(mode_t mode) {
+  if (S_ISDIR(mode)) return "a directory, not a regular file";
+  if (S_ISFIFO(mode)) return "a pipe, not a regular file";
+  if (S_ISCHR(mode) || S_ISBLK(mode)) return "a device, not a regular file";
+  return "not a regular file";
+}
+
+FileContent too_large(std::uintmax_t bytes, std::size_t most_bytes) {
+  return {{},
+          fmt::format("it is too large, got {} bytes, must be at most {}", bytes, most_bytes),
+          true};
+}
+
 }  // namespace
+
+FileContent read_regular_file(const std::filesystem::path& file, std::size_t most_bytes) {
+  const auto failed = [] { return FileContent{{}, errno_text()}; };
+  // Without O_NONBLOCK, opening a pipe would wait for its writer for ever.
+  const Descriptor descriptor(file, O_RDONLY | O_NONBLOCK);
+  if (!descriptor.is_open()) return failed();
+  struct stat status {};
+  if (::fstat(descriptor.value(), &status) != 0) return failed();
+  if (!S_ISREG(status.st_mode)) {
+    return {{}, fmt::format("it is {}", kind_of_file(status.st_mode))};
+  }
+  const auto size = static_cast<std::uintmax_t>(status.st_size);
+  if (size > most_bytes) return too_large(size, most_bytes);
+  std::string text;
+  std::array<char, 65536> buffer;
+  while (true) {
+    const ssize_t count = ::read(descriptor.value(), buffer.data(), buffer.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return failed();
+    if (count == 0) break;
+    text.append(buffer.data(), static_cast<std::size_t>(count));
+    // The file may have grown since its size was asked for.
+    if (text.size() > most_bytes) return too_large(text.size(), most_bytes);
+  }
+  // Half of an old file and half of a new one can be a good one.
+  struct stat now {};
+  if (::fstat(descriptor.value(), &now) != 0) return failed();
+  const bool is_as_before = now.st_size == status.st_size &&
+                            now.st_mtim.tv_sec == status.st_mtim.tv_sec &&
+                            now.st_mtim.tv_nsec == status.st_mtim.tv_nsec;
+  if (!is_as_before || text.size() != static_cast<std::size_t>(now.st_size)) {
+    return {{}, "it changed meanwhile; run again when it is saved"};
+  }
+  return {std::move(text), {}};
+}
 
 std::string printable_path(const std::filesystem::path& file) {
   return printable(file.string(), std::string::npos);

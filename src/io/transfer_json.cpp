@@ -2,7 +2,9 @@
 
 #include "hamjet/version.hpp"
 #include "json_values.hpp"
+#include "orbit_ephemeris.hpp"
 #include "relative_frame_text.hpp"
+#include "system_json.hpp"
 #include "transfer_view.hpp"
 
 namespace hamjet::io {
@@ -62,6 +64,7 @@ Json study_head_json(const Scene& scene, const std::string& study, const std::st
           {"version", version},
           {"study", study},
           {"model", model_names()[static_cast<std::size_t>(scene.system.model)]},
+          {"system", system_json(scene.system)},
           {"units", {{"length_km", scene.units.length_km}, {"time_s", scene.units.time_s}}},
           {"order", scene.order},
           {"integrator", integrator}};
@@ -115,6 +118,8 @@ Json transfer_summary_json(const TransferResult& result) {
   json["refined_miss_m"] = settings.refine ? Json(settings.refined_miss_m) : Json(nullptr);
   json["singular_margin_s"] = settings.singular_margin * scene.units.time_s;
   json["strict"] = settings.strict;
+  json["ephemeris"] = ephemeris_json(scene);
+  json["nominal_file"] = nominal_file_json(scene);
   json["verdict"] = transfer_verdict(result);
   const auto best = result.best_point();
   json["best"] = best ? transfer_point_json(result.points[*best], scene.units) : Json(nullptr);

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "hamjet/studies/transfer.hpp"
+#include "hamjet/studies/validity.hpp"
 
 namespace hamjet::io {
 
@@ -16,5 +18,8 @@ nlohmann::ordered_json transfer_point_json(const TransferPoint& point, const Can
 
 /// `summary.json` of a transfer study, without its end.
 nlohmann::ordered_json transfer_summary_json(const TransferResult& result);
+/// The whole of it.
+nlohmann::ordered_json transfer_report_json(const TransferResult& result,
+                                            const std::optional<ValidityResult>& validity);
 
 }  // namespace hamjet::io

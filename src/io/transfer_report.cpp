@@ -3,6 +3,7 @@
 #include "chart_drawer.hpp"
 #include "display_text.hpp"
 #include "hamjet/io/relative_motion_report.hpp"
+#include "orbit_ephemeris.hpp"
 #include "relative_frame_text.hpp"
 #include "transfer_json.hpp"
 #include "transfer_page.hpp"
@@ -80,6 +81,14 @@ std::string terminal_table(const TransferResult& result) {
 
 }  // namespace
 
+nlohmann::ordered_json transfer_report_json(const TransferResult& result,
+                                            const std::optional<ValidityResult>& validity) {
+  nlohmann::ordered_json summary = transfer_summary_json(result);
+  summary["validity"] = validity ? validity_json(*validity) : nlohmann::ordered_json(nullptr);
+  summary["exit_code"] = exit_code(result);
+  return summary;
+}
+
 StudyReport transfer_report(const TransferResult& result,
                             const std::optional<RelativeTrajectory>& trajectory,
                             const std::optional<ValidityResult>& validity,
@@ -89,16 +98,18 @@ StudyReport transfer_report(const TransferResult& result,
                   {"singular_times.csv", singular_times_csv(result)},
                   {"conditions.csv", conditions_csv(result)}};
   if (validity) report.files.push_back({"validity.csv", validity_csv(*validity)});
+  if (result.scene.output.oem && trajectory) {
+    for (ReportFile& file : transfer_oems(result, *trajectory)) {
+      report.files.push_back(std::move(file));
+    }
+  }
   ChartDrawer drawer(origin.gnuplot);
   report.files.push_back(
       {"report.html", transfer_page(result, trajectory, validity, origin, drawer)});
   report.drawing_problem = drawer.problem();
   report.exit_code = exit_code(result);
   report.failure = transfer_failure(result);
-  nlohmann::ordered_json summary = transfer_summary_json(result);
-  summary["validity"] = validity ? validity_json(*validity) : nlohmann::ordered_json(nullptr);
-  summary["exit_code"] = report.exit_code;
-  report.files.push_back({"summary.json", summary.dump(2) + "\n"});
+  report.files.push_back({"summary.json", transfer_report_json(result, validity).dump(2) + "\n"});
   report.table = terminal_table(result);
   if (validity) report.table += "  validity         " + validity_verdict(*validity) + "\n";
   return report;

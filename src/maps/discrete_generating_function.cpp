@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <Eigen/LU>
-#include <Eigen/SVD>
 
 #include "hamjet/algebra/extended.hpp"
+#include "hamjet/algebra/singular_values.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/maps/partial_inversion.hpp"
 
@@ -26,7 +26,7 @@ Matrix<Real> inverted_block(const AffineSymplecticMap<Real>& map,
 template <class Real>
 double existence_measure(const AffineSymplecticMap<Real>& map,
                          DiscreteGeneratingFunctionKind kind) {
-  const auto values = Eigen::JacobiSVD<Matrix<Real>>(inverted_block(map, kind)).singularValues();
+  const Vector<Real> values = singular_values(inverted_block(map, kind));
   return static_cast<double>(Real(values(values.size() - 1) / map.matrix().norm()));
 }
 

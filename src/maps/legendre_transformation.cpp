@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/SVD>
 #include <span>
 #include <vector>
 
 #include "hamjet/algebra/calculus.hpp"
+#include "hamjet/algebra/singular_values.hpp"
 #include "hamjet/error.hpp"
 
 namespace hamjet {
@@ -42,7 +42,7 @@ void require_change(const PartialInversion<T>& from, const GeneratingFunctionKin
   const Matrix<T> whole = linear_part(std::span<const Series<T>>(all));
   const std::vector<Eigen::Index> indices(differing.begin(), differing.end());
   const Matrix<T> block = whole(indices, indices);
-  const auto values = Eigen::JacobiSVD<Matrix<T>>(block).singularValues();
+  const Vector<T> values = singular_values(block);
   const double smallest = static_cast<double>(values(values.size() - 1));
   const double condition = condition_number(block);
   const double norm = static_cast<double>(whole.norm());

@@ -65,15 +65,15 @@ void unrolled(const Action& action) {
 
 /// One sum a component and vector of the block.
 template <std::size_t Components>
-using Sums = std::array<Block::Vector, Components * vectors>;
+using BlockSums = std::array<Block::Vector, Components * vectors>;
 
 /// Adds up the terms x p over the parents p from `parent` to `end`, storing the monomials where
 /// `Stored`. Returns the coefficients that come next.
 template <std::size_t Components, bool Stored>
 const double* add_terms(const Block& x, const Block* parent, const Block* end, const double* a,
-                        Block*& stored, Sums<Components>& sums) {
+                        Block*& stored, BlockSums<Components>& sums) {
   for (; parent != end; ++parent, a += Components) {
-    Sums<1> m;
+    BlockSums<1> m;
     unrolled<vectors>([&](auto v) {
       m[v] = x.part[v] * parent->part[v];
       if constexpr (Stored) stored->part[v] = m[v];
@@ -91,7 +91,7 @@ const double* add_terms(const Block& x, const Block* parent, const Block* end, c
 template <std::size_t Components, bool Stored>
 const double* evaluate_degree(const Work& work, const std::size_t* tails, const Block* parents_end,
                               const double* a, Block*& stored, Block* share) {
-  Sums<Components> sums;
+  BlockSums<Components> sums;
   unrolled<Components * vectors>([&](auto i) { sums[i] = 0; });
   for (std::size_t i = 0; i < work.variables; ++i) {
     a = add_terms<Components, Stored>(work.x[i], parents_end - tails[i], parents_end, a, stored,

@@ -2,21 +2,19 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <limits>
 
+#include "hamjet/algebra/singular_values.hpp"
 #include "hamjet/error.hpp"
 
 namespace hamjet {
 namespace {
 
-/// Singular values, the largest first.
 template <class T>
-std::vector<double> singular_values(const Matrix<T>& matrix) {
-  const auto values = Eigen::JacobiSVD<Matrix<T>>(matrix).singularValues();
+std::vector<double> rounded_singular_values(const Matrix<T>& matrix) {
   std::vector<double> result;
-  for (const T& value : values) result.push_back(static_cast<double>(value));
+  for (const T& value : singular_values(matrix)) result.push_back(static_cast<double>(value));
   return result;
 }
 
@@ -50,7 +48,7 @@ Matrix<T> inverted_block(std::span<const Series<T>> jet, const GeneratingFunctio
 
 template <class T>
 double condition_number(const Matrix<T>& matrix) {
-  const std::vector<double> values = singular_values(matrix);
+  const std::vector<double> values = rounded_singular_values(matrix);
   return values.back() > 0 ? values.front() / values.back()
                            : std::numeric_limits<double>::infinity();
 }
@@ -62,7 +60,7 @@ PartialInversion<T> invert_partially(std::span<const Series<T>> jet,
   PartialInversion<T> result;
   result.kind = kind;
   result.condition = condition_number(block);
-  const std::vector<double> values = singular_values(block);
+  const std::vector<double> values = rounded_singular_values(block);
   const double whole = static_cast<double>(linear_part(jet).norm());
   if (!(result.condition < largest_condition(precision)) ||
       !(values.back() * largest_condition(precision) > whole)) {
@@ -105,7 +103,7 @@ GeneratingFunctionKind best_conditioned_kind(std::span<const Series<T>> jet) {
   double size = 0;
   GeneratingFunctionKind best = kinds.front();
   for (const auto& kind : kinds) {
-    const std::vector<double> values = singular_values(inverted_block(jet, kind));
+    const std::vector<double> values = rounded_singular_values(inverted_block(jet, kind));
     const double condition = values.back() > 0 ? values.front() / values.back()
                                                : std::numeric_limits<double>::infinity();
     const bool is_better = condition * equal < smallest;

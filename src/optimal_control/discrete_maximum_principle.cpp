@@ -1,3 +1,4 @@
+#include <Eigen/LU>
 #include <hamjet/optimal_control/discrete_maximum_principle.hpp>
 
 #include "newton.hpp"

@@ -1,3 +1,4 @@
+#include <Eigen/LU>
 #include <hamjet/optimal_control/hamiltonian_discretization.hpp>
 
 #include "hamjet/algebra/matrix.hpp"

@@ -1,3 +1,4 @@
+#include <Eigen/LU>
 #include <hamjet/optimal_control/reduced_hamiltonian.hpp>
 
 #include "newton.hpp"

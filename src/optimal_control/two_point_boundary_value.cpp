@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <Eigen/Dense>
+#include <hamjet/algebra/singular_values.hpp>
 #include <hamjet/optimal_control/two_point_boundary_value.hpp>
 
 #include "damped_newton.hpp"
@@ -257,21 +259,17 @@ ShootingSolution solve_by_shooting(AdvanceMap& map, const OptimalControlProblem&
   const auto n = static_cast<Eigen::Index>(problem.states);
   const Eigen::MatrixXd matrix = equations.matrix().topRows(solution.unknowns);
   const Equilibration& scale = equations.scale();
-  const auto singular =
-      (scale.rows.head(solution.unknowns).asDiagonal() * matrix * scale.columns.asDiagonal())
-          .eval()
-          .bdcSvd(Eigen::ComputeFullV);
-  solution.rank = (singular.singularValues().array() >
-                   settings.newton.rank_threshold * singular.singularValues()(0))
-                      .count();
+  const auto singular = decompose_by_singular_values(
+      scale.rows.head(solution.unknowns).asDiagonal() * matrix * scale.columns.asDiagonal());
+  solution.rank =
+      (singular.values.array() > settings.newton.rank_threshold * singular.values(0)).count();
   const Eigen::MatrixXd null_space =
-      scale.columns.asDiagonal() * singular.matrixV().rightCols(solution.unknowns - solution.rank);
+      scale.columns.asDiagonal() * singular.right.rightCols(solution.unknowns - solution.rank);
   const Eigen::MatrixXd family = null_space.middleRows(n, n);
   if (family.cols() == 0) return solution;
-  const auto directions = family.bdcSvd(Eigen::ComputeThinU);
-  solution.family = directions.matrixU().leftCols(
-      (directions.singularValues().array() > settings.newton.rank_threshold * null_space.norm())
-          .count());
+  const auto directions = decompose_by_singular_values(family);
+  solution.family = directions.left.leftCols(
+      (directions.values.array() > settings.newton.rank_threshold * null_space.norm()).count());
   return solution;
 }
 

@@ -12,6 +12,7 @@
 #include "hamjet/integrators/newmark.hpp"
 #include "hamjet/integrators/stormer_verlet.hpp"
 #include "hamjet/integrators/symmetric_composition.hpp"
+#include "hamjet/studies/arcs.hpp"
 #include "stability_limit.hpp"
 
 namespace hamjet {
@@ -41,11 +42,7 @@ FlowJet<Real> integrate_unchecked(const FlowProblem<Real>& flow, const Integrato
                                   const StepObserver<Real>& observer, bool records_step_error) {
   switch (settings.method) {
     case IntegrationMethod::gauss: {
-      GaussSettings gauss;
-      gauss.stages = settings.stages;
-      gauss.step = settings.step_canonical;
-      gauss.tolerance = settings.tolerance;
-      gauss.compensated_summation = settings.compensated_summation;
+      auto gauss = std::get<GaussSettings>(splittable_method(settings));
       gauss.estimates_step_error = records_step_error;
       return integrate_gauss<Real>(flow, gauss, statistics, observer);
     }
@@ -122,6 +119,22 @@ FlowJet<Real> integrate(const FlowProblem<Real>& flow, const IntegratorSettings&
   return integrate_unchecked<Real>(flow, settings, statistics, observer, records_step_error);
 }
 
+template <class Real>
+FlowJet<Real> integrate_split(const FlowProblem<Real>& flow, const IntegratorSettings& settings,
+                              const ArcSettings& arcs, IntegrationStatistics& statistics,
+                              ArcStatistics& arc_statistics, const StepObserver<Real>& observer,
+                              const ArcProgress& progress, bool records_step_error) {
+  if (has_stability_limit(settings) && flow.system->vector_field.is_linear_system()) {
+    require_stable_steps(*flow.system, settings, static_cast<double>(flow.duration));
+  }
+  SplittableMethod method = splittable_method(settings);
+  if (auto* gauss = std::get_if<GaussSettings>(&method)) {
+    gauss->estimates_step_error = records_step_error;
+  }
+  return integrate_in_arcs<Real>(flow, method, arcs, statistics, arc_statistics, observer,
+                                 progress);
+}
+
 double integration_memory(const IntegratorSettings& settings, const DynamicalSystem& system,
                           double coefficients, double real_bytes) {
   const OperationList& list = system.evaluated_list();
@@ -139,5 +152,12 @@ template FlowJet<double> integrate(const FlowProblem<double>&, const IntegratorS
                                    IntegrationStatistics&, const StepObserver<double>&, bool);
 template FlowJet<Extended> integrate(const FlowProblem<Extended>&, const IntegratorSettings&,
                                      IntegrationStatistics&, const StepObserver<Extended>&, bool);
+template FlowJet<double> integrate_split(const FlowProblem<double>&, const IntegratorSettings&,
+                                         const ArcSettings&, IntegrationStatistics&, ArcStatistics&,
+                                         const StepObserver<double>&, const ArcProgress&, bool);
+template FlowJet<Extended> integrate_split(const FlowProblem<Extended>&, const IntegratorSettings&,
+                                           const ArcSettings&, IntegrationStatistics&,
+                                           ArcStatistics&, const StepObserver<Extended>&,
+                                           const ArcProgress&, bool);
 
 }  // namespace hamjet

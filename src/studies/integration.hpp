@@ -1,5 +1,6 @@
 #pragma once
 
+#include "hamjet/integrators/arc_splitting.hpp"
 #include "hamjet/integrators/flow_problem.hpp"
 #include "hamjet/studies/propagation.hpp"
 
@@ -17,6 +18,13 @@ template <class Real>
 FlowJet<Real> integrate(const FlowProblem<Real>& flow, const IntegratorSettings& settings,
                         IntegrationStatistics& statistics, const StepObserver<Real>& observer,
                         bool records_step_error = false);
+
+/// The same in arcs, for a method that can be split; see integrate_in_arcs.
+template <class Real>
+FlowJet<Real> integrate_split(const FlowProblem<Real>& flow, const IntegratorSettings& settings,
+                              const ArcSettings& arcs, IntegrationStatistics& statistics,
+                              ArcStatistics& arc_statistics, const StepObserver<Real>& observer,
+                              const ArcProgress& progress, bool records_step_error);
 
 /// Bytes that the series of one integration take, `coefficients` numbers of `real_bytes` a series.
 double integration_memory(const IntegratorSettings& settings, const DynamicalSystem& system,

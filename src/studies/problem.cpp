@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "arc_plan.hpp"
 #include "hamjet/dynamics/double_well.hpp"
 #include "hamjet/dynamics/fermi_pasta_ulam.hpp"
 #include "hamjet/dynamics/harmonic_oscillator.hpp"
@@ -10,6 +11,7 @@
 #include "hamjet/dynamics/spring_pendulum.hpp"
 #include "hamjet/dynamics/zonal_gravity.hpp"
 #include "hamjet/integrators/cvode.hpp"
+#include "hamjet/studies/arcs.hpp"
 #include "hamjet/studies/propagation.hpp"
 #include "integration.hpp"
 
@@ -38,7 +40,7 @@ double schedule_bytes(std::size_t variables, int order) {
 DynamicalSystem make_system(const SystemSettings& settings, double canonical_radius) {
   switch (settings.model) {
     case SystemModel::zonal_gravity:
-      return zonal_gravity({1.0, canonical_radius, settings.J2, settings.J3});
+      return zonal_gravity({1.0, canonical_radius, settings.J});
     case SystemModel::kepler:
       return kepler();
     case SystemModel::double_well:
@@ -61,17 +63,41 @@ DynamicalSystem make_system(const Scene& scene) {
   return make_system(scene.system, scene.canonical_radius);
 }
 
-double estimate_memory(const Scene& scene, const DynamicalSystem& system, std::size_t variables) {
+namespace {
+
+/// Bytes of one integration; in arcs those of every thread, and the maps and starts of all arcs.
+double run_memory(const Scene& scene, const IntegratorSettings& settings,
+                  const DynamicalSystem& system, std::size_t variables, std::size_t threads) {
+  const double real = scene.precision == Precision::extended ? sizeof(Extended) : sizeof(double);
+  const int order = working_order(system, scene.order);
+  const double whole =
+      integration_memory(settings, system, SeriesSpace::monomial_count(variables, order), real);
+  if (scene.arcs == std::optional<std::size_t>(1) || reason_not_to_split(scene, settings)) {
+    return whole;
+  }
+  const std::size_t dimension = system.dimension();
+  const double arcs = static_cast<double>(scene.arcs.value_or(most_chosen_arcs));
+  const double each =
+      integration_memory(settings, system, SeriesSpace::monomial_count(dimension, order), real);
+  const double maps = 2 * static_cast<double>(dimension) * real *
+                      SeriesSpace::monomial_count(dimension, scene.order);
+  const double schedule = variables == dimension ? 0 : schedule_bytes(dimension, scene.order);
+  return std::min(arcs, static_cast<double>(threads)) * each + arcs * maps + schedule;
+}
+
+}  // namespace
+
+double estimate_memory(const Scene& scene, const DynamicalSystem& system, std::size_t variables,
+                       std::size_t threads) {
   const OperationList& list = system.evaluated_list();
   const double values = static_cast<double>(list.operations().size()) + 2;
   const double components = static_cast<double>(system.dimension());
   const int order = working_order(system, scene.order);
   const double working = SeriesSpace::monomial_count(variables, order);
   const double coefficients = SeriesSpace::monomial_count(variables, scene.order);
-  const double real = scene.precision == Precision::extended ? sizeof(Extended) : sizeof(double);
   double largest_run = 0;
   for (const IntegratorSettings& settings : scene.integrators) {
-    largest_run = std::max(largest_run, integration_memory(settings, system, working, real));
+    largest_run = std::max(largest_run, run_memory(scene, settings, system, variables, threads));
   }
   double total = largest_run + schedule_bytes(variables, scene.order);
   const double stored_jets = static_cast<double>(scene.integrators.size()) + 4;
@@ -106,7 +132,7 @@ void require_built(const Scene& scene) {
 
 }  // namespace
 
-ComputedProblem make_problem(const Scene& scene, double memory_limit) {
+ComputedProblem make_problem(const Scene& scene, double memory_limit, std::size_t threads) {
   require_built(scene);
   const DynamicalSystem full = make_system(scene);
   const std::size_t n = full.degrees_of_freedom;
@@ -122,7 +148,7 @@ ComputedProblem make_problem(const Scene& scene, double memory_limit) {
         static_cast<std::size_t>(std::distance(problem.components.begin(), place)));
   }
   problem.is_full_jet = problem.variables.size() == problem.components.size();
-  const double needed = estimate_memory(scene, problem.system, scene.variables.size());
+  const double needed = estimate_memory(scene, problem.system, scene.variables.size(), threads);
   if (needed > memory_limit) {
     throw Error(
         ErrorKind::too_large,

@@ -9,6 +9,7 @@
 #include "along_time_recorder.hpp"
 #include "followed_nominal.hpp"
 #include "hamjet/dynamics/relative_hamiltonian.hpp"
+#include "hamjet/studies/arcs.hpp"
 #include "integration.hpp"
 #include "map_analysis.hpp"
 #include "nominal_recorder.hpp"
@@ -28,8 +29,8 @@ std::vector<double> full_state(const FlowJet<Extended>& jet, const ComputedProbl
 }
 
 template <class Real>
-void run_integrator(const Scene& scene, const ComputedProblem& problem, RunResult& run,
-                    const std::function<void(double)>& progress) {
+void run_integrator(const Scene& scene, const ComputedProblem& problem, std::size_t threads,
+                    RunResult& run, const std::function<void(double)>& progress) {
   const bool finds_lowest_point =
       scene.checks[SelfCheckName::surface].is_on && scene.system.radius_km > 0;
   NominalRecorder recorder(problem, scene.nominal.size(), finds_lowest_point);
@@ -39,18 +40,29 @@ void run_integrator(const Scene& scene, const ComputedProblem& problem, RunResul
                        problem.variables.size());
   }
   const FlowProblem<Real> flow = flow_problem<Real>(problem, scene.duration);
-  const FlowJet<Real> jet = integrate<Real>(
-      flow, run.settings, run.statistics,
-      [&](const Real& time, const FlowJet<Real>& state) {
-        std::vector<Extended> point;
-        for (const auto& component : state) point.push_back(convert<Extended>(component[0]));
-        recorder.record(static_cast<double>(time), point);
-        if (along_time) {
-          along_time->record(static_cast<double>(time), state, recorder.last_energy_error());
-        }
-        progress(static_cast<double>(time) / scene.duration);
-      },
-      scene.checks[SelfCheckName::step_error].is_on);
+  const auto record = [&](const Real& time, const FlowJet<Real>& state) {
+    std::vector<Extended> point;
+    for (const auto& component : state) point.push_back(convert<Extended>(component[0]));
+    recorder.record(static_cast<double>(time), point);
+    if (along_time) {
+      along_time->record(static_cast<double>(time), state, recorder.last_energy_error());
+    }
+  };
+  const bool records_step_error = scene.checks[SelfCheckName::step_error].is_on;
+  const auto unsplit = reason_not_to_split(scene, run.settings);
+  if (scene.arcs != std::optional<std::size_t>(1)) run.arcs.emplace();
+  if (run.arcs && unsplit) run.arcs->plan.reason = *unsplit;
+  const FlowJet<Real> jet =
+      run.arcs && !unsplit
+          ? integrate_split<Real>(flow, run.settings, {scene.arcs, threads}, run.statistics,
+                                  *run.arcs, record, progress, records_step_error)
+          : integrate<Real>(
+                flow, run.settings, run.statistics,
+                [&](const Real& time, const FlowJet<Real>& state) {
+                  record(time, state);
+                  progress(static_cast<double>(time) / scene.duration);
+                },
+                records_step_error);
   run.jet = convert_map<Extended>(jet);
   run.nominal_final = full_state(run.jet, problem, scene.nominal.size());
   run.energy_error = recorder.largest_energy_error();
@@ -122,10 +134,11 @@ std::optional<GeneratingFunctionKind> figure_kind(const Scene& scene,
   return parse_kind(scene.figure->kind, problem.degrees_of_freedom.size());
 }
 
-PropagationResult propagate(const Scene& scene, const ProgressCallback& progress) {
+PropagationResult propagate(const Scene& scene, const ProgressCallback& progress,
+                            std::size_t threads) {
   PropagationResult result;
   result.scene = scene;
-  result.problem = make_problem(scene, available_memory());
+  result.problem = make_problem(scene, available_memory(), threads);
   const auto report = [&](const std::string& task, double fraction) {
     if (progress) progress(task, fraction);
   };
@@ -145,9 +158,9 @@ PropagationResult propagate(const Scene& scene, const ProgressCallback& progress
     const auto on_step = [&](double done) { report(settings.label, done); };
     try {
       if (scene.precision == Precision::extended) {
-        run_integrator<Extended>(scene, result.problem, run, on_step);
+        run_integrator<Extended>(scene, result.problem, threads, run, on_step);
       } else {
-        run_integrator<double>(scene, result.problem, run, on_step);
+        run_integrator<double>(scene, result.problem, threads, run, on_step);
       }
       report(settings.label + ": inversion", 1);
       analysis.analyse(run);

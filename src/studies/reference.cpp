@@ -25,9 +25,12 @@ std::string reference_key(const Scene& scene, int order) {
       "stiffness {}",
       model_names()[static_cast<std::size_t>(scene.system.model)], reference_stages,
       compared_stages, looser, scene.reference.value_or(ReferenceSettings{}).tolerance,
-      scene.system.J2, scene.system.J3, scene.canonical_radius, scene.system.mass_kg,
+      scene.system.J[2], scene.system.J[3], scene.canonical_radius, scene.system.mass_kg,
       scene.system.stiffness_N_per_m);
   const SystemSettings& system = scene.system;
+  for (int n = 4; n <= ZonalCoefficients::highest; ++n) {
+    if (system.J[n] != 0) key += fmt::format(" J{} {}", n, system.J[n]);
+  }
   switch (system.model) {  // what the other models have not
     case SystemModel::oscillator_pair:
       key += fmt::format(" {}", system.second_stiffness_N_per_m);

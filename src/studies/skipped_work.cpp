@@ -24,13 +24,29 @@ bool contains(const std::vector<std::size_t>& list, std::size_t value) {
   return std::find(list.begin(), list.end(), value) != list.end();
 }
 
+/// Zonal coefficients that are absent, those above all others in one entry.
+void add_zonals(const ZonalCoefficients& J, std::vector<SkippedWork>& skipped) {
+  constexpr int last = ZonalCoefficients::highest;
+  const std::string why = "the scene has none: no term of the force";
+  const int highest = J.highest_present();
+  const int alone = std::max(highest, 3);
+  for (int n = ZonalCoefficients::lowest; n <= alone; ++n) {
+    if (J[n] != 0) continue;
+    // The recursion leaves no degree out.
+    const std::string passed =
+        n < highest ? fmt::format(", but J{} needs the steps through its degree", highest) : "";
+    skipped.push_back({fmt::format("J{}", n), why + passed});
+  }
+  if (alone == last) return;
+  skipped.push_back(
+      {alone + 1 == last ? fmt::format("J{}", last) : fmt::format("J{} to J{}", alone + 1, last),
+       why});
+}
+
 void add_dynamics(const PropagationResult& result, std::vector<SkippedWork>& skipped) {
   const Scene& scene = result.scene;
   const ComputedProblem& problem = result.problem;
-  if (scene.system.model == SystemModel::zonal_gravity) {
-    if (scene.system.J2 == 0) skipped.push_back({"J2", "the scene has none: no term of the force"});
-    if (scene.system.J3 == 0) skipped.push_back({"J3", "the scene has none: no term of the force"});
-  }
+  if (scene.system.model == SystemModel::zonal_gravity) add_zonals(scene.system.J, skipped);
   const auto still =
       names_of(scene, [&](std::size_t i) { return !contains(problem.components, i); });
   if (!still.empty()) {

@@ -144,6 +144,8 @@ RelativeTrajectory fly_relative(const TransferResult& result, std::size_t point,
     std::vector<double> difference;
     for (std::size_t i = 0; i < deputy.size(); ++i) difference.push_back(deputy[i] - chief[i]);
     trajectory.times.push_back(transfer.time * k / count);
+    trajectory.chief.push_back(chief);
+    trajectory.deputy.push_back(deputy);
     trajectory.states.push_back(ChiefFrame(chief, units, trajectory.frame).relative(difference));
   }
   return trajectory;

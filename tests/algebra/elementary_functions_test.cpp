@@ -16,8 +16,8 @@ using test::RandomNumbers;
 
 template <class T>
 class ElementaryFunctions : public testing::Test {};
-using Coefficients = testing::Types<double, Pack<double, 2>, Pack<double, 16>, Extended>;
-TYPED_TEST_SUITE(ElementaryFunctions, Coefficients);
+using FunctionCoefficients = testing::Types<double, Pack<double, 2>, Pack<double, 16>, Extended>;
+TYPED_TEST_SUITE(ElementaryFunctions, FunctionCoefficients);
 
 /// |a - b| within the round-off of the products that a sums, degree by degree.
 template <class T>

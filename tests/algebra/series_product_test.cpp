@@ -60,9 +60,10 @@ constexpr Shape shapes[] = {{1, 0}, {1, 1}, {1, 12}, {2, 1}, {2, 2}, {2, 9}, {3,
 
 template <class T>
 class SeriesProduct : public testing::Test {};
-using Coefficients = testing::Types<double, Pack<double, 1>, Pack<double, 2>, Pack<double, 4>,
-                                    Pack<double, 8>, Pack<double, 16>, Extended>;
-TYPED_TEST_SUITE(SeriesProduct, Coefficients);
+using ProductCoefficients =
+    testing::Types<double, Pack<double, 1>, Pack<double, 2>, Pack<double, 4>, Pack<double, 8>,
+                   Pack<double, 16>, Extended>;
+TYPED_TEST_SUITE(SeriesProduct, ProductCoefficients);
 
 TYPED_TEST(SeriesProduct, EqualsTheSumOverAllPairsOfMonomials) {
   using T = TypeParam;

@@ -8,7 +8,7 @@ namespace {
 
 using std::string;
 
-struct Mistake {
+struct SceneMistake {
   int row;  ///< of the table
   string from;
   string to;
@@ -18,8 +18,8 @@ struct Mistake {
 
 class BadScene : public CommandTest {
  protected:
-  void expect_each_refused(const std::vector<Mistake>& mistakes, const string& scene) const {
-    for (const Mistake& mistake : mistakes) {
+  void expect_each_refused(const std::vector<SceneMistake>& mistakes, const string& scene) const {
+    for (const SceneMistake& mistake : mistakes) {
       SCOPED_TRACE(mistake.row);
       write("bad.toml", changed(scene, mistake.from, mistake.to));
       std::vector<string> words = mistake.words;
@@ -134,7 +134,7 @@ TEST_F(BadScene, KeysOfAnotherMethod) {
 }
 
 TEST_F(BadScene, Times) {
-  std::vector<Mistake> mistakes;
+  std::vector<SceneMistake> mistakes;
   for (const char* times : {"[0.5, 0.2]", "[0.5, 0.5]", "[2.0]", "[-1.0]"}) {
     mistakes.push_back({41,
                         "[reference]\n",

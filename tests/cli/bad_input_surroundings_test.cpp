@@ -29,7 +29,7 @@ TEST_F(Surroundings, OutputInPlaceOfTheScene) {
 TEST_F(Surroundings, MemoryRunsOutAnywhere) {
   succeed({"run", "quick.toml", "-q", "-o", "right"});
   int refused = 0;
-  int number = 100;
+  int number = 1000;
   for (int passed = 0; passed < 3; number += 1 + number / 10) {
     options_.environment = {{"LD_PRELOAD", HAMJET_FAILING_CALLS},
                             {"HAMJET_FAILING_CALL", "malloc:" + std::to_string(number)}};
@@ -39,8 +39,10 @@ TEST_F(Surroundings, MemoryRunsOutAnywhere) {
     ASSERT_EQ(result.signal, 0) << result.err;
     EXPECT_EQ(result.out, "");
     if (result.exit_code == 0) {
-      // The last allocation is behind, or it was one that something else could do without.
-      ++passed;
+      // The last allocation is behind, or it was one that something else could do without, as some
+      // of the libraries' own at their start.
+      if (refused > 0) ++passed;
+      ASSERT_LT(number, 1'000'000) << "none was refused";
       EXPECT_EQ(content(directory_ / "out/quick/midpoint/jet.csv"),
                 content(directory_ / "right/midpoint/jet.csv"));
       continue;
@@ -54,7 +56,7 @@ TEST_F(Surroundings, MemoryRunsOutAnywhere) {
 
 // Row 52. What a scene takes is known before: with less, it is refused with both numbers.
 TEST_F(Surroundings, LessMemoryThanTheSceneTakes) {
-  for (const rlim_t megabytes : {rlim_t{25}, rlim_t{50}, rlim_t{100}, rlim_t{150}}) {
+  for (const rlim_t megabytes : {rlim_t{50}, rlim_t{75}, rlim_t{100}, rlim_t{150}}) {
     options_.address_space = megabytes * 1'000'000;
     expect_error({"run", "small.toml", "--set", "jet.order=10"}, 6,
                  {"order 10 in 6 variables: 8008 coefficients a component", "MB in all",

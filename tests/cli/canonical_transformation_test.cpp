@@ -8,7 +8,7 @@
 namespace hamjet::test {
 namespace {
 
-constexpr const char* scene = R"(schema = 1
+constexpr const char* transformed_scene = R"(schema = 1
 study = "canonical-transformation"
 title = "double well"
 [system]
@@ -47,7 +47,7 @@ class CanonicalTransformationCommand : public CommandTest {
 };
 
 TEST_F(CanonicalTransformationCommand, GoodRun) {
-  write("well.toml", scene);
+  write("well.toml", transformed_scene);
   const CommandResult result = succeed({"run", "well.toml", "-o", "results"});
   EXPECT_NE(result.out.find("crosses"), std::string::npos);
   const Json summary = read_json(directory_ / "results/summary.json");
@@ -99,8 +99,9 @@ TEST_F(CanonicalTransformationCommand, GoodRun) {
 
 // The same rotation as a matrix, and by its angle: cos 0.5 and sin 0.5 to 17 digits.
 TEST_F(CanonicalTransformationCommand, FormsOfATransformationAgree) {
-  const std::string angle = changed(scene, "rotation_cosine = 0.99", "rotation_angle_rad = 0.5");
-  const std::string matrix = changed(scene, "rotation_cosine = 0.99",
+  const std::string angle =
+      changed(transformed_scene, "rotation_cosine = 0.99", "rotation_angle_rad = 0.5");
+  const std::string matrix = changed(transformed_scene, "rotation_cosine = 0.99",
                                      "matrix = [[0.87758256189037271, -0.47942553860420300],"
                                      "[0.47942553860420300, 0.87758256189037271]]\n"
                                      "shift = [0, 0]");
@@ -136,7 +137,7 @@ TEST_F(CanonicalTransformationCommand, OrbitInThreeDimensions) {
 
 TEST_F(CanonicalTransformationCommand, MatrixThatIsNotSymplectic) {
   const auto with_matrix = [](const std::string& matrix) {
-    return changed(scene, "rotation_cosine = 0.99", "matrix = " + matrix);
+    return changed(transformed_scene, "rotation_cosine = 0.99", "matrix = " + matrix);
   };
   expect_scene_error(with_matrix("[[1, 0], [0, -1]]"),
                      {"bad.toml:12:10: canonical_transformation.matrix: not symplectic",
@@ -161,7 +162,7 @@ TEST_F(CanonicalTransformationCommand, MatrixThatIsNotSymplectic) {
 TEST_F(CanonicalTransformationCommand, OtherBadInput) {
   const auto change = [&](const std::string& from, const std::string& to,
                           const std::vector<std::string>& words, int exit_code = 3) {
-    expect_scene_error(changed(scene, from, to), words, exit_code);
+    expect_scene_error(changed(transformed_scene, from, to), words, exit_code);
   };
   change("rotation_cosine = 0.99", "", {"canonical_transformation: missing, got none of a choice"});
   change("rotation_cosine = 0.99", "rotation_cosine = 0.99\nrotation_angle_rad = 1",
@@ -190,13 +191,13 @@ TEST_F(CanonicalTransformationCommand, OtherBadInput) {
   expect_scene_error(
       std::string(orbit_scene) + "rotation_cosine = 0.99\n",
       {"rotation_cosine: a rotation of the plane (q, p), got a model with 3 degrees"});
-  write("well.toml", scene);
+  write("well.toml", transformed_scene);
   expect_error({"compare", "well.toml", "-o", "bad"}, 3, {"study: has no flow jet"});
   EXPECT_NE(succeed({"check", "well.toml"}).out.find("the scene is good"), std::string::npos);
 }
 
 TEST_F(CanonicalTransformationCommand, CheckThatFails) {
-  write("well.toml", changed(scene, "rotation_cosine = 0.99",
+  write("well.toml", changed(transformed_scene, "rotation_cosine = 0.99",
                              "rotation_cosine = 0.99\nrequire_invariance = 1e-19"));
   const CommandResult result = hamjet({"run", "well.toml", "-o", "results"});
   EXPECT_EQ(result.exit_code, 1);
@@ -210,13 +211,14 @@ TEST_F(CanonicalTransformationCommand, CheckThatFails) {
 
 // diag(2, 1/2) to the power k has the condition 4^k; on the barrier a step of 2.5 is too long.
 TEST_F(CanonicalTransformationCommand, RunsThatStop) {
-  write("growing.toml", changed(scene, "rotation_cosine = 0.99", "matrix = [[2, 0], [0, 0.5]]"));
+  write("growing.toml",
+        changed(transformed_scene, "rotation_cosine = 0.99", "matrix = [[2, 0], [0, 0.5]]"));
   CommandResult result = hamjet({"run", "growing.toml", "-o", "growing"});
   EXPECT_EQ(result.exit_code, 4);
   EXPECT_NE(result.err.find("the condition of A_20"), std::string::npos) << result.err;
   Json summary = read_json(directory_ / "growing/summary.json");
   EXPECT_NE(summary["runs"][0]["error"].get<std::string>().find("condition"), std::string::npos);
-  write("long.toml", changed(changed(scene, "[0.1, 0.2]", "[2.5]"), "[1]", "[0.01]"));
+  write("long.toml", changed(changed(transformed_scene, "[0.1, 0.2]", "[2.5]"), "[1]", "[0.01]"));
   result = hamjet({"run", "long.toml", "-o", "long"});
   EXPECT_EQ(result.exit_code, 4);
   EXPECT_NE(result.err.find("midpoint: a step of 2.5 has no solution"), std::string::npos)

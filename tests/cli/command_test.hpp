@@ -63,12 +63,6 @@ inline std::string changed(std::string text, const std::string& from, const std:
 /// The small scene without the reference, which takes most of its time.
 inline std::string quick_scene() { return changed(small_scene, "[reference]\n", ""); }
 
-inline std::string content(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw std::runtime_error("no file " + file.string());
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 inline Json read_json(const std::filesystem::path& file) { return Json::parse(content(file)); }
 
 /// A CSV file: the names of its columns, and its rows.

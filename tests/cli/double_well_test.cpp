@@ -5,7 +5,7 @@
 namespace hamjet::test {
 namespace {
 
-constexpr const char* scene = R"(schema = 1
+constexpr const char* well_scene = R"(schema = 1
 title = "double well"
 [system]
 model = "double-well"
@@ -37,7 +37,7 @@ using DoubleWell = CommandTest;
 // Exactness is not accuracy: the midpoint map is wrong by more than 1e-3 and as symplectic as the
 // other.
 TEST_F(DoubleWell, FlowJet) {
-  write("well.toml", scene);
+  write("well.toml", well_scene);
   succeed({"run", "well.toml", "-o", "results", "-q"});
   const Json summary = read_json(directory_ / "results/summary.json");
   EXPECT_EQ(summary["model"], "double-well");
@@ -53,7 +53,7 @@ TEST_F(DoubleWell, FlowJet) {
 }
 
 TEST_F(DoubleWell, Comparison) {
-  write("well.toml", scene);
+  write("well.toml", well_scene);
   succeed(
       {"compare", "well.toml", "-o", "results", "-q", "--set", "jet.order=1", "--set",
        "compare={methods=[\"gauss\"], stages=[1, 8], repeats=1, orders=[1], time_budget_s=10}"});
@@ -63,7 +63,7 @@ TEST_F(DoubleWell, Comparison) {
 
 TEST_F(DoubleWell, BadInput) {
   const auto refuse = [&](const char* from, const char* to, const std::vector<std::string>& words) {
-    write("bad.toml", changed(scene, from, to));
+    write("bad.toml", changed(well_scene, from, to));
     expect_error({"run", "bad.toml", "-o", "bad"}, 3, words);
   };
   const char* model = "model = \"double-well\"";

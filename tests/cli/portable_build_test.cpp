@@ -17,7 +17,7 @@ constexpr double duration = 10.75;
 
 /// The paper's orbit, one revolution, in fixed steps: where a tolerance chooses them, a step more
 /// or less would differ by more than round-off.
-constexpr const char* scene = R"(schema = 1
+constexpr const char* portable_scene = R"(schema = 1
 title = "portable"
 [system]
 model = "zonal-gravity"
@@ -60,7 +60,7 @@ double largest_of_degree(const Table& jet, int wanted) {
 //
 // 2e-13 to 1e-12 here. For the highest degree C_(d+1) / C_d is taken to be as for the one before.
 TEST_F(CommandTest, PortableBuildAgreesToRoundOff) {
-  write("portable.toml", scene);
+  write("portable.toml", portable_scene);
   succeed({"run", "portable.toml", "-q", "-o", "results"});
   const Json summary = read_json(directory_ / "results/summary.json");
   ASSERT_EQ(summary["runs"][0]["steps"], steps);

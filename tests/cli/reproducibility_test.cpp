@@ -20,7 +20,7 @@ namespace {
 
 /// An orbit with everything that `hamjet run` writes: inversion, reference, relative Hamiltonian, a
 /// figure (which gnuplot draws), integrators that choose their steps and others.
-constexpr const char* scene = R"(schema = 1
+constexpr const char* reproduced_scene = R"(schema = 1
 title = "Erdnähe"
 [system]
 model = "zonal-gravity"
@@ -79,7 +79,7 @@ using Files = std::map<std::string, std::string>;
 
 class Reproducibility : public CommandTest {
  protected:
-  Reproducibility() { write("scene.toml", scene); }
+  Reproducibility() { write("scene.toml", reproduced_scene); }
 
   Files contents(const std::filesystem::path& results) const {
     Files files;

@@ -187,7 +187,7 @@ std::string scene_of(const ReferenceOrbit& orbit, const std::string& jet) {
   };
   return "schema = 1\ntitle = \"" + orbit.id + "\"\n[system]\nmodel = \"zonal-gravity\"\n" +
          "mu_km3_s2 = 1\nradius_km = " + number(orbit.field.radius) +
-         "\nJ2 = " + number(orbit.field.J2) + "\nJ3 = " + number(orbit.field.J3) +
+         "\nJ2 = " + number(orbit.field.J[2]) + "\nJ3 = " + number(orbit.field.J[3]) +
          "\n[nominal]\nposition_km = " + triple(0) + "\nvelocity_km_s = " + triple(3) +
          "\n[jet]\nduration_canonical = " + number(orbit.duration) + "\n" + jet +
          "\n[[integrator]]\nlabel = \"gauss8\"\nmethod = \"gauss\"\ntolerance = 1e-14\n";

@@ -25,7 +25,7 @@ TEST(DifferentiableHamiltonian, OfTheDoubleWell) {
 // Central differences of the value in extended precision: an error near 1e-20 for the gradient and,
 // of the gradient, for the Hessian.
 TEST(DifferentiableHamiltonian, OfAnOrbit) {
-  RecordedHamiltonian<Extended> h(zonal_gravity({1.0, 0.9, 1e-3, -2e-6}));
+  RecordedHamiltonian<Extended> h(zonal_gravity({1.0, 0.9, {{2, 1e-3}, {3, -2e-6}}}));
   Vector<Extended> z(6);
   z << Extended(1), Extended(0.2), Extended(-0.3), Extended(0.1), Extended(0.8), Extended(0.4);
   const HamiltonianDerivatives<Extended> at = h.derivatives(z);

@@ -7,6 +7,7 @@
 #include "hamjet/dynamics/oscillator_pair.hpp"
 #include "hamjet/dynamics/spring_pendulum.hpp"
 #include "support/flow.hpp"
+#include "support/magnitude.hpp"
 #include "support/random_series.hpp"
 
 // The stiff mechanical models: their Hamiltonians by hand, their vector fields by differences of
@@ -16,8 +17,6 @@ namespace hamjet {
 namespace {
 
 using State = std::vector<Extended>;
-
-double magnitude_of(const Extended& x) { return std::abs(static_cast<double>(x)); }
 
 State random_state(test::RandomNumbers& random, std::size_t dimension) {
   State z;
@@ -34,7 +33,7 @@ void expect_model(const DynamicalSystem& system, const Energy& energy, double sc
   const Extended step = 1e-10;
   for (int trial = 0; trial < 5; ++trial) {
     const State z = random_state(random, 2 * n);
-    EXPECT_LE(magnitude_of(test::energy(system, z) - energy(z)), 1e-31 * scale);
+    EXPECT_LE(test::magnitude_of(test::energy(system, z) - energy(z)), 1e-31 * scale);
     const State field = test::evaluate_list(system.vector_field, z);
     for (std::size_t i = 0; i < 2 * n; ++i) {
       const std::size_t conjugate = (i + n) % (2 * n);
@@ -42,7 +41,7 @@ void expect_model(const DynamicalSystem& system, const Energy& energy, double sc
       above[conjugate] += step;
       below[conjugate] -= step;
       const Extended difference = (energy(above) - energy(below)) / (2 * step);
-      EXPECT_LE(magnitude_of(field[i] - (i < n ? difference : Extended(-difference))),
+      EXPECT_LE(test::magnitude_of(field[i] - (i < n ? difference : Extended(-difference))),
                 1e-18 * scale)
           << system.name << " " << i;
     }

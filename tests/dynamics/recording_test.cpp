@@ -86,9 +86,9 @@ TEST(Recording, ZonalGravityCostsLessWithEachTermLeftOut) {
         operations_of(system.hamiltonian), operations_of(system.vector_field),
         operations_of(system.second_order->force), system.vector_field.nonlinear_operations()};
   };
-  const auto both = sizes({.mu = 1, .radius = 0.9, .J2 = 1e-3, .J3 = 2e-6});
-  const auto J2_alone = sizes({.mu = 1, .radius = 0.9, .J2 = 1e-3});
-  const auto J3_alone = sizes({.mu = 1, .radius = 0.9, .J3 = 2e-6});
+  const auto both = sizes({.mu = 1, .radius = 0.9, .J = {{2, 1e-3}, {3, 2e-6}}});
+  const auto J2_alone = sizes({.mu = 1, .radius = 0.9, .J = {{2, 1e-3}}});
+  const auto J3_alone = sizes({.mu = 1, .radius = 0.9, .J = {{3, 2e-6}}});
   const auto neither = sizes({.mu = 1, .radius = 0.9});
   for (std::size_t i = 0; i < both.size(); ++i) {
     EXPECT_GT(both[i], J2_alone[i]) << i;

@@ -29,7 +29,8 @@ class Cvode : public testing::Test {
 
 /// The paper's orbit; inputs from reference_cases.json, case SEED-10PI.
 DynamicalSystem paper_field() {
-  return zonal_gravity({1.0, 0x1.d283e1c01dcf3p-1, 0x1.1bcdd8a6cfd70p-10, 0x1.53e5d6a0f845cp-19});
+  return zonal_gravity(
+      {1.0, 0x1.d283e1c01dcf3p-1, {{2, 0x1.1bcdd8a6cfd70p-10}, {3, 0x1.53e5d6a0f845cp-19}}});
 }
 
 FlowProblem<double> orbit(const DynamicalSystem& system, int order, double duration) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "hamjet/dynamics/harmonic_oscillator.hpp"
+#include "integrators/small_systems.hpp"
 #include "support/flow.hpp"
 
 // Few stages where the force passes through zero, the start among these places: a relative measure
@@ -14,21 +15,17 @@
 namespace hamjet {
 namespace {
 
-constexpr double duration = 10;  // 1.6 revolutions of the oscillator
-
-DynamicalSystem pendulum() {
-  return make_system("pendulum", 1, [](auto q, auto p) { return p[0] * p[0] / 2 - cos(q[0]); });
-}
+constexpr double run_time = 10;  // 1.6 revolutions of the oscillator
 
 /// From the lowest point, where the force is zero, with the momentum 1 or at rest.
 template <class Real>
 test::Flow<Real> from_zero(const DynamicalSystem& system, int momentum = 1) {
-  return {system, {Real(0), Real(momentum)}, Real(duration), 3, {}};
+  return {system, {Real(0), Real(momentum)}, Real(run_time), 3, {}};
 }
 
 const FlowJet<Extended>& pendulum_reference() {
   static const FlowJet<Extended> jet =
-      test::run_gauss(from_zero<Extended>(pendulum()), test::adaptive(16, 1e-26));
+      test::run_gauss(from_zero<Extended>(test::pendulum()), test::adaptive(16, 1e-26));
   return jet;
 }
 
@@ -56,7 +53,7 @@ double error_of_rotation(const FlowJet<double>& jet, double angle) {
 /// README: within about a factor of ten of tolerance times revolutions. Far below, the steps would
 /// be shorter than was asked for.
 void expect_near_tolerance(double error, double tolerance) {
-  EXPECT_LE(error, 10 * tolerance * duration / 6.28);
+  EXPECT_LE(error, 10 * tolerance * run_time / 6.28);
   EXPECT_GE(error, 1e-3 * tolerance);
 }
 
@@ -92,7 +89,7 @@ TEST(GaussForceZero, AdaptiveStepsOfTheOscillatorKeepTheTolerance) {
                                     angle += angle_of_step(stages, time - last);
                                     last = time;
                                   });
-      expect_near_tolerance(error_of_rotation(jet, duration), tolerance);
+      expect_near_tolerance(error_of_rotation(jet, run_time), tolerance);
       // The steps as they were taken, to round-off.
       EXPECT_LE(error_of_rotation(jet, angle),
                 0x1p-52 * (10 + 2 * static_cast<double>(statistics.steps)));
@@ -106,7 +103,7 @@ TEST(GaussForceZero, AdaptiveStepsOfThePendulumKeepTheTolerance) {
     std::vector<IntegrationStatistics> runs;
     for (const double tolerance : tolerances(stages)) {
       SCOPED_TRACE(::testing::Message() << stages << " stages, tolerance " << tolerance);
-      const auto jet = test::run_gauss(from_zero<double>(pendulum()),
+      const auto jet = test::run_gauss(from_zero<double>(test::pendulum()),
                                        test::adaptive(stages, tolerance), &runs.emplace_back());
       for (int degree = 0; degree <= 3; ++degree) {
         SCOPED_TRACE(degree);
@@ -123,7 +120,7 @@ TEST(GaussForceZero, FixedStepsOfTheOscillatorHaveTheirOrder) {
       double before = 0;
       for (const int count : {50, 100, 200, 400}) {
         SCOPED_TRACE(::testing::Message() << stages << " stages, " << count << " steps");
-        const double h = duration / count;
+        const double h = run_time / count;
         const auto jet = test::run_gauss(from_zero<double>(harmonic_oscillator(), momentum),
                                          test::fixed_step(stages, h));
         if (momentum == 0) {
@@ -131,9 +128,9 @@ TEST(GaussForceZero, FixedStepsOfTheOscillatorHaveTheirOrder) {
         }
         // The matrix; with the momentum 1 its second column is the state too.
         const double error =
-            std::hypot(jet[0][1] - std::cos(duration), jet[0][2] - std::sin(duration));
+            std::hypot(jet[0][1] - std::cos(run_time), jet[0][2] - std::sin(run_time));
         // The chord of the angle by which the method falls behind.
-        const double lag = duration - count * angle_of_step(stages, h);
+        const double lag = run_time - count * angle_of_step(stages, h);
         EXPECT_NEAR(error, 2 * std::sin(lag / 2), 1e-13);
         if (before > 0) {
           EXPECT_NEAR(std::log2(before / error), 2 * stages, 0.02);
@@ -148,8 +145,8 @@ TEST(GaussForceZero, FixedStepsOfThePendulumHaveTheirOrder) {
   for (const int stages : {1, 2}) {
     double before[4] = {};
     for (const int count : {50, 100, 200, 400}) {
-      const auto jet = test::run_gauss(from_zero<double>(pendulum()),
-                                       test::fixed_step(stages, duration / count));
+      const auto jet = test::run_gauss(from_zero<double>(test::pendulum()),
+                                       test::fixed_step(stages, run_time / count));
       for (int degree = 0; degree <= 3; ++degree) {
         const double error = test::relative_error(jet, pendulum_reference(), degree);
         if (before[degree] > 0) {
@@ -167,8 +164,8 @@ TEST(GaussForceZero, AdaptiveStepsAboutAnEquilibriumKeepTheTolerance) {
   for (const int stages : {1, 2, 8}) {
     const auto jet =
         test::run_gauss(from_zero<double>(harmonic_oscillator(), 0), test::adaptive(stages, 1e-6));
-    EXPECT_NEAR(jet[0][1], std::cos(duration), 1.6e-5) << stages << " stages";
-    EXPECT_NEAR(jet[0][2], std::sin(duration), 1.6e-5) << stages << " stages";
+    EXPECT_NEAR(jet[0][1], std::cos(run_time), 1.6e-5) << stages << " stages";
+    EXPECT_NEAR(jet[0][2], std::sin(run_time), 1.6e-5) << stages << " stages";
   }
 }
 

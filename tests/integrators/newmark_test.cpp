@@ -10,6 +10,7 @@
 #include "hamjet/algebra/composition.hpp"
 #include "hamjet/dynamics/harmonic_oscillator.hpp"
 #include "hamjet/integrators/stormer_verlet.hpp"
+#include "integrators/small_systems.hpp"
 #include "support/convergence.hpp"
 #include "support/errors.hpp"
 #include "support/map.hpp"
@@ -49,15 +50,6 @@ std::vector<Series<Real>> positions(const FlowJet<Real>& jet) {
 }
 
 /// H = p^T W p / 2 + V(q) with a full matrix W.
-DynamicalSystem coupled_masses() {
-  return make_system("coupled", 2, [](auto q, auto p) {
-    return p[0] * p[0] + p[0] * p[1] / 2 + 2 * p[1] * p[1] + cos(q[0]) * q[1] + square(q[1]) +
-           square(square(q[0])) / 4;
-  });
-}
-DynamicalSystem pendulum() {
-  return make_system("pendulum", 1, [](auto q, auto p) { return p[0] * p[0] / 2 - cos(q[0]); });
-}
 
 // Expected: with w = k/m, q_+ (1 + beta h^2 w) = q (1 - (1/2 - beta) h^2 w) + h p/m and
 // p_+ = p - h k (q + q_+)/2, in extended precision; the last case is stiff, h^2 w = 1e6.
@@ -152,7 +144,7 @@ std::vector<FlowJet<Real>> all_jets(const FlowProblem<Real>& problem, double bet
 
 // Expected: the formulas of the method in (q, v), put in after the fact, on series; p = M v.
 TEST(Newmark, EveryStepFulfilsTheFormulasOnSeries) {
-  const test::Flow<double> flow{coupled_masses(), {0.3, -0.2, 0.5, 0.1}, 1, 4, {}};
+  const test::Flow<double> flow{test::coupled_masses(), {0.3, -0.2, 0.5, 0.1}, 1, 4, {}};
   const double w[2][2] = {{2, 0.5}, {0.5, 4}};
   const double h = 0.125;
   for (const double beta : {0.1, 0.25, 0.5}) {
@@ -279,7 +271,7 @@ TEST(Newmark, PreservesTheTwoFormOfTheDiscreteVariablesOnly) {
 
 TEST(Newmark, OutAndBackIsTheIdentity) {
   for (const double beta : {0.1, 0.25, 0.5}) {
-    const test::Flow<double> out{pendulum(), {0.4, 0.9}, 8, 4, {}};
+    const test::Flow<double> out{test::pendulum(), {0.4, 0.9}, 8, 4, {}};
     auto back = out;
     const auto there = newmark(test::problem_of(out), beta, 0.25);
     back.start = test::final_state(there);
@@ -310,7 +302,7 @@ TEST(Newmark, AStepWithoutConnectedSolutionIsANumericalError) {
                      [&] { newmark(test::problem_of(fall), 0.5, 0.6); });
   // q + (9/4) sin q = x, x = 5.42: beyond the fold at 2.03, where x = 4.05, only the solution near
   // 6 is left, which is not the one that small steps lead to.
-  const test::Flow<double> swing{pendulum(), {0.5, 2}, 6, 2, {}};
+  const test::Flow<double> swing{test::pendulum(), {0.5, 2}, 6, 2, {}};
   test::expect_error(ErrorKind::numerical, "in step 1 of 2, of size 3 from t = 0",
                      [&] { newmark(test::problem_of(swing), 0.25, 3); });
   const test::Flow<double> collided{kepler(), {0, 0, 0, 0, 1, 0}, 1, 2, {}};
@@ -321,7 +313,7 @@ TEST(Newmark, AStepWithoutConnectedSolutionIsANumericalError) {
 // Expected: the root of q + (9/4) sin q = 1/2 + (9/4) sin 1/2 + 3 (1 - (3/2) sin 1/2) below the
 // fold at 2.03, by bisection.
 TEST(Newmark, CoarseStepsFollowTheSolution) {
-  const test::Flow<double> flow{pendulum(), {0.5, 1}, 3, 2, {}};
+  const test::Flow<double> flow{test::pendulum(), {0.5, 1}, 3, 2, {}};
   const double x = 0.5 + 2.25 * std::sin(0.5) + 3 * (1 - 1.5 * std::sin(0.5));
   double low = 0;
   double high = 2;

@@ -18,7 +18,7 @@ namespace {
 
 /// H = p^2/(2 m) - cos q with m = 2.5, so that a lost mass shows.
 constexpr double mass = 2.5;
-DynamicalSystem pendulum() {
+DynamicalSystem heavy_pendulum() {
   return make_system("pendulum", 1,
                      [](auto q, auto p) { return p[0] * p[0] / (2 * mass) - cos(q[0]); });
 }
@@ -32,7 +32,7 @@ struct Point {
 /// Start and every step of a trajectory.
 template <class Integrate>
 std::vector<Point> trajectory(const Integrate& integrate) {
-  const DynamicalSystem system = pendulum();
+  const DynamicalSystem system = heavy_pendulum();
   const test::Flow<double> flow{system, {1.2, 0.4}, 2, 0, {}};
   std::vector<Point> points{{1.2, 0.4}};
   const StepObserver<double> observer = [&](const double&, const FlowJet<double>& jet) {
@@ -43,12 +43,11 @@ std::vector<Point> trajectory(const Integrate& integrate) {
   return points;
 }
 
-constexpr double h = 0.125;
-
 /// Newmark, Hamiltonian side: with p_(k+1) = M Delta q^d_k, q^d_k = q_k - beta h^2 a_k,
 ///   p_(k+1) - p_k = -h V'(q_k)   and   q'_k = M^-1 p_(k+1) - (h/2) a_k;
 /// the print has + (h/2) a_k with p^d_k, which is p_(k+1).
 TEST(PaperErrata, NewmarkOnTheHamiltonianSide) {
+  constexpr double h = 0.125;
   for (const double beta : {0.1, 0.25, 0.5}) {
     const auto points =
         trajectory([&](const auto& problem, auto& statistics, const auto& observer) {
@@ -77,6 +76,7 @@ TEST(PaperErrata, NewmarkOnTheHamiltonianSide) {
 /// Eq. legendre_vv: p_(k+1) = p_k - (h/2) (V'(q_k) + V'(q_k + h Delta q_k)), and q_k + h Delta q_k
 /// is q_(k+1); the print has V'(q_k + Delta q_k).
 TEST(PaperErrata, VelocityVerletTakesTheForceAtTheNextPosition) {
+  constexpr double h = 0.125;
   const auto points = trajectory([](const auto& problem, auto& statistics, const auto& observer) {
     integrate_velocity_verlet(problem, {.step = h}, statistics, observer);
   });

@@ -10,6 +10,7 @@
 
 #include "hamjet/algebra/composition.hpp"
 #include "hamjet/dynamics/harmonic_oscillator.hpp"
+#include "integrators/small_systems.hpp"
 #include "support/convergence.hpp"
 #include "support/errors.hpp"
 #include "support/map.hpp"
@@ -89,16 +90,10 @@ TEST(VelocityVerlet, IsTheDiscreteOscillatorWithItsMass) {
 }
 
 /// H = p^T W p / 2 + V(q) with a full matrix W = [[2, 1/2], [1/2, 4]].
-DynamicalSystem coupled_masses() {
-  return make_system("coupled", 2, [](auto q, auto p) {
-    return p[0] * p[0] + p[0] * p[1] / 2 + 2 * p[1] * p[1] + cos(q[0]) * q[1] + square(q[1]) +
-           square(square(q[0])) / 4;
-  });
-}
 
 // Expected: the formulas of the methods written out with whole series.
 TEST(VelocityVerlet, StepsAreThePrintedFormulasOnSeries) {
-  const test::Flow<double> flow{coupled_masses(), {0.3, -0.2, 0.5, 0.1}, 0.5, 4, {}};
+  const test::Flow<double> flow{test::coupled_masses(), {0.3, -0.2, 0.5, 0.1}, 0.5, 4, {}};
   const double h = 0.125;
   const double w[2][2] = {{2, 0.5}, {0.5, 4}};
   const auto problem = test::problem_of(flow);

@@ -33,13 +33,6 @@ std::string write_program(const test::TemporaryDirectory& directory, const std::
   return file.string();
 }
 
-std::string content(const fs::path& file) {
-  std::ifstream stream(file);
-  std::stringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
-
 bool has_gnuplot() { return run_gnuplot("gnuplot", "print 1\n").is_installed; }
 
 std::size_t count(const std::string& text, const std::string& part) {
@@ -134,12 +127,13 @@ TEST(ComparisonPage, WithoutGnuplotTheTablesAreThereAndOneLineSaysWhy) {
   ASSERT_TRUE(line);
   EXPECT_NE(line->find("/nonexistent/gnuplot is not installed"), std::string::npos);
   EXPECT_EQ(line->find('\n'), std::string::npos);
-  const std::string page = content(folder.path() / "out" / "report.html");
+  const std::string page = test::content(folder.path() / "out" / "report.html");
   EXPECT_EQ(count(page, "is not installed"), 1U);
   EXPECT_NE(page.find("gauss4-0.05"), std::string::npos);
   EXPECT_EQ(count(page, "<svg"), 0U);
-  EXPECT_EQ(content(folder.path() / "out" / "compare.csv"), comparison_csv(sample_comparison()));
-  EXPECT_EQ(content(folder.path() / "out" / "compare.json"), written);
+  EXPECT_EQ(test::content(folder.path() / "out" / "compare.csv"),
+            comparison_csv(sample_comparison()));
+  EXPECT_EQ(test::content(folder.path() / "out" / "compare.json"), written);
   auto json = nlohmann::json::parse(written);
   EXPECT_EQ(json["files"].size(), 2U);
   json.erase("files");
@@ -199,7 +193,7 @@ TEST(ComparisonPage, PlotsGoToFilesOnRequestAndEarlierOnesAreRemoved) {
     std::size_t files = 0;
     for (const auto& file : fs::directory_iterator(folder.path() / "plots")) {
       EXPECT_EQ(file.path().extension(), extension);
-      EXPECT_EQ(content(file.path()).substr(0, 4), start);
+      EXPECT_EQ(test::content(file.path()).substr(0, 4), start);
       ++files;
     }
     EXPECT_EQ(files, comparison_charts(sample_comparison()).size());

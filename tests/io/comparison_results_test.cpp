@@ -98,7 +98,7 @@ std::string refusal(const std::string& text) {
 }
 
 /// The file with one value changed, or removed if the new one is absent.
-std::string changed(const std::string& pointer, std::optional<nlohmann::json> value) {
+std::string summary_with(const std::string& pointer, std::optional<nlohmann::json> value) {
   auto json = nlohmann::json::parse(comparison_json(sample_comparison(), sample_origin()));
   const nlohmann::json::json_pointer place(pointer);
   EXPECT_TRUE(json.contains(place)) << pointer;
@@ -192,17 +192,20 @@ TEST(ComparisonJson, AMalformedFileIsRefusedInOneLine) {
   EXPECT_NE(refusal("[]").find("must be an object"), std::string::npos);
   EXPECT_NE(refusal("{}").find("schema: is missing"), std::string::npos);
   EXPECT_NE(refusal("{\"schema\": 1e999}"), "");
-  EXPECT_NE(refusal(changed("/schema", 2)).find("another version"), std::string::npos);
-  EXPECT_NE(refusal(changed("/runs/1/settings/method", "euler")).find("runs[1].settings.method"),
+  EXPECT_NE(refusal(summary_with("/schema", 2)).find("another version"), std::string::npos);
+  EXPECT_NE(
+      refusal(summary_with("/runs/1/settings/method", "euler")).find("runs[1].settings.method"),
+      std::string::npos);
+  EXPECT_NE(refusal(summary_with("/runs/1/statistics/steps", 0.5)).find("runs[1].statistics.steps"),
             std::string::npos);
-  EXPECT_NE(refusal(changed("/runs/1/statistics/steps", 0.5)).find("runs[1].statistics.steps"),
+  EXPECT_NE(refusal(summary_with("/runs/0/order", 5000000000)).find("out of range"),
             std::string::npos);
-  EXPECT_NE(refusal(changed("/runs/0/order", 5000000000)).find("out of range"), std::string::npos);
-  EXPECT_NE(refusal(changed("/runs/0/seconds/1", "fast")).find("runs[0].seconds[1]"),
+  EXPECT_NE(refusal(summary_with("/runs/0/seconds/1", "fast")).find("runs[0].seconds[1]"),
             std::string::npos);
-  EXPECT_NE(refusal(changed("/runs/0/corner", std::nullopt)).find("runs[0].corner: is missing"),
-            std::string::npos);
-  EXPECT_NE(refusal(changed("/along_time/0/points", 3)).find("along_time[0].points"),
+  EXPECT_NE(
+      refusal(summary_with("/runs/0/corner", std::nullopt)).find("runs[0].corner: is missing"),
+      std::string::npos);
+  EXPECT_NE(refusal(summary_with("/along_time/0/points", 3)).find("along_time[0].points"),
             std::string::npos);
 }
 

@@ -23,16 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string content(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-void put(const fs::path& file, const std::string& text) {
-  fs::create_directories(file.parent_path());
-  std::ofstream(file, std::ios::binary) << text;
-}
-
 class ResultSets : public ::testing::Test {
  protected:
   using Files = std::map<std::string, std::string>;
@@ -49,7 +39,8 @@ class ResultSets : public ::testing::Test {
     Files files;
     for (const auto& entry : fs::recursive_directory_iterator(directory_)) {
       const std::string path = entry.path().lexically_relative(directory_).string();
-      if (!entry.is_directory() && path != "summary.json") files[path] = content(entry.path());
+      if (!entry.is_directory() && path != "summary.json")
+        files[path] = test::content(entry.path());
     }
     return files;
   }
@@ -74,7 +65,7 @@ class ResultSets : public ::testing::Test {
 // CRC-32/ISO-HDLC).
 TEST_F(ResultSets, AreDescribedByTheirSummary) {
   const std::string summary = commit({{"a/digits.txt", "123456789"}});
-  EXPECT_EQ(content(directory_ / "summary.json"), summary);
+  EXPECT_EQ(test::content(directory_ / "summary.json"), summary);
   const auto json = nlohmann::json::parse(summary);
   EXPECT_EQ(json["a"], 1);
   ASSERT_EQ(json["files"].size(), 1U);
@@ -88,8 +79,8 @@ TEST_F(ResultSets, AreDescribedByTheirSummary) {
 
 TEST_F(ResultSets, ReplaceTheEarlierOneButNotWhatIsTheUsers) {
   commit(old_);
-  put(directory_ / "notes.txt", "mine");
-  put(directory_ / "a/y.csv", "old y, and a remark of mine");
+  test::put(directory_ / "notes.txt", "mine");
+  test::put(directory_ / "a/y.csv", "old y, and a remark of mine");
   commit(new_);
   Files expected = new_;
   expected["notes.txt"] = "mine";
@@ -100,12 +91,12 @@ TEST_F(ResultSets, ReplaceTheEarlierOneButNotWhatIsTheUsers) {
 }
 
 TEST_F(ResultSets, AnEarlierSummaryCannotHaveFilesElsewhereRemoved) {
-  put(temporary_.path() / "precious", "mine");
+  test::put(temporary_.path() / "precious", "mine");
   for (const char* path : {"../precious", "a/../../precious"}) {
-    put(directory_ / "summary.json", seal("{}", {record_of(path, "mine")}));
-    EXPECT_TRUE(is_sealed(content(directory_ / "summary.json")));
+    test::put(directory_ / "summary.json", seal("{}", {record_of(path, "mine")}));
+    EXPECT_TRUE(is_sealed(test::content(directory_ / "summary.json")));
     commit(new_);
-    EXPECT_EQ(content(temporary_.path() / "precious"), "mine");
+    EXPECT_EQ(test::content(temporary_.path() / "precious"), "mine");
   }
 }
 
@@ -117,29 +108,29 @@ TEST_F(ResultSets, LeaveNothingWhereTheyAreNotCommitted) {
   }
   EXPECT_FALSE(fs::exists(directory_));
   commit(old_);
-  const std::string summary = content(directory_ / "summary.json");
+  const std::string summary = test::content(directory_ / "summary.json");
   {
     OutputDirectory output(directory_);
     output.write("c/x.csv", "x");
     output.write("summary.json", "{}");
   }
   EXPECT_EQ(found(), old_);
-  EXPECT_EQ(content(directory_ / "summary.json"), summary);
+  EXPECT_EQ(test::content(directory_ / "summary.json"), summary);
 }
 
 TEST_F(ResultSets, EveryBitThatIsFlippedIsNoticed) {
   commit(new_);
   for (const char* name : {"summary.json", "a/x.csv"}) {
-    const std::string good = content(directory_ / name);
+    const std::string good = test::content(directory_ / name);
     for (std::size_t bit = 0; bit < 8 * good.size(); ++bit) {
       std::string bad = good;
       bad[bit / 8] = static_cast<char>(bad[bit / 8] ^ (1 << (bit % 8)));
-      put(directory_ / name, bad);
+      test::put(directory_ / name, bad);
       ResultSet set(directory_, "summary.json");
       set.read("a/x.csv");
       EXPECT_THROW(set.verify(), Error) << name << " bit " << bit;
     }
-    put(directory_ / name, good);
+    test::put(directory_ / name, good);
   }
   verify(new_);
 }
@@ -147,21 +138,21 @@ TEST_F(ResultSets, EveryBitThatIsFlippedIsNoticed) {
 TEST_F(ResultSets, WhatIsCutOffAtAnyByteIsNoticed) {
   commit(new_);
   for (const char* name : {"summary.json", "a/x.csv"}) {
-    const std::string good = content(directory_ / name);
+    const std::string good = test::content(directory_ / name);
     for (std::size_t length = 0; length < good.size(); ++length) {
-      put(directory_ / name, good.substr(0, length));
+      test::put(directory_ / name, good.substr(0, length));
       ResultSet set(directory_, "summary.json");
       set.read("a/x.csv");
       EXPECT_THROW(set.verify(), Error) << name << " length " << length;
     }
-    put(directory_ / name, good);
+    test::put(directory_ / name, good);
   }
   verify(new_);
 }
 
 TEST_F(ResultSets, WhatIsMissingOrForeignIsNoticed) {
   commit(new_);
-  put(directory_ / "a/foreign.csv", "of another run");
+  test::put(directory_ / "a/foreign.csv", "of another run");
   expect_refused({{"a/foreign.csv", "of another run"}}, {"a/foreign.csv: is not of the set"});
   fs::remove(directory_ / "a/x.csv");
   expect_refused(new_, {"a/x.csv: cannot be read: No such file"});
@@ -180,19 +171,19 @@ TEST_F(ResultSets, PlacingThatWasBrokenOffAnywhereIsCompleted) {
     commit(old_);
     std::size_t number = 0;
     for (const auto& [path, text] : new_) {
-      put((number++ < placed ? directory_ : ready / "files") / path, text);
+      test::put((number++ < placed ? directory_ : ready / "files") / path, text);
     }
     // The earlier summary goes before the first file comes, and the new one comes last.
     if (placed > 0) fs::remove(directory_ / "summary.json");
     if (placed > new_.size()) {
-      put(directory_ / "summary.json", summary);
+      test::put(directory_ / "summary.json", summary);
       fs::create_directories(ready / "summary");
     } else {
-      put(ready / "summary/summary.json", summary);
+      test::put(ready / "summary/summary.json", summary);
     }
     verify(new_);
     EXPECT_FALSE(fs::exists(ready));
-    EXPECT_EQ(content(directory_ / "summary.json"), summary);
+    EXPECT_EQ(test::content(directory_ / "summary.json"), summary);
     if (placed == 0) {
       EXPECT_EQ(found(), new_);
     }
@@ -201,8 +192,8 @@ TEST_F(ResultSets, PlacingThatWasBrokenOffAnywhereIsCompleted) {
 
 TEST_F(ResultSets, WhatWasNotCompletelyWrittenIsForgotten) {
   commit(old_);
-  put(directory_ / ".hamjet-new/files/a/x.csv", "half of the ne");
-  put(directory_ / ".hamjet-lock", "1\n");
+  test::put(directory_ / ".hamjet-new/files/a/x.csv", "half of the ne");
+  test::put(directory_ / ".hamjet-lock", "1\n");
   verify(old_);
   { const OutputDirectory output(directory_); }
   EXPECT_EQ(found(), old_);
@@ -212,7 +203,7 @@ TEST_F(ResultSets, WhatWasNotCompletelyWrittenIsForgotten) {
 
 TEST_F(ResultSets, AreRefusedBeforeAnythingIsReplacedWhereAFileCannotGo) {
   commit(old_);
-  put(directory_ / "c", "a file where a folder should be");
+  test::put(directory_ / "c", "a file where a folder should be");
   expect_error([&] { commit(new_); }, ErrorKind::input_output,
                {"c/d/w.csv: cannot be written", "c is not a directory"}, "a file");
   fs::remove(directory_ / "c");

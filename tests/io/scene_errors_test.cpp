@@ -41,7 +41,8 @@ TEST(SceneErrors, Top) {
        {"title", "precision = 2\ntitle", {"precision: wrong type"}},
        {"title",
         "zzz = 1\ntitle",
-        {":2:1: zzz: unknown key", "must be one of: schema, title, precision, system, units, nominal"}},
+        {":2:1: zzz: unknown key",
+         "must be one of: schema, title, precision, system, units, nominal"}},
        {"[reference]", "[refrence]", {":27:2: refrence: unknown key", "did you mean reference?"}},
        {"[reference]", "[methd]", {"methd: unknown key", "integrator"}},
        {"[jet]", "[jet.jet]", {":11:6: jet.jet: unknown key"}},
@@ -96,7 +97,12 @@ TEST(SceneErrors, System) {
               {"radius_km = 6378", "radius_km = -6378", {"radius_km: not positive"}},
               {"J2 = 1e-3", "J2 = 10", {"J2: out of range, got 10, must be a number from -1 to 1"}},
               {"J2 = 1e-3", "J3 = -1.1", {"J3: out of range, got -1.1"}},
-              {"J2 = 1e-3", "J4 = 1e-6", {":7:1: system.J4: unknown key, got J4"}},
+              {"J2 = 1e-3", "J20 = 2", {"J20: out of range, got 2, must be a number from -1"}},
+              {"J2 = 1e-3", "J1 = 1", {"J1: unknown key, got J1, must be one of J2 to J20"}},
+              {"J2 = 1e-3", "J21 = 1", {":7:7: system.J21: unknown key, got J21, must be one"}},
+              {"J2 = 1e-3", "\"J2.5\" = 1", {":7:1: system.J2.5: unknown key", "mean J2?"}},
+              {"J2 = 1e-3", "J2.5 = 1e-6", {"system.J2: wrong type, got a table"}},
+              {"J2 = 1e-3", "j4 = 1e-6", {":7:1: system.j4: unknown key, got j4"}},
               {"J2 = 1e-3", "mass_kg = 1", {"mass_kg: the model zonal-gravity has no key mass_kg"}},
               {"zonal-gravity", "kepler", {"the model kepler has no key radius_km", "mu_km3_s2"}}});
   expect_errors(oscillator,
@@ -306,7 +312,7 @@ TEST(SceneErrors, OtherTables) {
        // The orbit is inclined.
        {"order = 4",
         "order = 4\nvariables = [\"x\", \"y\", \"px\", \"py\"]",
-        {"kinds: not defined", "equatorial orbit without J3"}},
+        {"kinds: not defined", "equatorial orbit without odd J_n"}},
        {"[reference]", "[reference]\ntolerance = 1e-29", {"tolerance: out of range", "1e-28"}},
        {"[reference]", "[reference]\ntolerance = 1e-15", {"to 1e-16"}},
        {"[reference]", "[reference]\nprecision = 50", {"reference.precision: unknown key"}}});
@@ -314,7 +320,10 @@ TEST(SceneErrors, OtherTables) {
       changed(changed(orbit, "order = 4", "order = 4\nvariables = [\"x\", \"y\", \"px\", \"py\"]"),
               "[0, 7.5, 1]", "[0, 7.5, 0]");
   ASSERT_NO_THROW(parse_scene(plane, "x"));
-  expect_scene_error(changed(plane, "J2 = 1e-3", "J3 = 1e-9"), {"kinds: not defined"});
+  for (const char* odd : {"J3 = 1e-9", "J19 = 1e-9"}) {
+    expect_scene_error(changed(plane, "J2 = 1e-3", odd), {"kinds: not defined"});
+  }
+  ASSERT_NO_THROW(parse_scene(changed(plane, "J2 = 1e-3", "J2 = 1e-3\nJ20 = 1e-9"), "x"));
   expect_scene_error(changed(plane, "[7000, 0, 0]", "[7000, 0, 1e-300]"), {"kinds: not defined"});
   expect_scene_error(changed(plane, kinds, "[\"qqq-ppp\"]"), {"unknown kind", "2 letters"});
   expect_scene_error(std::string(oscillator) + "[generating_function]\nkinds = [\"qq\"]\n",

@@ -202,7 +202,7 @@ TEST(SceneInputErrors, NullRemovesAKeyOrAnElement) {
   EXPECT_EQ(scene.integrators[0].label, "other");
   EXPECT_FALSE(scene.reference.has_value());
   EXPECT_FALSE(scene.kinds.has_value());
-  EXPECT_EQ(scene.system.J2, 0);
+  EXPECT_EQ(scene.system.J[2], 0);
   EXPECT_EQ(parse_scene(orbit, "x", {{"title", "\"null\""}}).title, "null");
   EXPECT_EQ(parse_scene(orbit, "x", {{"title", "\"\""}}).title, "");
   const auto usage = ErrorKind::usage;

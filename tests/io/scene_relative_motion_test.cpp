@@ -60,15 +60,15 @@ Scene scene_of(const std::string& tables) {
   return parse_scene(std::string(circle) + tables, "file.toml");
 }
 
-struct Change {
+struct TableChange {
   const char* from;
   const char* to;
   std::vector<std::string> words;
 };
 
-void expect_errors(const std::string& tables, const std::vector<Change>& changes) {
+void expect_table_errors(const std::string& tables, const std::vector<TableChange>& changes) {
   ASSERT_NO_THROW(scene_of(tables));
-  for (const Change& change : changes) {
+  for (const TableChange& change : changes) {
     expect_scene_error(std::string(circle) + changed(tables, change.from, change.to), change.words);
   }
 }
@@ -166,7 +166,7 @@ TEST(SceneTransfer, LocalVerticalIsRefusedWithItsTwoMeanings) {
 
 TEST(SceneTransfer, Errors) {
   const char* times = "times_s = [16, 32]";
-  expect_errors(
+  expect_table_errors(
       transfer,
       {{"frame = ", "fram = ", {"transfer.fram: unknown key", "did you mean frame?"}},
        {"\"RTN\"", "\"RIC\"", {"transfer.frame: unknown value, got \"RIC\"", "RTN, inertial"}},
@@ -261,14 +261,15 @@ TEST(SceneValidity, EveryKey) {
 }
 
 TEST(SceneValidity, Errors) {
-  expect_errors("[validity]\ntolerance_m = 1\nsemi_axes = [1, 1, 1]\nsamples = 40\n",
-                {{"tolerance_m = 1", "tolerance_m = 0", {"validity.tolerance_m: not positive"}},
-                 {"tolerance_m = 1", "tol = 1", {"validity.tol: unknown key"}},
-                 {"tolerance_m = 1", "times_s = 0", {"validity.times_s: zero transfer time"}},
-                 {"tolerance_m = 1", "times_s = 1\ncount = 1", {"more than one key"}},
-                 {"[1, 1, 1]", "[1, 0, 1]", {"validity.semi_axes.1: not positive, got 0"}},
-                 {"[1, 1, 1]", "[1, 1]", {"semi_axes: wrong length"}},
-                 {"samples = 40", "samples = 9", {"samples: out of range", "from 10 to 10000"}}});
+  expect_table_errors(
+      "[validity]\ntolerance_m = 1\nsemi_axes = [1, 1, 1]\nsamples = 40\n",
+      {{"tolerance_m = 1", "tolerance_m = 0", {"validity.tolerance_m: not positive"}},
+       {"tolerance_m = 1", "tol = 1", {"validity.tol: unknown key"}},
+       {"tolerance_m = 1", "times_s = 0", {"validity.times_s: zero transfer time"}},
+       {"tolerance_m = 1", "times_s = 1\ncount = 1", {"more than one key"}},
+       {"[1, 1, 1]", "[1, 0, 1]", {"validity.semi_axes.1: not positive, got 0"}},
+       {"[1, 1, 1]", "[1, 1]", {"semi_axes: wrong length"}},
+       {"samples = 40", "samples = 9", {"samples: out of range", "from 10 to 10000"}}});
 }
 
 TEST(SceneAssignment, EveryKey) {
@@ -290,7 +291,7 @@ TEST(SceneAssignment, EveryKey) {
 
 TEST(SceneAssignment, Errors) {
   const char* last = "[[assignment.slot]]\nposition_m = [4, 0, 0]\n";
-  expect_errors(
+  expect_table_errors(
       assignment,
       {{last, "", {"assignment.slot: ", "got 2 deputies and 1 slots", "the same number"}},
        {"[assignment]", "[assignment]\ntime = \"pair\"", {"time: unknown value", "per-pair"}},

@@ -72,8 +72,8 @@ TEST(Scene, ConvertsToCanonicalUnits) {
   EXPECT_EQ(scene.system.model, SystemModel::zonal_gravity);
   EXPECT_EQ(scene.system.mu_km3_s2, 1);
   EXPECT_EQ(scene.system.radius_km, 2);
-  EXPECT_EQ(scene.system.J2, 0.25);
-  EXPECT_EQ(scene.system.J3, 0);
+  EXPECT_EQ(scene.system.J[2], 0.25);
+  EXPECT_EQ(scene.system.J[3], 0);
   EXPECT_EQ(scene.units.length_km, 4);
   EXPECT_EQ(scene.units.time_s, 8);
   EXPECT_EQ(scene.canonical_radius, 0.5);
@@ -140,7 +140,7 @@ TEST(Scene, ConvertsThePapersOrbitToTheLastBit) {
   EXPECT_EQ(scene.canonical_radius, 0x1.d283e1c01dcf3p-1);
   EXPECT_EQ(scene.separation, 0x1.767dce434a9b1p-10);
   EXPECT_EQ(scene.duration, 31.41592653589793);
-  EXPECT_EQ(scene.system.J3, 2.532436e-6);
+  EXPECT_EQ(scene.system.J[3], 2.532436e-6);
   EXPECT_EQ(scene.kinds, (std::vector<std::string>{"F1", "auto"}));
   ASSERT_TRUE(scene.reference.has_value());
   EXPECT_EQ(scene.reference->tolerance, 1e-24);
@@ -249,7 +249,7 @@ TEST(SceneOverride, ReachesEveryKey) {
   EXPECT_EQ(scene.integrators[1].tolerance, 1e-5);
   EXPECT_EQ(scene.separation, 2);
   EXPECT_EQ(scene.nominal[0], -1);
-  EXPECT_EQ(scene.system.J3, -1e-6);
+  EXPECT_EQ(scene.system.J[3], -1e-6);
 }
 
 TEST(SceneOverride, TakesForAStringWhatIsNotToml) {
@@ -272,6 +272,8 @@ TEST(ShippedScenes, AreAllRead) {
     if (entry.path().extension() != ".toml") continue;
     // The cases of `hamjet stability`, some of which are there to be refused.
     if (entry.path().parent_path().filename() == "extreme") continue;
+    // Studies of `hamjet sweep`, and the scenes that they vary.
+    if (entry.path().parent_path().filename() == "sweeps") continue;
     ++count;
     Study study;
     ASSERT_NO_THROW(study = read_study(entry.path())) << entry.path();

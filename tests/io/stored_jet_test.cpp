@@ -40,15 +40,6 @@ stages = 1
 step_canonical = 0.1
 )";
 
-std::string content(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-void put(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream(file, std::ios::binary) << text;
-}
-
 class StoredJetTest : public ::testing::Test {
  protected:
   PropagationResult store(const std::string& scene, const std::vector<Override>& overrides = {}) {
@@ -94,11 +85,11 @@ class StoredJetTest : public ::testing::Test {
   /// Expects an error while a file is damaged.
   void expect_damage(const std::string& file, const std::function<std::string(std::string)>& damage,
                      std::vector<std::string> words) {
-    const std::string good = content(directory_ / file);
-    put(directory_ / file, damage(good));
+    const std::string good = test::content(directory_ / file);
+    test::put(directory_ / file, damage(good));
     words.push_back(file);
     expect_refused(words);
-    put(directory_ / file, good);
+    test::put(directory_ / file, good);
   }
 
   const test::TemporaryDirectory temporary_;
@@ -167,7 +158,7 @@ TEST_F(StoredJetTest, ARunThatFailedHasNoJet) {
   // A fall into the centre, which no integrator can follow to its end.
   store(kepler, {{"nominal.velocity_km_s", "[0, 0, 0]"}, {"jet.duration_canonical", "3"}});
   expect_refused({"gauss8 has no result"}, ErrorKind::input_output, "gauss8");
-  const auto json = nlohmann::json::parse(content(directory_ / "summary.json"));
+  const auto json = nlohmann::json::parse(test::content(directory_ / "summary.json"));
   if (json["runs"][1]["error"].is_null()) {
     EXPECT_EQ(read_stored_jet(directory_).label, "midpoint");
   } else {
@@ -304,10 +295,10 @@ TEST_F(StoredJetTest, DamagedSummary) {
 
 TEST_F(StoredJetTest, ADamagedOrderTakesNoMemory) {
   store(kepler);
-  auto json = nlohmann::json::parse(content(directory_ / "summary.json"));
+  auto json = nlohmann::json::parse(test::content(directory_ / "summary.json"));
   json["order"] = 60;
   json["coefficients_per_component"] = 90858768;
-  put(directory_ / "summary.json", json.dump());
+  test::put(directory_ / "summary.json", json.dump());
   expect_refused({"gauss8/jet.csv:169: the file ends after 168 coefficients, must have 545152608"});
 }
 

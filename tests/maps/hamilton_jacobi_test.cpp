@@ -160,7 +160,7 @@ TEST(HamiltonJacobi, SeesTheSignOfEveryEntryOfTheOneForm) {
 
 TEST(HamiltonJacobi, SeesAHamiltonianThatIsNotThatOfTheEquations) {
   auto field = test::paper_orbit().field;
-  field.J3 = -field.J3;
+  field.J[3] = -field.J[3];
   DynamicalSystem system = paper_system();
   system.hamiltonian = zonal_gravity(field).hamiltonian;
   const auto& jet = quarter_jet();

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
+
 #include "control_problems.hpp"
 
 // Free end points, on the double integrator: its least cost is delta^2 / (2 c^T W c) for the end

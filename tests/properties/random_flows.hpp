@@ -24,8 +24,9 @@ inline RandomOrbit random_orbit() {
   RandomOrbit orbit;
   orbit.field = {.mu = 1,
                  .radius = *number(0.5, 0.7).as("radius"),
-                 .J2 = *number(-0.01, 0.01).as("J2"),
-                 .J3 = *number(-0.002, 0.002).as("J3")};
+                 .J = {{2, *number(-0.01, 0.01).as("J2")},
+                       {3, *number(-0.002, 0.002).as("J3")},
+                       {5, *number(-0.001, 0.001).as("J5")}}};
   orbit.start = {*number(0.9, 1.1).as("x"),  *number(-0.2, 0.2).as("y"),
                  *number(-0.3, 0.3).as("z"), *number(-0.3, 0.3).as("px"),
                  *number(0.8, 1.1).as("py"), *number(-0.5, 0.5).as("pz")};

@@ -129,6 +129,7 @@ inline SceneTables random_scene() {
       system.add("radius_km", drawn(1000, 7000));
       system.add("J2", drawn(-1e-2, 1e-2));
       system.add("J3", drawn(-1e-5, 1e-5));
+      system.add("J7", drawn(-1e-6, 1e-6));
     }
   }
   SceneTable jet{"jet", false, {}};

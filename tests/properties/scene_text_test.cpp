@@ -25,12 +25,13 @@ std::string all_of(const Scene& scene) {
   };
   add_text(scene.title);
   for (const double x :
-       {scene.system.mu_km3_s2, scene.system.radius_km, scene.system.J2, scene.system.J3,
-        scene.system.mass_kg, scene.system.stiffness_N_per_m, scene.units.length_km,
-        scene.units.time_s, scene.canonical_radius, scene.duration,
-        static_cast<double>(scene.system.model), static_cast<double>(scene.order)}) {
+       {scene.system.mu_km3_s2, scene.system.radius_km, scene.system.mass_kg,
+        scene.system.stiffness_N_per_m, scene.units.length_km, scene.units.time_s,
+        scene.canonical_radius, scene.duration, static_cast<double>(scene.system.model),
+        static_cast<double>(scene.order)}) {
     add(x);
   }
+  for (int n = 2; n <= 20; ++n) add(scene.system.J[n]);
   add_all(scene.nominal);
   add_all(scene.variables);
   for (const IntegratorSettings& integrator : scene.integrators) {

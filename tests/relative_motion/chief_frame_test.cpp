@@ -11,7 +11,7 @@
 namespace hamjet {
 namespace {
 
-const MetricUnits units{7e6, 927.5};
+const MetricUnits metric_units{7e6, 927.5};
 const std::vector<double> eccentric = {0.9, 0.3, -0.2, -0.3, 0.8, 0.6};
 
 TEST(ChiefFrame, RtnOnACircularEquatorialOrbitIsPositionVelocityAndPole) {
@@ -20,14 +20,14 @@ TEST(ChiefFrame, RtnOnACircularEquatorialOrbitIsPositionVelocityAndPole) {
   RelativeState state;
   state.position_m = {7000, 14000, 21000};
   state.velocity_m_s = {1, 2, 3};
-  const double unit = units.velocity_m_s();
-  const ChiefFrame rotating(chief, units, RelativeFrame::rtn_rotating);
+  const double unit = metric_units.velocity_m_s();
+  const ChiefFrame rotating(chief, metric_units, RelativeFrame::rtn_rotating);
   const std::vector<double> deviation = rotating.deviation(state);
   // v = rho' + N x rho: N x (1, 2, 3) = (-2, 1, 0).
   const std::vector<double> expected = {1e-3,    2e-3, 3e-3, 1 / unit - 2e-3, 2 / unit + 1e-3,
                                         3 / unit};
   for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(deviation[i], expected[i], 1e-18) << i;
-  const ChiefFrame inertial(chief, units, RelativeFrame::rtn_inertial);
+  const ChiefFrame inertial(chief, metric_units, RelativeFrame::rtn_inertial);
   EXPECT_NEAR(inertial.deviation(state)[3], 1 / unit, 1e-18);
 }
 
@@ -36,7 +36,7 @@ TEST(ChiefFrame, ConvertsThereAndBack) {
   std::uniform_real_distribution<double> uniform(-1e4, 1e4);
   for (const RelativeFrame frame :
        {RelativeFrame::rtn_rotating, RelativeFrame::rtn_inertial, RelativeFrame::inertial}) {
-    const ChiefFrame chief(eccentric, units, frame);
+    const ChiefFrame chief(eccentric, metric_units, frame);
     RelativeState state;
     for (int i = 0; i < 3; ++i) {
       state.position_m[i] = uniform(generator);
@@ -84,10 +84,10 @@ TEST(ChiefFrame, RotatingDerivativeIsThatOfTheRotatingComponents) {
 TEST(ChiefFrame, NeedsAnOrbitalPlane) {
   const std::vector<double> fall = {1, 2, 3, -0.1, -0.2, -0.3};
   for (const RelativeFrame frame : {RelativeFrame::rtn_rotating, RelativeFrame::rtn_inertial}) {
-    EXPECT_THROW(ChiefFrame(fall, units, frame), Error);
+    EXPECT_THROW(ChiefFrame(fall, metric_units, frame), Error);
   }
-  EXPECT_NO_THROW(ChiefFrame(fall, units, RelativeFrame::inertial));
-  EXPECT_THROW(ChiefFrame(std::vector<double>{1, 2}, units, RelativeFrame::inertial), Error);
+  EXPECT_NO_THROW(ChiefFrame(fall, metric_units, RelativeFrame::inertial));
+  EXPECT_THROW(ChiefFrame(std::vector<double>{1, 2}, metric_units, RelativeFrame::inertial), Error);
 }
 
 }  // namespace

@@ -28,8 +28,8 @@ TEST(ComparisonReference, HasTheDigitsOfThePaperOrbit) {
   const test::ReferenceOrbit& orbit = test::paper_orbit();
   Scene scene = kepler_scene();
   scene.system.model = SystemModel::zonal_gravity;
-  scene.system.J2 = orbit.field.J2;
-  scene.system.J3 = orbit.field.J3;
+  scene.system.J[2] = orbit.field.J[2];
+  scene.system.J[3] = orbit.field.J[3];
   scene.canonical_radius = orbit.field.radius;
   ASSERT_EQ(orbit.field.mu, 1);
   scene.nominal = orbit.start;

@@ -42,8 +42,8 @@ inline Scene kepler_chief(double eccentricity, double length_km, double time_s, 
 inline Scene paper_chief(int order) {
   Scene scene = kepler_chief(0.3, 7000, std::sqrt(7000.0 * 7000 * 7000 / 398600.4405), order);
   scene.system.model = SystemModel::zonal_gravity;
-  scene.system.J2 = 1.082626675e-3;
-  scene.system.J3 = 2.532436e-6;
+  scene.system.J[2] = 1.082626675e-3;
+  scene.system.J[3] = 2.532436e-6;
   scene.canonical_radius = 0x1.d283e1c01dcf3p-1;
   scene.nominal = {1, 0, 0, 0, 0x1.23e2896280f23p-1, 0x1.f98f3adef13f2p-1};
   return scene;

@@ -22,12 +22,12 @@
 namespace hamjet {
 namespace {
 
-struct Method {
+struct AdaptiveMethod {
   std::string name;
   IntegrationMethod method;
 };
 
-void PrintTo(const Method& method, std::ostream* out) { *out << method.name; }
+void PrintTo(const AdaptiveMethod& method, std::ostream* out) { *out << method.name; }
 
 constexpr double tolerances[] = {1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12};
 
@@ -70,7 +70,7 @@ Integration run(IntegrationMethod method, const test::IntegratorCase& one, doubl
 }
 
 class IntegratorTolerance
-    : public ::testing::TestWithParam<std::tuple<Method, test::IntegratorCase>> {
+    : public ::testing::TestWithParam<std::tuple<AdaptiveMethod, test::IntegratorCase>> {
  protected:
   void SetUp() override {
     if (is_cvode(method()) && !cvode_available()) GTEST_SKIP() << "this build has no CVODE";
@@ -151,9 +151,10 @@ TEST_P(IntegratorTolerance, TimeReversibility) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, IntegratorTolerance,
-    ::testing::Combine(::testing::Values(Method{"CvodeAdams", IntegrationMethod::cvode_adams},
-                                         Method{"CvodeBdf", IntegrationMethod::cvode_bdf},
-                                         Method{"Fehlberg", IntegrationMethod::fehlberg78}),
+    ::testing::Combine(::testing::Values(AdaptiveMethod{"CvodeAdams",
+                                                        IntegrationMethod::cvode_adams},
+                                         AdaptiveMethod{"CvodeBdf", IntegrationMethod::cvode_bdf},
+                                         AdaptiveMethod{"Fehlberg", IntegrationMethod::fehlberg78}),
                        ::testing::ValuesIn(test::integrator_cases())),
     [](const auto& instance) {
       return std::get<0>(instance.param).name + "On" + std::get<1>(instance.param).name;

@@ -316,8 +316,8 @@ TEST(SelfChecks, SurfaceBetweenSteps) {
   // Kepler with e = 0.3 from apogee: r = 1.3 there and a (1 - e) = 0.7 at perigee, half a period
   // pi later (a = 1). Few, long steps have no point near it.
   Scene scene = paper_chief(1);
-  scene.system.J2 = 0;
-  scene.system.J3 = 0;
+  scene.system.J[2] = 0;
+  scene.system.J[3] = 0;
   scene.units = {1000, 1000};
   scene.nominal = {1.3, 0, 0, 0, std::sqrt(0.7 / 1.3), 0};
   scene.duration = 6;

@@ -242,7 +242,7 @@ TEST(Transfer, AnEarlierJetGivesTheSameAnswer) {
     EXPECT_LT(difference.norm(), 1e-9);
   }
   // A jet of another planet.
-  scene.system.J2 = 0;
+  scene.system.J[2] = 0;
   EXPECT_THROW(study_transfer(scene, {}, &earlier), Error);
 }
 

@@ -66,8 +66,7 @@ inline ReferenceOrbit reference_orbit(const std::string& id) {
   const auto& model = entry["model"];
   orbit.field = {.mu = from_hex(model["GM"]),
                  .radius = from_hex(model["rho"]),
-                 .J2 = from_hex(model["J2"]),
-                 .J3 = from_hex(model["J3"])};
+                 .J = {{2, from_hex(model["J2"])}, {3, from_hex(model["J3"])}}};
   for (const auto& text : entry["x0_hex"]) orbit.start.push_back(from_hex(text));
   orbit.duration = from_hex(entry["t_hex"]);
   orbit.state = decimals(entry["state"]);

@@ -3,6 +3,8 @@
 #include <stdlib.h>
 
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -29,5 +31,18 @@ class TemporaryDirectory {
  private:
   std::filesystem::path path_;
 };
+
+/// All bytes of a file.
+inline std::string content(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw std::runtime_error("no file " + file.string());
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// Writes a file, in a folder that need not exist.
+inline void put(const std::filesystem::path& file, const std::string& text) {
+  std::filesystem::create_directories(file.parent_path());
+  std::ofstream(file, std::ios::binary) << text;
+}
 
 }  // namespace hamjet::test

@@ -5,7 +5,7 @@
 #include "cases.hpp"
 
 /// Without arguments all benchmarks; otherwise those named: products, evaluation,
-/// integrators, orders, savings.
+/// integrators, orders, savings, zonals, arcs.
 int main(int argc, char** argv) {
   using namespace hamjet::benchmarks;
   const auto wanted = [&](const std::string& name) {
@@ -15,10 +15,14 @@ int main(int argc, char** argv) {
     }
     return false;
   };
-  fmt::print("single thread; medians of interleaved repeats: compare ratios within one table\n");
+  fmt::print(
+      "single thread but for arcs; medians of interleaved repeats: compare ratios within one "
+      "table\n");
   if (wanted("products")) benchmark_products();
   if (wanted("evaluation")) benchmark_evaluation();
   if (wanted("integrators")) benchmark_integrators();
   if (wanted("orders")) benchmark_orders();
   if (wanted("savings")) benchmark_savings();
+  if (wanted("zonals")) benchmark_zonals();
+  if (wanted("arcs")) benchmark_arcs();
 }

@@ -29,7 +29,7 @@ Case paper_case(const ZonalGravity& field, int order) {
 
 Case planar_case(int order) {
   ZonalGravity field = paper_field;
-  field.J3 = 0;
+  field.J[3] = 0;
   const std::vector<std::size_t> plane = {0, 1};
   return {restrict_system(zonal_gravity(field), plane),
           SeriesSpace::create(4, order),

@@ -9,7 +9,8 @@
 namespace hamjet::benchmarks {
 
 /// The paper's Earth orbit in canonical units, over 10 pi.
-inline constexpr ZonalGravity paper_field{1.0, 6378.137 / 7000, 1.082626675e-3, 2.532436e-6};
+inline const ZonalGravity paper_field{
+    1.0, 6378.137 / 7000, {{2, 1.082626675e-3}, {3, 2.532436e-6}}};
 inline constexpr double paper_duration = 31.41592653589793;
 
 /// A problem and the system that it points to.
@@ -42,5 +43,7 @@ void benchmark_products();
 void benchmark_evaluation();
 void benchmark_orders();
 void benchmark_savings();
+void benchmark_zonals();
+void benchmark_arcs();
 
 }  // namespace hamjet::benchmarks

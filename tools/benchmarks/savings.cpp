@@ -29,8 +29,8 @@ double multiply_adds(const Case& c) {
 Scene paper_scene(bool inversion, bool reference) {
   const Case c = paper_case(paper_field, 4);
   Scene scene;
-  scene.system = {SystemModel::zonal_gravity, 398600.4405, 6378.137, paper_field.J2,
-                  paper_field.J3};
+  scene.system = {SystemModel::zonal_gravity, 398600.4405, 6378.137, paper_field.J[2],
+                  paper_field.J[3]};
   scene.units = {7000, 1};
   scene.canonical_radius = paper_field.radius;
   scene.nominal = c.nominal;
@@ -50,7 +50,7 @@ Scene paper_scene(bool inversion, bool reference) {
 
 void benchmark_savings() {
   ZonalGravity without_j3 = paper_field;
-  without_j3.J3 = 0;
+  without_j3.J[3] = 0;
   const Case full = paper_case(paper_field, 4);
   Case linear = full;
   linear.system = harmonic_oscillator();

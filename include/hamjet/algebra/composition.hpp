@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "hamjet/algebra/eigen.hpp"
 #include "hamjet/algebra/extended.hpp"
 #include "hamjet/algebra/matrix.hpp"
 #include "hamjet/algebra/truncated_power_series.hpp"

@@ -1,7 +1,8 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <boost/multiprecision/eigen.hpp>
+
+#include "hamjet/algebra/eigen.hpp"
 
 namespace hamjet {
 

@@ -6,6 +6,8 @@
 #include <experimental/simd>
 #include <type_traits>
 
+#include "hamjet/instruction_set.hpp"
+
 namespace hamjet {
 
 namespace detail {
@@ -21,6 +23,9 @@ struct VectorFor {
 template <int Lanes>
 requires(Lanes > 1) struct VectorFor<double, Lanes> {
   static constexpr int native = static_cast<int>(std::experimental::native_simd<double>::size());
+  static_assert(native == built_for::native_lanes,
+                "hamjet was built for vectors of another width: compile with the same instruction "
+                "set");
   static constexpr int width = Lanes < native ? Lanes : native;
   using type =
       std::experimental::simd<double, std::experimental::simd_abi::deduce_t<double, width>>;

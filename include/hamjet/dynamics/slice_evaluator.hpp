@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 #include "hamjet/algebra/slice_recurrences.hpp"
@@ -127,7 +128,7 @@ class SliceEvaluator {
       case OperationCode::linear: {
         T sum(constants_[i]);
         for (std::size_t k = 0; k < o.terms.size(); ++k) {
-          sum += T(coefficients_[first_term_[i] + k]) * *value(o.terms[k].value);
+          sum = add_product(sum, T(coefficients_[first_term_[i] + k]), *value(o.terms[k].value));
         }
         w = sum;
         break;
@@ -177,14 +178,25 @@ class SliceEvaluator {
       T sum(Real(0));
       if (o.code == OperationCode::linear) {
         for (std::size_t k = 0; k < o.terms.size(); ++k) {
-          sum += T(coefficients_[first_term_[i] + k]) * gradient(o.terms[k].value, j);
+          sum =
+              add_product(sum, T(coefficients_[first_term_[i] + k]), gradient(o.terms[k].value, j));
         }
       } else {
         sum = partial_u_[i] * gradient(o.u, j);
-        if (binary) sum += partial_v_[i] * gradient(o.v, j);
+        if (binary) sum = add_product(sum, partial_v_[i], gradient(o.v, j));
       }
       gradient(i, j) = sum;
     }
+  }
+
+  /// sum + a b. Which of these the compiler fuses may differ from one inlined copy to the next, and
+  /// a nominal alone would have other last bits than the same nominal with its jet; so it is said
+  /// here.
+  static T add_product(const T& sum, const T& a, const T& b) {
+#ifdef __FP_FAST_FMA
+    if constexpr (std::is_same_v<T, double>) return std::fma(a, b, sum);
+#endif
+    return sum + a * b;
   }
 
   static bool has_two_operands(OperationCode code) {

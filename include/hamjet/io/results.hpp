@@ -45,4 +45,7 @@ std::string write_results(const PropagationResult& result, const std::string& fi
 /// The table for the terminal: residual and error of every integrator side by side.
 std::string summary_table(const PropagationResult& result);
 
+/// Into how many arcs a run is split, why, and what that is expected to bring; in one line.
+std::string arcs_text(const Scene& scene, const ArcPlan& plan);
+
 }  // namespace hamjet::io

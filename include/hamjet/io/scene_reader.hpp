@@ -28,7 +28,8 @@ struct Override {
 /// Reads a scene file and applies the overrides in their order, after which the same rules hold as
 /// if the file had been written so. Throws
 ///  - Error(input_output) with the path and the reason if the file cannot be read, or is a
-///    directory, a pipe or a device;
+///    directory, a pipe or a device; and for a gravity file that the scene names, relative to its
+///    own folder (see gravity_field_file.hpp);
 ///  - Error(scene) with `file:line:column: key: what is wrong, got what, what would be right`, on
 ///    one line; for a value that an override gave, `--set key` stands in place of location and
 ///    key. A text that is too large or not UTF-8 is named by its size or the byte's offset;

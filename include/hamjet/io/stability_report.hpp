@@ -20,8 +20,8 @@ std::vector<StabilityCase> read_stability_suite(const std::filesystem::path& sui
 /// How a case came out, in one line for the terminal.
 std::string stability_line(const StabilityResult& result, std::size_t name_width);
 
-/// The files of `hamjet stability`: `stability.csv`, `stability.html` and `summary.json`, whose list
-/// of one object a case is what --json prints. The exit code is 1 if a case is wrong.
+/// The files of `hamjet stability`: `stability.csv`, `stability.html` and `summary.json`, whose
+/// list of one object a case is what --json prints. The exit code is 1 if a case is wrong.
 StudyReport stability_report(const std::vector<StabilityResult>& results,
                              const ReportOrigin& origin);
 

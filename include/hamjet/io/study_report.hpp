@@ -25,24 +25,27 @@ struct StudyReport {
   const std::string& summary() const { return files.back().content; }
 };
 
+/// Whether a report has its figure, which takes most of its time.
+enum class Figure { drawn, left_out };
+
 /// The report of a study's result; each study has its own. The figure is drawn by gnuplot; without
 /// it the tables are complete all the same.
 template <class Result>
-StudyReport study_report(const Result& result);
+StudyReport study_report(const Result& result, Figure figure = Figure::drawn);
 
 /// A trajectory for each step size, `figure.svg` with the phase planes and the energy errors,
 /// `summary.json`.
 template <>
-StudyReport study_report(const CanonicalTransformationResult& result);
+StudyReport study_report(const CanonicalTransformationResult& result, Figure figure);
 
 /// `trajectory.csv`, `figure.svg` with the energy errors and the step size along time,
 /// `summary.json`.
 template <>
-StudyReport study_report(const EnergyConservationResult& result);
+StudyReport study_report(const EnergyConservationResult& result, Figure figure);
 
 /// `trajectory.csv` and `convergence.csv`; the trajectory, its controls and the cost's error
 /// against the step as a figure.
 template <>
-StudyReport study_report(const OptimalControlResult& result);
+StudyReport study_report(const OptimalControlResult& result, Figure figure);
 
 }  // namespace hamjet::io

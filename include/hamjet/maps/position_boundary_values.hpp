@@ -1,9 +1,9 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <span>
 #include <vector>
 
+#include "hamjet/algebra/eigen.hpp"
 #include "hamjet/algebra/monomial_values.hpp"
 #include "hamjet/maps/partial_inversion.hpp"
 

@@ -1,7 +1,8 @@
 #pragma once
 
-#include <Eigen/Dense>
 #include <cstddef>
+
+#include "hamjet/algebra/eigen.hpp"
 
 namespace hamjet {
 

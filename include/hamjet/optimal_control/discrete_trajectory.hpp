@@ -1,8 +1,8 @@
 #pragma once
 
-#include <Eigen/Dense>
 #include <vector>
 
+#include "hamjet/algebra/eigen.hpp"
 #include "hamjet/optimal_control/discretization.hpp"
 #include "hamjet/optimal_control/optimal_control_problem.hpp"
 

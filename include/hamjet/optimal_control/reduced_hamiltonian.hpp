@@ -1,8 +1,8 @@
 #pragma once
 
-#include <Eigen/Dense>
 #include <cstddef>
 
+#include "hamjet/algebra/eigen.hpp"
 #include "hamjet/dynamics/differentiable_function.hpp"
 #include "hamjet/optimal_control/optimal_control_problem.hpp"
 

@@ -1,9 +1,10 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <span>
 #include <string_view>
 #include <vector>
+
+#include "hamjet/algebra/eigen.hpp"
 
 namespace hamjet {
 

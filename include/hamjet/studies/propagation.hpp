@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hamjet/algebra/extended.hpp"
+#include "hamjet/integrators/arc_splitting.hpp"
 #include "hamjet/integrators/flow_problem.hpp"
 #include "hamjet/maps/exactness.hpp"
 #include "hamjet/maps/symplecticity.hpp"
@@ -63,6 +64,7 @@ struct RunResult {
   double energy_error = 0;  ///< the largest magnitude along the nominal
   EnergyAlongNominal energy;
   AnalysisCounts counts;
+  std::optional<ArcStatistics> arcs;          ///< unless the scene has one arc, as by default
   std::optional<LowestPoint> lowest_point;    ///< if it was watched
   std::optional<InversionQuality> inversion;  ///< if a map was inverted and composed
   std::vector<NominalPoint> nominal;
@@ -127,18 +129,22 @@ DynamicalSystem make_system(const Scene& scene);
 /// What has to be computed for a scene: degrees of freedom that stay exactly zero and that the
 /// scene does not expand in are left out. Throws Error(too_large), naming the estimate, if the
 /// series would not fit `memory_limit` bytes, Error(usage) if an integrator is not in this build.
-ComputedProblem make_problem(const Scene& scene, double memory_limit);
+/// Arcs are on `threads` threads.
+ComputedProblem make_problem(const Scene& scene, double memory_limit, std::size_t threads = 1);
 
 /// Bytes that the scene's runs need at most, from the counts of series and coefficients.
-double estimate_memory(const Scene& scene, const DynamicalSystem& system, std::size_t variables);
+double estimate_memory(const Scene& scene, const DynamicalSystem& system, std::size_t variables,
+                       std::size_t threads = 1);
 
 /// Memory that this machine can give now, in bytes; infinite where that cannot be known.
 double available_memory();
 
 /// Runs a scene: the reference if it asks for one, then each integrator, then the inversions that
 /// it asks for. A numerical failure of one part (the reference, one integrator, one kind) is
-/// recorded in its result and the others go on; other errors are thrown.
-PropagationResult propagate(const Scene& scene, const ProgressCallback& progress = {});
+/// recorded in its result and the others go on; other errors are thrown. Arcs (Scene::arcs) are
+/// integrated on `threads` threads, on which the result does not depend.
+PropagationResult propagate(const Scene& scene, const ProgressCallback& progress = {},
+                            std::size_t threads = 1);
 
 /// The kind whose exactness the scene's figure shows; none if it shows none.
 std::optional<GeneratingFunctionKind> figure_kind(const Scene& scene,

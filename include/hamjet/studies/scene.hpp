@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "hamjet/dynamics/zonal_coefficients.hpp"
 #include "hamjet/studies/self_check_settings.hpp"
 #include "hamjet/studies/transfer_settings.hpp"
 
@@ -40,13 +41,19 @@ std::vector<std::size_t> possible_degrees_of_freedom(SystemModel model);
 /// for one degree of freedom; else q1, q2, ..., p1, p2, .... `degrees_of_freedom` must be possible.
 std::vector<std::string_view> variable_names(SystemModel model, std::size_t degrees_of_freedom);
 
+/// Where the gravity field of a scene comes from, if it is a file.
+struct GravityFile {
+  std::string file;         ///< as the scene names it
+  std::string model_name;   ///< from the file's header; empty where it has none
+  std::string tide_system;  ///< the same; "unknown" where it has none
+};
+
 /// Table `[system]`.
 struct SystemSettings {
   SystemModel model = SystemModel::zonal_gravity;
   double mu_km3_s2 = 0;  ///< zonal-gravity, kepler: gravitational parameter
-  double radius_km = 0;  ///< zonal-gravity: the radius that J2 and J3 refer to; 0 if without them
-  double J2 = 0;         ///< zonal-gravity: 0 where the scene has no J2
-  double J3 = 0;         ///< zonal-gravity: 0 where the scene has no J3
+  double radius_km = 0;  ///< zonal-gravity: the radius that the J_n refer to; 0 if without them
+  ZonalCoefficients J;   ///< zonal-gravity: 0 where the scene has none
   double mass_kg = 1;    ///< harmonic-oscillator, oscillator-pair, spring-pendulum
   double stiffness_N_per_m = 1;         ///< the same; of a pair that of the first oscillator
   double second_stiffness_N_per_m = 1;  ///< oscillator-pair: of the second oscillator
@@ -54,6 +61,8 @@ struct SystemSettings {
   double gravity_m_s2 = 0;              ///< spring-pendulum: toward negative q2
   double omega_rad_per_s = 0;           ///< fermi-pasta-ulam: frequency of the stiff springs
   std::size_t pairs = 1;                ///< fermi-pasta-ulam: number of stiff springs
+  /// zonal-gravity: what mu, radius and J were read from.
+  std::optional<GravityFile> gravity_file;
 };
 
 /// The number of degrees of freedom of a system.
@@ -126,6 +135,35 @@ struct FigureSettings {
   std::string kind;  ///< whose exactness is drawn: F1..F4 or letters; empty for the energy error
 };
 
+/// Table `[output]`: what `hamjet run` writes beside CSV and JSON.
+struct OutputSettings {
+  bool hdf5 = false;  ///< jets.h5
+  bool dace = false;  ///< polynomials in the text format of DACE
+  bool oem = false;   ///< the nominal as CCSDS orbit ephemeris message; needs `[ephemeris]`
+};
+
+/// Table `[ephemeris]`: what a CCSDS message says of an orbit beyond its numbers.
+struct EphemerisSettings {
+  std::string epoch;            ///< of the nominal's start, ISO 8601, in the time system
+  std::string time_system;      ///< for example UTC, TDB
+  std::string reference_frame;  ///< inertial; its z axis is taken as the axis of the zonal field
+  std::string center_name;      ///< for example EARTH
+  std::string object_name = "UNKNOWN";
+  std::string object_id = "UNKNOWN";   ///< international designator
+  std::string deputy_name = "DEPUTY";  ///< of the spacecraft that flies relative to the nominal
+  std::string deputy_id = "UNKNOWN";
+  std::string originator = "HAMJET";  ///< who made the message
+  std::string oem_version = "2.0";    ///< of what is written, or "3.0"
+};
+
+/// The message that the nominal's start was read from.
+struct NominalFile {
+  std::string path;                 ///< as the scene has it
+  std::string format;               ///< for example "OEM 2.0"
+  EphemerisSettings ephemeris;      ///< of the state that was taken
+  std::vector<std::string> unused;  ///< what else the message holds, for example "covariance"
+};
+
 /// A scene, read, checked and converted to canonical units. Lengths of arrays: 2n, with the n
 /// degrees of freedom of its system.
 struct Scene {
@@ -138,6 +176,8 @@ struct Scene {
   std::vector<double> nominal;  ///< initial state (q, p), canonical
   double duration = 0;          ///< canonical; negative is backwards
   int order = 1;
+  /// `jet.arcs`: pieces that the flow is split into; absent ("auto"): from the operation counts.
+  std::optional<std::size_t> arcs = 1;
   std::vector<std::size_t> variables;  ///< indices into (q, p) to expand in, ascending
   std::vector<IntegratorSettings> integrators;
   /// `[formation]`, canonical length (metres where that is the unit).
@@ -154,6 +194,9 @@ struct Scene {
   std::optional<TransferSettings> transfer;
   std::optional<ValiditySettings> validity;
   std::optional<AssignmentSettings> assignment;
+  OutputSettings output;
+  std::optional<EphemerisSettings> ephemeris;
+  std::optional<NominalFile> nominal_file;  ///< absent: the scene has the numbers itself
 };
 
 }  // namespace hamjet

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <cstddef>
 #include <functional>
 #include <optional>
 #include <vector>
 
+#include "hamjet/algebra/eigen.hpp"
 #include "hamjet/maps/generating_function_kind.hpp"
 #include "hamjet/studies/propagation.hpp"
 

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "hamjet/algebra/eigen.hpp"
 #include "hamjet/studies/progress.hpp"
 #include "hamjet/studies/propagation.hpp"
 #include "hamjet/studies/singular_times.hpp"
@@ -121,6 +121,10 @@ struct RelativeTrajectory {
   std::vector<double> times;  ///< canonical
   std::vector<RelativeState> states;
   RelativeFrame frame = RelativeFrame::rtn_rotating;  ///< of the states
+  /// (q, p) about the centre of attraction, canonical: of the chief, and of the deputy from after
+  /// the first velocity change to before the second.
+  std::vector<std::vector<double>> chief;
+  std::vector<std::vector<double>> deputy;
 };
 
 /// The flown relative trajectory of one point's best answer, `count` equal intervals.

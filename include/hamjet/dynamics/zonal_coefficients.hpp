@@ -1,0 +1,48 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <initializer_list>
+#include <utility>
+
+namespace hamjet {
+
+/// The zonal coefficients J_n of a gravity field, n = 2 to 20, without unit and not normalised
+/// (J_n = -C_n0 = -sqrt(2n + 1) times the normalised C_n0). A coefficient of 0 is absent.
+class ZonalCoefficients {
+ public:
+  static constexpr int lowest = 2;
+  static constexpr int highest = 20;
+
+  /// None is present.
+  ZonalCoefficients() = default;
+  /// Pairs of n and J_n.
+  ZonalCoefficients(std::initializer_list<std::pair<int, double>> given) {
+    for (const auto& [n, value] : given) (*this)[n] = value;
+  }
+
+  /// J_n; throws std::out_of_range unless lowest <= n <= highest.
+  double operator[](int n) const { return values_.at(static_cast<std::size_t>(n - lowest)); }
+  double& operator[](int n) { return values_.at(static_cast<std::size_t>(n - lowest)); }
+
+  /// The largest n with a J_n that is not 0; 0 if all are.
+  int highest_present() const {
+    for (int n = highest; n >= lowest; --n) {
+      if ((*this)[n] != 0) return n;
+    }
+    return 0;
+  }
+  bool any() const { return highest_present() != 0; }
+  /// Whether no odd one is present: then the field is symmetric about the equator.
+  bool is_even() const {
+    for (int n = lowest + 1; n <= highest; n += 2) {
+      if ((*this)[n] != 0) return false;
+    }
+    return true;
+  }
+
+ private:
+  std::array<double, highest - lowest + 1> values_{};
+};
+
+}  // namespace hamjet

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hamjet/algebra/extended.hpp"
+#include "hamjet/algebra/truncated_power_series.hpp"
+
+// The text of DACE (https://github.com/dacelib/dace), the Differential Algebra Computational
+// Engine, for a vector of polynomials: core/daceio.c, functions daceWrite and daceRead, and
+// interfaces/cxx/include/dace/AlgebraicVector_t.h, operators << and >>:
+//
+//   [[[ 2 vector
+//        I  COEFFICIENT              ORDER EXPONENTS
+//        1    1.0000000000000000e+00   1   1  0
+//        2   -1.6666666666666666e-01   3   3  0
+//   ------------------------------------------------
+//           ALL COEFFICIENTS ZERO
+//   ------------------------------------------------
+//   ]]]
+//
+// DACE reads a row by its columns: 6 for its number, 2 blanks, 24 for the coefficient, 4 for the
+// degree, a blank, and 3 for each exponent. The coefficient has 17 significant digits, which bring
+// back every double bit by bit. Lines end before column 140, so that there are at most 34
+// variables. There is no place for names, units or more digits; behind the line ]]] DACE reads
+// nothing.
+//
+// DACE prints one blank line more behind each polynomial of a vector, but its operator >> takes
+// that line for the head of the next polynomial (error 32). It is left out here, so that both read
+// what is written, and is read where it stands.
+
+namespace hamjet::io {
+
+/// The text of polynomials, each coefficient rounded to double precision; those that are +0 are
+/// left out, as DACE does. The lines of `notes` follow behind the end, a # before each. Throws
+/// Error(input_output) for what the text cannot hold: more than 34 variables, more than 999999
+/// coefficients of one polynomial, a coefficient beyond double precision.
+std::string dace_text(const std::vector<Series<Extended>>& polynomials,
+                      const std::vector<std::string>& notes = {});
+
+/// Reads the text of polynomials in the variables and up to the order of `space`; with or without
+/// the lines [[[ and ]]], which one polynomial alone has not. `name` is the file's, for messages.
+/// Throws Error(input_output), one line with file and line, for anything else: what DACE would add
+/// up, cut off or skip, such as a coefficient twice or a degree that is not the sum of the
+/// exponents, is refused.
+std::vector<Series<double>> read_dace_text(const std::string& name, std::string_view text,
+                                           const SpacePointer& space);
+
+/// The same in as many variables as the rows have, up to the highest degree in the text (at least
+/// 1). Throws Error(input_output) too if no row tells the number of variables, and Error(too_large)
+/// for more than 1e5 coefficients.
+std::vector<Series<double>> read_dace_text(const std::string& name, std::string_view text);
+
+}  // namespace hamjet::io

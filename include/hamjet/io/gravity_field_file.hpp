@@ -1,0 +1,48 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hamjet/dynamics/zonal_coefficients.hpp"
+
+namespace hamjet::io {
+
+/// The zonal part of a gravity field in the format of the International Centre for Global Earth
+/// Models (ICGEM, `.gfc`; E. S. Ince et al., Earth System Science Data 11, 647 (2019)).
+struct GravityField {
+  std::string model_name;   ///< `modelname` or `product_name`; empty where the file has neither
+  std::string tide_system;  ///< as written; "unknown" where the file says nothing
+  double mu_km3_s2 = 0;
+  double radius_km = 0;
+  int max_degree = 0;
+  ZonalCoefficients J;  ///< not normalised, J_n = -C_n0; those asked for
+};
+
+/// Which zonal coefficients to take from a file: those of `degrees`, or, if there are none, all
+/// from 2 to `highest`. All are between ZonalCoefficients::lowest and ZonalCoefficients::highest.
+struct ZonalChoice {
+  int highest = 0;
+  std::vector<int> degrees = {};
+};
+
+/// Reads the text of such a file; `name` is the file's, for messages. Coefficients with the norm
+/// `fully_normalized`, the default, are multiplied by sqrt(2n + 1), in extended precision, and
+/// every number is rounded once. Exponents may be Fortran's (D). Tesseral coefficients are passed
+/// over: a scene's field has none. Throws Error(input_output), one line `name:line: ...`, for
+///  - a header without end_of_head, a gravity constant, a radius or max_degree, a keyword that is
+///    there twice, a product_type other than gravity_field, another norm;
+///  - a record with an unknown key, another number of columns than 5, 7 or 9, or degree and order
+///    that are none;
+///  - a coefficient that is asked for and is missing, there twice, no finite number, beyond 1 in
+///    magnitude, or time-variable (gfct, trnd, dot, asin, acos): a scene's field is constant;
+///  - C(0,0) that is not 1.
+GravityField parse_gravity_field(const std::string& name, std::string_view text,
+                                 const ZonalChoice& choice);
+
+/// The same from a file. Throws Error(input_output) too if it cannot be read, is no regular file,
+/// or is larger than 4 GB.
+GravityField read_gravity_field(const std::filesystem::path& file, const ZonalChoice& choice);
+
+}  // namespace hamjet::io

@@ -1,0 +1,265 @@
+#include "hamjet/algebra/horner_composition.hpp"
+
+#include <algorithm>
+#include <array>
+#include <type_traits>
+
+#include "hamjet/algebra/composition.hpp"
+#include "hamjet/algebra/pack.hpp"
+
+namespace hamjet {
+namespace {
+
+/// sums[i * j] += a[i] * b[j] for all monomials i of degree MA and j of degree MB of a block (see
+/// ProductSchedule), one vector of each pack, fully unrolled.
+template <std::size_t MA, std::size_t MB, class Sums, class P, class Real>
+[[gnu::always_inline]] inline void multiply_by_numbers(Sums& sums, const P* a, const Real* b,
+                                                       std::size_t part) {
+  using Vector = typename P::Vector;
+  [&]<std::size_t... I>(std::index_sequence<I...>) __attribute__((always_inline)) {
+    (
+        [&]<std::size_t Row, std::size_t... J>(std::integral_constant<std::size_t, Row>,
+                                               std::index_sequence<J...>)
+            __attribute__((always_inline)) {
+              const Vector factor = a[Row].part[part];
+              ((sums[detail::product_position(Row, J)] += factor * Vector(b[J])), ...);
+            }(std::integral_constant<std::size_t, I>{}, std::make_index_sequence<block_size(MB)>{}),
+        ...);
+  }
+  (std::make_index_sequence<block_size(MA)>{});
+}
+
+/// The same for block degrees known at run time only.
+template <class Vector, class P, class Real>
+void multiply_by_numbers(Vector* sums, const P* a, const Real* b, std::size_t m_a, std::size_t m_b,
+                         std::size_t part) {
+  for (std::size_t ra = 0; ra <= m_a; ++ra) {
+    for (std::size_t ka = 0; ka <= ra; ++ka) {
+      const Vector factor = a[ra * (ra + 1) / 2 + ka].part[part];
+      for (std::size_t rb = 0; rb <= m_b; ++rb) {
+        Vector* row = sums + (ra + rb) * (ra + rb + 1) / 2 + ka;
+        const Real* b_row = b + rb * (rb + 1) / 2;
+        for (std::size_t kb = 0; kb <= rb; ++kb) row[kb] += factor * Vector(b_row[kb]);
+      }
+    }
+  }
+}
+
+/// c += the block's part of the product of packs a and numbers b.
+template <std::size_t M, class P, class Real>
+void add_block(const ProductSchedule& schedule, const ProductSchedule::Output& output, const P* a,
+               const Real* b, P* c) {
+  using Vector = typename P::Vector;
+  for (std::size_t part = 0; part < P::parts; ++part) {
+    std::array<Vector, block_size(M)> sums{};
+    std::size_t pair = output.first_pair;
+    [&]<std::size_t... MX>(std::index_sequence<MX...>) __attribute__((always_inline)) {
+      (
+          [&]<std::size_t Mx>(std::integral_constant<std::size_t, Mx>)
+              __attribute__((always_inline)) {
+                for (const std::size_t end = schedule.run_ends[output.first_run + Mx]; pair < end;
+                     ++pair) {
+                  const auto [x, y] = schedule.pairs[pair];
+                  multiply_by_numbers<Mx, M - Mx>(sums, a + x, b + y, part);
+                  multiply_by_numbers<M - Mx, Mx>(sums, a + y, b + x, part);
+                }
+              }(std::integral_constant<std::size_t, MX>{}),
+          ...);
+    }
+    (std::make_index_sequence<M / 2 + 1>{});
+    if constexpr (M % 2 == 0) {
+      if (output.diagonal != ProductSchedule::no_diagonal) {
+        multiply_by_numbers<M / 2, M / 2>(sums, a + output.diagonal, b + output.diagonal, part);
+      }
+    }
+    for (std::size_t i = 0; i < sums.size(); ++i) c[output.offset + i].part[part] += sums[i];
+  }
+}
+
+/// The same for blocks too large for the registers.
+template <class P, class Real>
+void add_large_block(const ProductSchedule& schedule, const ProductSchedule::Output& output,
+                     const P* a, const Real* b, P* c) {
+  using Vector = typename P::Vector;
+  const std::size_t m = output.block_degree;
+  std::vector<Vector> sums(block_size(m));
+  for (std::size_t part = 0; part < P::parts; ++part) {
+    std::fill(sums.begin(), sums.end(), Vector{});
+    std::size_t pair = output.first_pair;
+    for (std::size_t m_x = 0; 2 * m_x <= m; ++m_x) {
+      for (const std::size_t end = schedule.run_ends[output.first_run + m_x]; pair < end; ++pair) {
+        const auto [x, y] = schedule.pairs[pair];
+        multiply_by_numbers(sums.data(), a + x, b + y, m_x, m - m_x, part);
+        multiply_by_numbers(sums.data(), a + y, b + x, m - m_x, m_x, part);
+      }
+    }
+    if (output.diagonal != ProductSchedule::no_diagonal) {
+      multiply_by_numbers(sums.data(), a + output.diagonal, b + output.diagonal, m / 2, m / 2,
+                          part);
+    }
+    for (std::size_t i = 0; i < sums.size(); ++i) c[output.offset + i].part[part] += sums[i];
+  }
+}
+
+/// c_d += sum over 1 <= i <= d-1 of a_i b_(d-i).
+template <class P, class Real>
+void add_interior_product(const SeriesSpace& space, int d, const P* a, const Real* b, P* c) {
+  const ProductSchedule& schedule = space.products(d);
+  for (const ProductSchedule::Output& output : schedule.outputs) {
+    if constexpr (detail::is_machine_vector<typename P::Vector>) {
+      switch (output.block_degree) {
+        case 0:
+          add_block<0>(schedule, output, a, b, c);
+          continue;
+        case 1:
+          add_block<1>(schedule, output, a, b, c);
+          continue;
+        case 2:
+          add_block<2>(schedule, output, a, b, c);
+          continue;
+        case 3:
+          add_block<3>(schedule, output, a, b, c);
+          continue;
+        case 4:
+          add_block<4>(schedule, output, a, b, c);
+          continue;
+        case 5:
+          add_block<5>(schedule, output, a, b, c);
+          continue;
+        case detail::largest_unrolled_block:
+          add_block<detail::largest_unrolled_block>(schedule, output, a, b, c);
+          continue;
+        default:
+          break;
+      }
+    }
+    add_large_block(schedule, output, a, b, c);
+  }
+}
+
+/// The highest degree at which a coefficient is not zero.
+template <class T>
+int highest_degree(std::span<const Series<T>> map) {
+  const SeriesSpace& space = map[0].space();
+  for (int d = space.order(); d > 0; --d) {
+    for (const Series<T>& component : map) {
+      const auto slice = component.slice(d);
+      if (std::any_of(slice.begin(), slice.end(), [](const T& x) { return x != T(0); })) return d;
+    }
+  }
+  return 0;
+}
+
+/// Up to Lanes components of the outer map.
+template <class T, int Lanes>
+class HornerScheme {
+ public:
+  using P = Pack<T, Lanes>;
+
+  HornerScheme(std::span<const Series<T>> outer, std::span<const Series<T>> inner, int degree)
+      : inner_(inner), space_(inner[0].space()), degree_(degree) {
+    coefficients_.resize(outer[0].space().first(degree + 1));
+    for (std::size_t k = 0; k < coefficients_.size(); ++k) {
+      for (std::size_t i = 0; i < outer.size(); ++i) {
+        coefficients_[k].set_lane(static_cast<int>(i), outer[i][k]);
+      }
+    }
+    for (int k = 0; k <= degree; ++k) {
+      nodes_.emplace_back(space_.first(space_.order() - k + 1));
+      next_.push_back(outer[0].space().first(k));
+    }
+  }
+
+  void run(std::span<Series<T>> result) {
+    form_node(0, 0);
+    for (std::size_t i = 0; i < result.size(); ++i) {
+      for (std::size_t k = 0; k < space_.size(); ++k) {
+        result[i][k] = nodes_[0][k].lane(static_cast<int>(i));
+      }
+    }
+  }
+
+ private:
+  /// nodes_[depth] is that of the next monomial of degree `depth`. A node's children are the
+  /// monomials times a variable not before its last one. So the words of variables grow at their
+  /// ends, and a walk depth first meets each degree's monomials in the order of the space.
+  void form_node(int depth, std::size_t last_variable) {
+    auto& node = nodes_[static_cast<std::size_t>(depth)];
+    node[0] = coefficients_[next_[static_cast<std::size_t>(depth)]++];
+    if (depth == degree_) return;
+    std::fill(node.begin() + 1, node.end(), P(T(0)));
+    const int highest = space_.order() - depth;  // of this node
+    for (std::size_t v = last_variable; v < inner_.size(); ++v) {
+      form_node(depth + 1, v);
+      const P* child = nodes_[static_cast<std::size_t>(depth) + 1].data();
+      const T* y = inner_[v].coefficients().data();
+      const P constant = child[0];
+      for (std::size_t k = 1; k < node.size(); ++k) node[k] += constant * P(y[k]);
+      if (depth + 1 == degree_) continue;
+      for (int d = 2; d <= highest; ++d) add_interior_product(space_, d, child, y, node.data());
+    }
+  }
+
+  std::span<const Series<T>> inner_;
+  const SeriesSpace& space_;
+  int degree_;  ///< of the outer map
+  std::vector<P> coefficients_;
+  std::vector<std::vector<P>> nodes_;  ///< of each depth the one that is being formed
+  std::vector<std::size_t> next_;      ///< of each degree the next monomial
+};
+
+}  // namespace
+
+template <class T>
+std::vector<Series<T>> compose_by_horner(std::span<const Series<T>> outer,
+                                         std::span<const Series<T>> inner) {
+  detail::require_composable(outer, inner);
+  const int degree = std::min(highest_degree(outer), inner[0].order());
+  std::vector<Series<T>> result(outer.size(), Series<T>(inner[0].space_pointer()));
+  const std::span<Series<T>> all(result);
+  std::size_t done = 0;
+  while (done < outer.size()) {
+    const std::size_t left = outer.size() - done;
+    const auto take = [&]<int Lanes>(std::integral_constant<int, Lanes>) {
+      const std::size_t count = std::min<std::size_t>(left, Lanes);
+      HornerScheme<T, Lanes>(outer.subspan(done, count), inner, degree)
+          .run(all.subspan(done, count));
+      done += count;
+    };
+    if constexpr (!std::is_same_v<T, double>) {
+      // Scalars in the place of vectors gain nothing from more lanes.
+      take(std::integral_constant<int, 2>{});
+    } else if (left <= 2) {
+      take(std::integral_constant<int, 2>{});
+    } else if (left <= 4) {
+      take(std::integral_constant<int, 4>{});
+    } else {
+      take(std::integral_constant<int, 8>{});
+    }
+  }
+  return result;
+}
+
+double horner_multiply_adds(std::size_t variables, int degree, const SeriesSpace& inner) {
+  double total = 0;
+  const int deepest = std::min(degree, inner.order());
+  for (int k = 1; k <= deepest; ++k) {
+    // One product of a node of degree N - k by a variable's series.
+    const int highest = inner.order() - k + 1;
+    double product = static_cast<double>(inner.first(highest + 1)) - 1;
+    for (int d = 2; d <= highest && k < deepest; ++d) {
+      product += static_cast<double>(inner.products(d).multiply_adds);
+    }
+    const double nodes =
+        SeriesSpace::monomial_count(variables, k) - SeriesSpace::monomial_count(variables, k - 1);
+    total += nodes * product;
+  }
+  return total;
+}
+
+template std::vector<Series<double>> compose_by_horner(std::span<const Series<double>>,
+                                                       std::span<const Series<double>>);
+template std::vector<Series<Extended>> compose_by_horner(std::span<const Series<Extended>>,
+                                                         std::span<const Series<Extended>>);
+
+}  // namespace hamjet

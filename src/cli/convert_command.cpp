@@ -1,0 +1,74 @@
+#include "convert_command.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <system_error>
+
+#include "../io/text_file.hpp"
+#include "hamjet/error.hpp"
+#include "hamjet/io/jet_file.hpp"
+#include "output_file.hpp"
+#include "standard_streams.hpp"
+
+namespace hamjet::cli {
+namespace {
+
+/// A file that is there and belongs to a set of results, which would no longer be whole.
+void refuse_to_replace_results(const std::filesystem::path& to) {
+  std::error_code none;
+  const std::filesystem::path name = to.filename();
+  const bool is_result = name == "jet.csv" || name == "jet.dace" || name == "jets.h5";
+  if (is_result && std::filesystem::exists(to, none)) {
+    throw Error(ErrorKind::usage,
+                fmt::format("{}: is a file of results that would be replaced; choose another",
+                            io::printable_path(to)));
+  }
+}
+
+}  // namespace
+
+CLI::App* add_convert_command(CLI::App& app, ConvertOptions& options) {
+  CLI::App* command = app.add_subcommand(
+      "convert",
+      "write a stored jet in another format: .h5 (HDF5), .dace (text of DACE) or .csv\n"
+      "Example: hamjet convert out/scene scene.h5");
+  command
+      ->add_option("from", options.from,
+                   "results of hamjet run, or a file .h5, or .dace or .csv beside its summary.json")
+      ->required()
+      ->type_name("FILE");
+  command->add_option("to", options.to, "file to write; its ending is the format")
+      ->required()
+      ->type_name("FILE");
+  command->add_option("--run", options.run, "label of the run (default: the first with a result)")
+      ->type_name("LABEL");
+  return command;
+}
+
+int convert(const ConvertOptions& options) {
+  if (options.from.empty() || options.run == "") {
+    throw Error(ErrorKind::usage,
+                fmt::format("{}: empty, must name {}", options.from.empty() ? "from" : "--run",
+                            options.from.empty() ? "a stored jet" : "a run"));
+  }
+  const std::filesystem::path to = options.to;
+  const io::JetFormat format = io::jet_format(to);
+  std::error_code none;
+  if (std::filesystem::equivalent(options.from, to, none)) {
+    throw Error(ErrorKind::usage, "from and to: are the same file");
+  }
+  refuse_to_replace_results(to);
+  const OutputFile file(to);
+  const io::StoredJet stored = io::read_jet_file(options.from, options.run);
+  if (format == io::JetFormat::dace && stored.precision == Precision::extended) {
+    print_error(
+        "note: the text of DACE holds 17 digits: the coefficients of extended precision are "
+        "rounded");
+  }
+  file.write(io::jet_file_content(stored, format));
+  return 0;
+}
+
+}  // namespace hamjet::cli

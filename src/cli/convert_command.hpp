@@ -1,0 +1,23 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace hamjet::cli {
+
+struct ConvertOptions {
+  std::string from;  ///< results of `hamjet run`, or a file of a jet
+  std::string to;    ///< .h5, .dace or .csv
+  std::optional<std::string> run;
+};
+
+CLI::App* add_convert_command(CLI::App& app, ConvertOptions& options);
+
+/// Writes a stored jet in another format; returns the exit code.
+int convert(const ConvertOptions& options);
+
+}  // namespace hamjet::cli

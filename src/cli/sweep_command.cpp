@@ -1,0 +1,208 @@
+#include "sweep_command.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <system_error>
+#include <thread>
+
+#include "../io/file_system.hpp"
+#include "../io/scene_message.hpp"
+#include "../io/shell_text.hpp"
+#include "../io/text_file.hpp"
+#include "hamjet/error.hpp"
+#include "hamjet/io/sweep_report.hpp"
+#include "interruption.hpp"
+#include "progress.hpp"
+#include "refusal.hpp"
+#include "standard_streams.hpp"
+#include "study_command.hpp"
+#include "sweep_shard.hpp"
+
+namespace hamjet::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr long most_threads = 4096;
+
+void check_options(const RunOptions& run, const SweepOptions& options) {
+  for (const auto* value : {&options.study, &run.output}) {
+    if (*value && (*value)->empty()) refuse("sweep: an empty name, must name a file or directory");
+  }
+  if (!options.study && !(options.merge && run.output)) {
+    refuse(options.merge ? "sweep --merge: needs the study, or the directory with -o"
+                         : "sweep: needs a study (TOML); see hamjet sweep --help");
+  }
+  if (options.merge && (options.shard || options.resume || options.emit || options.threads)) {
+    refuse(
+        "sweep --merge: makes the table of what is there; leave out --shard, --resume, "
+        "--threads and --emit");
+  }
+  if (options.emit && (options.shard || options.resume)) {
+    refuse("sweep --emit: writes a job script; leave out --shard and --resume");
+  }
+  if (run.json && (options.shard || options.emit)) {
+    refuse("sweep --json: prints the summary of the table; leave out --shard and --emit");
+  }
+  if (options.tasks && !options.emit) refuse("sweep --tasks: must stand beside --emit");
+  const auto check_range = [](const char* name, const std::optional<long>& value, long most) {
+    if (value && (*value < 1 || *value > most)) {
+      refuse(fmt::format("{}: out of range, got {}, must be an integer from 1 to {}", name, *value,
+                         most));
+    }
+  };
+  check_range("--threads", options.threads, most_threads);
+  check_range("--tasks", options.tasks, static_cast<long>(io::most_sweep_items));
+}
+
+/// Table, map and summary of what is there.
+int merge(const RunOptions& run, const io::SweepStudy& study, const io::SweepDirectory& directory) {
+  const auto work = [&](const ProgressCallback& progress) {
+    progress("reading the rows", 0);
+    io::SweepRows rows = io::read_sweep_rows(study, directory);
+    const bool is_complete = std::all_of(rows.rows.begin(), rows.rows.end(),
+                                         [](const auto& row) { return row.has_value(); });
+    if (is_complete) directory.remove_leftovers();
+    progress("drawing the map", 0);
+    return io::sweep_report(study, rows);
+  };
+  try {
+    return report_study(run, study.name, work);
+  } catch (const Interrupted& interrupted) {
+    print_error("interrupted; there is no new table; the rows stay, and --merge makes it");
+    return interrupted.exit_code();
+  }
+}
+
+std::size_t threads_of(const SweepOptions& options) {
+  if (options.threads) return static_cast<std::size_t>(*options.threads);
+  return std::max(1U, std::thread::hardware_concurrency());
+}
+
+fs::path this_program() {
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  return error ? fs::path("hamjet") : program;
+}
+
+int emit(const RunOptions& run, const SweepOptions& options, const io::SweepStudy& study) {
+  // Few items in a task, so that many run at a time; not so few that starting them takes the time.
+  constexpr std::size_t items_in_a_task = 50;
+  constexpr std::size_t fewest_tasks = 32;
+  constexpr std::size_t most_tasks = 1000;  // of an array, as Slurm is set up by default
+  const std::size_t items = study.items.size();
+  const std::size_t usual =
+      std::clamp((items + items_in_a_task - 1) / items_in_a_task, fewest_tasks, most_tasks);
+  const std::size_t tasks =
+      std::min(options.tasks ? static_cast<std::size_t>(*options.tasks) : usual, items);
+  const std::size_t threads = options.threads ? threads_of(options) : 1;
+  const fs::path directory = fs::absolute(output_path(run, study.name)).lexically_normal();
+  const io::SweepDirectory frozen(directory, study);
+  const io::SweepScriptPaths paths{this_program().string(),
+                                   fs::absolute(*options.study).lexically_normal().string(),
+                                   directory.string()};
+  const bool is_slurm = *options.emit == "slurm";
+  const fs::path script = directory / (is_slurm ? "sweep.sbatch" : "sweep-parallel");
+  io::write_whole_file(script, is_slurm ? io::slurm_script(study, paths, tasks, threads)
+                                        : io::parallel_script(study, paths, tasks, threads));
+  if (!run.quiet) {
+    print(
+        fmt::format("{} {}\n", is_slurm ? "sbatch" : "bash", io::in_shell_quotes(script.string())));
+  }
+  return 0;
+}
+
+/// Those that are still to be computed: with --resume the items without a row that is whole, and
+/// those that were refused as too large, which may have been another machine's lack of memory.
+std::vector<std::size_t> items_to_do(const std::vector<std::size_t>& items,
+                                     const io::SweepDirectory& directory, std::size_t& failed) {
+  std::vector<std::size_t> result;
+  for (const std::size_t item : items) {
+    const auto row = directory.read(item);
+    if (!row || row->exit_code == static_cast<int>(ErrorKind::too_large)) {
+      result.push_back(item);
+    } else if (row->exit_code != 0) {
+      ++failed;
+    }
+    stop_if_interrupted();
+  }
+  return result;
+}
+
+int run_items(const RunOptions& run, const SweepOptions& options, const io::SweepStudy& study) {
+  std::optional<Shard> shard;
+  if (options.shard) {
+    shard = parse_shard(*options.shard);
+  } else {
+    shard = slurm_shard([](const char* name) { return std::getenv(name); });
+  }
+  const fs::path path = output_path(run, study.name);
+  const io::SweepDirectory directory(path, study);
+  const std::vector<std::size_t> items = shard.value_or(Shard{}).items(study.items.size());
+  io::SweepProgress total;
+  std::vector<std::size_t> remaining = items;
+  if (options.resume) remaining = items_to_do(items, directory, total.failed);
+  const std::size_t earlier = items.size() - remaining.size();
+  io::SweepProgress now;
+  try {
+    Progress progress(!run.quiet);
+    now = io::run_sweep_items(
+        study, directory, remaining, threads_of(options), [&](const io::SweepProgress& so_far) {
+          if (so_far.finished > now.finished) {
+            // From now on a sudden end leaves something.
+            const UninterruptedWriting mark(Writing::checkpoint);
+          }
+          now = so_far;
+          stop_if_interrupted();
+          progress.update(fmt::format("{} items", items.size()),
+                          static_cast<double>(so_far.finished) /
+                              static_cast<double>(std::max<std::size_t>(remaining.size(), 1)));
+        });
+  } catch (const Interrupted& interrupted) {
+    print_error(fmt::format(
+        "interrupted; {} of {} items are finished and stay in {}; --resume "
+        "goes on",
+        earlier + now.finished, items.size(), io::printable(path.string(), std::string::npos)));
+    return interrupted.exit_code();
+  }
+  total.finished = items.size();
+  total.failed += now.failed;
+  if (!shard) return merge(run, study, directory);
+  if (!run.quiet && !run.json) {
+    print(
+        fmt::format("{}\n  shard {}/{}: {} of {} items: {} computed now, {} before, {} failed\n"
+                    "rows: {}\n",
+                    study.title, shard->part, shard->parts, items.size(), study.items.size(),
+                    now.finished, earlier, total.failed, path.string()));
+  }
+  if (total.failed > 0) {
+    print_error(
+        fmt::format("{} of {} items failed; their rows say why", total.failed, items.size()));
+  }
+  return total.failed > 0 ? static_cast<int>(ErrorKind::check_failed) : 0;
+}
+
+}  // namespace
+
+int sweep(const RunOptions& run, const SweepOptions& options) {
+  check_options(run, options);
+  if (!options.study) {
+    const fs::path path = *run.output;
+    const io::SweepStudy study = io::SweepDirectory::study_in(path);
+    return merge(run, study, io::SweepDirectory(path, study));
+  }
+  const io::SweepStudy study = io::read_sweep_study(*options.study);
+  if (options.merge) {
+    const fs::path path = output_path(run, study.name);
+    io::SweepDirectory::study_in(path);  // nothing is begun by a merge
+    return merge(run, study, io::SweepDirectory(path, study));
+  }
+  io::check_sweep_items(study);
+  if (options.emit) return emit(run, options, study);
+  return run_items(run, options, study);
+}
+
+}  // namespace hamjet::cli

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "hamjet/integrators/arc_splitting.hpp"
+
+namespace hamjet {
+
+/// Multiply-adds of one step.
+struct StepCost {
+  double nominal = 0;  ///< of the nominal alone, weighed by how much slower they are than products
+  double series = 0;   ///< of the degrees above 0
+  double arc = 0;      ///< of a step of an arc, which takes the nominal from a checkpoint
+};
+
+/// One method for integrate_in_arcs. After run_nominal the other functions may be called from
+/// several threads at once.
+template <class Real>
+class ArcIntegrator {
+ public:
+  ArcIntegrator() = default;
+  ArcIntegrator(const ArcIntegrator&) = delete;
+  ArcIntegrator& operator=(const ArcIntegrator&) = delete;
+  virtual ~ArcIntegrator() = default;
+
+  /// The nominal to its end, keeping checkpoints; jets of order 0.
+  virtual FlowJet<Real> run_nominal(IntegrationStatistics& statistics,
+                                    const StepObserver<Real>& observer) = 0;
+  virtual std::size_t checkpoints() const = 0;
+  /// Steps taken before a checkpoint.
+  virtual long step(std::size_t checkpoint) const = 0;
+  /// The nominal at a checkpoint.
+  virtual const std::vector<Real>& state(std::size_t checkpoint) const = 0;
+  /// The steps from a checkpoint to the `last`-th of the whole, on a jet about its state.
+  virtual FlowJet<Real> run_arc(std::size_t checkpoint, long last, const SpacePointer& space,
+                                const std::vector<std::size_t>& variables,
+                                const FlowJet<Real>& start, IntegrationStatistics& statistics,
+                                const std::function<void()>& after_step) const = 0;
+  virtual StepCost cost(const SeriesSpace& space) const = 0;
+};
+
+/// Checkpoints at equal numbers of steps: of every step at first, then of every second and so on,
+/// so that there are never more than a few thousand.
+template <class Checkpoint>
+class CheckpointList {
+ public:
+  bool is_kept(long taken) const { return taken % stride_ == 0; }
+  void add(Checkpoint checkpoint) {
+    list_.push_back(std::move(checkpoint));
+    if (list_.size() < largest_count) return;
+    for (std::size_t i = 0; 2 * i < list_.size(); ++i) {
+      if (i > 0) list_[i] = std::move(list_[2 * i]);
+    }
+    list_.resize((list_.size() + 1) / 2);
+    stride_ *= 2;
+  }
+  std::size_t size() const { return list_.size(); }
+  /// Whether there is one of every step.
+  bool has_all() const { return stride_ == 1; }
+  const Checkpoint& operator[](std::size_t i) const { return list_[i]; }
+
+ private:
+  static constexpr std::size_t largest_count = 4096;
+
+  std::vector<Checkpoint> list_;
+  long stride_ = 1;
+};
+
+/// Nominal of a problem: the same without deviations.
+template <class Real>
+FlowProblem<Real> nominal_problem(const FlowProblem<Real>& problem) {
+  FlowProblem<Real> result = problem;
+  result.space = SeriesSpace::create(problem.space->variables(), 0);
+  result.initial_jet = nullptr;
+  return result;
+}
+
+/// A problem from a checkpoint on.
+template <class Real>
+FlowProblem<Real> arc_problem(const FlowProblem<Real>& whole, const std::vector<Real>& state,
+                              const SpacePointer& space, const std::vector<std::size_t>& variables,
+                              const FlowJet<Real>& start) {
+  return {whole.system, space, variables, state, whole.duration, &start};
+}
+
+}  // namespace hamjet

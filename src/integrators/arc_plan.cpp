@@ -1,0 +1,72 @@
+#include "arc_plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace hamjet {
+namespace {
+
+/// Below this speed-up on two threads a flow is not split.
+constexpr double least_speed_up = 1.2;
+/// More than two arcs may take this part of the whole work for their compositions.
+constexpr double composing_share = 0.02;
+
+std::size_t quotient_up(std::size_t a, std::size_t b) { return (a + b - 1) / b; }
+
+/// Unsplit time over split time, tasks of equal cost being shared out among threads.
+double speed_up(std::size_t arcs, std::size_t threads, double steps, const ArcCosts& costs) {
+  if (arcs <= 1) return 1;
+  const double whole = steps * costs.step;
+  const double length = steps / static_cast<double>(arcs);
+  // The first arc is expanded in the scene's variables only.
+  const double rounds = static_cast<double>(quotient_up(arcs, threads));
+  double time = steps * costs.nominal + length * rounds * costs.later_arcs;
+  if (threads == 1) time += length * (costs.first_arc - costs.later_arcs);
+  for (std::size_t maps = arcs; maps > 1; maps = quotient_up(maps, 2)) {
+    time += static_cast<double>(quotient_up(maps / 2, threads)) * costs.composition;
+  }
+  return whole / time;
+}
+
+std::size_t choose_arcs(double steps, const ArcCosts& costs, std::string& reason) {
+  if (steps < 2 || speed_up(2, 2, steps, costs) < least_speed_up) {
+    reason = "splitting would not pay on two threads";
+    return 1;
+  }
+  std::size_t arcs = 2;
+  while (2 * arcs <= most_chosen_arcs && 2 * static_cast<double>(arcs) <= steps &&
+         static_cast<double>(2 * arcs - 1) * costs.composition <=
+             composing_share * steps * costs.step) {
+    arcs *= 2;
+  }
+  reason =
+      fmt::format("composing takes {:.1f} % of the work",
+                  100 * static_cast<double>(arcs - 1) * costs.composition / (steps * costs.step));
+  return arcs;
+}
+
+}  // namespace
+
+ArcPlan make_arc_plan(const std::optional<std::size_t>& asked, long steps, const ArcCosts& costs) {
+  ArcPlan plan;
+  plan.steps = steps;
+  plan.nominal_multiply_adds = costs.nominal;
+  plan.step_multiply_adds = costs.step;
+  plan.arc_step_multiply_adds = costs.later_arcs;
+  plan.composition_multiply_adds = costs.composition;
+  const double count = static_cast<double>(steps);
+  if (!asked) {
+    plan.arcs = choose_arcs(count, costs, plan.reason);
+  } else {
+    plan.arcs = std::min(*asked, static_cast<std::size_t>(std::max(steps, 1L)));
+    plan.reason =
+        plan.arcs < *asked ? fmt::format("asked for {}, more than steps", *asked) : "as asked for";
+  }
+  for (std::size_t i = 0; i < plan.speed_ups.size(); ++i) {
+    plan.speed_ups[i] = speed_up(plan.arcs, ArcPlan::thread_counts[i], count, costs);
+  }
+  return plan;
+}
+
+}  // namespace hamjet

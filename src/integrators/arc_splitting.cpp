@@ -1,0 +1,272 @@
+#include "hamjet/integrators/arc_splitting.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "arc_integrator.hpp"
+#include "arc_plan.hpp"
+#include "concurrent_tasks.hpp"
+#include "cut_coordinates.hpp"
+#include "gauss_lanes.hpp"
+#include "hamjet/algebra/horner_composition.hpp"
+#include "hamjet/dynamics/operation_count.hpp"
+#include "hamjet/error.hpp"
+#include "integration_clock.hpp"
+#include "splitting_integration.hpp"
+
+namespace hamjet {
+namespace {
+
+template <class Real>
+std::unique_ptr<ArcIntegrator<Real>> make_arcs(const FlowProblem<Real>& problem,
+                                               const SplittableMethod& method) {
+  if (const auto* gauss = std::get_if<GaussSettings>(&method)) {
+    validate_gauss(*gauss);
+    return with_lanes(gauss->stages, [&]<int Lanes>(std::integral_constant<int, Lanes>) {
+      return make_gauss_arcs<Lanes, Real>(problem, *gauss);
+    });
+  }
+  if (const auto* stormer = std::get_if<StormerSettings>(&method)) {
+    return make_splitting_arcs(problem, splitting_of<Real>(*stormer));
+  }
+  if (const auto* verlet = std::get_if<VelocityVerletSettings>(&method)) {
+    return make_splitting_arcs(problem, splitting_of<Real>(*verlet));
+  }
+  return make_splitting_arcs(problem,
+                             splitting_of<Real>(std::get<SymmetricCompositionSettings>(method)));
+}
+
+/// The space of an arc behind the first: all components vary.
+template <class Real>
+SpacePointer arc_space(const FlowProblem<Real>& problem) {
+  const std::size_t dimension = problem.system->dimension();
+  if (problem.space->variables() == dimension) return problem.space;
+  return SeriesSpace::create(dimension, problem.space->order());
+}
+
+/// Of numbers, in one composition: Horner's scheme on lanes that are filled up, the energy along
+/// the inner map, and the rotation.
+template <class Real>
+double composition_cost(const FlowProblem<Real>& problem) {
+  const double components = static_cast<double>(problem.system->dimension());
+  const int order = working_order(problem);
+  double lanes = 0;
+  for (double left = components; left > 0; left -= 8) {
+    lanes += left <= 2 ? 2 : (left <= 4 ? 4 : 8);
+  }
+  return lanes * horner_multiply_adds(problem.system->dimension(), order, *problem.space) +
+         series_multiply_adds(problem.system->hamiltonian, *problem.space, order) +
+         components * components * static_cast<double>(problem.space->size());
+}
+
+template <class Real>
+ArcPlan plan_for(const FlowProblem<Real>& problem, const ArcIntegrator<Real>& arcs,
+                 const std::optional<std::size_t>& asked, long steps) {
+  const StepCost first = arcs.cost(*problem.space);
+  const StepCost later = arcs.cost(*arc_space(problem));
+  // A fifth of the nominal's time alone goes into its own update and checkpoints.
+  return make_arc_plan(asked, steps,
+                       {first.nominal, 0.8 * first.nominal + first.series, first.arc, later.arc,
+                        composition_cost(problem)});
+}
+
+/// One split integration.
+template <class Real>
+class ArcSplitting {
+ public:
+  ArcSplitting(const FlowProblem<Real>& problem, ArcIntegrator<Real>& arcs,
+               const ArcSettings& settings, IntegrationStatistics& statistics,
+               ArcStatistics& arc_statistics, const ArcProgress& progress)
+      : problem_(problem),
+        arcs_(arcs),
+        settings_(settings),
+        statistics_(statistics),
+        arc_statistics_(arc_statistics),
+        progress_(progress) {}
+
+  FlowJet<Real> run(const StepObserver<Real>& observer) {
+    const FlowJet<Real> nominal = run_nominal(observer);
+    arc_statistics_.plan = plan_for(problem_, arcs_, settings_.arcs, statistics_.steps);
+    choose_cuts();
+    FlowJet<Real> jet = compose_all(run_arcs());
+    for (std::size_t i = 0; i < jet.size(); ++i) jet[i][0] = nominal[i][0];
+    require_finite(jet, problem_.duration, "composition of arcs");
+    statistics_.wall_seconds += arc_statistics_.arcs_seconds + arc_statistics_.composition_seconds;
+    return jet;
+  }
+
+ private:
+  /// Of the progress that is reported; the nominal takes a few hundredths.
+  static constexpr double nominal_share = 0.05;
+
+  void report(double fraction) const {
+    if (progress_) progress_(std::min(fraction, 1.0));
+  }
+
+  FlowJet<Real> run_nominal(const StepObserver<Real>& observer) {
+    FlowJet<Real> end =
+        arcs_.run_nominal(statistics_, [&](const Real& time, const FlowJet<Real>& state) {
+          if (observer) observer(time, state);
+          report(nominal_share * static_cast<double>(Real(time / problem_.duration)));
+        });
+    arc_statistics_.nominal_seconds = statistics_.wall_seconds;
+    // What an explicit method counts as evaluations on series were on plain numbers here.
+    if (statistics_.nominal_evaluations == 0) {
+      statistics_.nominal_evaluations = statistics_.vector_field_evaluations;
+    }
+    statistics_.vector_field_evaluations = 0;  // on series: none so far
+    statistics_.series_work = {};
+    return end;
+  }
+
+  /// The checkpoints at which the arcs start: as near as there are to equal numbers of steps.
+  void choose_cuts() {
+    std::size_t place = 0;
+    const std::size_t count = arc_statistics_.plan.arcs;
+    for (std::size_t k = 0; k < count; ++k) {
+      const long wanted =
+          static_cast<long>(static_cast<double>(statistics_.steps) * static_cast<double>(k) /
+                                static_cast<double>(count) +
+                            0.5);
+      while (place + 1 < arcs_.checkpoints() && arcs_.step(place + 1) <= wanted) ++place;
+      cuts_.push_back(place);
+    }
+    cuts_.erase(std::unique(cuts_.begin(), cuts_.end()), cuts_.end());
+    arc_statistics_.plan.arcs = cuts_.size();
+  }
+
+  std::vector<FlowJet<Real>> run_arcs() {
+    const std::size_t count = cuts_.size();
+    std::vector<FlowJet<Real>> jets(count);
+    std::vector<IntegrationStatistics> each(count);
+    coordinates_.resize(count);
+    const SpacePointer space = arc_space(problem_);
+    std::vector<std::size_t> all(problem_.system->dimension());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    const IntegrationClock clock;
+    arc_statistics_.threads = run_concurrently(
+        count, settings_.threads,
+        [&](std::size_t k, TaskControl& control) {
+          const long last = k + 1 < count ? arcs_.step(cuts_[k + 1]) : statistics_.steps;
+          const auto after_step = [&] { control.advance(); };
+          if (k == 0) {
+            jets[k] = arcs_.run_arc(cuts_[k], last, problem_.space, problem_.variables,
+                                    starting_jet(problem_), each[k], after_step);
+            return;
+          }
+          coordinates_[k] = std::make_unique<CutCoordinates<Real>>(*problem_.system,
+                                                                   arcs_.state(cuts_[k]), space);
+          jets[k] = arcs_.run_arc(cuts_[k], last, space, all, coordinates_[k]->start(), each[k],
+                                  after_step);
+        },
+        [&](long done) {
+          report(nominal_share + (1 - nominal_share) * static_cast<double>(done) /
+                                     static_cast<double>(statistics_.steps));
+        });
+    arc_statistics_.arcs_seconds = clock.seconds();
+    for (const IntegrationStatistics& arc : each) {
+      statistics_.vector_field_evaluations += arc.vector_field_evaluations;
+      statistics_.nominal_evaluations += arc.nominal_evaluations;
+      statistics_.series_work += arc.series_work;
+    }
+    return jets;
+  }
+
+  /// Neighbours in pairs, then pairs of these, and so on.
+  FlowJet<Real> compose_all(std::vector<FlowJet<Real>> maps) {
+    const IntegrationClock clock;
+    std::vector<std::size_t> starts(maps.size());  // the arc with which each map starts
+    std::iota(starts.begin(), starts.end(), std::size_t{0});
+    while (maps.size() > 1) {
+      std::vector<FlowJet<Real>> composed((maps.size() + 1) / 2);
+      std::vector<std::size_t> composed_starts;
+      for (std::size_t i = 0; i < maps.size(); i += 2) composed_starts.push_back(starts[i]);
+      const std::size_t pairs = maps.size() / 2;
+      run_concurrently(
+          pairs, settings_.threads,
+          [&](std::size_t i, TaskControl& control) {
+            control.advance();
+            const auto& coordinates = *coordinates_[starts[2 * i + 1]];
+            const std::vector<Series<Real>> inner = coordinates.of(maps[2 * i]);
+            composed[i] = compose_by_horner(std::span<const Series<Real>>(maps[2 * i + 1]),
+                                            std::span<const Series<Real>>(inner));
+          },
+          [&](long) { report(1); });
+      if (maps.size() % 2 != 0) composed.back() = std::move(maps.back());
+      arc_statistics_.compositions += static_cast<long>(pairs);
+      maps = std::move(composed);
+      starts = std::move(composed_starts);
+    }
+    arc_statistics_.composition_multiply_adds =
+        static_cast<double>(arc_statistics_.compositions) * composition_cost(problem_);
+    arc_statistics_.composition_seconds = clock.seconds();
+    return std::move(maps[0]);
+  }
+
+  const FlowProblem<Real>& problem_;
+  ArcIntegrator<Real>& arcs_;
+  const ArcSettings& settings_;
+  IntegrationStatistics& statistics_;
+  ArcStatistics& arc_statistics_;
+  const ArcProgress& progress_;
+  std::vector<std::size_t> cuts_;  ///< checkpoints, the first at the start
+  std::vector<std::unique_ptr<CutCoordinates<Real>>> coordinates_;  ///< of each arc but the first
+};
+
+void validate_arcs(const std::optional<std::size_t>& arcs, std::size_t threads) {
+  if (arcs.value_or(1) < 1) throw Error(ErrorKind::usage, "arcs: at least one is needed");
+  if (threads < 1) throw Error(ErrorKind::usage, "arcs: at least one thread is needed");
+}
+
+}  // namespace
+
+template <class Real>
+FlowJet<Real> integrate_in_arcs(const FlowProblem<Real>& problem, const SplittableMethod& method,
+                                const ArcSettings& settings, IntegrationStatistics& statistics,
+                                ArcStatistics& arc_statistics, const StepObserver<Real>& observer,
+                                const ArcProgress& progress) {
+  validate(problem);
+  validate_arcs(settings.arcs, settings.threads);
+  statistics = {};
+  arc_statistics = {};
+  const auto arcs = make_arcs(problem, method);
+  if (problem.duration == 0) {
+    arc_statistics.plan.reason = "the duration is zero";
+    return starting_jet(problem);
+  }
+  return ArcSplitting<Real>(problem, *arcs, settings, statistics, arc_statistics, progress)
+      .run(observer);
+}
+
+template <class Real>
+ArcPlan plan_arcs(const FlowProblem<Real>& problem, const SplittableMethod& method,
+                  const std::optional<std::size_t>& asked, const ArcProgress& progress) {
+  validate(problem);
+  validate_arcs(asked, 1);
+  const auto arcs = make_arcs(problem, method);
+  IntegrationStatistics statistics;
+  if (problem.duration != 0) {
+    arcs->run_nominal(statistics, [&](const Real& time, const FlowJet<Real>&) {
+      if (progress) progress(static_cast<double>(Real(time / problem.duration)));
+    });
+  }
+  return plan_for(problem, *arcs, asked, statistics.steps);
+}
+
+template FlowJet<double> integrate_in_arcs(const FlowProblem<double>&, const SplittableMethod&,
+                                           const ArcSettings&, IntegrationStatistics&,
+                                           ArcStatistics&, const StepObserver<double>&,
+                                           const ArcProgress&);
+template FlowJet<Extended> integrate_in_arcs(const FlowProblem<Extended>&, const SplittableMethod&,
+                                             const ArcSettings&, IntegrationStatistics&,
+                                             ArcStatistics&, const StepObserver<Extended>&,
+                                             const ArcProgress&);
+template ArcPlan plan_arcs(const FlowProblem<double>&, const SplittableMethod&,
+                           const std::optional<std::size_t>&, const ArcProgress&);
+template ArcPlan plan_arcs(const FlowProblem<Extended>&, const SplittableMethod&,
+                           const std::optional<std::size_t>&, const ArcProgress&);
+
+}  // namespace hamjet

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+// What writer and reader of `jets.h5` share.
+
+namespace hamjet::io::hdf5 {
+
+inline const std::string format = "hamjet jets";
+inline constexpr int format_version = 1;
+
+/// In the order of the enumeration Precision.
+inline const std::vector<std::string> precision_names = {"double", "extended"};
+
+/// Bytes of a number of 36 digits with sign, point and exponent, filled up with zeros.
+inline constexpr std::size_t decimal_width = 48;
+
+}  // namespace hamjet::io::hdf5

@@ -1,0 +1,38 @@
+#include "hdf5_handles.hpp"
+
+namespace hamjet::io::hdf5 {
+namespace {
+
+/// By which the image in memory grows.
+constexpr std::size_t increment = 65536;
+
+Handle in_memory() {
+  Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_fapl_core(access, increment, false);
+  return access;
+}
+
+// HDF5 wants a name; no file of it is opened or made.
+constexpr const char* name = "jets.h5";
+
+}  // namespace
+
+Handle create_in_memory() {
+  const Handle access = in_memory();
+  // Of the oldest format, the default: the images that HDF5 1.10 gives of files in a newer one have
+  // a wrong checksum.
+  const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+  H5Pset_obj_track_times(creation, false);
+  return {H5Fcreate(name, H5F_ACC_TRUNC, creation, access), H5Fclose};
+}
+
+Handle open_in_memory(std::string_view bytes, std::string& reason) {
+  const Handle access = in_memory();
+  // HDF5 copies the bytes; it takes them as writable for an option that is not used.
+  H5Pset_file_image(access, const_cast<char*>(bytes.data()), bytes.size());
+  Handle file(H5Fopen(name, H5F_ACC_RDONLY, access), H5Fclose);
+  if (!file.is_valid()) reason = last_error();
+  return file;
+}
+
+}  // namespace hamjet::io::hdf5

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hdf5_handles.hpp"
+
+namespace hamjet::io::hdf5 {
+
+/// A group of a file together with its place: reading something as what it is not throws
+/// Error(input_output) with file and place, in one line. Sizes are compared with those that the
+/// caller expects, and with the file's, before anything is allocated.
+class Reader {
+ public:
+  /// The top of a file. The bytes must outlive the reader.
+  Reader(std::string file, std::string_view bytes);
+
+  /// A group below; links that lead elsewhere are refused.
+  Reader group(const std::string& name) const;
+
+  bool has_attribute(const char* name) const;
+  std::string text(const char* name) const;
+  std::vector<std::string> texts(const char* name) const;
+  double number(const char* name) const;
+  /// So many, or any number up to 4096 of them; finite.
+  std::vector<double> numbers(const char* name, std::size_t count = 0) const;
+  int integer(const char* name) const;
+
+  std::vector<double> doubles(const char* name, const std::vector<hsize_t>& shape) const;
+  std::vector<std::uint8_t> bytes(const char* name, const std::vector<hsize_t>& shape) const;
+  /// Texts of fixed length, at most `decimal_width`.
+  std::vector<std::string> decimals(const char* name, const std::vector<hsize_t>& shape) const;
+
+  /// `what` of the attribute or dataset `name`; of the group itself if that is empty.
+  [[noreturn]] void fail(std::string_view name, const std::string& what) const;
+
+ private:
+  Reader(const Reader& parent, Handle group, const std::string& name);
+
+  void require_link(const std::string& name) const;
+  Handle attribute(const char* name) const;
+  Handle dataset(const char* name, const std::vector<hsize_t>& shape, std::size_t width) const;
+
+  std::string file_name_;
+  std::string path_;
+  std::size_t file_size_;
+  Handle file_;
+  Handle group_;
+};
+
+}  // namespace hamjet::io::hdf5

@@ -1,0 +1,52 @@
+#include "jet_description.hpp"
+
+#include <fmt/format.h>
+
+#include "hamjet/version.hpp"
+
+namespace hamjet::io {
+
+StoredJet describe_jet(const PropagationResult& result, const RunResult& run) {
+  const Scene& scene = result.scene;
+  StoredJet description;
+  description.scene = scene.name;
+  description.label = run.settings.label;
+  description.model = scene.system.model;
+  description.precision = scene.precision;
+  description.units = scene.units;
+  description.duration = scene.duration;
+  description.nominal_initial = scene.nominal;
+  description.nominal_final = run.nominal_final;
+  description.components = result.problem.components;
+  description.variables = scene.variables;
+  return description;
+}
+
+std::string frame_of(SystemModel model) {
+  if (!is_orbit(model)) return "the model's generalised coordinates q and momenta p";
+  return "inertial, origin at the centre of attraction, z along its axis; p is the velocity";
+}
+
+std::vector<std::string> jet_notes(const StoredJet& description, int order) {
+  const auto names = description.variable_names();
+  const auto listed = [&](const std::vector<std::size_t>& indices) {
+    std::string text;
+    for (const std::size_t i : indices) text += fmt::format(" {}", names[i]);
+    return text;
+  };
+  std::vector<std::string> notes = {
+      fmt::format("hamjet {}, scene {}, run {}", version, description.scene, description.label),
+      fmt::format("polynomials, the components of the final state:{}",
+                  listed(description.components)),
+      fmt::format("variables, deviations of the initial state:{}", listed(description.variables)),
+      fmt::format("order {}, duration {:.17g} canonical", order, description.duration),
+      fmt::format("canonical units: length {:.17g} km, time {:.17g} s", description.units.length_km,
+                  description.units.time_s),
+      "frame: " + frame_of(description.model)};
+  if (description.precision == Precision::extended) {
+    notes.emplace_back("coefficients of extended precision, rounded to double precision");
+  }
+  return notes;
+}
+
+}  // namespace hamjet::io

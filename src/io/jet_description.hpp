@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "hamjet/io/stored_jet.hpp"
+#include "hamjet/studies/propagation.hpp"
+
+namespace hamjet::io {
+
+/// All that is stored of a run's jet but the coefficients.
+StoredJet describe_jet(const PropagationResult& result, const RunResult& run);
+
+/// The coordinates of a model, in words.
+std::string frame_of(SystemModel model);
+
+/// What a text of polynomials alone does not say: scene, components, variables, units; and that the
+/// coefficients are rounded, where they are.
+std::vector<std::string> jet_notes(const StoredJet& description, int order);
+
+}  // namespace hamjet::io

@@ -1,0 +1,180 @@
+#include "scene_nominal_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "hamjet/error.hpp"
+#include "hamjet/io/orbit_message.hpp"
+#include "scene_message.hpp"
+#include "text_file.hpp"
+
+namespace hamjet::io {
+namespace {
+
+/// What stands in a message about the state that is taken.
+struct ChosenState {
+  OrbitMetadata metadata;
+  OrbitState state;
+};
+
+std::string read_message(const TableReader& nominal, std::string_view key,
+                         const std::filesystem::path& file) {
+  FileContent content = read_regular_file(file, largest_orbit_message_bytes);
+  if (!content.problem.empty()) {
+    throw Error(content.is_too_large ? ErrorKind::too_large : ErrorKind::input_output,
+                fmt::format("{}: {} cannot be read: {}", nominal.head(key), printable_path(file),
+                            content.problem));
+  }
+  return std::move(content.text);
+}
+
+std::optional<Epoch> wanted_epoch(const TableReader& nominal) {
+  if (!nominal.has("epoch")) return std::nullopt;
+  const std::string text = nominal.text("epoch");
+  const auto epoch = parse_epoch(text);
+  if (!epoch) {
+    nominal.fail("epoch", fmt::format("no moment of the calendar, got {}, must be "
+                                      "YYYY-MM-DDThh:mm:ss or YYYY-DDDThh:mm:ss",
+                                      in_quotes(text)));
+  }
+  return epoch;
+}
+
+bool is_of(const EphemerisSegment& segment, const std::string& object) {
+  return segment.metadata.object_name == object || segment.metadata.object_id == object;
+}
+
+/// The blocks of the object that the scene names, or of the only one there is.
+std::vector<EphemerisSegment> wanted_segments(const TableReader& nominal,
+                                              std::vector<EphemerisSegment> segments) {
+  std::vector<std::string_view> names;
+  for (const EphemerisSegment& segment : segments) {
+    const std::string_view name = segment.metadata.object_name;
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
+  if (!nominal.has("object")) {
+    if (names.size() > 1) {
+      nominal.fail("object", fmt::format("missing, got a file of {} objects, must be one of: {}",
+                                         names.size(), printable(listed(names))));
+    }
+    return segments;
+  }
+  const std::string object = nominal.text("object");
+  std::erase_if(segments, [&](const EphemerisSegment& segment) { return !is_of(segment, object); });
+  if (segments.empty()) {
+    nominal.fail("object", fmt::format("not in the file, got {}, must be one of: {}",
+                                       in_quotes(object), printable(listed(names))));
+  }
+  return segments;
+}
+
+/// Seconds from one moment to another, near enough to find the nearest.
+double seconds_between(const Epoch& a, const Epoch& b) {
+  return 86400.0 * static_cast<double>((b.day - a.day).count()) +
+         1e-12 * static_cast<double>(b.picoseconds - a.picoseconds);
+}
+
+/// The state of the wanted epoch, or the first one; only among those that are not there for
+/// interpolation alone.
+ChosenState choose_state(const TableReader& nominal, const std::vector<EphemerisSegment>& segments,
+                         const std::optional<Epoch>& wanted) {
+  std::vector<ChosenState> found;
+  std::optional<Epoch> nearest_epoch;
+  for (const EphemerisSegment& segment : segments) {
+    for (const OrbitState& state : segment.states) {
+      if (!segment.is_useable(state.epoch)) continue;
+      if (!wanted) return {segment.metadata, state};
+      if (state.epoch == *wanted) found.push_back({segment.metadata, state});
+      const auto distance = [&](const Epoch& epoch) {
+        return std::abs(seconds_between(*wanted, epoch));
+      };
+      if (!nearest_epoch || distance(state.epoch) < distance(*nearest_epoch)) {
+        nearest_epoch = state.epoch;
+      }
+    }
+  }
+  if (!nearest_epoch) {
+    nominal.fail("oem_file",
+                 "no state to start from, got a file with none from USEABLE_START_TIME to "
+                 "USEABLE_STOP_TIME, must have one");
+  }
+  if (found.empty()) {
+    nominal.fail("epoch",
+                 fmt::format("no state of this epoch is in the file, got {}, must be one "
+                             "of its epochs, for nothing is interpolated; the nearest is "
+                             "{}",
+                             in_quotes(nominal.text("epoch")), format_epoch(*nearest_epoch)));
+  }
+  const bool is_one = std::all_of(found.begin(), found.end(), [&](const ChosenState& other) {
+    return other.state.position_km == found[0].state.position_km &&
+           other.state.velocity_km_s == found[0].state.velocity_km_s;
+  });
+  if (!is_one) {
+    nominal.fail("epoch", fmt::format("the file has {} different states of this epoch, as before "
+                                      "and after a manoeuvre, got {}, must be another epoch",
+                                      found.size(), in_quotes(nominal.text("epoch"))));
+  }
+  return found[0];
+}
+
+EphemerisSettings settings_of(const ChosenState& chosen) {
+  EphemerisSettings settings;
+  settings.epoch = format_epoch(chosen.state.epoch);
+  settings.time_system = time_system_names()[static_cast<std::size_t>(chosen.metadata.time_system)];
+  settings.reference_frame = chosen.metadata.reference_frame;
+  settings.center_name = chosen.metadata.center_name;
+  settings.object_name = chosen.metadata.object_name;
+  settings.object_id = chosen.metadata.object_id;
+  return settings;
+}
+
+}  // namespace
+
+NominalFromFile read_nominal_file(const TableReader& nominal) {
+  const std::string_view key = nominal.exactly_one_of({"oem_file", "opm_file"});
+  const std::filesystem::path file = nominal.path_beside_scene(key);
+  const std::string text = read_message(nominal, key, file);
+  const auto epoch = wanted_epoch(nominal);
+  NominalFromFile result;
+  ChosenState chosen;
+  if (key == "oem_file") {
+    OrbitEphemerisMessage message = read_oem(printable_path(file), text);
+    result.file.format = "OEM " + message.version;
+    const auto segments = wanted_segments(nominal, std::move(message.segments));
+    chosen = choose_state(nominal, segments, epoch);
+    const bool has_covariance =
+        std::any_of(segments.begin(), segments.end(),
+                    [](const EphemerisSegment& segment) { return segment.has_covariance; });
+    if (has_covariance) result.file.unused.emplace_back("covariance");
+  } else {
+    OrbitParameterMessage message = read_opm(printable_path(file), text);
+    result.file.format = "OPM " + message.version;
+    result.file.unused = message.unused;
+    chosen = {message.metadata, message.state};
+    const auto refuse_key = [&](std::string_view other, const std::string& of_message) {
+      nominal.fail(other, fmt::format("not that of the message, got {}, must be {} or left out",
+                                      in_quotes(nominal.text(other)), in_quotes(of_message)));
+    };
+    if (epoch && *epoch != message.state.epoch) {
+      refuse_key("epoch", format_epoch(message.state.epoch));
+    }
+    if (nominal.has("object") && nominal.text("object") != message.metadata.object_name &&
+        nominal.text("object") != message.metadata.object_id) {
+      refuse_key("object", message.metadata.object_name);
+    }
+  }
+  const auto& position = chosen.state.position_km;
+  if (std::all_of(position.begin(), position.end(), [](double x) { return x == 0; })) {
+    nominal.fail(key, "at the centre of attraction, got the position 0 0 0, must be any other");
+  }
+  std::copy(position.begin(), position.end(), result.state.position_km.begin());
+  std::copy(chosen.state.velocity_km_s.begin(), chosen.state.velocity_km_s.end(),
+            result.state.velocity_km_s.begin());
+  result.file.path = nominal.text(key);
+  result.file.ephemeris = settings_of(chosen);
+  return result;
+}
+
+}  // namespace hamjet::io

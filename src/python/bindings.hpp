@@ -1,0 +1,16 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+// One function for each part of the extension module, in the file of its name.
+
+namespace hamjet::python {
+
+void bind_errors();
+void bind_jets(pybind11::module_& module);
+void bind_generating_functions(pybind11::module_& module);
+void bind_scenes(pybind11::module_& module);
+void bind_runs(pybind11::module_& module);
+void bind_relative_motion(pybind11::module_& module);
+
+}  // namespace hamjet::python

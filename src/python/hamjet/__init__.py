@@ -1,0 +1,29 @@
+"""High-order Taylor maps and generating functions of Hamiltonian flows.
+
+    import hamjet
+
+    result = hamjet.run("data/scenes/molniya.toml")
+    jet = result.runs["gauss8"].jet
+    final = jet.evaluate(deviations)               # (N, 6) initial deviations, canonical
+    f1 = jet.invert_partially("F1")                # a generating function
+    transfers = hamjet.transfer("data/scenes/transfer-earth-orbit.toml")
+
+A scene is a TOML file, its text, or a dict; the README describes its keys. Systems are those that
+scenes can name: a Hamiltonian of your own needs the C++ library. Coefficients, exponents and
+trajectories are NumPy arrays, read-only. Mistakes are raised as subclasses of `Error`, with the
+text that the command prints. Long work lets other threads run and ends within a second of Ctrl-C.
+"""
+
+from ._hamjet import GeneratingFunction, Jet, Units, __version__
+from .errors import (Error, InputOutputError, NumericalError, SceneError, TooLargeError,
+                     UsageError)
+from .relative_motion import Transfers, Validity, transfer, validity
+from .relative_states import RelativeStates
+from .results import AlongTime, Nominal, Result, Run, StudyResult, load, run
+
+__all__ = [
+    "AlongTime", "Error", "GeneratingFunction", "InputOutputError", "Jet", "Nominal",
+    "NumericalError", "RelativeStates", "Result", "Run", "SceneError", "StudyResult",
+    "TooLargeError", "Transfers", "Units", "UsageError", "Validity", "__version__", "load", "run",
+    "transfer", "validity",
+]

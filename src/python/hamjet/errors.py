@@ -1,0 +1,39 @@
+"""What hamjet raises. The text is the one line that the command prints for the same mistake."""
+
+from __future__ import annotations
+
+
+class Error(Exception):
+    """The base of all; ``exit_code`` is the one that the command ends with."""
+
+    exit_code: int = 4
+
+
+class UsageError(Error, ValueError):
+    """A call is wrong: an array of another shape, an unknown kind, jets that do not fit."""
+
+    exit_code = 2
+
+
+class SceneError(Error, ValueError):
+    """The scene is wrong; the text names place, key, what was found and what would be right."""
+
+    exit_code = 3
+
+
+class NumericalError(Error, ArithmeticError):
+    """No solution, no convergence, a singular matrix, a number that is not finite."""
+
+    exit_code = 4
+
+
+class InputOutputError(Error, OSError):
+    """A file could not be read or written, or is not what was written once."""
+
+    exit_code = 5
+
+
+class TooLargeError(Error):
+    """The work does not fit this machine, or would not end."""
+
+    exit_code = 6

@@ -1,0 +1,110 @@
+"""Transfers between relative positions, and how far polynomials can be trusted."""
+
+from __future__ import annotations
+
+import json
+import os
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _hamjet, scenes
+from .results import Floats, Progress
+
+Flags = npt.NDArray[np.bool_]
+
+
+@dataclass(frozen=True, eq=False)
+class Transfers:
+    """Velocity changes for T transfer times; immutable, arrays read-only.
+
+    Velocity changes are along the axes of the scene's frame; misses are distances of the flown
+    deputy from the wanted place. NaN stands where there is no answer.
+    """
+
+    times_s: Floats  #: (T,)
+    kinds: tuple[str | None, ...]  #: the generating function used; None where no kind exists
+    conditions: Floats  #: (T,): of its linear part
+    position_conditions: Floats  #: (T,): of F1's; infinite where positions cannot be commanded
+    singular_distances_s: Floats  #: (T,): to the nearest singularity of F1; NaN: there is none
+    start_change_m_s: Floats  #: (T, 3): of the best answer, refined where the scene refines
+    end_change_m_s: Floats  #: (T, 3)
+    total_change_m_s: Floats  #: (T,): sum of the two magnitudes
+    miss_m: Floats  #: (T,)
+    start_change_by_order_m_s: Floats  #: (T, N, 3): of the polynomial orders 1 to N
+    end_change_by_order_m_s: Floats  #: (T, N, 3)
+    miss_by_order_m: Floats  #: (T, N)
+    refined: Flags  #: (T,): whether the best answer was corrected by flying
+    near_singular: Flags  #: (T,): nearer to a singularity than the scene's margin
+    beyond_tolerance: Flags  #: (T,): the miss of the order N exceeds the scene's tolerance
+    hamilton_jacobi_residuals: Floats  #: (T,): worst scaled residual over all degrees
+    failures: tuple[str, ...]  #: what failed at each time; empty where nothing did
+    singular_times_s: Floats  #: at which F1 does not exist, all within the span
+    flight_floor_m: float  #: misses below this say nothing
+    #: Index of the least total change among answers within the tolerance and away from
+    #: singularities; None if there is none.
+    best: int | None
+    #: As of the command: 0, 1 (strict, and an answer is missing or too far off) or 4 (no answers).
+    exit_code: int
+    _study: _hamjet.TransferStudy = field(repr=False)
+
+    @property
+    def summary(self) -> dict[str, Any]:
+        """What ``hamjet transfer`` writes as summary.json. Draws the report when first asked."""
+        return dict(json.loads(self._study.summary))
+
+    def trajectory(self, index: int, count: int = 400) -> tuple[Floats, Floats]:
+        """The flown deputy of one transfer time's best answer, at ``count`` equal intervals.
+
+        Returns times in s, (count + 1,), and states, (count + 1, 6), in m and m/s along R, T, N of
+        the chief with rotating derivatives. Raises UsageError if this time has no answer.
+        """
+        return self._study.fly(index, count)
+
+    def write(self, directory: str | os.PathLike[str]) -> None:
+        """Writes what ``hamjet transfer`` writes, the report among it. Raises InputOutputError."""
+        self._study.write(directory)
+
+
+@dataclass(frozen=True, eq=False)
+class Validity:
+    """Separations up to which the polynomials are right, for T times; immutable."""
+
+    times_s: Floats  #: (T,)
+    predicted_m: Floats  #: (T, N): of the orders 1 to N, from the decay of the jet's degrees
+    proved_m: Floats  #: (T, N): by flying sampled deputies; 0 where none tried holds
+    miss_m: Floats  #: (T, N): the worst sampled miss at ``proved_m``
+    is_lower_bound: Flags  #: (T, N): still right at the largest separation tried
+    _study: _hamjet.ValidityStudy = field(repr=False)
+
+    @property
+    def summary(self) -> dict[str, Any]:
+        """What ``hamjet validity`` writes as summary.json. Draws the report when first asked."""
+        return dict(json.loads(self._study.summary))
+
+    def write(self, directory: str | os.PathLike[str]) -> None:
+        """Writes what ``hamjet validity`` writes. Raises InputOutputError."""
+        self._study.write(directory)
+
+
+def transfer(scene: scenes.Scene, *, overrides: scenes.Overrides | None = None,
+             progress: Progress | None = None) -> Transfers:
+    """Velocity changes from one relative position to another, as ``hamjet transfer`` finds them.
+
+    The scene has a table [transfer]; arguments as of ``run``. Raises SceneError, UsageError,
+    NumericalError, TooLargeError, InputOutputError.
+    """
+    study = _hamjet.study_transfers(scenes.read(scene, overrides), progress)
+    return Transfers(**study.arrays(), exit_code=study.exit_code, _study=study)
+
+
+def validity(scene: scenes.Scene, *, overrides: scenes.Overrides | None = None,
+             progress: Progress | None = None) -> Validity:
+    """How far from the chief the polynomials are right, as ``hamjet validity`` finds it.
+
+    The scene has a table [validity]; arguments as of ``run``. Raises as ``transfer``.
+    """
+    study = _hamjet.study_separations(scenes.read(scene, overrides), progress)
+    return Validity(**study.arrays(), _study=study)

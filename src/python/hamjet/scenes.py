@@ -1,0 +1,75 @@
+"""Scenes as Python gives them: a path, TOML text, or a dict."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Mapping
+from typing import Any, Union
+
+from . import _hamjet
+from .errors import UsageError
+
+#: A path (str or os.PathLike), TOML text (a str with a line break), or the tables as a mapping.
+Scene = Union[str, "os.PathLike[str]", Mapping[str, Any]]
+
+#: Changes of keys: a mapping from dotted key to value, or strings "key=value" as of ``--set``.
+Overrides = Union[Mapping[str, Any], Iterable[str]]
+
+#: The name of a scene that has no file, for messages.
+_NAME = "scene"
+
+
+def _toml_string(text: str) -> str:
+    escaped = text.replace("\\", "\\\\").replace('"', '\\"')
+    return '"' + "".join(f"\\u{ord(c):04x}" if c < " " or c == "\x7f" else c for c in escaped) + '"'
+
+
+def _toml(value: Any, key: str) -> str:
+    """The value as TOML, on one line."""
+    if hasattr(value, "dtype") and hasattr(value, "tolist"):
+        value = value.tolist()
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, (int, float)):
+        return repr(value)
+    if isinstance(value, str):
+        return _toml_string(value)
+    if isinstance(value, Mapping):
+        entries = (f"{_toml_string(str(k))} = {_toml(v, key)}" for k, v in value.items())
+        return "{" + ", ".join(entries) + "}"
+    if isinstance(value, (list, tuple)):
+        return "[" + ", ".join(_toml(element, key) for element in value) + "]"
+    raise UsageError(f"--set {key}: wrong type, got {type(value).__name__}, must be a bool, int, "
+                     "float, str, list, dict, NumPy array, or None, which removes the key")
+
+
+def _pairs(overrides: Overrides | None) -> list[tuple[str, str]]:
+    if overrides is None:
+        return []
+    if isinstance(overrides, Mapping):
+        return [(str(key), "null" if value is None else _toml(value, str(key)))
+                for key, value in overrides.items()]
+    if isinstance(overrides, str):
+        overrides = [overrides]
+    pairs = []
+    for text in overrides:
+        key, equals, value = str(text).partition("=")
+        if not key or not equals:
+            raise UsageError(f"--set {text}: must be key=value, for example jet.order=3")
+        pairs.append((key, value))
+    return pairs
+
+
+def read(scene: Scene, overrides: Overrides | None) -> _hamjet.GivenScene:
+    """Reads and checks a scene; raises SceneError, UsageError, InputOutputError, TooLargeError."""
+    pairs = _pairs(overrides)
+    if isinstance(scene, Mapping):
+        return _hamjet.scene_of_tables(scene, _NAME, pairs)
+    if isinstance(scene, str) and "\n" in scene:
+        return _hamjet.scene_of_text(scene, _NAME, pairs)
+    if isinstance(scene, (str, os.PathLike)):
+        if not os.fspath(scene):
+            raise UsageError("scene: empty, must name a file")
+        return _hamjet.scene_of_file(scene, pairs)
+    raise UsageError(f"scene: wrong type, got {type(scene).__name__}, must be a path, TOML text or "
+                     "a dict")

@@ -1,0 +1,171 @@
+#include "jet.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "hamjet/algebra/composition.hpp"
+#include "hamjet/error.hpp"
+#include "refusal.hpp"
+
+namespace hamjet::python {
+namespace {
+
+/// Two jets follow each other if the nominals meet to this, relative to the state: rounding on the
+/// way through a scene's units and digits, no more.
+constexpr double largest_gap = 1e-12;
+
+std::vector<Series<double>> deviation_map(const io::StoredJet& stored) {
+  return without_constants(convert_map<double>(stored.jet));
+}
+
+/// The map cut off at the order of a space in the same variables.
+template <class T>
+std::vector<Series<T>> cut_off(const std::vector<Series<T>>& map, const SpacePointer& space) {
+  std::vector<Series<T>> result;
+  for (const Series<T>& component : map) {
+    const auto kept = component.coefficients().first(space->size());
+    result.emplace_back(space, std::vector<T>(kept.begin(), kept.end()));
+  }
+  return result;
+}
+
+/// Works in the arithmetic of the jet: `work` is called with a number of its type, and returns a
+/// map in that type.
+template <class Work>
+FlowJet<Extended> in_precision(Precision precision, const Work& work) {
+  if (precision == Precision::extended) return work(Extended());
+  return convert_map<Extended>(work(double()));
+}
+
+std::string names_of(const io::StoredJet& stored, const std::vector<std::size_t>& indices) {
+  const auto names = stored.variable_names();
+  std::string text;
+  for (const std::size_t i : indices) text += fmt::format(" {}", names[i]);
+  return text;
+}
+
+void require_same_system(const io::StoredJet& first, const io::StoredJet& second) {
+  if (first.model != second.model ||
+      first.nominal_initial.size() != second.nominal_initial.size()) {
+    refuse(fmt::format("compose: the jets are of different systems, {} and {}",
+                       model_names()[static_cast<std::size_t>(first.model)],
+                       model_names()[static_cast<std::size_t>(second.model)]));
+  }
+  if (first.units.length_km != second.units.length_km ||
+      first.units.time_s != second.units.time_s) {
+    refuse(fmt::format(
+        "compose: the jets have different canonical units, {} km and {} s, {} km and "
+        "{} s; a scene's [units] length_km sets them",
+        first.units.length_km, first.units.time_s, second.units.length_km, second.units.time_s));
+  }
+}
+
+void require_meeting(const io::StoredJet& first, const io::StoredJet& second) {
+  double size = 0;
+  double gap = 0;
+  for (std::size_t i = 0; i < first.nominal_final.size(); ++i) {
+    size = std::max(size, std::abs(first.nominal_final[i]));
+    gap = std::max(gap, std::abs(first.nominal_final[i] - second.nominal_initial[i]));
+  }
+  if (!(gap <= largest_gap * size)) {
+    refuse(
+        fmt::format("compose: the second jet starts {:.3g} canonical units from where the first "
+                    "ends, must be at most {:.0e} of the state",
+                    gap, largest_gap));
+  }
+}
+
+}  // namespace
+
+Jet::Jet(io::StoredJet stored) : stored_(std::move(stored)), deviation_(deviation_map(stored_)) {
+  coefficients_.reserve(stored_.jet.size() * space()->size());
+  for (const Series<Extended>& component : stored_.jet) {
+    for (const Extended& c : component.coefficients()) {
+      coefficients_.push_back(static_cast<double>(c));
+    }
+  }
+}
+
+MapEvaluator Jet::deviation_to(int degree) const {
+  if (degree < 1 || degree > stored_.order()) {
+    refuse(
+        fmt::format("degree {}: must be 1 to the order of the jet, {}", degree, stored_.order()));
+  }
+  return MapEvaluator(deviation_map(stored_), degree);
+}
+
+Jet Jet::composed_with(const Jet& after) const {
+  const io::StoredJet& second = after.stored_;
+  require_same_system(stored_, second);
+  if (second.variables != stored_.components) {
+    refuse(
+        fmt::format("compose: the second jet is expanded in{}, must be in the components of the "
+                    "first,{}",
+                    names_of(second, second.variables), names_of(stored_, stored_.components)));
+  }
+  require_meeting(stored_, second);
+  io::StoredJet result = stored_;
+  result.scene =
+      stored_.scene == second.scene ? stored_.scene : stored_.scene + ", " + second.scene;
+  result.label =
+      stored_.label == second.label ? stored_.label : stored_.label + ", " + second.label;
+  const bool is_extended =
+      stored_.precision == Precision::extended && second.precision == Precision::extended;
+  result.precision = is_extended ? Precision::extended : Precision::double_precision;
+  result.duration = stored_.duration + second.duration;
+  result.nominal_final = second.nominal_final;
+  result.components = second.components;
+  const SpacePointer space =
+      SeriesSpace::create(stored_.variables.size(), std::min(stored_.order(), second.order()));
+  result.jet = in_precision(result.precision, [&]<class T>(T) {
+    const auto inner = cut_off(without_constants(convert_map<T>(stored_.jet)), space);
+    const auto outer = convert_map<T>(second.jet);
+    return compose(std::span<const Series<T>>(outer), std::span<const Series<T>>(inner));
+  });
+  return Jet(std::move(result));
+}
+
+Jet Jet::inverse() const {
+  if (stored_.variables != stored_.components) {
+    refuse(fmt::format("inverse: the jet is expanded in{}, must be in all of its components,{}",
+                       names_of(stored_, stored_.variables),
+                       names_of(stored_, stored_.components)));
+  }
+  io::StoredJet result = stored_;
+  result.duration = -stored_.duration;
+  std::swap(result.nominal_initial, result.nominal_final);
+  result.jet = in_precision(stored_.precision, [&]<class T>(T) {
+    const auto map = without_constants(convert_map<T>(stored_.jet));
+    return hamjet::inverse(std::span<const Series<T>>(map));
+  });
+  for (std::size_t c = 0; c < result.jet.size(); ++c) {
+    result.jet[c][0] = result.nominal_final[result.components[c]];
+  }
+  return Jet(std::move(result));
+}
+
+std::vector<SymplecticityDefect> Jet::symplecticity() const {
+  return symplecticity_by_degree(std::span<const Series<Extended>>(stored_.jet));
+}
+
+Jet jet_of(const PropagationResult& result, const RunResult& run) {
+  io::StoredJet stored;
+  stored.scene = result.scene.name;
+  stored.label = run.settings.label;
+  stored.model = result.scene.system.model;
+  stored.precision = result.scene.precision;
+  stored.units = result.scene.units;
+  stored.duration = result.scene.duration;
+  stored.nominal_initial = result.scene.nominal;
+  stored.nominal_final = run.nominal_final;
+  stored.components = result.problem.components;
+  stored.variables = result.scene.variables;
+  stored.jet = run.jet;
+  return Jet(std::move(stored));
+}
+
+}  // namespace hamjet::python

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "hamjet/io/stored_jet.hpp"
+#include "hamjet/maps/map_evaluator.hpp"
+#include "hamjet/maps/symplecticity.hpp"
+#include "hamjet/studies/propagation.hpp"
+
+namespace hamjet::python {
+
+/// The jet of a flow with what belongs to it, as Python holds it; immutable.
+class Jet {
+ public:
+  explicit Jet(io::StoredJet stored);
+
+  const io::StoredJet& stored() const noexcept { return stored_; }
+  const SpacePointer& space() const noexcept { return stored_.jet.at(0).space_pointer(); }
+  /// In double precision, component by component; the first of each is the nominal's final state.
+  std::span<const double> coefficients() const noexcept { return coefficients_; }
+  /// Of the final deviation: without the nominal's final state.
+  const MapEvaluator& deviation() const noexcept { return deviation_; }
+  /// The same without the terms above `degree`. Throws Error(usage) for one that is not 1 to the
+  /// order.
+  MapEvaluator deviation_to(int degree) const;
+
+  /// The jet of this flow and then `after`'s, of the lower of the two orders. Throws Error(usage)
+  /// unless `after` is of the same system, expanded in the components of this one, and starts where
+  /// this one ends.
+  Jet composed_with(const Jet& after) const;
+  /// The jet of the flow back. Throws Error(usage) unless it is expanded in all its components.
+  Jet inverse() const;
+  /// Formed in extended precision, as the command does.
+  std::vector<SymplecticityDefect> symplecticity() const;
+
+ private:
+  io::StoredJet stored_;
+  std::vector<double> coefficients_;
+  MapEvaluator deviation_;
+};
+
+/// The jet of a run that has a result.
+Jet jet_of(const PropagationResult& result, const RunResult& run);
+
+}  // namespace hamjet::python

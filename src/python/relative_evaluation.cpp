@@ -1,0 +1,50 @@
+#include "relative_evaluation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <span>
+
+#include "../cli/eval_coordinates.hpp"
+#include "../cli/jet_evaluation.hpp"
+#include "hamjet/error.hpp"
+
+namespace hamjet::python {
+
+void evaluate_relative(const Jet& jet, const RelativeCoordinates& coordinates, const double* states,
+                       std::size_t count, const RelativeResults& results,
+                       const std::function<void()>& pause) {
+  constexpr std::size_t columns = 6;
+  const io::StoredJet& stored = jet.stored();
+  if (coordinates.degree) jet.deviation_to(*coordinates.degree);  // refuses what is out of range
+  if (coordinates.frame == "canonical") {
+    throw Error(ErrorKind::usage, "--frame canonical: evaluate() takes canonical deviations");
+  }
+  const cli::EvalCoordinates frame(stored, coordinates.frame, coordinates.derivatives);
+  cli::JetEvaluation evaluation(stored, coordinates.degree);
+  std::size_t done = 0;
+  for (std::size_t row = 0; row < count; ++row) {
+    const auto variables = frame.variables(std::span(states + row * columns, columns));
+    if (!variables) {
+      throw Error(ErrorKind::usage,
+                  fmt::format("row {}: the deviation leaves the variables that the jet is expanded "
+                              "in",
+                              row));
+    }
+    evaluation.add(*variables);
+    if (evaluation.pending() < cli::JetEvaluation::most_points && row + 1 < count) continue;
+    evaluation.run([&](const std::vector<double>& deviation, const TruncationEstimate& estimate) {
+      const auto state = frame.final_state(deviation);
+      std::copy(state.begin(), state.end(), results.states + done * columns);
+      results.miss_m[done] = estimate.support == TruncationEstimate::Support::inside
+                                 ? estimate.miss
+                                 : std::numeric_limits<double>::quiet_NaN();
+      results.support[done] = static_cast<unsigned char>(estimate.support);
+      ++done;
+    });
+    pause();
+  }
+}
+
+}  // namespace hamjet::python

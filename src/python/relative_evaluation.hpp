@@ -1,0 +1,34 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "jet.hpp"
+
+namespace hamjet::python {
+
+/// The coordinates of relative states, as `hamjet eval` takes them.
+struct RelativeCoordinates {
+  std::string frame = "RTN";
+  std::optional<std::string> derivatives = std::nullopt;
+  std::optional<int> degree = std::nullopt;
+};
+
+/// Where results go: of each of `count` rows the final state (6 numbers), the estimate of the miss
+/// in metres (NaN where there is none) and TruncationEstimate::Support as a number.
+struct RelativeResults {
+  double* states;
+  double* miss_m;
+  unsigned char* support;
+};
+
+/// What `hamjet eval` does: relative states at the start, rows of 6 numbers, to the end of the
+/// jet's duration, with what the degrees that the jet lacks would add. Throws Error(usage) if the
+/// coordinates do not fit the jet or a row leaves the variables it is expanded in. `pause` is
+/// called now and then and may throw.
+void evaluate_relative(const Jet& jet, const RelativeCoordinates& coordinates, const double* states,
+                       std::size_t count, const RelativeResults& results,
+                       const std::function<void()>& pause);
+
+}  // namespace hamjet::python

@@ -1,0 +1,230 @@
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <functional>
+#include <memory>
+
+#include "../cli/report_origin.hpp"
+#include "../cli/required_tables.hpp"
+#include "../io/transfer_view.hpp"
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "given_scene.hpp"
+#include "hamjet/error.hpp"
+#include "hamjet/io/relative_motion_report.hpp"
+#include "interruptible.hpp"
+#include "written_set.hpp"
+
+namespace hamjet::python {
+namespace {
+
+/// A study's result, and the files that the command writes of it, made when they are asked for.
+template <class Result>
+class Studied {
+ public:
+  using MakeReport = std::function<io::StudyReport(const Result&)>;
+
+  Studied(Result result, MakeReport make_report)
+      : result_(std::make_shared<const Result>(std::move(result))),
+        make_report_(std::move(make_report)) {}
+
+  const std::shared_ptr<const Result>& result() const { return result_; }
+  const io::StudyReport& report() const {
+    if (!report_) {
+      auto made = interruptibly(py::none(), [result = result_, make = make_report_](
+                                                const ProgressCallback&) { return make(*result); });
+      // Another thread may have come first; what it has handed out stays.
+      if (!report_) report_ = std::make_shared<const io::StudyReport>(std::move(made));
+    }
+    return *report_;
+  }
+
+ private:
+  std::shared_ptr<const Result> result_;
+  MakeReport make_report_;
+  mutable std::shared_ptr<const io::StudyReport> report_;
+};
+
+/// What reports say of where they come from.
+io::ReportOrigin origin() { return cli::report_origin("the Python module hamjet"); }
+
+Studied<TransferResult> study_transfers(const GivenScene& given, const py::object& progress) {
+  const Scene checked = given.flow_jet();
+  cli::require_transfer(checked, given.file);
+  return interruptibly(progress, [scene = checked,
+                                  file = given.file](const ProgressCallback& report) {
+    TransferResult result = cli::study_of(file, [&] { return study_transfer(scene, report); });
+    std::optional<ValidityResult> validity;
+    if (scene.validity) validity = study_validity(scene, report);
+    return Studied<TransferResult>(std::move(result), [validity](const TransferResult& studied) {
+      constexpr int trajectory_intervals = 400;
+      std::optional<RelativeTrajectory> trajectory;
+      if (const auto best = studied.best_point()) {
+        trajectory = fly_relative(studied, *best, trajectory_intervals);
+      }
+      return io::transfer_report(studied, trajectory, validity, origin());
+    });
+  });
+}
+
+Studied<ValidityResult> study_separations(const GivenScene& given, const py::object& progress) {
+  const Scene checked = given.flow_jet();
+  cli::require_validity(checked, given.file);
+  return interruptibly(
+      progress, [scene = checked, file = given.file](const ProgressCallback& report) {
+        return Studied<ValidityResult>(
+            cli::study_of(file, [&] { return study_validity(scene, report); }),
+            [](const ValidityResult& studied) { return io::validity_report(studied, origin()); });
+      });
+}
+
+/// Columns of numbers that grow row by row.
+struct Table {
+  std::vector<double> numbers = {};
+
+  void add(double number) { numbers.push_back(number); }
+  void add(const Eigen::Vector3d& vector) {
+    for (const double x : vector) numbers.push_back(x);
+  }
+  py::array_t<double> array(std::vector<py::ssize_t> shape = {}) {
+    return array_of(std::move(numbers), std::move(shape));
+  }
+};
+
+const Eigen::Vector3d no_vector = Eigen::Vector3d::Constant(none);
+
+/// Velocity changes and misses of all orders, NaN where an order has no answer.
+void add_orders(const TransferResult& result, py::dict& arrays) {
+  Table start, end, miss;
+  const auto points = size_of(result.points.size());
+  const py::ssize_t orders = result.scene.order;
+  for (const TransferPoint& point : result.points) {
+    for (int order = 1; order <= result.scene.order; ++order) {
+      const TransferAnswer* answer = io::answer_of_order(point, order);
+      start.add(answer != nullptr ? answer->start_change_m_s : no_vector);
+      end.add(answer != nullptr ? answer->end_change_m_s : no_vector);
+      miss.add(answer != nullptr ? answer->miss_m : none);
+    }
+  }
+  arrays["start_change_by_order_m_s"] = start.array({points, orders, 3});
+  arrays["end_change_by_order_m_s"] = end.array({points, orders, 3});
+  arrays["miss_by_order_m"] = miss.array({points, orders});
+}
+
+py::dict transfer_arrays(const TransferResult& result) {
+  const double unit = result.scene.units.time_s;
+  Table time, condition, position_condition, distance, start, end, total, miss, residual;
+  std::vector<bool> near, beyond, refined;
+  py::list kinds, failures;
+  for (const TransferPoint& point : result.points) {
+    const TransferAnswer* answer = io::shown_answer(point);
+    time.add(point.time * unit);
+    condition.add(point.kind ? point.condition : none);
+    position_condition.add(point.position_condition);
+    distance.add(point.singular_distance.value_or(none) * unit);
+    start.add(answer != nullptr ? answer->start_change_m_s : no_vector);
+    end.add(answer != nullptr ? answer->end_change_m_s : no_vector);
+    total.add(answer != nullptr ? answer->total_change_m_s() : none);
+    miss.add(answer != nullptr ? answer->miss_m : none);
+    residual.add(point.hamilton_jacobi_residual.value_or(none));
+    near.push_back(point.is_near_singular);
+    beyond.push_back(point.is_beyond_tolerance);
+    refined.push_back(point.is_refined());
+    kinds.append(point.kind ? py::object(py::str(point.kind->name())) : py::none());
+    failures.append(py::str(io::failure_text(point)));
+  }
+  const auto points = size_of(result.points.size());
+  py::dict arrays;
+  arrays["times_s"] = time.array();
+  arrays["kinds"] = py::tuple(kinds);
+  arrays["conditions"] = condition.array();
+  arrays["position_conditions"] = position_condition.array();
+  arrays["singular_distances_s"] = distance.array();
+  arrays["start_change_m_s"] = start.array({points, 3});
+  arrays["end_change_m_s"] = end.array({points, 3});
+  arrays["total_change_m_s"] = total.array();
+  arrays["miss_m"] = miss.array();
+  arrays["hamilton_jacobi_residuals"] = residual.array();
+  arrays["near_singular"] = flags(near);
+  arrays["beyond_tolerance"] = flags(beyond);
+  arrays["refined"] = flags(refined);
+  arrays["failures"] = py::tuple(failures);
+  add_orders(result, arrays);
+  Table singular;
+  for (const SingularTime& entry : result.position_singularities()) singular.add(entry.time * unit);
+  arrays["singular_times_s"] = singular.array();
+  arrays["best"] = result.best_point();
+  arrays["flight_floor_m"] = result.flight_floor_m;
+  return arrays;
+}
+
+/// (times in s, states (count + 1, 6) along R, T, N in m and m/s) of one point's best answer.
+py::tuple fly(const Studied<TransferResult>& studied, std::size_t point, int count) {
+  const TransferResult& result = *studied.result();
+  if (point >= result.points.size() || io::shown_answer(result.points[point]) == nullptr) {
+    throw Error(ErrorKind::usage, "trajectory: this transfer time has no answer");
+  }
+  if (count < 1) throw Error(ErrorKind::usage, "trajectory: count must be at least 1");
+  const RelativeTrajectory trajectory =
+      interruptibly(py::none(), [result = studied.result(), point, count](const ProgressCallback&) {
+        return fly_relative(*result, point, count);
+      });
+  Table times, states;
+  for (std::size_t i = 0; i < trajectory.times.size(); ++i) {
+    times.add(trajectory.times[i] * result.scene.units.time_s);
+    states.add(trajectory.states[i].position_m);
+    states.add(trajectory.states[i].velocity_m_s);
+  }
+  const auto rows = size_of(trajectory.times.size());
+  return py::make_tuple(times.array(), states.array({rows, 6}));
+}
+
+py::dict validity_arrays(const ValidityResult& result) {
+  Table time, predicted, proved, miss;
+  std::vector<bool> limit;
+  for (const ValidityPoint& point : result.points) {
+    time.add(point.time * result.scene.units.time_s);
+    for (const ValidityEntry& entry : point.entries) {
+      predicted.add(entry.predicted_m);
+      proved.add(entry.proved_m);
+      miss.add(entry.miss_m);
+      limit.push_back(entry.is_at_limit);
+    }
+  }
+  const std::vector<py::ssize_t> shape = {size_of(result.points.size()), result.scene.order};
+  py::dict arrays;
+  arrays["times_s"] = time.array();
+  arrays["predicted_m"] = predicted.array(shape);
+  arrays["proved_m"] = proved.array(shape);
+  arrays["miss_m"] = miss.array(shape);
+  arrays["is_lower_bound"] = flags(limit, shape);
+  return arrays;
+}
+
+/// What both studies have in common.
+template <class Result>
+py::class_<Studied<Result>> bind_study(py::module_& module, const char* name) {
+  return py::class_<Studied<Result>>(module, name)
+      .def_property_readonly("summary",
+                             [](const Studied<Result>& s) { return s.report().summary(); })
+      .def_property_readonly("failure", [](const Studied<Result>& s) { return s.report().failure; })
+      .def("write", [](const Studied<Result>& s, const std::filesystem::path& directory) {
+        write_set(s.report(), directory);
+      });
+}
+
+}  // namespace
+
+void bind_relative_motion(py::module_& module) {
+  bind_study<TransferResult>(module, "TransferStudy")
+      .def_property_readonly(
+          "exit_code", [](const Studied<TransferResult>& s) { return exit_code(*s.result()); })
+      .def("arrays", [](const Studied<TransferResult>& s) { return transfer_arrays(*s.result()); })
+      .def("fly", &fly);
+  bind_study<ValidityResult>(module, "ValidityStudy")
+      .def("arrays", [](const Studied<ValidityResult>& s) { return validity_arrays(*s.result()); });
+  module.def("study_transfers", &study_transfers, py::arg("scene"), py::arg("progress"));
+  module.def("study_separations", &study_separations, py::arg("scene"), py::arg("progress"));
+}
+
+}  // namespace hamjet::python

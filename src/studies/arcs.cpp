@@ -1,0 +1,76 @@
+#include "hamjet/studies/arcs.hpp"
+
+#include <fmt/format.h>
+
+#include "integration.hpp"
+
+namespace hamjet {
+
+bool can_be_split(IntegrationMethod method) {
+  return method == IntegrationMethod::gauss || method == IntegrationMethod::stormer ||
+         method == IntegrationMethod::velocity_verlet;
+}
+
+std::optional<std::string> reason_not_to_split(const Scene& scene,
+                                               const IntegratorSettings& settings) {
+  if (!can_be_split(settings.method)) {
+    return fmt::format("{} is not available in arcs",
+                       method_names()[static_cast<std::size_t>(settings.method)]);
+  }
+  if (scene.figure && scene.figure->quantity == FigureQuantity::exactness) {
+    return "the figure takes the jet after every step";
+  }
+  return std::nullopt;
+}
+
+SplittableMethod splittable_method(const IntegratorSettings& settings) {
+  switch (settings.method) {
+    case IntegrationMethod::gauss: {
+      GaussSettings gauss;
+      gauss.stages = settings.stages;
+      gauss.step = settings.step_canonical;
+      gauss.tolerance = settings.tolerance;
+      gauss.compensated_summation = settings.compensated_summation;
+      return gauss;
+    }
+    case IntegrationMethod::stormer:
+      return StormerSettings{*settings.step_canonical};
+    case IntegrationMethod::velocity_verlet:
+      if (settings.order == 2) return VelocityVerletSettings{*settings.step_canonical};
+      return SymmetricCompositionSettings{settings.order, *settings.step_canonical};
+    case IntegrationMethod::newmark:
+    case IntegrationMethod::fehlberg78:
+    case IntegrationMethod::cvode_adams:
+    case IntegrationMethod::cvode_bdf:
+      break;
+  }
+  throw Error(ErrorKind::usage,
+              fmt::format("integrator {}: this method cannot be split into arcs", settings.label));
+}
+
+ArcPlan plan_arcs(const Scene& scene, const ComputedProblem& problem,
+                  const IntegratorSettings& settings, const ProgressCallback& progress) {
+  if (const auto reason = reason_not_to_split(scene, settings)) {
+    ArcPlan plan;
+    plan.reason = *reason;
+    return plan;
+  }
+  const ArcProgress report = [&](double fraction) {
+    if (progress) progress(settings.label + ": arcs", fraction);
+  };
+  const SplittableMethod method = splittable_method(settings);
+  if (scene.precision == Precision::extended) {
+    return plan_arcs(flow_problem<Extended>(problem, scene.duration), method, scene.arcs, report);
+  }
+  return plan_arcs(flow_problem<double>(problem, scene.duration), method, scene.arcs, report);
+}
+
+void require_unsplit(const Scene& scene, const std::string& who) {
+  if (scene.arcs == std::optional<std::size_t>(1)) return;
+  throw Error(ErrorKind::scene,
+              fmt::format("jet.arcs: {} takes jets along one propagation, which is not split; "
+                          "must be 1 or left out, as by --set jet.arcs=1",
+                          who));
+}
+
+}  // namespace hamjet

@@ -1,0 +1,112 @@
+#include "hamjet/algebra/horner_composition.hpp"
+
+#include <gtest/gtest.h>
+
+#include <span>
+#include <vector>
+
+#include "hamjet/algebra/composition.hpp"
+#include "support/errors.hpp"
+#include "support/random_series.hpp"
+
+// Horner's scheme against the composition monomial by monomial, an independent algorithm: on whole
+// numbers below 2^53, where neither rounds, they agree exactly.
+
+namespace hamjet {
+namespace {
+
+using test::RandomNumbers;
+
+template <class T>
+std::vector<Series<T>> random_map(const SpacePointer& space, std::size_t components,
+                                  RandomNumbers& random) {
+  std::vector<Series<T>> map;
+  for (std::size_t i = 0; i < components; ++i) {
+    map.push_back(test::random_integer_series<T>(space, random, 2));
+  }
+  return map;
+}
+
+template <class T>
+void expect_same(const std::vector<Series<T>>& outer, const std::vector<Series<T>>& inner) {
+  const std::span<const Series<T>> f(outer);
+  const std::span<const Series<T>> g(inner);
+  EXPECT_EQ(test::largest_difference(compose_by_horner(f, g), compose(f, g)), 0);
+}
+
+template <class T>
+void compare(std::size_t outer_variables, int outer_order, std::size_t inner_variables,
+             int inner_order, std::size_t components) {
+  SCOPED_TRACE(::testing::Message() << outer_variables << " variables, order " << outer_order
+                                    << ", of " << inner_variables << ", order " << inner_order
+                                    << "; " << components << " components");
+  RandomNumbers random(7);
+  const auto outer =
+      random_map<T>(SeriesSpace::create(outer_variables, outer_order), components, random);
+  auto inner =
+      random_map<T>(SeriesSpace::create(inner_variables, inner_order), outer_variables, random);
+  inner = without_constants(std::move(inner));
+  expect_same(outer, inner);
+}
+
+TEST(ComposeByHorner, AgreesWithComposition) {
+  // Every number of lanes, filled and not; blocks of every degree, and those without blocks.
+  for (std::size_t components = 1; components <= 11; ++components) {
+    compare<double>(3, 4, 3, 4, components);
+  }
+  compare<double>(1, 9, 1, 9, 1);
+  compare<double>(2, 6, 2, 6, 2);
+  compare<double>(4, 4, 4, 4, 4);
+  compare<double>(6, 4, 6, 4, 6);
+  compare<double>(3, 8, 3, 8, 2);  // blocks too large for the registers
+}
+
+TEST(ComposeByHorner, BetweenDifferentSpaces) {
+  compare<double>(6, 3, 4, 3, 6);
+  compare<double>(2, 5, 5, 5, 3);
+  compare<double>(3, 2, 3, 6, 3);
+  compare<double>(3, 6, 3, 2, 3);
+}
+
+TEST(ComposeByHorner, InExtendedPrecision) {
+  compare<Extended>(3, 4, 4, 4, 5);
+  compare<Extended>(2, 5, 2, 5, 1);
+}
+
+TEST(ComposeByHorner, OfAnOuterMapOfLowDegree) {
+  RandomNumbers random(8);
+  const auto space = SeriesSpace::create(3, 5);
+  const auto inner = without_constants(random_map<double>(space, 3, random));
+  auto outer = random_map<double>(space, 3, random);
+  for (int d = 5; d >= 1; --d) {
+    for (auto& component : outer) {
+      for (double& x : component.slice(d)) x = 0;
+    }
+    expect_same(outer, inner);  // at last constants alone
+  }
+}
+
+TEST(ComposeByHorner, RefusesWhatDoesNotFit) {
+  const auto space = SeriesSpace::create(2, 3);
+  const std::vector<Series<double>> one(1, Series<double>::variable(space, 0));
+  const std::vector<Series<double>> shifted(2, Series<double>::variable(space, 0, 1.0));
+  const std::span<const Series<double>> outer(one);
+  test::expect_error(ErrorKind::usage, "as many components",
+                     [&] { compose_by_horner(outer, outer); });
+  test::expect_error(ErrorKind::usage, "constant term",
+                     [&] { compose_by_horner(outer, std::span<const Series<double>>(shifted)); });
+}
+
+TEST(HornerMultiplyAdds, CountsPairsOfMonomials) {
+  // At each node of depth k, of which there are C(k+5, 5), pairs of a monomial of degree 0..6-k of
+  // the node and one of degree 1 and more of a variable's series, of degree 7-k at most together;
+  // with 6, 21, 56, 126, 252, 462 monomials of degree 1..6: 17640, 5726, 1610, 371, 63, 6 pairs.
+  const auto space = SeriesSpace::create(6, 6);
+  EXPECT_EQ(horner_multiply_adds(6, 6, *space),
+            6 * 17640 + 21 * 5726 + 56 * 1610 + 126 * 371 + 252 * 63 + 462 * 6);
+  // A linear map: each variable's series once.
+  EXPECT_EQ(horner_multiply_adds(6, 1, *space), 6 * 923);
+}
+
+}  // namespace
+}  // namespace hamjet

@@ -1,0 +1,89 @@
+#include <sys/stat.h>
+
+#include "command_test.hpp"
+#include "hamjet/io/hdf5_jets.hpp"
+
+// `hamjet convert`, and what other commands say of files of jets.
+
+namespace hamjet::test {
+namespace {
+
+class ConvertTest : public CommandTest {
+ protected:
+  void SetUp() override { succeed({"run", "quick.toml", "-q", "-o", "results"}); }
+
+  /// The endings of this build.
+  static std::vector<std::string> endings() {
+    std::vector<std::string> all = {".dace", ".csv"};
+    if (io::hdf5_available()) all.emplace_back(".h5");
+    return all;
+  }
+};
+
+TEST_F(ConvertTest, ThereAndBack) {
+  const std::string midpoint = content(directory_ / "results" / "midpoint" / "jet.csv");
+  for (const std::string& ending : endings()) {
+    const std::string file = "results/other" + ending;
+    EXPECT_EQ(succeed({"convert", "results", file, "--run", "midpoint"}).out, "");
+    // A file of coefficients does not say whose they are.
+    succeed({"convert", file, "back.csv", "--run", "midpoint"});
+    EXPECT_EQ(content(directory_ / "back.csv"), midpoint) << ending;
+    const std::string one = "100,-200,300,0.1,0,0.2";
+    EXPECT_EQ(succeed({"eval", file, "--run", "midpoint", "-q", "--deviation", one}).out,
+              succeed({"eval", "results", "--run", "midpoint", "-q", "--deviation", one}).out);
+  }
+}
+
+TEST_F(ConvertTest, ExtendedPrecisionInTheTextOfDace) {
+  succeed({"run", "quick.toml", "-q", "-o", "extended", "--set", "precision=extended", "--set",
+           "integrator.midpoint=null"});
+  const CommandResult result = hamjet({"convert", "extended", "jet.dace"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_NE(result.err.find("17 digits"), std::string::npos) << result.err;
+  EXPECT_NE(content(directory_ / "jet.dace").find("rounded"), std::string::npos);
+}
+
+TEST_F(ConvertTest, Mistakes) {
+  expect_error({"convert"}, 2, {"from"});
+  expect_error({"convert", "results"}, 2, {"to"});
+  expect_error({"convert", "", "a.csv"}, 2, {"from: empty"});
+  expect_error({"convert", "results", ""}, 2, {"must end in .h5, .dace or .csv"});
+  expect_error({"convert", "results", "a.txt"}, 2, {"a.txt", "must end in .h5, .dace or .csv"});
+  expect_error({"convert", "results", "a.csv", "--run", ""}, 2, {"--run: empty"});
+  expect_error({"convert", "results", "a.csv", "--run", "gaus8"}, 2, {"did you mean gauss8?"});
+  expect_error({"convert", "results/gauss8/jet.csv", "results/gauss8/jet.csv"}, 2, {"same file"});
+  expect_error({"convert", "results", "results/gauss8/jet.csv"}, 2, {"would be replaced"});
+  expect_error({"convert", "results/summary.json", "a.csv"}, 5,
+               {"summary.json: is neither a results directory"});
+  expect_error({"convert", "absent", "a.csv"}, 5, {"absent/summary.json", "No such file"});
+  expect_error({"convert", "absent.h5", "a.csv"}, 5, {"absent.h5"});
+  expect_error({"convert", "results", "quick.toml/a.csv"}, 5, {"quick.toml"});
+  write("far.csv", content(directory_ / "results" / "gauss8" / "jet.csv"));
+  expect_error({"convert", "far.csv", "a.csv"}, 5, {"far.csv: no summary.json beside it"});
+  ASSERT_EQ(::mkfifo((directory_ / "pipe.csv").c_str(), 0600), 0);
+  expect_error({"convert", "pipe.csv", "a.csv"}, 5, {"pipe.csv", "not a regular file"});
+  if (!io::hdf5_available()) {
+    expect_error({"convert", "results", "a.h5"}, 2, {"-DHAMJET_HDF5=ON"});
+    expect_error({"eval", "far.h5", "--deviation", "0"}, 5, {"far.h5"});
+  }
+}
+
+TEST_F(ConvertTest, DamagedFiles) {
+  for (const std::string& ending : endings()) {
+    const std::string name = "results/cut" + ending;
+    succeed({"convert", "results", name});
+    const std::string good = content(directory_ / name);
+    for (const std::size_t length : {std::size_t{0}, std::size_t{100}, good.size() / 2}) {
+      write(name, good.substr(0, length));
+      expect_error({"eval", name, "--run", "gauss8", "--deviation", "0,0,0,0,0,0"}, 5,
+                   {"cut" + ending + ":"});
+    }
+  }
+  // A file of the results themselves, changed in a place that still reads well.
+  const std::string csv = "results/gauss8/jet.csv";
+  write(csv, changed(content(directory_ / csv), "x,1,0,0,0,0,0,", "x,1,0,0,0,0,0,-"));
+  expect_error({"convert", csv, "a.csv"}, 5, {"jet.csv", "CRC-32"});
+}
+
+}  // namespace
+}  // namespace hamjet::test

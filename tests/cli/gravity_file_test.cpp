@@ -1,0 +1,65 @@
+#include "command_test.hpp"
+
+// A gravity field from a file: what the results say of it, and what is said of a damaged one.
+
+namespace hamjet::test {
+namespace {
+
+class GravityFile : public CommandTest {
+ protected:
+  GravityFile() {
+    const std::filesystem::path shipped = HAMJET_SOURCE_DIR;
+    std::filesystem::create_directory(directory_ / "scenes");
+    write("field.gfc", content(shipped / "data/gravity/EGM96-zonals.gfc"));
+    write("scenes/scene.toml",
+          changed(quick_scene(), "model = \"kepler\"\nmu_km3_s2 = 398600.4415",
+                  "model = \"zonal-gravity\"\ngravity_file = \"../field.gfc\"\nhighest_zonal = 6"));
+  }
+};
+
+TEST_F(GravityFile, IsNamedInTheSummaryWithAllThatWasTakenFromIt) {
+  succeed({"run", "scenes/scene.toml", "-q", "-o", "file"});
+  const Json system = read_json(directory_ / "file/summary.json")["system"];
+  EXPECT_EQ(system["mu_km3_s2"], 398600.4415);
+  EXPECT_EQ(system["radius_km"], 6378.1363);
+  EXPECT_EQ(system["zonal_coefficients"].size(), 5U);
+  EXPECT_EQ(system["zonal_coefficients"]["J4"], -1.619621591367e-6);
+  EXPECT_EQ(system["gravity_file"]["file"], "../field.gfc");
+  EXPECT_EQ(system["gravity_file"]["model_name"], "EGM96");
+  EXPECT_EQ(system["gravity_file"]["tide_system"], "tide_free");
+  // The same numbers key by key give the same results.
+  const Json& J = system["zonal_coefficients"];
+  std::string table = "system={model=\"zonal-gravity\", mu_km3_s2=398600.4415, radius_km=6378.1363";
+  for (const auto& [key, value] : J.items()) table += ", " + key + "=" + value.dump();
+  succeed({"run", "scenes/scene.toml", "-q", "-o", "keys", "--set", table + "}"});
+  const Json other = read_json(directory_ / "keys/summary.json");
+  EXPECT_EQ(other["system"]["zonal_coefficients"], J);
+  EXPECT_TRUE(other["system"]["gravity_file"].is_null());
+  EXPECT_EQ(content(directory_ / "keys/gauss8/jet.csv"),
+            content(directory_ / "file/gauss8/jet.csv"));
+  // No orbit, no field.
+  succeed({"run", "scenes/scene.toml", "-q", "-o", "kepler", "--set",
+           "system={model=\"kepler\", mu_km3_s2=1}"});
+  EXPECT_TRUE(read_json(directory_ / "kepler/summary.json")["system"]["radius_km"].is_null());
+}
+
+TEST_F(GravityFile, DamagedItIsOneLineAndExitCode5) {
+  const std::string field = content(directory_ / "field.gfc");
+  const auto refuse = [&](const std::string& damaged, const std::string& words) {
+    write("field.gfc", damaged);
+    for (const char* command : {"run", "check"}) {
+      expect_error({command, "scenes/scene.toml"}, 5, {"scenes/../field.gfc:", words});
+    }
+  };
+  refuse(changed(field, "end_of_head", "end"), ":38: the header has no end_of_head");
+  refuse(changed(field, "0.539873863789e-06", "0.53987386378ge-06"),
+         ":22: C(4,0): must be a finite");
+  refuse(changed(field, "gfc     5    0", "gfct    5    0"), ":23: gfct: C(5,0) varies with time");
+  refuse(field.substr(0, field.find("gfc     6")), ":23: the file ends without C(6,0)");
+  refuse("", ":1: the header has no end_of_head");
+  std::filesystem::remove(directory_ / "field.gfc");
+  expect_error({"run", "scenes/scene.toml"}, 5, {"scenes/../field.gfc: ", "No such file"});
+}
+
+}  // namespace
+}  // namespace hamjet::test

@@ -1,0 +1,34 @@
+#include <cmath>
+
+#include "fuzz_target.hpp"
+#include "hamjet/io/gravity_field_file.hpp"
+
+// Target: a gravity field in the format of ICGEM, all zonal coefficients to degree 6 asked for.
+
+namespace hamjet::fuzz {
+namespace {
+
+void check(const io::GravityField& field) {
+  require(std::isnormal(field.mu_km3_s2) && field.mu_km3_s2 > 0, "gravity constant");
+  require(std::isnormal(field.radius_km) && field.radius_km > 0, "radius");
+  require(field.max_degree >= 6 && field.J.highest_present() <= 6, "degrees");
+  for (int n = ZonalCoefficients::lowest; n <= ZonalCoefficients::highest; ++n) {
+    require(std::abs(field.J[n]) <= 1, "zonal coefficient");
+  }
+  require(field.model_name.find('\n') == std::string::npos && field.model_name.size() < 1000,
+          "name of the model");
+}
+
+}  // namespace
+}  // namespace hamjet::fuzz
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace hamjet;
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  fuzz::is_read(
+      [&] {
+        fuzz::check(io::parse_gravity_field("field.gfc", text, {6, {}}));
+      },
+      {{ErrorKind::input_output}, {"field.gfc:"}});
+  return 0;
+}

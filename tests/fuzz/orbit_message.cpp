@@ -1,0 +1,40 @@
+#include "hamjet/io/orbit_message.hpp"
+
+#include "fuzz_target.hpp"
+
+// Target: orbit messages, read as an ephemeris and as parameters. What is read is finite and in
+// order, and is read again from what is written of it.
+
+namespace hamjet::fuzz {
+namespace {
+
+void check(const io::OrbitState& state) {
+  require_finite({state.position_km.begin(), state.position_km.end()}, "position");
+  require_finite({state.velocity_km_s.begin(), state.velocity_km_s.end()}, "velocity");
+  require(io::parse_epoch(io::format_epoch(state.epoch)) == state.epoch, "an epoch changes");
+}
+
+void check(const io::OrbitEphemerisMessage& message) {
+  require(!message.segments.empty(), "no segment");
+  for (const io::EphemerisSegment& segment : message.segments) {
+    require(!segment.states.empty(), "no states");
+    for (const io::OrbitState& state : segment.states) check(state);
+    for (std::size_t i = 1; i < segment.states.size(); ++i) {
+      require(segment.states[i - 1].epoch < segment.states[i].epoch, "epochs out of order");
+    }
+  }
+  const std::string text = io::oem_text(message);
+  require(io::oem_text(io::read_oem("again.oem", text)) == text, "written again it is another");
+}
+
+}  // namespace
+}  // namespace hamjet::fuzz
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace hamjet;
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  const fuzz::Refusal refusal = {{ErrorKind::input_output}, {"orbit:"}};
+  fuzz::is_read([&] { fuzz::check(io::read_oem("orbit", text)); }, refusal);
+  fuzz::is_read([&] { fuzz::check(io::read_opm("orbit", text).state); }, refusal);
+  return 0;
+}

@@ -1,0 +1,154 @@
+"""Relative states, transfers and validity: equal to what the command writes."""
+
+import csv
+import io
+
+import numpy as np
+import pytest
+
+import hamjet
+from conftest import ORBIT, OSCILLATOR, SOURCE, command, message, scene
+from test_results import without_times
+
+TRANSFER = scene(
+    ORBIT, jet={"order": 3, "duration_orbits": 0.9},
+    transfer={"frame": "RTN", "derivatives": "rotating", "count": 6, "refine": True,
+              "start": {"position_m": [0, -1000, 500]}, "end": {"position_m": [0, -100, 0]}})
+
+TRANSFER_SCENE = SOURCE / "data" / "scenes" / "transfer-earth-orbit.toml"
+FEW_TIMES = ["transfer.count=6", "jet.order=3", "jet.duration_orbits=0.9"]
+
+
+def columns(text):
+    rows = list(csv.DictReader(io.StringIO(text)))
+    return {name: [row[name] for row in rows] for name in rows[0]}
+
+
+def numbers(fields):
+    return np.array([float(field) if field else np.nan for field in fields])
+
+
+@pytest.mark.parametrize("frame, derivatives, degree", [
+    ("RTN", None, None), ("RTN", "inertial", None), ("inertial", None, 2)])
+def test_relative_states_are_those_of_eval(tmp_path, frame, derivatives, degree):
+    result = hamjet.run(ORBIT)
+    jet = result.runs["gauss8"].jet
+    result.write(tmp_path / "out")
+    # The last is so far off that the degrees do not decay there.
+    states = np.random.default_rng(4).uniform(-1, 1, (50, 6)) * ([5e3] * 3 + [5] * 3)
+    states[-1] *= 10000
+    names = {"RTN": "R_m,T_m,N_m,vR_m_s,vT_m_s,vN_m_s",
+             "inertial": "x_m,y_m,z_m,vx_m_s,vy_m_s,vz_m_s"}[frame]
+    (tmp_path / "in.csv").write_text(
+        names + "\n" + "".join(",".join(map(repr, map(float, row))) + "\n" for row in states))
+    options = [*(["--derivatives", derivatives] if derivatives else []),
+               *(["--degree", degree] if degree else [])]
+    printed = command("eval", tmp_path / "out", "--deviations", tmp_path / "in.csv", "--frame",
+                      frame, "-q", *options, directory=tmp_path)
+    expected = columns(printed.stdout)
+    found = jet.evaluate_relative(states, frame=frame, derivatives=derivatives, degree=degree)
+    for i, name in enumerate(names.split(",")):
+        assert (found.states[:, i] == numbers(expected[name])).all(), name
+    assert list(found.support) == expected["support"]
+    assert "outside" in found.support and "inside" in found.support
+    miss = numbers(expected["miss_estimate_m"])
+    # Three digits are printed.
+    assert np.allclose(found.miss_m, miss, rtol=1e-2, atol=0, equal_nan=True)
+    with pytest.raises(ValueError):
+        found.states[0] = 0
+
+
+def test_frames_that_do_not_fit_are_refused(jet):
+    oscillator = hamjet.run(OSCILLATOR).runs["gauss8"].jet
+    momenta = hamjet.run(ORBIT, overrides={"jet.variables": ["px", "py", "pz"]}).runs["gauss8"].jet
+    state = np.ones(6)
+    for call, text in (
+        (lambda: jet.evaluate_relative(state, frame="LVLH"), "--frame LVLH: has two meanings"),
+        (lambda: jet.evaluate_relative(state, frame="canonical"), "--frame canonical"),
+        (lambda: jet.evaluate_relative(state, frame="inertial", derivatives="rotating"),
+         "--derivatives: goes with --frame RTN alone"),
+        (lambda: oscillator.evaluate_relative(state), "harmonic-oscillator is no orbit"),
+        (lambda: momenta.evaluate_relative(np.vstack([state * [0, 0, 0, 1, 1, 1], state]),
+                                           derivatives="inertial"), "row 1: the deviation leaves"),
+    ):
+        with pytest.raises(hamjet.UsageError, match=text):
+            call()
+
+
+def test_transfers_are_those_of_the_command(tmp_path):
+    options = [word for text in FEW_TIMES for word in ("--set", text)]
+    printed = command("transfer", TRANSFER_SCENE, "-o", tmp_path / "out", "-q", *options,
+                      directory=tmp_path)
+    assert printed.returncode == 0, printed.stderr
+    transfers = hamjet.transfer(TRANSFER_SCENE, overrides=FEW_TIMES)
+    expected = columns((tmp_path / "out" / "transfers.csv").read_text(encoding="utf-8"))
+    assert transfers.times_s.shape == (6,)
+    assert list(transfers.kinds) == expected["kind"]
+    for name, column in (("times_s", "time_s"), ("conditions", "condition"),
+                         ("position_conditions", "position_condition"),
+                         ("singular_distances_s", "singular_distance_s"),
+                         ("total_change_m_s", "total_change_m_s"),
+                         ("hamilton_jacobi_residuals", "hamilton_jacobi_residual")):
+        assert (getattr(transfers, name) == numbers(expected[column])).all(), name
+    for end, array in (("start", transfers.start_change_m_s), ("end", transfers.end_change_m_s)):
+        for i, axis in enumerate("rtn"):
+            assert (array[:, i] == numbers(expected[f"{end}_change_{axis}_m_s"])).all()
+    assert transfers.miss_by_order_m.shape == (6, 3)
+    assert transfers.start_change_by_order_m_s.shape == (6, 3, 3)
+    for order in (1, 2, 3):
+        assert (transfers.miss_by_order_m[:, order - 1]
+                == numbers(expected[f"miss_m_order_{order}"])).all()
+    assert [str(flag).lower() for flag in transfers.near_singular] == expected["near_singular"]
+    assert (transfers.refined == (np.array(expected["answer"]) == "refined")).all()
+    best = transfers.best
+    assert transfers.total_change_m_s[best] == transfers.total_change_m_s[
+        ~transfers.near_singular & ~transfers.beyond_tolerance].min()
+    loaded = hamjet.load(tmp_path / "out")
+    assert without_times(loaded.summary) == without_times(transfers.summary)
+    assert (loaded.tables["transfers"]["time_s"] == transfers.times_s).all()
+    singular = loaded.tables["singular_times"]
+    assert (transfers.singular_times_s == singular["time_s"][singular["kind"] == "qqq-qqq"]).all()
+
+
+def test_the_flown_deputy_starts_and_ends_where_it_shall(tmp_path):
+    transfers = hamjet.transfer(TRANSFER)
+    times, states = transfers.trajectory(transfers.best, 50)
+    assert times.shape == (51,) and states.shape == (51, 6)
+    assert times[0] == 0 and abs(times[-1] / transfers.times_s[transfers.best] - 1) < 1e-14
+    assert np.abs(states[0, :3] - [0, -1000, 500]).max() < 1e-5
+    end = np.linalg.norm(states[-1, :3] - [0, -100, 0])
+    assert abs(end - transfers.miss_m[transfers.best]) < 1e-5
+    # At rest before the first impulse: the velocity is the change.
+    assert np.abs(states[0, 3:] - transfers.start_change_m_s[transfers.best]).max() < 1e-6
+    transfers.write(tmp_path / "out")
+    assert (tmp_path / "out" / "report.html").is_file()
+    with pytest.raises(hamjet.UsageError, match="this transfer time has no answer"):
+        transfers.trajectory(6)
+    with pytest.raises(ValueError):
+        transfers.miss_m[0] = 0
+
+
+def test_scenes_without_the_table_are_refused_as_by_the_command(tmp_path):
+    for study in ("transfer", "validity"):
+        printed = command(study, SOURCE / "data" / "scenes" / "molniya.toml", directory=tmp_path)
+        with pytest.raises(hamjet.SceneError) as raised:
+            getattr(hamjet, study)(SOURCE / "data" / "scenes" / "molniya.toml")
+        assert str(raised.value) == message(printed)
+    with pytest.raises(hamjet.SceneError, match="^scene: transfer: missing, must be a table"):
+        hamjet.transfer(ORBIT)
+
+
+def test_validity_is_that_of_the_command(tmp_path):
+    change = ["jet.order=2", "validity={tolerance_m=1, count=2, samples=10}"]
+    scene_file = SOURCE / "data" / "scenes" / "sun-synchronous-formation.toml"
+    options = [word for text in change for word in ("--set", text)]
+    printed = command("validity", scene_file, "-o", tmp_path / "out", "-q", *options,
+                      directory=tmp_path)
+    assert printed.returncode == 0, printed.stderr
+    validity = hamjet.validity(scene_file, overrides=change)
+    expected = columns((tmp_path / "out" / "validity.csv").read_text(encoding="utf-8"))
+    for name in ("predicted_m", "proved_m", "miss_m"):
+        assert getattr(validity, name).shape == (2, 2)
+        assert (getattr(validity, name).ravel() == numbers(expected[name])).all(), name
+    assert (validity.times_s == numbers(expected["time_s"])[::2]).all()
+    assert without_times(hamjet.load(tmp_path / "out").summary) == without_times(validity.summary)
