@@ -6,28 +6,12 @@
 #include <filesystem>
 #include <system_error>
 
-#include "../io/text_file.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/io/jet_file.hpp"
 #include "output_file.hpp"
 #include "standard_streams.hpp"
 
 namespace hamjet::cli {
-namespace {
-
-/// A file that is there and belongs to a set of results, which would no longer be whole.
-void refuse_to_replace_results(const std::filesystem::path& to) {
-  std::error_code none;
-  const std::filesystem::path name = to.filename();
-  const bool is_result = name == "jet.csv" || name == "jet.dace" || name == "jets.h5";
-  if (is_result && std::filesystem::exists(to, none)) {
-    throw Error(ErrorKind::usage,
-                fmt::format("{}: is a file of results that would be replaced; choose another",
-                            io::printable_path(to)));
-  }
-}
-
-}  // namespace
 
 CLI::App* add_convert_command(CLI::App& app, ConvertOptions& options) {
   CLI::App* command = app.add_subcommand(
@@ -59,7 +43,6 @@ int convert(const ConvertOptions& options) {
   if (std::filesystem::equivalent(options.from, to, none)) {
     throw Error(ErrorKind::usage, "from and to: are the same file");
   }
-  refuse_to_replace_results(to);
   const OutputFile file(to);
   const io::StoredJet stored = io::read_jet_file(options.from, options.run);
   if (format == io::JetFormat::dace && stored.precision == Precision::extended) {

@@ -48,13 +48,8 @@ void check_options(const EvalOptions& options) {
     const auto replaces = [&](const std::filesystem::path& file) {
       return std::filesystem::equivalent(file, *options.output, none);
     };
-    const std::filesystem::path name = std::filesystem::path(*options.output).filename();
-    const bool is_result =
-        (name == "jet.csv" || name == "summary.json" || name == "jet.dace" || name == "jets.h5") &&
-        std::filesystem::exists(*options.output, none);
     if ((options.deviations && replaces(*options.deviations)) ||
-        (std::filesystem::is_regular_file(*options.output, none) && replaces(options.directory)) ||
-        is_result) {
+        (std::filesystem::is_regular_file(*options.output, none) && replaces(options.directory))) {
       refuse("--output: is a file that this command reads; choose another");
     }
   }

@@ -2,14 +2,42 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <string>
 #include <system_error>
 
 #include "../io/file_system.hpp"
+#include "../io/sealed_summary.hpp"
 #include "../io/text_file.hpp"
 #include "hamjet/error.hpp"
 #include "interruption.hpp"
 
 namespace hamjet::cli {
+namespace {
+
+/// Results stand in the folder of the file that describes them or one below.
+void refuse_results(const std::filesystem::path& file) {
+  std::error_code ignored;
+  const auto target = std::filesystem::weakly_canonical(file, ignored);
+  if (ignored || !exists(target, ignored)) return;
+  for (const auto& folder : {target.parent_path(), target.parent_path().parent_path()}) {
+    for (const char* name : {"summary.json", "compare.json"}) {
+      if (!is_regular_file(folder / name, ignored)) continue;
+      const std::string summary = io::read_text_file(folder / name);
+      if (!io::is_sealed(summary)) continue;
+      const auto files = io::sealed_files(summary);
+      const bool is_listed =
+          std::any_of(files.begin(), files.end(),
+                      [&](const io::FileRecord& record) { return folder / record.path == target; });
+      if (!is_listed && target != folder / name) continue;
+      throw Error(ErrorKind::usage,
+                  fmt::format("{}: is a file of results that would be replaced; choose another",
+                              io::printable_path(file)));
+    }
+  }
+}
+
+}  // namespace
 
 OutputFile::OutputFile(const std::filesystem::path& file) : file_(file) {
   std::error_code ignored;
@@ -19,6 +47,7 @@ OutputFile::OutputFile(const std::filesystem::path& file) : file_(file) {
     throw Error(ErrorKind::input_output,
                 fmt::format("{}: cannot be written: not a regular file", io::printable_path(file)));
   }
+  refuse_results(file);
   io::require_writable(file.has_parent_path() ? file.parent_path() : ".");
 }
 

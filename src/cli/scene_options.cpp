@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <thread>
 #include <vector>
 
 #include "../io/scene_message.hpp"
@@ -11,6 +10,7 @@
 #include "hamjet/error.hpp"
 #include "hamjet/integrators/cvode.hpp"
 #include "hamjet/studies/arcs.hpp"
+#include "processors.hpp"
 #include "standard_streams.hpp"
 
 namespace hamjet::cli {
@@ -81,7 +81,7 @@ Scene read_unsplit_scene(const RunOptions& options, const std::string& command) 
 
 std::size_t thread_count(const RunOptions& options) {
   if (options.threads > 0) return options.threads;
-  return std::max<std::size_t>(1, std::thread::hardware_concurrency());
+  return usable_processors();
 }
 
 std::filesystem::path output_path(const RunOptions& options, const std::string& scene_name) {

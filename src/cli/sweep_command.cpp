@@ -6,7 +6,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <system_error>
-#include <thread>
 
 #include "../io/file_system.hpp"
 #include "../io/scene_message.hpp"
@@ -15,6 +14,7 @@
 #include "hamjet/error.hpp"
 #include "hamjet/io/sweep_report.hpp"
 #include "interruption.hpp"
+#include "processors.hpp"
 #include "progress.hpp"
 #include "refusal.hpp"
 #include "standard_streams.hpp"
@@ -79,7 +79,7 @@ int merge(const RunOptions& run, const io::SweepStudy& study, const io::SweepDir
 
 std::size_t threads_of(const SweepOptions& options) {
   if (options.threads) return static_cast<std::size_t>(*options.threads);
-  return std::max(1U, std::thread::hardware_concurrency());
+  return usable_processors();
 }
 
 fs::path this_program() {
@@ -116,13 +116,17 @@ int emit(const RunOptions& run, const SweepOptions& options, const io::SweepStud
 }
 
 /// Those that are still to be computed: with --resume the items without a row that is whole, and
-/// those that were refused as too large, which may have been another machine's lack of memory.
+/// those that failed for what may have been another machine's, or another moment's, lack of memory
+/// or of a file.
 std::vector<std::size_t> items_to_do(const std::vector<std::size_t>& items,
                                      const io::SweepDirectory& directory, std::size_t& failed) {
   std::vector<std::size_t> result;
   for (const std::size_t item : items) {
     const auto row = directory.read(item);
-    if (!row || row->exit_code == static_cast<int>(ErrorKind::too_large)) {
+    const auto has_ended_with = [&](ErrorKind kind) {
+      return row->exit_code == static_cast<int>(kind);
+    };
+    if (!row || has_ended_with(ErrorKind::too_large) || has_ended_with(ErrorKind::input_output)) {
       result.push_back(item);
     } else if (row->exit_code != 0) {
       ++failed;
@@ -138,6 +142,9 @@ int run_items(const RunOptions& run, const SweepOptions& options, const io::Swee
     shard = parse_shard(*options.shard);
   } else {
     shard = slurm_shard([](const char* name) { return std::getenv(name); });
+  }
+  if (run.json && shard) {
+    refuse("sweep --json: prints the summary of the table, and a task of Slurm makes none");
   }
   const fs::path path = output_path(run, study.name);
   const io::SweepDirectory directory(path, study);

@@ -73,7 +73,9 @@ class GaussArcs : public ArcIntegrator<Real> {
                              2 * nominal_weight * stages * stages;
     const double series =
         series_multiply_adds(list, space, order) + linear * coefficients + elimination;
-    return {Lanes * (elimination + iteration), Lanes * series, Lanes * (series + evaluation)};
+    // A step between checkpoints solves for its stages anew.
+    const double of_arc = checkpoints_.has_all() ? evaluation : iteration;
+    return {Lanes * (elimination + iteration), Lanes * series, Lanes * (series + of_arc)};
   }
 
  private:

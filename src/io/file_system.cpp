@@ -6,6 +6,8 @@
 
 #include <array>
 #include <cerrno>
+#include <charconv>
+#include <csignal>
 #include <system_error>
 
 #include "hamjet/error.hpp"
@@ -18,6 +20,12 @@ namespace fs = std::filesystem;
 
 fs::path folder_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
+std::string host_name() {
+  std::array<char, 64> host{};
+  ::gethostname(host.data(), host.size() - 1);
+  return host.data();
 }
 
 /// Whether to wait until the disk has it.
@@ -116,11 +124,23 @@ void require_writable(const fs::path& folder) {
 
 fs::path temporary_beside(const fs::path& path) {
   fs::path temporary = path;
-  std::array<char, 64> host{};
   // Machines that share a folder may have the same process numbers.
-  ::gethostname(host.data(), host.size() - 1);
-  temporary += fmt::format(".{}-{}.tmp", host.data(), ::getpid());
+  temporary += fmt::format(".{}-{}.tmp", host_name(), ::getpid());
   return temporary;
+}
+
+std::optional<TemporaryWriter> temporary_writer(const fs::path& temporary) {
+  const std::string name = temporary.stem().string();
+  const std::size_t dash = name.rfind('-');
+  if (dash == std::string::npos) return std::nullopt;
+  pid_t process = 0;
+  const char* end = name.data() + name.size();
+  const auto [rest, error] = std::from_chars(name.data() + dash + 1, end, process);
+  if (error != std::errc() || rest != end || process <= 0) return std::nullopt;
+  const bool is_of_this_machine =
+      std::string_view(name).substr(0, dash).ends_with("." + host_name());
+  const bool is_running = ::kill(process, 0) == 0 || errno == EPERM;
+  return TemporaryWriter{is_of_this_machine, is_of_this_machine && is_running};
 }
 
 void replace_sealed_file(const fs::path& path, std::string_view content) {

@@ -63,6 +63,15 @@ void require_writable(const std::filesystem::path& folder);
 /// The file beside it in which write_whole_file() writes.
 std::filesystem::path temporary_beside(const std::filesystem::path& path);
 
+/// Who writes such a file.
+struct TemporaryWriter {
+  bool is_of_this_machine = false;
+  bool is_running = false;  ///< known of this machine's processes only
+};
+
+/// By the name of the file; nothing if it is none of these.
+std::optional<TemporaryWriter> temporary_writer(const std::filesystem::path& temporary);
+
 /// Writes one file in full, or leaves what was there untouched; its folder is created. Does not
 /// wait for the disk: after a power failure the file may be cut or missing, so it must have a seal.
 void replace_sealed_file(const std::filesystem::path& path, std::string_view content);

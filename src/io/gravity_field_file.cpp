@@ -12,19 +12,12 @@
 #include <hamjet/io/number_table.hpp>
 #include <map>
 #include <optional>
-#include <system_error>
 
 #include "scene_message.hpp"
 #include "text_file.hpp"
 
 namespace hamjet::io {
 namespace {
-
-/// The largest model there is, of degree 5540, takes two.
-constexpr std::uintmax_t largest_file_bytes = std::uintmax_t{1} << 32;
-
-/// Characters of a file's name that messages show.
-constexpr std::size_t longest_shown_name = 300;
 
 /// The words of a line.
 std::vector<std::string_view> words_of(std::string_view line) {
@@ -195,8 +188,13 @@ class Reader {
                       key, field_.max_degree, in_quotes(words_[1]), in_quotes(words_[2])));
     }
     if (*order != 0) return;
-    if (*degree == 0 && !is_variable && coefficient(0) != 1) {
+    const bool is_value = key == "gfc" || key == "gfct";
+    if (is_value && *degree == 0 && coefficient(0) != 1) {
       fail(fmt::format("C(0,0): must be 1, got {}", in_quotes(words_[3])));
+    }
+    if (is_value && *degree == 1 && coefficient(1) != 0) {
+      fail(fmt::format("C(1,0): must be 0, got {}: the origin must be the centre of mass",
+                       in_quotes(words_[3])));
     }
     if (std::find(wanted_.begin(), wanted_.end(), *degree) == wanted_.end()) return;
     if (is_variable) {
@@ -254,25 +252,13 @@ GravityField parse_gravity_field(const std::string& name, std::string_view text,
 }
 
 GravityField read_gravity_field(const std::filesystem::path& file, const ZonalChoice& choice) {
-  const std::string name = printable(file.string(), longest_shown_name);
-  std::error_code problem;
-  const auto status = std::filesystem::status(file, problem);
-  const auto refuse = [&](const std::string& why) {
-    throw Error(ErrorKind::input_output,
-                fmt::format("{}: the gravity field cannot be read: {}", name, why));
-  };
-  if (!std::filesystem::exists(status)) {
-    refuse((problem ? problem : make_error_code(std::errc::no_such_file_or_directory)).message());
+  const FileContent content = read_regular_file(file, largest_gravity_field_bytes);
+  if (!content.problem.empty()) {
+    throw Error(content.is_too_large ? ErrorKind::too_large : ErrorKind::input_output,
+                fmt::format("{}: the gravity field cannot be read: {}", printable_path(file),
+                            content.problem));
   }
-  // Reading a pipe would wait for its writer, and a device may have no end.
-  if (!std::filesystem::is_regular_file(status)) refuse("it is not a regular file");
-  const std::uintmax_t bytes = std::filesystem::file_size(file, problem);
-  if (problem) refuse(problem.message());
-  if (bytes > largest_file_bytes) {
-    refuse(fmt::format("it is too large, got {} bytes, must be at most {}", bytes,
-                       largest_file_bytes));
-  }
-  return parse_gravity_field(name, read_text_file(file), choice);
+  return parse_gravity_field(printable_path(file), content.text, choice);
 }
 
 }  // namespace hamjet::io

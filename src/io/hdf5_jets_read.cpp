@@ -84,6 +84,16 @@ StoredJet read_scene(const Reader& root) {
                      stored.variables.end())) {
     root.fail("variables", "the attribute must be among the components");
   }
+  if (root.has_attribute("epoch")) {
+    EphemerisSettings& ephemeris = stored.ephemeris.emplace();
+    ephemeris.epoch = root.text("epoch");
+    ephemeris.time_system = root.text("time_system");
+    ephemeris.reference_frame = root.text("reference_frame");
+    ephemeris.center_name = root.text("center_name");
+    if (root.has_attribute("reference_frame_epoch")) {
+      ephemeris.reference_frame_epoch = root.text("reference_frame_epoch");
+    }
+  }
   return stored;
 }
 

@@ -78,14 +78,15 @@ void write_scene(const Writer& file, const StoredJet& jet, int order, const std:
   file.attribute(root, "variables", names_of(names, jet.variables));
   file.attribute(root, "nominal_initial", jet.nominal_initial);
   file.attribute(root, "runs", labels);
-}
-
-/// The frame and epoch that the scene names for its ephemeris.
-void write_ephemeris(const Writer& file, const EphemerisSettings& ephemeris) {
-  file.attribute(file.root(), "reference_frame", ephemeris.reference_frame);
-  file.attribute(file.root(), "center_name", ephemeris.center_name);
-  file.attribute(file.root(), "epoch", ephemeris.epoch);
-  file.attribute(file.root(), "time_system", ephemeris.time_system);
+  if (!jet.ephemeris) return;
+  const EphemerisSettings& ephemeris = *jet.ephemeris;
+  file.attribute(root, "reference_frame", ephemeris.reference_frame);
+  if (!ephemeris.reference_frame_epoch.empty()) {
+    file.attribute(root, "reference_frame_epoch", ephemeris.reference_frame_epoch);
+  }
+  file.attribute(root, "center_name", ephemeris.center_name);
+  file.attribute(root, "epoch", ephemeris.epoch);
+  file.attribute(root, "time_system", ephemeris.time_system);
 }
 
 /// Coefficients from the term `first` on.
@@ -189,7 +190,6 @@ std::string jets_hdf5(const PropagationResult& result) {
   for (const RunResult& run : result.runs) labels.push_back(run.settings.label);
   write_scene(file, describe_jet(result, result.runs.at(0)), result.scene.order, result.scene.title,
               labels);
-  if (result.scene.ephemeris) write_ephemeris(file, *result.scene.ephemeris);
   for (const RunResult& run : result.runs) write_run(file, result, run);
   return seal_hdf5(file.image());
 }

@@ -12,8 +12,9 @@ Handle in_memory() {
   return access;
 }
 
-// HDF5 wants a name; no file of it is opened or made.
-constexpr const char* name = "jets.h5";
+// HDF5 wants a name. It makes no file of it, but refuses an image if there is one of this name: so
+// it is one that cannot be there.
+constexpr const char* name = "/dev/null/jets.h5";
 
 }  // namespace
 

@@ -19,6 +19,7 @@ StoredJet describe_jet(const PropagationResult& result, const RunResult& run) {
   description.nominal_final = run.nominal_final;
   description.components = result.problem.components;
   description.variables = scene.variables;
+  description.ephemeris = scene.ephemeris;
   return description;
 }
 
@@ -43,6 +44,12 @@ std::vector<std::string> jet_notes(const StoredJet& description, int order) {
       fmt::format("canonical units: length {:.17g} km, time {:.17g} s", description.units.length_km,
                   description.units.time_s),
       "frame: " + frame_of(description.model)};
+  if (const auto& ephemeris = description.ephemeris) {
+    notes.push_back(fmt::format("start: {} {}; axes {}{}{} about {}", ephemeris->epoch,
+                                ephemeris->time_system, ephemeris->reference_frame,
+                                ephemeris->reference_frame_epoch.empty() ? "" : " of ",
+                                ephemeris->reference_frame_epoch, ephemeris->center_name));
+  }
   if (description.precision == Precision::extended) {
     notes.emplace_back("coefficients of extended precision, rounded to double precision");
   }

@@ -51,11 +51,14 @@ OrbitEphemerisMessage message_of(const Scene& scene, const std::string& source) 
       ascii(fmt::format("Written by hamjet {}, scene {}: {}", version, scene.name, scene.title)),
       ascii(source)};
   EphemerisSegment segment;
-  segment.metadata = {settings.object_name, settings.object_id, settings.center_name,
-                      settings.reference_frame, TimeSystem::utc};
+  segment.metadata = {settings.object_name,     settings.object_id, settings.center_name,
+                      settings.reference_frame, TimeSystem::utc,    std::nullopt};
   const auto& names = time_system_names();
   segment.metadata.time_system = static_cast<TimeSystem>(
       std::find(names.begin(), names.end(), settings.time_system) - names.begin());
+  if (!settings.reference_frame_epoch.empty()) {
+    segment.metadata.reference_frame_epoch = parse_epoch(settings.reference_frame_epoch).value();
+  }
   segment.comments = {
       model_text(scene.system),
       fmt::format(
@@ -186,6 +189,7 @@ nlohmann::ordered_json ephemeris_json(const Scene& scene) {
   return {{"epoch", settings.epoch},
           {"time_system", settings.time_system},
           {"reference_frame", settings.reference_frame},
+          {"reference_frame_epoch", text_or_null(settings.reference_frame_epoch)},
           {"center_name", settings.center_name},
           {"object_name", settings.object_name},
           {"object_id", settings.object_id}};

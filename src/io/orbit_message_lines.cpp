@@ -186,6 +186,7 @@ OrbitMetadata MessageBlock::metadata() const {
                                     in_quotes(name), listed(names)));
   }
   result.time_system = static_cast<TimeSystem>(found - names.begin());
+  if (has("REF_FRAME_EPOCH")) result.reference_frame_epoch = epoch("REF_FRAME_EPOCH");
   return result;
 }
 

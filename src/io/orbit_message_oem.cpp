@@ -100,7 +100,6 @@ class OemReader {
     }
     if (block.has("USEABLE_START_TIME")) segment.useable_start = block.epoch("USEABLE_START_TIME");
     if (block.has("USEABLE_STOP_TIME")) segment.useable_stop = block.epoch("USEABLE_STOP_TIME");
-    if (block.has("REF_FRAME_EPOCH")) block.epoch("REF_FRAME_EPOCH");
     if (block.has("INTERPOLATION_DEGREE")) block.number("INTERPOLATION_DEGREE", "");
     advance();
   }
@@ -114,6 +113,7 @@ class OemReader {
                                 format_epoch(segment.states.back().epoch)));
       }
       segment.states.push_back(state);
+      segment.has_acceleration |= fields_.size() > 7;
     }
     if (segment.states.empty()) {
       lines_.fail(

@@ -109,7 +109,6 @@ OrbitParameterMessage read_opm(const std::string& name, std::string_view text) {
   block.epoch("CREATION_DATE");
   block.text("ORIGINATOR");
   message.metadata = block.metadata();
-  if (block.has("REF_FRAME_EPOCH")) block.epoch("REF_FRAME_EPOCH");
   message.state.epoch = block.epoch("EPOCH");
   for (std::size_t i = 0; i < 3; ++i) {
     message.state.position_km[i] = block.number(state_vector[i].keyword, state_vector[i].unit);

@@ -37,11 +37,15 @@ void write_segment(std::back_insert_iterator<fmt::memory_buffer> out,
                  "OBJECT_NAME = {}\n"
                  "OBJECT_ID = {}\n"
                  "CENTER_NAME = {}\n"
-                 "REF_FRAME = {}\n"
+                 "REF_FRAME = {}\n",
+                 metadata.object_name, metadata.object_id, metadata.center_name,
+                 metadata.reference_frame);
+  if (metadata.reference_frame_epoch) {
+    fmt::format_to(out, "REF_FRAME_EPOCH = {}\n", format_epoch(*metadata.reference_frame_epoch));
+  }
+  fmt::format_to(out,
                  "TIME_SYSTEM = {}\n"
                  "START_TIME = {}\n",
-                 metadata.object_name, metadata.object_id, metadata.center_name,
-                 metadata.reference_frame,
                  time_system_names()[static_cast<std::size_t>(metadata.time_system)],
                  format_epoch(segment.states.front().epoch));
   if (segment.useable_start) {

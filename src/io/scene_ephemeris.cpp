@@ -30,14 +30,14 @@ std::string message_text(const TableReader& ephemeris, std::string_view key) {
   return text;
 }
 
-std::string read_epoch(const TableReader& ephemeris) {
-  const std::string text = ephemeris.text("epoch");
+std::string read_epoch(const TableReader& ephemeris, std::string_view key) {
+  const std::string text = ephemeris.text(key);
   const auto epoch = parse_epoch(text);
   if (!epoch) {
-    ephemeris.fail("epoch", fmt::format("no moment of the calendar, got {}, must be "
-                                        "YYYY-MM-DDThh:mm:ss or YYYY-DDDThh:mm:ss, with a fraction "
-                                        "of a second if wanted",
-                                        in_quotes(text)));
+    ephemeris.fail(key, fmt::format("no moment of the calendar, got {}, must be "
+                                    "YYYY-MM-DDThh:mm:ss or YYYY-DDDThh:mm:ss, with a fraction "
+                                    "of a second if wanted",
+                                    in_quotes(text)));
   }
   return format_epoch(*epoch);
 }
@@ -60,8 +60,9 @@ void require_same(const TableReader& ephemeris, std::string_view key, const std:
 
 EphemerisSettings read_ephemeris(const TableReader& ephemeris,
                                  const std::optional<NominalFile>& file) {
-  ephemeris.check_keys({{"epoch", "time_system", "reference_frame", "center_name", "object_name",
-                         "object_id", "deputy_name", "deputy_id", "originator", "oem_version"}});
+  ephemeris.check_keys(
+      {{"epoch", "time_system", "reference_frame", "reference_frame_epoch", "center_name",
+        "object_name", "object_id", "deputy_name", "deputy_id", "originator", "oem_version"}});
   EphemerisSettings settings;
   if (file) settings = file->ephemeris;
   const EphemerisSettings of_file = settings;
@@ -72,7 +73,7 @@ EphemerisSettings read_ephemeris(const TableReader& ephemeris,
     if (file) require_same(ephemeris, key, value, right);
   };
   read(
-      "epoch", settings.epoch, [&] { return read_epoch(ephemeris); }, of_file.epoch);
+      "epoch", settings.epoch, [&] { return read_epoch(ephemeris, "epoch"); }, of_file.epoch);
   read(
       "time_system", settings.time_system,
       [&] {
@@ -83,6 +84,17 @@ EphemerisSettings read_ephemeris(const TableReader& ephemeris,
   read(
       "reference_frame", settings.reference_frame, [&] { return read_frame(ephemeris); },
       of_file.reference_frame);
+  if (ephemeris.has("reference_frame_epoch")) {
+    settings.reference_frame_epoch = read_epoch(ephemeris, "reference_frame_epoch");
+    if (file) {
+      require_same(ephemeris, "reference_frame_epoch", settings.reference_frame_epoch,
+                   of_file.reference_frame_epoch);
+    }
+  } else if (!file && settings.reference_frame.ends_with("OFEPOCH")) {
+    ephemeris.fail("reference_frame_epoch",
+                   fmt::format("missing, must be the epoch of the frame {}, ISO 8601",
+                               settings.reference_frame));
+  }
   read(
       "center_name", settings.center_name, [&] { return message_text(ephemeris, "center_name"); },
       of_file.center_name);
@@ -105,14 +117,14 @@ EphemerisSettings read_ephemeris(const TableReader& ephemeris,
   return settings;
 }
 
-void require_calendar(const TableReader& table, const Scene& scene) {
+void require_calendar(const TableReader& table, std::string_view key, const Scene& scene) {
   const EphemerisSettings& settings = *scene.ephemeris;
   const Epoch start = parse_epoch(settings.epoch).value();
   const bool is_utc = settings.time_system == "UTC";
   constexpr std::string_view others =
       "must be in TAI, TT, GPS or TDB, whose days all have 86400 seconds, or another one";
   const auto fail = [&](const std::string& problem) {
-    table.fail("epoch", fmt::format("{}, {}", problem, others));
+    table.fail(key, fmt::format("{}, {}", problem, others));
   };
   if (is_utc && start.day < first_day_of_utc) {
     fail(fmt::format("before 1972, when the second of UTC had another length, got {}",
@@ -127,9 +139,9 @@ void require_calendar(const TableReader& table, const Scene& scene) {
     const Extended seconds = Extended(time) * scene.units.time_s;
     const auto end = later(start, seconds);
     if (!end) {
-      table.fail("epoch", fmt::format("a span that leaves the calendar, got {} and {:.6g} s, must "
-                                      "stay within the years 1 to 9999",
-                                      settings.epoch, convert<double>(seconds)));
+      table.fail(key, fmt::format("a span that leaves the calendar, got {} and {:.6g} s, must "
+                                  "stay within the years 1 to 9999",
+                                  settings.epoch, convert<double>(seconds)));
     }
     const auto leap = is_utc ? leap_second_between(start, *end) : std::nullopt;
     if (leap) {

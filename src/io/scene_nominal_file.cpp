@@ -19,17 +19,6 @@ struct ChosenState {
   OrbitState state;
 };
 
-std::string read_message(const TableReader& nominal, std::string_view key,
-                         const std::filesystem::path& file) {
-  FileContent content = read_regular_file(file, largest_orbit_message_bytes);
-  if (!content.problem.empty()) {
-    throw Error(content.is_too_large ? ErrorKind::too_large : ErrorKind::input_output,
-                fmt::format("{}: {} cannot be read: {}", nominal.head(key), printable_path(file),
-                            content.problem));
-  }
-  return std::move(content.text);
-}
-
 std::optional<Epoch> wanted_epoch(const TableReader& nominal) {
   if (!nominal.has("epoch")) return std::nullopt;
   const std::string text = nominal.text("epoch");
@@ -46,18 +35,33 @@ bool is_of(const EphemerisSegment& segment, const std::string& object) {
   return segment.metadata.object_name == object || segment.metadata.object_id == object;
 }
 
+/// The objects of these blocks, each once: by their names, or by their identifiers where several
+/// have one name.
+std::vector<std::string> objects_of(const std::vector<EphemerisSegment>& segments) {
+  std::vector<std::string> names;
+  std::vector<std::string> identifiers;
+  const auto add = [](std::vector<std::string>& list, const std::string& text) {
+    if (std::find(list.begin(), list.end(), text) == list.end()) list.push_back(text);
+  };
+  for (const EphemerisSegment& segment : segments) {
+    add(names, segment.metadata.object_name);
+    add(identifiers, segment.metadata.object_id);
+  }
+  return identifiers.size() > names.size() ? identifiers : names;
+}
+
+std::string listed_objects(const std::vector<std::string>& objects) {
+  return printable(listed({objects.begin(), objects.end()}));
+}
+
 /// The blocks of the object that the scene names, or of the only one there is.
 std::vector<EphemerisSegment> wanted_segments(const TableReader& nominal,
                                               std::vector<EphemerisSegment> segments) {
-  std::vector<std::string_view> names;
-  for (const EphemerisSegment& segment : segments) {
-    const std::string_view name = segment.metadata.object_name;
-    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-  }
+  const std::vector<std::string> objects = objects_of(segments);
   if (!nominal.has("object")) {
-    if (names.size() > 1) {
+    if (objects.size() > 1) {
       nominal.fail("object", fmt::format("missing, got a file of {} objects, must be one of: {}",
-                                         names.size(), printable(listed(names))));
+                                         objects.size(), listed_objects(objects)));
     }
     return segments;
   }
@@ -65,7 +69,12 @@ std::vector<EphemerisSegment> wanted_segments(const TableReader& nominal,
   std::erase_if(segments, [&](const EphemerisSegment& segment) { return !is_of(segment, object); });
   if (segments.empty()) {
     nominal.fail("object", fmt::format("not in the file, got {}, must be one of: {}",
-                                       in_quotes(object), printable(listed(names))));
+                                       in_quotes(object), listed_objects(objects)));
+  }
+  const std::vector<std::string> chosen = objects_of(segments);
+  if (chosen.size() > 1) {
+    nominal.fail("object", fmt::format("the name of {} objects, got {}, must be one of: {}",
+                                       chosen.size(), in_quotes(object), listed_objects(chosen)));
   }
   return segments;
 }
@@ -113,7 +122,8 @@ ChosenState choose_state(const TableReader& nominal, const std::vector<Ephemeris
   });
   if (!is_one) {
     nominal.fail("epoch", fmt::format("the file has {} different states of this epoch, as before "
-                                      "and after a manoeuvre, got {}, must be another epoch",
+                                      "and after a manoeuvre or in several frames, got {}, must "
+                                      "be another epoch",
                                       found.size(), in_quotes(nominal.text("epoch"))));
   }
   return found[0];
@@ -125,6 +135,9 @@ EphemerisSettings settings_of(const ChosenState& chosen) {
   settings.time_system = time_system_names()[static_cast<std::size_t>(chosen.metadata.time_system)];
   settings.reference_frame = chosen.metadata.reference_frame;
   settings.center_name = chosen.metadata.center_name;
+  if (chosen.metadata.reference_frame_epoch) {
+    settings.reference_frame_epoch = format_epoch(*chosen.metadata.reference_frame_epoch);
+  }
   settings.object_name = chosen.metadata.object_name;
   settings.object_id = chosen.metadata.object_id;
   return settings;
@@ -135,7 +148,7 @@ EphemerisSettings settings_of(const ChosenState& chosen) {
 NominalFromFile read_nominal_file(const TableReader& nominal) {
   const std::string_view key = nominal.exactly_one_of({"oem_file", "opm_file"});
   const std::filesystem::path file = nominal.path_beside_scene(key);
-  const std::string text = read_message(nominal, key, file);
+  const std::string text = nominal.content_beside_scene(key, largest_orbit_message_bytes);
   const auto epoch = wanted_epoch(nominal);
   NominalFromFile result;
   ChosenState chosen;
@@ -144,10 +157,14 @@ NominalFromFile read_nominal_file(const TableReader& nominal) {
     result.file.format = "OEM " + message.version;
     const auto segments = wanted_segments(nominal, std::move(message.segments));
     chosen = choose_state(nominal, segments, epoch);
-    const bool has_covariance =
-        std::any_of(segments.begin(), segments.end(),
-                    [](const EphemerisSegment& segment) { return segment.has_covariance; });
-    if (has_covariance) result.file.unused.emplace_back("covariance");
+    const auto add_if_any = [&](bool EphemerisSegment::*has, const char* name) {
+      const bool is_there =
+          std::any_of(segments.begin(), segments.end(),
+                      [&](const EphemerisSegment& segment) { return segment.*has; });
+      if (is_there) result.file.unused.emplace_back(name);
+    };
+    add_if_any(&EphemerisSegment::has_acceleration, "accelerations");
+    add_if_any(&EphemerisSegment::has_covariance, "covariance");
   } else {
     OrbitParameterMessage message = read_opm(printable_path(file), text);
     result.file.format = "OPM " + message.version;

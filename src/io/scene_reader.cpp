@@ -30,7 +30,15 @@ void read_output_and_ephemeris(const TableReader& root, Scene& scene) {
         "\"oem\" without a date, got no table [ephemeris], must have one with "
         "epoch, time_system, reference_frame and center_name");
   }
-  require_calendar(root.table(root.has("ephemeris") ? "ephemeris" : "nominal"), scene);
+  // The key that says when the nominal starts.
+  const TableReader nominal = root.table("nominal");
+  if (root.has("ephemeris") && root.table("ephemeris").has("epoch")) {
+    require_calendar(root.table("ephemeris"), "epoch", scene);
+  } else if (nominal.has("epoch")) {
+    require_calendar(nominal, "epoch", scene);
+  } else {
+    require_calendar(nominal, nominal.exactly_one_of({"oem_file", "opm_file"}), scene);
+  }
 }
 
 /// What cannot be split is refused where the scene asks for a number of arcs.

@@ -145,9 +145,10 @@ OutputSettings read_output(const TableReader& output, SystemModel model);
 EphemerisSettings read_ephemeris(const TableReader& ephemeris,
                                  const std::optional<NominalFile>& file);
 
-/// Throws, about the key `epoch` of this table, if the moments of the scene cannot be dated by
-/// adding seconds: before or across leap seconds of UTC, or outside of the years 1 to 9999.
-void require_calendar(const TableReader& table, const Scene& scene);
+/// Throws, about the key that says when the nominal starts, if the moments of the scene cannot be
+/// dated by adding seconds: before or across leap seconds of UTC, or outside of the years 1 to
+/// 9999.
+void require_calendar(const TableReader& table, std::string_view key, const Scene& scene);
 
 /// Table `[figure]`, checked against what `scene` already holds.
 FigureSettings read_figure(const TableReader& figure, const Scene& scene);

@@ -4,6 +4,7 @@
 #include <hamjet/io/gravity_field_file.hpp>
 
 #include "scene_sections.hpp"
+#include "text_file.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -110,7 +111,9 @@ void read_gravity_file(const TableReader& system, SystemSettings& settings) {
     }
   }
   const ZonalChoice choice = read_zonal_choice(system);
-  const GravityField field = read_gravity_field(system.path_beside_scene("gravity_file"), choice);
+  const GravityField field = parse_gravity_field(
+      printable_path(system.path_beside_scene("gravity_file")),
+      system.content_beside_scene("gravity_file", largest_gravity_field_bytes), choice);
   settings.mu_km3_s2 = field.mu_km3_s2;
   settings.radius_km = field.radius_km;
   settings.J = field.J;

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "text_file.hpp"
+
 namespace hamjet::io {
 
 std::string describe(const toml::node& node) {
@@ -196,6 +198,17 @@ std::filesystem::path TableReader::path_beside_scene(std::string_view key) const
     fail(key, fmt::format("no path, got {}, must be the path of a file", found(key)));
   }
   return source_->folder / path;
+}
+
+std::string TableReader::content_beside_scene(std::string_view key, std::size_t most_bytes) const {
+  const std::filesystem::path file = path_beside_scene(key);
+  FileContent content = read_regular_file(file, most_bytes);
+  if (!content.problem.empty()) {
+    throw Error(
+        content.is_too_large ? ErrorKind::too_large : ErrorKind::input_output,
+        fmt::format("{}: {} cannot be read: {}", head(key), printable_path(file), content.problem));
+  }
+  return std::move(content.text);
 }
 
 std::vector<std::string> TableReader::texts(std::string_view key) const {

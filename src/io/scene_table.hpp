@@ -75,6 +75,9 @@ class TableReader {
   std::string text(std::string_view key) const;
   /// Required: the path of a file, relative to the folder of the scene.
   std::filesystem::path path_beside_scene(std::string_view key) const;
+  /// Required: the same; returns the file's content. Throws Error(input_output) if it cannot be
+  /// read, Error(too_large) if it has more than so many bytes.
+  std::string content_beside_scene(std::string_view key, std::size_t most_bytes) const;
   /// Required: an array of strings, not empty.
   std::vector<std::string> texts(std::string_view key) const;
   /// Required: one of `choices`; returns its index.

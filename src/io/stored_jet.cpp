@@ -95,6 +95,17 @@ void require_this_version(const JsonReader& root) {
   }
 }
 
+std::optional<EphemerisSettings> read_stored_ephemeris(const JsonReader& json) {
+  if (json.is_null()) return std::nullopt;
+  EphemerisSettings ephemeris;
+  ephemeris.epoch = json.at("epoch").text();
+  ephemeris.time_system = json.at("time_system").text();
+  ephemeris.reference_frame = json.at("reference_frame").text();
+  ephemeris.reference_frame_epoch = json.at("reference_frame_epoch").text_or_empty();
+  ephemeris.center_name = json.at("center_name").text();
+  return ephemeris;
+}
+
 }  // namespace
 
 StoredJet read_stored_jet(const std::filesystem::path& directory,
@@ -128,6 +139,7 @@ StoredJet read_stored_jet(const std::filesystem::path& directory,
   stored.precision = root.at("precision").one_of<Precision>({"double", "extended"});
   stored.units = {positive_number(root.at("units").at("length_km")),
                   positive_number(root.at("units").at("time_s"))};
+  if (root.has("ephemeris")) stored.ephemeris = read_stored_ephemeris(root.at("ephemeris"));
   stored.duration = finite_number(root.at("duration_canonical"));
   stored.nominal_initial = state(root.at("nominal_initial"), dimensions(stored.model));
   const auto names = stored.variable_names();

@@ -2,6 +2,7 @@
 #include <sys/stat.h>
 
 #include <cerrno>
+#include <chrono>
 #include <nlohmann/json.hpp>
 #include <system_error>
 #include <utility>
@@ -32,6 +33,17 @@ std::optional<std::string> text_of(const fs::path& file) {
   return read_text_file(file);
 }
 
+/// Whether a file is one that a process has left behind while it wrote. One that another machine
+/// may still be writing is taken for that after an hour.
+bool is_leftover(const fs::path& file) {
+  if (file.extension() != ".tmp") return false;
+  const auto writer = temporary_writer(file);
+  if (writer && writer->is_of_this_machine) return !writer->is_running;
+  std::error_code error;
+  const auto written = fs::last_write_time(file, error);
+  return !error && fs::file_time_type::clock::now() - written > std::chrono::hours(1);
+}
+
 /// What of two studies differs, for a message.
 std::string difference(const SweepStudy& there, const SweepStudy& here) {
   if (there.version != here.version) {
@@ -46,6 +58,7 @@ std::string difference(const SweepStudy& there, const SweepStudy& here) {
     return result;
   };
   if (names(there) != names(here) || there.items != here.items) return "its items differ";
+  if (there.title != here.title || there.name != here.name) return "its name or title differs";
   return "its command, set, columns or map differ";
 }
 
@@ -139,7 +152,7 @@ void SweepDirectory::remove_leftovers() const {
   for (fs::recursive_directory_iterator entry(path_ / "rows", error), end; !error && entry != end;
        entry.increment(error)) {
     std::error_code ignored;
-    if (entry->path().extension() == ".tmp") fs::remove(entry->path(), ignored);
+    if (is_leftover(entry->path())) fs::remove(entry->path(), ignored);
   }
 }
 

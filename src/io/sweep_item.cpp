@@ -127,9 +127,8 @@ const nlohmann::json* element(const nlohmann::json& list, const std::string& nam
                            : place.is_array()
                                ? ", where there is a list: must be an index from 0 or a label"
                                : ", where there is a value already";
-  throw Error(ErrorKind::scene,
-              fmt::format("{}: leads nowhere in summary.json, got {} in {}{}", column.place,
-                          in_quotes(name), in_quotes(column.pointer), hint));
+  throw Error(ErrorKind::scene, fmt::format("leads nowhere in summary.json, got {} in {}{}",
+                                            in_quotes(name), in_quotes(column.pointer), hint));
 }
 
 SweepValue value_at(const nlohmann::json& summary, const SweepColumn& column) {
@@ -155,11 +154,10 @@ SweepValue value_at(const nlohmann::json& summary, const SweepColumn& column) {
   if (place->is_boolean()) return place->get<bool>();
   if (place->is_number()) return place->get<double>();
   if (place->is_string()) return place->get<std::string>();
-  throw Error(ErrorKind::scene,
-              fmt::format("{}: is {} in summary.json, got {}, must be a number, a text or a truth "
-                          "value",
-                          column.place, place->is_array() ? "a list" : "an object",
-                          in_quotes(column.pointer)));
+  throw Error(
+      ErrorKind::scene,
+      fmt::format("is {} in summary.json, got {}, must be a number, a text or a truth value",
+                  place->is_array() ? "a list" : "an object", in_quotes(column.pointer)));
 }
 
 void replace_all(std::string& text, const std::string& from, const std::string& to) {
@@ -170,9 +168,18 @@ void replace_all(std::string& text, const std::string& from, const std::string& 
   }
 }
 
-/// The error's line as it is wherever the sweep runs: with the scene's name in place of its path.
+/// The error's line as it is wherever the sweep runs: with paths as from the study's folder.
 std::string portable_text(const SweepStudy& study, std::string text) {
   replace_all(text, printable_path(study.scene_path), printable(study.scene, std::string::npos));
+  // Other files that the scene names are found beside it.
+  const auto folder_of = [](const std::filesystem::path& path) {
+    return path.has_parent_path() ? printable_path(path.parent_path()) + "/" : std::string();
+  };
+  const std::string there = folder_of(study.scene_path);
+  const std::string here = folder_of(study.scene);
+  if (there == here) return text;
+  if (text.starts_with(there)) text.replace(0, there.size(), here);
+  replace_all(text, " " + there, " " + here);
   return text;
 }
 
@@ -236,8 +243,14 @@ SweepRow run_sweep_item(const SweepStudy& study, std::size_t item,
   row.error = portable_text(study, outcome.failure);
   const nlohmann::json summary = nlohmann::json::parse(outcome.summary);
   for (std::size_t c = 0; c < study.columns.size(); ++c) {
-    // A part that failed is not there; in a summary without failure everything is.
-    row.values[c] = value_at(summary, study.columns[c]);
+    const SweepColumn& column = study.columns[c];
+    try {
+      row.values[c] = value_at(summary, column);
+    } catch (const Error& error) {
+      row.exit_code = error.exit_code();
+      row.error = fmt::format("column {}: {}", column.name, error.what());
+      row.astray = fmt::format("{}: {}", column.place, error.what());
+    }
   }
   return row;
 }

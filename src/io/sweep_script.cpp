@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "hamjet/io/sweep_report.hpp"
 #include "scene_message.hpp"
 #include "shell_text.hpp"
@@ -50,10 +52,12 @@ std::string parallel_script(const SweepStudy& study, const SweepScriptPaths& pat
       "set -uo pipefail\n"
       "{}"
       "# How the tasks end is in the rows, which --merge counts.\n"
-      "seq {} | parallel --quote \"$@\" \"$hamjet\" sweep \"$study\" -o \"$directory\" \\\n"
+      "seq {} | parallel --quote --jobs {}% \"$@\" \"$hamjet\" sweep \"$study\" -o \"$directory\" "
+      "\\\n"
       "  --shard '{{}}/{}' --threads {} --resume --quiet\n"
       "exec \"$hamjet\" sweep --merge -o \"$directory\"\n",
-      study.items.size(), tasks, head(paths), tasks, tasks, threads);
+      study.items.size(), tasks, head(paths), tasks, std::max<std::size_t>(100 / threads, 1), tasks,
+      threads);
 }
 
 }  // namespace hamjet::io

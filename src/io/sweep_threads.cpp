@@ -8,6 +8,7 @@
 #include <stop_token>
 #include <thread>
 
+#include "hamjet/error.hpp"
 #include "hamjet/io/sweep_items.hpp"
 
 namespace hamjet::io {
@@ -52,6 +53,8 @@ void work(const SweepStudy& study, const SweepDirectory& directory,
       const SweepRow row = run_sweep_item(study, items[i], [&](const std::string&, double) {
         if (stop.stop_requested()) throw GivenUp();
       });
+      // A mistake in a column shows at once, and not after all have been computed.
+      if (i == 0 && !row.astray.empty()) throw Error(ErrorKind::scene, row.astray);
       directory.write(row);
       if (stop.stop_requested()) throw GivenUp();
       const std::lock_guard lock(shared.mutex);

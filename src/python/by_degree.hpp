@@ -14,9 +14,9 @@ struct DegreeRow {
   double scaled;
 };
 
-/// Of entries with these three members.
+/// Of entries with these three members. As an array of no type, for the help would show C++'s.
 template <class Entry>
-py::array_t<DegreeRow> by_degree(const std::vector<Entry>& entries) {
+py::array by_degree(const std::vector<Entry>& entries) {
   std::vector<DegreeRow> rows;
   for (const Entry& entry : entries) rows.push_back({entry.degree, entry.absolute, entry.scaled});
   return array_of(std::move(rows));

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 
 #include "arithmetic_scope.hpp"
@@ -30,10 +31,24 @@ bool overlaps_otherwise(const py::array& a, const py::array& b) {
   return !is_same && a_begin < b_end && b_begin < a_end;
 }
 
+/// Whether masked elements are among the points, where NumPy would give the numbers below the mask.
+bool has_masked(const py::handle& points) {
+  if (PyFloat_CheckExact(points.ptr()) != 0 || PyLong_CheckExact(points.ptr()) != 0 ||
+      Py_TYPE(points.ptr()) == py::detail::npy_api::get().PyArray_Type_) {
+    return false;
+  }
+  if (PyList_Check(points.ptr()) != 0 || PyTuple_Check(points.ptr()) != 0) {
+    return std::any_of(points.begin(), points.end(), has_masked);
+  }
+  return py::hasattr(points, "_mask") &&
+         py::module_::import("numpy.ma").attr("is_masked")(points).cast<bool>();
+}
+
 py::array_t<double> target(const py::object& out, const std::vector<py::ssize_t>& shape,
                            const py::array& points) {
   if (out.is_none()) return py::array_t<double>(shape);
-  const bool is_right = py::isinstance<Array>(out) && py::cast<py::array>(out).writeable();
+  const bool is_right =
+      py::isinstance<Array>(out) && py::cast<py::array>(out).writeable() && !has_masked(out);
   const py::array given = py::isinstance<py::array>(out) ? py::cast<py::array>(out) : py::array();
   if (!is_right || std::vector<py::ssize_t>(given.shape(), given.shape() + given.ndim()) != shape) {
     refuse(fmt::format("out: must be a writable float64 array in C order of shape ({})",
@@ -63,6 +78,10 @@ py::array_t<double> rows_of(const py::object& points, std::size_t columns,
   if (!has_rows || given.shape(given.ndim() - 1) != size_of(columns)) {
     refuse(fmt::format("{}: must have the shape (N, {}) or ({},), got {}", what, columns, columns,
                        shape_text(given)));
+  }
+  // After the shape, for a list within itself has none.
+  if (has_masked(points)) {
+    refuse(fmt::format("{}: has masked elements, must be numbers throughout", what));
   }
   return Array::ensure(given);
 }

@@ -164,6 +164,7 @@ Jet jet_of(const PropagationResult& result, const RunResult& run) {
   stored.nominal_final = run.nominal_final;
   stored.components = result.problem.components;
   stored.variables = result.scene.variables;
+  stored.ephemeris = result.scene.ephemeris;
   stored.jet = run.jet;
   return Jet(std::move(stored));
 }

@@ -5,8 +5,9 @@ PYBIND11_MODULE(_hamjet, module) {
   module.doc() = "The compiled part of the package hamjet, which is what is meant to be used.";
   module.attr("__version__") = hamjet::version;
   hamjet::python::bind_errors();
-  hamjet::python::bind_jets(module);
+  // In this order: the help of a method shows the Python name of a class only once it is bound.
   hamjet::python::bind_generating_functions(module);
+  hamjet::python::bind_jets(module);
   hamjet::python::bind_scenes(module);
   hamjet::python::bind_runs(module);
   hamjet::python::bind_relative_motion(module);

@@ -12,6 +12,7 @@
 #include "given_scene.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/io/relative_motion_report.hpp"
+#include "hamjet/studies/arcs.hpp"
 #include "interruptible.hpp"
 #include "written_set.hpp"
 
@@ -48,8 +49,15 @@ class Studied {
 /// What reports say of where they come from.
 io::ReportOrigin origin() { return cli::report_origin("the Python module hamjet"); }
 
+/// The scene for `command`, which does not split flows into arcs.
+Scene unsplit(const GivenScene& given, const std::string& command) {
+  Scene scene = given.flow_jet();
+  cli::study_of(given.file, [&] { require_unsplit(scene, command); });
+  return scene;
+}
+
 Studied<TransferResult> study_transfers(const GivenScene& given, const py::object& progress) {
-  const Scene checked = given.flow_jet();
+  const Scene checked = unsplit(given, "hamjet transfer");
   cli::require_transfer(checked, given.file);
   return interruptibly(progress, [scene = checked,
                                   file = given.file](const ProgressCallback& report) {
@@ -68,7 +76,7 @@ Studied<TransferResult> study_transfers(const GivenScene& given, const py::objec
 }
 
 Studied<ValidityResult> study_separations(const GivenScene& given, const py::object& progress) {
-  const Scene checked = given.flow_jet();
+  const Scene checked = unsplit(given, "hamjet validity");
   cli::require_validity(checked, given.file);
   return interruptibly(
       progress, [scene = checked, file = given.file](const ProgressCallback& report) {

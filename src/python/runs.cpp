@@ -1,10 +1,14 @@
+#include <fmt/format.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
 #include <memory>
+#include <optional>
 #include <type_traits>
 #include <variant>
 
+#include "../cli/processors.hpp"
+#include "../io/text_file.hpp"
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "given_scene.hpp"
@@ -28,9 +32,11 @@ struct Propagation {
   const RunResult& run(std::size_t index) const { return result->runs.at(index); }
 };
 
-Propagation run_flow_jet(const GivenScene& given, const py::object& progress) {
-  return interruptibly(progress, [scene = given.flow_jet()](const ProgressCallback& report) {
-    auto result = std::make_shared<const PropagationResult>(propagate(scene, report));
+Propagation run_flow_jet(const GivenScene& given, std::optional<std::size_t> threads,
+                         const py::object& progress) {
+  const std::size_t count = threads ? *threads : cli::usable_processors();
+  return interruptibly(progress, [scene = given.flow_jet(), count](const ProgressCallback& report) {
+    auto result = std::make_shared<const PropagationResult>(propagate(scene, report, count));
     std::string summary = io::summary_json(*result);
     return Propagation{std::move(result), std::move(summary)};
   });
@@ -112,6 +118,23 @@ py::dict files_of(const io::StudyReport& report) {
   return files;
 }
 
+/// Texts of results by name, summary.json among them.
+py::dict read_files(const std::filesystem::path& directory, const std::vector<std::string>& names) {
+  // The command evaluates a jet from such a file; the results are more than its jets.
+  std::error_code none;
+  if (std::filesystem::is_regular_file(directory, none)) {
+    throw Error(ErrorKind::input_output,
+                fmt::format("{}: is a file, must be the directory of the results",
+                            io::printable_path(directory)));
+  }
+  io::ResultSet set(directory, "summary.json");
+  py::dict files;
+  for (const std::string& name : names) files[py::str(name)] = set.read(name);
+  files["summary.json"] = set.summary();
+  set.verify();
+  return files;
+}
+
 }  // namespace
 
 void bind_runs(py::module_& module) {
@@ -127,19 +150,10 @@ void bind_runs(py::module_& module) {
       .def_property_readonly("failure", [](const io::StudyReport& r) { return r.failure; })
       .def_property_readonly("files", &files_of)
       .def("write", &write_set);
-  module.def("run_flow_jet", &run_flow_jet, py::arg("scene"), py::arg("progress"));
+  module.def("run_flow_jet", &run_flow_jet, py::arg("scene"), py::arg("threads"),
+             py::arg("progress"));
   module.def("run_other_study", &run_other_study, py::arg("scene"), py::arg("progress"));
-  module.def(
-      "read_files",
-      [](const std::filesystem::path& directory, const std::vector<std::string>& names) {
-        io::ResultSet set(directory, "summary.json");
-        py::dict files;
-        for (const std::string& name : names) files[py::str(name)] = set.read(name);
-        files["summary.json"] = set.summary();
-        set.verify();
-        return files;
-      },
-      py::arg("directory"), py::arg("names"));
+  module.def("read_files", &read_files, py::arg("directory"), py::arg("names"));
 }
 
 }  // namespace hamjet::python

@@ -21,7 +21,8 @@ TEST_F(Surroundings, OutputInPlaceOfTheScene) {
   EXPECT_EQ(content(directory_ / "quick.toml"), quick_scene());
   succeed({"run", "quick.toml", "-q", "-o", "."});
   EXPECT_EQ(content(directory_ / "quick.toml"), quick_scene());
-  expect_error({"eval", ".", "--deviation", "1,2,3,0,0,0", "-o", "summary.json"}, 2, {"--output"});
+  expect_error({"eval", ".", "--deviation", "1,2,3,0,0,0", "-o", "summary.json"}, 2,
+               {"summary.json: is a file of results"});
 }
 
 #if !defined(__SANITIZE_ADDRESS__)

@@ -53,6 +53,11 @@ TEST_F(ConvertTest, Mistakes) {
   expect_error({"convert", "results", "a.csv", "--run", "gaus8"}, 2, {"did you mean gauss8?"});
   expect_error({"convert", "results/gauss8/jet.csv", "results/gauss8/jet.csv"}, 2, {"same file"});
   expect_error({"convert", "results", "results/gauss8/jet.csv"}, 2, {"would be replaced"});
+  for (const char* file : {"results/gauss8/nominal.csv", "results/summary.json"}) {
+    const std::string one = "100,-200,300,0.1,0,0.2";
+    expect_error({"eval", "results", "--deviation", one, "-o", file}, 2, {"would be replaced"});
+  }
+  expect_error({"convert", "results", "results/gauss8/nominal.csv"}, 2, {"would be replaced"});
   expect_error({"convert", "results/summary.json", "a.csv"}, 5,
                {"summary.json: is neither a results directory"});
   expect_error({"convert", "absent", "a.csv"}, 5, {"absent/summary.json", "No such file"});
@@ -66,6 +71,16 @@ TEST_F(ConvertTest, Mistakes) {
     expect_error({"convert", "results", "a.h5"}, 2, {"-DHAMJET_HDF5=ON"});
     expect_error({"eval", "far.h5", "--deviation", "0"}, 5, {"far.h5"});
   }
+}
+
+// Names that results have too, outside of them: the user's own files.
+TEST_F(ConvertTest, FilesOfTheirOwn) {
+  for (int times = 0; times < 2; ++times) succeed({"convert", "results", "jet.csv"});
+  if (!io::hdf5_available()) return;
+  for (int times = 0; times < 2; ++times) succeed({"convert", "results", "jets.h5"});
+  // Read in the folder in which it lies.
+  succeed({"convert", "jets.h5", "again.h5"});
+  EXPECT_EQ(content(directory_ / "again.h5"), content(directory_ / "jets.h5"));
 }
 
 TEST_F(ConvertTest, DamagedFiles) {

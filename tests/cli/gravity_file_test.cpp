@@ -58,7 +58,9 @@ TEST_F(GravityFile, DamagedItIsOneLineAndExitCode5) {
   refuse(field.substr(0, field.find("gfc     6")), ":23: the file ends without C(6,0)");
   refuse("", ":1: the header has no end_of_head");
   std::filesystem::remove(directory_ / "field.gfc");
-  expect_error({"run", "scenes/scene.toml"}, 5, {"scenes/../field.gfc: ", "No such file"});
+  expect_error(
+      {"run", "scenes/scene.toml"}, 5,
+      {"scene.toml:5:16: system.gravity_file: scenes/../field.gfc cannot be read: No such"});
 }
 
 }  // namespace

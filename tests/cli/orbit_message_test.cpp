@@ -178,6 +178,27 @@ TEST_F(OrbitMessages, TheOrbitOfAnotherProgramIsFollowed) {
   EXPECT_EQ(summary["ephemeris"]["epoch"], "2020-06-01T12:01:00.000000000000");
 }
 
+TEST_F(OrbitMessages, AFrameOfEpochKeepsItsEpoch) {
+  std::string message = changed(low_orbit, "REF_FRAME            = ICRF",
+                                "REF_FRAME            = TEMEOFEPOCH\n"
+                                "REF_FRAME_EPOCH      = 2000-01-01T00:00:00");
+  message = changed(message, "-4.059846290755485e+00", "-4.059846290755485e+00 0 0 0");
+  write("low.oem", message);
+  write("low.toml",
+        from_message("oem_file = \"low.oem\"\n") + "[output]\nformats = [\"oem\", \"dace\"]\n");
+  succeed({"run", "low.toml", "-q"});
+  const std::string epoch = "2000-01-01T00:00:00.000000000000";
+  EXPECT_NE(content(directory_ / "out/low/gauss8/nominal.oem").find("REF_FRAME_EPOCH = " + epoch),
+            std::string::npos);
+  EXPECT_NE(content(directory_ / "out/low/gauss8/jet.dace").find("TEMEOFEPOCH of " + epoch),
+            std::string::npos);
+  const Json summary = read_json(directory_ / "out/low/summary.json");
+  EXPECT_EQ(summary["ephemeris"]["reference_frame_epoch"], epoch);
+  EXPECT_EQ(summary["nominal_file"]["unused"], Json({"accelerations"}));
+  write("dated.toml", quick_scene() + changed(dated, "\"TOD\"", "\"TEMEOFEPOCH\""));
+  expect_error({"check", "dated.toml"}, 3, {"ephemeris.reference_frame_epoch: missing"});
+}
+
 TEST_F(OrbitMessages, TheStandardsParametersAreAStart) {
   write("w4.toml", from_message("opm_file = \"standard.opm\"\n"));
   succeed({"run", "w4.toml", "-q", "-o", "elsewhere"});
@@ -265,6 +286,14 @@ TEST_F(OrbitMessages, TheStateMustBeThere) {
   write("two.oem", changed(io::standard_oem, "OBJECT_NAME = MARS", "OBJECT_NAME = OTHER"));
   refuse("oem_file = \"two.oem\"\n", {"nominal.object: missing, got a file of 2 objects",
                                       "OTHER GLOBAL SURVEYOR, MARS GLOBAL SURVEYOR"});
+  refuse("oem_file = \"two.oem\"\nobject = \"ANOTHER\"\n",
+         {"must be one of: OTHER GLOBAL SURVEYOR, MARS GLOBAL SURVEYOR"});
+  // Of one name, and yet two.
+  write("two.oem", changed(io::standard_oem, "OBJECT_ID = 1996-062A", "OBJECT_ID = 1996-062B"));
+  refuse("oem_file = \"two.oem\"\n",
+         {"nominal.object: missing, got a file of 2 objects", "1996-062B, 1996-062A"});
+  refuse("oem_file = \"two.oem\"\nobject = \"MARS GLOBAL SURVEYOR\"\n",
+         {"nominal.object: the name of 2 objects", "1996-062B, 1996-062A"});
 }
 
 TEST_F(OrbitMessages, TheTablesOutputAndEphemeris) {

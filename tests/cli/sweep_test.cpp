@@ -178,6 +178,32 @@ TEST_F(Sweep, FailedItemsAreInTheTable) {
   EXPECT_NE(again.out.find("0 computed now, 40 before, 20 failed"), std::string::npos);
 }
 
+// What a file that another machine does not see, or not yet, has made fail is tried again; and the
+// error is the same text from wherever the sweep is started.
+TEST_F(Sweep, WhatFailedForAFileIsTriedAgain) {
+  const std::string first = "[[axis]]\nkey = \"nominal.e\"\nfrom = 0.0\nto = 0.9\ncount = 10\n";
+  const std::string files =
+      "[[axis]]\nkey = \"system.gravity_file\"\nvalues = [\"a.gfc\", \"b.gfc\"]\n";
+  std::string changed_study = changed(study, first, files);
+  changed_study = changed(changed_study, "x = \"nominal.e\"", "x = \"system.gravity_file\"");
+  changed_study = changed_study.substr(0, changed_study.find("[map]"));
+  write("study.toml", changed(changed_study, "integrator.midpoint = \"null\"",
+                              "integrator.midpoint = \"null\"\nsystem.model = \"zonal-gravity\"\n"
+                              "system.mu_km3_s2 = \"null\"\nsystem.highest_zonal = 2"));
+  const std::string field = content(fs::path(HAMJET_SOURCE_DIR) / "data/gravity/EGM96-zonals.gfc");
+  write("b.gfc", field);
+  EXPECT_EQ(hamjet({"sweep", "study.toml", "-q", "-o", "out"}).exit_code, 1);
+  EXPECT_NE(table("out").find("a.gfc cannot be read: No such file"), std::string::npos)
+      << table("out");
+  const std::string absolute = (directory_ / "study.toml").string();
+  EXPECT_EQ(hamjet({"sweep", absolute, "-q", "-o", "far"}).exit_code, 1);
+  EXPECT_EQ(table("far"), table("out"));
+  write("a.gfc", field);
+  const CommandResult again =
+      succeed({"sweep", "study.toml", "-o", "out", "--resume", "--shard", "1/1"});
+  EXPECT_NE(again.out.find("4 computed now, 4 before, 0 failed"), std::string::npos) << again.out;
+}
+
 TEST_F(Sweep, BadCommandLinesAndStudiesAreOneLine) {
   expect_error({"sweep"}, 2, {"needs a study"});
   expect_error({"sweep", "--merge"}, 2, {"needs the study"});

@@ -8,6 +8,7 @@
 
 #include "hamjet/dynamics/expression.hpp"
 #include "support/flow.hpp"
+#include "support/magnitude.hpp"
 
 // Gauss collocation against references of 36 and more digits (data/references/README.md).
 
@@ -15,8 +16,6 @@ namespace hamjet {
 namespace {
 
 using test::ReferenceOrbit;
-
-double magnitude_of(const Extended& x) { return std::abs(static_cast<double>(x)); }
 
 std::size_t index_of(const SeriesSpace& space, const std::string& digits) {
   std::vector<std::uint8_t> exponents;
@@ -41,10 +40,10 @@ TEST(GaussReference, PaperOrbitMatchesStateMatrixAndJetOfOrderThree) {
     }
   }
   for (std::size_t i = 0; i < 6; ++i) {
-    EXPECT_LE(magnitude_of(Extended(jet[i][0]) - orbit.state[i]), 10 * orbit.floor[i]);
+    EXPECT_LE(test::magnitude_of(Extended(jet[i][0]) - orbit.state[i]), 10 * orbit.floor[i]);
     for (std::size_t j = 0; j < 6; ++j) {
       // The matrix of the two files is the same one.
-      EXPECT_LE(magnitude_of(reference[i][1 + j] - orbit.matrix[i][j]), 1e-30);
+      EXPECT_LE(test::magnitude_of(reference[i][1 + j] - orbit.matrix[i][j]), 1e-30);
     }
   }
   for (int d = 0; d <= 3; ++d) {
@@ -86,9 +85,9 @@ TEST(GaussReference, ExtendedRunsReachTheExactRealCase) {
   const auto jet = test::run_gauss(flow, test::adaptive(16, 1e-28));
   const auto state = test::decimals(entry["state"]);
   for (std::size_t i = 0; i < 6; ++i) {
-    EXPECT_LE(magnitude_of(jet[i][0] - state[i]), 1e-26);
+    EXPECT_LE(test::magnitude_of(jet[i][0] - state[i]), 1e-26);
     for (std::size_t j = 0; j < 6; ++j) {
-      EXPECT_LE(magnitude_of(jet[i][1 + j] - test::from_decimal(entry["stm"][i][j])), 1e-22);
+      EXPECT_LE(test::magnitude_of(jet[i][1 + j] - test::from_decimal(entry["stm"][i][j])), 1e-22);
     }
   }
 }
@@ -136,11 +135,11 @@ TEST_P(GaussReferenceOrbit, EndsWithinTenTimesTheFloorOfItsInputs) {
       (orbit.field.J[2] == 0 && orbit.duration > 60) || GetParam() == "HYP-FLYBY";
   const double amplified = is_amplified ? 0x1p-52 * orbit.matrix_norm * orbit.matrix_norm / 4 : 0;
   for (std::size_t i = 0; i < 6; ++i) {
-    EXPECT_LE(magnitude_of(Extended(jet[i][0]) - orbit.state[i]),
-              tolerance * std::max(1.0, magnitude_of(orbit.state[i])) + 10 * orbit.floor[i])
+    EXPECT_LE(test::magnitude_of(Extended(jet[i][0]) - orbit.state[i]),
+              tolerance * std::max(1.0, test::magnitude_of(orbit.state[i])) + 10 * orbit.floor[i])
         << "component " << i;
     for (std::size_t j = 0; j < 6; ++j) {
-      EXPECT_LE(magnitude_of(Extended(jet[i][1 + j]) - orbit.matrix[i][j]),
+      EXPECT_LE(test::magnitude_of(Extended(jet[i][1 + j]) - orbit.matrix[i][j]),
                 tolerance * orbit.matrix_norm + 10 * floor[i][j] + amplified)
           << "entry " << i << ", " << j;
     }
@@ -149,7 +148,7 @@ TEST_P(GaussReferenceOrbit, EndsWithinTenTimesTheFloorOfItsInputs) {
   const Extended change =
       test::energy(flow.system, std::vector<Extended>(orbit.state.begin(), orbit.state.end())) -
       test::from_decimal(test::reference_case(orbit.id)["energy0"]);
-  EXPECT_LE(magnitude_of(change), 1e-25);
+  EXPECT_LE(test::magnitude_of(change), 1e-25);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -214,9 +213,9 @@ TEST(GaussReference, KeplerJetHasItsClosedForm) {
   // The steps are chosen by the nominal alone, and a circle is easy: degree 5 needs shorter ones.
   const auto jet = test::run_gauss(rounded, test::adaptive(8, 1e-22));
   for (std::size_t k = 0; k <= 5; ++k) {
-    const double scale = std::max({1.0, magnitude_of(x[k]), magnitude_of(y[k])});
-    EXPECT_LE(magnitude_of(extended[0][k] - x[k]), 1e-22 * scale) << "x, degree " << k;
-    EXPECT_LE(magnitude_of(extended[1][k] - y[k]), 1e-22 * scale) << "y, degree " << k;
+    const double scale = std::max({1.0, test::magnitude_of(x[k]), test::magnitude_of(y[k])});
+    EXPECT_LE(test::magnitude_of(extended[0][k] - x[k]), 1e-22 * scale) << "x, degree " << k;
+    EXPECT_LE(test::magnitude_of(extended[1][k] - y[k]), 1e-22 * scale) << "y, degree " << k;
     // In double precision the rounded duration alone moves a coefficient by
     // 2^-53 2 pi |rate| <= 1e-15 (k + 1) scale; fifty steps of a few roundings.
     EXPECT_LE(std::abs(jet[0][k] - static_cast<double>(x[k])), 1e-13 * scale) << "x, degree " << k;
@@ -240,11 +239,12 @@ TEST(GaussReference, KeplerMonodromyOverOneRevolution) {
     // Twenty digits are printed.
     double scale = 0;
     for (const auto& row : matrix) {
-      for (const auto& text : row) scale = std::max(scale, magnitude_of(test::from_decimal(text)));
+      for (const auto& text : row)
+        scale = std::max(scale, test::magnitude_of(test::from_decimal(text)));
     }
     for (std::size_t i = 0; i < 4; ++i) {
       for (std::size_t j = 0; j < 4; ++j) {
-        EXPECT_LE(magnitude_of(jet[rows[i]][1 + j] - test::from_decimal(matrix[i][j])),
+        EXPECT_LE(test::magnitude_of(jet[rows[i]][1 + j] - test::from_decimal(matrix[i][j])),
                   1e-17 * scale)
             << "e = " << eccentricity << ", entry " << i << ", " << j;
       }

@@ -5,11 +5,10 @@
 #include <cmath>
 
 #include "support/errors.hpp"
+#include "support/magnitude.hpp"
 
 namespace hamjet {
 namespace {
-
-double magnitude_of(const Extended& x) { return std::abs(static_cast<double>(x)); }
 
 /// Thirty-four digits, a few of which sums of 16 terms cost.
 constexpr double roundoff = 1e-31;
@@ -34,13 +33,15 @@ TEST(GaussTableau, HasTheClosedFormsOfOneTwoAndThreeStages) {
   const Extended c3[3] = {one / 2 - root15 / 10, one / 2, one / 2 + root15 / 10};
   const Extended b3[3] = {5 * one / 18, 4 * one / 9, 5 * one / 18};
   for (std::size_t i = 0; i < 3; ++i) {
-    EXPECT_LE(magnitude_of(three.nodes[i] - c3[i]), roundoff);
-    EXPECT_LE(magnitude_of(three.weights[i] - b3[i]), roundoff);
-    for (std::size_t j = 0; j < 3; ++j) EXPECT_LE(magnitude_of(three.a(i, j) - a3[i][j]), roundoff);
+    EXPECT_LE(test::magnitude_of(three.nodes[i] - c3[i]), roundoff);
+    EXPECT_LE(test::magnitude_of(three.weights[i] - b3[i]), roundoff);
+    for (std::size_t j = 0; j < 3; ++j)
+      EXPECT_LE(test::magnitude_of(three.a(i, j) - a3[i][j]), roundoff);
     if (i == 2) break;
-    EXPECT_LE(magnitude_of(two.nodes[i] - c2[i]), roundoff);
-    EXPECT_LE(magnitude_of(two.weights[i] - Extended(0.5)), roundoff);
-    for (std::size_t j = 0; j < 2; ++j) EXPECT_LE(magnitude_of(two.a(i, j) - a2[i][j]), roundoff);
+    EXPECT_LE(test::magnitude_of(two.nodes[i] - c2[i]), roundoff);
+    EXPECT_LE(test::magnitude_of(two.weights[i] - Extended(0.5)), roundoff);
+    for (std::size_t j = 0; j < 2; ++j)
+      EXPECT_LE(test::magnitude_of(two.a(i, j) - a2[i][j]), roundoff);
   }
 }
 
@@ -53,7 +54,7 @@ TEST(GaussTableau, MeetsTheOrderConditions) {
       for (std::size_t i = 0; i < s; ++i) {
         sum += t.weights[i] * pow(t.nodes[i], Extended(static_cast<double>(k - 1)));
       }
-      const double error = magnitude_of(sum - 1 / Extended(static_cast<double>(k)));
+      const double error = test::magnitude_of(sum - 1 / Extended(static_cast<double>(k)));
       if (k <= 2 * s) {
         EXPECT_LE(error, roundoff) << s << " stages, moment " << k;
       } else {
@@ -67,7 +68,7 @@ TEST(GaussTableau, MeetsTheOrderConditions) {
         Extended sum = 0;
         for (std::size_t j = 0; j < s; ++j) sum += t.a(i, j) * pow(t.nodes[j], power);
         const Extended expected = pow(t.nodes[i], power) * t.nodes[i] / (power + 1);
-        EXPECT_LE(magnitude_of(sum - expected), roundoff);
+        EXPECT_LE(test::magnitude_of(sum - expected), roundoff);
       }
     }
   }
@@ -77,7 +78,7 @@ TEST(GaussTableau, IsSymplecticAndSymmetric) {
   for (std::size_t s = 1; s <= 16; ++s) {
     const GaussTableau t = gauss_tableau(s);
     for (std::size_t i = 0; i < s; ++i) {
-      EXPECT_LE(magnitude_of(t.nodes[i] + t.nodes[s - 1 - i] - 1), roundoff);
+      EXPECT_LE(test::magnitude_of(t.nodes[i] + t.nodes[s - 1 - i] - 1), roundoff);
       EXPECT_GT(t.weights[i], 0);
       if (i > 0) {
         EXPECT_GT(t.nodes[i], t.nodes[i - 1]);
@@ -85,9 +86,10 @@ TEST(GaussTableau, IsSymplecticAndSymmetric) {
       for (std::size_t j = 0; j < s; ++j) {
         const Extended defect =
             t.weights[i] * t.a(i, j) + t.weights[j] * t.a(j, i) - t.weights[i] * t.weights[j];
-        EXPECT_LE(magnitude_of(defect), roundoff);
+        EXPECT_LE(test::magnitude_of(defect), roundoff);
         // a_(s-1-i, s-1-j) + a_ij = b_j: the method is its own adjoint.
-        EXPECT_LE(magnitude_of(t.a(s - 1 - i, s - 1 - j) + t.a(i, j) - t.weights[j]), roundoff);
+        EXPECT_LE(test::magnitude_of(t.a(s - 1 - i, s - 1 - j) + t.a(i, j) - t.weights[j]),
+                  roundoff);
       }
     }
   }
@@ -108,8 +110,8 @@ TEST(GaussTableau, LastModeIsTheHighestLegendreMode) {
     of_linear += t.last_mode[i] * (2 * t.nodes[i] - 1);
     of_constant += t.last_mode[i];
   }
-  EXPECT_LE(magnitude_of(of_linear - 1), roundoff);
-  EXPECT_LE(magnitude_of(of_constant), roundoff);
+  EXPECT_LE(test::magnitude_of(of_linear - 1), roundoff);
+  EXPECT_LE(test::magnitude_of(of_constant), roundoff);
 }
 
 }  // namespace

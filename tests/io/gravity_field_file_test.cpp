@@ -113,6 +113,14 @@ TEST(GravityFieldFile, RefusesWhatVariesWithTimeOnlyWhereItIsAskedFor) {
   }
 }
 
+TEST(GravityFieldFile, RefusesAnOriginThatIsNotTheCentreOfMass) {
+  const std::string whole = eigen;
+  EXPECT_NO_THROW(parse_gravity_field("field.gfc", whole + "gfc 1 0 0.0 0.0 0 0\n", {0, {5}}));
+  expect_field_refused(whole + "gfc 1 0 1e-9 0.0 0 0\n",
+                       {"C(1,0): must be 0, got \"1e-9\": the origin must be"});
+  expect_field_refused(whole + "gfct 0 0 0.9999 0 0 0 20041001\n", {"C(0,0): must be 1"});
+}
+
 TEST(GravityFieldFile, RefusesWhatIsDamagedByFileAndLine) {
   const std::string whole = eigen;
   expect_field_refused("", {"field.gfc:1: the header has no end_of_head"});
@@ -202,9 +210,9 @@ TEST(GravityFieldFile, TheShippedExcerptHasTheZonalsOfEGM96) {
 TEST(GravityFieldFile, RefusesFilesThatAreNone) {
   test::TemporaryDirectory directory;
   for (const auto& [file, words] : std::vector<std::pair<std::filesystem::path, std::string>>{
-           {directory.path(), "it is not a regular file"},
+           {directory.path(), "it is a directory, not a regular file"},
            {directory.path() / "none.gfc", "No such file"},
-           {"/dev/zero", "it is not a regular file"}}) {
+           {"/dev/zero", "it is a device, not a regular file"}}) {
     try {
       read_gravity_field(file, {2});
       ADD_FAILURE() << file;
@@ -295,7 +303,8 @@ TEST_F(SceneWithGravityFile, KeysAreChecked) {
   expect_error("gravity_file = 3\nzonals = [5]\n", {"gravity_file: wrong type"});
   expect_error("gravity_file = \"\"\nzonals = [5]\n", {"gravity_file: no path"});
   // What is wrong with the file names the file, and its line.
-  expect_error("gravity_file = \"none.gfc\"\nzonals = [5]\n", {"none.gfc: the gravity field"},
+  expect_error("gravity_file = \"none.gfc\"\nzonals = [5]\n",
+               {":5:16: system.gravity_file: ", "none.gfc cannot be read"},
                ErrorKind::input_output);
   expect_error(file + "highest_zonal = 6\n", {"field.gfc:16: gfct: C(2,0) varies with time"},
                ErrorKind::input_output);

@@ -20,7 +20,7 @@
 namespace hamjet::io {
 namespace {
 
-constexpr const char* kepler = R"(schema = 1
+constexpr const char* small_kepler = R"(schema = 1
 title = "kepler"
 [system]
 model = "kepler"
@@ -51,7 +51,7 @@ bool same(const Extended& a, const Extended& b) { return a == b && signbit(a) ==
 class JetFileTest : public ::testing::Test {
  protected:
   PropagationResult store(const std::vector<Override>& overrides = {}) {
-    Scene scene = parse_scene(kepler, "scene.toml", overrides);
+    Scene scene = parse_scene(small_kepler, "scene.toml", overrides);
     scene.output = {.hdf5 = hdf5_available(), .dace = true};
     PropagationResult result = propagate(scene);
     // The kinds of zero are told apart.

@@ -15,7 +15,7 @@ const std::filesystem::path scenes = std::filesystem::path(HAMJET_SOURCE_DIR) / 
 
 /// A scene whose conversions are exact: the nominal is 4 km from a centre with mu = 1 km^3/s^2, so
 /// that the units are 4 km, 8 s and 0.5 km/s, and at half a km/s it is on a circle.
-constexpr const char* orbit = R"(schema = 1
+constexpr const char* round_orbit = R"(schema = 1
 title = "circle"
 [system]
 model = "zonal-gravity"
@@ -40,7 +40,7 @@ require_relative_error = 1e-2
 require_symplecticity = 1
 )";
 
-constexpr const char* oscillator = R"(schema = 1
+constexpr const char* slow_oscillator = R"(schema = 1
 title = "oscillator"
 precision = "extended"
 [system]
@@ -63,9 +63,10 @@ separation_m = 0.5
 
 const double pi = std::acos(-1.0);
 
-// Expected: the units in the comment on `orbit`; p = v / 0.5, duration / 8 s, step / 8 s, 2 km / 4.
+// Expected: the units in the comment on `round_orbit`; p = v / 0.5, duration / 8 s, step / 8 s, 2
+// km / 4.
 TEST(Scene, ConvertsToCanonicalUnits) {
-  const Scene scene = parse_scene(orbit, "dir/circle.toml");
+  const Scene scene = parse_scene(round_orbit, "dir/circle.toml");
   EXPECT_EQ(scene.name, "circle");
   EXPECT_EQ(scene.title, "circle");
   EXPECT_EQ(scene.precision, Precision::double_precision);
@@ -99,7 +100,7 @@ TEST(Scene, ConvertsToCanonicalUnits) {
 
 // Expected: metre, kilogram and second stay, 1 m = 1e-3 km.
 TEST(Scene, LeavesTheOscillatorInItsUnits) {
-  const Scene scene = parse_scene(oscillator, "oscillator.toml");
+  const Scene scene = parse_scene(slow_oscillator, "oscillator.toml");
   EXPECT_EQ(scene.precision, Precision::extended);
   EXPECT_EQ(scene.system.model, SystemModel::harmonic_oscillator);
   EXPECT_EQ(scene.system.mass_kg, 1);
@@ -117,7 +118,7 @@ TEST(Scene, LeavesTheOscillatorInItsUnits) {
 // Expected: a circle of radius 1 has the period 2 pi.
 TEST(Scene, TakesEachFormOfDuration) {
   const auto duration = [](const std::string& form) {
-    return parse_scene(orbit, "x", {{"jet", "{order = 1, " + form + "}"}}).duration;
+    return parse_scene(round_orbit, "x", {{"jet", "{order = 1, " + form + "}"}}).duration;
   };
   EXPECT_EQ(duration("duration_orbits = 1"), 2 * pi);
   EXPECT_EQ(duration("duration_orbits = -0.5"), -pi);
@@ -153,7 +154,7 @@ TEST(Scene, ConvertsThePapersOrbitToTheLastBit) {
 TEST(Scene, IsTheSameAtEveryScale) {
   const std::vector<Override> plain = {{"nominal.position_km", "[3, -1.25, 0.3]"},
                                        {"nominal.velocity_km_s", "[0.1, 0.4, 0.2]"}};
-  const Scene expected = parse_scene(orbit, "x", plain);
+  const Scene expected = parse_scene(round_orbit, "x", plain);
   for (const int k : {-240, -166, -20, 20, 166, 240}) {
     const auto number = [k](double value, int power) {
       std::ostringstream text;
@@ -161,7 +162,7 @@ TEST(Scene, IsTheSameAtEveryScale) {
       return text.str();
     };
     const Scene scaled =
-        parse_scene(orbit, "x",
+        parse_scene(round_orbit, "x",
                     {{"nominal.position_km",
                       "[" + number(3, 2) + ", " + number(-1.25, 2) + ", " + number(0.3, 2) + "]"},
                      {"nominal.velocity_km_s", "[" + number(0.1, -1) + ", " + number(0.4, -1) +
@@ -181,7 +182,7 @@ TEST(Scene, IsTheSameAtEveryScale) {
 // Expected: the definitions; an equatorial orbit without J3 has a plane subsystem of 4 variables.
 TEST(Scene, TakesKindsOfGeneratingFunctions) {
   const auto kinds = [](const std::string& list, const std::string& variables) {
-    return parse_scene(orbit, "x",
+    return parse_scene(round_orbit, "x",
                        {{"generating_function.kinds", list}, {"jet.variables", variables}})
         .kinds.value();
   };
@@ -191,7 +192,7 @@ TEST(Scene, TakesKindsOfGeneratingFunctions) {
   const std::string plane = R"(["py", "x", "px", "y"])";
   EXPECT_EQ(kinds(R"(["qq-pp", "F1", "qp-pq"])", plane),
             (std::vector<std::string>{"qq-pp", "F1", "qp-pq"}));
-  EXPECT_EQ(parse_scene(oscillator, "x",
+  EXPECT_EQ(parse_scene(slow_oscillator, "x",
                         {{"generating_function.kinds", R"(["q-p", "F1"])"},
                          {"jet.variables", R"(["p", "q"])"}})
                 .kinds,
@@ -199,17 +200,18 @@ TEST(Scene, TakesKindsOfGeneratingFunctions) {
 }
 
 TEST(Scene, SortsVariables) {
-  EXPECT_EQ(parse_scene(orbit, "x", {{"jet.variables", R"(["py", "x", "z"])"}}).variables,
+  EXPECT_EQ(parse_scene(round_orbit, "x", {{"jet.variables", R"(["py", "x", "z"])"}}).variables,
             (std::vector<std::size_t>{0, 2, 4}));
 }
 
 TEST(Scene, TakesEmptyReferenceForItsDefault) {
-  EXPECT_EQ(parse_scene(orbit, "x", {{"reference", "{}"}}).reference.value().tolerance, 1e-24);
+  EXPECT_EQ(parse_scene(round_orbit, "x", {{"reference", "{}"}}).reference.value().tolerance,
+            1e-24);
 }
 
 // Expected: the rule in Scene::name.
 TEST(Scene, NamesItselfAfterTheFile) {
-  const auto name = [](const char* file) { return parse_scene(orbit, file).name; };
+  const auto name = [](const char* file) { return parse_scene(round_orbit, file).name; };
   EXPECT_EQ(name("a/b/my scene.v2.toml"), "my_scene.v2");
   EXPECT_EQ(name("..hidden.toml"), "hidden");
   EXPECT_EQ(name("<a\n\"b>.toml"), "_a__b_");
@@ -218,14 +220,14 @@ TEST(Scene, NamesItselfAfterTheFile) {
 
 TEST(Scene, AcceptsWindowsLineEndsAndByteOrderMark) {
   std::string text = "\xef\xbb\xbf";
-  for (const char c : std::string(orbit))
+  for (const char c : std::string(round_orbit))
     text += c == '\n' ? std::string("\r\n") : std::string(1, c);
-  EXPECT_EQ(parse_scene(text, "x").nominal, parse_scene(orbit, "x").nominal);
+  EXPECT_EQ(parse_scene(text, "x").nominal, parse_scene(round_orbit, "x").nominal);
 }
 
 TEST(Scene, IsNotMisledByStringsAndComments) {
   const std::string nested(100, '[');
-  const std::string text = std::string(orbit) + "# 1e999 " + nested + "\n[reference] # \"\n";
+  const std::string text = std::string(round_orbit) + "# 1e999 " + nested + "\n[reference] # \"\n";
   const std::vector<Override> titles = {{"title", "'1e999" + nested + "'"},
                                         {"title", "\"a\\\"" + nested + "\""},
                                         {"title", "\"\"\"1e999\n" + nested + "\"\"\"\""}};
@@ -235,7 +237,7 @@ TEST(Scene, IsNotMisledByStringsAndComments) {
 }
 
 TEST(SceneOverride, ReachesEveryKey) {
-  const Scene scene = parse_scene(orbit, "x",
+  const Scene scene = parse_scene(round_orbit, "x",
                                   {{"jet.order", "2"},
                                    {"integrator.0.stages", "3"},
                                    {"integrator.a.label", "first"},
@@ -254,7 +256,7 @@ TEST(SceneOverride, ReachesEveryKey) {
 
 TEST(SceneOverride, TakesForAStringWhatIsNotToml) {
   const auto title = [](const char* value) {
-    return parse_scene(orbit, "x", {{"title", value}}).title;
+    return parse_scene(round_orbit, "x", {{"title", value}}).title;
   };
   EXPECT_EQ(title("two words"), "two words");
   EXPECT_EQ(title("\"quoted\""), "quoted");
@@ -263,7 +265,7 @@ TEST(SceneOverride, TakesForAStringWhatIsNotToml) {
 }
 
 TEST(SceneOverride, LastOneCounts) {
-  EXPECT_EQ(parse_scene(orbit, "x", {{"jet.order", "5"}, {"jet.order", "6"}}).order, 6);
+  EXPECT_EQ(parse_scene(round_orbit, "x", {{"jet.order", "5"}, {"jet.order", "6"}}).order, 6);
 }
 
 TEST(ShippedScenes, AreAllRead) {

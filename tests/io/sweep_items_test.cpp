@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <chrono>
 #include <cmath>
 #include <limits>
 
@@ -60,15 +62,11 @@ TEST_F(SweepItems, WhatFailsIsARow) {
 }
 
 TEST_F(SweepItems, AColumnThatLeadsNowhereIsTheStudysMistake) {
-  const auto message = [&](const std::string& pointer) -> std::string {
+  const auto message = [&](const std::string& pointer) {
     study_.columns[1].pointer = pointer;
-    try {
-      run_sweep_item(study_, 0);
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::scene);
-      return error.what();
-    }
-    return "";
+    const SweepRow row = run_sweep_item(study_, 0);
+    EXPECT_EQ(row.exit_code, row.astray.empty() ? 0 : 3);
+    return row.astray;
   };
   EXPECT_NE(message("/runs/0/energy_eror").find("study.toml:22:9: column.1.value: leads nowhere"),
             std::string::npos);
@@ -80,6 +78,53 @@ TEST_F(SweepItems, AColumnThatLeadsNowhereIsTheStudysMistake) {
   EXPECT_EQ(message("/runs/7/energy_error"), "");
   EXPECT_EQ(message("/reference/steps"), "");
   EXPECT_EQ(run_sweep_item(study_, 0).values[1], SweepValue());
+}
+
+TEST_F(SweepItems, AColumnThatLeadsNowhereForOneItemIsItsRow) {
+  study_.columns[1].pointer = "/runs/gauss8/nominal_final/0";
+  study_.keys.push_back({"integrator.gauss8.label", false, "here"});
+  for (auto& item : study_.items) item.emplace_back("\"gauss8\"");
+  study_.items[5].back() = "\"g\"";
+  const SweepRow row = run_sweep_item(study_, 5);
+  EXPECT_EQ(row.exit_code, 3);
+  EXPECT_NE(row.error.find("column x_final: leads nowhere in summary.json, got \"gauss8\""),
+            std::string::npos)
+      << row.error;
+  const SweepDirectory directory(rows(), study_);
+  EXPECT_EQ(run_sweep_items(study_, directory, {4, 5, 6}, 1, [](const auto&) {}).failed, 1U);
+  // First of all it is taken for a mistake of the study.
+  try {
+    run_sweep_items(study_, directory, {5, 6}, 1, [](const auto&) {});
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::scene);
+    EXPECT_NE(std::string(error.what()).find("study.toml:22:9: column.1.value: leads nowhere"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+TEST_F(SweepItems, WhatAnotherProcessIsWritingIsNoLeftover) {
+  const SweepDirectory directory(rows(), study_);
+  directory.write(run_sweep_item(study_, 0));
+  const auto folder = rows() / "rows" / "000";
+  char host[64] = {};
+  ASSERT_EQ(::gethostname(host, sizeof host - 1), 0);
+  const auto temporary = [&](const std::string& writer) {
+    return write_text(folder / ("000001.json." + writer + ".tmp"), "half a r");
+  };
+  const auto of_this = temporary(std::string(host) + "-" + std::to_string(::getpid()));
+  // The largest process number of Linux is below 2^22.
+  const auto of_dead = temporary(std::string(host) + "-2147483647");
+  const auto of_other = temporary("node17-2147483647");
+  const auto of_old = temporary("node18-2147483647");
+  std::filesystem::last_write_time(
+      of_old, std::filesystem::file_time_type::clock::now() - std::chrono::hours(2));
+  directory.remove_leftovers();
+  EXPECT_TRUE(std::filesystem::exists(of_this));
+  EXPECT_TRUE(std::filesystem::exists(of_other));
+  EXPECT_FALSE(std::filesystem::exists(of_dead));
+  EXPECT_FALSE(std::filesystem::exists(of_old));
 }
 
 TEST_F(SweepItems, ARowIsReadAsItWasWritten) {

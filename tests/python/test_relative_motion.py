@@ -106,6 +106,8 @@ def test_transfers_are_those_of_the_command(tmp_path):
     loaded = hamjet.load(tmp_path / "out")
     assert without_times(loaded.summary) == without_times(transfers.summary)
     assert (loaded.tables["transfers"]["time_s"] == transfers.times_s).all()
+    near = loaded.tables["transfers"]["near_singular"]
+    assert near.dtype == np.bool_ and (near == transfers.near_singular).all()
     singular = loaded.tables["singular_times"]
     assert (transfers.singular_times_s == singular["time_s"][singular["kind"] == "qqq-qqq"]).all()
 
@@ -122,10 +124,26 @@ def test_the_flown_deputy_starts_and_ends_where_it_shall(tmp_path):
     assert np.abs(states[0, 3:] - transfers.start_change_m_s[transfers.best]).max() < 1e-6
     transfers.write(tmp_path / "out")
     assert (tmp_path / "out" / "report.html").is_file()
-    with pytest.raises(hamjet.UsageError, match="this transfer time has no answer"):
-        transfers.trajectory(6)
     with pytest.raises(ValueError):
         transfers.miss_m[0] = 0
+
+
+def test_times_without_an_answer_have_no_trajectory():
+    # F1 does not exist where no time has passed to speak of.
+    transfers = hamjet.transfer(TRANSFER, overrides={
+        "transfer.count": None, "transfer.times_s": [1e-30, 1800], "transfer.kind": "F1"})
+    assert np.isnan(transfers.miss_m[0]) and transfers.failures[0]
+    with pytest.raises(hamjet.UsageError, match="^trajectory: this transfer time has no answer$"):
+        transfers.trajectory(0)
+
+
+@pytest.mark.parametrize("study, table", [
+    ("transfer", {}), ("validity", {"validity": {"tolerance_m": 1, "count": 2}})])
+def test_flows_in_arcs_are_refused_as_by_the_command(tmp_path, study, table):
+    printed = command(study, TRANSFER_SCENE, "--set", "jet.arcs=2", directory=tmp_path)
+    with pytest.raises(hamjet.SceneError) as raised:
+        getattr(hamjet, study)(TRANSFER_SCENE, overrides={"jet.arcs": 2, **table})
+    assert str(raised.value) == message(printed)
 
 
 def test_scenes_without_the_table_are_refused_as_by_the_command(tmp_path):

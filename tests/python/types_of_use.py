@@ -9,7 +9,7 @@ import hamjet
 
 
 def use(points: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-    result = hamjet.run({"schema": 1}, overrides={"jet.order": 4},
+    result = hamjet.run({"schema": 1}, overrides={"jet.order": 4}, threads=2,
                         progress=lambda task, fraction: print(task, fraction))
     assert isinstance(result, hamjet.Result)
     jet: hamjet.Jet = result.runs["gauss8"].jet

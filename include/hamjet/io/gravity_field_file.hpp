@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -8,6 +9,9 @@
 #include "hamjet/dynamics/zonal_coefficients.hpp"
 
 namespace hamjet::io {
+
+/// Largest file that is read, in bytes: the largest model there is, of degree 5540, takes half.
+inline constexpr std::size_t largest_gravity_field_bytes = std::size_t{1} << 32;
 
 /// The zonal part of a gravity field in the format of the International Centre for Global Earth
 /// Models (ICGEM, `.gfc`; E. S. Ince et al., Earth System Science Data 11, 647 (2019)).
@@ -37,12 +41,12 @@ struct ZonalChoice {
 ///    that are none;
 ///  - a coefficient that is asked for and is missing, there twice, no finite number, beyond 1 in
 ///    magnitude, or time-variable (gfct, trnd, dot, asin, acos): a scene's field is constant;
-///  - C(0,0) that is not 1.
+///  - C(0,0) that is not 1, or C(1,0) that is not 0: the origin is not the centre of mass.
 GravityField parse_gravity_field(const std::string& name, std::string_view text,
                                  const ZonalChoice& choice);
 
-/// The same from a file. Throws Error(input_output) too if it cannot be read, is no regular file,
-/// or is larger than 4 GB.
+/// The same from a file. Throws Error(input_output) too if it cannot be read or is no regular file,
+/// Error(too_large) if it is larger than largest_gravity_field_bytes.
 GravityField read_gravity_field(const std::filesystem::path& file, const ZonalChoice& choice);
 
 }  // namespace hamjet::io

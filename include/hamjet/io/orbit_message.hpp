@@ -32,6 +32,7 @@ struct OrbitMetadata {
   std::string center_name;      ///< CENTER_NAME
   std::string reference_frame;  ///< REF_FRAME, in capitals
   TimeSystem time_system = TimeSystem::utc;
+  std::optional<Epoch> reference_frame_epoch = {};  ///< REF_FRAME_EPOCH, of a frame "of epoch"
 };
 
 /// One block of metadata with the states that follow it.
@@ -42,8 +43,9 @@ struct EphemerisSegment {
   /// USEABLE_START_TIME and USEABLE_STOP_TIME: states outside only help to interpolate.
   std::optional<Epoch> useable_start;
   std::optional<Epoch> useable_stop;
-  bool has_covariance = false;  ///< a covariance block followed, which is not kept
-  std::size_t line = 0;         ///< of META_START
+  bool has_acceleration = false;  ///< behind the states, which is not kept
+  bool has_covariance = false;    ///< a covariance block followed, which is not kept
+  std::size_t line = 0;           ///< of META_START
 
   bool is_useable(const Epoch& epoch) const {
     return !(useable_start && epoch < *useable_start) && !(useable_stop && *useable_stop < epoch);

@@ -29,6 +29,9 @@ struct StoredJet {
   /// deviation in the variables.
   std::vector<std::size_t> components;
   std::vector<std::size_t> variables;  ///< expanded in, ascending
+  /// Date and frame of the nominal, where the scene names them: epoch, time system, reference frame
+  /// with its epoch, and centre; the rest is not stored.
+  std::optional<EphemerisSettings> ephemeris = {};
   /// One series a component. The printed digits bring back the numbers of the run bit by bit; in
   /// double precision they are doubles.
   FlowJet<Extended> jet;

@@ -23,12 +23,15 @@ struct SweepRow {
   int exit_code = 0;  ///< as of the item's command; with 1 (a check failed) there are values too
   std::string error;  ///< one line, if the exit code is not 0
   std::vector<SweepValue> values;  ///< one a column
+  /// A column that leads nowhere in the summary of the item, and its place in the study; not
+  /// stored.
+  std::string astray = {};
 
   bool operator==(const SweepRow&) const = default;
 };
 
-/// Computes one item. What fails is in its row; thrown are what `progress` throws and Error(scene)
-/// for a column that leads nowhere in the summary. Items share nothing but the study.
+/// Computes one item. What fails is in its row, with exit code 3 a column that leads nowhere in the
+/// summary; thrown is what `progress` throws. Items share nothing but the study.
 SweepRow run_sweep_item(const SweepStudy& study, std::size_t item,
                         const ProgressCallback& progress = {});
 

@@ -148,6 +148,7 @@ struct EphemerisSettings {
   std::string time_system;      ///< for example UTC, TDB
   std::string reference_frame;  ///< inertial; its z axis is taken as the axis of the zonal field
   std::string center_name;      ///< for example EARTH
+  std::string reference_frame_epoch = {};  ///< of a frame "of epoch", ISO 8601; else empty
   std::string object_name = "UNKNOWN";
   std::string object_id = "UNKNOWN";   ///< international designator
   std::string deputy_name = "DEPUTY";  ///< of the spacecraft that flies relative to the nominal

@@ -10,10 +10,13 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from . import _hamjet, scenes
+from . import _hamjet, arguments, scenes
 from .results import Floats, Progress
 
 Flags = npt.NDArray[np.bool_]
+
+#: Of one trajectory: more would be gigabytes of a smooth curve.
+_MOST_INTERVALS = 1_000_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,14 +61,17 @@ class Transfers:
     def trajectory(self, index: int, count: int = 400) -> tuple[Floats, Floats]:
         """The flown deputy of one transfer time's best answer, at ``count`` equal intervals.
 
+        index: of the transfer time, from 0. count: 1 to 1000000.
         Returns times in s, (count + 1,), and states, (count + 1, 6), in m and m/s along R, T, N of
-        the chief with rotating derivatives. Raises UsageError if this time has no answer.
+        the chief with rotating derivatives. Raises UsageError, also if this time has no answer.
         """
-        return self._study.fly(index, count)
+        return self._study.fly(
+            arguments.integer(index, "trajectory: index", 0, len(self.times_s) - 1),
+            arguments.integer(count, "trajectory: count", 1, _MOST_INTERVALS))
 
     def write(self, directory: str | os.PathLike[str]) -> None:
         """Writes what ``hamjet transfer`` writes, the report among it. Raises InputOutputError."""
-        self._study.write(directory)
+        self._study.write(arguments.path(directory, "directory"))
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,7 +92,7 @@ class Validity:
 
     def write(self, directory: str | os.PathLike[str]) -> None:
         """Writes what ``hamjet validity`` writes. Raises InputOutputError."""
-        self._study.write(directory)
+        self._study.write(arguments.path(directory, "directory"))
 
 
 def transfer(scene: scenes.Scene, *, overrides: scenes.Overrides | None = None,

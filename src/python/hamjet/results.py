@@ -12,9 +12,9 @@ from typing import Any, TypeVar
 import numpy as np
 import numpy.typing as npt
 
-from . import _hamjet, scenes
+from . import _hamjet, arguments, scenes
 from ._hamjet import Jet
-from .errors import NumericalError, UsageError
+from .errors import InputOutputError, NumericalError, UsageError
 from .tables import Table, read_table
 
 Floats = npt.NDArray[np.float64]
@@ -105,12 +105,12 @@ class Result:
         """Writes what ``hamjet run`` writes: the whole set or nothing. Raises InputOutputError."""
         if self._propagation is None:
             raise UsageError("write: these results were read from files")
-        self._propagation.write(directory)
+        self._propagation.write(arguments.path(directory, "directory"))
 
 
 @dataclass(frozen=True, eq=False)
 class StudyResult:
-    """Results of a study without a flow jet, or of relative motion as stored; immutable."""
+    """Results of a study without a flow jet, of relative motion or a sweep as stored; immutable."""
 
     #: As of the command: 0, 1 (a check failed) or 4 (a numerical failure).
     exit_code: int
@@ -130,7 +130,7 @@ class StudyResult:
         """Writes what the command writes: the whole set or nothing. Raises InputOutputError."""
         if self._report is None:
             raise UsageError("write: these results were read from files")
-        self._report.write(directory)
+        self._report.write(arguments.path(directory, "directory"))
 
 
 def _nominal(times: Floats, states: Floats, energy_error: Floats, time_s: float) -> Nominal:
@@ -152,13 +152,15 @@ def _computed_run(propagation: _hamjet.Propagation, index: int, summary: dict[st
 
 
 def run(scene: scenes.Scene, *, overrides: scenes.Overrides | None = None,
-        progress: Progress | None = None) -> Result | StudyResult:
+        threads: int | None = None, progress: Progress | None = None) -> Result | StudyResult:
     """Runs a scene, as ``hamjet run`` does, and writes no files.
 
     scene: a path, TOML text (a str with a line break), or the tables as a dict; keys and checks are
     those of the command, see the README.
     overrides: changes of keys as ``--set`` makes them: {"jet.order": 6, "reference": None}, where
     None removes the key, or strings such as "jet.order=6".
+    threads: for the arcs of a scene with jet.arcs, 1 to 1024; the results do not depend on it.
+    None: as many as this process may run at once.
     progress: called with (task, fraction in 0..1) a few times a second; what it raises stops the
     work, as Ctrl-C does.
 
@@ -166,6 +168,7 @@ def run(scene: scenes.Scene, *, overrides: scenes.Overrides | None = None,
     numerically, or fails a check, is in the result with its exit_code, and the other runs go on.
     Raises SceneError, UsageError, InputOutputError, TooLargeError. Other threads run meanwhile.
     """
+    most_threads = arguments.threads(threads)
     given = scenes.read(scene, overrides)
     if not given.is_flow_jet:
         report = _hamjet.run_other_study(given, progress)
@@ -174,7 +177,7 @@ def run(scene: scenes.Scene, *, overrides: scenes.Overrides | None = None,
                   for name, text in files.items() if name.endswith(".csv")}
         return StudyResult(report.exit_code, report.failure, types.MappingProxyType(tables),
                            report.summary, report)
-    propagation = _hamjet.run_flow_jet(given, progress)
+    propagation = _hamjet.run_flow_jet(given, most_threads, progress)
     summary = json.loads(propagation.summary)
     time_s = summary["units"]["time_s"]
     runs = {entry["label"]: _computed_run(propagation, index, entry, time_s)
@@ -218,27 +221,44 @@ def _stored_run(directory: str | os.PathLike[str], summary: dict[str, Any], file
     return Run(label, None, failed_checks, jet, nominal, along_time, json.dumps(summary))
 
 
+def _require_run(directory: str | os.PathLike[str], label: str, summary: dict[str, Any]) -> None:
+    """Raises what is wrong with the label, or with its run."""
+    try:
+        _hamjet.load_jet(directory, arguments.text(label, "run"))
+    except InputOutputError as error:
+        failed = any(entry["label"] == label and entry["error"] for entry in summary["runs"])
+        # Files of another version are refused before their runs are looked at.
+        if failed and summary["version"] == _hamjet.__version__:
+            raise NumericalError(str(error)) from None
+        raise
+
+
 def load(directory: str | os.PathLike[str], run: str | None = None) -> Result | StudyResult:
     """Reads results that the command, or ``write``, has stored.
 
     run: the label of the one run to read; all by default. Coefficients are those of the run bit by
     bit, the nominal trajectory too (its energy errors to the six digits printed). Results of
-    studies without runs (transfers among them) come as a StudyResult with their tables.
+    studies without runs (transfers and sweeps among them) come as a StudyResult with their tables.
 
     Raises InputOutputError if anything is missing or was changed since, or is of another version of
-    hamjet; UsageError if no run has this label.
+    hamjet; UsageError if no run has this label; NumericalError, saying why, if the one run that has
+    it failed.
     """
+    directory = arguments.path(directory, "directory")
     text = _hamjet.read_files(directory, [])["summary.json"]
     summary = json.loads(text)
     files = {entry["path"] for entry in summary["files"]}
-    if "study" in summary:
+    if "study" in summary or "runs" not in summary:  # a sweep has neither
+        if run is not None:
+            raise UsageError(f"no run has the label {ascii(run)}; these results are of a study "
+                             "without runs of a flow jet, leave run out")
         names = [name for name in sorted(files) if name.endswith(".csv")]
         texts = _hamjet.read_files(directory, names)
         tables = {name.removesuffix(".csv"): read_table(texts[name]) for name in names}
         return StudyResult(summary.get("exit_code", 0), "", types.MappingProxyType(tables), text,
                            None)
     if run is not None:
-        _hamjet.load_jet(directory, run)  # says what is wrong with the label
+        _require_run(directory, run, summary)
     runs = {entry["label"]: _stored_run(directory, entry, files, summary["units"]["time_s"])
             for entry in summary["runs"] if run in (None, entry["label"])}
     return Result(types.MappingProxyType(runs), summary["exit_code"], text, None)

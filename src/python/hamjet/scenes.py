@@ -6,7 +6,7 @@ import os
 from collections.abc import Iterable, Mapping
 from typing import Any, Union
 
-from . import _hamjet
+from . import _hamjet, arguments
 from .errors import UsageError
 
 #: A path (str or os.PathLike), TOML text (a str with a line break), or the tables as a mapping.
@@ -19,8 +19,8 @@ Overrides = Union[Mapping[str, Any], Iterable[str]]
 _NAME = "scene"
 
 
-def _toml_string(text: str) -> str:
-    escaped = text.replace("\\", "\\\\").replace('"', '\\"')
+def _toml_string(text: str, place: str) -> str:
+    escaped = arguments.text(text, place).replace("\\", "\\\\").replace('"', '\\"')
     return '"' + "".join(f"\\u{ord(c):04x}" if c < " " or c == "\x7f" else c for c in escaped) + '"'
 
 
@@ -33,27 +33,30 @@ def _toml(value: Any, key: str) -> str:
     if isinstance(value, (int, float)):
         return repr(value)
     if isinstance(value, str):
-        return _toml_string(value)
+        return _toml_string(value, f"--set {key}")
     if isinstance(value, Mapping):
-        entries = (f"{_toml_string(str(k))} = {_toml(v, key)}" for k, v in value.items())
+        entries = [_toml_string(str(k), f"--set {key}") + " = " + _toml(v, f"{key}.{k}")
+                   for k, v in value.items()]
         return "{" + ", ".join(entries) + "}"
     if isinstance(value, (list, tuple)):
-        return "[" + ", ".join(_toml(element, key) for element in value) + "]"
+        return "[" + ", ".join(_toml(v, f"{key}.{i}") for i, v in enumerate(value)) + "]"
     raise UsageError(f"--set {key}: wrong type, got {type(value).__name__}, must be a bool, int, "
-                     "float, str, list, dict, NumPy array, or None, which removes the key")
+                     "float, str, list, dict or NumPy array; None, which removes a key, must be "
+                     "its whole value")
 
 
 def _pairs(overrides: Overrides | None) -> list[tuple[str, str]]:
     if overrides is None:
         return []
     if isinstance(overrides, Mapping):
-        return [(str(key), "null" if value is None else _toml(value, str(key)))
+        return [(arguments.text(str(key), f"--set {key}"),
+                 "null" if value is None else _toml(value, str(key)))
                 for key, value in overrides.items()]
     if isinstance(overrides, str):
         overrides = [overrides]
     pairs = []
     for text in overrides:
-        key, equals, value = str(text).partition("=")
+        key, equals, value = arguments.text(str(text), f"--set {text}").partition("=")
         if not key or not equals:
             raise UsageError(f"--set {text}: must be key=value, for example jet.order=3")
         pairs.append((key, value))
@@ -66,10 +69,10 @@ def read(scene: Scene, overrides: Overrides | None) -> _hamjet.GivenScene:
     if isinstance(scene, Mapping):
         return _hamjet.scene_of_tables(scene, _NAME, pairs)
     if isinstance(scene, str) and "\n" in scene:
-        return _hamjet.scene_of_text(scene, _NAME, pairs)
+        return _hamjet.scene_of_text(arguments.text(scene, _NAME), _NAME, pairs)
     if isinstance(scene, (str, os.PathLike)):
         if not os.fspath(scene):
             raise UsageError("scene: empty, must name a file")
-        return _hamjet.scene_of_file(scene, pairs)
+        return _hamjet.scene_of_file(arguments.path(scene, _NAME), pairs)
     raise UsageError(f"scene: wrong type, got {type(scene).__name__}, must be a path, TOML text or "
                      "a dict")

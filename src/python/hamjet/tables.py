@@ -6,20 +6,27 @@ import csv
 import io
 import types
 from collections.abc import Mapping
+from typing import Union
 
 import numpy as np
 import numpy.typing as npt
 
-#: Columns by name: float64 where all fields are numbers (an empty one is NaN), else str.
-Table = Mapping[str, "npt.NDArray[np.float64] | npt.NDArray[np.str_]"]
+_Column = Union["npt.NDArray[np.float64]", "npt.NDArray[np.bool_]", "npt.NDArray[np.str_]"]
+
+#: Columns by name: float64 where all fields are numbers (an empty one is NaN), bool where all are
+#: true or false, else str.
+Table = Mapping[str, _Column]
 
 
-def _column(fields: list[str]) -> npt.NDArray[np.float64] | npt.NDArray[np.str_]:
+def _column(fields: list[str]) -> _Column:
+    column: _Column
     try:
-        column: npt.NDArray[np.float64] | npt.NDArray[np.str_] = np.array(
-            [float(field) if field else np.nan for field in fields], dtype=np.float64)
+        column = np.array([float(field) if field else np.nan for field in fields], dtype=np.float64)
     except ValueError:
-        column = np.array(fields, dtype=np.str_)
+        if set(fields) <= {"true", "false"}:
+            column = np.array([field == "true" for field in fields], dtype=np.bool_)
+        else:
+            column = np.array(fields, dtype=np.str_)
     column.flags.writeable = False
     return column
 
