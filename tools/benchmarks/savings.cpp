@@ -29,8 +29,9 @@ double multiply_adds(const Case& c) {
 Scene paper_scene(bool inversion, bool reference) {
   const Case c = paper_case(paper_field, 4);
   Scene scene;
-  scene.system = {SystemModel::zonal_gravity, 398600.4405, 6378.137, paper_field.J[2],
-                  paper_field.J[3]};
+  scene.system.mu_km3_s2 = 398600.4405;
+  scene.system.radius_km = 6378.137;
+  scene.system.J = paper_field.J;
   scene.units = {7000, 1};
   scene.canonical_radius = paper_field.radius;
   scene.nominal = c.nominal;
