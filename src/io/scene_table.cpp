@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "hamjet/error.hpp"
 #include "text_file.hpp"
 
 namespace hamjet::io {
