@@ -2,25 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
-#include <system_error>
+#include <algorithm>
 
 #include "../io/scene_message.hpp"
+#include "../io/whole_number.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/io/sweep_study.hpp"
 
 namespace hamjet::cli {
-namespace {
-
-/// The whole text as a number, if it is one.
-std::optional<std::size_t> number(std::string_view text) {
-  std::size_t value = 0;
-  const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool is_number = error == std::errc() && rest == text.data() + text.size();
-  return is_number ? std::optional(value) : std::nullopt;
-}
-
-}  // namespace
 
 std::vector<std::size_t> Shard::items(std::size_t count) const {
   std::vector<std::size_t> result;
@@ -30,8 +19,9 @@ std::vector<std::size_t> Shard::items(std::size_t count) const {
 
 Shard parse_shard(const std::string& text) {
   const std::size_t slash = std::min(text.find('/'), text.size());
-  const auto part = number(text.substr(0, slash));
-  const auto parts = slash < text.size() ? number(text.substr(slash + 1)) : std::nullopt;
+  const auto part = io::whole_number<std::size_t>(text.substr(0, slash));
+  const auto parts =
+      slash < text.size() ? io::whole_number<std::size_t>(text.substr(slash + 1)) : std::nullopt;
   if (!part || !parts || *part < 1 || *part > *parts || *parts > io::most_sweep_items) {
     throw Error(ErrorKind::usage,
                 fmt::format("--shard {}: must be k/n, the part k of n from 1/n to n/n",
@@ -45,9 +35,9 @@ std::optional<Shard> slurm_shard(const std::function<const char*(const char*)>& 
   if (id_text == nullptr) return std::nullopt;
   const auto variable = [&](const char* name, std::optional<std::size_t> otherwise) {
     const char* text = environment(name);
-    return text == nullptr ? otherwise : number(text);
+    return text == nullptr ? otherwise : io::whole_number<std::size_t>(text);
   };
-  const auto id = number(id_text);
+  const auto id = io::whole_number<std::size_t>(id_text);
   const auto count = variable("SLURM_ARRAY_TASK_COUNT", std::nullopt);
   const auto least = variable("SLURM_ARRAY_TASK_MIN", 1);
   const auto most = variable("SLURM_ARRAY_TASK_MAX", std::nullopt);

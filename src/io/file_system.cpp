@@ -6,12 +6,12 @@
 
 #include <array>
 #include <cerrno>
-#include <charconv>
 #include <csignal>
 #include <system_error>
 
 #include "hamjet/error.hpp"
 #include "text_file.hpp"
+#include "whole_number.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -133,13 +133,11 @@ std::optional<TemporaryWriter> temporary_writer(const fs::path& temporary) {
   const std::string name = temporary.stem().string();
   const std::size_t dash = name.rfind('-');
   if (dash == std::string::npos) return std::nullopt;
-  pid_t process = 0;
-  const char* end = name.data() + name.size();
-  const auto [rest, error] = std::from_chars(name.data() + dash + 1, end, process);
-  if (error != std::errc() || rest != end || process <= 0) return std::nullopt;
+  const auto process = whole_number<pid_t>(std::string_view(name).substr(dash + 1));
+  if (!process || *process <= 0) return std::nullopt;
   const bool is_of_this_machine =
       std::string_view(name).substr(0, dash).ends_with("." + host_name());
-  const bool is_running = ::kill(process, 0) == 0 || errno == EPERM;
+  const bool is_running = ::kill(*process, 0) == 0 || errno == EPERM;
   return TemporaryWriter{is_of_this_machine, is_of_this_machine && is_running};
 }
 

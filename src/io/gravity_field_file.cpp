@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <hamjet/algebra/extended.hpp>
@@ -15,6 +14,7 @@
 
 #include "scene_message.hpp"
 #include "text_file.hpp"
+#include "whole_number.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -43,10 +43,8 @@ std::optional<Extended> number_in(std::string_view word) {
 }
 
 std::optional<int> natural_in(std::string_view word) {
-  int number = 0;
-  const auto [rest, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-  const bool is_whole = error == std::errc() && rest == word.data() + word.size();
-  return is_whole && number >= 0 ? std::optional(number) : std::nullopt;
+  const auto number = whole_number<int>(word);
+  return number && *number >= 0 ? number : std::nullopt;
 }
 
 class Reader {

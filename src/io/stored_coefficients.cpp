@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <numeric>
@@ -12,6 +11,7 @@
 #include "hamjet/error.hpp"
 #include "scene_message.hpp"
 #include "text_file.hpp"
+#include "whole_number.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -19,15 +19,6 @@ namespace {
 /// The decimal exponents of binary128 stay below this; a larger one would keep the parser busy.
 constexpr unsigned largest_exponent = 5000;
 constexpr std::size_t longest_number = 100;
-
-template <class Number>
-std::optional<Number> whole_number(std::string_view text) {
-  Number number{};
-  const char* const end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, number);
-  if (error != std::errc() || rest != end) return std::nullopt;
-  return number;
-}
 
 /// Length of the run of digits at the start.
 std::size_t digits(std::string_view text) {

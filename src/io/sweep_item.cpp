@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <nlohmann/json.hpp>
 #include <type_traits>
 #include <utility>
@@ -16,6 +15,7 @@
 #include "transfer_json.hpp"
 #include "transfer_view.hpp"
 #include "validity_json.hpp"
+#include "whole_number.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -111,10 +111,9 @@ const nlohmann::json* element(const nlohmann::json& list, const std::string& nam
   for (const nlohmann::json& entry : list) {
     if (entry.is_object() && entry.value("label", nlohmann::json()) == name) return &entry;
   }
-  std::size_t index = 0;
-  const auto [rest, error] = std::from_chars(name.data(), name.data() + name.size(), index);
-  is_name_right = error == std::errc() && rest == name.data() + name.size();
-  return is_name_right && index < list.size() ? &list[index] : nullptr;
+  const auto index = whole_number<std::size_t>(name);
+  is_name_right = index.has_value();
+  return index && *index < list.size() ? &list[*index] : nullptr;
 }
 
 [[noreturn]] void throw_astray(const SweepColumn& column, const nlohmann::json& place,
