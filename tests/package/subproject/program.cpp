@@ -1,0 +1,3 @@
+#include "hamjet/maps/symplecticity.hpp"
+
+int main() { return 0; }
