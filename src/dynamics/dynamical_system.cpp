@@ -122,8 +122,11 @@ DynamicalSystem restrict_system(const DynamicalSystem& system, std::span<const s
   if (kept.size() == n) return system;
   const std::vector<std::size_t> indices = phase_space_indices(kept, n);
   const std::vector<std::size_t> scalar{0};
-  return make_system(system.name, restrict_list(system.hamiltonian, indices, scalar),
-                     restrict_list(system.vector_field, indices, indices));
+  DynamicalSystem restricted =
+      make_system(system.name, restrict_list(system.hamiltonian, indices, scalar),
+                  restrict_list(system.vector_field, indices, indices));
+  restricted.waves_on_a_circle = system.waves_on_a_circle;
+  return restricted;
 }
 
 }  // namespace hamjet

@@ -93,7 +93,9 @@ struct Force {
 }  // namespace
 
 DynamicalSystem zonal_gravity(const ZonalGravity& field) {
-  return make_system("zonal-gravity", 3, Hamiltonian{field}, Force{field});
+  DynamicalSystem system = make_system("zonal-gravity", 3, Hamiltonian{field}, Force{field});
+  system.waves_on_a_circle = field.J.highest_present();
+  return system;
 }
 
 DynamicalSystem kepler(double mu) {

@@ -1,8 +1,12 @@
 #include "hamjet/integrators/arc_splitting.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <numeric>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -10,7 +14,9 @@
 #include "arc_plan.hpp"
 #include "concurrent_tasks.hpp"
 #include "cut_coordinates.hpp"
+#include "directional_flow.hpp"
 #include "gauss_lanes.hpp"
+#include "gauss_tolerance.hpp"
 #include "hamjet/algebra/horner_composition.hpp"
 #include "hamjet/dynamics/operation_count.hpp"
 #include "hamjet/error.hpp"
@@ -37,6 +43,39 @@ std::unique_ptr<ArcIntegrator<Real>> make_arcs(const FlowProblem<Real>& problem,
   }
   return make_splitting_arcs(problem,
                              splitting_of<Real>(std::get<SymmetricCompositionSettings>(method)));
+}
+
+/// The method as it integrates unsplit, with the steps that are given to it.
+template <class Real>
+FlowJet<Real> integrate_unsplit(const FlowProblem<Real>& problem, const SplittableMethod& method) {
+  IntegrationStatistics statistics;
+  if (const auto* gauss = std::get_if<GaussSettings>(&method)) {
+    return with_lanes(gauss->stages, [&]<int Lanes>(std::integral_constant<int, Lanes>) {
+      return run_gauss<Lanes>(problem, *gauss, statistics, StepObserver<Real>{});
+    });
+  }
+  if (const auto* stormer = std::get_if<StormerSettings>(&method)) {
+    return integrate_stormer<Real>(problem, *stormer, statistics);
+  }
+  if (const auto* verlet = std::get_if<VelocityVerletSettings>(&method)) {
+    return integrate_velocity_verlet<Real>(problem, *verlet, statistics);
+  }
+  return integrate_symmetric_composition<Real>(
+      problem, std::get<SymmetricCompositionSettings>(method), statistics);
+}
+
+/// A method with its local tolerance chosen, where it has one.
+template <class Real>
+SplittableMethod with_step_tolerance(const FlowProblem<Real>& problem, SplittableMethod method,
+                                     StepTolerance& choice) {
+  if (auto* gauss = std::get_if<GaussSettings>(&method)) {
+    validate_gauss(*gauss);
+    if (gauss->tolerance) {
+      choice = choose_step_tolerance(problem, *gauss);
+      gauss->tolerance = choice.tolerance;
+    }
+  }
+  return method;
 }
 
 /// The space of an arc behind the first: all components vary.
@@ -77,10 +116,12 @@ ArcPlan plan_for(const FlowProblem<Real>& problem, const ArcIntegrator<Real>& ar
 template <class Real>
 class ArcSplitting {
  public:
-  ArcSplitting(const FlowProblem<Real>& problem, ArcIntegrator<Real>& arcs,
-               const ArcSettings& settings, IntegrationStatistics& statistics,
-               ArcStatistics& arc_statistics, const ArcProgress& progress)
+  ArcSplitting(const FlowProblem<Real>& problem, const SplittableMethod& method,
+               ArcIntegrator<Real>& arcs, const ArcSettings& settings,
+               IntegrationStatistics& statistics, ArcStatistics& arc_statistics,
+               const ArcProgress& progress)
       : problem_(problem),
+        method_(method),
         arcs_(arcs),
         settings_(settings),
         statistics_(statistics),
@@ -93,6 +134,10 @@ class ArcSplitting {
     choose_cuts();
     FlowJet<Real> jet = compose_all(run_arcs());
     for (std::size_t i = 0; i < jet.size(); ++i) jet[i][0] = nominal[i][0];
+    if (arc_statistics_.plan.arcs > 1) {
+      const std::string loss = lost_digits(jet);
+      if (!loss.empty()) jet = stay_unsplit(loss, nominal);
+    }
     require_finite(jet, problem_.duration, "composition of arcs");
     statistics_.wall_seconds += arc_statistics_.arcs_seconds + arc_statistics_.composition_seconds;
     return jet;
@@ -104,6 +149,55 @@ class ArcSplitting {
 
   void report(double fraction) const {
     if (progress_) progress_(std::min(fraction, 1.0));
+  }
+
+  /// By how much the error of a composed jet may exceed that of the unsplit one.
+  static constexpr double allowed_loss = 10;
+
+  /// Empty if along two lines, where the unsplit flow is cheap, the composed jet is as near to a
+  /// finer integration as the unsplit one, at every degree; else where it is not.
+  std::string lost_digits(const FlowJet<Real>& jet) const {
+    const DirectionalFlow<Real> flow(problem_, 2);
+    const GaussSettings* gauss = std::get_if<GaussSettings>(&method_);
+    const double rounding = static_cast<double>(std::numeric_limits<Real>::epsilon());
+    const GaussSettings finer = finer_gauss<Real>(
+        gauss != nullptr ? *gauss : GaussSettings{},
+        gauss != nullptr && gauss->tolerance ? *gauss->tolerance : 100 * rounding);
+    const auto unsplit = flow.integrate(
+        [&](const FlowProblem<Real>& line) { return integrate_unsplit(line, method_); });
+    const auto exact = flow.integrate(
+        [&](const FlowProblem<Real>& line) { return integrate_unsplit<Real>(line, finer); });
+    const std::vector<double> own = flow.relative_difference(unsplit, exact);
+    const std::vector<double> composed = flow.relative_difference(flow.restrict(jet), exact);
+    for (std::size_t d = 1; d < own.size(); ++d) {
+      if (composed[d] <= allowed_loss * std::max(own[d], 8 * rounding)) continue;
+      return fmt::format(
+          "the composition of {} arcs would be wrong by {:.1g} at degree {}, where "
+          "the unsplit run is wrong by {:.1g}",
+          arc_statistics_.plan.arcs, composed[d], d, own[d]);
+    }
+    return {};
+  }
+
+  /// Refuses what was asked for; where the number of arcs is free, takes one.
+  FlowJet<Real> stay_unsplit(const std::string& loss, const FlowJet<Real>& nominal) {
+    if (settings_.arcs) {
+      throw Error(ErrorKind::numerical,
+                  fmt::format("arcs: {}; one arc, or auto, keeps all digits", loss));
+    }
+    const IntegrationClock clock;
+    IntegrationStatistics whole;
+    FlowJet<Real> jet = arcs_.run_arc(0, statistics_.steps, problem_.space, problem_.variables,
+                                      starting_jet(problem_), whole, [] {});
+    for (std::size_t i = 0; i < jet.size(); ++i) jet[i][0] = nominal[i][0];
+    statistics_.vector_field_evaluations += whole.vector_field_evaluations;
+    statistics_.nominal_evaluations += whole.nominal_evaluations;
+    statistics_.series_work += whole.series_work;
+    arc_statistics_.plan.arcs = 1;
+    arc_statistics_.plan.speed_ups = {1, 1, 1};
+    arc_statistics_.plan.reason = loss;
+    arc_statistics_.arcs_seconds += clock.seconds();
+    return jet;
   }
 
   FlowJet<Real> run_nominal(const StepObserver<Real>& observer) {
@@ -207,6 +301,7 @@ class ArcSplitting {
   }
 
   const FlowProblem<Real>& problem_;
+  const SplittableMethod& method_;
   ArcIntegrator<Real>& arcs_;
   const ArcSettings& settings_;
   IntegrationStatistics& statistics_;
@@ -232,13 +327,20 @@ FlowJet<Real> integrate_in_arcs(const FlowProblem<Real>& problem, const Splittab
   validate_arcs(settings.arcs, settings.threads);
   statistics = {};
   arc_statistics = {};
-  const auto arcs = make_arcs(problem, method);
   if (problem.duration == 0) {
+    make_arcs(problem, method);  // throws for settings out of range
     arc_statistics.plan.reason = "the duration is zero";
     return starting_jet(problem);
   }
-  return ArcSplitting<Real>(problem, *arcs, settings, statistics, arc_statistics, progress)
-      .run(observer);
+  StepTolerance choice;
+  const SplittableMethod used = with_step_tolerance(problem, method, choice);
+  const auto arcs = make_arcs(problem, used);
+  FlowJet<Real> jet =
+      ArcSplitting<Real>(problem, used, *arcs, settings, statistics, arc_statistics, progress)
+          .run(observer);
+  if (choice.tolerance > 0) statistics.step_tolerance = choice.tolerance;
+  statistics.rounding_by_degree = choice.rounding_by_degree;
+  return jet;
 }
 
 template <class Real>
@@ -246,7 +348,8 @@ ArcPlan plan_arcs(const FlowProblem<Real>& problem, const SplittableMethod& meth
                   const std::optional<std::size_t>& asked, const ArcProgress& progress) {
   validate(problem);
   validate_arcs(asked, 1);
-  const auto arcs = make_arcs(problem, method);
+  StepTolerance choice;
+  const auto arcs = make_arcs(problem, with_step_tolerance(problem, method, choice));
   IntegrationStatistics statistics;
   if (problem.duration != 0) {
     arcs->run_nominal(statistics, [&](const Real& time, const FlowJet<Real>&) {

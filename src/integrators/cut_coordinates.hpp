@@ -4,21 +4,25 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
+#include <span>
 #include <vector>
 
 #include "hamjet/algebra/extended.hpp"
 #include "hamjet/algebra/matrix.hpp"
 #include "hamjet/dynamics/slice_evaluator.hpp"
 #include "hamjet/integrators/flow_problem.hpp"
+#include "phase_space_scale.hpp"
 
 namespace hamjet {
 
 /// Coordinates w of the deviations x at a point z* where a flow is cut, in which the map behind the
 /// cut is expanded:
 ///
-///   w_1 = (H(z* + x) - H(z*)) / |g| ,   w_i = Q_i . x  (i >= 2) ,   g = grad H(z*) ,
+///   w_1 = (H(z* + x) - H(z*)) / |S g| ,   w_i = Q_i . S^-1 x  (i >= 2) ,   g = grad H(z*) ,
 ///
-/// Q orthogonal with Q_1 along g and Q_2 along the flow J g.
+/// S diagonal, 1 for positions and momentum_scale for momenta, so that the coordinates do not
+/// depend on units; Q orthogonal with Q_1 along S g and Q_2 along the flow S^-1 J g.
 ///
 /// Why not x itself: a flow shears along itself at a rate that depends on the energy. Deviations of
 /// size 1 at the start are of size k = the elapsed time at the cut, along the flow, and the map
@@ -28,8 +32,9 @@ namespace hamjet {
 /// the other way round, and nothing cancels. (Rotating alone is not enough: straight along the flow
 /// the energy changes in second order.) Composed jets then have the error of the unsplit one.
 ///
-/// Where grad H is too small for H to be a coordinate (near an equilibrium), and for linear
-/// systems, w = Q^T x.
+/// H is a coordinate as far as its second-order terms are smaller than its linear ones. Near an
+/// equilibrium that is not far, much less than the vector field takes to change: there, where the
+/// motion is nearly linear and shears little, and for linear systems, w = Q^T S^-1 x.
 template <class Real>
 class CutCoordinates {
  public:
@@ -55,7 +60,8 @@ class CutCoordinates {
     for (std::size_t j = 0; j < n_; ++j) {
       if (j == 0 && uses_energy_) continue;
       for (std::size_t i = 0; i < n_; ++i) {
-        for (std::size_t k = 1; k < space->size(); ++k) result[j][k] += axis(i, j) * jet[i][k];
+        const Real factor = axis(i, j) / scale(i);
+        for (std::size_t k = 1; k < space->size(); ++k) result[j][k] += factor * jet[i][k];
       }
     }
     if (uses_energy_) {
@@ -75,15 +81,18 @@ class CutCoordinates {
   }
 
  private:
-  /// H is a coordinate where second-order terms change it less than first-order ones, up to
-  /// deviations of this part of the state.
-  static constexpr double smallest_reach = 1e-3;
+  /// H is a coordinate if it reaches this part of the distance over which the field changes.
+  static constexpr double smallest_reach = 0.1;
 
+  const Real& scale(std::size_t i) const { return i < n_ / 2 ? position_scale_ : momentum_scale_; }
   const Real& axis(std::size_t i, std::size_t j) const {
     return axes_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
   }
 
   void find_axes() {
+    // A power of two, so that scaling rounds nothing.
+    momentum_scale_ = Real(
+        std::exp2(std::round(std::log2(momentum_scale(*system_, std::span<const Real>(state_))))));
     SliceEvaluator<Real, Real> energy(system_->hamiltonian, space_, 0);
     for (std::size_t i = 0; i < n_; ++i) *energy.input(i) = state_[i];
     energy.evaluate_constant_terms();
@@ -93,8 +102,8 @@ class CutCoordinates {
       const auto row = static_cast<Eigen::Index>(i);
       const std::size_t conjugate = i < half ? i + half : i - half;
       const Real turned = energy.output_gradient(0, conjugate);
-      plane(row, 0) = energy.output_gradient(0, i);
-      plane(row, 1) = i < half ? turned : Real(-turned);
+      plane(row, 0) = energy.output_gradient(0, i) * scale(i);
+      plane(row, 1) = (i < half ? turned : Real(-turned)) / scale(i);
     }
     // Householder's reflections: orthogonal whatever the columns are.
     axes_ = plane.householderQr().householderQ() * Matrix<Real>::Identity(n_, n_);
@@ -104,11 +113,13 @@ class CutCoordinates {
     }
   }
 
-  /// x(w): the slices of x_1 from those of H below, by H(z* + x(w)) = H(z*) + |g| w_1.
+  /// x(w): the slices of x_1 from those of H below, by H(z* + x(w)) = H(z*) + |S g| w_1.
   void form_start() {
     for (const Real& value : state_) start_.emplace_back(space_, value);
     for (std::size_t i = 0; i < n_; ++i) {
-      for (std::size_t j = 0; j < n_; ++j) start_[i][space_->linear_index(j)] = axis(i, j);
+      for (std::size_t j = 0; j < n_; ++j) {
+        start_[i][space_->linear_index(j)] = scale(i) * axis(i, j);
+      }
     }
     uses_energy_ = order_ >= 2 && slope_ != 0 && !system_->vector_field.is_linear_system();
     if (!uses_energy_) return;
@@ -127,7 +138,7 @@ class CutCoordinates {
       for (std::size_t k = space_->first(d); k < space_->first(d + 1); ++k) {
         const Real change = -energy.output(0)[k] / slope_;
         for (std::size_t i = 0; i < n_; ++i) {
-          start_[i][k] = axis(i, 0) * change;
+          start_[i][k] = scale(i) * axis(i, 0) * change;
           energy.input(i)[k] = start_[i][k];
         }
       }
@@ -135,15 +146,42 @@ class CutCoordinates {
     }
   }
 
+  /// `energy` has the slices of degree 1 and 2 of H on the linear x(w).
   bool is_coordinate(const SliceEvaluator<Real, Real>& energy) const {
     double curvature = 0;
     for (std::size_t k = space_->first(2); k < space_->first(3); ++k) {
       curvature = std::max(curvature, std::abs(static_cast<double>(energy.output(0)[k])));
     }
-    double size = 0;
-    for (const Real& value : state_) size = std::hypot(size, static_cast<double>(value));
     const double slope = std::abs(static_cast<double>(slope_));
-    return std::isfinite(curvature) && slope >= smallest_reach * size * curvature;
+    return std::isfinite(curvature) && slope >= smallest_reach * field_reach() * curvature;
+  }
+
+  /// The distance, in w, over which the vector field f changes by as much as in linear order:
+  /// the least of (|f_1| / |f_d|)^(1/(d-1)) over the degrees d, f_d the largest coefficient of the
+  /// degree on the linear x(w), scaled.
+  double field_reach() const {
+    SliceEvaluator<Real, Real> field(system_->vector_field, space_, order_);
+    for (std::size_t i = 0; i < n_; ++i) {
+      std::copy_n(start_[i].coefficients().data(), space_->first(2), field.input(i));
+    }
+    field.evaluate_all();
+    double linear = 0;
+    double reach = std::numeric_limits<double>::infinity();
+    for (int d = 1; d <= order_; ++d) {
+      double largest = 0;
+      for (std::size_t i = 0; i < n_; ++i) {
+        for (std::size_t k = space_->first(d); k < space_->first(d + 1); ++k) {
+          largest =
+              std::max(largest, std::abs(static_cast<double>(Real(field.output(i)[k] / scale(i)))));
+        }
+      }
+      if (d == 1) {
+        linear = largest;
+      } else if (largest > 0) {
+        reach = std::min(reach, std::pow(linear / largest, 1.0 / (d - 1)));
+      }
+    }
+    return reach;
   }
 
   const DynamicalSystem* system_;
@@ -151,8 +189,10 @@ class CutCoordinates {
   SpacePointer space_;
   int order_;
   std::size_t n_;
+  Real position_scale_ = 1;
+  Real momentum_scale_ = 1;
   Matrix<Real> axes_;  ///< Q, its columns
-  Real slope_ = 0;     ///< the component of g along the first axis: |g| up to its sign
+  Real slope_ = 0;     ///< the component of S g along the first axis: |S g| up to its sign
   bool uses_energy_ = false;
   FlowJet<Real> start_;
 };

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "gauss_lanes.hpp"
+#include "gauss_tolerance.hpp"
 #include "hamjet/error.hpp"
 
 namespace hamjet {
@@ -29,9 +30,16 @@ FlowJet<Real> integrate_gauss(const FlowProblem<Real>& problem, const GaussSetti
   validate(problem);
   statistics = {};
   validate_gauss(settings);
-  return with_lanes(settings.stages, [&]<int Lanes>(std::integral_constant<int, Lanes>) {
-    return run_gauss<Lanes>(problem, settings, statistics, observer);
-  });
+  GaussSettings used = settings;
+  const StepTolerance choice = choose_step_tolerance(problem, settings);
+  if (settings.tolerance) used.tolerance = choice.tolerance;
+  FlowJet<Real> jet =
+      with_lanes(settings.stages, [&]<int Lanes>(std::integral_constant<int, Lanes>) {
+        return run_gauss<Lanes>(problem, used, statistics, observer);
+      });
+  statistics.step_tolerance = used.tolerance;
+  statistics.rounding_by_degree = choice.rounding_by_degree;
+  return jet;
 }
 
 template FlowJet<double> integrate_gauss(const FlowProblem<double>&, const GaussSettings&,

@@ -157,7 +157,7 @@ class GaussIntegrator {
     Real h = at_.proposed;
     double growth = 1;
     while (true) {
-      if (!settings_.step) h = fit_to_span(h, remaining);
+      if (!settings_.step) h = fit_to_span(sampling_step(h), remaining);
       if (at_.time + h == at_.time) {
         throw Error(
             ErrorKind::numerical,
@@ -195,6 +195,7 @@ class GaussIntegrator {
     at_.previous_step = h;
     ++at_.taken;
     ++statistics_.steps;
+    statistics_.periods += control_.periods(h);
     statistics_.vector_field_evaluations += settings_.stages;
     if (settings_.step) {
       --at_.remaining_steps;
@@ -210,6 +211,13 @@ class GaussIntegrator {
                        static_cast<double>(problem_.duration));
     }
     account(&GaussProfile::update, mark);
+  }
+
+  /// A step, shortened to what samples the field's shortest wave.
+  Real sampling_step(const Real& h) const {
+    const double longest = control_.longest_sampling_step(*problem_.system, start());
+    if (!(static_cast<double>(magnitude(h)) > longest)) return h;
+    return h < 0 ? Real(-longest) : Real(longest);
   }
 
   /// A step that an earlier run of the same nominal took.

@@ -22,8 +22,11 @@ class GaussStepControl {
   GaussStepControl(const GaussSettings& settings, const GaussTableau& tableau,
                    StageSlopes<Real, Lanes>& stages, SummedJet<Real, Lanes>& jet, int order)
       : settings_(settings), stages_(stages), jet_(jet), order_(order) {
-    for (std::size_t i = 0; i < tableau.stages; ++i) {
-      last_mode_.set_lane(static_cast<int>(i), convert<Real>(tableau.last_mode[i]));
+    modes_.assign(tableau.stages, P(Real(0)));
+    for (std::size_t k = 0; k < tableau.stages; ++k) {
+      for (std::size_t i = 0; i < tableau.stages; ++i) {
+        modes_[k].set_lane(static_cast<int>(i), convert<Real>(tableau.mode(k, i)));
+      }
     }
     const double s = settings.stages;
     pade_constant_ =
@@ -61,16 +64,49 @@ class GaussStepControl {
     return result;
   }
 
-  /// The square of the first neglected Legendre mode of the slopes, relative to the slopes. That
-  /// mode shows as the defect at the start of the step; where it happens to vanish, the last mode
-  /// kept, which has the other parity, does not.
+  /// From the Legendre mode of degree 2s of the slopes, the first that the method does not
+  /// integrate, relative to the slopes: the square of the mode of degree s, which shows as the
+  /// defect at the start of the step (where that happens to vanish, the last mode kept, which has
+  /// the other parity, does not), or what the decay of the last modes lets expect, if that is more.
   double error_estimate(const Real& h, const std::vector<Real>& start_slope) {
     const double slope = slope_scale();
     if (slope == 0) return linearised_error(h);
     double ratio = start_defect(start_slope) / slope;
     const double s = settings_.stages;
-    if (s > 1) ratio = std::max(ratio, std::pow(last_mode() / slope, s / (s - 1)));
-    return std::max(error_constant * ratio * ratio, linearised_error(h));
+    if (s > 1) ratio = std::max(ratio, std::pow(mode(settings_.stages - 1) / slope, s / (s - 1)));
+    return std::max({error_constant * ratio * ratio, continued_modes(slope), linearised_error(h)});
+  }
+
+  /// The mode of degree 2s, relative to the slopes, if the modes go on as the last five or four do.
+  /// The square of the mode of degree s is right for a field of one scale. A weak field of short
+  /// waves (a zonal harmonic of high degree) shows only in the last modes, which then no longer
+  /// decay. This is the error of the nominal itself.
+  double continued_modes(double slope) {
+    const int s = settings_.stages;
+    if (s < 4) return 0;
+    const int gap = s < 6 ? 2 : 3;
+    // Of two neighbours one may vanish by symmetry.
+    const double near = std::max(mode(s - 1), mode(s - 2)) / slope;
+    if (near <= 64 * static_cast<double>(std::numeric_limits<Real>::epsilon())) return 0;
+    const double far = std::max(mode(s - 1 - gap), mode(s - 2 - gap)) / slope;
+    const double decay = near < far ? std::pow(near / far, 1.0 / gap) : 1;
+    return near * std::pow(decay, s + 2);
+  }
+
+  /// The longest step on which the stages still sample the shortest wave of the field, twice on
+  /// each (Nyquist), from a state: a field of n waves on a circle about the origin passes at
+  /// n |v| / |q| at most. Infinite where the system has no such field.
+  template <class State>
+  double longest_sampling_step(const DynamicalSystem& system, const State& state) const {
+    if (system.waves_on_a_circle == 0) return std::numeric_limits<double>::infinity();
+    const std::size_t n = system.degrees_of_freedom;
+    double distance = 0;
+    double speed = 0;
+    for (std::size_t c = 0; c < n; ++c) {
+      distance = std::hypot(distance, static_cast<double>(state(c)));
+      speed = std::hypot(speed, static_cast<double>(state(n + c)));
+    }
+    return std::numbers::pi * settings_.stages * distance / (system.waves_on_a_circle * speed);
   }
 
   /// Error of the deviations after one of their own periods. A nominal at rest, or one that does
@@ -81,18 +117,28 @@ class GaussStepControl {
   /// in each of 2 pi / (h omega) steps. The coefficients of degree d hold harmonics too; measured
   /// on circular orbits, whose nominal shows least, (1 + d/4) omega keeps them to the tolerance.
   double linearised_error(const Real& h) {
-    double frequency = stages_.largest_gradient();
-    if (stages_.system().second_order()) frequency = std::sqrt(frequency);
-    frequency *= 1 + 0.25 * std::min(order_, 4);
+    const double frequency = this->frequency() * (1 + 0.25 * std::min(order_, 4));
     return 2 * std::numbers::pi * pade_constant_ *
            std::pow(static_cast<double>(magnitude(h)) * frequency, 2 * settings_.stages);
   }
 
-  /// The largest component of the Legendre mode of degree s - 1 of the slopes.
-  double last_mode() {
+  /// The largest frequency of the linearised equations at the stages.
+  double frequency() {
+    const double gradient = stages_.largest_gradient();
+    return stages_.system().second_order() ? std::sqrt(gradient) : gradient;
+  }
+
+  /// Of the linearised motion, in a step.
+  double periods(const Real& h) {
+    return static_cast<double>(magnitude(h)) * frequency() / (2 * std::numbers::pi);
+  }
+
+  /// The largest component of the Legendre mode of one degree, below s, of the slopes.
+  double mode(int degree) {
     double result = 0;
+    const P& weights = modes_[static_cast<std::size_t>(degree)];
     for (const P& slope : stages_.slopes()) {
-      result = std::max(result, std::abs(static_cast<double>(dot(last_mode_, slope))));
+      result = std::max(result, std::abs(static_cast<double>(dot(weights, slope))));
     }
     return result;
   }
@@ -140,7 +186,7 @@ class GaussStepControl {
   SummedJet<Real, Lanes>& jet_;
   int order_;             ///< of the jet
   double pade_constant_;  ///< (s!)^2 / ((2s)! (2s+1)!)
-  P last_mode_{Real(0)};  ///< weights of the Legendre mode of degree s - 1
+  std::vector<P> modes_;  ///< by degree, weights of the Legendre modes
 };
 
 }  // namespace hamjet

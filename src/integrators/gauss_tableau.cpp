@@ -61,7 +61,7 @@ GaussTableau compute_tableau(std::size_t s) {
   tableau.stages = s;
   tableau.nodes.resize(s);
   tableau.weights.resize(s);
-  tableau.last_mode.resize(s);
+  tableau.modes.resize(s * s);
   tableau.matrix.resize(s * s);
   tableau.squared.resize(s * s, 0);
   const std::vector<Extended> inverse = inverses<Extended>(s);
@@ -75,7 +75,9 @@ GaussTableau compute_tableau(std::size_t s) {
     const Extended derivative = legendre_derivative(p[i], x);
     tableau.nodes[i] = (1 + x) / 2;
     tableau.weights[i] = 1 / ((1 - x * x) * derivative * derivative);
-    tableau.last_mode[i] = Extended(2 * s - 1) * tableau.weights[i] * p[i][s - 1];
+    for (std::size_t k = 0; k < s; ++k) {
+      tableau.modes[k * s + i] = Extended(2 * k + 1) * tableau.weights[i] * p[i][k];
+    }
   }
   // l_j(c) = b_j sum_k (2k+1) P_k(c_j) P_k(c) with P_k shifted to [0, 1], and the integral of P_k
   // from 0 to c is (P_(k+1) - P_(k-1)) / (2 (2k+1)).

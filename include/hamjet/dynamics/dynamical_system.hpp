@@ -26,6 +26,10 @@ struct DynamicalSystem {
   OperationList hamiltonian;                    ///< 2n inputs, 1 output
   OperationList vector_field;                   ///< 2n inputs, 2n outputs
   std::optional<SecondOrderForm> second_order;  ///< set where the vector field has this structure
+  /// The most waves that the field has on a circle about the origin of the positions, for example
+  /// the highest degree of a gravity field; 0 where no such wave is known. Adaptive Gauss methods
+  /// take no step that undersamples the shortest.
+  int waves_on_a_circle = 0;
 
   std::size_t dimension() const noexcept { return 2 * degrees_of_freedom; }
   /// What an integrator evaluates: the force alone where there is a second-order form.

@@ -53,6 +53,15 @@ struct IntegrationStatistics {
   /// the method compares it with its tolerance; none where the method makes none.
   std::optional<double> largest_step_error;
   double step_error_seconds = 0;  ///< of estimates made for this alone; not in wall_seconds
+  /// Periods of the linearised motion in the duration, for Gauss methods: the integral of the
+  /// largest frequency along the nominal, divided by 2 pi. On a circular orbit 1.4 times the
+  /// revolutions.
+  double periods = 0;
+  /// The local tolerance of the steps of an adaptive Gauss method; see GaussSettings::tolerance.
+  std::optional<double> step_tolerance;
+  /// By degree, the relative error that rounding leaves however short the steps of an adaptive
+  /// Gauss method are; empty where every degree meets the tolerance.
+  std::vector<double> rounding_by_degree;
 
   void record_step_error(double estimate) {
     largest_step_error = std::max(largest_step_error.value_or(estimate), estimate);

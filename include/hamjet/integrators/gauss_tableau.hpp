@@ -16,10 +16,14 @@ struct GaussTableau {
   std::vector<Extended> weights;
   std::vector<Extended> matrix;   ///< s x s by rows, a_ij = integral of l_j from 0 to c_i
   std::vector<Extended> squared;  ///< A^2, by rows: couples the stages of a second-order system
-  /// Weights that give, from values at the nodes, their Legendre mode of degree s - 1.
-  std::vector<Extended> last_mode;
+  /// s x s: row k has the weights that give, from values at the nodes, their Legendre mode of
+  /// degree k on [0, 1].
+  std::vector<Extended> modes;
 
   const Extended& a(std::size_t i, std::size_t j) const { return matrix[i * stages + j]; }
+  const Extended& mode(std::size_t degree, std::size_t i) const {
+    return modes[degree * stages + i];
+  }
 };
 
 /// The tableau, computed once for each number of stages. Throws Error(usage) unless

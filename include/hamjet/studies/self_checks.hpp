@@ -72,9 +72,12 @@ struct InversionQuality {
 /// terms that cancel in H at the start. Limit: 0.1, beyond which the nominal is another orbit; with
 /// adaptive steps at most 10 (tolerance + epsilon) a step, times the largest T over that scale.
 ///
-/// symplecticity: scaled defect of degree 0, of methods that are symplectic in (q, p). Limit:
-/// 1000 epsilon sqrt((1 + steps) M), M >= 1 being the largest coefficient of degree 1: stiff
-/// systems amplify rounding, and so do close passages, whose linear part grows and shrinks again.
+/// symplecticity: scaled defect of the Poisson brackets of the degree d that exceeds its limit
+/// most, of methods that are symplectic in (q, p). Limit: 1000 epsilon sqrt((1 + steps) M) g^d, at
+/// most 1e-6, M >= 1 being the largest coefficient of degree 1 and g >= 1 the largest frequency of
+/// the linearised motion along the nominal over that at its end: stiff systems amplify rounding,
+/// and so do close passages, where coefficients of degree d are larger by the d-th power of the
+/// frequency.
 ///
 /// inversion: fails where the composition misses the identity by more than max(1e-20, epsilon) of
 /// its terms; else the value is epsilon times the amplification of rounding in the inverted linear

@@ -1,0 +1,139 @@
+#include "directional_flow.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <random>
+#include <span>
+
+#include "hamjet/algebra/extended.hpp"
+#include "phase_space_scale.hpp"
+
+namespace hamjet {
+namespace {
+
+/// A number with a random sign and a size between 1/2 and 1. The standard library's distributions
+/// differ between implementations.
+double signed_size(std::mt19937_64& generator) {
+  const auto bits = static_cast<double>(static_cast<std::int64_t>(generator()) >> 11);
+  const double x = bits * 0x1p-52;  // in [-1, 1)
+  return x < 0 ? (x - 1) / 2 : (x + 1) / 2;
+}
+
+/// The gradient of the Hamiltonian at a state.
+template <class Real>
+std::vector<double> energy_gradient(const DynamicalSystem& system, std::span<const Real> state) {
+  SliceEvaluator<Real, Real> energy(system.hamiltonian, SeriesSpace::create(1, 0), 0);
+  for (std::size_t i = 0; i < state.size(); ++i) *energy.input(i) = state[i];
+  energy.evaluate_constant_terms();
+  std::vector<double> result;
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    result.push_back(static_cast<double>(energy.output_gradient(0, i)));
+  }
+  return result;
+}
+
+/// The value of each monomial at a point.
+template <class Real>
+std::vector<Real> monomials_at(const SeriesSpace& space, const std::vector<Real>& point) {
+  std::vector<Real> result(space.size(), Real(1));
+  std::vector<std::uint8_t> exponents;
+  for (std::size_t k = 1; k < space.size(); ++k) {
+    const auto of = space.exponents(k);
+    exponents.assign(of.begin(), of.end());
+    const auto variable = static_cast<std::size_t>(
+        std::find_if(of.begin(), of.end(), [](std::uint8_t e) { return e > 0; }) - of.begin());
+    --exponents[variable];
+    result[k] = result[space.index(exponents)] * point[variable];
+  }
+  return result;
+}
+
+}  // namespace
+
+template <class Real>
+DirectionalFlow<Real>::DirectionalFlow(const FlowProblem<Real>& problem, std::size_t count)
+    : problem_(problem), line_space_(SeriesSpace::create(1, problem.space->order())) {
+  const std::size_t n = problem.system->degrees_of_freedom;
+  const std::span<const Real> state(problem.initial_state);
+  const double scale = momentum_scale(*problem.system, state);
+  const std::vector<double> gradient = energy_gradient(*problem.system, state);
+  std::mt19937_64 generator(1);
+  for (std::size_t j = 0; j < count; ++j) {
+    std::vector<Real>& direction = directions_.emplace_back();
+    for (const std::size_t v : problem.variables) {
+      double size = signed_size(generator);
+      if (j == 0 && gradient[v] != 0) size = std::copysign(size, gradient[v]);
+      direction.emplace_back(v < n ? size : size * scale);
+    }
+  }
+  starts_ = restrict(starting_jet(problem));
+}
+
+template <class Real>
+typename DirectionalFlow<Real>::Lines DirectionalFlow<Real>::integrate(
+    const Integrate& integrate) const {
+  Lines result;
+  for (const FlowJet<Real>& start : starts_) {
+    FlowProblem<Real> line = problem_;
+    line.space = line_space_;
+    line.variables = {0};  // stands for s; the initial jet says what s moves
+    line.initial_jet = &start;
+    result.push_back(integrate(line));
+  }
+  return result;
+}
+
+template <class Real>
+typename DirectionalFlow<Real>::Lines DirectionalFlow<Real>::restrict(
+    const FlowJet<Real>& jet) const {
+  const SeriesSpace& space = *problem_.space;
+  Lines result;
+  for (const std::vector<Real>& direction : directions_) {
+    const std::vector<Real> monomials = monomials_at(space, direction);
+    FlowJet<Real>& line = result.emplace_back();
+    for (const Series<Real>& component : jet) {
+      Series<Real>& series = line.emplace_back(line_space_);
+      for (int d = 0; d <= space.order(); ++d) {
+        Real sum = 0;
+        for (std::size_t k = space.first(d); k < space.first(d + 1); ++k) {
+          sum += component[k] * monomials[k];
+        }
+        series[static_cast<std::size_t>(d)] = sum;
+      }
+    }
+  }
+  return result;
+}
+
+template <class Real>
+std::vector<double> DirectionalFlow<Real>::relative_difference(const Lines& lines,
+                                                               const Lines& reference) const {
+  const std::size_t n = problem_.system->degrees_of_freedom;
+  std::vector<Real> end;
+  for (const Series<Real>& component : reference.at(0)) end.push_back(component[0]);
+  const double scale = momentum_scale(*problem_.system, std::span<const Real>(end));
+  std::vector<double> result;
+  for (std::size_t d = 0; d < line_space_->size(); ++d) {
+    double difference = 0;
+    double size = 0;
+    for (std::size_t j = 0; j < lines.size(); ++j) {
+      for (std::size_t i = 0; i < lines[j].size(); ++i) {
+        const double unit = i < n ? 1 : 1 / scale;
+        const Real& wanted = reference[j][i][d];
+        const double miss = unit * std::abs(static_cast<double>(Real(lines[j][i][d] - wanted)));
+        if (!(miss <= difference)) difference = miss;
+        if (std::isnan(difference)) difference = std::numeric_limits<double>::infinity();
+        size = std::max(size, unit * std::abs(static_cast<double>(wanted)));
+      }
+    }
+    result.push_back(difference > 0 ? difference / size : 0);
+  }
+  return result;
+}
+
+template class DirectionalFlow<double>;
+template class DirectionalFlow<Extended>;
+
+}  // namespace hamjet

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <vector>
+
+#include "hamjet/integrators/gauss_collocation.hpp"
+
+namespace hamjet {
+
+/// The local tolerance of an adaptive Gauss integration.
+struct StepTolerance {
+  double tolerance = 0;  ///< for GaussStepControl
+  /// By degree, the relative error that shorter steps do not take away, for it is rounding; empty
+  /// where every degree meets the tolerance asked for.
+  std::vector<double> rounding_by_degree;
+};
+
+/// The largest local tolerance, at most that of the settings, with which the error of every degree
+/// of the jet stays below
+///
+///   10 tolerance max(1, periods) ,
+///
+/// periods being those of the linearised motion (IntegrationStatistics::periods). Steps that suit
+/// the nominal need not suit the coefficients: those of degree d are larger at a perigee than at
+/// the end of the arc by the d-th power of the ratio of the time scales there, and their errors
+/// with them.
+///
+/// The flow is integrated along two lines (DirectionalFlow) with the settings' steps and with finer
+/// ones of another order; their difference is the error of each degree, which is proportional to
+/// the local tolerance until it meets rounding. Source of the order: Hairer, Lubich and Wanner,
+/// Geometric Numerical Integration, section II.1; of the restriction to lines, see DirectionalFlow.
+///
+/// Settings of fixed steps and jets of order 0 have none: the settings' tolerance is returned, or
+/// 0. Throws what integrate_gauss throws.
+template <class Real>
+StepTolerance choose_step_tolerance(const FlowProblem<Real>& problem,
+                                    const GaussSettings& settings);
+
+/// Settings for an integration that shares neither order nor steps with one of the given settings,
+/// with a local error a thousand times smaller.
+template <class Real>
+GaussSettings finer_gauss(const GaussSettings& settings, double tolerance);
+
+}  // namespace hamjet
