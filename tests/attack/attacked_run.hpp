@@ -1,0 +1,61 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "drawn_scene.hpp"
+#include "hamjet/studies/propagation.hpp"
+#include "line_reference.hpp"
+
+namespace hamjet::attack {
+
+/// What hamjet made of a scene, through its reader and its runner as the command does.
+struct AttackedRun {
+  int exit_code = 0;
+  std::string message;  ///< of a refusal or a failure
+  bool is_too_slow = false;
+  double seconds = 0;
+  std::optional<Scene> scene;  ///< as read
+  std::optional<PropagationResult> result;
+
+  const RunResult& run() const { return result->runs.at(0); }
+  /// Whether there is a jet that nothing was said against.
+  bool is_unmarked() const { return exit_code == 0 && !is_too_slow; }
+};
+
+/// Gives up after `most_seconds`.
+AttackedRun run_hamjet(const std::string& toml, double most_seconds);
+
+/// The model in the canonical numbers of a scene that was read.
+Model canonical_model(const Scene& scene, const Model& drawn);
+
+/// A difference of what was read from what the attack itself makes of the scene's numbers; empty if
+/// there is none beyond the rounding.
+std::string misread(const DrawnScene& drawn, const Scene& scene);
+
+/// A direction in the variables that the jet is expanded in, its positions of the size of the
+/// nominal's position and its momenta of that of the nominal's momentum (or the motion's own, where
+/// the nominal is at rest): then every variable counts alike, in every unit.
+std::vector<double> draw_direction(const Scene& scene, const Model& model, RandomNumbers& random);
+
+/// A jet along a direction: by degree the sum of c_a d^a over the monomials of that degree.
+struct JetAlongLine {
+  std::vector<std::vector<DoubleDouble>> coefficients;  ///< [component of the model][degree]
+  /// By degree the largest |c_a d^a| of any component, in the sizes of the reference: what errors
+  /// are relative to, for along one direction large coefficients may cancel.
+  std::vector<double> largest_term;
+};
+JetAlongLine along_line(const FlowJet<Extended>& jet, const ComputedProblem& problem,
+                        const std::vector<double>& direction, const LineReference& reference);
+
+/// By degree, relative to the larger of the reference's coefficient and the jet's largest term; 0
+/// where both vanish.
+struct RelativeErrors {
+  std::vector<double> error;
+  std::vector<double> uncertainty;  ///< of the reference
+  std::vector<double> floor;        ///< of double precision, see LineReference
+};
+RelativeErrors relative_errors(const JetAlongLine& jet, const LineReference& reference);
+
+}  // namespace hamjet::attack

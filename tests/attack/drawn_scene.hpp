@@ -1,0 +1,73 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "force_models.hpp"
+
+// Random scenes. A scene is drawn from a seed and its own number alone, so that each can be had
+// again by itself.
+
+namespace hamjet::attack {
+
+class RandomNumbers {
+ public:
+  RandomNumbers(std::uint64_t seed, std::uint64_t scene);
+  /// Uniform in [low, high).
+  double uniform(double low, double high);
+  /// The logarithm is uniform.
+  double log_uniform(double low, double high);
+  int integer(int low, int high);  ///< both ends included
+  bool chance(double probability) { return uniform(0, 1) < probability; }
+
+ private:
+  std::mt19937_64 generator_;
+};
+
+/// What a scene says, in its own units (km and s for orbits, else m, kg, s).
+struct DrawnScene {
+  std::uint64_t seed = 0, number = 0;
+  std::string precision = "double";
+  Model model;  ///< of an orbit the radius is in km
+  double mu_km3_s2 = 398600.4415;
+  bool is_orbit = true;
+  /// a, e, i, raan, argp, ta in km and degrees; else the state is given.
+  std::optional<std::array<double, 6>> elements;
+  std::vector<double> position, velocity;  ///< of the other models momenta
+  std::optional<double> length_km;
+  int order = 1;
+  std::vector<std::size_t> variables;  ///< empty: all
+  double duration_s = 0;
+  int arcs = 1;  ///< 0: auto
+  bool checks_surface = false;
+  std::string method = "gauss";
+  int stages = 8;
+  int verlet_order = 2;
+  double beta = 0.25;
+  bool compensated_summation = true;
+  std::optional<double> tolerance;
+  double step_s = 0;
+  double revolutions = 0;  ///< or periods of the fastest oscillation
+  double eccentricity = 0;
+
+  std::size_t dimension() const { return 2 * model.degrees_of_freedom; }
+  bool is_adaptive_gauss() const { return method == "gauss" && tolerance.has_value(); }
+};
+
+DrawnScene draw_scene(std::uint64_t seed, std::uint64_t number);
+
+/// As a user writes it.
+std::string toml(const DrawnScene& scene);
+
+/// One line.
+std::string summary(const DrawnScene& scene);
+
+/// J_n of the gravity field that the program ships, from its normalised coefficients:
+/// J_n = -sqrt(2n + 1) C_n0.
+const std::array<double, 21>& shipped_zonals();
+
+}  // namespace hamjet::attack

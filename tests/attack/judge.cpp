@@ -1,0 +1,108 @@
+#include "judge.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace hamjet::attack {
+namespace {
+
+/// Extended precision has 113 bits: its floor is that of double precision, scaled.
+double floor_of(const DrawnScene& drawn, double floor) {
+  return drawn.precision == "extended" ? floor * 0x1p-60 : floor;
+}
+
+/// What is promised of adaptive Gauss methods: the relative error of every degree is at most 100
+/// times the tolerance in each revolution, besides ten floors.
+double promised_error(const DrawnScene& drawn, double floor) {
+  return 100 * *drawn.tolerance * std::max(1.0, drawn.revolutions) + 10 * floor_of(drawn, floor);
+}
+
+class Judge {
+ public:
+  Judge(const DrawnScene& drawn, const JudgeSettings& settings)
+      : drawn_(drawn),
+        settings_(settings),
+        random_(drawn.seed ^ 0x5851f42d4c957f2d, drawn.number) {}
+
+  Verdict run() {
+    const AttackedRun attacked = run_hamjet(toml(drawn_), settings_.most_seconds);
+    verdict_.hamjet_seconds = attacked.seconds;
+    verdict_.message = attacked.message;
+    if (attacked.scene) {
+      const std::string difference = misread(drawn_, *attacked.scene);
+      if (!difference.empty()) find({"reading", -1, 0, 0, difference});
+    }
+    if (attacked.is_too_slow) {
+      skip("hamjet takes too long");
+    } else if (attacked.exit_code == 1 || attacked.exit_code == 4) {
+      verdict_.outcome = Verdict::Outcome::marked;
+    } else if (attacked.exit_code != 0) {
+      verdict_.outcome = Verdict::Outcome::refused;
+    } else {
+      compare(attacked);
+    }
+    if (!verdict_.findings.empty()) verdict_.outcome = Verdict::Outcome::wrong;
+    return verdict_;
+  }
+
+ private:
+  void find(const Finding& finding) { verdict_.findings.push_back(finding); }
+  void skip(const std::string& why) {
+    verdict_.outcome = Verdict::Outcome::skipped;
+    verdict_.message = why;
+  }
+
+  void compare(const AttackedRun& attacked) {
+    const Scene& scene = *attacked.scene;
+    const Model model = canonical_model(scene, drawn_.model);
+    const bool is_extended = drawn_.precision == "extended";
+    for (int i = 0; i < settings_.directions; ++i) {
+      const std::vector<double> direction = draw_direction(scene, model, random_);
+      const auto start = std::chrono::steady_clock::now();
+      const LineReference reference =
+          follow(model, {scene.nominal, direction, scene.duration, scene.order}, drawn_.number,
+                 is_extended ? 1e-28 : 1e-26, is_extended ? 1e-26 : 1e-22);
+      verdict_.reference_seconds +=
+          std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      if (!reference.failure.empty()) return skip(reference.failure);
+      const JetAlongLine jet =
+          along_line(attacked.run().jet, attacked.result->problem, direction, reference);
+      const RelativeErrors errors = relative_errors(jet, reference);
+      compare_degrees(errors);
+    }
+  }
+
+  void compare_degrees(const RelativeErrors& errors) {
+    for (std::size_t k = 0; k < errors.error.size(); ++k) {
+      const double uncertainty = errors.uncertainty[k];
+      verdict_.largest_error = std::max(verdict_.largest_error, errors.error[k]);
+      verdict_.largest_uncertainty = std::max(verdict_.largest_uncertainty, uncertainty);
+      if (settings_.is_talkative) {
+        fmt::print("  degree {}: error {:.2e}, floor {:.2e}, uncertainty {:.1e}\n", k,
+                   errors.error[k], floor_of(drawn_, errors.floor[k]), uncertainty);
+      }
+      if (!drawn_.is_adaptive_gauss()) continue;
+      const double allowed = promised_error(drawn_, errors.floor[k]);
+      if (errors.error[k] - uncertainty > allowed) {
+        find({"tolerance", static_cast<int>(k), errors.error[k] - uncertainty, allowed,
+              fmt::format("floor {:.1e}", floor_of(drawn_, errors.floor[k]))});
+      }
+    }
+  }
+
+  const DrawnScene& drawn_;
+  const JudgeSettings& settings_;
+  RandomNumbers random_;
+  Verdict verdict_;
+};
+
+}  // namespace
+
+Verdict judge(const DrawnScene& drawn, const JudgeSettings& settings) {
+  return Judge(drawn, settings).run();
+}
+
+}  // namespace hamjet::attack

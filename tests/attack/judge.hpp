@@ -1,0 +1,47 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "attacked_run.hpp"
+#include "drawn_scene.hpp"
+
+namespace hamjet::attack {
+
+/// Something that is wrong with a result that nothing marks.
+struct Finding {
+  std::string rule;  ///< which is broken
+  int degree = -1;   ///< -1: not of a degree
+  double value = 0;  ///< for example a relative error
+  double allowed = 0;
+  std::string words;  ///< what the numbers do not say
+};
+
+/// What came of one scene.
+struct Verdict {
+  enum class Outcome {
+    right,
+    wrong,
+    marked,   ///< a failed check, or a numerical failure
+    refused,  ///< with a message, before any work
+    skipped,  ///< too slow for hamjet or for the reference
+  };
+  Outcome outcome = Outcome::right;
+  std::vector<Finding> findings;
+  std::string message;  ///< of hamjet's failure or refusal, or why it was skipped
+  double largest_error = 0;
+  double largest_uncertainty = 0;  ///< of the reference, relative
+  double hamjet_seconds = 0;
+  double reference_seconds = 0;
+};
+
+struct JudgeSettings {
+  int directions = 2;
+  double most_seconds = 20;  ///< of one run of hamjet
+  bool is_talkative = false;
+};
+
+/// Runs a scene and compares it, degree by degree, with the independent integration.
+Verdict judge(const DrawnScene& drawn, const JudgeSettings& settings);
+
+}  // namespace hamjet::attack
