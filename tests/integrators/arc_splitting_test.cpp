@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hamjet/dynamics/double_well.hpp"
+#include "hamjet/dynamics/fermi_pasta_ulam.hpp"
 #include "hamjet/dynamics/oscillator_pair.hpp"
 #include "hamjet/maps/symplecticity.hpp"
 #include "support/errors.hpp"
@@ -207,6 +208,53 @@ TEST(ArcSplitting, OfOtherSystems) {
           << flow.system.name << ", method " << method.index();
     }
   }
+}
+
+/// At every degree at most ten times the unsplit run's own error, against extended precision, or
+/// what rounding alone makes of a degree.
+void expect_loses_nothing(const Flow<double>& flow, const std::vector<std::size_t>& numbers) {
+  const auto problem = test::problem_of(flow);
+  const GaussSettings settings = adaptive(8, 1e-13);
+  Flow<Extended> exact_flow{flow.system,
+                            {flow.start.begin(), flow.start.end()},
+                            Extended(flow.duration),
+                            flow.order,
+                            flow.variables};
+  const auto exact = test::run_gauss(exact_flow, adaptive(16, 1e-26));
+  const auto whole = unsplit(problem, settings);
+  for (const std::size_t arcs : numbers) {
+    ArcStatistics statistics;
+    const auto pieces = split(problem, settings, arcs, 2, &statistics);
+    EXPECT_EQ(statistics.plan.arcs, arcs);
+    for (int d = 0; d <= flow.order; ++d) {
+      const double own = std::max(test::relative_error(whole, exact, d), 1e-15);
+      EXPECT_LE(test::relative_error(pieces, exact, d), 10 * own)
+          << flow.system.name << ", " << arcs << " arcs, degree " << d;
+    }
+  }
+}
+
+TEST(ArcSplitting, DoesNotDependOnTheUnitOfLength) {
+  // Kepler's orbit with e = 0.1 in units from 1 km to 1 AU, its own being 9500 km: positions and
+  // momenta are of sizes 1e4 and 1e-2 at one end and 1e-4 and 1e2 at the other.
+  for (const double length_km : {1.0, 100.0, 9500.0, 1e6, 1.5e8}) {
+    const double r = 8550 / length_km;
+    const double v = std::sqrt(1.1 / r);
+    const Flow<double> flow{
+        kepler(), {r, 0, 0, 0, 0.6 * v, 0.8 * v}, 19 * std::pow(9500 / length_km, 1.5), 3, {}};
+    expect_loses_nothing(flow, {2, 4});
+  }
+}
+
+TEST(ArcSplitting, DoesNotDependOnHowNearToRestOrHowEccentric) {
+  // Where the energy is no coordinate beyond 1e-8; an escape; a fall from apogee past a perigee of
+  // a thousandth.
+  expect_loses_nothing({double_well(), {1e-8, 0}, 3, 5, {}}, {3});
+  expect_loses_nothing({double_well(), {0.2, 0}, 3, 5, {}}, {3});
+  expect_loses_nothing(
+      {fermi_pasta_ulam(50, 2), {3e-10, 6e-10, 9e-10, 1.2e-9, 0, 0, 0, 0}, 3, 2, {}}, {2});
+  expect_loses_nothing({kepler(), {1, 0, 0, 0, 1.5648, 0.1}, 37000, 3, {0, 1, 4}}, {4});
+  expect_loses_nothing({kepler(), {1, 0, 0, 0, 0.02236, 0.01}, 6.5, 3, {0, 1, 4}}, {3});
 }
 
 TEST(ArcSplitting, InExtendedPrecision) {
