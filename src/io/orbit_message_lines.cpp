@@ -79,19 +79,21 @@ void MessageLines::fail(std::size_t line, std::string_view keyword,
                                                    keyword.empty() ? "" : ": ", problem));
 }
 
-std::string read_version(MessageLines& lines, std::string_view keyword) {
+std::string read_version(MessageLines& lines, std::string_view keyword,
+                         const std::vector<std::string_view>& versions) {
+  const std::string right = fmt::format("{}", fmt::join(versions, " or "));
   MessageLine line;
   if (!lines.next(line)) {
-    lines.fail(1, keyword, "missing, got an empty file, must be 2.0 or 3.0");
+    lines.fail(1, keyword, fmt::format("missing, got an empty file, must be {}", right));
   }
   if (!line.is_assignment || line.keyword != keyword) {
     lines.fail(line.number, keyword,
-               fmt::format("missing, got the first line {}, must be {} = 2.0 or 3.0",
-                           in_quotes(line.text), keyword));
+               fmt::format("missing, got the first line {}, must be {} = {}", in_quotes(line.text),
+                           keyword, right));
   }
-  if (line.value != "2.0" && line.value != "3.0") {
+  if (std::find(versions.begin(), versions.end(), line.value) == versions.end()) {
     lines.fail(line.number, keyword,
-               fmt::format("unknown version, got {}, must be 2.0 or 3.0", in_quotes(line.value)));
+               fmt::format("unknown version, got {}, must be {}", in_quotes(line.value), right));
   }
   return std::string(line.value);
 }
@@ -171,6 +173,7 @@ OrbitMetadata MessageBlock::metadata() const {
   result.object_name = text("OBJECT_NAME");
   result.object_id = text("OBJECT_ID");
   result.center_name = text("CENTER_NAME");
+  result.center_name_line = line_of("CENTER_NAME");
   result.reference_frame = text("REF_FRAME");
   std::transform(
       result.reference_frame.begin(), result.reference_frame.end(), result.reference_frame.begin(),

@@ -52,8 +52,9 @@ class MessageLines {
   std::size_t number_ = 0;
 };
 
-/// The first line must give the version of this message.
-std::string read_version(MessageLines& lines, std::string_view keyword);
+/// The first line must give the version of this message, one of `versions`.
+std::string read_version(MessageLines& lines, std::string_view keyword,
+                         const std::vector<std::string_view>& versions);
 
 /// The assignments of one part of a message.
 class MessageBlock {
@@ -68,6 +69,8 @@ class MessageBlock {
   void end_at(std::size_t line) { end_ = line; }
 
   bool has(std::string_view keyword) const { return values_.contains(keyword); }
+  /// Where a keyword that is there stands.
+  std::size_t line_of(std::string_view keyword) const { return values_.find(keyword)->second.line; }
   /// Required.
   std::string text(std::string_view keyword) const;
   Epoch epoch(std::string_view keyword) const;

@@ -32,7 +32,7 @@ class OemReader {
 
   OrbitEphemerisMessage read() {
     OrbitEphemerisMessage message;
-    message.version = read_version(lines_, "CCSDS_OEM_VERS");
+    message.version = read_version(lines_, "CCSDS_OEM_VERS", {"1.0", "2.0", "3.0"});
     advance();
     read_header(message);
     while (has_line_) {

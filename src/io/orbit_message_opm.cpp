@@ -90,7 +90,7 @@ OrbitParameterMessage read_opm(const std::string& name, std::string_view text) {
   const std::vector<std::string_view> keywords = all_keywords();
   MessageLines lines(name, text);
   OrbitParameterMessage message;
-  message.version = read_version(lines, "CCSDS_OPM_VERS");
+  message.version = read_version(lines, "CCSDS_OPM_VERS", {"2.0", "3.0"});
   MessageBlock block(lines);
   bool has_user_defined = false;
   for (MessageLine line; lines.next(line);) {
@@ -123,6 +123,10 @@ OrbitParameterMessage read_opm(const std::string& name, std::string_view text) {
       is_there = true;
     }
     if (is_there) message.unused.emplace_back(part.name);
+  }
+  if (block.has("GM")) {
+    message.gm_km3_s2 = block.number("GM", "km**3/s**2");
+    message.gm_line = block.line_of("GM");
   }
   if (has_user_defined) message.unused.emplace_back("user-defined parameters");
   return message;

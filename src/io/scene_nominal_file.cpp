@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
+#include "hamjet/dynamics/celestial_bodies.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/io/orbit_message.hpp"
 #include "scene_message.hpp"
@@ -129,6 +131,51 @@ ChosenState choose_state(const TableReader& nominal, const std::vector<Ephemeris
   return found[0];
 }
 
+/// `file` is the message's, printable.
+void require_same_centre(const TableReader& nominal, std::string_view key,
+                         const SceneCentre& centre, const OrbitMetadata& metadata,
+                         const std::string& file) {
+  const double mu = centre.system.mu_km3_s2;
+  const CelestialBody* const body = body_named(metadata.center_name);
+  const CelestialBody* const of_scene = body_with_mu(mu);
+  const std::string got =
+      fmt::format("got CENTER_NAME = {} in {}:{}", printable(metadata.center_name), file,
+                  metadata.center_name_line);
+  const std::string of_system =
+      fmt::format("system.mu_km3_s2 = {}{}", mu,
+                  of_scene != nullptr ? fmt::format(" of {}", of_scene->name) : "");
+  if (body != nullptr && body != of_scene) {
+    nominal.fail(
+        key, fmt::format(
+                 "another centre than the scene's, {} and {}, must be {}a mu near "
+                 "{:.8g}",
+                 got, of_system,
+                 of_scene != nullptr ? fmt::format("a message about {}, or ", of_scene->name) : "",
+                 body->mu_km3_s2));
+  }
+  if (body == nullptr && of_scene != nullptr && centre.stated_name != metadata.center_name) {
+    nominal.fail(key, fmt::format("an unknown centre, {} and {}, must be {}, or "
+                                  "ephemeris.center_name = {} in the scene to say that it is meant",
+                                  got, of_system, of_scene->name, in_quotes(metadata.center_name)));
+  }
+  if (body != nullptr && body->name != "EARTH" && centre.system.J.any()) {
+    nominal.fail(key,
+                 fmt::format("zonal coefficients along the Earth's axis, {} and the frame {}, must "
+                             "be position_km and velocity_km_s with z along the axis of {}, or "
+                             "model = \"kepler\"",
+                             got, metadata.reference_frame, body->name));
+  }
+}
+
+/// The same of the mu that an OPM may name.
+void require_same_mu(const TableReader& nominal, std::string_view key, double mu,
+                     const OrbitParameterMessage& message, const std::string& file) {
+  if (!message.gm_km3_s2 || std::abs(*message.gm_km3_s2 / mu - 1) <= gm_tolerance) return;
+  nominal.fail(key, fmt::format("another mu than the scene's, got GM = {} in {}:{} and "
+                                "system.mu_km3_s2 = {}, must agree to {:.0e}",
+                                *message.gm_km3_s2, file, message.gm_line, mu, gm_tolerance));
+}
+
 EphemerisSettings settings_of(const ChosenState& chosen) {
   EphemerisSettings settings;
   settings.epoch = format_epoch(chosen.state.epoch);
@@ -145,7 +192,7 @@ EphemerisSettings settings_of(const ChosenState& chosen) {
 
 }  // namespace
 
-NominalFromFile read_nominal_file(const TableReader& nominal) {
+NominalFromFile read_nominal_file(const TableReader& nominal, const SceneCentre& centre) {
   const std::string_view key = nominal.exactly_one_of({"oem_file", "opm_file"});
   const std::filesystem::path file = nominal.path_beside_scene(key);
   const std::string text = nominal.content_beside_scene(key, largest_orbit_message_bytes);
@@ -170,6 +217,7 @@ NominalFromFile read_nominal_file(const TableReader& nominal) {
     result.file.format = "OPM " + message.version;
     result.file.unused = message.unused;
     chosen = {message.metadata, message.state};
+    require_same_mu(nominal, key, centre.system.mu_km3_s2, message, printable_path(file));
     const auto refuse_key = [&](std::string_view other, const std::string& of_message) {
       nominal.fail(other, fmt::format("not that of the message, got {}, must be {} or left out",
                                       in_quotes(nominal.text(other)), in_quotes(of_message)));
@@ -182,6 +230,7 @@ NominalFromFile read_nominal_file(const TableReader& nominal) {
       refuse_key("object", message.metadata.object_name);
     }
   }
+  require_same_centre(nominal, key, centre, chosen.metadata, printable_path(file));
   const auto& position = chosen.state.position_km;
   if (std::all_of(position.begin(), position.end(), [](double x) { return x == 0; })) {
     nominal.fail(key, "at the centre of attraction, got the position 0 0 0, must be any other");

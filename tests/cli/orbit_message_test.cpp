@@ -261,6 +261,58 @@ TEST_F(OrbitMessages, AFileThatCannotBeReadIsSaidWithTheSceneKey) {
   expect_error({"run", "oem.toml"}, 6, {"none.oem cannot be read: it is too large, got 67108865"});
 }
 
+// Version 1.0 is that of 2004, which GMAT writes.
+TEST_F(OrbitMessages, AnEphemerisOfVersion1) {
+  write("one.oem", changed(low_orbit, "CCSDS_OEM_VERS = 2.0", "CCSDS_OEM_VERS = 1.0"));
+  write("one.toml", from_message("oem_file = \"one.oem\"\n"));
+  succeed({"run", "one.toml", "-q", "-o", "one"});
+  const Json file = read_json(directory_ / "one/summary.json")["nominal_file"];
+  EXPECT_EQ(file["format"], "OEM 1.0");
+}
+
+TEST_F(OrbitMessages, AnotherCentreThanTheScenesIsRefused) {
+  const std::string opm = "opm_file = \"other.opm\"\n";
+  const auto refuse = [&](const std::string& scene, const std::vector<std::string>& words) {
+    write("other.toml", scene);
+    expect_error({"check", "other.toml"}, 3, words);
+  };
+  const std::string mars =
+      changed(io::standard_opm, "CENTER_NAME        =   EARTH", "CENTER_NAME        =   MARS");
+  write("other.opm", changed(mars, "GM                = 398600.4415", "GM = 42828"));
+  refuse(from_message(opm),
+         {"other.toml:9:12: nominal.opm_file: another mu than the scene's, got GM = 42828 in "
+          "other.opm:33 and system.mu_km3_s2 = 398600.4415, must agree to 1e-05"});
+  write("other.opm", mars);
+  refuse(from_message(opm),
+         {"other.toml:9:12: nominal.opm_file: another centre than the scene's, got CENTER_NAME = "
+          "MARS in other.opm:11 and system.mu_km3_s2 = 398600.4415 of EARTH, must be a message "
+          "about EARTH, or a mu near 42828.376"});
+  // The zonal field's axis would be taken along the Earth's.
+  write("other.opm", changed(mars, "GM                = 398600.4415", "GM = 42828.3"));
+  const std::string with_its_mu = changed(from_message(opm), "398600.4415", "42828.3");
+  refuse(with_its_mu, {"zonal coefficients along the Earth's axis", "CENTER_NAME = MARS", "TOD",
+                       "with z along the axis of MARS"});
+  write("kepler.toml",
+        changed(changed(with_its_mu, "radius_km = 6378.1363\nJ2 = 1.08262668355315e-3\n", ""),
+                "zonal-gravity", "kepler"));
+  succeed({"check", "kepler.toml"});
+  // A centre that is not known is not the Earth, unless the scene says so itself.
+  write("other.opm", changed(io::standard_opm, "CENTER_NAME        =   EARTH",
+                             "CENTER_NAME        =   EARTH BARYCENTER"));
+  refuse(from_message(opm), {"an unknown centre, got CENTER_NAME = EARTH BARYCENTER",
+                             "must be EARTH, or ephemeris.center_name = \"EARTH BARYCENTER\""});
+  write("other.toml", from_message(opm) + "[ephemeris]\ncenter_name = \"EARTH BARYCENTER\"\n");
+  succeed({"check", "other.toml"});
+  // Another published value of the Earth's mu is the Earth's.
+  write("other.opm", changed(io::standard_opm, "398600.4415", "398600.8"));
+  write("other.toml", from_message(opm));
+  succeed({"check", "other.toml"});
+  // An ephemeris has no GM, but a centre.
+  write("other.oem", changed(low_orbit, "= Earth", "= Moon"));
+  refuse(from_message("oem_file = \"other.oem\"\n"),
+         {"nominal.oem_file: another centre", "CENTER_NAME = Moon in other.oem:11"});
+}
+
 TEST_F(OrbitMessages, TheStateMustBeThere) {
   const auto refuse = [&](const std::string& nominal, const std::vector<std::string>& words) {
     write("bad.toml", from_message(nominal));

@@ -164,8 +164,8 @@ TEST(OrbitMessage, ADamagedEphemerisIsRefusedWithItsLine) {
   const auto read = [](const std::string& text) { read_oem("a.oem", text); };
   const std::vector<Damage> damages = {
       {"CCSDS_OEM_VERS = 3.0",
-       "CCSDS_OEM_VERS = 1.0",
-       {"a.oem:1: CCSDS_OEM_VERS: unknown version, got \"1.0\", must be 2.0 or 3.0"}},
+       "CCSDS_OEM_VERS = 4.0",
+       {"a.oem:1: CCSDS_OEM_VERS: unknown version, got \"4.0\", must be 1.0 or 2.0 or 3.0"}},
       {"CCSDS_OEM_VERS = 3.0\n", "", {"a.oem:1: CCSDS_OEM_VERS: missing, got the first line"}},
       {"CCSDS_OEM_VERS", "CCSDS_OPM_VERS", {"a.oem:1: CCSDS_OEM_VERS: missing", "CCSDS_OPM_VERS"}},
       {"CREATION_DATE = 1996-11-04T17:22:31",

@@ -9,9 +9,11 @@
 
 #include "hamjet/io/epoch.hpp"
 
-// Orbit messages of the Consultative Committee for Space Data Systems, versions 2.0 and 3.0, in
-// keyword = value notation (KVN); the XML notation is not read. Source: CCSDS 502.0-B-3, Orbit Data
-// Messages (2023), sections 3 (OPM), 5 (OEM) and 7 (syntax), and CCSDS 502.0-B-2 (2009).
+// Orbit messages of the Consultative Committee for Space Data Systems, versions 2.0 and 3.0, and
+// ephemerides of version 1.0, in keyword = value notation (KVN); the XML notation is not read.
+// Source: CCSDS 502.0-B-3, Orbit Data Messages (2023), sections 3 (OPM), 5 (OEM) and 7 (syntax),
+// CCSDS 502.0-B-2 (2009), and CCSDS 502.0-B-1 (2004), whose OEM is that of version 2.0 without
+// accelerations, covariances and REF_FRAME_EPOCH.
 
 namespace hamjet::io {
 
@@ -33,6 +35,7 @@ struct OrbitMetadata {
   std::string reference_frame;  ///< REF_FRAME, in capitals
   TimeSystem time_system = TimeSystem::utc;
   std::optional<Epoch> reference_frame_epoch = {};  ///< REF_FRAME_EPOCH, of a frame "of epoch"
+  std::size_t center_name_line = 0;                 ///< of CENTER_NAME, where it was read
 };
 
 /// One block of metadata with the states that follow it.
@@ -55,7 +58,7 @@ struct EphemerisSegment {
 /// An Orbit Ephemeris Message (OEM): states of one object along time. What it cannot hold: Taylor
 /// coefficients, generating functions, checks.
 struct OrbitEphemerisMessage {
-  std::string version = "2.0";        ///< or "3.0"
+  std::string version = "2.0";        ///< or "3.0"; "1.0" of what was read
   std::vector<std::string> comments;  ///< of the header; written, not read
   Epoch creation_date;                ///< UTC
   std::string originator;
@@ -67,6 +70,8 @@ struct OrbitParameterMessage {
   std::string version;
   OrbitMetadata metadata;
   OrbitState state;
+  std::optional<double> gm_km3_s2;  ///< GM, which stands with the Keplerian elements
+  std::size_t gm_line = 0;          ///< of GM
   /// What else the message holds and is not used: "Keplerian elements", "spacecraft parameters",
   /// "covariance", "user-defined parameters".
   std::vector<std::string> unused;
