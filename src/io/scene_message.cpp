@@ -44,6 +44,70 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
+std::string digits_of(std::string_view name) {
+  std::string digits(name);
+  std::erase_if(digits, [](char c) { return c < '0' || c > '9'; });
+  return digits;
+}
+
+std::vector<std::string_view> name_parts(std::string_view name) {
+  std::vector<std::string_view> words;
+  for (std::size_t end = 0; end != name.npos; name.remove_prefix(std::min(end + 1, name.size()))) {
+    end = name.find('_');
+    words.push_back(name.substr(0, end));
+  }
+  return words;
+}
+
+/// Whether one name can be a slip of the other. In names of quantities one letter more or less of a
+/// short word is another quantity or another unit (ma_deg and ta_deg, a_m and a_km), and so is
+/// another digit (J2 and J20): these must be right. Of all letters half must be.
+bool is_slip(std::string_view name, std::string_view candidate, std::size_t distance) {
+  constexpr std::size_t longest_symbol = 2;
+  const std::size_t length = std::max(name.size(), candidate.size());
+  if (digits_of(name) != digits_of(candidate) || 2 * distance > length) return false;
+  const auto words = name_parts(name);
+  const auto right = name_parts(candidate);
+  if (words.size() != right.size()) return 4 * distance <= length;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const bool is_symbol = std::max(words[i].size(), right[i].size()) <= longest_symbol;
+    if (is_symbol && words[i] != right[i]) return false;
+  }
+  return true;
+}
+
+/// Keys that scenes of other programs have, and what takes their place here. The nearest key would
+/// be other physics.
+struct ForeignKeys {
+  std::string_view table;
+  std::vector<std::string_view> names;
+  std::string_view remedy;
+};
+
+const std::vector<ForeignKeys>& foreign_keys() {
+  static const std::vector<ForeignKeys> keys = {
+      {"nominal",
+       {"ma_deg", "M_deg", "m_deg", "mean_anomaly_deg", "mean_anomaly"},
+       "the mean anomaly is not read, must be ta_deg, the true anomaly"},
+      {"nominal",
+       {"ea_deg", "E_deg", "eccentric_anomaly_deg", "eccentric_anomaly"},
+       "the eccentric anomaly is not read, must be ta_deg, the true anomaly"},
+      {"nominal",
+       {"u_deg", "aol_deg", "arglat_deg", "argument_of_latitude_deg"},
+       "the argument of latitude is not read, must be argp_deg and ta_deg, whose sum it is"},
+      {"nominal",
+       {"h_km", "alt_km", "altitude_km", "height_km"},
+       "a height above the surface is not read, must be a_km, from the centre"},
+      {"nominal",
+       {"n_rad_s", "n_rev_day", "mean_motion", "mean_motion_rev_day", "period_s", "period_min"},
+       "mean motion and period are not read, must be a_km, whose cube is mu (period / 2 pi)^2"},
+      {"system",
+       {"C20", "C30", "C40", "C50", "C60", "C70", "C80", "C90", "C100", "C110", "C120", "C130",
+        "C140", "C150", "C160", "C170", "C180", "C190", "C200"},
+       "C_n0 is not read, must be J_n = -C_n0, or -sqrt(2 n + 1) C_n0 of a normalised one"}};
+  return keys;
+}
+
 /// Whether one dotted path leads to the other, or is it.
 bool is_path_to(std::string_view outer, std::string_view inner) {
   return inner.starts_with(outer) && (inner.size() == outer.size() || inner[outer.size()] == '.');
@@ -83,8 +147,7 @@ std::optional<std::string_view> nearest(std::string_view name,
   for (const std::string_view candidate : candidates) {
     const bool unit_left_off = candidate.starts_with(std::string(name) + '_');
     const std::size_t distance = unit_left_off ? 0 : edit_distance(name, candidate);
-    // At least half of the letters must be right.
-    if (2 * distance <= std::max(name.size(), candidate.size()) && distance < best_distance) {
+    if ((unit_left_off || is_slip(name, candidate, distance)) && distance < best_distance) {
       best = candidate;
       best_distance = distance;
     }
@@ -100,6 +163,15 @@ std::string suggestion(std::string_view name, const std::vector<std::string_view
   const auto near = nearest(name, candidates);
   if (near) return fmt::format("did you mean {}?", *near);
   return fmt::format("must be one of: {}", listed(candidates));
+}
+
+std::optional<std::string_view> remedy_for_foreign_key(std::string_view table,
+                                                       std::string_view name) {
+  for (const ForeignKeys& keys : foreign_keys()) {
+    const bool is_one = std::find(keys.names.begin(), keys.names.end(), name) != keys.names.end();
+    if (keys.table == table && is_one) return keys.remedy;
+  }
+  return std::nullopt;
 }
 
 std::string location(std::string_view source, std::size_t line, std::size_t column) {

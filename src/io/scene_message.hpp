@@ -18,7 +18,8 @@ std::string printable(std::string_view text, std::size_t most_characters = 80);
 std::string in_quotes(std::string_view text);
 
 /// The candidate nearest to a misspelt `name` (an edit distance that counts a swap of neighbours as
-/// one, or a name whose unit was left off), or nothing if none is near.
+/// one, or a name whose unit was left off), or nothing if none is near. What differs in a digit, or
+/// in a symbol of one or two letters, is another quantity and never near.
 std::optional<std::string_view> nearest(std::string_view name,
                                         const std::vector<std::string_view>& candidates);
 
@@ -27,6 +28,11 @@ std::string listed(const std::vector<std::string_view>& names);
 
 /// Says what was meant: the nearest of `candidates`, or the list of all.
 std::string suggestion(std::string_view name, const std::vector<std::string_view>& candidates);
+
+/// What is to be given in place of a key that is known not to exist in a table of a scene, because
+/// other programs have it: what is not read, and what must be; nothing for any other key.
+std::optional<std::string_view> remedy_for_foreign_key(std::string_view table,
+                                                       std::string_view name);
 
 /// Where a value stands: `source:line:column`, or `source` alone for a command-line override,
 /// which has no lines (see `override_source`), and for line 0, of tables that no text was.

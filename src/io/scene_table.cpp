@@ -56,7 +56,9 @@ void TableReader::check_keys(const KnownKeys& known) const {
   }
   // An override's key may end with the name already.
   const std::string got = place.ends_with(name) ? "" : fmt::format("got {}, ", printable(name));
-  throw_scene_error(head, fmt::format("unknown key, {}{}", got, suggestion(name, known.keys)));
+  const auto remedy = remedy_for_foreign_key(path_, name);
+  throw_scene_error(
+      head, fmt::format("unknown key, {}{}", got, remedy ? *remedy : suggestion(name, known.keys)));
 }
 
 double TableReader::number(std::string_view key) const {

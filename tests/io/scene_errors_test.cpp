@@ -100,7 +100,7 @@ TEST(SceneErrors, System) {
               {"J2 = 1e-3", "J20 = 2", {"J20: out of range, got 2, must be a number from -1"}},
               {"J2 = 1e-3", "J1 = 1", {"J1: unknown key, got J1, must be one of J2 to J20"}},
               {"J2 = 1e-3", "J21 = 1", {":7:7: system.J21: unknown key, got J21, must be one"}},
-              {"J2 = 1e-3", "\"J2.5\" = 1", {":7:1: system.J2.5: unknown key", "mean J2?"}},
+              {"J2 = 1e-3", "\"J2.5\" = 1", {":7:1: system.J2.5: unknown key", "one of: model"}},
               {"J2 = 1e-3", "J2.5 = 1e-6", {"system.J2: wrong type, got a table"}},
               {"J2 = 1e-3", "j4 = 1e-6", {":7:1: system.j4: unknown key, got j4"}},
               {"J2 = 1e-3", "mass_kg = 1", {"mass_kg: the model zonal-gravity has no key mass_kg"}},
@@ -147,10 +147,63 @@ TEST(SceneErrors, Nominal) {
                  {"position_km", "postion_km", {"did you mean position_km?"}},
                  {"position_km", "position", {"did you mean position_km?"}},
                  {"position_km", "position_m", {"the model zonal-gravity has no key position_m"}}});
+  // What is no angle is refused.
+  const auto refuse_angle = [&](const std::string& from, const std::string& to,
+                                const std::string& word) {
+    expect_scene_error(changed(with(elements("0")), from, to), {word});
+  };
+  refuse_angle("i_deg = 1", "i_deg = 200",
+               "nominal.i_deg: out of range, got 200, must be a number from 0 to 180");
+  refuse_angle("i_deg = 1", "i_deg = -1", "nominal.i_deg: out of range, got -1");
+  for (const std::string key : {"raan_deg", "argp_deg", "ta_deg"}) {
+    refuse_angle(key + " = 0", key + " = 361",
+                 "nominal." + key + ": out of range, got 361, must be a number from -360 to 360");
+    EXPECT_NO_THROW(parse_scene(changed(with(elements("0")), key + " = 0", key + " = -90"), "x"));
+  }
   expect_errors(oscillator,
                 {{"[1]", "[1, 2]", {"position_m: wrong length", "array of 1 finite number"}},
                  {"position_m = [1]", "", {"position_m: missing"}},
                  {"position_m", "a_km", {"the model harmonic-oscillator has no key a_km"}}});
+}
+
+// A suggestion never leads to other physics: what differs in a digit or in a symbol is another
+// quantity, and what other programs call otherwise is said in words.
+TEST(SceneErrors, NoSuggestionIsOtherPhysics) {
+  const char* cartesian = "position_km = [7000, 0, 0]\nvelocity_km_s = [0, 7.5, 1]\n";
+  const auto message = [](const std::string& scene) -> std::string {
+    try {
+      parse_scene(scene, "file.toml");
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  const auto with_element = [&](const std::string& key) {
+    return message(
+        changed(orbit, cartesian,
+                "a_km = 7000\ne = 0.1\ni_deg = 1\nraan_deg = 0\nargp_deg = 0\n" + key + " = 1\n"));
+  };
+  for (const char* key : {"ma_deg", "mean_anomaly_deg"}) {
+    EXPECT_NE(
+        with_element(key).find("the mean anomaly is not read, must be ta_deg, the true anomaly"),
+        std::string::npos)
+        << with_element(key);
+  }
+  EXPECT_NE(with_element("u_deg").find("argument of latitude is not read"), std::string::npos);
+  EXPECT_NE(with_element("altitude_km").find("must be a_km, from the centre"), std::string::npos);
+  for (const char* key : {"w_deg", "o_deg", "a_m", "ba_deg", "ta_rad"}) {
+    EXPECT_EQ(with_element(key).find("did you mean"), std::string::npos) << with_element(key);
+    EXPECT_NE(with_element(key).find("unknown key"), std::string::npos) << with_element(key);
+  }
+  EXPECT_NE(with_element("taa_deg").find("did you mean ta_deg?"), std::string::npos);
+  const auto with_zonal = [&](const std::string& key) {
+    return message(changed(orbit, "J2 = 1e-3", key + " = 1e-3"));
+  };
+  EXPECT_NE(with_zonal("C20").find("C_n0 is not read, must be J_n = -C_n0"), std::string::npos)
+      << with_zonal("C20");
+  for (const char* key : {"K2", "j2", "S20", "J22", "j20"}) {
+    EXPECT_EQ(with_zonal(key).find("did you mean"), std::string::npos) << with_zonal(key);
+  }
 }
 
 TEST(SceneErrors, Jet) {
