@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <variant>
 #include <vector>
 
 #include "../io/scene_message.hpp"
@@ -55,7 +56,13 @@ io::Study read_study(const RunOptions& options) {
   refuse_empty(options.scene_file, "scene", "a file");
   refuse_empty(options.output, "--output", "a directory");
   const auto overrides = parse_overrides(options.overrides);
-  if (options.scene_file) return io::read_study(*options.scene_file, overrides);
+  if (options.scene_file) {
+    io::Study study = io::read_study(*options.scene_file, overrides);
+    if (const Scene* scene = std::get_if<Scene>(&study)) {
+      for (const std::string& warning : scene->warnings) print_error(warning);
+    }
+    return study;
+  }
   Scene scene = io::parse_scene(demo_scene, "earth-orbit.toml", overrides);
   leave_out_what_is_not_built(scene);
   return scene;

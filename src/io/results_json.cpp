@@ -181,6 +181,7 @@ std::string summary_json(const PropagationResult& result) {
   for (const RunResult& run : result.runs) json["runs"].push_back(run_json(result, run));
   json["operations"] = operations_json(result);
   json["skipped"] = skipped_json(result);
+  json["warnings"] = scene.warnings;
   return json.dump(2) + "\n";
 }
 

@@ -33,10 +33,12 @@ CartesianState read_elements(const TableReader& nominal, double mu_km3_s2) {
                                   "orbits are given by position_km and velocity_km_s)",
                                   nominal.found("e")));
   }
-  elements.inclination_deg = nominal.number("i_deg");
-  elements.ascending_node_deg = nominal.number("raan_deg");
-  elements.argument_of_perigee_deg = nominal.number("argp_deg");
-  elements.true_anomaly_deg = nominal.number("ta_deg");
+  elements.inclination_deg = nominal.number_between("i_deg", 0, 180);
+  // Once around in either sense; what is beyond is no angle in degrees.
+  const auto angle = [&](std::string_view key) { return nominal.number_between(key, -360, 360); };
+  elements.ascending_node_deg = angle("raan_deg");
+  elements.argument_of_perigee_deg = angle("argp_deg");
+  elements.true_anomaly_deg = angle("ta_deg");
   return state_from_elements(elements, mu_km3_s2);
 }
 
@@ -53,7 +55,7 @@ CartesianState read_position_and_velocity(const TableReader& nominal) {
   return state;
 }
 
-CartesianState read_orbit(const TableReader& nominal, const SystemSettings& system,
+CartesianState read_orbit(const TableReader& nominal, const SceneCentre& centre,
                           std::optional<NominalFile>& file) {
   const auto any_of = [&nominal](const std::vector<std::string_view>& keys) {
     const auto given = std::find_if(keys.begin(), keys.end(),
@@ -74,9 +76,9 @@ CartesianState read_orbit(const TableReader& nominal, const SystemSettings& syst
   if (cartesian && of_file) refuse_both(*cartesian, *of_file);
   if (element && of_file) refuse_both(*element, *of_file);
   if (cartesian) return read_position_and_velocity(nominal);
-  if (element) return read_elements(nominal, system.mu_km3_s2);
+  if (element) return read_elements(nominal, centre.system.mu_km3_s2);
   if (!of_file) nominal.fail("", "no orbit, got neither of its forms, must be " + right);
-  NominalFromFile read = read_nominal_file(nominal);
+  NominalFromFile read = read_nominal_file(nominal, centre);
   file = std::move(read.file);
   return read.state;
 }
@@ -134,14 +136,15 @@ double read_unit_of_length(const TableReader& units, SystemModel model) {
 }
 
 Nominal read_nominal(const TableReader& nominal, const SystemSettings& system,
-                     const std::optional<double>& length_km) {
+                     const std::optional<double>& length_km,
+                     const std::optional<std::string>& center_name) {
   const std::vector<std::string_view> orbit_keys =
       joined(joined(cartesian_keys, element_keys), file_keys);
   const std::string owner = "the model " + std::string(model_name(system.model));
   if (is_orbit(system.model)) {
     nominal.check_keys({orbit_keys, particle_keys, owner});
     std::optional<NominalFile> file;
-    const CartesianState orbit = read_orbit(nominal, system, file);
+    const CartesianState orbit = read_orbit(nominal, {system, center_name}, file);
     Nominal result = canonical_orbit(nominal, orbit, system.mu_km3_s2, length_km);
     result.file = std::move(file);
     return result;

@@ -63,6 +63,7 @@ Scene read_flow_jet(const TableReader& root) {
   const Nominal nominal = read_start(root, scene);
   const CanonicalScale& scale = nominal.scale;
   scene.nominal_file = nominal.file;
+  scene.warnings = likely_slips(root, scene);
 
   const JetSettings jet = read_jet(root.table("jet"), scene.system, scene.precision, nominal);
   scene.order = jet.order;

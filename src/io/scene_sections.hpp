@@ -36,6 +36,9 @@ CanonicalTransformationStudy read_canonical_transformation(const TableReader& ro
 /// The study "optimal-control": table `[optimal_control]`.
 Study read_optimal_control(const TableReader& root);
 
+/// The keys that the table `[system]` may have for a model.
+std::vector<std::string_view> system_keys(SystemModel model);
+
 /// Table `[system]`.
 SystemSettings read_system(const TableReader& system);
 
@@ -64,9 +67,10 @@ double read_unit_of_length(const TableReader& units, SystemModel model);
 /// Table `[nominal]`. For an orbit the unit of length is `length_km`, or without it the distance
 /// from the centre, and the unit of time sqrt(length^3 / mu), so that mu = 1 and a momentum (per
 /// unit of mass) is a velocity over sqrt(mu / length). For the other models metre, second and
-/// kilogram stay.
+/// kilogram stay. `center_name` is what the table `[ephemeris]` says, see read_nominal_file.
 Nominal read_nominal(const TableReader& nominal, const SystemSettings& system,
-                     const std::optional<double>& length_km);
+                     const std::optional<double>& length_km,
+                     const std::optional<std::string>& center_name);
 
 /// The nearest binary64 numbers.
 CanonicalUnits canonical_units(const CanonicalScale& scale);
@@ -83,7 +87,11 @@ Nominal read_start(const TableReader& root, ModelScene& scene) {
   scene.system = read_system(system);
   std::optional<double> length_km;
   if (root.has("units")) length_km = read_unit_of_length(root.table("units"), scene.system.model);
-  Nominal nominal = read_nominal(root.table("nominal"), scene.system, length_km);
+  std::optional<std::string> center_name;
+  if (root.has("ephemeris") && root.table("ephemeris").has("center_name")) {
+    center_name = root.table("ephemeris").text("center_name");
+  }
+  Nominal nominal = read_nominal(root.table("nominal"), scene.system, length_km, center_name);
   scene.nominal = nominal.state;
   scene.units = canonical_units(nominal.scale);
   scene.canonical_radius = read_canonical_radius(system, scene.system, nominal.scale);
@@ -174,6 +182,11 @@ inline constexpr std::string_view no_energy_conserving_jet =
 
 /// All tables of the study "energy-conservation". Throws Error(too_large) for too many steps.
 EnergyConservationStudy read_energy_conservation(const TableReader& root);
+
+/// What of an orbit is almost surely a slip, though it can be computed: a mu in m^3/s^2, a radius
+/// in metres or of another body than the mu, a negative J2 of a body's size, a start in metres. One
+/// line each for the user, with place, key and what would be right.
+std::vector<std::string> likely_slips(const TableReader& root, const Scene& scene);
 
 /// Table `[relative_hamiltonian]`: canonical times from the start to the duration.
 std::vector<double> read_relative_hamiltonian(const TableReader& table, double duration);

@@ -50,7 +50,8 @@ inline SceneTable random_nominal(bool is_orbit) {
   } else if (yes_or_no("elements")) {
     nominal.add("a_km", drawn(7000, 42000));
     nominal.add("e", drawn(0, 0.9));
-    for (const char* angle : {"i_deg", "raan_deg", "argp_deg", "ta_deg"}) {
+    nominal.add("i_deg", drawn(0, 180));
+    for (const char* angle : {"raan_deg", "argp_deg", "ta_deg"}) {
       nominal.add(angle, drawn(-360, 360));
     }
   } else {

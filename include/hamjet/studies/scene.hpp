@@ -198,6 +198,7 @@ struct Scene {
   OutputSettings output;
   std::optional<EphemerisSettings> ephemeris;
   std::optional<NominalFile> nominal_file;  ///< absent: the scene has the numbers itself
+  std::vector<std::string> warnings;        ///< what is almost surely a slip, a line each
 };
 
 }  // namespace hamjet

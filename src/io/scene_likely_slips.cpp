@@ -1,0 +1,121 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <hamjet/dynamics/celestial_bodies.hpp>
+#include <iterator>
+
+#include "scene_sections.hpp"
+
+namespace hamjet::io {
+namespace {
+
+/// A start this many radii from a centre is beyond the reach of its gravity (Jupiter's sphere of
+/// influence is 743 of its radii, the Earth's 235), and in metres it would be above the surface:
+/// 1000 radii, less the flattening.
+constexpr double farthest_start = 950;
+
+/// No body that orbits are flown about is as prolate: J2 of planets and moons is positive.
+constexpr double least_J2 = -1e-5;
+
+/// A radius that the J_n refer to is the equator's, up to a choice of the model.
+constexpr double radius_tolerance = 0.05;
+
+const CelestialBody* body_with_radius(double radius_km) {
+  const auto bodies = celestial_bodies();
+  const auto found = std::find_if(bodies.begin(), bodies.end(), [&](const CelestialBody& body) {
+    return std::abs(radius_km / body.equator_radius_km - 1) <= radius_tolerance;
+  });
+  return found != bodies.end() ? &*found : nullptr;
+}
+
+class LikelySlips {
+ public:
+  LikelySlips(const TableReader& root, const Scene& scene)
+      : system_(root.table("system")), nominal_(root.table("nominal")), scene_(scene) {}
+
+  std::vector<std::string> find() {
+    if (!is_orbit(scene_.system.model)) return {};
+    const double mu = scene_.system.mu_km3_s2;
+    body_ = body_with_mu(mu);
+    if (body_ == nullptr) {
+      body_ = body_with_mu(1e-9 * mu);
+      if (body_ != nullptr) {
+        add(system_, "mu_km3_s2",
+            fmt::format("{:g} is the mu of {} in m^3/s^2; in km^3/s^2 it is {:.10g}", mu,
+                        body_->name, 1e-9 * mu));
+      }
+    }
+    check_radius();
+    check_J2();
+    check_distance();
+    return std::move(found_);
+  }
+
+ private:
+  void add(const TableReader& table, std::string_view key, const std::string& what) {
+    found_.push_back(fmt::format("warning: {}: {}", table.head(key), what));
+  }
+
+  void check_radius() {
+    const double radius = scene_.system.radius_km;
+    if (radius == 0 || !system_.has("radius_km")) return;
+    const auto is_of = [&](const CelestialBody* body, double length_km) {
+      return body != nullptr &&
+             std::abs(length_km / body->equator_radius_km - 1) <= radius_tolerance;
+    };
+    if (is_of(body_, radius)) return;
+    const CelestialBody* const in_metres =
+        body_ != nullptr ? body_ : body_with_radius(1e-3 * radius);
+    if (is_of(in_metres, 1e-3 * radius)) {
+      add(system_, "radius_km",
+          fmt::format("{:.10g} is the radius of {} in metres; in kilometres it is {:.10g}", radius,
+                      in_metres->name, 1e-3 * radius));
+    } else if (body_ != nullptr) {
+      add(system_, "radius_km",
+          fmt::format("{:.10g} beside the mu of {}, whose equator has a radius of {:g} km", radius,
+                      body_->name, body_->equator_radius_km));
+    }
+  }
+
+  void check_J2() {
+    const double J2 = scene_.system.J[2];
+    if (!(J2 < least_J2) || !system_.has("J2")) return;
+    add(system_, "J2",
+        fmt::format("{:g} is that of a body longer along its axis; J2 = -C20 of a flattened one is "
+                    "positive: {:g}",
+                    J2, -J2));
+  }
+
+  void check_distance() {
+    const double radius = body_ != nullptr ? body_->equator_radius_km : scene_.system.radius_km;
+    const bool is_sun = body_ != nullptr && body_->name == "SUN";  // planets are beyond this
+    if (radius == 0 || is_sun) return;
+    const double distance = scene_.units.length_km *
+                            std::hypot(scene_.nominal[0], scene_.nominal[1], scene_.nominal[2]);
+    if (!(distance >= farthest_start * radius)) return;
+    static constexpr std::string_view keys[] = {"a_km", "position_km", "oem_file", "opm_file"};
+    const auto* const key = std::find_if(std::begin(keys), std::end(keys),
+                                         [&](std::string_view k) { return nominal_.has(k); });
+    add(nominal_, *key,
+        fmt::format(
+            "the start lies {:.6g} km from the centre, {:.0f} radii{}; if these are metres, "
+            "it must be {:.6g} km",
+            distance, distance / radius, body_ != nullptr ? fmt::format(" of {}", body_->name) : "",
+            1e-3 * distance));
+  }
+
+  TableReader system_;
+  TableReader nominal_;
+  const Scene& scene_;
+  const CelestialBody* body_ = nullptr;  ///< whose mu the scene has, perhaps in other units
+  std::vector<std::string> found_;
+};
+
+}  // namespace
+
+std::vector<std::string> likely_slips(const TableReader& root, const Scene& scene) {
+  return LikelySlips(root, scene).find();
+}
+
+}  // namespace hamjet::io

@@ -1,0 +1,69 @@
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "scene_samples.hpp"
+
+// What can be computed, and is almost surely not what was meant, is said. Expected: the bodies'
+// numbers in other units, from their published values.
+
+namespace hamjet::io {
+namespace {
+
+std::vector<std::string> warnings(const std::string& scene) {
+  return parse_scene(scene, "file.toml").warnings;
+}
+
+void expect_warning(const std::string& scene, const std::vector<std::string>& words) {
+  const auto found = warnings(scene);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].find('\n'), std::string::npos);
+  for (const std::string& word : words) {
+    EXPECT_NE(found[0].find(word), std::string::npos) << found[0] << "\nlacks " << word;
+  }
+}
+
+TEST(LikelySlips, AGoodSceneHasNone) {
+  EXPECT_TRUE(warnings(orbit).empty());
+  EXPECT_TRUE(warnings(oscillator).empty());
+  // Mars, the Moon's distance, an orbit of Jupiter about the Sun, and canonical units.
+  EXPECT_TRUE(
+      warnings(changed(changed(orbit, "398600.4415", "42828.37"), "6378", "3396.2")).empty());
+  EXPECT_TRUE(warnings(changed(orbit, "[7000, 0, 0]", "[384400, 0, 0]")).empty());
+  EXPECT_TRUE(warnings(changed(changed(changed(orbit, "398600.4415", "1.32712440018e11"),
+                                       "[7000, 0, 0]", "[7.78e8, 0, 0]"),
+                               "6378", "695700"))
+                  .empty());
+  EXPECT_TRUE(
+      warnings(changed(changed(changed(orbit, "398600.4415", "1"), "[7000, 0, 0]", "[1, 0, 0]"),
+                       "6378", "0.9"))
+          .empty());
+}
+
+TEST(LikelySlips, MetresForKilometres) {
+  expect_warning(changed(orbit, "[7000, 0, 0]", "[7000000, 0, 0]"),
+                 {"warning: file.toml:9:15: nominal.position_km: the start lies 7e+06 km",
+                  "1098 radii of EARTH", "it must be 7000 km"});
+  expect_warning(changed(orbit, "radius_km = 6378", "radius_km = 6378136.3"),
+                 {"file.toml:6:13: system.radius_km: 6378136.3 is the radius of EARTH in metres",
+                  "in kilometres it is 6378.1363"});
+  expect_warning(
+      changed(orbit, "398600.4415", "3.986004415e14"),
+      {"file.toml:5:13: system.mu_km3_s2", "mu of EARTH in m^3/s^2", "it is 398600.4415"});
+}
+
+TEST(LikelySlips, AnotherBodysMu) {
+  expect_warning(changed(orbit, "398600.4415", "42828.37"),
+                 {"system.radius_km: 6378 beside the mu of MARS", "3396.19 km"});
+}
+
+TEST(LikelySlips, ANegativeJ2OfABodysSize) {
+  expect_warning(changed(orbit, "J2 = 1e-3", "J2 = -1.08e-3"),
+                 {"file.toml:7:6: system.J2: -0.00108", "J2 = -C20", "positive: 0.00108"});
+  EXPECT_TRUE(warnings(changed(orbit, "J2 = 1e-3", "J3 = -2.5e-6")).empty());
+  EXPECT_TRUE(warnings(changed(orbit, "J2 = 1e-3", "J2 = -1e-9")).empty());
+}
+
+}  // namespace
+}  // namespace hamjet::io
