@@ -10,25 +10,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json numbers(const std::vector<double>& values) {
-  Json json = Json::array();
-  for (const double value : values) json.push_back(json_number(value));
-  return json;
-}
-
-Json settings_json(const IntegratorSettings& settings) {
-  return {{"label", settings.label},
-          {"method", method_names()[static_cast<std::size_t>(settings.method)]},
-          {"stages", settings.stages},
-          {"order", settings.order},
-          {"beta", settings.beta},
-          {"compensated_summation", settings.compensated_summation},
-          {"step_canonical", json_number(settings.step_canonical)},
-          {"tolerance", json_number(settings.tolerance)},
-          {"require_relative_error", json_number(settings.require_relative_error)},
-          {"require_symplecticity", json_number(settings.require_symplecticity)}};
-}
-
 Json statistics_json(const IntegrationStatistics& statistics) {
   return {{"steps", statistics.steps},
           {"rejected_steps", statistics.rejected_steps},
@@ -45,7 +26,7 @@ Json residual_json(const ExactnessResidual& residual) {
 }
 
 Json run_json(const ComparedRun& run) {
-  Json json = {{"settings", settings_json(run.settings)},
+  Json json = {{"settings", fields_json(run.settings)},
                {"series", run.series},
                {"order", run.order},
                {"failure", text_or_null(run.failure)},
@@ -53,9 +34,9 @@ Json run_json(const ComparedRun& run) {
                {"statistics", statistics_json(run.statistics)},
                {"multiply_adds", json_number(run.multiply_adds)},
                {"memory_bytes", json_number(run.memory_bytes)},
-               {"seconds", numbers(run.seconds)},
+               {"seconds", json_value(run.seconds)},
                {"median_seconds", nullptr},
-               {"error_by_degree", numbers(run.error_by_degree)},
+               {"error_by_degree", json_value(run.error_by_degree)},
                {"largest_error", nullptr},
                {"error_at_formation_m", json_number(run.error_at_formation_m)},
                {"exactness", Json::array()},
@@ -103,35 +84,20 @@ Json scene_json(const Scene& scene) {
   for (const std::size_t v : scene.variables) variables.push_back(names[v]);
   Json integrators = Json::array();
   for (const IntegratorSettings& settings : scene.integrators) {
-    integrators.push_back(settings_json(settings));
-  }
-  const ComparisonSettings& comparison = scene.comparison;
-  Json methods = Json::array();
-  for (const IntegrationMethod method : comparison.methods) {
-    methods.push_back(method_names()[static_cast<std::size_t>(method)]);
+    integrators.push_back(fields_json(settings));
   }
   return {{"name", scene.name},
           {"title", scene.title},
-          {"model", model_names()[static_cast<std::size_t>(scene.system.model)]},
+          {"model", json_value(scene.system.model)},
           {"precision", scene.precision == Precision::extended ? "extended" : "double"},
-          {"units",
-           {{"length_km", json_number(scene.units.length_km)},
-            {"time_s", json_number(scene.units.time_s)}}},
-          {"nominal_initial", numbers(scene.nominal)},
+          {"units", fields_json(scene.units)},
+          {"nominal_initial", json_value(scene.nominal)},
           {"duration_canonical", json_number(scene.duration)},
           {"order", scene.order},
           {"variables", variables},
           {"separation_canonical", json_number(scene.separation)},
           {"integrators", integrators},
-          {"compare",
-           {{"methods", methods},
-            {"stages", comparison.stages},
-            {"steps_canonical", numbers(comparison.steps_canonical)},
-            {"tolerances", numbers(comparison.tolerances)},
-            {"orders", comparison.orders},
-            {"repeats", comparison.repeats},
-            {"time_budget_s", json_number(comparison.time_budget_s)},
-            {"wanted_error_m", json_number(comparison.wanted_error_m)}}}};
+          {"compare", fields_json(scene.comparison)}};
 }
 
 Json reference_json(const ComparisonResult& result) {
@@ -141,7 +107,7 @@ Json reference_json(const ComparisonResult& result) {
           {"stages", reference.stages},
           {"tolerance", json_number(reference.tolerance)},
           {"statistics", statistics_json(reference.statistics)},
-          {"uncertainty_by_degree", numbers(reference.uncertainty_by_degree)},
+          {"uncertainty_by_degree", json_value(reference.uncertainty_by_degree)},
           {"cached", result.is_reference_cached}};
 }
 

@@ -6,21 +6,6 @@
 namespace hamjet::io {
 namespace {
 
-IntegratorSettings read_settings(const JsonReader& value) {
-  IntegratorSettings settings;
-  settings.label = value.at("label").text();
-  settings.method = value.at("method").one_of<IntegrationMethod>(method_names());
-  settings.stages = value.at("stages").integer<int>();
-  settings.order = value.at("order").integer<int>();
-  settings.beta = value.at("beta").number();
-  settings.compensated_summation = value.at("compensated_summation").boolean();
-  settings.step_canonical = value.at("step_canonical").optional_number();
-  settings.tolerance = value.at("tolerance").optional_number();
-  settings.require_relative_error = value.at("require_relative_error").optional_number();
-  settings.require_symplecticity = value.at("require_symplecticity").optional_number();
-  return settings;
-}
-
 IntegrationStatistics read_statistics(const JsonReader& value) {
   IntegrationStatistics statistics;
   statistics.steps = value.at("steps").integer<long>();
@@ -50,7 +35,7 @@ SymplecticityDefect read_symplecticity(const JsonReader& value) {
 
 ComparedRun read_run(const JsonReader& value) {
   ComparedRun run;
-  run.settings = read_settings(value.at("settings"));
+  run.settings = value.at("settings").fields<IntegratorSettings>();
   run.series = value.at("series").text();
   run.order = value.at("order").integer<int>();
   run.failure = value.at("failure").text_or_empty();

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "hamjet/error.hpp"
+#include "hamjet/studies/settings_fields.hpp"
 
 namespace hamjet::io {
 
@@ -33,10 +34,10 @@ class JsonReader {
 
   bool has(const char* key) const { return json_->is_object() && json_->contains(key); }
 
-  JsonReader at(const char* key) const {
+  JsonReader at(std::string_view key) const {
     if (!json_->is_object()) fail("must be an object");
     const auto found = json_->find(key);
-    const std::string path = path_.empty() ? key : path_ + "." + key;
+    const std::string path = fmt::format("{}{}{}", path_, path_.empty() ? "" : ".", key);
     if (found == json_->end()) {
       throw Error(ErrorKind::input_output, fmt::format("{}: {}: is missing", file_, path));
     }
@@ -98,6 +99,26 @@ class JsonReader {
 
   std::vector<double> numbers() const {
     return list([](const JsonReader& value) { return value.number(); });
+  }
+
+  /// Reads what json_value has written.
+  void read_into(double& value) const { value = number(); }
+  void read_into(std::optional<double>& value) const { value = optional_number(); }
+  void read_into(int& value) const { value = integer<int>(); }
+  void read_into(bool& value) const { value = boolean(); }
+  void read_into(std::string& value) const { value = text(); }
+  template <NamedEnumeration Enumeration>
+  void read_into(Enumeration& value) const {
+    value = one_of<Enumeration>(names_of(value));
+  }
+
+  /// Reads what fields_json has written.
+  template <HasFields Settings>
+  Settings fields() const {
+    Settings settings;
+    for_each_field(settings,
+                   [&](std::string_view name, auto& member) { at(name).read_into(member); });
+    return settings;
   }
 
   /// Which of the names it is.

@@ -4,6 +4,9 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <vector>
+
+#include "hamjet/studies/settings_fields.hpp"
 
 namespace hamjet::io {
 
@@ -26,6 +29,34 @@ nlohmann::ordered_json or_null(const std::optional<T>& value) {
 /// An empty text, of a reason that there is none of, is null.
 inline nlohmann::ordered_json text_or_null(const std::string& text) {
   return text.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(text);
+}
+
+/// An enumerator by its name, a number by json_number, and what has no value as null.
+template <class Value>
+nlohmann::ordered_json json_value(const Value& value) {
+  if constexpr (NamedEnumeration<Value>) {
+    return names_of(value)[static_cast<std::size_t>(value)];
+  } else if constexpr (requires { json_number(value); } && !std::is_integral_v<Value>) {
+    return json_number(value);
+  } else {
+    return value;
+  }
+}
+template <class Value>
+nlohmann::ordered_json json_value(const std::vector<Value>& values) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const Value& value : values) json.push_back(json_value(value));
+  return json;
+}
+
+/// All members of the settings by their names.
+template <HasFields Settings>
+nlohmann::ordered_json fields_json(const Settings& settings) {
+  nlohmann::ordered_json json;
+  for_each_field(settings, [&](std::string_view name, const auto& member) {
+    json[std::string(name)] = json_value(member);
+  });
+  return json;
 }
 
 }  // namespace hamjet::io

@@ -29,25 +29,6 @@ const std::vector<std::string_view> all_keys = joined(
     zonal_gravity_keys,
     {"mass_kg", "stiffness_N_per_m", "length_m", "gravity_m_s2", "omega_rad_per_s", "pairs"});
 
-std::vector<std::string_view> keys_of(SystemModel model) {
-  switch (model) {
-    case SystemModel::zonal_gravity:
-      return zonal_gravity_keys;
-    case SystemModel::kepler:
-      return {"model", "mu_km3_s2"};
-    case SystemModel::harmonic_oscillator:
-    case SystemModel::oscillator_pair:
-      return {"model", "mass_kg", "stiffness_N_per_m"};
-    case SystemModel::spring_pendulum:
-      return {"model", "mass_kg", "stiffness_N_per_m", "length_m", "gravity_m_s2"};
-    case SystemModel::fermi_pasta_ulam:
-      return {"model", "omega_rad_per_s", "pairs"};
-    case SystemModel::double_well:
-      break;
-  }
-  return {"model"};
-}
-
 /// J1 and J21 look like keys; the nearest that there is would not be what was meant.
 void refuse_other_zonals(const TableReader& system) {
   for (int n = 0; n < 100; ++n) {
@@ -158,13 +139,32 @@ void read_mechanics(const TableReader& system, SystemSettings& settings) {
 
 }  // namespace
 
+std::vector<std::string_view> system_keys(SystemModel model) {
+  switch (model) {
+    case SystemModel::zonal_gravity:
+      return zonal_gravity_keys;
+    case SystemModel::kepler:
+      return {"model", "mu_km3_s2"};
+    case SystemModel::harmonic_oscillator:
+    case SystemModel::oscillator_pair:
+      return {"model", "mass_kg", "stiffness_N_per_m"};
+    case SystemModel::spring_pendulum:
+      return {"model", "mass_kg", "stiffness_N_per_m", "length_m", "gravity_m_s2"};
+    case SystemModel::fermi_pasta_ulam:
+      return {"model", "omega_rad_per_s", "pairs"};
+    case SystemModel::double_well:
+      break;
+  }
+  return {"model"};
+}
+
 SystemSettings read_system(const TableReader& system) {
   if (!system.has("model")) system.check_keys({all_keys});  // a misspelt `model` is named
   SystemSettings settings;
   settings.model = static_cast<SystemModel>(system.choice("model", model_names()));
   if (settings.model == SystemModel::zonal_gravity) refuse_other_zonals(system);
-  system.check_keys(
-      {keys_of(settings.model), all_keys, "the model " + std::string(model_name(settings.model))});
+  system.check_keys({system_keys(settings.model), all_keys,
+                     "the model " + std::string(model_name(settings.model))});
   if (!is_orbit(settings.model)) {
     read_mechanics(system, settings);
     return settings;

@@ -5,8 +5,9 @@
 
 namespace hamjet::io {
 
-/// What an orbit's gravity field is made of: mu, the radius, each J_n that is present, and the file
-/// that they come from, if they do. Null for the models that are no orbits.
+/// The parameters of a model. Of an orbit what its gravity field is made of: mu, the radius, each
+/// J_n that is present, and the file that they come from, if they do; of another model the keys of
+/// its table `[system]` with their values, defaults included.
 nlohmann::ordered_json system_json(const SystemSettings& system);
 
 }  // namespace hamjet::io

@@ -143,24 +143,4 @@ std::vector<CandidateSeries> candidate_series(const Scene& scene) {
   return SeriesBuilder(scene).build();
 }
 
-std::string comparison_key(const Scene& scene) {
-  const ComparisonSettings& wanted = scene.comparison;
-  std::string key = fmt::format(
-      "comparison 2; {}; separation {}; unit {} km; wanted {} m; kind {}; budget {}; candidates",
-      reference_key(scene, scene.order), scene.separation.value_or(0), scene.units.length_km,
-      wanted.wanted_error_m, scene.kinds ? scene.kinds->front() : "auto", wanted.time_budget_s);
-  for (const CandidateSeries& series : candidate_series(scene)) {
-    for (const Candidate& candidate : series.candidates) key += " " + candidate.settings.label;
-  }
-  key += "; along time";
-  for (const IntegratorSettings& settings : scene.integrators) {
-    key += fmt::format(" {} {} {} {} {} {} {}", settings.label, static_cast<int>(settings.method),
-                       settings.stages, settings.order, settings.beta,
-                       settings.step_canonical.value_or(0), settings.tolerance.value_or(0));
-  }
-  key += "; orders";
-  for (const int order : wanted.orders) key += fmt::format(" {}", order);
-  return key;
-}
-
 }  // namespace hamjet

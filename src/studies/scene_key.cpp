@@ -1,0 +1,117 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hamjet/studies/comparison.hpp"
+#include "hamjet/studies/settings_fields.hpp"
+#include "hamjet/version.hpp"
+#include "reference.hpp"
+
+namespace hamjet {
+namespace {
+
+/// Values as a text in which different values never look alike.
+class KeyText {
+ public:
+  template <class Value>
+  void add(std::string_view name, const Value& value) {
+    text_ += fmt::format("{} ", name);
+    write(value);
+    text_ += "; ";
+  }
+
+  const std::string& text() const noexcept { return text_; }
+
+ private:
+  /// The shortest text that brings back the number.
+  void write(double value) { text_ += fmt::format("{}", value); }
+  template <std::integral Integer>
+  void write(Integer value) {
+    text_ += fmt::format("{}", value);
+  }
+  /// With its length, for it may hold anything.
+  void write(const std::string& value) { text_ += fmt::format("{}:{}", value.size(), value); }
+  template <NamedEnumeration Enumeration>
+  void write(Enumeration value) {
+    text_ += names_of(value)[static_cast<std::size_t>(value)];
+  }
+  void write(const ZonalCoefficients& J) {
+    for (int n = ZonalCoefficients::lowest; n <= ZonalCoefficients::highest; ++n) {
+      if (J[n] != 0) text_ += fmt::format("J{} {} ", n, J[n]);
+    }
+  }
+  template <class Value>
+  void write(const std::optional<Value>& value) {
+    if (!value) {
+      text_ += "none";
+    } else {
+      write(*value);
+    }
+  }
+  template <class Value>
+  void write(const std::vector<Value>& values) {
+    text_ += fmt::format("{} of ", values.size());
+    for (const Value& value : values) {
+      write(value);
+      text_ += ", ";
+    }
+  }
+  template <HasFields Settings>
+  void write(const Settings& settings) {
+    text_ += "{";
+    for_each_field(settings, [&](std::string_view name, const auto& member) { add(name, member); });
+    text_ += "}";
+  }
+
+  std::string text_;
+};
+
+enum class KeyOf { reference, comparison };
+
+/// A member that is added to Scene does not compile here until it is named, and put into the key of
+/// what it determines.
+std::string scene_key(const Scene& scene, int jet_order, KeyOf whose) {
+  const auto& [name, title, precision, system, units, canonical_radius, nominal, duration, order,
+               arcs, variables, integrators, separation, kinds, reference,
+               relative_hamiltonian_times, checks, comparison, figure, transfer, validity,
+               assignment, output, ephemeris, nominal_file, warnings] = scene;
+  KeyText key;
+  key.add("key", 3);  // of this form of the text
+  key.add("reference stages", reference_stages);
+  key.add("compared stages", compared_stages);
+  key.add("looser by", looser_tolerance);
+  key.add("reference", reference.value_or(ReferenceSettings{}));
+  key.add("system", system);
+  key.add("radius", canonical_radius);
+  key.add("nominal", nominal);
+  key.add("duration", duration);
+  key.add("order", jet_order);
+  key.add("variables", variables);
+  if (whose == KeyOf::reference) return key.text();
+  key.add("version", std::string(version));
+  key.add("units", units);
+  key.add("separation", separation);
+  key.add("kinds", kinds);
+  key.add("compare", comparison);
+  key.add("along time", integrators);
+  for (const CandidateSeries& series : candidate_series(scene)) {
+    for (const Candidate& candidate : series.candidates) key.add("run", candidate.settings);
+  }
+  return key.text();
+}
+
+}  // namespace
+
+std::string reference_key(const Scene& scene, int order) {
+  return scene_key(scene, order, KeyOf::reference);
+}
+
+std::string comparison_key(const Scene& scene) {
+  return scene_key(scene, scene.order, KeyOf::comparison);
+}
+
+}  // namespace hamjet
