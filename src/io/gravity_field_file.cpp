@@ -37,9 +37,10 @@ std::optional<Extended> number_in(std::string_view word) {
   std::string text(word);
   std::replace_if(
       text.begin(), text.end(), [](char c) { return c == 'D' || c == 'd'; }, 'e');
+  // Within double precision too, in which a scene has its numbers.
   if (!finite_number(text)) return std::nullopt;
   if (text.starts_with('+')) text.erase(0, 1);
-  return Extended(text);
+  return finite_extended_number(text);
 }
 
 std::optional<int> natural_in(std::string_view word) {

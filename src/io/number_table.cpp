@@ -9,11 +9,21 @@
 #include "hamjet/error.hpp"
 #include "scene_message.hpp"
 #include "text_file.hpp"
+#include "whole_number.hpp"
 
 namespace hamjet::io {
 namespace {
 
 constexpr std::size_t rows_between_pauses = 4096;
+
+/// The decimal exponents of binary128 stay below this; a larger one would keep the parser busy.
+constexpr unsigned largest_exponent = 5000;
+constexpr std::size_t longest_number = 100;
+
+/// Length of the run of digits at the start.
+std::size_t digits(std::string_view text) {
+  return std::min(text.find_first_not_of("0123456789"), text.size());
+}
 
 std::string_view without_blanks(std::string_view text) {
   constexpr std::string_view blanks = " \t";
@@ -68,6 +78,32 @@ std::optional<double> finite_number(std::string_view text) {
   const auto [rest, error] = std::from_chars(text.data(), end, number);
   if (error != std::errc() || rest != end || !std::isfinite(number)) return std::nullopt;
   return number;
+}
+
+std::optional<Extended> finite_extended_number(std::string_view text) {
+  if (text.size() > longest_number) return std::nullopt;
+  std::string_view rest = text;
+  if (rest.starts_with('-')) rest.remove_prefix(1);
+  const std::size_t before = digits(rest);
+  rest.remove_prefix(before);
+  std::size_t after = 0;
+  if (rest.starts_with('.')) {
+    rest.remove_prefix(1);
+    after = digits(rest);
+    rest.remove_prefix(after);
+  }
+  if (before + after == 0) return std::nullopt;
+  if (rest.starts_with('e')) {
+    rest.remove_prefix(1);
+    if (rest.starts_with('+') || rest.starts_with('-')) rest.remove_prefix(1);
+    const auto exponent = whole_number<unsigned>(rest);
+    if (!exponent || *exponent > largest_exponent) return std::nullopt;
+    rest = {};
+  }
+  if (!rest.empty()) return std::nullopt;
+  Extended number{std::string(text)};
+  if (!isfinite(number)) return std::nullopt;
+  return text.starts_with('-') == signbit(number) ? number : -number;  // -0
 }
 
 NumberTable read_number_table(const std::string& name, std::string_view text,

@@ -5,11 +5,12 @@
 #include <cmath>
 #include <cstdlib>
 #include <exception>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "file_system.hpp"
 #include "hamjet/error.hpp"
+#include "hamjet/io/number_table.hpp"
+#include "text_file.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -44,10 +45,9 @@ ReferenceResult reference_of(const nlohmann::json& json, const SpacePointer& spa
   for (const nlohmann::json& numbers : json.at("jet")) {
     std::vector<Extended> coefficients;
     for (const nlohmann::json& text : numbers) {
-      coefficients.emplace_back(text.get<std::string>());
-      if (!isfinite(coefficients.back())) {
-        throw Error(ErrorKind::input_output, "a coefficient is not finite");
-      }
+      const auto number = finite_extended_number(text.get<std::string>());
+      if (!number) throw Error(ErrorKind::input_output, "a coefficient is not finite");
+      coefficients.push_back(*number);
     }
     result.jet.emplace_back(space, std::move(coefficients));
   }
@@ -84,9 +84,9 @@ std::optional<ReferenceResult> ReferenceCache::load(const std::string& key,
                                                     const SpacePointer& space) {
   if (directory_.empty()) return std::nullopt;
   try {
-    std::ifstream file(file_of(key));
-    if (!file) return std::nullopt;
-    nlohmann::json json = nlohmann::json::parse(file);
+    const FileContent content = read_regular_file(file_of(key), largest_reference_bytes);
+    if (!content.problem.empty()) return std::nullopt;
+    nlohmann::json json = nlohmann::json::parse(content.text);
     const std::string hash = json.at("hash");
     json.erase("hash");
     if (hash_of(json.dump()) != hash || json.at("key") != key) return std::nullopt;

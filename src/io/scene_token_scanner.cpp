@@ -40,6 +40,7 @@ class TokenScanner {
         skip_string(c);
       } else if (is_bare(c)) {
         take_bare_token();
+        run_is_fresh_ = false;
       } else if ((static_cast<unsigned char>(c) & 0x80U) != 0) {
         refuse_character();
       } else {
@@ -67,20 +68,27 @@ class TokenScanner {
     advance(std::min(end, text_.size()) - position_);
   }
 
-  /// Outside strings and comments TOML knows ASCII alone. toml++ 3.3 would run into undefined
-  /// behaviour at some of the others (is_non_ascii_horizontal_whitespace at U+0498).
-  [[noreturn]] void refuse_character() const {
+  /// The character at the position, quoted.
+  std::string character() const {
     const std::string_view rest = text_.substr(position_);
-    throw_scene_error(here(), fmt::format("not valid TOML: got the character {} outside quotes, "
-                                          "must be within quotes or a comment",
-                                          in_quotes(rest.substr(0, utf8_sequence_length(rest)))));
+    return in_quotes(rest.substr(0, utf8_sequence_length(rest)));
   }
 
-  /// Elsewhere than after these no string begins: what then looks like one to this scanner is not
-  /// one to the parser, which goes on as if outside quotes.
+  /// Outside strings and comments TOML knows ASCII alone. Where toml++ 3.3 asks whether a character
+  /// is blank, its behaviour is undefined for those that are not ASCII and lie in the same part of
+  /// Unicode as a blank (is_non_ascii_horizontal_whitespace, U+00A1 to U+0499 among them).
+  [[noreturn]] void refuse_character() const {
+    throw_scene_error(here(), fmt::format("not valid TOML: got the character {} outside quotes, "
+                                          "must be within quotes or a comment",
+                                          character()));
+  }
+
+  /// Elsewhere than after these no string begins, nor within a value that is no string: what then
+  /// looks like one to this scanner is not one to the parser, which goes on as if outside quotes.
   void check_start_of_string() const {
     constexpr std::string_view right = "\n\r\t =[{,.";
-    if (position_ == 0 || right.find(text_[position_ - 1]) != right.npos) return;
+    const bool is_at_start = position_ == 0 || right.find(text_[position_ - 1]) != right.npos;
+    if (is_at_start && (!levels_.back().in_value || run_is_fresh_)) return;
     throw_scene_error(here(),
                       "not valid TOML: got a quotation mark within or behind a word or "
                       "a string, must be at the start of a key or a value");
@@ -96,7 +104,11 @@ class TokenScanner {
     const std::size_t begin = position_;
     while (position_ < text_.size() && !text_.substr(position_).starts_with(end)) {
       if (text_[position_] == '\n' && !several_lines) return;
-      advance(quote == '"' && text_[position_] == '\\' ? 2 : 1);
+      if (quote == '"' && text_[position_] == '\\') {
+        skip_escape(several_lines);
+      } else {
+        advance(1);
+      }
     }
     last_word_ = text_.substr(begin, position_ - begin);
     advance(end.size());
@@ -104,6 +116,26 @@ class TokenScanner {
     for (int i = 0; several_lines && i < 2 && text_.substr(position_).starts_with(quote); ++i) {
       advance(1);
     }
+  }
+
+  /// A backslash with what it escapes. At the end of a line it joins the next one, and toml++ looks
+  /// for blanks there as it does outside strings.
+  void skip_escape(bool several_lines) {
+    advance(1);
+    constexpr std::string_view blanks = " \t\r\n";
+    const auto is_blank = [&] {
+      return position_ < text_.size() && blanks.find(text_[position_]) != blanks.npos;
+    };
+    if (!several_lines || !is_blank()) return advance(1);
+    while (is_blank()) advance(1);
+    if (position_ == text_.size() || (static_cast<unsigned char>(text_[position_]) & 0x80U) == 0) {
+      return;
+    }
+    throw_scene_error(
+        here(), fmt::format("cannot be read: got the character {} where a line goes on that a "
+                            "backslash has broken, must be ASCII there, or the line be "
+                            "broken elsewhere",
+                            character()));
   }
 
   void take_bare_token() {
@@ -122,26 +154,36 @@ class TokenScanner {
     switch (c) {
       case '=':
         key_ = last_word_;
+        run_is_fresh_ = !level().in_value;
+        level().in_value = true;
         break;
       case '[':
       case '{':
         ++depth_;
-        dots_.push_back(0);
+        // What is in an array is a value; a table, and the header of one, begins with a key.
+        levels_.push_back({c == '[' && level().in_value, c == '[' && level().in_value, 0});
         check_depth();
         break;
       case ']':
       case '}':
         end_of_item();
-        if (dots_.size() > 1) {
-          dots_.pop_back();
+        if (levels_.size() > 1) {
+          levels_.pop_back();
           --depth_;
         }
+        run_is_fresh_ = true;
         break;
       case ',':
       case '\n':
         end_of_item();
+        run_is_fresh_ = true;
+        break;
+      case ' ':
+      case '\t':
+        run_is_fresh_ = true;
         break;
       default:
+        run_is_fresh_ = false;
         break;
     }
   }
@@ -149,14 +191,15 @@ class TokenScanner {
   /// Every dot of a dotted key is a table within a table. (That of a decimal number counts too,
   /// which does no harm.)
   void deepen_by_dot() {
-    ++dots_.back();
+    ++level().dots;
     ++depth_;
     check_depth();
   }
 
   void end_of_item() {
-    depth_ -= dots_.back();
-    dots_.back() = 0;
+    depth_ -= level().dots;
+    level().dots = 0;
+    level().in_value = level().is_array;
   }
 
   void check_depth() const {
@@ -197,6 +240,14 @@ class TokenScanner {
     }
   }
 
+  /// What is known of the unfinished item within a bracket.
+  struct Level {
+    bool is_array = false;
+    bool in_value = false;  ///< what comes is a value, and no key
+    std::size_t dots = 0;
+  };
+  Level& level() { return levels_.back(); }
+
   std::string here() const { return location(source_, line_, column_); }
 
   std::string_view text_;
@@ -204,8 +255,9 @@ class TokenScanner {
   std::size_t position_ = 0;
   std::size_t line_ = 1;
   std::size_t column_ = 1;
-  std::size_t depth_ = 0;                ///< open brackets, and dots in the keys that lead to them
-  std::vector<std::size_t> dots_ = {0};  ///< dots of the unfinished item within each open bracket
+  std::size_t depth_ = 0;             ///< open brackets, and dots in the keys that lead to them
+  std::vector<Level> levels_ = {{}};  ///< the text outside brackets, and each open bracket
+  bool run_is_fresh_ = true;  ///< nothing but brackets since the last place where a value may begin
   std::string_view last_word_;
   std::string_view key_;  ///< the last word before an equals sign
 };

@@ -9,46 +9,13 @@
 #include <optional>
 
 #include "hamjet/error.hpp"
+#include "hamjet/io/number_table.hpp"
 #include "scene_message.hpp"
 #include "text_file.hpp"
 #include "whole_number.hpp"
 
 namespace hamjet::io {
 namespace {
-
-/// The decimal exponents of binary128 stay below this; a larger one would keep the parser busy.
-constexpr unsigned largest_exponent = 5000;
-constexpr std::size_t longest_number = 100;
-
-/// Length of the run of digits at the start.
-std::size_t digits(std::string_view text) {
-  return std::min(text.find_first_not_of("0123456789"), text.size());
-}
-
-/// Boost's parser takes the names of infinities too, and exponents without end.
-std::optional<Extended> extended_number(std::string_view text) {
-  if (text.size() > longest_number) return std::nullopt;
-  std::string_view rest = text;
-  if (rest.starts_with('-')) rest.remove_prefix(1);
-  const std::size_t before = digits(rest);
-  rest.remove_prefix(before);
-  if (before == 0) return std::nullopt;
-  if (rest.starts_with('.')) {
-    rest.remove_prefix(1);
-    rest.remove_prefix(digits(rest));
-  }
-  if (rest.starts_with('e')) {
-    rest.remove_prefix(1);
-    if (rest.starts_with('+') || rest.starts_with('-')) rest.remove_prefix(1);
-    const auto exponent = whole_number<unsigned>(rest);
-    if (!exponent || *exponent > largest_exponent) return std::nullopt;
-    rest = {};
-  }
-  if (!rest.empty()) return std::nullopt;
-  Extended number{std::string(text)};
-  if (!isfinite(number)) return std::nullopt;
-  return text.starts_with('-') == signbit(number) ? number : -number;  // -0
-}
 
 class CoefficientReader {
  public:
@@ -169,7 +136,7 @@ std::string extended_digits(const Extended& number) {
 }
 
 std::optional<Extended> parse_coefficient(std::string_view text, Precision precision) {
-  if (precision == Precision::extended) return extended_number(text);
+  if (precision == Precision::extended) return finite_extended_number(text);
   const auto number = whole_number<double>(text);
   if (!number || !std::isfinite(*number)) return std::nullopt;
   return Extended(*number);

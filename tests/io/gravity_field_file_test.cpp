@@ -113,6 +113,19 @@ TEST(GravityFieldFile, RefusesWhatVariesWithTimeOnlyWhereItIsAskedFor) {
   }
 }
 
+// An exponent that no integer holds: found by fuzzing, which saw Boost's reader overflow.
+TEST(GravityFieldFile, RefusesAnExponentWithoutEnd) {
+  expect_field_refused(
+      changed_field("0.686821280969D-07", "0.00d000000000020000000000000000000000"),
+      {"field.gfc:18: C(5,0): must be a finite number"});
+  // Leading zeros of an exponent, and no digit before the point, are Fortran's.
+  const auto plain = parse_gravity_field("field.gfc", eigen, {0, {5}});
+  for (const char* same : {".686821280969D-07", "0.686821280969D-0000007"}) {
+    const std::string text = changed_field("0.686821280969D-07", same);
+    EXPECT_EQ(parse_gravity_field("field.gfc", text, {0, {5}}).J[5], plain.J[5]);
+  }
+}
+
 TEST(GravityFieldFile, RefusesAnOriginThatIsNotTheCentreOfMass) {
   const std::string whole = eigen;
   EXPECT_NO_THROW(parse_gravity_field("field.gfc", whole + "gfc 1 0 0.0 0.0 0 0\n", {0, {5}}));

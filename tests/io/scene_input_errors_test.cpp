@@ -68,10 +68,21 @@ TEST(SceneInputErrors, NotAsciiOutsideQuotes) {
   // Line ends that could break a terminal's line are escaped.
   expect_scene_error("\u2028schema = 1\n", refused("1:1", "\\xe2\\x80\\xa8"));
   // What the parser does not take for a string is none.
-  for (const std::string text : {"a = 5\"\u0498.\"", "a = (\"\u0498\"", "a\"\u0498\" = 1",
-                                 "a = \"\"'\u0498'", "a = 'x''\u0498'"}) {
+  for (const std::string text :
+       {"a = 5\"\u0498.\"", "a = (\"\u0498\"", "a\"\u0498\" = 1", "a = \"\"'\u0498'",
+        "a = 'x''\u0498'", "a = 2=\"\u0498", "a = 2[\"\u0498", "a = 2{'\u0498", "a = 2.\"\u0498",
+        "a = 2025-01-01T=\"\u0498", "a = {b=2=\"\u0498\"}"}) {
     expect_scene_error(text + "\n", {"file.toml:1:", "not valid TOML: got a quotation mark"});
   }
+  // Behind a backslash at the end of a line the parser looks for blanks in the string itself.
+  for (const std::string text : {"a = \"\"\"x \\\n  \u00e9\"\"\"", "a = \"\"\"\\\n\u0498\"\"\"",
+                                 "a = \"\"\"x \\ \u0498\"\"\""}) {
+    expect_scene_error(text + "\n",
+                       {"file.toml:", "cannot be read: got the character", "backslash"});
+  }
+  const std::string joined =
+      changed(oscillator, "\"oscillator\"", "\"\"\"a \u00e9 \\\n  b \u0498\"\"\"");
+  EXPECT_EQ(parse_scene(joined, "file.toml").title, "a \u00e9 b \u0498");
   const std::string inside = changed(oscillator, "\"oscillator\"", "\"\u0498 \u00a0\" # \u0498");
   EXPECT_EQ(parse_scene(inside, "file.toml").title, "\u0498 \u00a0");
 }

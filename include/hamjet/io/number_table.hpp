@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "hamjet/algebra/extended.hpp"
+
 namespace hamjet::io {
 
 /// Rows of finite numbers, one a column, row after row.
@@ -34,5 +36,11 @@ NumberTable read_number_table(const std::string& name, std::string_view text,
 
 /// A number between blanks, finite and within double precision; nothing if it is anything else.
 std::optional<double> finite_number(std::string_view text);
+
+/// A decimal number with 113 significant bits: digits with a point among or behind them, a minus
+/// sign, an exponent behind an e. Nothing if it is anything else, not finite, longer than 100
+/// characters, or has an exponent beyond 5000, which binary128 has not and at which Boost's reader
+/// would overflow.
+std::optional<Extended> finite_extended_number(std::string_view text);
 
 }  // namespace hamjet::io
