@@ -62,7 +62,8 @@ io::NumberTable read_deviations(const EvalOptions& options,
                                 const std::vector<std::string_view>& columns) {
   if (options.deviations) {
     const std::filesystem::path file = *options.deviations;
-    return io::read_number_table(io::printable_path(file), io::read_text_file(file), columns,
+    return io::read_number_table(io::printable_path(file),
+                                 io::read_text_file(file, io::largest_table_bytes), columns,
                                  stop_if_interrupted);
   }
   std::vector<std::string_view> fields;

@@ -23,7 +23,8 @@ void refuse_results(const std::filesystem::path& file) {
   for (const auto& folder : {target.parent_path(), target.parent_path().parent_path()}) {
     for (const char* name : {"summary.json", "compare.json"}) {
       if (!is_regular_file(folder / name, ignored)) continue;
-      const std::string summary = io::read_text_file(folder / name);
+      const std::string summary =
+          io::read_regular_file(folder / name, io::largest_summary_bytes).text;
       if (!io::is_sealed(summary)) continue;
       const auto files = io::sealed_files(summary);
       const bool is_listed =

@@ -79,7 +79,7 @@ StoredJet read_beside_summary(const std::filesystem::path& file, JetFormat forma
   });
   const auto read = [&](const std::filesystem::path& wanted) {
     if (wanted == set.path()) return set.summary();
-    return is_listed ? set.read(relative) : read_text_file(wanted);
+    return is_listed ? set.read(relative) : read_text_file(wanted, largest_jet_bytes);
   };
   StoredJet stored = read_stored_jet(
       directory, label, read,
@@ -115,7 +115,7 @@ StoredJet read_jet_file(const std::filesystem::path& path,
   }
   if (format != JetFormat::hdf5) return read_beside_summary(path, *format, label);
   if (!hdf5_available()) (void)read_jets_hdf5({}, {}, {});  // says how to get it
-  return read_jets_hdf5(printable_path(path), read_text_file(path), label);
+  return read_jets_hdf5(printable_path(path), read_text_file(path, largest_jet_bytes), label);
 }
 
 std::string jet_file_content(const StoredJet& stored, JetFormat format) {

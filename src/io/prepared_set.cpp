@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <limits>
 #include <set>
 #include <system_error>
 #include <utility>
@@ -46,9 +47,28 @@ void flush_folders_below(const fs::path& folder) {
   }
 }
 
+/// The first folder from the directory down to a file that is a symbolic link; empty if none is.
+/// Behind it are files that are not the directory's. (The directory itself may be a link.)
+fs::path link_on_the_way(const fs::path& directory, const fs::path& relative) {
+  std::error_code ignored;
+  fs::path folder = directory;
+  for (const fs::path& part : relative.parent_path()) {
+    folder /= part;
+    if (fs::is_symlink(fs::symlink_status(folder, ignored))) return folder;
+  }
+  return {};
+}
+
 /// Renames would fail over a directory or below a file, after others have been done.
 void require_place(const fs::path& directory, const fs::path& relative) {
   const fs::path target = directory / relative;
+  const fs::path link = link_on_the_way(directory, relative);
+  if (!link.empty()) {
+    throw_file_error(target, "cannot be written",
+                     fmt::format("{} is a symbolic link, which would be followed; remove it, or "
+                                 "choose another directory",
+                                 printable_path(link)));
+  }
   std::error_code ignored;
   if (fs::is_directory(target, ignored)) {
     throw_file_error(target, "cannot be written", "it is a directory");
@@ -63,8 +83,8 @@ void require_place(const fs::path& directory, const fs::path& relative) {
 
 void move_file(const fs::path& from, const fs::path& to) {
   if (::rename(from.c_str(), to.c_str()) == 0) return;
-  if (errno == EXDEV) {  // the folder is a link to another file system
-    write_whole_file(to, read_text_file(from));
+  if (errno == EXDEV) {  // another file system is mounted in the folder
+    write_whole_file(to, read_text_file(from, std::numeric_limits<std::size_t>::max()));
     ::unlink(from.c_str());
     return;
   }
@@ -72,26 +92,23 @@ void move_file(const fs::path& from, const fs::path& to) {
                    errno_text() + "; the next hamjet in this directory tries again");
 }
 
-/// The text of a regular file; empty if it cannot be read.
-std::string text_if_any(const fs::path& file) {
+/// The text of a regular file of at most so many bytes; empty if it cannot be read.
+std::string text_if_any(const fs::path& file, std::size_t most_bytes) {
   std::error_code ignored;
   if (!fs::is_regular_file(fs::symlink_status(file, ignored))) return "";
-  try {
-    return read_text_file(file);
-  } catch (const Error&) {
-    return "";
-  }
+  return read_regular_file(file, most_bytes).text;
 }
 
 void remove_earlier(const fs::path& directory, const fs::path& name,
                     const std::vector<FileRecord>& successors) {
-  for (const FileRecord& file : sealed_files(text_if_any(directory / name))) {
+  for (const FileRecord& file :
+       sealed_files(text_if_any(directory / name, largest_summary_bytes))) {
     const bool has_successor =
         std::any_of(successors.begin(), successors.end(),
                     [&](const FileRecord& successor) { return successor.path == file.path; });
-    if (has_successor) continue;
+    if (has_successor || !link_on_the_way(directory, file.path).empty()) continue;
     const fs::path path = directory / file.path;
-    const FileRecord found = record_of(file.path, text_if_any(path));
+    const FileRecord found = record_of(file.path, text_if_any(path, file.bytes));
     // What somebody has changed since is theirs.
     if (found.bytes != file.bytes || found.crc32 != file.crc32) continue;
     ::unlink(path.c_str());
@@ -153,7 +170,7 @@ void put_in_place(const fs::path& directory) {
   const fs::path files = ready(directory) / "files";
   const fs::path summaries = ready(directory) / "summary";
   for (const fs::path& name : files_below(summaries)) {
-    const auto successors = sealed_files(text_if_any(summaries / name));
+    const auto successors = sealed_files(text_if_any(summaries / name, largest_summary_bytes));
     remove_earlier(directory, name, successors);
     std::set<fs::path> folders = {directory};
     for (const fs::path& file : files_below(files)) {

@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include "directory_lock.hpp"
@@ -18,13 +19,6 @@ namespace {
 
 constexpr const char* remedy = "run the scene again";
 
-/// A pipe in the place of a result would be waited for.
-std::string read_result(const std::filesystem::path& file) {
-  FileContent content = read_regular_file(file, std::numeric_limits<std::size_t>::max());
-  if (!content.problem.empty()) throw_file_error(file, "cannot be read", content.problem);
-  return std::move(content.text);
-}
-
 }  // namespace
 
 ResultSet::ResultSet(std::filesystem::path directory, std::string name)
@@ -33,15 +27,25 @@ ResultSet::ResultSet(std::filesystem::path directory, std::string name)
     const DirectoryLock lock(directory_);
     put_in_place(directory_);
   }
-  summary_ = read_result(path());
+  // A pipe in the place of a result would be waited for.
+  summary_ = require_regular_file(path(), largest_summary_bytes);
 }
 
 std::string ResultSet::read(const std::string& relative) {
-  std::string text = read_result(directory_ / relative);
-  const FileRecord found = record_of(relative, text);
   const auto files = sealed_files(summary_);
   const auto entry = std::find_if(files.begin(), files.end(),
                                   [&](const FileRecord& file) { return file.path == relative; });
+  const std::filesystem::path file = directory_ / relative;
+  std::error_code none;
+  const auto size = std::filesystem::file_size(file, none);
+  if (!none && entry != files.end() && size > entry->bytes) {
+    throw_file_error(
+        file,
+        fmt::format("was changed after it was written: {} bytes, must be {}", size, entry->bytes),
+        remedy);
+  }
+  std::string text = require_regular_file(file, largest_jet_bytes);
+  const FileRecord found = record_of(relative, text);
   std::string problem;
   if (entry == files.end()) {
     problem = fmt::format("is not of the set of results that {} describes", name_);

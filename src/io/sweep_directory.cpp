@@ -23,14 +23,14 @@ constexpr const char* manifest_name = "manifest.json";
 /// File systems slow down where a folder holds very many.
 constexpr std::size_t items_in_a_folder = 1000;
 
-/// The text of a file, nothing if there is none.
-std::optional<std::string> text_of(const fs::path& file) {
+/// The text of a file of at most so many bytes, nothing if there is none.
+std::optional<std::string> text_of(const fs::path& file, std::size_t most_bytes) {
   struct stat status {};
   if (::stat(file.c_str(), &status) != 0) {
     if (errno == ENOENT || errno == ENOTDIR) return std::nullopt;
     throw_file_error(file, "cannot be read", errno_text());
   }
-  return read_text_file(file);
+  return read_text_file(file, most_bytes);
 }
 
 /// Whether a file is one that a process has left behind while it wrote. One that another machine
@@ -83,9 +83,9 @@ SweepDirectory::SweepDirectory(fs::path path, const SweepStudy& study)
   const std::string manifest = sweep_manifest(study);
   checksum_ = fmt::format("{:08x}", record_of("", manifest).crc32);
   const fs::path file = path_ / manifest_name;
-  if (!text_of(file)) write_whole_file(file, manifest);
+  if (!text_of(file, largest_manifest_bytes)) write_whole_file(file, manifest);
   // Read again: another process may have been faster, with another study.
-  const std::string there = text_of(file).value_or("");
+  const std::string there = text_of(file, largest_manifest_bytes).value_or("");
   if (there == manifest) return;
   throw Error(ErrorKind::usage,
               fmt::format("{}: belongs to another study: {}; choose another -o, or remove the "
@@ -96,7 +96,7 @@ SweepDirectory::SweepDirectory(fs::path path, const SweepStudy& study)
 
 SweepStudy SweepDirectory::study_in(const fs::path& path) {
   const fs::path file = path / manifest_name;
-  const auto text = text_of(file);
+  const auto text = text_of(file, largest_manifest_bytes);
   if (!text) {
     throw Error(
         ErrorKind::input_output,
@@ -127,7 +127,7 @@ std::optional<SweepRow> SweepDirectory::read(std::size_t item, RowState* state) 
     if (state != nullptr) *state = found;
     return std::nullopt;
   };
-  const auto text = text_of(file_of(item));
+  const auto text = text_of(file_of(item), largest_sweep_row_bytes);
   if (!text) return end_as(RowState::missing);
   if (!is_sealed(*text)) return end_as(RowState::damaged);
   try {

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <fstream>
 #include <system_error>
+#include <utility>
 
 #include "file_system.hpp"
 #include "hamjet/error.hpp"
@@ -77,7 +78,18 @@ std::string printable_path(const std::filesystem::path& file) {
   return printable(file.string(), std::string::npos);
 }
 
-std::string read_text_file(const std::filesystem::path& file) {
+std::string require_regular_file(const std::filesystem::path& file, std::size_t most_bytes) {
+  FileContent content = read_regular_file(file, most_bytes);
+  if (!content.problem.empty()) {
+    throw Error(content.is_too_large ? ErrorKind::too_large : ErrorKind::input_output,
+                fmt::format("{}: cannot be read: {}", printable_path(file), content.problem));
+  }
+  return std::move(content.text);
+}
+
+std::string read_text_file(const std::filesystem::path& file, std::size_t most_bytes) {
+  std::error_code error;
+  if (std::filesystem::is_regular_file(file, error)) return require_regular_file(file, most_bytes);
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw_unreadable(file);
   std::string text;
@@ -85,6 +97,10 @@ std::string read_text_file(const std::filesystem::path& file) {
   do {
     stream.read(buffer.data(), buffer.size());
     text.append(buffer.data(), static_cast<std::size_t>(stream.gcount()));
+    if (text.size() > most_bytes) {
+      throw Error(ErrorKind::too_large, fmt::format("{}: cannot be read: {}", printable_path(file),
+                                                    too_large(text.size(), most_bytes).problem));
+    }
   } while (stream);
   if (stream.bad()) throw_unreadable(file);
   return text;

@@ -8,8 +8,19 @@
 
 namespace hamjet::io {
 
-/// All bytes of a file, which may be a pipe. Throws Error(input_output) with path and reason.
-std::string read_text_file(const std::filesystem::path& file);
+// The most bytes that are read of a file of each kind that has no header of its own: more than
+// hamjet writes of it. A scene, an orbit message and a gravity field have theirs beside their
+// readers.
+inline constexpr std::size_t largest_summary_bytes = std::size_t{256} << 20;
+inline constexpr std::size_t largest_jet_bytes = std::size_t{1} << 30;
+inline constexpr std::size_t largest_table_bytes = std::size_t{1} << 30;  ///< of deviations
+inline constexpr std::size_t largest_manifest_bytes = std::size_t{1} << 30;
+inline constexpr std::size_t largest_sweep_row_bytes = std::size_t{16} << 20;
+inline constexpr std::size_t largest_reference_bytes = std::size_t{1} << 30;
+
+/// All bytes of a file of at most so many, which may be a pipe. Throws Error(input_output) with
+/// path and reason, Error(too_large) before reading where the size is known.
+std::string read_text_file(const std::filesystem::path& file, std::size_t most_bytes);
 
 /// The bytes of a file, or why there are none.
 struct FileContent {
@@ -21,6 +32,9 @@ struct FileContent {
 /// Reads a regular file of at most so many bytes: not a directory, a pipe or a device, and not one
 /// that is written to meanwhile.
 FileContent read_regular_file(const std::filesystem::path& file, std::size_t most_bytes);
+
+/// The same; throws Error(input_output), or Error(too_large), with path and reason.
+std::string require_regular_file(const std::filesystem::path& file, std::size_t most_bytes);
 
 /// A path for messages, whole, on one line.
 std::string printable_path(const std::filesystem::path& file);

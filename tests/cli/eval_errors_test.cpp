@@ -48,6 +48,13 @@ TEST_F(EvalErrors, MistakesOnTheCommandLine) {
   EXPECT_EQ(eval_one("kepler", "-1,2,3,0,0,0").size(), 6U);
 }
 
+TEST_F(EvalErrors, ATableThatIsTooLargeIsNotRead) {
+  store("kepler", quick_scene());
+  std::filesystem::resize_file(write("large.csv", rtn_header), std::uintmax_t{2} << 30);
+  expect_error({"eval", "kepler", "--deviations", "large.csv"}, 6,
+               {"large.csv: cannot be read", "too large, got 2147483648 bytes"});
+}
+
 TEST_F(EvalErrors, BadTables) {
   store("kepler", quick_scene());
   const struct {

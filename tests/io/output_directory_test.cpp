@@ -100,6 +100,33 @@ TEST_F(ResultSets, AnEarlierSummaryCannotHaveFilesElsewhereRemoved) {
   }
 }
 
+// What is behind a link is not the directory's, though a file of that name would go there.
+TEST_F(ResultSets, ALinkInPlaceOfAFolderIsNotFollowed) {
+  const fs::path elsewhere = temporary_.path() / "elsewhere";
+  fs::create_directories(elsewhere);
+  test::put(elsewhere / "x.csv", "mine");
+  fs::create_directories(directory_);
+  fs::create_directory_symlink(elsewhere, directory_ / "a");
+  expect_error([&] { commit(new_); }, ErrorKind::input_output,
+               {"a/x.csv: cannot be written", "/a is a symbolic link", "remove it"}, "link");
+  EXPECT_EQ(test::content(elsewhere / "x.csv"), "mine");
+  EXPECT_FALSE(fs::exists(directory_ / "summary.json"));
+  // Nor are files removed there that an earlier set had under this name.
+  fs::remove(directory_ / "a");
+  commit(old_);
+  fs::remove_all(directory_ / "a");
+  test::put(elsewhere / "x.csv", "old x");
+  fs::create_directory_symlink(elsewhere, directory_ / "a");
+  commit({{"c/d/w.csv", "new w"}});
+  EXPECT_EQ(test::content(elsewhere / "x.csv"), "old x");
+  // The directory itself may be a link.
+  fs::create_directory_symlink(directory_, temporary_.path() / "linked");
+  OutputDirectory output(temporary_.path() / "linked");
+  output.write("b/x.csv", "x");
+  output.write("summary.json", "{}");
+  EXPECT_NO_THROW(output.commit());
+}
+
 TEST_F(ResultSets, LeaveNothingWhereTheyAreNotCommitted) {
   {
     OutputDirectory output(directory_ / "deep/deeper");

@@ -2,11 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <cstdint>
 #include <fstream>
 #include <functional>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "hamjet/io/hdf5_jets.hpp"
+#include "hamjet/io/jet_file.hpp"
 #include "hamjet/io/results.hpp"
 #include "hamjet/version.hpp"
 #include "scene_samples.hpp"
@@ -291,6 +295,31 @@ TEST_F(StoredJetTest, DamagedSummary) {
   edited([](json& j) { j["runs"][0]["nominal_final"][1] = 0.5; }, {"different runs"});
   std::filesystem::remove(directory_ / file);
   expect_refused({file, "cannot be read", "No such file"});
+}
+
+// Two gigabytes in place of some kilobytes (a file with a hole, which takes no room) are refused by
+// their size: reading them would take a thousand times as long as is allowed here.
+TEST_F(StoredJetTest, TheSizeIsLookedAtBeforeTheFileIsRead) {
+  constexpr std::uintmax_t two_gigabytes = std::uintmax_t{2} << 30;
+  store(kepler);
+  const auto file = directory_ / "gauss8/jet.csv";
+  const std::string good = test::content(file);
+  const auto begin = std::chrono::steady_clock::now();
+  std::filesystem::resize_file(file, two_gigabytes);
+  expect_refused({"gauss8/jet.csv: was changed after it was written: 2147483648 bytes, must be"});
+  test::put(file, good);
+  for (const char* name : {"other.dace", "other.csv", "other.h5"}) {
+    const auto other = directory_ / "gauss8" / name;
+    test::put(other, "");
+    std::filesystem::resize_file(other, two_gigabytes);
+    if (std::string(name) == "other.h5" && !hdf5_available()) continue;
+    expect_error([&] { read_jet_file(other); }, ErrorKind::too_large,
+                 {name, "too large, got 2147483648 bytes, must be at most 1073741824"}, name);
+  }
+  std::filesystem::resize_file(directory_ / "summary.json", two_gigabytes);
+  expect_refused({"summary.json", "too large, got 2147483648 bytes, must be at most 268435456"},
+                 ErrorKind::too_large);
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(500));
 }
 
 TEST_F(StoredJetTest, ADamagedOrderTakesNoMemory) {
