@@ -83,6 +83,33 @@ Json numbers(const Eigen::VectorXd& values) {
   return std::vector<double>(values.begin(), values.end());
 }
 
+std::vector<double> conjugate_time_bounds(const OptimalControlResult& result) {
+  std::vector<double> times;
+  for (const std::size_t steps : result.conjugate.passed_after) {
+    times.push_back(result.study.duration * static_cast<double>(steps) /
+                    static_cast<double>(result.study.steps));
+  }
+  return times;
+}
+
+/// What shooting finds fulfils the necessary conditions of the first order, and may be a saddle.
+std::string second_order_text(const OptimalControlResult& result) {
+  if (!result.conjugate.is_resolved) {
+    return "not decided, for the steps are too few; only the necessary conditions of the first "
+           "order hold";
+  }
+  const std::vector<double> times = conjugate_time_bounds(result);
+  if (!times.empty()) {
+    return fmt::format(
+        "no local least: a conjugate time before t = {:.6g}{}; another costate_guess "
+        "may lead to a lesser cost",
+        times.front(), times.size() > 1 ? fmt::format(", {} in all", times.size()) : "");
+  }
+  if (result.is_local_least()) return "a local least: no conjugate time up to the end";
+  return "no conjugate time before the end, which is itself conjugate or not fixed: a least is not "
+         "excluded, and not shown";
+}
+
 std::string failure_text(const OptimalControlResult& result) {
   if (!result.routes_failure.empty()) return result.routes_failure;
   for (const ControlConvergencePoint& point : result.convergence) {
@@ -129,6 +156,8 @@ std::string summary(const OptimalControlResult& result) {
   json["end_point_rank"] = result.end_point_rank;
   json["newton_iterations"] = solution.iterations;
   json["residual"] = solution.residual;
+  json["conjugate_times_below"] = conjugate_time_bounds(result);
+  json["local_least"] = or_null(result.is_local_least());
   json["symplecticity_defect"] = result.symplecticity_defect;
   json["route_difference"] = result.routes ? Json(result.routes->largest()) : Json(nullptr);
   json["routes"] = routes_json(result);
@@ -174,10 +203,11 @@ std::string table(const OptimalControlResult& result) {
   text += fmt::format(
       "  shooting           {} iterations, residual {:.1e}; rank {} of {}, nullity {}\n"
       "  dx(T)/dp(0)        rank {} of {}\n"
+      "  second order       {}\n"
       "  symplecticity      {:.1e}, the advance map's largest scaled defect\n",
       solution.iterations, solution.residual, solution.rank, solution.unknowns,
       solution.unknowns - solution.rank, result.end_point_rank, study.start.size(),
-      result.symplecticity_defect);
+      second_order_text(result), result.symplecticity_defect);
   if (result.routes) {
     text += fmt::format(
         "  both routes        differ by {:.1e} (states), {:.1e} (costates), {:.1e} (controls), "

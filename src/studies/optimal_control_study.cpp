@@ -199,6 +199,15 @@ ControlConvergencePoint convergence_point(const OptimalControlStudy& study, std:
 
 double RouteComparison::largest() const { return std::max(difference.largest(), cost); }
 
+std::optional<bool> OptimalControlResult::is_local_least() const {
+  if (!conjugate.is_resolved) return std::nullopt;
+  if (!conjugate.passed_after.empty()) return false;
+  const bool is_end_fixed =
+      std::all_of(study.end.begin(), study.end.end(), [](const auto& x) { return x.has_value(); });
+  const bool is_end_conjugate = end_point_rank < static_cast<Eigen::Index>(study.start.size());
+  return is_end_fixed && !is_end_conjugate ? std::optional(true) : std::nullopt;
+}
+
 int OptimalControlResult::exit_code() const {
   const bool is_incomplete =
       !routes_failure.empty() ||
@@ -237,6 +246,7 @@ OptimalControlResult run_study(const OptimalControlStudy& study, const ProgressC
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> decomposition;
   decomposition.setThreshold(NewtonSettings{}.rank_threshold);
   result.end_point_rank = decomposition.compute(whole.topRightCorner(n, n)).rank();
+  result.conjugate = conjugate_times(result.solution.jacobians, vector_of(typical_sizes(study)));
   result.symplecticity_defect = symplecticity_defect(result.solution.jacobians);
   done += static_cast<double>(study.steps);
 

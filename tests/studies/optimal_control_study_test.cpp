@@ -52,6 +52,46 @@ TEST(OptimalControlStudy, SolvesTheLoop) {
   }
 }
 
+// An arc of the Heisenberg problem is a part of a circle; the first conjugate time is when it has
+// gone once around, the next at the first positive root of tan(w/2) = w/2 of its turn w, 8.9868
+// (R. Montgomery, A Tour of Subriemannian Geometries (2002), section 1.8). Two loops turn by 4 pi,
+// once around at T/2, and cost twice as much as the one that is least.
+TEST(OptimalControlStudy, TwoLoopsAreNoLocalLeast) {
+  constexpr double pi = std::numbers::pi;
+  for (const Discretization form : {Discretization::stormer, Discretization::midpoint}) {
+    OptimalControlStudy study = loop(form);
+    study.steps = 64;
+    study.refinements.clear();
+    study.costate_guess = {-3, 0, -6.3};
+    const OptimalControlResult two = run_study(study, {});
+    EXPECT_NEAR(two.cost, 64 * std::tan(2 * pi / 64), 1e-12);
+    ASSERT_TRUE(two.conjugate.is_resolved);
+    ASSERT_EQ(two.conjugate.passed_after.size(), 2U);
+    EXPECT_NEAR(static_cast<double>(two.conjugate.passed_after[0]) / 64, 0.5, 1.01 / 64);
+    EXPECT_NEAR(static_cast<double>(two.conjugate.passed_after[1]) / 64, 8.9868 / (4 * pi),
+                1.01 / 64);
+    EXPECT_EQ(two.is_local_least(), std::optional(false));
+    // Once around, the end is conjugate itself: the solutions form a family of one cost.
+    study.costate_guess.clear();
+    const OptimalControlResult one = run_study(study, {});
+    EXPECT_TRUE(one.conjugate.is_resolved);
+    EXPECT_TRUE(one.conjugate.passed_after.empty());
+    EXPECT_EQ(one.is_local_least(), std::nullopt);
+    // Less than once around.
+    study.end = {0.5, 0, 0.25};
+    EXPECT_EQ(run_study(study, {}).is_local_least(), std::optional(true));
+  }
+}
+
+// A quadratic cost under linear dynamics is convex.
+TEST(OptimalControlStudy, ThatOfTheDoubleIntegratorIsALeast) {
+  OptimalControlStudy study = transfer(Discretization::stormer);
+  study.refinements.clear();
+  EXPECT_EQ(run_study(study, {}).is_local_least(), std::optional(true));
+  study.end[1].reset();
+  EXPECT_EQ(run_study(study, {}).is_local_least(), std::nullopt);
+}
+
 // Rest to rest over d: 6 d^2 / T^3 in continuous time. The order is that of the form.
 TEST(OptimalControlStudy, OrderIsThatOfTheForm) {
   for (const Discretization form : {Discretization::stormer, Discretization::midpoint}) {

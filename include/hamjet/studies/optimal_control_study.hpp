@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "hamjet/optimal_control/closed_form_cost.hpp"
+#include "hamjet/optimal_control/conjugate_times.hpp"
 #include "hamjet/optimal_control/discrete_trajectory.hpp"
 #include "hamjet/optimal_control/two_point_boundary_value.hpp"
 #include "hamjet/studies/progress.hpp"
@@ -97,12 +98,18 @@ struct OptimalControlResult {
   std::optional<double> discrete_error;
   /// Rank of dx(T)/dp(0), the matrix of plain shooting between fixed end points.
   Eigen::Index end_point_rank = 0;
+  ConjugateTimes conjugate;         ///< of the solution, before its end
   double symplecticity_defect = 0;  ///< largest scaled Poisson-bracket defect of a step's map
   std::optional<RouteComparison> routes;
   std::string routes_failure;  ///< not empty: one of the routes failed, and why
   std::vector<ControlConvergencePoint> convergence;
   std::optional<ControlConvergenceFit> fit;
   std::vector<std::string> failed_checks;
+
+  /// Whether the solution costs less than all near it between the same ends, by Jacobi's condition:
+  /// false where it has a conjugate time; none where that is not decided, because the steps are too
+  /// long, an end is free, or the end itself is conjugate.
+  std::optional<bool> is_local_least() const;
 
   /// 0, 1 (a check failed) or 4 (a numerical failure left something out).
   int exit_code() const;

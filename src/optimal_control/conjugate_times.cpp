@@ -1,0 +1,100 @@
+#include "hamjet/optimal_control/conjugate_times.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+namespace hamjet {
+namespace {
+
+constexpr double whole_turn = 2 * std::numbers::pi;
+
+/// An eigenvalue has come back to 1 only when it is beyond it by more than round-off.
+constexpr double phase_tolerance = 1e-9;
+
+/// Eigenvalues that turn further in a step could be taken for one another.
+constexpr double largest_turn = 0.75 * std::numbers::pi;
+
+/// Follows the plane of neighbouring extremals.
+class LagrangianPlane {
+ public:
+  explicit LagrangianPlane(Eigen::Index n) : frame_(Eigen::MatrixXd::Zero(2 * n, n)) {
+    frame_.bottomRows(n).setIdentity();
+  }
+
+  void advance(const Eigen::MatrixXd& jacobian) {
+    const Eigen::MatrixXd moved = jacobian * frame_;
+    const Eigen::HouseholderQR<Eigen::MatrixXd> decomposition(moved);
+    frame_ = decomposition.householderQ() * Eigen::MatrixXd::Identity(moved.rows(), moved.cols());
+  }
+
+  /// The phases of the eigenvalues of U, ascending.
+  std::vector<double> phases() const {
+    using Complex = std::complex<double>;
+    const Eigen::Index n = frame_.cols();
+    const Eigen::MatrixXcd w =
+        frame_.bottomRows(n).cast<Complex>() + Complex(0, 1) * frame_.topRows(n).cast<Complex>();
+    const Eigen::ComplexEigenSolver<Eigen::MatrixXcd> solver(w * w.transpose(), false);
+    std::vector<double> result;
+    for (const Complex& value : solver.eigenvalues()) result.push_back(std::arg(value));
+    std::sort(result.begin(), result.end());
+    return result;
+  }
+
+ private:
+  Eigen::MatrixXd frame_;
+};
+
+/// Follows the phases, ascending, to those of the next step: on the circle their order stays, so
+/// that the next ones are a cyclic shift of them, the one with the least largest turn. Returns that
+/// turn.
+double follow(std::vector<double>& phases, const std::vector<double>& next) {
+  const std::size_t n = phases.size();
+  const auto principal = [](double phase) { return std::remainder(phase, whole_turn); };
+  std::sort(phases.begin(), phases.end(),
+            [&](double a, double b) { return principal(a) < principal(b); });
+  double least = std::numeric_limits<double>::infinity();
+  std::vector<double> best(n);
+  for (std::size_t shift = 0; shift < n; ++shift) {
+    std::vector<double> turns(n);
+    double largest = 0;
+    for (std::size_t j = 0; j < n; ++j) {
+      turns[j] = std::remainder(next[(j + shift) % n] - phases[j], whole_turn);
+      largest = std::max(largest, std::abs(turns[j]));
+    }
+    if (!(largest < least)) continue;
+    least = largest;
+    best = std::move(turns);
+  }
+  for (std::size_t j = 0; j < n; ++j) phases[j] += best[j];
+  return least;
+}
+
+}  // namespace
+
+ConjugateTimes conjugate_times(const std::vector<Eigen::MatrixXd>& jacobians,
+                               const Eigen::VectorXd& typical_sizes) {
+  ConjugateTimes result;
+  LagrangianPlane plane(typical_sizes.size() / 2);
+  std::vector<double> phases(static_cast<std::size_t>(typical_sizes.size() / 2), 0.0);
+  for (std::size_t k = 0; k < jacobians.size(); ++k) {
+    plane.advance(typical_sizes.cwiseInverse().asDiagonal() * jacobians[k] *
+                  typical_sizes.asDiagonal());
+    if (!(follow(phases, plane.phases()) <= largest_turn)) result.is_resolved = false;
+    double returns = 0;
+    for (const double phase : phases) {
+      returns += std::max(0.0, std::floor((-phase - phase_tolerance) / whole_turn));
+    }
+    while (static_cast<double>(result.passed_after.size()) < returns) {
+      result.passed_after.push_back(k + 1);
+    }
+  }
+  return result;
+}
+
+}  // namespace hamjet
