@@ -132,8 +132,10 @@ std::string condition_text(const DynamicalSystem& system, EnergyConservingMethod
   if (!std::isfinite(stop.condition)) return {};
   std::string text = fmt::format("; {} is {:.6g} here", quantity, stop.condition);
   if (const auto& distance = stop.steps_to_sign_change) {
-    text += fmt::format(" and changes sign {:.3g} steps of the last size {}, which no step crosses",
-                        std::abs(*distance), *distance < 0 ? "back" : "ahead");
+    text += fmt::format(
+        " and on a line through its value one step ahead changes sign {:.3g} steps "
+        "of the last size {}; no step crosses a change of sign",
+        std::abs(*distance), *distance < 0 ? "back" : "ahead");
   }
   return text;
 }

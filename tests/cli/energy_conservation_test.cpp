@@ -143,6 +143,17 @@ TEST_F(EnergyConservation, StopsWithStepTimeAndCondition) {
   EXPECT_TRUE(std::filesystem::exists(directory_ / "out/trajectory.csv"));
 }
 
+// With steps this large the line through two values of the condition is no guide: on the exact
+// flow of an ellipse of e = 0.6 < sqrt(5/8) it keeps its sign.
+TEST_F(EnergyConservation, AStepTooLargeIsNotSaidToMeetAChangeOfSign) {
+  const CommandResult result = run({"energy_conservation.first_step_canonical=2"}, 4);
+  expect_line(result, {"on a line through its value one step ahead changes sign"});
+  EXPECT_NE(result.out.find("on the exact flow the condition does not change sign"),
+            std::string::npos)
+      << result.out;
+  EXPECT_EQ(result.out.find("no change of sign of the condition is near"), std::string::npos);
+}
+
 TEST_F(EnergyConservation, ExpectIsChecked) {
   const std::string eccentric = "nominal.e=0.85";
   const std::string stops = "energy_conservation.expect=stops";
