@@ -186,8 +186,14 @@ const std::vector<std::string_view>& sweep_command_names() {
 }
 
 SweepStudy read_sweep_study(const std::filesystem::path& file) {
+  return parse_sweep_study(read_scene_file(file), file, read_scene_file);
+}
+
+SweepStudy parse_sweep_study(
+    std::string_view text, const std::filesystem::path& file,
+    const std::function<std::string(const std::filesystem::path&)>& read_scene) {
   const SceneDocument document =
-      parse_document(read_scene_file(file), printable(file.string(), std::string::npos), {});
+      parse_document(text, printable(file.string(), std::string::npos), {});
   const TableReader root(document.table, "", document.source);
   SweepStudy study;
   study.name = scene_name(file.string());
@@ -210,7 +216,7 @@ SweepStudy read_sweep_study(const std::filesystem::path& file) {
   }
   read_columns(root, study);
   if (root.has("map")) study.map = read_map(root.table("map"), study);
-  study.scene_text = read_scene_file(study.scene_path);
+  study.scene_text = read_scene(study.scene_path);
   return study;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -66,6 +67,12 @@ inline constexpr std::size_t most_sweep_items = 1'000'000;
 /// Error(scene) with `file:line:column: key: ...` for a mistake, Error(too_large) for more than
 /// `most_sweep_items`. The scenes of the items are not read (see `check_sweep_items`).
 SweepStudy read_sweep_study(const std::filesystem::path& file);
+
+/// The same from text, of a study with this file name; `read_scene` brings the text of the base
+/// scene, for example from memory.
+SweepStudy parse_sweep_study(
+    std::string_view text, const std::filesystem::path& file,
+    const std::function<std::string(const std::filesystem::path&)>& read_scene);
 
 /// The changes of one item, in the order in which they are applied.
 std::vector<Override> sweep_overrides(const SweepStudy& study, std::size_t item);
