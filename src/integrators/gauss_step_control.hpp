@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -71,9 +72,13 @@ class GaussStepControl {
   double error_estimate(const Real& h, const std::vector<Real>& start_slope) {
     const double slope = slope_scale();
     if (slope == 0) return linearised_error(h);
-    double ratio = start_defect(start_slope) / slope;
+    const double noise = slope_noise();
+    double ratio = std::max(0.0, start_defect(start_slope) - noise) / slope;
     const double s = settings_.stages;
-    if (s > 1) ratio = std::max(ratio, std::pow(mode(settings_.stages - 1) / slope, s / (s - 1)));
+    if (s > 1) {
+      const double last = std::max(0.0, mode(settings_.stages - 1) - noise) / slope;
+      ratio = std::max(ratio, std::pow(last, s / (s - 1)));
+    }
     return std::max({error_constant * ratio * ratio, continued_modes(slope), linearised_error(h)});
   }
 
@@ -87,7 +92,7 @@ class GaussStepControl {
     const int gap = s < 6 ? 2 : 3;
     // Of two neighbours one may vanish by symmetry.
     const double near = std::max(mode(s - 1), mode(s - 2)) / slope;
-    if (near <= 64 * static_cast<double>(std::numeric_limits<Real>::epsilon())) return 0;
+    if (near <= 8 * std::max(epsilon, slope_noise() / slope)) return 0;
     const double far = std::max(mode(s - 1 - gap), mode(s - 2 - gap)) / slope;
     const double decay = near < far ? std::pow(near / far, 1.0 / gap) : 1;
     return near * std::pow(decay, s + 2);
@@ -165,6 +170,16 @@ class GaussStepControl {
   /// revolutions comes out near the tolerance, for 4 to 16 stages.
   static constexpr double error_constant = 100;
 
+  /// What rounding makes of a slope: near rest its terms cancel, each about the gradient times the
+  /// distance from the origin.
+  double slope_noise() {
+    double size = 0;
+    for (std::size_t c = 0; c < stages_.system().components(); ++c) {
+      size = std::max(size, std::abs(static_cast<double>(jet_.value()[c][0])));
+    }
+    return 8 * epsilon * stages_.largest_gradient(0) * size;
+  }
+
   /// Size of the slopes, which does not vanish where a single force passes through zero: with a
   /// second-order system a frequency times the velocity is a slope too.
   double slope_scale() {
@@ -180,6 +195,8 @@ class GaussStepControl {
     }
     return std::max(slope, 0.5 * std::sqrt(stages_.largest_gradient(0)) * velocity);
   }
+
+  const double epsilon = static_cast<double>(std::numeric_limits<Real>::epsilon());
 
   const GaussSettings& settings_;
   StageSlopes<Real, Lanes>& stages_;
