@@ -96,6 +96,17 @@ const char* support_name(Support support) {
   return "unknown";
 }
 
+/// Where the series says nothing, a number's size: one digit of it.
+double size_alone(double x) { return std::isfinite(x) ? std::stod(fmt::format("{:.0e}", x)) : x; }
+
+/// What an estimate of the miss is made of.
+std::string miss_covers(const io::StoredJet& stored) {
+  return fmt::format("missing degrees, rounding of coefficients and evaluation{}",
+                     stored.error_by_degree.empty()
+                         ? "; not errors of the coefficients, of which the results say nothing"
+                         : ", and errors of the coefficients as the results state them");
+}
+
 /// What has been evaluated, as it is printed.
 class Output {
  public:
@@ -105,22 +116,27 @@ class Output {
                    fmt::join(columns, ","));
   }
 
-  void add(const std::vector<double>& state, const TruncationEstimate& estimate) {
-    const bool is_inside = estimate.support == Support::inside;
+  void add(const std::vector<double>& state, const MissEstimate& estimate) {
+    const bool is_inside = estimate.is_inside();
+    const bool is_outside = estimate.support == Support::outside;
     const auto write = std::back_inserter(csv_);
     for (const double x : state) {
-      if (std::isfinite(x)) fmt::format_to(write, "{}", x);
+      if (std::isfinite(x)) fmt::format_to(write, "{}", is_outside ? size_alone(x) : x);
       fmt::format_to(write, ",");
     }
-    if (is_inside) fmt::format_to(write, "{:.3g}", estimate.miss);
+    if (is_inside) fmt::format_to(write, "{:.3g}", estimate.miss_m());
     fmt::format_to(write, ",{}\n", support_name(estimate.support));
-    if (is_inside) largest_miss_ = std::max(largest_miss_.value_or(0), estimate.miss);
+    if (is_inside) largest_miss_ = std::max(largest_miss_.value_or(0), estimate.miss_m());
     outside_ += estimate.support == Support::outside ? 1 : 0;
     unknown_ += estimate.support == Support::unknown ? 1 : 0;
     if (!has_json_rows_) return;
     Json row;
-    for (std::size_t i = 0; i < state.size(); ++i) row[std::string(columns_[i])] = state[i];
-    row["miss_estimate_m"] = is_inside ? Json(estimate.miss) : Json(nullptr);
+    for (std::size_t i = 0; i < state.size(); ++i) {
+      row[std::string(columns_[i])] = is_outside ? size_alone(state[i]) : state[i];
+    }
+    row["miss_estimate_m"] = is_inside ? Json(estimate.miss_m()) : Json(nullptr);
+    row["truncation_m"] = is_inside ? Json(estimate.truncation_m) : Json(nullptr);
+    row["rounding_m"] = estimate.rounding_m;
     row["support"] = support_name(estimate.support);
     json_rows_.push_back(std::move(row));
   }
@@ -159,6 +175,7 @@ std::string summary(const EvalOptions& options, const io::StoredJet& stored,
       {"points", evaluation.points()},
       {"outside", output.outside()},
       {"unknown", output.unknown()},
+      {"miss_estimate_covers", miss_covers(stored)},
       {"largest_miss_estimate_m",
        output.largest_miss() ? Json(*output.largest_miss()) : Json(nullptr)},
       {"evaluation",
@@ -171,7 +188,9 @@ std::string summary(const EvalOptions& options, const io::StoredJet& stored,
   return json.dump(2) + "\n";
 }
 
-void report(const JetEvaluation& evaluation, const Output& output) {
+void report(const EvalCoordinates& coordinates, const io::StoredJet& stored,
+            const JetEvaluation& evaluation, const Output& output) {
+  const bool is_linear = stored.order() < 2;
   const auto points = static_cast<double>(evaluation.points());
   const std::size_t multiply_adds = evaluation.evaluator().multiply_adds_per_point();
   print_error(fmt::format(
@@ -179,16 +198,19 @@ void report(const JetEvaluation& evaluation, const Output& output) {
       "{:.3g} multiply-adds a second",
       evaluation.points(), evaluation.seconds(), evaluation.seconds() / points * 1e9, multiply_adds,
       static_cast<double>(multiply_adds) * points / evaluation.seconds()));
+  print_error(fmt::format("frame {}; the estimates of the miss cover {}", coordinates.text(),
+                          miss_covers(stored)));
   if (output.outside() > 0) {
     print_error(fmt::format(
-        "{} of {} rows marked outside: the degrees of the series do not decay at such deviations",
+        "{} of {} rows marked outside, beyond the polynomial's reach: its degrees do not decay at "
+        "such deviations, and the numbers are sizes alone",
         output.outside(), evaluation.points()));
   }
   if (output.unknown() > 0) {
-    print_error(fmt::format(
-        "{} of {} rows marked unknown: {}", output.unknown(), evaluation.points(),
-        evaluation.evaluator().degree() < 2 ? "degree 1 alone has no decay to judge by"
-                                            : "their numbers are beyond double precision"));
+    print_error(fmt::format("{} of {} rows marked unknown: {}", output.unknown(),
+                            evaluation.points(),
+                            is_linear ? "degree 1 alone has no decay to judge by"
+                                      : "their numbers are beyond double precision"));
   }
 }
 
@@ -224,7 +246,7 @@ int eval(const EvalOptions& options) {
     evaluation.add(*variables);
     if (evaluation.pending() < JetEvaluation::most_points && row + 1 < deviations.rows()) continue;
     stop_if_interrupted();
-    evaluation.run([&](const std::vector<double>& deviation, const TruncationEstimate& estimate) {
+    evaluation.run([&](const std::vector<double>& deviation, const MissEstimate& estimate) {
       output.add(coordinates.final_state(deviation), estimate);
     });
   }
@@ -237,8 +259,12 @@ int eval(const EvalOptions& options) {
   } else if (!file) {
     print(output.csv());
   }
-  if (!options.quiet) report(evaluation, output);
-  return 0;
+  if (!options.quiet) report(coordinates, stored, evaluation, output);
+  const std::size_t not_inside = output.outside() + output.unknown();
+  if (!options.strict || not_inside == 0) return 0;
+  print_error(fmt::format("--strict: {} of {} rows are not inside the polynomial's reach",
+                          not_inside, evaluation.points()));
+  return static_cast<int>(ErrorKind::check_failed);
 }
 
 }  // namespace hamjet::cli

@@ -15,6 +15,7 @@ struct EvalOptions {
   std::optional<int> degree;               ///< truncates the jet
   std::optional<std::string> output;       ///< CSV file; absent: standard output
   bool json = false;
+  bool strict = false;  ///< a row that is not inside makes the exit code 1
   bool quiet = false;
 };
 

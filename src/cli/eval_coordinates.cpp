@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "../io/relative_frame_text.hpp"
 #include "../io/scene_message.hpp"
 #include "hamjet/error.hpp"
 #include "refusal.hpp"
@@ -65,6 +66,7 @@ EvalCoordinates::EvalCoordinates(const io::StoredJet& stored, const std::string&
   initial_columns_ = final_columns_ = frame == "RTN" ? rtn_columns : inertial_columns;
   const MetricUnits units{stored.units.length_km * 1000, stored.units.time_s};
   const RelativeFrame axes = relative_frame(frame, derivatives);
+  text_ = io::frame_text(axes);
   initial_.emplace(stored.nominal_initial, units, axes);
   final_.emplace(stored.nominal_final, units, axes);
 }

@@ -20,6 +20,8 @@ class EvalCoordinates {
   EvalCoordinates(const io::StoredJet& stored, const std::string& frame,
                   const std::optional<std::string>& derivatives);
 
+  /// The frame in words, with the derivatives.
+  const std::string& text() const { return text_; }
   /// Names of the columns of a deviation, and of a final state.
   const std::vector<std::string_view>& initial_columns() const { return initial_columns_; }
   const std::vector<std::string_view>& final_columns() const { return final_columns_; }
@@ -34,6 +36,7 @@ class EvalCoordinates {
   const io::StoredJet& stored_;
   std::vector<std::string_view> initial_columns_;
   std::vector<std::string_view> final_columns_;
+  std::string text_ = "canonical";
   std::optional<ChiefFrame> initial_;  ///< absent: canonical
   std::optional<ChiefFrame> final_;
 };

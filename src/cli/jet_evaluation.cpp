@@ -4,6 +4,8 @@
 #include <chrono>
 #include <cmath>
 
+#include "hamjet/maps/evaluation_error.hpp"
+
 namespace hamjet::cli {
 namespace {
 
@@ -21,12 +23,19 @@ std::vector<Series<double>> deviation_map(const FlowJet<Extended>& jet) {
 }  // namespace
 
 JetEvaluation::JetEvaluation(const io::StoredJet& stored, std::optional<int> degree)
-    : evaluator_(deviation_map(stored.jet), degree),
+    : JetEvaluation(stored, deviation_map(stored.jet), degree.value_or(stored.order())) {}
+
+JetEvaluation::JetEvaluation(const io::StoredJet& stored, const std::vector<Series<double>>& map,
+                             int degree)
+    : evaluator_(map, degree),
+      error_(evaluation_error(map, degree, stored.error_by_degree), degree),
       positions_(static_cast<std::size_t>(std::lower_bound(stored.components.begin(),
                                                            stored.components.end(),
                                                            stored.nominal_initial.size() / 2) -
                                           stored.components.begin())),
-      length_m_(stored.units.length_km * 1000) {}
+      length_m_(stored.units.length_km * 1000) {
+  if (degree < stored.order()) next_.emplace(map, degree + 1);
+}
 
 void JetEvaluation::add(const std::vector<double>& variables) { pending_.push_back(variables); }
 
@@ -36,8 +45,10 @@ DegreeShares JetEvaluation::shares(std::size_t point) const {
   double squares[3] = {0, 0, 0};
   for (std::size_t c = 0; c < evaluator_.components(); ++c) {
     const std::size_t place = c * count + point;
-    const double shares[3] = {values_[place] - last_[place] - last_but_one_[place],
-                              last_but_one_[place], last_[place]};
+    // With the next degree at hand, all that was evaluated but its last degree is lower.
+    const double lower = next_ ? values_[place] - last_but_one_[place]
+                               : values_[place] - last_[place] - last_but_one_[place];
+    const double shares[3] = {lower, last_but_one_[place], last_[place]};
     for (std::size_t i = 0; i < 3; ++i) squares[i] += shares[i] * shares[i];
     if (c + 1 == positions_) {
       result.lower.position = std::sqrt(squares[0]) * length_m_;
@@ -51,8 +62,20 @@ DegreeShares JetEvaluation::shares(std::size_t point) const {
   return result;
 }
 
+MissEstimate JetEvaluation::estimate(std::size_t point) const {
+  const DegreeShares parts = shares(point);
+  const TruncationEstimate truncation =
+      estimate_truncation(evaluator_.degree() + (next_ ? 1 : 0), parts);
+  double square = 0;
+  for (std::size_t c = 0; c < positions_; ++c) {
+    square += std::pow(errors_[c * pending_.size() + point], 2);
+  }
+  return {truncation.support, truncation.miss + (next_ ? parts.last.position : 0),
+          std::sqrt(square) * length_m_};
+}
+
 void JetEvaluation::run(
-    const std::function<void(const std::vector<double>&, const TruncationEstimate&)>& take) {
+    const std::function<void(const std::vector<double>&, const MissEstimate&)>& take) {
   const std::size_t count = pending_.size();
   variables_.resize(evaluator_.variables() * count);
   for (std::size_t j = 0; j < count; ++j) {
@@ -60,17 +83,26 @@ void JetEvaluation::run(
       variables_[i * count + j] = pending_[j][i];
     }
   }
-  for (auto* results : {&values_, &last_, &last_but_one_}) {
+  for (auto* results : {&values_, &last_, &last_but_one_, &errors_}) {
     results->resize(evaluator_.components() * count);
   }
   const auto start = std::chrono::steady_clock::now();
-  evaluator_.evaluate(variables_, {values_, last_, last_but_one_});
+  if (next_) {
+    evaluator_.evaluate(variables_, {values_, {}, {}});
+  } else {
+    evaluator_.evaluate(variables_, {values_, last_, last_but_one_});
+  }
   seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   points_ += count;
+  if (next_) next_->evaluate(variables_, {{}, last_, last_but_one_});
+  magnitudes_.resize(variables_.size());
+  std::transform(variables_.begin(), variables_.end(), magnitudes_.begin(),
+                 [](double x) { return std::abs(x); });
+  error_.evaluate(magnitudes_, {errors_, {}, {}});
   std::vector<double> deviation(evaluator_.components());
   for (std::size_t j = 0; j < count; ++j) {
     for (std::size_t c = 0; c < deviation.size(); ++c) deviation[c] = values_[c * count + j];
-    take(deviation, estimate_truncation(evaluator_.degree(), shares(j)));
+    take(deviation, estimate(j));
   }
   pending_.clear();
 }

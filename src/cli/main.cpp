@@ -115,6 +115,9 @@ CLI::App* add_eval_command(CLI::App& app, hamjet::cli::EvalOptions& options) {
                    "CSV file of the final states with estimates of the miss (default: standard "
                    "output)")
       ->type_name("FILE");
+  eval->add_flag(
+      "--strict", options.strict,
+      "exit code 1 if a row is marked outside or unknown: beyond the polynomial's reach");
   eval->add_flag("--json", options.json,
                  "print statistics and, of up to 100 deviations, the final states as JSON");
   eval->add_flag("-q,--quiet", options.quiet, "no time and counts on standard error");

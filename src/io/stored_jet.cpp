@@ -85,6 +85,16 @@ JsonReader choose_run(const JsonReader& root, const std::optional<std::string>& 
                                             suggestion(*label, {labels.begin(), labels.end()})));
 }
 
+/// As measured against a reference, else as estimated without one.
+std::vector<double> coefficient_errors(const JsonReader& run) {
+  for (const char* key : {"error_by_degree", "error_estimate_by_degree"}) {
+    if (!run.has(key) || run.at(key).is_null()) continue;
+    return run.at(key).list(
+        [](const JsonReader& entry) { return finite_number(entry.at("relative")); });
+  }
+  return {};
+}
+
 void require_this_version(const JsonReader& root) {
   if (root.has("study")) root.at("study").fail("the results of this study have no flow jet");
   const std::string stored = root.at("version").text();
@@ -161,6 +171,7 @@ StoredJet read_stored_jet(const std::filesystem::path& directory,
   const JsonReader run = choose_run(root, label);
   stored.label = run.at("label").text();
   stored.nominal_final = state(run.at("nominal_final"), {names.size()});
+  stored.error_by_degree = coefficient_errors(run);
   const std::filesystem::path file =
       source.file.empty() ? directory / stored.label / "jet.csv" : source.file;
   stored.jet = source.read(

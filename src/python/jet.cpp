@@ -119,6 +119,7 @@ Jet Jet::composed_with(const Jet& after) const {
   result.duration = stored_.duration + second.duration;
   result.nominal_final = second.nominal_final;
   result.components = second.components;
+  result.error_by_degree.clear();
   const SpacePointer space =
       SeriesSpace::create(stored_.variables.size(), std::min(stored_.order(), second.order()));
   result.jet = in_precision(result.precision, [&]<class T>(T) {
@@ -138,6 +139,7 @@ Jet Jet::inverse() const {
   io::StoredJet result = stored_;
   result.duration = -stored_.duration;
   std::swap(result.nominal_initial, result.nominal_final);
+  result.error_by_degree.clear();
   result.jet = in_precision(stored_.precision, [&]<class T>(T) {
     const auto map = without_constants(convert_map<T>(stored_.jet));
     return hamjet::inverse(std::span<const Series<T>>(map));
@@ -165,6 +167,7 @@ Jet jet_of(const PropagationResult& result, const RunResult& run) {
   stored.components = result.problem.components;
   stored.variables = result.scene.variables;
   stored.ephemeris = result.scene.ephemeris;
+  stored.error_by_degree = run.error_by_degree.value_or(std::vector<double>());
   stored.jet = run.jet;
   return Jet(std::move(stored));
 }

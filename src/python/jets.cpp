@@ -1,12 +1,16 @@
+#include <fmt/format.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "arithmetic_scope.hpp"
 #include "bindings.hpp"
 #include "by_degree.hpp"
 #include "evaluation.hpp"
+#include "hamjet/error.hpp"
+#include "hamjet/maps/truncation_estimate.hpp"
 #include "interruptible.hpp"
 #include "inverted_jet.hpp"
 #include "jet.hpp"
@@ -49,7 +53,8 @@ constexpr const char* evaluate_relative_doc =
 states: (N, 6) or (6,), the deputy relative to the chief at the start: position in m and velocity in
 m/s along the axes of the frame. frame: "RTN" (radial, transverse, normal of the chief) or
 "inertial". derivatives: of RTN, "rotating" (default: velocities as seen from the turning axes) or
-"inertial". degree: leaves out the terms above it.
+"inertial". degree: leaves out the terms above it. strict: raises NumericalError if a row is not
+inside the polynomial's reach; otherwise such rows give a RuntimeWarning.
 
 Returns a RelativeStates: the states at the end of the duration, (N, 6), with an estimate of the
 miss of each. The conversions make it several times slower than evaluate. Raises UsageError.)";
@@ -106,11 +111,23 @@ py::object evaluate(const Jet& jet, const py::object& deviations, const py::obje
   return evaluate_array(jet.deviation_to(*degree), deviations, out, "deviations");
 }
 
+void warn_if_not_inside(const std::vector<unsigned char>& support, bool is_strict) {
+  const auto inside = static_cast<unsigned char>(TruncationEstimate::Support::inside);
+  const auto count = std::count_if(support.begin(), support.end(),
+                                   [&](unsigned char mark) { return mark != inside; });
+  if (count == 0) return;
+  const std::string text = fmt::format(
+      "evaluate_relative: {} of {} rows are not inside the polynomial's reach; see their support",
+      count, support.size());
+  if (is_strict) throw Error(ErrorKind::numerical, text);
+  if (PyErr_WarnEx(PyExc_RuntimeWarning, text.c_str(), 1) != 0) throw py::error_already_set();
+}
+
 /// A RelativeStates, which the package defines.
 py::object evaluate_relative_states(const Jet& jet, const py::object& states,
                                     const std::string& frame,
                                     const std::optional<std::string>& derivatives,
-                                    std::optional<int> degree) {
+                                    std::optional<int> degree, bool is_strict) {
   constexpr std::size_t columns = 6;
   const py::array_t<double> rows = rows_of(states, columns, "states");
   const bool is_one = rows.ndim() == 1;
@@ -126,6 +143,7 @@ py::object evaluate_relative_states(const Jet& jet, const py::object& states,
     evaluate_relative(jet, {frame, derivatives, degree}, data, count,
                       {results.data(), miss.data(), support.data()}, [&] { check(); });
   }
+  warn_if_not_inside(support, is_strict);
   return py::module_::import("hamjet.relative_states")
       .attr("_relative_states")(array_of(std::move(results), {size_of(count), size_of(columns)}),
                                 array_of(std::move(miss)), array_of(std::move(support)));
@@ -242,7 +260,7 @@ void bind_jets(py::module_& module) {
           py::arg("deviations"), "evaluate(deviations).")
       .def("evaluate_relative", &evaluate_relative_states, py::arg("states"), py::kw_only(),
            py::arg("frame") = "RTN", py::arg("derivatives") = py::none(),
-           py::arg("degree") = py::none(), evaluate_relative_doc)
+           py::arg("degree") = py::none(), py::arg("strict") = false, evaluate_relative_doc)
       .def(
           "compose",
           [](const JetPointer& self, const JetPointer& after) {

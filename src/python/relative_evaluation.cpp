@@ -34,12 +34,11 @@ void evaluate_relative(const Jet& jet, const RelativeCoordinates& coordinates, c
     }
     evaluation.add(*variables);
     if (evaluation.pending() < cli::JetEvaluation::most_points && row + 1 < count) continue;
-    evaluation.run([&](const std::vector<double>& deviation, const TruncationEstimate& estimate) {
+    evaluation.run([&](const std::vector<double>& deviation, const cli::MissEstimate& estimate) {
       const auto state = frame.final_state(deviation);
       std::copy(state.begin(), state.end(), results.states + done * columns);
-      results.miss_m[done] = estimate.support == TruncationEstimate::Support::inside
-                                 ? estimate.miss
-                                 : std::numeric_limits<double>::quiet_NaN();
+      results.miss_m[done] =
+          estimate.is_inside() ? estimate.miss_m() : std::numeric_limits<double>::quiet_NaN();
       results.support[done] = static_cast<unsigned char>(estimate.support);
       ++done;
     });

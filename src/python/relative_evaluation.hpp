@@ -24,7 +24,7 @@ struct RelativeResults {
 };
 
 /// What `hamjet eval` does: relative states at the start, rows of 6 numbers, to the end of the
-/// jet's duration, with what the degrees that the jet lacks would add. Throws Error(usage) if the
+/// jet's duration, with an estimate of the miss. Throws Error(usage) if the
 /// coordinates do not fit the jet or a row leaves the variables it is expanded in. `pause` is
 /// called now and then and may throw.
 void evaluate_relative(const Jet& jet, const RelativeCoordinates& coordinates, const double* states,

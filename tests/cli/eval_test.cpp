@@ -1,3 +1,6 @@
+#include <fmt/format.h>
+
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -92,6 +95,76 @@ TEST_F(Eval, EstimateOfTheMissIsNearTheNextTerm) {
   EXPECT_EQ(json["largest_miss_estimate_m"], estimate);
 }
 
+// Expected: the jet of degree K is the beginning of that of order 5, so that its miss is what the
+// degrees above it add, in closed form.
+TEST_F(Eval, TheDegreesThatAreLeftOutTellTheMiss) {
+  store("circular", circular_scene);
+  const std::vector<std::string> deviation = {"circular", "--frame", "canonical", "--deviation",
+                                              "0,0,0,0,1e-3,0"};
+  const Json whole = eval_json(deviation)["rows"][0];
+  for (int degree = 1; degree < 5; ++degree) {
+    std::vector<std::string> arguments = deviation;
+    arguments.insert(arguments.end(), {"--degree", std::to_string(degree)});
+    const Json row = eval_json(arguments)["rows"][0];
+    const double miss_m = std::hypot(row["x"].get<double>() - whole["x"].get<double>(),
+                                     row["y"].get<double>() - whole["y"].get<double>()) *
+                          length_m;
+    EXPECT_GT(row["miss_estimate_m"].get<double>(), 0.8 * miss_m) << degree;
+    EXPECT_LT(row["miss_estimate_m"].get<double>(), 4 * miss_m) << degree;
+  }
+}
+
+/// Where a deputy of the circular orbit ends relative to its chief, in the plane, canonical: from
+/// Lagrange's f and g and Kepler's equation for the difference of the eccentric anomalies, in
+/// extended precision.
+std::array<double, 2> keplers_end(const std::array<double, 4>& deviation) {
+  const Extended time = 6.283185307179586;  // the duration of the scene
+  const Extended x = 1 + Extended(deviation[0]);
+  const Extended y = deviation[1];
+  const Extended u = deviation[2];
+  const Extended v = 1 + Extended(deviation[3]);
+  const Extended r = sqrt(x * x + y * y);
+  const Extended a = 1 / (2 / r - u * u - v * v);
+  const Extended mean = time / (a * sqrt(a));
+  const Extended e_cos = 1 - r / a;
+  const Extended e_sin = (x * u + y * v) / sqrt(a);
+  Extended anomaly = mean;
+  for (int k = 0; k < 12; ++k) {
+    anomaly -= (anomaly - e_cos * sin(anomaly) + e_sin * (1 - cos(anomaly)) - mean) /
+               (1 - e_cos * cos(anomaly) + e_sin * sin(anomaly));
+  }
+  const Extended f = 1 - a / r * (1 - cos(anomaly));
+  const Extended g = time - a * sqrt(a) * (anomaly - sin(anomaly));
+  return {static_cast<double>(Extended(f * x + g * u - cos(time))),
+          static_cast<double>(Extended(f * y + g * v - sin(time)))};
+}
+
+// Some hundred metres, where truncation is far below rounding.
+TEST_F(Eval, TheEstimateHoldsRoundingToo) {
+  store("circular", circular_scene, {"--set", "reference.tolerance=1e-24"});
+  const io::StoredJet jet = io::read_stored_jet(directory_ / "circular");
+  ASSERT_EQ(jet.error_by_degree.size(), 6U);
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  int beyond = 0;
+  constexpr int deputies = 40;
+  for (int k = 0; k < deputies; ++k) {
+    std::array<double, 4> d{};
+    for (double& x : d) x = std::ldexp(std::round(std::ldexp(uniform(random), 20)), -36);
+    const auto exact = keplers_end(d);
+    const Json row = eval_json({"circular", "--frame", "canonical", "--deviation",
+                                fmt::format("{},{},0,{},{},0", d[0], d[1], d[2], d[3])})["rows"][0];
+    const double miss_m =
+        std::hypot(row["x"].get<double>() - exact[0], row["y"].get<double>() - exact[1]) * length_m;
+    const double estimate = row["miss_estimate_m"];
+    EXPECT_LT(row["truncation_m"].get<double>(), 0.1 * estimate);
+    beyond += miss_m > estimate ? 1 : 0;
+    EXPECT_LT(miss_m, 10 * estimate);
+    EXPECT_LT(estimate, 1e-8);
+  }
+  EXPECT_LE(beyond, deputies / 20);
+}
+
 TEST_F(Eval, NoTimeChangesNothing) {
   store("still", circular_scene, {"--set", "jet.duration_canonical=0"});
   for (const std::vector<std::string>& frame : std::vector<std::vector<std::string>>{
@@ -184,7 +257,8 @@ TEST_F(Eval, SaysWhatTheEvaluationTook) {
   const CommandResult result = hamjet({"eval", "kepler", "--deviation", "1,2,3,0,0,0"});
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_EQ(result.out.rfind(rtn_header + ",miss_estimate_m,support\n", 0), 0U);
-  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1);
+  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 2);
+  EXPECT_NE(result.err.find("hamjet: frame RTN with rotating derivatives; "), std::string::npos);
   // 27 monomials of degree 1 and 2 in 6 variables, 6 components.
   for (const char* word : {"hamjet: points 1, evaluation alone ", " ns a point",
                            "162 multiply-adds a point", "multiply-adds a second"}) {
@@ -220,11 +294,20 @@ TEST_F(Eval, MarksWhatTheSeriesDoesNotSupport) {
   write("start.csv", rtn_header + "\n10,0,0,0,0,0\n0,0,0,0,3500,0\n1e80,0,0,0,0,0\n");
   const CommandResult result = hamjet({"eval", "circular", "--deviations", "start.csv"});
   EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(hamjet({"eval", "circular", "--deviations", "start.csv", "--strict"}).exit_code, 1);
+  EXPECT_EQ(hamjet({"eval", "circular", "--deviation", "10,0,0,0,0,0", "--strict"}).exit_code, 0);
   write("end.csv", result.out);
   const Table table = read_table(directory_ / "end.csv");
   EXPECT_EQ(table.rows[0][7], "inside");
   EXPECT_EQ(table.rows[1][7], "outside");
   EXPECT_EQ(table.rows[1][6], "");
+  // A size, one digit, is all that is meant there.
+  for (std::size_t i = 0; i < 6; ++i) {
+    const std::string digits = table.rows[1][i].substr(0, table.rows[1][i].find('e'));
+    EXPECT_LE(
+        std::count_if(digits.begin(), digits.end(), [](char c) { return c >= '1' && c <= '9'; }), 1)
+        << table.rows[1][i];
+  }
   EXPECT_EQ(table.rows[2][7], "unknown");
   EXPECT_NE(result.err.find("\nhamjet: 1 of 3 rows marked outside"), std::string::npos);
   EXPECT_NE(result.err.find("\nhamjet: 1 of 3 rows marked unknown"), std::string::npos);
@@ -232,8 +315,10 @@ TEST_F(Eval, MarksWhatTheSeriesDoesNotSupport) {
   EXPECT_EQ(json["outside"], 1);
   EXPECT_EQ(json["unknown"], 1);
   EXPECT_TRUE(json["rows"][1]["miss_estimate_m"].is_null());
-  // One degree has no decay.
-  EXPECT_EQ(eval_json({"circular", "--deviations", "start.csv", "--degree", "1"})["unknown"], 3);
+  // One degree has no decay; of a jet of higher order the next degree is known.
+  store("linear", circular_scene, {"--set", "jet.order=1"});
+  EXPECT_EQ(eval_json({"linear", "--deviations", "start.csv"})["unknown"], 3);
+  EXPECT_EQ(eval_json({"circular", "--deviations", "start.csv", "--degree", "1"})["unknown"], 1);
 }
 
 TEST_F(Eval, APlaneTakesDeviationsInItAlone) {

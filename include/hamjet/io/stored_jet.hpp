@@ -32,6 +32,10 @@ struct StoredJet {
   /// Date and frame of the nominal, where the scene names them: epoch, time system, reference frame
   /// with its epoch, and centre; the rest is not stored.
   std::optional<EphemerisSettings> ephemeris = {};
+  /// Errors of the coefficients by degree, relative to the largest of the degree, where the run has
+  /// measured or estimated them (see relative_error_by_degree) and the format keeps them; else
+  /// empty.
+  std::vector<double> error_by_degree = {};
   /// One series a component. The printed digits bring back the numbers of the run bit by bit; in
   /// double precision they are doubles.
   FlowJet<Extended> jet;

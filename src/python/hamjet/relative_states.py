@@ -13,11 +13,13 @@ class RelativeStates(NamedTuple):
 
     #: (N, 6) float64: positions in m, velocities in m/s, along the axes of the frame.
     states: npt.NDArray[np.float64]
-    #: (N,) float64: what the degrees that the jet lacks would add to the position, in m; an
-    #: estimate from the decay of its degrees and no bound; NaN where ``support`` is not "inside".
+    #: (N,) float64: by how much the position may be wrong, in m: what the missing degrees would add,
+    #: rounding of coefficients and evaluation, and the errors of the coefficients where the run has
+    #: a reference. An estimate and no bound; NaN where ``support`` is not "inside".
     miss_m: npt.NDArray[np.float64]
-    #: (N,) str: "inside"; "outside", where the degrees do not decay and the states say nothing; or
-    #: "unknown", where there is but one degree to judge by, or a number is not finite.
+    #: (N,) str: "inside"; "outside", beyond the polynomial's reach, where the degrees do not
+    #: decay and the states say nothing; or "unknown", where there is but one degree to judge by, or
+    #: a number is not finite.
     support: npt.NDArray[np.str_]
 
 

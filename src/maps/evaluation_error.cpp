@@ -1,0 +1,58 @@
+#include "hamjet/maps/evaluation_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "hamjet/error.hpp"
+
+namespace hamjet {
+namespace {
+
+constexpr double half_ulp = 0.5 * std::numeric_limits<double>::epsilon();
+/// Of a deviation into canonical units and axes that turn, and of the result back: a quotient,
+/// three products with their sum and the rate of the axes, each way.
+constexpr double conversion_roundings = 10;
+
+/// The largest coefficient of a degree in any component.
+double largest_coefficient_of(std::span<const Series<double>> map, int degree) {
+  double largest = 0;
+  for (const Series<double>& component : map) {
+    const SeriesSpace& space = component.space();
+    for (std::size_t k = space.first(degree); k < space.first(degree + 1); ++k) {
+      largest = std::max(largest, std::abs(component[k]));
+    }
+  }
+  return largest;
+}
+
+}  // namespace
+
+std::vector<Series<double>> evaluation_error(std::span<const Series<double>> map, int degree,
+                                             std::span<const double> error_by_degree) {
+  if (map.empty() || degree < 1 || degree > map[0].order()) {
+    throw Error(ErrorKind::usage, "evaluation error: the degree must be 1 to the order of the map");
+  }
+  const SeriesSpace& space = map[0].space();
+  const double roundings =
+      1 + conversion_roundings +
+      std::sqrt(static_cast<double>(space.first(degree + 1)) + static_cast<double>(degree));
+  const auto error_of = [&](int d) {
+    const auto i = static_cast<std::size_t>(d);
+    return i < error_by_degree.size() ? error_by_degree[i] : 0;
+  };
+  std::vector<Series<double>> result;
+  for (const Series<double>& component : map) result.emplace_back(component.space_pointer());
+  for (int d = 1; d <= degree; ++d) {
+    const double common = error_of(d) * largest_coefficient_of(map, d);
+    const double relative = roundings * half_ulp + error_of(0);
+    for (std::size_t c = 0; c < map.size(); ++c) {
+      for (std::size_t k = space.first(d); k < space.first(d + 1); ++k) {
+        result[c][k] = relative * std::abs(map[c][k]) + common;
+      }
+    }
+  }
+  return result;
+}
+
+}  // namespace hamjet
