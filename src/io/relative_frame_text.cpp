@@ -25,6 +25,18 @@ std::string frame_text(RelativeFrame frame) {
   return text;
 }
 
+std::string_view velocities_text(RelativeFrame frame) {
+  switch (frame) {
+    case RelativeFrame::rtn_rotating:
+      return "as seen from the turning RTN axes";
+    case RelativeFrame::rtn_inertial:
+      return "as seen from axes that do not turn, along RTN";
+    case RelativeFrame::inertial:
+      break;
+  }
+  return "as seen from the inertial axes";
+}
+
 std::array<std::string_view, 3> axis_letters(RelativeFrame frame) {
   if (frame == RelativeFrame::inertial) return {"x", "y", "z"};
   return {"R", "T", "N"};

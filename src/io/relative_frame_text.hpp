@@ -16,6 +16,9 @@ std::string_view derivatives_name(RelativeFrame frame);
 /// "RTN with rotating derivatives", "RTN with inertial derivatives", "inertial".
 std::string frame_text(RelativeFrame frame);
 
+/// Which velocities a frame's are: "as seen from the turning RTN axes" and the like.
+std::string_view velocities_text(RelativeFrame frame);
+
 /// Letters of the three axes: R, T, N or x, y, z.
 std::array<std::string_view, 3> axis_letters(RelativeFrame frame);
 /// The same in names of columns: r, t, n or x, y, z.

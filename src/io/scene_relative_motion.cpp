@@ -122,8 +122,11 @@ std::vector<double> read_transfer_times(const TableReader& table, const Scene& s
   return times;
 }
 
-RelativeFrame read_relative_frame(const TableReader& table, const TableReader& fallback) {
-  const TableReader& of_frame = table.has("frame") || !fallback.has("frame") ? table : fallback;
+namespace {
+
+/// The tables that have the keys `frame` and `derivatives`.
+RelativeFrame read_frame(const TableReader& of_frame, const TableReader& of_derivatives,
+                         bool is_rtn_by_default) {
   if (of_frame.has("frame") && lower_case(of_frame.text("frame")) == "lvlh") {
     of_frame.fail("frame",
                   fmt::format("ambiguous, got {}, which means x radial outward and y along the "
@@ -133,8 +136,8 @@ RelativeFrame read_relative_frame(const TableReader& table, const TableReader& f
                               "turned: R = -z, T = x, N = -y",
                               in_quotes(of_frame.text("frame"))));
   }
-  const bool is_inertial = of_frame.choice("frame", {"RTN", "inertial"}) == 1;
-  const TableReader& of_derivatives = table.has("derivatives") ? table : fallback;
+  const bool is_named = of_frame.has("frame") || !is_rtn_by_default;
+  const bool is_inertial = is_named && of_frame.choice("frame", {"RTN", "inertial"}) == 1;
   if (!of_derivatives.has("derivatives")) {
     return is_inertial ? RelativeFrame::inertial : RelativeFrame::rtn_rotating;
   }
@@ -146,6 +149,17 @@ RelativeFrame read_relative_frame(const TableReader& table, const TableReader& f
                                     of_derivatives.found("derivatives")));
   }
   return are_inertial ? RelativeFrame::rtn_inertial : RelativeFrame::rtn_rotating;
+}
+
+}  // namespace
+
+RelativeFrame read_relative_frame(const TableReader& table, const TableReader& fallback) {
+  return read_frame(table.has("frame") || !fallback.has("frame") ? table : fallback,
+                    table.has("derivatives") ? table : fallback, false);
+}
+
+RelativeFrame read_relative_frame_or_rtn(const TableReader& table) {
+  return read_frame(table, table, true);
 }
 
 RelativeState read_relative_state(const TableReader& table, const Nominal& nominal) {

@@ -30,11 +30,12 @@ std::vector<double> read_semi_axes(const TableReader& validity) {
 ValiditySettings read_validity(const TableReader& validity, const Scene& scene,
                                const Nominal& nominal) {
   validity.check_keys({{"tolerance_m", "times_s", "times_orbits", "times_canonical", "count",
-                        "semi_axes", "samples"}});
+                        "semi_axes", "samples", "frame", "derivatives"}});
   require_relative_motion(validity, scene);
   ValiditySettings settings;
   if (validity.has("tolerance_m")) settings.tolerance_m = validity.positive_number("tolerance_m");
   settings.times = read_transfer_times(validity, scene, nominal, default_times);
+  settings.frame = read_relative_frame_or_rtn(validity);
   if (validity.has("semi_axes")) settings.semi_axes = read_semi_axes(validity);
   if (validity.has("samples")) {
     settings.samples =

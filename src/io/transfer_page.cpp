@@ -105,9 +105,12 @@ std::string validity_sections_html(const ValidityResult& result, ChartDrawer& dr
   }
   return fitted_section(validity_order_chart(result), drawer) +
          table_html(
-             "The largest separation at which each order is right to the tolerance, as "
-             "predicted from the decay of the degrees and as proved by flying, and the "
-             "worst miss of the sampled deputies at the proved one.",
+             fmt::format(
+                 "The largest separation at which each order is right to the tolerance, as "
+                 "predicted from the decay of the degrees and as proved by flying, and the "
+                 "worst miss of the sampled deputies at the proved one. Positions fill the "
+                 "ellipsoid of that separation, velocities, {}, the same times the mean motion.",
+                 velocities_text(result.scene.validity->frame)),
              "<tr>" + header_cells({"time (s)", "order", "predicted", "proved", "worst miss"}) +
                  "</tr>",
              rows);
@@ -122,6 +125,7 @@ std::string validity_page(const ValidityResult& result, const ReportOrigin& orig
   fit(first);
   page.first_figure = figure_html(first, drawer);
   page.facts = origin_facts_html(origin) + fact_html("Scene", scene_text(result.scene)) +
+               fact_html("Frame", frame_text(result.scene.validity->frame)) +
                fact_html("Tolerance", length_text(result.scene.validity->tolerance_m)) +
                fact_html("Flights", std::to_string(result.flights)) +
                fact_html("Flight floor", length_text(result.flight_floor_m)) +

@@ -5,6 +5,7 @@
 #include "display_text.hpp"
 #include "hamjet/io/relative_motion_report.hpp"
 #include "json_values.hpp"
+#include "relative_frame_text.hpp"
 #include "transfer_json.hpp"
 #include "transfer_page.hpp"
 #include "validity_json.hpp"
@@ -17,7 +18,8 @@ using Json = nlohmann::ordered_json;
 
 std::string terminal_table(const ValidityResult& result) {
   std::string text =
-      fmt::format("{}\n{}\n  {:>12}", result.scene.title, validity_verdict(result), "time (s)");
+      fmt::format("{}\n{}\nframe {}\n  {:>12}", result.scene.title, validity_verdict(result),
+                  frame_text(result.scene.validity->frame), "time (s)");
   for (int order = 1; order <= result.scene.order; ++order) {
     text += fmt::format("  {:>10}", fmt::format("order {}", order));
   }
@@ -58,6 +60,9 @@ Json validity_json(const ValidityResult& result) {
   }
   return {
       {"tolerance_m", settings.tolerance_m},
+      {"frame", frame_name(settings.frame)},
+      {"derivatives", text_or_null(std::string(derivatives_name(settings.frame)))},
+      {"axes", axis_letters(settings.frame)},
       {"semi_axes", settings.semi_axes},
       {"samples", settings.samples},
       {"verdict", validity_verdict(result)},
@@ -75,13 +80,16 @@ Json validity_report_json(const ValidityResult& result) {
 }
 
 std::string validity_csv(const ValidityResult& result) {
-  std::string text = "time_canonical,time_s,order,predicted_m,proved_m,miss_m,at_limit\n";
+  const RelativeFrame frame = result.scene.validity->frame;
+  std::string text =
+      "time_canonical,time_s,order,predicted_m,proved_m,miss_m,at_limit,frame,derivatives\n";
   for (const ValidityPoint& point : result.points) {
     for (const ValidityEntry& entry : point.entries) {
-      text += fmt::format("{},{},{},{},{},{},{}\n", csv_number(point.time),
+      text += fmt::format("{},{},{},{},{},{},{},{},{}\n", csv_number(point.time),
                           csv_number(point.time * result.scene.units.time_s), entry.order,
                           csv_number(entry.predicted_m), csv_number(entry.proved_m),
-                          csv_number(entry.miss_m), entry.is_at_limit);
+                          csv_number(entry.miss_m), entry.is_at_limit, frame_name(frame),
+                          derivatives_name(frame));
     }
   }
   return text;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "display_text.hpp"
+#include "relative_frame_text.hpp"
 #include "transfer_view.hpp"
 
 namespace hamjet::io {
@@ -20,7 +21,8 @@ std::string validity_verdict(const ValidityResult& result) {
     text += fmt::format("{}{} in order {}", entry.is_at_limit ? "at least " : "",
                         length_text(entry.proved_m), entry.order);
   }
-  return text + ", proved by flying.";
+  return text + fmt::format(", proved by flying deputies with velocities {}.",
+                            velocities_text(result.scene.validity->frame));
 }
 
 }  // namespace hamjet::io

@@ -55,8 +55,9 @@ class ValidityStudy {
   /// velocity.
   void make_samples() {
     // Columns: the canonical deviations of unit coordinates, three of position and three of
-    // velocity, each triple of length 1 on the surface of the ellipsoid.
-    const ChiefFrame frame(problem_.nominal, MetricUnits{}, RelativeFrame::rtn_inertial);
+    // velocity, each triple of length 1 on the surface of the ellipsoid. In a rotating frame those
+    // of position have a velocity too.
+    const ChiefFrame frame(problem_.nominal, MetricUnits{}, settings_.frame);
     const double velocity = momentum_per_length(scene_);
     for (std::size_t i = 0; i < 6; ++i) {
       RelativeState state;

@@ -250,6 +250,11 @@ TEST(SceneValidity, EveryKey) {
   EXPECT_EQ(defaults.times[2], 2);
   EXPECT_EQ(defaults.semi_axes, (std::vector<double>{1, 1, 1}));
   EXPECT_EQ(defaults.samples, 40);
+  EXPECT_EQ(defaults.frame, RelativeFrame::rtn_rotating);  // as of [transfer] and hamjet eval
+  EXPECT_EQ(scene_of("[validity]\nderivatives = \"inertial\"\n").validity->frame,
+            RelativeFrame::rtn_inertial);
+  EXPECT_EQ(scene_of("[validity]\nframe = \"inertial\"\n").validity->frame,
+            RelativeFrame::inertial);
   const ValiditySettings given = *scene_of(
                                       "[validity]\ntolerance_m = 2\ntimes_s = 8\n"
                                       "semi_axes = [1, 4, 2]\nsamples = 10\n")
@@ -269,6 +274,8 @@ TEST(SceneValidity, Errors) {
        {"tolerance_m = 1", "times_s = 1\ncount = 1", {"more than one key"}},
        {"[1, 1, 1]", "[1, 0, 1]", {"validity.semi_axes.1: not positive, got 0"}},
        {"[1, 1, 1]", "[1, 1]", {"semi_axes: wrong length"}},
+       {"samples = 40", "frame = \"LVLH\"", {"validity.frame: ambiguous"}},
+       {"samples = 40", "derivatives = \"none\"", {"validity.derivatives", "rotating"}},
        {"samples = 40", "samples = 9", {"samples: out of range", "from 10 to 10000"}}});
 }
 

@@ -19,7 +19,9 @@ struct TransferSettings {
   /// F1..F4, letters, or auto: the one whose polynomials decay fastest, with hysteresis.
   std::string kind = "auto";
   double tolerance_m = 1;  ///< a larger miss of the highest order is marked
-  bool refine = false;     ///< correct by flying until the miss is below `refined_miss_m`
+  /// Correct all answers by flying until the miss is below `refined_miss_m`; those beyond the
+  /// tolerance, away from singularities, are corrected in any case.
+  bool refine = false;
   double refined_miss_m = 1e-3;
   /// Answers nearer than this to a time at which positions cannot be commanded are marked;
   /// canonical.
@@ -31,10 +33,11 @@ struct TransferSettings {
 struct ValiditySettings {
   double tolerance_m = 1;
   std::vector<double> times;  ///< canonical, moving away from 0; none is 0
-  /// Semi-axes of the ellipsoid of positions relative to its largest, along R, T, N; the velocities
-  /// fill the same ellipsoid times the mean motion.
+  /// Semi-axes of the ellipsoid of positions relative to its largest, along the axes of the frame;
+  /// the velocities, of the frame's kind, fill the same ellipsoid times the mean motion.
   std::vector<double> semi_axes = {1, 1, 1};
   int samples = 40;  ///< deputies that are flown
+  RelativeFrame frame = RelativeFrame::rtn_rotating;
 };
 
 /// How the transfer times of an assignment are chosen.

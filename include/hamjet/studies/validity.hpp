@@ -34,12 +34,13 @@ struct ValidityResult {
   double proof_seconds = 0;
 };
 
-/// The study of table `[validity]`: deviations fill an ellipsoid in position along the chief's RTN
-/// axes, of largest semi-axis the separation, and the same ellipsoid times the mean motion in
-/// velocity; the samples are random ones and, for each order, those at which its error is largest
-/// by the next degree's part (found by gradient ascent from the largest samples). The miss is the
-/// distance between the final position that the jet's polynomial gives
-/// and that of the flown deputy. The prediction takes the error of order k for the part of degree k
+/// The study of table `[validity]`: deviations fill an ellipsoid in position along the axes of the
+/// scene's frame, of largest semi-axis the separation, and the same ellipsoid times the mean motion
+/// in the velocity of that frame (as seen from the turning axes, by default); the samples are
+/// random ones and, for each order, those at which its error is largest by the next degree's part
+/// (found by gradient ascent from the largest samples). The miss is the distance between the final
+/// position that the jet's polynomial gives and that of the flown deputy. The prediction takes the
+/// error of order k for the part of degree k
 /// + 1, whose largest value over the samples grows as the separation to the power k + 1; that of
 /// the highest order is extrapolated from the ratio of the last two. Throws as study_transfer.
 ValidityResult study_validity(const Scene& scene, const ProgressCallback& progress = {});
