@@ -16,14 +16,25 @@ Chart along_time_chart(const Scene& scene, const std::vector<RunAlongTime>& runs
   chart.x.label = time_label(scene.system.model, scene.units);
   chart.x.includes = {0, scene.duration};
   chart.y = logarithmic_axis(std::move(label));
-  chart.y.smallest = 1e-18;  // far below the rounding of double
+  chart.y.smallest = 0.01 * rounding_of(scene.precision);
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const RunAlongTime& run = runs[i];
     ChartCurve curve;
     curve.title = run.label;
     curve.style = i;
-    curve.marker_interval = std::max(1, static_cast<int>(run.points.size() / 12));
+    // As long as they can be told apart every point that was computed has its marker.
+    constexpr std::size_t most_markers = 60;
+    if (run.points.size() > most_markers) {
+      curve.marker_interval = static_cast<int>(run.points.size() / 12);
+    }
+    auto singular = run.singular_times.begin();
     for (const RunAlongTime::Point& point : run.points) {
+      // Where the kind does not exist in between, a line from point to point would be no curve.
+      const auto next = std::find_if(singular, run.singular_times.end(), [&](double time) {
+        return std::abs(time) > std::abs(point.time);
+      });
+      if (has_ticks && next != singular) curve.gaps.push_back(curve.points.size());
+      singular = next;
       if (const std::optional<double> value = measure(point)) {
         curve.points.emplace_back(point.time, *value);
       } else {
@@ -33,6 +44,11 @@ Chart along_time_chart(const Scene& scene, const std::vector<RunAlongTime>& runs
     if (has_ticks) curve.ticks = run.singular_times;
     if (!run.failure.empty()) {
       chart.notes.push_back(fmt::format("{} stopped: {}.", run.label, run.failure));
+    }
+    if (has_ticks && !run.not_searched.empty()) {
+      chart.notes.push_back(
+          fmt::format("{}: the times at which the kind does not exist were not looked for: {}.",
+                      run.label, run.not_searched));
     }
     chart.curves.push_back(curve);
   }
@@ -69,9 +85,11 @@ Chart exactness_along_time_chart(const Scene& scene,
       "round-off, amplified where the kind comes near to a time at which it does not exist; a "
       "method that is not symplectic drifts upwards. A short stroke at the lower edge in the "
       "line's "
-      "colour marks each time at which the kind does not exist, where the determinant of its "
-      "linear part changes sign; a line is broken where the residual could not be computed. A low "
-      "line says that a map is exact, not that it is right.",
+      "colour marks each time at which the kind does not exist: those of the exact flow, found as "
+      "hamjet transfer finds them. Points are the ends of the integrator's steps; a line that "
+      "joins "
+      "them is broken at those times and where the residual could not be computed. A low line says "
+      "that a map is exact, not that it is right.",
       kind ? kind_text(*kind) : "");
   if (!kind) {
     chart.missing = no_generating_function;

@@ -75,7 +75,8 @@ Json along_time_json(const RunAlongTime& run) {
   return {{"label", run.label},
           {"failure", text_or_null(run.failure)},
           {"points", points},
-          {"singular_times_canonical", run.singular_times}};
+          {"singular_times_canonical", run.singular_times},
+          {"singular_times_not_searched", text_or_null(run.not_searched)}};
 }
 
 Json scene_json(const Scene& scene) {

@@ -65,6 +65,7 @@ RunAlongTime read_along_time(const JsonReader& value) {
                                point.at("condition").number(), point.at("energy_error").number()};
   });
   run.singular_times = value.at("singular_times_canonical").numbers();
+  run.not_searched = value.at("singular_times_not_searched").text_or_empty();
   return run;
 }
 

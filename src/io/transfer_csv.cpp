@@ -75,12 +75,14 @@ std::string transfers_csv(const TransferResult& result) {
 std::string singular_times_csv(const TransferResult& result) {
   const double unit = result.scene.units.time_s;
   std::string text =
-      "kind,time_canonical,time_s,smallest_ratio,second_ratio,directions_lost,direction_inertial_x,"
+      "kind,time_canonical,time_s,resolution_s,smallest_ratio,second_ratio,directions_lost,"
+      "direction_inertial_x,"
       "direction_inertial_y,direction_inertial_z,direction_r,direction_t,direction_n\n";
   for (const SingularTime& singular : result.singular_times) {
-    text += fmt::format("{},{},{},{},{},{}", singular.kind.name(), csv_number(singular.time),
-                        csv_number(singular.time * unit), csv_number(singular.smallest_ratio),
-                        csv_number(singular.second_ratio), singular.directions_lost());
+    text += fmt::format("{},{},{},{},{},{},{}", singular.kind.name(), csv_number(singular.time),
+                        csv_number(singular.time * unit), csv_number(singular.resolution * unit),
+                        csv_number(singular.smallest_ratio), csv_number(singular.second_ratio),
+                        singular.directions_lost);
     for (const double component : singular.direction) text += "," + csv_number(component);
     for (Eigen::Index i = 0; i < 3; ++i) {
       text += "," + (singular.direction_rtn ? csv_number((*singular.direction_rtn)[i]) : "");

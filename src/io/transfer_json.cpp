@@ -31,6 +31,7 @@ Json counts_json(const TransferCounts& counts) {
           {"beyond_tolerance_away_from_singularities", counts.beyond_tolerance_away},
           {"unanswered_away_from_singularities", counts.unanswered_away},
           {"refined", counts.refined},
+          {"beyond_tolerance_and_refined_away_from_singularities", counts.corrected_away},
           {"refinement_failed", counts.refinement_failed}};
 }
 
@@ -48,9 +49,10 @@ Json misses_json(const TransferResult& result) {
 Json singular_time_json(const SingularTime& singular, const CanonicalUnits& units) {
   return {{"time_canonical", singular.time},
           {"time_s", singular.time * units.time_s},
+          {"resolution_s", singular.resolution * units.time_s},
           {"smallest_ratio", json_number(singular.smallest_ratio)},
           {"second_ratio", json_number(singular.second_ratio)},
-          {"directions_lost", singular.directions_lost()},
+          {"directions_lost", singular.directions_lost},
           {"direction_inertial", vector_json(singular.direction)},
           {"direction_rtn",
            singular.direction_rtn ? vector_json(*singular.direction_rtn) : Json(nullptr)}};
@@ -123,6 +125,12 @@ Json transfer_summary_json(const TransferResult& result) {
   json["verdict"] = transfer_verdict(result);
   const auto best = result.best_point();
   json["best"] = best ? transfer_point_json(result.points[*best], scene.units) : Json(nullptr);
+  json["is_first_or_last_time"] =
+      best && result.points.size() > 1 && (*best == 0 || *best + 1 == result.points.size());
+  json["least_between_listed_times"] = result.least_between
+                                           ? transfer_point_json(*result.least_between, scene.units)
+                                           : Json(nullptr);
+  json["times_between_listed"] = result.times_between;
   json["counts"] = counts_json(count_points(result));
   json["misses_away_from_singularities"] = misses_json(result);
   json["position_singular_times"] = Json::array();
@@ -132,6 +140,7 @@ Json transfer_summary_json(const TransferResult& result) {
   json["flight_floor_m"] = json_number(result.flight_floor_m);
   json["chief_error_m"] = json_number(result.chief_error_m);
   json["largest_hamilton_jacobi_residual"] = json_number(largest_hamilton_jacobi_residual(result));
+  json["hamilton_jacobi_floor"] = json_number(result.hamilton_jacobi_floor);
   json["steps"] = result.statistics.steps;
   json["seconds"] = seconds_json(result.seconds);
   return json;

@@ -101,8 +101,7 @@ std::string singular_table_html(const TransferResult& result) {
     const auto text = [](const Eigen::Vector3d& direction) {
       return fmt::format("({:+.6f}, {:+.6f}, {:+.6f})", direction[0], direction[1], direction[2]);
     };
-    rows += "<tr>" +
-            row_name_cell(fmt::format("{:.10g}", singular.time * result.scene.units.time_s)) +
+    rows += "<tr>" + row_name_cell(singular_time_text(singular, result.scene.units.time_s, 6)) +
             cell(fmt::format("{:.12g}", singular.time)) +
             cell(singular.direction_rtn ? text(*singular.direction_rtn) : "no orbital plane") +
             cell(text(singular.direction)) + cell(fmt::format("{:.1e}", singular.smallest_ratio)) +
@@ -176,20 +175,19 @@ std::string seconds_table_html(const TransferResult& result) {
   row("the study, the sum of these", seconds.study());
   row("proof by flying, and refinement", seconds.proof);
   row("Hamilton-Jacobi residuals", seconds.residual);
-  const auto residual = largest_hamilton_jacobi_residual(result);
+  const std::string residual = hamilton_jacobi_text(result);
   return table_html("Wall-clock time on one core.",
                     "<tr>" + header_cells({"part", "time"}) + "</tr>", rows) +
          fmt::format(
              "<p>{}</p>\n<p>Floor of the flights: {}, the rounding of positions grown with the "
              "linear flow to the last time; misses below it say nothing. The jet's own chief is {} "
              "from the one that was flown then.</p>\n",
-             residual
-                 ? fmt::format("Largest scaled residual of the Hamilton-Jacobi equation over all "
-                               "answers: {:.1e}. It proves the signs, the inversion and that "
-                               "Hamiltonian and equations of motion agree, not the accuracy of the "
-                               "integration; the inversion's conditioning amplifies round-off in "
-                               "it.",
-                               *residual)
+             !residual.empty()
+                 ? fmt::format(
+                       "Residual of the Hamilton-Jacobi equation, relative to its terms: {}. "
+                       "It proves the signs, the inversion and that Hamiltonian and "
+                       "equations of motion agree, not the accuracy of the integration.",
+                       residual)
                  : std::string("The residual of the Hamilton-Jacobi equation was not computed."),
              length_text(result.flight_floor_m), length_text(result.chief_error_m));
 }

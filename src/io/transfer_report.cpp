@@ -32,7 +32,8 @@ std::string singular_line(const TransferResult& result) {
   if (times.empty()) return "  F1 singular      at no time of the span\n";
   std::string text = "  F1 singular      at";
   for (std::size_t i = 0; i < times.size() && i < most_shown; ++i) {
-    text += fmt::format("{} {:.8g}", i == 0 ? "" : ",", times[i].time * result.scene.units.time_s);
+    text += i == 0 ? " " : ", ";
+    text += singular_time_text(times[i], result.scene.units.time_s, 4);
   }
   text += times.size() > most_shown ? fmt::format(" and {} more", times.size() - most_shown) : "";
   return text + " s\n";
@@ -59,8 +60,8 @@ std::string terminal_table(const TransferResult& result) {
                         miss_text(entry.largest_m, result.flight_floor_m));
   }
   text += singular_line(result);
-  if (const auto residual = largest_hamilton_jacobi_residual(result)) {
-    text += fmt::format("  Hamilton-Jacobi  largest scaled residual {:.1e}\n", *residual);
+  if (const std::string residual = hamilton_jacobi_text(result); !residual.empty()) {
+    text += fmt::format("  Hamilton-Jacobi  residual {}\n", residual);
   }
   if (result.chief_error_m > settings.tolerance_m) {
     text += fmt::format(

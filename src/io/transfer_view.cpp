@@ -64,7 +64,9 @@ TransferCounts count_points(const TransferResult& result) {
     counts.answered += is_answered;
     counts.near_singular += point.is_near_singular;
     counts.beyond_tolerance += is_answered && point.is_beyond_tolerance;
-    counts.beyond_tolerance_away += is_answered && point.is_beyond_tolerance && is_away;
+    const bool is_beyond = is_answered && point.is_beyond_tolerance && is_away;
+    counts.beyond_tolerance_away += is_beyond;
+    counts.corrected_away += is_beyond && point.is_refined();
     counts.unanswered_away += !is_answered && is_away;
     counts.refined += point.is_refined();
     counts.refinement_failed += has_failed_refinement;
@@ -106,6 +108,17 @@ std::optional<std::size_t> costliest_point(const TransferResult& result) {
   return costliest;
 }
 
+std::string hamilton_jacobi_text(const TransferResult& result) {
+  const auto residual = largest_hamilton_jacobi_residual(result);
+  if (!residual) return "";
+  std::string text = fmt::format("{:.1e} at worst, at the transfers' own ends", *residual);
+  if (result.hamilton_jacobi_floor) {
+    text +=
+        fmt::format(" (an ulp in the coefficients makes {:.1e})", *result.hamilton_jacobi_floor);
+  }
+  return text;
+}
+
 std::optional<double> largest_hamilton_jacobi_residual(const TransferResult& result) {
   std::optional<double> largest;
   for (const TransferPoint& point : result.points) {
@@ -115,21 +128,66 @@ std::optional<double> largest_hamilton_jacobi_residual(const TransferResult& res
   return largest;
 }
 
+namespace {
+
+/// Whether the least is an end of the times searched, beyond which it may fall.
+std::string edge_text(const TransferResult& result, std::size_t best) {
+  const bool is_first = best == 0;
+  if (result.points.size() < 2 || (!is_first && best + 1 < result.points.size())) return "";
+  return fmt::format(
+      " That is the {} of the times searched: beyond it the change may fall further.",
+      is_first ? "first" : "last");
+}
+
+/// Which times the least is not over, and why.
+std::string left_out_text(const TransferResult& result) {
+  const TransferCounts counts = count_points(result);
+  std::vector<std::string> reasons;
+  const auto add = [&](std::size_t count, const std::string& reason) {
+    if (count > 0) reasons.push_back(fmt::format("{} {}", count, reason));
+  };
+  add(counts.near_singular, "nearer to a singularity than the margin");
+  add(counts.beyond_tolerance_away - counts.corrected_away,
+      fmt::format("beyond the tolerance of {} and not to be refined",
+                  length_text(result.scene.transfer->tolerance_m)));
+  add(counts.unanswered_away, "without an answer");
+  if (reasons.empty()) return "";
+  return fmt::format(" Of {} times it leaves out {}.", counts.times, fmt::join(reasons, ", "));
+}
+
+std::string between_text(const TransferResult& result) {
+  if (result.times_between == 0) {
+    return result.points.size() > 1 ? " Between the listed times nothing was searched." : "";
+  }
+  const std::string searched = fmt::format(
+      "Between the listed times, at {} more about the lowest of them,", result.times_between);
+  if (!result.least_between) return fmt::format(" {} nothing less was found.", searched);
+  const TransferPoint& point = *result.least_between;
+  return fmt::format(" {} the least is {} in {}, flown with a miss of {}.", searched,
+                     velocity_text(point.best().total_change_m_s()),
+                     time_text(point.time * result.scene.units.time_s),
+                     miss_text(point.best().miss_m, result.flight_floor_m));
+}
+
+}  // namespace
+
 std::string transfer_verdict(const TransferResult& result) {
   const std::optional<std::size_t> best = result.best_point();
   if (!best) {
     const TransferCounts counts = count_points(result);
     return fmt::format(
         "No velocity change can be named: of {} transfer times {} have an answer, {} of them "
-        "nearer to a singularity than the margin, and {} of the others miss by more than {}.",
+        "nearer to a singularity than the margin, and {} of the others miss by more than {} and "
+        "could not be refined.",
         counts.times, counts.answered, counts.near_singular, counts.beyond_tolerance_away,
         length_text(result.scene.transfer->tolerance_m));
   }
   const TransferPoint& point = result.points[*best];
   const TransferAnswer& answer = *shown_answer(point);
   std::string text = fmt::format(
-      "The least velocity change found is {}, for a transfer time of {}: flown with the full "
+      "The least velocity change found{} is {}, for a transfer time of {}: flown with the full "
       "equations of motion the deputy misses its place by {}",
+      result.points.size() > 1 ? " at the listed times" : "",
       velocity_text(answer.total_change_m_s()), time_text(point.time * result.scene.units.time_s),
       miss_text(answer.miss_m, result.flight_floor_m));
   const bool is_corrected = answer_name(point) == "refined" && point.refinement_flights > 0;
@@ -141,7 +199,7 @@ std::string transfer_verdict(const TransferResult& result) {
   if (linear != nullptr && result.scene.order > 1) {
     text += fmt::format(", with the linear answer by {}", length_text(linear->miss_m));
   }
-  return text + ".";
+  return text + "." + edge_text(result, *best) + left_out_text(result) + between_text(result);
 }
 
 std::string transfer_failure(const TransferResult& result) {
@@ -162,6 +220,18 @@ std::string transfer_failure(const TransferResult& result) {
 
 std::string miss_text(double miss_m, double flight_floor_m) {
   return miss_m < flight_floor_m ? "less than " + length_text(flight_floor_m) : length_text(miss_m);
+}
+
+std::string singular_time_text(const SingularTime& singular, double unit_s, int most_decimals) {
+  const double resolution_s = singular.resolution * unit_s;
+  const double digits = resolution_s > 0 ? std::floor(-std::log10(resolution_s)) : most_decimals;
+  const int decimals =
+      static_cast<int>(std::clamp(digits, 0.0, static_cast<double>(most_decimals)));
+  std::string text = fmt::format("{:.{}f}", singular.time * unit_s, decimals);
+  if (singular.directions_lost > 1) {
+    text += fmt::format(" (double, or a pair closer than {:.1g} s)", 2 * resolution_s);
+  }
+  return text;
 }
 
 std::string time_text(double seconds) {

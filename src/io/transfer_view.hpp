@@ -29,6 +29,7 @@ struct TransferCounts {
   std::size_t near_singular = 0;
   std::size_t beyond_tolerance = 0;       ///< among all
   std::size_t beyond_tolerance_away = 0;  ///< among those that are not near a singularity
+  std::size_t corrected_away = 0;         ///< of these, brought to their place by the refinement
   std::size_t unanswered_away = 0;
   std::size_t refined = 0;
   std::size_t refinement_failed = 0;
@@ -50,6 +51,8 @@ std::vector<MissStatistics> miss_statistics(const TransferResult& result);
 /// The point with the largest velocity change among answers that are not near a singularity.
 std::optional<std::size_t> costliest_point(const TransferResult& result);
 
+/// The largest Hamilton-Jacobi residual with its floor in words; empty where none was computed.
+std::string hamilton_jacobi_text(const TransferResult& result);
 /// The largest Hamilton-Jacobi residual.
 std::optional<double> largest_hamilton_jacobi_residual(const TransferResult& result);
 
@@ -61,6 +64,10 @@ std::string transfer_failure(const TransferResult& result);
 
 /// A miss, or "less than" the floor under which flying cannot tell.
 std::string miss_text(double miss_m, double flight_floor_m);
+
+/// A singular time in seconds with the digits that its resolution leaves, at most so many decimals;
+/// of a double one that, and how close a pair may be that looks the same.
+std::string singular_time_text(const SingularTime& singular, double unit_s, int most_decimals);
 
 /// "5432 s (90.5 min)"
 std::string time_text(double seconds);

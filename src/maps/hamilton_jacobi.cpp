@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "hamjet/algebra/calculus.hpp"
 #include "hamjet/algebra/composition.hpp"
+#include "hamjet/algebra/monomial_values.hpp"
 #include "hamjet/dynamics/relative_hamiltonian.hpp"
 #include "hamjet/error.hpp"
 
@@ -57,6 +59,22 @@ Series<T> minus_transport(Series<T> start, const Series<T>& u, const std::vector
   return start;
 }
 
+/// dS/dt|_w + H^h(z(w)), and H^h(z(w)).
+template <class T>
+struct Equation {
+  Series<T> residual;
+  Series<T> hamiltonian;
+};
+
+template <class T>
+Equation<T> equation_of(const DynamicalSystem& system, std::span<const T> nominal,
+                        const PartialInversion<T>& inversion) {
+  Series<T> hamiltonian = hamiltonian_in_variables(system, nominal, inversion);
+  Series<T> residual =
+      generating_function(one_form(time_derivative(system, nominal, inversion))) + hamiltonian;
+  return {std::move(residual), std::move(hamiltonian)};
+}
+
 template <class T>
 double largest(std::span<const T> values) {
   double result = 0;
@@ -100,13 +118,38 @@ Series<T> hamiltonian_in_variables(const DynamicalSystem& system, std::span<cons
   return compose(std::span<const Series<T>>(hamiltonian), std::span<const Series<T>>(z))[0];
 }
 
+double HamiltonJacobiTerms::scaled() const {
+  const auto size = [](const std::vector<double>& terms) {
+    double sum = 0;
+    for (const double term : terms) sum += std::abs(term);
+    return sum;
+  };
+  const double scale = size(hamiltonian);
+  return scale > 0 ? size(residual) / scale : size(residual);
+}
+
+template <class T>
+HamiltonJacobiTerms hamilton_jacobi_terms(const DynamicalSystem& system, std::span<const T> nominal,
+                                          const PartialInversion<T>& inversion,
+                                          std::span<const double> w) {
+  const Equation<T> equation = equation_of(system, nominal, inversion);
+  MonomialValues values(equation.residual.space_pointer());
+  values.set_point(w);
+  HamiltonJacobiTerms terms;
+  const auto residual = convert_map<double>(std::vector<Series<T>>{equation.residual})[0];
+  const auto hamiltonian = convert_map<double>(std::vector<Series<T>>{equation.hamiltonian})[0];
+  for (int d = 2; d <= residual.order(); ++d) {
+    terms.residual.push_back(values.slice(residual, d));
+    terms.hamiltonian.push_back(values.slice(hamiltonian, d));
+  }
+  return terms;
+}
+
 template <class T>
 std::vector<HamiltonJacobiResidual> hamilton_jacobi_by_degree(
     const DynamicalSystem& system, std::span<const T> nominal,
     const PartialInversion<T>& inversion) {
-  const Series<T> hamiltonian = hamiltonian_in_variables(system, nominal, inversion);
-  const Series<T> residual =
-      generating_function(one_form(time_derivative(system, nominal, inversion))) + hamiltonian;
+  const auto [residual, hamiltonian] = equation_of(system, nominal, inversion);
   std::vector<HamiltonJacobiResidual> result;
   for (int d = 2; d <= residual.order(); ++d) {
     const double value = largest<T>(residual.slice(d));
@@ -126,6 +169,13 @@ template Series<double> hamiltonian_in_variables(const DynamicalSystem&, std::sp
 template Series<Extended> hamiltonian_in_variables(const DynamicalSystem&,
                                                    std::span<const Extended>,
                                                    const PartialInversion<Extended>&);
+template HamiltonJacobiTerms hamilton_jacobi_terms(const DynamicalSystem&, std::span<const double>,
+                                                   const PartialInversion<double>&,
+                                                   std::span<const double>);
+template HamiltonJacobiTerms hamilton_jacobi_terms(const DynamicalSystem&,
+                                                   std::span<const Extended>,
+                                                   const PartialInversion<Extended>&,
+                                                   std::span<const double>);
 template std::vector<HamiltonJacobiResidual> hamilton_jacobi_by_degree(
     const DynamicalSystem&, std::span<const double>, const PartialInversion<double>&);
 template std::vector<HamiltonJacobiResidual> hamilton_jacobi_by_degree(

@@ -1,6 +1,5 @@
 #include "inverted_jet.hpp"
 
-#include <limits>
 #include <span>
 
 #include "hamjet/algebra/calculus.hpp"
@@ -11,13 +10,6 @@ namespace hamjet::python {
 namespace {
 
 using JetSpan = std::span<const Series<Extended>>;
-
-/// To which the jet's coefficients are known.
-double rounding(Precision precision) {
-  return precision == Precision::double_precision
-             ? std::numeric_limits<double>::epsilon()
-             : static_cast<double>(std::numeric_limits<Extended>::epsilon());
-}
 
 GeneratingFunctionKind chosen_kind(const io::StoredJet& stored, std::string_view kind) {
   if (stored.variables != stored.components) {
@@ -50,7 +42,7 @@ InvertedJet::InvertedJet(const Jet& jet, std::string_view kind)
       remaining_names_(names(jet.stored(), kind_, false)) {
   const io::StoredJet& stored = jet.stored();
   const auto inversion =
-      invert_partially<Extended>(JetSpan(stored.jet), kind_, rounding(stored.precision));
+      invert_partially<Extended>(JetSpan(stored.jet), kind_, rounding_of(stored.precision));
   condition_ = inversion.condition;
   const auto sigma = one_form(inversion);
   exactness_ = exactness_residual(sigma);

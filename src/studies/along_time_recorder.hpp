@@ -10,11 +10,12 @@
 #include "hamjet/maps/exactness.hpp"
 #include "hamjet/maps/partial_inversion.hpp"
 #include "hamjet/studies/run_along_time.hpp"
+#include "hamjet/studies/singular_times.hpp"
 
 namespace hamjet {
 
 /// Watches an integration: its energy error and, of one kind of generating function, the exactness
-/// residual of degree 0 and the times at which the kind does not exist.
+/// residual of degree 0.
 class AlongTimeRecorder {
  public:
   AlongTimeRecorder(std::string label, double duration,
@@ -26,7 +27,6 @@ class AlongTimeRecorder {
   /// To be called after every step.
   template <class Real>
   void record(double time, const FlowJet<Real>& jet, double energy_error) {
-    if (kind_) watch_determinant(time, jet);
     if (std::abs(time) < next_ && time != duration_) return;
     next_ = std::abs(time) + std::abs(duration_) / watched_points;
     RunAlongTime::Point point;
@@ -36,22 +36,19 @@ class AlongTimeRecorder {
     result_.points.push_back(point);
   }
 
-  RunAlongTime take() { return std::move(result_); }
+  /// `singular` are those of the flow, see times_without_kind. Of a failed integration only those
+  /// before its end are shown.
+  RunAlongTime take(const TimesWithoutKind& singular) {
+    const double reached = result_.points.empty() ? 0 : std::abs(result_.points.back().time);
+    for (const double time : singular.times) {
+      if (std::abs(time) <= reached) result_.singular_times.push_back(time);
+    }
+    result_.not_searched = singular.not_searched;
+    return std::move(result_);
+  }
 
  private:
   static constexpr int watched_points = 400;
-
-  template <class Real>
-  void watch_determinant(double time, const FlowJet<Real>& jet) {
-    const double now = static_cast<double>(
-        inverted_block(std::span<const Series<Real>>(jet), *kind_).determinant());
-    if (now * last_determinant_ < 0) {
-      const double fraction = last_determinant_ / (last_determinant_ - now);
-      result_.singular_times.push_back(last_time_ + fraction * (time - last_time_));
-    }
-    last_determinant_ = now;
-    last_time_ = time;
-  }
 
   template <class Real>
   void measure_exactness(const FlowJet<Real>& jet, RunAlongTime::Point& point) const {
@@ -75,8 +72,6 @@ class AlongTimeRecorder {
   SpacePointer linear_space_;
   RunAlongTime result_;
   double next_ = 0;
-  double last_time_ = 0;
-  double last_determinant_ = 0;
 };
 
 }  // namespace hamjet

@@ -115,6 +115,7 @@ void ComparedOrder::time(const Candidate& candidate, ComparedRun& run,
 }
 
 RunAlongTime ComparedOrder::watch(const IntegratorSettings& settings,
+                                  const TimesWithoutKind& singular,
                                   const std::function<void(double)>& keep_going) const {
   NominalRecorder nominal(problem_, scene_.nominal.size());
   AlongTimeRecorder recorder(settings.label, scene_.duration, kind_, problem_.variables.size());
@@ -130,7 +131,7 @@ RunAlongTime ComparedOrder::watch(const IntegratorSettings& settings,
     if (error.kind() != ErrorKind::numerical && error.kind() != ErrorKind::too_large) throw;
     failure = error.what();
   }
-  RunAlongTime result = recorder.take();
+  RunAlongTime result = recorder.take(singular);
   result.failure = std::move(failure);
   return result;
 }

@@ -2,6 +2,7 @@
 
 #include "formation_scale.hpp"
 #include "hamjet/studies/comparison.hpp"
+#include "hamjet/studies/singular_times.hpp"
 #include "map_analysis.hpp"
 
 namespace hamjet {
@@ -29,7 +30,7 @@ class ComparedOrder {
             const std::function<void()>& keep_going) const;
 
   /// One of the scene's integrators watched along time.
-  RunAlongTime watch(const IntegratorSettings& settings,
+  RunAlongTime watch(const IntegratorSettings& settings, const TimesWithoutKind& singular,
                      const std::function<void(double)>& keep_going) const;
 
  private:

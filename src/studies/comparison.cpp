@@ -255,10 +255,15 @@ class Comparison {
   void watch_all(ComparedOrder& order) {
     std::set<std::string> watched;
     for (const RunAlongTime& run : result_.along_time) watched.insert(run.label);
+    TimesWithoutKind singular;
+    if (result_.kind && watched.size() < scene_.integrators.size()) {
+      singular = times_without_kind(order.problem(), scene_.duration, *result_.kind,
+                                    [&](double done) { report("singular times", done); });
+    }
     for (const IntegratorSettings& settings : scene_.integrators) {
       if (watched.contains(settings.label)) continue;
       result_.along_time.push_back(order.watch(
-          settings, [&](double done) { report("along time: " + settings.label, done); }));
+          settings, singular, [&](double done) { report("along time: " + settings.label, done); }));
       save();
     }
   }

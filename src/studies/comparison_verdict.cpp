@@ -51,6 +51,26 @@ double separation_m(const Scene& scene) {
   return scene.separation.value_or(0) * scene.units.length_km * 1000;
 }
 
+/// What is to be said where all timed runs that reach the error are of one family of methods.
+std::string rest_text(const ComparisonResult& result, const std::vector<const ComparedRun*>& runs) {
+  const ComparedRun& best = *runs[0];
+  std::string text;
+  if (runs.size() > 1) {
+    text = fmt::format("; next is {}, of the same family, with {}, {:.1f} times as long",
+                       configuration_text(*runs[1]), duration_text(runs[1]->median_seconds()),
+                       runs[1]->median_seconds() / best.median_seconds());
+  }
+  const bool has_untimed =
+      std::any_of(result.runs.begin(), result.runs.end(), [&](const ComparedRun& run) {
+        return run.is_finished() && run.seconds.empty() &&
+               run.settings.method != best.settings.method &&
+               run.error_at_formation_m <= result.scene.comparison.wanted_error_m;
+      });
+  if (has_untimed) return text + "; others of other families that reach it were not timed.";
+  return text + fmt::format("; no method of another family than {} that was run reaches it.",
+                            method_names()[static_cast<std::size_t>(best.settings.method)]);
+}
+
 }  // namespace
 
 const std::vector<std::string_view>& corner_names() {
@@ -135,7 +155,7 @@ std::string verdict(const ComparisonResult& result) {
   const auto other = std::find_if(runs.begin(), runs.end(), [&](const ComparedRun* run) {
     return run->settings.method != runs[0]->settings.method;
   });
-  if (other == runs.end()) return text + "; no other method that was run reaches it.";
+  if (other == runs.end()) return text + rest_text(result, runs);
   return text + fmt::format("; the next method, {}, needs {}, {:.1f} times as long.",
                             configuration_text(**other), duration_text((*other)->median_seconds()),
                             (*other)->median_seconds() / runs[0]->median_seconds());

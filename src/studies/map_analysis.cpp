@@ -1,7 +1,6 @@
 #include "map_analysis.hpp"
 
 #include <cmath>
-#include <limits>
 #include <span>
 
 #include "formation_scale.hpp"
@@ -13,13 +12,6 @@ namespace hamjet {
 namespace {
 
 using JetSpan = std::span<const Series<Extended>>;
-
-/// To which the coefficients of a scene's jets are known.
-double rounding(const Scene& scene) {
-  return scene.precision == Precision::double_precision
-             ? std::numeric_limits<double>::epsilon()
-             : static_cast<double>(std::numeric_limits<Extended>::epsilon());
-}
 
 }  // namespace
 
@@ -49,7 +41,8 @@ const std::vector<ExactnessResidual>* MapAnalysis::floor(const GeneratingFunctio
     }
     try {
       ++floor_inversions_;
-      const auto inversion = invert_partially<Extended>(JetSpan(rounded), kind, rounding(scene_));
+      const auto inversion =
+          invert_partially<Extended>(JetSpan(rounded), kind, rounding_of(scene_.precision));
       place->second = exactness_residual(one_form(inversion), scales(kind));
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::numerical) throw;
@@ -88,7 +81,8 @@ KindResult MapAnalysis::invert(RunResult& run, const std::string& requested) {
   result.condition = condition_number(inverted_block<Extended>(JetSpan(jet), result.kind));
   try {
     ++run.counts.inversions;
-    const auto inversion = invert_partially<Extended>(JetSpan(jet), result.kind, rounding(scene_));
+    const auto inversion =
+        invert_partially<Extended>(JetSpan(jet), result.kind, rounding_of(scene_.precision));
     if (scene_.checks[SelfCheckName::inversion].is_on) compose(run, inversion, requested);
     const auto sigma = one_form(inversion);
     ++run.counts.exactness_residuals;

@@ -30,7 +30,8 @@ std::vector<double> full_state(const FlowJet<Extended>& jet, const ComputedProbl
 
 template <class Real>
 void run_integrator(const Scene& scene, const ComputedProblem& problem, std::size_t threads,
-                    RunResult& run, const std::function<void(double)>& progress) {
+                    const TimesWithoutKind& singular, RunResult& run,
+                    const std::function<void(double)>& progress) {
   const bool finds_lowest_point =
       scene.checks[SelfCheckName::surface].is_on && scene.system.radius_km > 0;
   NominalRecorder recorder(problem, scene.nominal.size(), finds_lowest_point);
@@ -69,7 +70,7 @@ void run_integrator(const Scene& scene, const ComputedProblem& problem, std::siz
   run.energy = recorder.energy();
   run.lowest_point = recorder.lowest_point();
   run.nominal = recorder.take();
-  if (along_time) run.along_time = along_time->take();
+  if (along_time) run.along_time = along_time->take(singular);
 }
 
 /// One check of the scene: a value that was not computed has not passed.
@@ -151,6 +152,11 @@ PropagationResult propagate(const Scene& scene, const ProgressCallback& progress
                                            [&](double done) { report("reference", done); });
     });
   }
+  TimesWithoutKind singular;
+  if (const auto kind = figure_kind(scene, result.problem)) {
+    singular = times_without_kind(result.problem, scene.duration, *kind,
+                                  [&](double done) { report("singular times", done); });
+  }
   MapAnalysis analysis(scene, result.problem, result.reference);
   for (const IntegratorSettings& settings : scene.integrators) {
     RunResult run;
@@ -158,9 +164,9 @@ PropagationResult propagate(const Scene& scene, const ProgressCallback& progress
     const auto on_step = [&](double done) { report(settings.label, done); };
     try {
       if (scene.precision == Precision::extended) {
-        run_integrator<Extended>(scene, result.problem, threads, run, on_step);
+        run_integrator<Extended>(scene, result.problem, threads, singular, run, on_step);
       } else {
-        run_integrator<double>(scene, result.problem, threads, run, on_step);
+        run_integrator<double>(scene, result.problem, threads, singular, run, on_step);
       }
       report(settings.label + ": inversion", 1);
       analysis.analyse(run);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
 
 #include "hamjet/studies/propagation.hpp"
@@ -25,12 +24,6 @@ constexpr double largest_amplified_rounding = 1e-4;
 
 std::string method_name(const RunResult& run) {
   return std::string(method_names()[static_cast<std::size_t>(run.settings.method)]);
-}
-
-double rounding(const Scene& scene) {
-  return scene.precision == Precision::extended
-             ? static_cast<double>(std::numeric_limits<Extended>::epsilon())
-             : std::numeric_limits<double>::epsilon();
 }
 
 bool is_gauss(const RunResult& run) { return run.settings.method == IntegrationMethod::gauss; }
@@ -126,7 +119,8 @@ void check_energy(SelfCheck& check, const Scene& scene, const RunResult& run) {
   if (run.settings.tolerance) {
     const double steps = static_cast<double>(std::max(run.statistics.steps, 1L));
     const double terms = energy.largest_terms > 0 ? energy.largest_terms / scale : 0;
-    limit = std::min(limit, 10 * steps * (*run.settings.tolerance + rounding(scene)) * terms);
+    limit = std::min(limit,
+                     10 * steps * (*run.settings.tolerance + rounding_of(scene.precision)) * terms);
   }
   if (judge(check, value, limit)) {
     check.text =
@@ -169,7 +163,7 @@ void check_symplecticity(SelfCheck& check, const Scene& scene, const RunResult& 
   }
   const double steps = static_cast<double>(run.statistics.steps);
   const double linear_limit =
-      1000 * rounding(scene) *
+      1000 * rounding_of(scene.precision) *
       std::sqrt((1 + steps) * std::max(1.0, largest_coefficient(run.jet, 1)));
   const double growth = frequency_growth(scene, run);
   const SymplecticityDefect* worst = nullptr;
@@ -201,7 +195,7 @@ void check_inversion(SelfCheck& check, const Scene& scene, const RunResult& run)
   }
   const InversionQuality& inversion = *run.inversion;
   check.seconds += inversion.seconds;
-  const double miss_limit = std::max(largest_inversion_miss, rounding(scene));
+  const double miss_limit = std::max(largest_inversion_miss, rounding_of(scene.precision));
   if (!(inversion.miss <= miss_limit)) {
     check.limit.reset();
     judge(check, inversion.miss, miss_limit);
@@ -210,7 +204,7 @@ void check_inversion(SelfCheck& check, const Scene& scene, const RunResult& run)
         inversion.missing_kind, inversion.miss);
     return;
   }
-  const double value = rounding(scene) * inversion.amplification;
+  const double value = rounding_of(scene.precision) * inversion.amplification;
   if (judge(check, value, largest_amplified_rounding)) {
     check.text = fmt::format(
         "inverted maps composed with the map are the identity to {:.2g} of their terms; rounding "

@@ -49,6 +49,18 @@ BoundaryMomenta SingleTransfer::solve(PositionBoundaryValues& boundary, int orde
   return boundary.solve(std::span(start_).first(3), std::span(end_).first(3), order);
 }
 
+std::vector<double> SingleTransfer::variables(const GeneratingFunctionKind& kind,
+                                              const BoundaryMomenta& momenta) const {
+  std::vector<double> first(start_.begin(), start_.begin() + 3);
+  std::vector<double> last(end_.begin(), end_.begin() + 3);
+  first.insert(first.end(), momenta.initial.begin(), momenta.initial.end());
+  last.insert(last.end(), momenta.final.begin(), momenta.final.end());
+  std::vector<double> w;
+  for (std::size_t i = 0; i < 3; ++i) w.push_back(last[kind.final_variable(i)]);
+  for (std::size_t i = 0; i < 3; ++i) w.push_back(first[kind.initial_variable(i)]);
+  return w;
+}
+
 TransferAnswer SingleTransfer::answer(const BoundaryMomenta& momenta, int order) const {
   Eigen::Vector3d start;
   Eigen::Vector3d end;

@@ -27,6 +27,9 @@ class SingleTransfer {
   std::vector<double> linear_deviation(const Eigen::Matrix<double, 6, 6>& flow) const;
   /// The momenta of one order. Throws as PositionBoundaryValues::solve.
   BoundaryMomenta solve(PositionBoundaryValues& boundary, int order) const;
+  /// The variables of a kind's generating function with these momenta.
+  std::vector<double> variables(const GeneratingFunctionKind& kind,
+                                const BoundaryMomenta& momenta) const;
   /// The velocity changes that the momenta ask for.
   TransferAnswer answer(const BoundaryMomenta& momenta, int order) const;
   /// Flies the deputy from the start with this initial momentum (a deviation): (dq, dp) at the end.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/SVD>
 #include <algorithm>
@@ -10,12 +11,13 @@
 #include <iterator>
 #include <limits>
 #include <numbers>
-#include <optional>
+#include <numeric>
+#include <span>
 
 #include "exact_flow.hpp"
+#include "hamjet/dynamics/relative_hamiltonian.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
-#include "hamjet/relative_motion/chief_frame.hpp"
 
 namespace hamjet {
 namespace {
@@ -30,7 +32,9 @@ struct LinearArc {
 
 LinearArc linear_arc(const DynamicalSystem& system, const SpacePointer& space,
                      const std::vector<double>& start, double duration) {
-  const FlowProblem<double> flow{&system, space, {0, 1, 2, 3, 4, 5}, start, duration};
+  std::vector<std::size_t> variables(start.size());
+  std::iota(variables.begin(), variables.end(), std::size_t{0});
+  const FlowProblem<double> flow{&system, space, variables, start, duration};
   GaussSettings settings;
   settings.tolerance = 1e-14;
   IntegrationStatistics statistics;
@@ -38,10 +42,29 @@ LinearArc linear_arc(const DynamicalSystem& system, const SpacePointer& space,
   return {nominal_of(jet), linear_part(std::span<const Series<double>>(jet))};
 }
 
-/// The smallest singular value over the largest, with the determinant's sign.
-double signed_ratio(const Eigen::Matrix3d& block) {
-  const Eigen::Vector3d values = Eigen::JacobiSVD<Eigen::Matrix3d>(block).singularValues();
-  return std::copysign(values[2] / values[0], block.determinant());
+/// The smallest singular value of a block of n x n numbers, with the determinant's sign.
+template <int n>
+double signed_smallest(const Matrix<double>& block) {
+  using Block = Eigen::Matrix<double, n, n>;
+  const Eigen::JacobiSVD<Block> decomposition(Block(block),
+                                              Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const double sign = decomposition.matrixU().determinant() * decomposition.matrixV().determinant();
+  return std::copysign(decomposition.singularValues()[block.rows() - 1], sign);
+}
+
+/// See find_singular_times.
+double watched_value(const StateTransition& flow, const GeneratingFunctionKind& kind) {
+  const Matrix<double> block = inverted_block(flow, kind);
+  const double value =
+      block.rows() == 3 ? signed_smallest<3>(block) : signed_smallest<Eigen::Dynamic>(block);
+  return value / flow.norm();
+}
+
+/// Beside the flow's norm: what rounding, grown along the flow, leaves of a zero. Errors of the
+/// nominal grow as the flow does, and so does what they change in its matrix.
+double rounding_of_zero(const StateTransition& flow) {
+  constexpr double roundings = 8;
+  return roundings * std::numeric_limits<double>::epsilon() * std::max(1.0, std::sqrt(flow.norm()));
 }
 
 /// Looks for the zeros of one kind's signed ratio.
@@ -52,7 +75,7 @@ class ZeroSearch {
     // At the start every block is trivially singular or the identity.
     for (std::size_t i = 1; i < flow.times().size(); ++i) {
       times_.push_back(flow.times()[i]);
-      ratios_.push_back(signed_ratio(inverted_block(flow.checkpoint(i), kind)));
+      ratios_.push_back(watched_value(flow.checkpoint(i), kind));
     }
     for (const std::size_t parts : {8, 4}) divide(parts);
   }
@@ -107,15 +130,14 @@ class ZeroSearch {
     ratios_ = std::move(ratios);
   }
 
-  /// Two zeros nearer than the square root of round-off are one double zero, or one seen twice.
+  /// Two zeros that rounding cannot tell apart are one, at their middle.
   void merge() {
-    constexpr double nearest = 1e-6;
     std::vector<SingularTime> merged;
     for (SingularTime& zero : found_) {
       if (!merged.empty()) {
         SingularTime& last = merged.back();
-        if (std::abs(zero.time - last.time) < nearest * std::max(1.0, std::abs(zero.time))) {
-          last.time = 0.5 * (last.time + zero.time);
+        if (std::abs(zero.time - last.time) <= last.resolution + zero.resolution) {
+          last = singular_time(0.5 * (last.time + zero.time));
           continue;
         }
       }
@@ -124,7 +146,18 @@ class ZeroSearch {
     found_ = std::move(merged);
   }
 
-  double ratio_at(double t) const { return signed_ratio(inverted_block(flow_.at(t), kind_)); }
+  double ratio_at(double t) const { return watched_value(flow_.at(t), kind_); }
+
+  /// See SingularTime. Doubled until both sides differ from zero.
+  double resolution_at(double t, double rounding) const {
+    const double longest = std::abs(times_.back()) / static_cast<double>(times_.size());
+    double half_width = std::numeric_limits<double>::epsilon() * std::abs(t);
+    while (half_width < longest && std::min(std::abs(ratio_at(t - half_width)),
+                                            std::abs(ratio_at(t + half_width))) <= rounding) {
+      half_width *= 2;
+    }
+    return half_width;
+  }
 
   bool is_minimum(std::size_t i) const {
     const double here = ratios_[i];
@@ -178,7 +211,7 @@ class ZeroSearch {
         (is_right_longer ? right : left) = trial;
       }
     }
-    if (lowest < double_zero) add(middle);
+    if (lowest < rounding_of_zero(flow_.at(middle))) add(middle);
   }
 
   void add_zero(double from, double to) {
@@ -194,25 +227,28 @@ class ZeroSearch {
     add(0.5 * (bracket.first + bracket.second));
   }
 
-  /// Along R, T, N at a time, if there is an orbital plane.
-  std::optional<Eigen::Vector3d> along_rtn(double t, const Eigen::Vector3d& direction) const {
-    try {
-      const ChiefFrame frame(flow_.chief(t), MetricUnits{}, RelativeFrame::rtn_inertial);
-      return frame.along_axes(direction);
-    } catch (const Error& error) {
-      if (error.kind() != ErrorKind::numerical) throw;
-      return std::nullopt;
-    }
+  SingularTime singular_time(double t) const {
+    const StateTransition matrix = flow_.at(t);
+    const Matrix<double> block = inverted_block(matrix, kind_);
+    const Eigen::JacobiSVD<Matrix<double>> decomposition(block, Eigen::ComputeThinU);
+    const auto& values = decomposition.singularValues();
+    const Eigen::Index last = values.size() - 1;
+    SingularTime zero{kind_, t};
+    const double rounding = rounding_of_zero(matrix);
+    zero.resolution = resolution_at(t, rounding);
+    // A double zero is found where the smaller value vanishes, a little off that of the larger one.
+    constexpr double roundings = 4;
+    zero.directions_lost = std::max(
+        1, static_cast<int>((values.array() <= roundings * rounding * matrix.norm()).count()));
+    // With one degree of freedom the block's own size says nothing: the flow's stands for it.
+    const double largest = last > 0 ? values[0] : matrix.norm();
+    zero.smallest_ratio = values[last] / largest;
+    zero.second_ratio = last > 0 ? values[last - 1] / largest : 0;
+    zero.direction = decomposition.matrixU().col(last);
+    return zero;
   }
 
-  void add(double t) {
-    const Eigen::Matrix3d block = inverted_block(flow_.at(t), kind_);
-    const Eigen::JacobiSVD<Eigen::Matrix3d> decomposition(block, Eigen::ComputeFullU);
-    const Eigen::Vector3d& values = decomposition.singularValues();
-    const Eigen::Vector3d direction = decomposition.matrixU().col(2);
-    found_.push_back({kind_, t, values[2] / values[0], values[1] / values[0], direction,
-                      along_rtn(t, direction)});
-  }
+  void add(double t) { found_.push_back(singular_time(t)); }
 
   const LinearFlow& flow_;
   const GeneratingFunctionKind& kind_;
@@ -225,22 +261,25 @@ class ZeroSearch {
 
 LinearFlow::LinearFlow(const ComputedProblem& problem, double duration, double per_revolution,
                        const std::function<void(double)>& progress)
-    : problem_(&problem), space_(SeriesSpace::create(6, 1)) {
+    : problem_(&problem), space_(SeriesSpace::create(problem.system.dimension(), 1)) {
   constexpr std::size_t most_checkpoints = 100000;
-  if (problem.system.dimension() != 6 || !(per_revolution > 0)) {
-    throw Error(ErrorKind::usage, "linear flow: an orbit and a number of checkpoints are needed");
+  const std::size_t dimension = problem.system.dimension();
+  if (problem.variables.size() != dimension || !(per_revolution > 0)) {
+    throw Error(ErrorKind::usage,
+                "linear flow: a map of phase space and a number of checkpoints are needed");
   }
   times_.push_back(0);
   states_.push_back(problem.nominal);
-  matrices_.push_back(StateTransition::Identity());
+  const auto size = static_cast<Eigen::Index>(dimension);
+  matrices_.push_back(StateTransition::Identity(size, size));
+  double step = std::abs(duration) / per_revolution;
   while (times_.back() != duration) {
-    const std::vector<double>& q = states_.back();
-    const double r = std::hypot(q[0], q[1], q[2]);
-    const double step = 2 * std::numbers::pi * std::pow(r, 1.5) / per_revolution;
+    step = std::min({2 * step, std::abs(duration) / per_revolution,
+                     checkpoint_distance(states_.back(), per_revolution)});
     const double left = std::abs(duration - times_.back());
     const double time =
         left <= 1.01 * step ? duration : times_.back() + std::copysign(step, duration);
-    LinearArc arc = linear_arc(problem.system, space_, q, time - times_.back());
+    LinearArc arc = linear_arc(problem.system, space_, states_.back(), time - times_.back());
     matrices_.push_back(arc.matrix * matrices_.back());
     states_.push_back(std::move(arc.state));
     times_.push_back(time);
@@ -255,6 +294,19 @@ LinearFlow::LinearFlow(const ComputedProblem& problem, double duration, double p
   }
 }
 
+double LinearFlow::checkpoint_distance(const std::vector<double>& state,
+                                       double per_revolution) const {
+  std::vector<Series<double>> z;
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    z.push_back(Series<double>::variable(space_, i, state[i]));
+  }
+  const auto slope =
+      evaluate_on_series(problem_->system.vector_field, std::span<const Series<double>>(z));
+  const double rate =
+      linear_part(std::span<const Series<double>>(slope)).eigenvalues().cwiseAbs().maxCoeff();
+  return 2 * std::numbers::sqrt2 * std::numbers::pi / (rate * per_revolution);
+}
+
 std::size_t LinearFlow::checkpoint_before(double time) const {
   const auto behind = std::upper_bound(times_.begin(), times_.end(), time, [](double a, double b) {
     return std::abs(a) < std::abs(b);
@@ -262,7 +314,7 @@ std::size_t LinearFlow::checkpoint_before(double time) const {
   return behind == times_.begin() ? 0 : static_cast<std::size_t>(behind - times_.begin()) - 1;
 }
 
-std::vector<double> LinearFlow::chief(double time) const {
+std::vector<double> LinearFlow::nominal(double time) const {
   const std::size_t before = checkpoint_before(time);
   return exact_flow(problem_->system, states_[before], time - times_[before]);
 }
@@ -274,11 +326,12 @@ LinearFlow::StateTransition LinearFlow::at(double time) const {
          matrices_[before];
 }
 
-Eigen::Matrix3d inverted_block(const LinearFlow::StateTransition& flow,
-                               const GeneratingFunctionKind& kind) {
-  Eigen::Matrix3d block;
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) {
+Matrix<double> inverted_block(const LinearFlow::StateTransition& flow,
+                              const GeneratingFunctionKind& kind) {
+  const std::size_t n = kind.degrees_of_freedom();
+  Matrix<double> block(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(n));
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j < n; ++j) {
       block(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
           flow(static_cast<Eigen::Index>(kind.final_variable(i)),
                static_cast<Eigen::Index>(kind.initial_variable(j, false)));
@@ -290,6 +343,22 @@ Eigen::Matrix3d inverted_block(const LinearFlow::StateTransition& flow,
 std::vector<SingularTime> find_singular_times(const LinearFlow& flow,
                                               const GeneratingFunctionKind& kind) {
   return ZeroSearch(flow, kind).run();
+}
+
+TimesWithoutKind times_without_kind(const ComputedProblem& problem, double duration,
+                                    const GeneratingFunctionKind& kind,
+                                    const std::function<void(double)>& progress) {
+  TimesWithoutKind result;
+  try {
+    const LinearFlow flow(problem, duration, checkpoints_per_revolution, progress);
+    for (const SingularTime& zero : find_singular_times(flow, kind)) {
+      result.times.push_back(zero.time);
+    }
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::numerical && error.kind() != ErrorKind::too_large) throw;
+    result.not_searched = error.what();
+  }
+  return result;
 }
 
 }  // namespace hamjet

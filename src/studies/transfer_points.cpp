@@ -5,16 +5,29 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <random>
+#include <utility>
 
 #include "exact_flow.hpp"
 #include "hamjet/error.hpp"
-#include "hamjet/maps/hamilton_jacobi.hpp"
+#include "random_direction.hpp"
 #include "stopwatch.hpp"
 
 namespace hamjet {
 namespace {
 
-constexpr double checkpoints_per_revolution = 240;
+/// Along R, T, N of the chief, if it has an orbital plane.
+std::optional<Eigen::Vector3d> along_rtn(const std::vector<double>& chief,
+                                         const Eigen::Vector3d& direction) {
+  try {
+    return ChiefFrame(chief, MetricUnits{}, RelativeFrame::rtn_inertial).along_axes(direction);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::numerical) throw;
+    return std::nullopt;
+  }
+}
+
+using FlowMatrix = Eigen::Matrix<double, 6, 6>;
 
 /// The answer that `work` gives, or its numerical failure.
 template <class Work>
@@ -57,6 +70,7 @@ void TransferPoints::find_singular_times(const ProgressCallback& progress) {
       progress("singular times", static_cast<double>(k) / static_cast<double>(kinds_.size()));
     }
     for (SingularTime& found : hamjet::find_singular_times(flow, kinds_[k])) {
+      found.direction_rtn = along_rtn(flow.nominal(found.time), found.direction);
       singular_times_.push_back(std::move(found));
     }
   }
@@ -80,7 +94,7 @@ bool TransferPoints::is_near_singular(double time) const {
 std::vector<double> TransferPoints::expansion_parameters(
     const FlowJet<double>& jet, const std::vector<RelativeTransfer>& transfers, double time) const {
   const std::span<const Series<double>> map(jet);
-  const LinearFlow::StateTransition flow = linear_part(map);
+  const FlowMatrix flow = linear_part(map);
   std::vector<Eigen::PartialPivLU<Eigen::Matrix3d>> blocks;
   std::vector<double> parameters;
   for (const GeneratingFunctionKind& kind : kinds_) {
@@ -94,7 +108,7 @@ std::vector<double> TransferPoints::expansion_parameters(
   for (const RelativeTransfer& ends : transfers) {
     const SingleTransfer transfer(scene_, problem_, time, chief_end, ends.start, ends.end);
     values.set_point(transfer.linear_deviation(flow));
-    LinearFlow::StateTransition changed;
+    FlowMatrix changed;
     for (std::size_t i = 0; i < 6; ++i) {
       for (std::size_t j = 0; j < 6; ++j) {
         changed(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
@@ -113,7 +127,7 @@ ChosenKind TransferPoints::choose_kind(double time, const FlowJet<double>& jet,
                                        const std::vector<RelativeTransfer>& transfers) {
   const Stopwatch watch(seconds_.inversion);
   const std::span<const Series<double>> map(jet);
-  const LinearFlow::StateTransition flow = linear_part(map);
+  const FlowMatrix flow = linear_part(map);
   ChosenKind chosen;
   chosen.time = time;
   for (const GeneratingFunctionKind& kind : kinds_) {
@@ -145,7 +159,6 @@ TransferPoint TransferPoints::answer(const ChosenKind& chosen, const FlowJet<dou
   if (!chosen.inversion) return point;
   point.kind = chosen.inversion->kind;
   point.condition = chosen.inversion->condition;
-  const std::vector<double> chief_end = nominal_of(jet);
   // The ends are relative to the chief as it flies: an inaccurate integrator must not prove itself.
   const SingleTransfer transfer(scene_, problem_, chosen.time, flown_chief(chosen.time), ends.start,
                                 ends.end);
@@ -174,24 +187,54 @@ TransferPoint TransferPoints::answer(const ChosenKind& chosen, const FlowJet<dou
     }
     const TransferAnswer& last = point.answers.back();
     point.is_beyond_tolerance = !last.failure.empty() || !(last.miss_m <= settings_.tolerance_m);
-    if (settings_.refine && last.failure.empty()) {
+    const bool is_to_refine =
+        settings_.refine || (point.is_beyond_tolerance && !point.is_near_singular);
+    if (is_to_refine && last.failure.empty()) {
       point.refined = transfer.refine(jet, momenta.back(), point.refinement_flights);
     }
   }
-  measure_residual(chosen, chief_end, point);
+  if (point.has_answer()) {
+    measure_residual(chosen, jet, transfer.variables(chosen.inversion->kind, momenta.back()),
+                     point);
+  }
   return point;
 }
 
-void TransferPoints::measure_residual(const ChosenKind& chosen,
-                                      const std::vector<double>& chief_end,
-                                      TransferPoint& point) const {
+void TransferPoints::measure_residual(const ChosenKind& chosen, const FlowJet<double>& jet,
+                                      const std::vector<double>& w, TransferPoint& point) {
   const Stopwatch watch(seconds_.residual);
-  double largest = 0;
-  for (const auto& entry : hamilton_jacobi_by_degree<double>(
-           problem_.system, std::span<const double>(chief_end), *chosen.inversion)) {
-    largest = std::max(largest, entry.scaled);
+  HamiltonJacobiTerms terms =
+      hamilton_jacobi_terms<double>(problem_.system, nominal_of(jet), *chosen.inversion, w);
+  const double scaled = terms.scaled();
+  point.hamilton_jacobi_residual = scaled;
+  if (largest_residual_ && !(scaled > largest_residual_->scaled)) return;
+  largest_residual_ = {scaled, jet, chosen.inversion->kind, w, std::move(terms)};
+}
+
+std::optional<double> TransferPoints::hamilton_jacobi_floor() const {
+  if (!largest_residual_) return std::nullopt;
+  const Stopwatch watch(seconds_.residual);
+  constexpr int draws = 16;
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  std::mt19937_64 generator(1);
+  double floor = 0;
+  for (int draw = 0; draw < draws; ++draw) {
+    FlowJet<double> jet = largest_residual_->jet;
+    for (auto& component : jet) {
+      for (double& c : component.coefficients()) {
+        if (c != 0) c = std::nextafter(c, random_direction(generator, 1)[0] * infinity);
+      }
+    }
+    HamiltonJacobiTerms terms = hamilton_jacobi_terms<double>(
+        problem_.system, nominal_of(largest_residual_->jet),
+        invert_partially<double>(std::span<const Series<double>>(jet), largest_residual_->kind),
+        largest_residual_->w);
+    for (std::size_t i = 0; i < terms.residual.size(); ++i) {
+      terms.residual[i] -= largest_residual_->terms.residual[i];
+    }
+    floor = std::max(floor, terms.scaled());
   }
-  point.hamilton_jacobi_residual = largest;
+  return floor;
 }
 
 double TransferPoints::flight_floor_m(const FlowJet<double>& jet) const {

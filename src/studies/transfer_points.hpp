@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "hamjet/maps/hamilton_jacobi.hpp"
 #include "hamjet/studies/transfer.hpp"
 #include "kind_choice.hpp"
 #include "single_transfer.hpp"
@@ -47,8 +48,18 @@ class TransferPoints {
   /// See TransferResult.
   double flight_floor_m(const FlowJet<double>& jet) const;
   double chief_error_m(double time, const FlowJet<double>& jet);
+  std::optional<double> hamilton_jacobi_floor() const;
 
  private:
+  /// The answer with the largest Hamilton-Jacobi residual so far.
+  struct LargestResidual {
+    double scaled = 0;
+    FlowJet<double> jet;
+    GeneratingFunctionKind kind;
+    std::vector<double> w;  ///< the variables of the kind
+    HamiltonJacobiTerms terms;
+  };
+
   /// How fast each kind's polynomials decay: with B the block that the kind inverts and d the
   /// linear answer, |B(0)^-1 (B(d) - B(0))|, the share by which the inverted block changes over the
   /// transfer, largest over the transfers. (The condition of B alone is no guide: on the paper's
@@ -60,8 +71,8 @@ class TransferPoints {
   std::optional<double> singular_distance(double time) const;
   /// The chief flown to a time; the last one is kept, for several deputies and the chief's error.
   const std::vector<double>& flown_chief(double time);
-  void measure_residual(const ChosenKind& chosen, const std::vector<double>& chief_end,
-                        TransferPoint& point) const;
+  void measure_residual(const ChosenKind& chosen, const FlowJet<double>& jet,
+                        const std::vector<double>& w, TransferPoint& point);
 
   const Scene& scene_;
   const TransferSettings& settings_;
@@ -72,6 +83,7 @@ class TransferPoints {
   double chief_time_ = 0;
   std::vector<double> flown_chief_;  ///< at that time
   std::vector<SingularTime> singular_times_;
+  std::optional<LargestResidual> largest_residual_;
 };
 
 }  // namespace hamjet

@@ -44,9 +44,12 @@ TEST(TransferPage, BeginsWithTheLeastVelocityChangeItsTimeAndTheMisses) {
   // Point 6: 1.0001 (sqrt(1 + 1/9 + 0.01) + sqrt(0.04 + 1/49 + 1)) times 2 m/s = 4.178 m/s, after
   // 6 units of 927.6 s.
   EXPECT_EQ(verdict,
-            "The least velocity change found is 4.178 m/s, for a transfer time of 5565.6 s (92.8 "
+            "The least velocity change found at the listed times is 4.178 m/s, for a transfer time of 5565.6 s (92.8 "
             "min): flown with the full equations of motion the deputy misses its place by 33.3 μm "
-            "after refinement (300 mm by order 2 alone), with the linear answer by 1.23 km.");
+            "after refinement (300 mm by order 2 alone), with the linear answer by 1.23 km. "
+            "That is the last of the times searched: beyond it the change may fall further. Of 6 "
+            "times it leaves out 1 nearer to a singularity than the margin, 1 without an answer. "
+            "Between the listed times nothing was searched.");
   const std::string page = page_of(
       transfer_report(result, sample_trajectory(), sample_validity(), sample_transfer_origin()));
   const std::size_t place = page.find(escape_html(verdict));
@@ -99,7 +102,8 @@ TEST(TransferPage, ValidityBeginsWithTheSeparations) {
   const std::string verdict = validity_verdict(sample_validity());
   EXPECT_EQ(verdict,
             "After 1855.2 s (30.9 min) the polynomial is right to 1 m up to a separation of 0 m in "
-            "order 1 and at least 500 km in order 2, proved by flying.");
+            "order 1 and at least 500 km in order 2, proved by flying deputies with "
+            "velocities as seen from the turning RTN axes.");
   const std::string page = page_of(validity_report(sample_validity(), sample_transfer_origin()));
   EXPECT_LT(page.find(verdict), page.find("<main>"));
 }

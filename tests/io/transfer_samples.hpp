@@ -93,10 +93,11 @@ inline TransferResult sample_transfer() {
   }
   const Eigen::Vector3d direction(0, 0.6, -0.8);
   result.singular_times = {
-      {parse_kind("F1", 3), 3.01, 1e-17, 0.25, direction, Eigen::Vector3d(0, 0, 1)},
-      {parse_kind("F1", 3), 6.3, 2e-17, 1e-9, -direction},
-      {parse_kind("F2", 3), 1.5, 3e-17, 0.5, direction}};
+      {parse_kind("F1", 3), 3.01, 2e-9, 1, 1e-17, 0.25, direction, Eigen::Vector3d(0, 0, 1)},
+      {parse_kind("F1", 3), 6.3, 4e-9, 2, 2e-17, 1e-9, -direction},
+      {parse_kind("F2", 3), 1.5, 2e-9, 1, 3e-17, 0.5, direction}};
   result.flight_floor_m = 2e-6;
+  result.hamilton_jacobi_floor = 1e-15;
   result.seconds = {0.5, 0.25, 0.125, 0.0625, 3, 1};
   return result;
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <string>
 
@@ -50,11 +51,11 @@ TEST(SingularTimes, F1OnACircularOrbit) {
   }
   // Half a revolution cannot command the normal direction, N = z.
   EXPECT_NEAR(std::abs(found[0].direction[2]), 1, 1e-9);
-  ASSERT_TRUE(found[0].direction_rtn.has_value());
-  EXPECT_NEAR(std::abs((*found[0].direction_rtn)[2]), 1, 1e-9);
   EXPECT_GT(found[0].second_ratio, 1e-3);
+  EXPECT_EQ(found[0].directions_lost, 1);
   // A whole one loses R (here x) and N: what is left is commanded along T, here y.
   EXPECT_LT(found[1].second_ratio, 1e-9);
+  EXPECT_EQ(found[1].directions_lost, 2);
   EXPECT_NEAR(found[1].direction[1], 0, 1e-6);
 }
 
@@ -86,6 +87,54 @@ TEST(SingularTimes, AllFourKindsOnThePapersOrbit) {
   }
 }
 
+// Expected: as above. Between two steps of Gauss's method with 8 stages lie two of the nine, twice.
+TEST(SingularTimes, TheFigureShowsThoseOfTheFlowWhateverTheStep) {
+  const auto& references = test::reference_cases()["conjugate_times_seed"];
+  std::vector<double> expected;
+  for (const auto& root : references["roots"]["J2J3"]["B"]) {
+    expected.push_back(std::stod(root.get<std::string>()));
+  }
+  for (const auto& pair : references["missed_by_that_grid_close_pairs_of_B_J2J3"]) {
+    expected.push_back(std::stod(pair["t"].get<std::string>()));
+  }
+  std::sort(expected.begin(), expected.end());
+  Scene scene = paper_chief(1);
+  scene.duration = 10 * std::numbers::pi;
+  std::erase_if(expected, [&](double time) { return time > scene.duration; });
+  scene.figure = {FigureQuantity::exactness, "F1"};
+  scene.integrators.push_back(scene.integrators[0]);
+  scene.integrators[1].tolerance.reset();
+  scene.integrators[1].step_canonical = 1.0;
+  for (const RunResult& run : propagate(scene).runs) {
+    ASSERT_TRUE(run.along_time.has_value());
+    expect_times(run.along_time->singular_times, expected, 1e-10, "along time");
+  }
+}
+
+// Expected: the zeros of sin(omega t), omega = 2 and 3; of both oscillators at once F1 loses two
+// directions, which no change of the determinant's sign shows.
+TEST(SingularTimes, OfAPairOfOscillators) {
+  Scene scene;
+  scene.system.model = SystemModel::oscillator_pair;
+  scene.system.stiffness_N_per_m = 4;
+  scene.system.second_stiffness_N_per_m = 9;
+  scene.nominal = {1, 1, 0, 0};
+  scene.duration = 1;
+  scene.order = 1;
+  scene.variables = {0, 1, 2, 3};
+  scene.integrators = {precise_gauss()};
+  const ComputedProblem problem = make_problem(scene, 1e10);
+  const double pi = std::numbers::pi;
+  const LinearFlow flow(problem, 4, 240);
+  const auto found = find_singular_times(flow, parse_kind("F1", 2));
+  expect_times(times_of(found), {pi / 3, pi / 2, 2 * pi / 3, pi}, 1e-12, "2 and 3");
+  EXPECT_EQ(found[0].directions_lost, 1);
+  EXPECT_EQ(found[3].directions_lost, 2);
+  scene.system.second_stiffness_N_per_m = 4;
+  const ComputedProblem alike = make_problem(scene, 1e10);
+  expect_times(times_without_kind(alike, 4, parse_kind("F1", 2)).times, {pi / 2, pi}, 1e-12, "2");
+}
+
 TEST(SingularTimes, TheClosePairIsFoundOnACoarseGridToo) {
   // The pair is 0.0027 apart; checkpoints are 0.07 apart at perigee and more elsewhere.
   const auto found = times_of(search(paper_chief(1), "F1", 12, 90));
@@ -99,8 +148,37 @@ TEST(SingularTimes, AnExactDoubleZeroIsOneTime) {
   const auto found = search(kepler_chief(0.3, 7000, 1000, 1), "F1", 12);
   ASSERT_EQ(found.size(), 2U);
   EXPECT_NEAR(found[0].time, period / 2, 1e-10);  // half a revolution, the normal direction
-  EXPECT_NEAR(found[1].time, period, 1e-8);
+  EXPECT_EQ(found[1].directions_lost, 2);
+  EXPECT_LT(found[1].resolution, 1e-11);
+  EXPECT_NEAR(found[1].time, period, found[1].resolution);
   EXPECT_LT(found[1].second_ratio, 1e-8);
+}
+
+// J2 splits the double zero of a whole revolution in proportion to itself: by 2.7e-3 for the
+// Earth's (to 16 digits in the references), so by 2.5e-6 for a thousandth of it.
+TEST(SingularTimes, AClosePairIsTwoTimesOrSaysThatItIsNot) {
+  Scene scene = paper_chief(1);
+  scene.system.J = {};
+  std::map<double, double> apart;
+  for (const double share : {1e-1, 1e-3}) {
+    scene.system.J[2] = share * 1e-3;
+    const auto found = search(scene, "F1", 12);
+    ASSERT_EQ(found.size(), 3U) << share << ::testing::PrintToString(times_of(found));
+    for (const SingularTime& zero : found) {
+      EXPECT_EQ(zero.directions_lost, 1) << share;
+      EXPECT_LT(zero.resolution, 1e-11);
+    }
+    apart[share] = found[2].time - found[1].time;
+  }
+  EXPECT_GT(apart[1e-3], 1e-6);
+  EXPECT_LT(apart[1e-3], 5e-6);
+  // What is quadratic in J2 is a ten thousandth of it here.
+  EXPECT_NEAR(apart[1e-3], apart[1e-1] / 100, 1e-3 * apart[1e-3]);
+  // Closer than rounding can tell: one time, which says so.
+  scene.system.J[2] = 1e-13;
+  const auto found = search(scene, "F1", 12);
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[1].directions_lost, 2);
 }
 
 TEST(SingularTimes, ACircularOrbitsDoubleZerosAreOneTimeEach) {
@@ -111,7 +189,7 @@ TEST(SingularTimes, ACircularOrbitsDoubleZerosAreOneTimeEach) {
     const double turns = zero.time / (2 * pi);
     if (std::abs(turns - std::round(turns)) > 1e-6) continue;
     ++doubles;
-    EXPECT_EQ(zero.directions_lost(), 2) << zero.time;
+    EXPECT_EQ(zero.directions_lost, 2) << zero.time;
     EXPECT_NEAR(zero.time, 2 * pi * std::round(turns), 1e-6);
   }
   EXPECT_EQ(doubles, 5);
@@ -146,7 +224,7 @@ TEST(LinearFlow, BetweenCheckpointsIsTheFlow) {
   const LinearFlow coarse(problem, 10, 16);
   const LinearFlow direct(problem, 7.77, 0.5);
   EXPECT_LT((coarse.at(7.77) - direct.checkpoint(1)).norm(), 1e-11 * direct.checkpoint(1).norm());
-  EXPECT_EQ(coarse.at(0), LinearFlow::StateTransition::Identity());
+  EXPECT_EQ(coarse.at(0), LinearFlow::StateTransition::Identity(6, 6));
 }
 
 }  // namespace

@@ -54,6 +54,25 @@ struct HamiltonJacobiResidual {
   double scaled = 0;
 };
 
+/// The two sides of the equation at one point w, by degree 2..N+1.
+struct HamiltonJacobiTerms {
+  std::vector<double> residual;     ///< what dS/dt|_w + H^h(z(w)) adds
+  std::vector<double> hamiltonian;  ///< what H^h(z(w)) adds
+
+  /// Sum of the residuals' magnitudes over that of the Hamiltonian's: how far the equation fails
+  /// for these boundary values. Unlike the largest coefficient of a degree, it does not count what
+  /// round-off, amplified by the inversion, makes of coefficients that add nothing at w. 0 where
+  /// both vanish.
+  double scaled() const;
+};
+
+/// `w` holds the kind's chosen final deviations, then the chosen initial ones. Throws as
+/// time_derivative.
+template <class T>
+HamiltonJacobiTerms hamilton_jacobi_terms(const DynamicalSystem& system, std::span<const T> nominal,
+                                          const PartialInversion<T>& inversion,
+                                          std::span<const double> w);
+
 /// Residuals of the degrees 2..N+1 for an inverted jet of any kind; dS/dt is the homotopy integral,
 /// by which S is formed, of the one-form of time_derivative.
 ///

@@ -18,9 +18,10 @@ struct RunAlongTime {
   std::string label;
   std::string failure;  ///< not empty: stopped there, and why
   std::vector<Point> points;
-  /// Canonical times at which the determinant of the kind's linear part changes sign, interpolated
-  /// between two steps: there the kind does not exist. Two such times within one step go unseen.
-  std::vector<double> singular_times;
+  /// Canonical times, up to the last point, at which the kind that is watched does not exist: those
+  /// of the flow itself, found by find_singular_times, whatever the integrator makes of it.
+  std::vector<double> singular_times = {};
+  std::string not_searched = {};  ///< not empty: such times were not looked for, and why
 };
 
 }  // namespace hamjet

@@ -15,6 +15,9 @@ namespace hamjet {
 /// Arithmetic of the whole chain: binary64, or 113 significant bits (Boost.Multiprecision).
 enum class Precision { double_precision, extended };
 
+/// To which a number is rounded: the machine epsilon of that arithmetic.
+double rounding_of(Precision precision);
+
 /// The dynamics. Which of the numbers below count depends on the model.
 enum class SystemModel {
   zonal_gravity,

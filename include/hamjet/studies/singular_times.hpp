@@ -3,34 +3,40 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
-#include "hamjet/algebra/eigen.hpp"
+#include "hamjet/algebra/matrix.hpp"
 #include "hamjet/maps/generating_function_kind.hpp"
 #include "hamjet/studies/propagation.hpp"
 
 namespace hamjet {
 
-/// The linear part of an orbit's flow, 6 x 6, at any time of a span: from checkpoints of one
-/// propagation and a short integration from the nearest one before.
+/// The linear part of a flow, 2n x 2n, at any time of a span: from checkpoints of one propagation
+/// and a short integration from the nearest one before. It is integrated to a local error of 1e-14,
+/// whatever the integrators of the scene do.
 class LinearFlow {
  public:
-  using StateTransition = Eigen::Matrix<double, 6, 6>;
+  using StateTransition = Matrix<double>;
 
-  /// Checkpoints are `per_revolution` in a revolution of a circular orbit, and elsewhere at steps
-  /// that go as the distance r^(3/2), as the orbit's time scale does. The problem must outlive this
-  /// object. Throws Error(usage) unless it is an orbit, expanded in all variables.
+  /// Checkpoints follow the largest rate |lambda| of the linearised equations: they are 2 sqrt(2)
+  /// pi / (|lambda| `per_revolution`) apart, which on an orbit is `per_revolution` in a revolution
+  /// of a circular one and elsewhere proportional to r^(3/2); never farther than that part of the
+  /// span, or than twice the last distance. The problem must outlive this object. Throws
+  /// Error(usage) unless it is expanded in all variables, Error(too_large) beyond 100 000
+  /// checkpoints, Error(numerical) as integrate_gauss.
   LinearFlow(const ComputedProblem& problem, double duration, double per_revolution,
              const std::function<void(double)>& progress = {});
 
   StateTransition at(double time) const;
-  /// The chief's state (q, p) then.
-  std::vector<double> chief(double time) const;
+  /// The nominal's state (q, p) then.
+  std::vector<double> nominal(double time) const;
   const std::vector<double>& times() const noexcept { return times_; }  ///< of the checkpoints
   const StateTransition& checkpoint(std::size_t i) const { return matrices_[i]; }
 
  private:
   std::size_t checkpoint_before(double time) const;
+  double checkpoint_distance(const std::vector<double>& state, double per_revolution) const;
 
   const ComputedProblem* problem_;
   SpacePointer space_;  ///< of order 1
@@ -40,42 +46,63 @@ class LinearFlow {
 };
 
 /// The block that a kind inverts, see inverted_block.
-Eigen::Matrix3d inverted_block(const LinearFlow::StateTransition& flow,
-                               const GeneratingFunctionKind& kind);
+Matrix<double> inverted_block(const LinearFlow::StateTransition& flow,
+                              const GeneratingFunctionKind& kind);
 
 /// A time at which a generating function of a kind does not exist.
 struct SingularTime {
   GeneratingFunctionKind kind;
   double time = 0;  ///< canonical
-  /// The two smallest singular values over the largest, there: how near the time was found to a
-  /// zero, and whether one or two directions are lost.
+  /// Half the span of time about it, canonical, within which the block cannot be told from a
+  /// singular one, for the flow's matrix is known to rounding alone: the time is known so well, and
+  /// zeros closer than that are one. Of the order of the rounding at a zero that is passed with a
+  /// slope, of its square root at one that is touched.
+  double resolution = 0;
+  /// How many singular values rounding cannot tell from zero: 2 at a double zero, as at the full
+  /// periods of Kepler's problem, or at a pair closer than the resolution; `direction` is then one
+  /// of a plane of them.
+  int directions_lost = 1;
+  /// The smallest and the second smallest singular value over the largest (0 for want of a second
+  /// one), there: how near the time was found to a zero, and how far the next direction is from
+  /// being lost.
   double smallest_ratio = 0;
   double second_ratio = 0;
-  /// Unit vector, inertial, in the space of the chosen final variables: for F1 the direction of the
-  /// final position that no initial velocity commands.
-  Eigen::Vector3d direction = Eigen::Vector3d::Zero();
-  /// The same along R, T, N of the chief at that time; absent where the chief has no orbital plane.
+  /// Unit vector in the space of the chosen final variables (inertial, for an orbit): for F1 the
+  /// direction of the final position that no initial velocity commands.
+  Vector<double> direction = {};
+  /// The same along R, T, N of the chief at that time; absent where the chief has no orbital plane,
+  /// and where nobody asked.
   std::optional<Eigen::Vector3d> direction_rtn = std::nullopt;
-
-  /// 2 at a double zero, as at the full periods of Kepler's problem: `direction` is then one of a
-  /// plane of them.
-  int directions_lost() const { return second_ratio < 1e-6 ? 2 : 1; }
 };
 
 /// The times in the span (0 and the end excluded) at which a kind's linear part is singular, in
-/// order. The function watched is the smallest singular value with the determinant's sign, which
-/// is continuous: where it changes sign between two checkpoints, and around every local minimum of
-/// its magnitude, which may hide a pair of zeros (J2 splits the double zeros of Kepler's full
-/// periods into pairs some thousandths of a time unit apart). Intervals about either are divided
-/// twice more, into eight and into four. Simple zeros are refined to the rounding of the time,
-/// double ones to its square root: a minimum below `double_zero` of the largest singular value
-/// without a change of sign is one, and so are two zeros nearer than round-off can tell. Missed are
-/// zeros that come in pairs between two points so divided, without a minimum there, or where none
-/// of the checkpoints showed anything.
+/// order. The function watched is the smallest singular value over the whole flow's norm, with the
+/// determinant's sign, which is continuous: where it changes sign between two checkpoints, and
+/// around every local minimum of its magnitude, which may hide a pair of zeros (J2 splits the
+/// double zeros of Kepler's full periods into pairs some thousandths of a time unit apart).
+/// Intervals about either are divided twice more, into eight and into four. A minimum that rounding
+/// cannot tell from zero counts as one without a change of sign. Each time comes with its
+/// resolution; two zeros that are nearer than theirs are one. Missed are zeros that come in pairs
+/// between two points so divided, without a minimum there, or where none of the checkpoints showed
+/// anything.
+///
+/// The determinant's sign is that of the singular vectors' determinants: its value, summed from
+/// products, has no sign left where two singular values are below the square root of rounding.
 std::vector<SingularTime> find_singular_times(const LinearFlow& flow,
                                               const GeneratingFunctionKind& kind);
 
-/// Smallest minimum of the scaled singular value that counts as zero without a change of sign.
-inline constexpr double double_zero = 1e-9;
+/// Checkpoints in a revolution, unless a caller knows better.
+inline constexpr double checkpoints_per_revolution = 240;
+
+/// The times at which a kind does not exist, for those who want no more of them.
+struct TimesWithoutKind {
+  std::vector<double> times;  ///< canonical
+  std::string not_searched;   ///< not empty: the span was too long, or the flow ends, and why
+};
+
+/// Of a flow over a duration.
+TimesWithoutKind times_without_kind(const ComputedProblem& problem, double duration,
+                                    const GeneratingFunctionKind& kind,
+                                    const std::function<void(double)>& progress = {});
 
 }  // namespace hamjet

@@ -40,12 +40,17 @@ struct TransferPoint {
   std::optional<TransferAnswer> refined;
   int refinement_flights = 0;
   bool is_beyond_tolerance = false;  ///< the miss of order N exceeds the scene's
-  /// Worst scaled residual over all degrees of the Hamilton-Jacobi equation of the kind used.
+  /// Of the Hamilton-Jacobi equation of the kind used, at the transfer's own boundary values: see
+  /// HamiltonJacobiTerms::scaled.
   std::optional<double> hamilton_jacobi_residual;
   std::string failure;  ///< not empty: no kind exists, and why; `answers` is empty
 
   bool has_answer() const { return !answers.empty() && answers.back().failure.empty(); }
   bool is_refined() const { return refined && refined->failure.empty(); }
+  /// Proved to come within the tolerance, and away from singularities.
+  bool is_candidate() const {
+    return has_answer() && !is_near_singular && (!is_beyond_tolerance || is_refined());
+  }
   /// The refined answer, where the refinement succeeded, else that of the highest order.
   const TransferAnswer& best() const { return is_refined() ? *refined : answers.back(); }
 };
@@ -83,10 +88,17 @@ struct TransferResult {
   /// Distance, at the last time, of the jet's nominal from the chief as it was flown, metres. Ends
   /// are relative to the flown chief, so that an inaccurate integrator shows in the misses.
   double chief_error_m = 0;
+  /// By how much changes of an ulp in the jet's coefficients change the largest Hamilton-Jacobi
+  /// residual: the most in a sample of sixteen.
+  std::optional<double> hamilton_jacobi_floor;
+  /// The least answer between the listed times, looked for about the lowest of them, where it is
+  /// lower than at any listed time.
+  std::optional<TransferPoint> least_between;
+  std::size_t times_between = 0;  ///< so many further times were answered for it
   TransferSeconds seconds;
 
   /// Index of the point with the least total velocity change among answers that are within the
-  /// tolerance and not near a singularity; absent if there is none.
+  /// tolerance, by themselves or refined, and not near a singularity; absent if there is none.
   std::optional<std::size_t> best_point() const;
   /// Those of position to position (F1).
   std::vector<SingularTime> position_singularities() const;
