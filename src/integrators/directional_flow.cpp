@@ -8,6 +8,7 @@
 #include <span>
 
 #include "hamjet/algebra/extended.hpp"
+#include "line_restriction.hpp"
 #include "phase_space_scale.hpp"
 
 namespace hamjet {
@@ -30,22 +31,6 @@ std::vector<double> energy_gradient(const DynamicalSystem& system, std::span<con
   std::vector<double> result;
   for (std::size_t i = 0; i < state.size(); ++i) {
     result.push_back(static_cast<double>(energy.output_gradient(0, i)));
-  }
-  return result;
-}
-
-/// The value of each monomial at a point.
-template <class Real>
-std::vector<Real> monomials_at(const SeriesSpace& space, const std::vector<Real>& point) {
-  std::vector<Real> result(space.size(), Real(1));
-  std::vector<std::uint8_t> exponents;
-  for (std::size_t k = 1; k < space.size(); ++k) {
-    const auto of = space.exponents(k);
-    exponents.assign(of.begin(), of.end());
-    const auto variable = static_cast<std::size_t>(
-        std::find_if(of.begin(), of.end(), [](std::uint8_t e) { return e > 0; }) - of.begin());
-    --exponents[variable];
-    result[k] = result[space.index(exponents)] * point[variable];
   }
   return result;
 }
@@ -88,21 +73,9 @@ typename DirectionalFlow<Real>::Lines DirectionalFlow<Real>::integrate(
 template <class Real>
 typename DirectionalFlow<Real>::Lines DirectionalFlow<Real>::restrict(
     const FlowJet<Real>& jet) const {
-  const SeriesSpace& space = *problem_.space;
   Lines result;
   for (const std::vector<Real>& direction : directions_) {
-    const std::vector<Real> monomials = monomials_at(space, direction);
-    FlowJet<Real>& line = result.emplace_back();
-    for (const Series<Real>& component : jet) {
-      Series<Real>& series = line.emplace_back(line_space_);
-      for (int d = 0; d <= space.order(); ++d) {
-        Real sum = 0;
-        for (std::size_t k = space.first(d); k < space.first(d + 1); ++k) {
-          sum += component[k] * monomials[k];
-        }
-        series[static_cast<std::size_t>(d)] = sum;
-      }
-    }
+    result.push_back(restrict_to_line(jet, direction, line_space_));
   }
   return result;
 }

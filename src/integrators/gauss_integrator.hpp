@@ -13,6 +13,7 @@
 #include "hamjet/error.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
 #include "integration_clock.hpp"
+#include "series_step_control.hpp"
 #include "stage_slopes.hpp"
 #include "step_sequence.hpp"
 #include "summed_jet.hpp"
@@ -80,6 +81,7 @@ class GaussIntegrator {
     at_ = start.at;
     stages_.slopes() = start.slopes;
     end_slope_ = start.end_slope;
+    guess_ = at_.taken > 0 ? Guess::last_step : Guess::none;
     while (at_.taken < last) {
       const GaussCheckpoint<Real, Lanes>* const end = after(at_.taken + 1);
       if (end != nullptr) {
@@ -106,7 +108,8 @@ class GaussIntegrator {
 
   /// A step is repeated if its error estimate exceeds the tolerance more than this: the estimate
   /// goes as h^(2s), so that a step hardly too long is not worth repeating.
-  static constexpr double largest_excess = 10;
+  /// Where every degree counts the tolerance is far below what is wanted.
+  double largest_excess() const { return settings_.controls_all_degrees ? 1000 : 10; }
 
   /// Adds the time since `mark` to one entry of the profile and moves the mark.
   void account(double GaussProfile::*entry, Clock::time_point& mark) {
@@ -123,6 +126,7 @@ class GaussIntegrator {
       at_.remaining_steps = equal_step_count(problem_.duration, *settings_.step, "Gauss");
       at_.proposed = problem_.duration / Real(at_.remaining_steps);
     } else {
+      point_.evaluate_constant_terms();
       at_.proposed = control_.first_step(point_, problem_.duration);
     }
   }
@@ -131,7 +135,7 @@ class GaussIntegrator {
   void evaluate_end_slope(std::vector<Real>& slope) {
     const std::size_t m = stages_.system().components();
     for (std::size_t c = 0; c < m; ++c) *point_.input(c) = jet_.value()[c][0];
-    point_.evaluate_constant_terms();
+    point_.evaluate_constant_values();
     slope.assign(m, Real(0));
     for (std::size_t c = 0; c < m; ++c) {
       if (stages_.system().unit_mass()) {
@@ -175,24 +179,32 @@ class GaussIntegrator {
               [&] { statistics_.record_step_error(control_.error_estimate(step_, end_slope_)); },
               statistics_.step_error_seconds);
         }
+        if (!solve_degrees(mark)) fail_fixed_step(h);
         break;
       }
-      const double error = is_solved ? control_.error_estimate(step_, end_slope_)
-                                     : std::numeric_limits<double>::infinity();
+      double error = is_solved ? control_.error_estimate(step_, end_slope_)
+                               : std::numeric_limits<double>::infinity();
+      if (error <= largest_excess() * *settings_.tolerance) {
+        if (!solve_degrees(mark)) fail_fixed_step(h);
+        if (settings_.controls_all_degrees) {
+          error = std::max(error, SeriesStepControl<Real, Lanes>::error_estimate(
+                                      stages_, control_.last_mode_weights(), jet_.value(), order_));
+        }
+      }
       growth = is_solved ? control_.step_factor(error) : 0.5;
-      if (error <= largest_excess * *settings_.tolerance) {
+      if (error <= largest_excess() * *settings_.tolerance) {
         growth *= control_.time_scale_ratio();
         statistics_.record_step_error(error);
         break;
       }
       ++statistics_.rejected_steps;
+      guess_ = is_solved ? Guess::repeated_step : Guess::none;
+      repeated_step_ = h;
       h *= Real(std::min(growth, 0.9));
     }
-    // For the degrees above 0 alone.
-    if (order_ > 0 && !stages_.factorise()) fail_fixed_step(h);
-    account(&GaussProfile::factorisation, mark);
-    advance_jet(h, mark);
+    advance_jet(h);
     at_.previous_step = h;
+    guess_ = Guess::last_step;
     ++at_.taken;
     ++statistics_.steps;
     statistics_.periods += control_.periods(h);
@@ -227,9 +239,11 @@ class GaussIntegrator {
     stages_.system().set_step(step_);
     stages_.slopes() = end.slopes;
     stages_.evaluate_at_slopes(start(), statistics_);
-    if (!stages_.factorise()) fail_fixed_step(step_);
-    advance_jet(step_, mark);
+    if (!solve_degrees(mark)) fail_fixed_step(step_);
+    advance_jet(step_);
+    account(&GaussProfile::update, mark);
     at_ = end.at;
+    guess_ = Guess::last_step;
     ++statistics_.steps;
     statistics_.vector_field_evaluations += settings_.stages;
   }
@@ -247,8 +261,12 @@ class GaussIntegrator {
   /// and along growing step sizes where the solution found might not be the one connected to the
   /// start.
   bool solve_nominal(const Real& h) {
-    if (at_.taken > 0) {
-      extrapolate_slopes(h);
+    if (guess_ != Guess::none) {
+      if (guess_ == Guess::last_step) {
+        stages_.reposition(Real(1), Real(h / at_.previous_step));
+      } else {
+        stages_.reposition(Real(0), Real(h / repeated_step_));
+      }
       if (try_step(h) && !is_suspicious(h)) return true;
     }
     set_constant_slopes();
@@ -348,36 +366,30 @@ class GaussIntegrator {
     return result;
   }
 
-  /// Lagrange extrapolation of the last step's slopes: node i lies at 1 + (h/h_previous) c_i there.
-  void extrapolate_slopes(const Real& h) {
-    const std::size_t s = tableau_.stages;
-    const P x = P(Real(1)) + P(Real(h / at_.previous_step)) * stages_.system().nodes();
-    const std::vector<P> old = stages_.slopes();
-    for (auto& slope : stages_.slopes()) slope = P(Real(0));
-    for (std::size_t j = 0; j < s; ++j) {
-      P basis(Real(1));
-      for (std::size_t k = 0; k < s; ++k) {
-        if (k != j) basis *= (x - P(node(k))) * P(Real(1 / (node(j) - node(k))));
-      }
-      for (std::size_t c = 0; c < old.size(); ++c) {
-        stages_.slopes()[c] += basis * P(old[c].lane(static_cast<int>(j)));
-      }
-    }
-  }
-
-  Real node(std::size_t j) { return stages_.system().nodes().lane(static_cast<int>(j)); }
-
-  /// The degrees 1..N of the stages, then the new state.
-  void advance_jet(const Real& h, Clock::time_point& mark) {
+  /// The degrees 1..N of the stages; false if their equations cannot be solved.
+  bool solve_degrees(Clock::time_point& mark) {
+    bool iterates = stages_.is_iteration_cheaper(problem_.space->first(order_ + 1) - 1);
+    bool is_factorised = false;
     auto& evaluator = stages_.evaluator();
     for (int d = 1; d <= order_; ++d) {
       evaluator.evaluate_remainder(d);
       account(&GaussProfile::series, mark);
-      stages_.solve_degree(d, state_);
+      iterates = iterates && stages_.iterate_degree(d, state_);
+      if (!iterates) {
+        if (!is_factorised && !stages_.factorise()) return false;
+        is_factorised = true;
+        account(&GaussProfile::factorisation, mark);
+        stages_.solve_degree(d, state_);
+      }
       account(&GaussProfile::linear_solves, mark);
       evaluator.complete(d);
       account(&GaussProfile::update, mark);
     }
+    return true;
+  }
+
+  /// The new state from the stages.
+  void advance_jet(const Real& h) {
     jet_.advance(stages_, h, order_);
     evaluate_end_slope(end_slope_);
   }
@@ -395,7 +407,11 @@ class GaussIntegrator {
   GaussStepControl<Real, Lanes> control_;
   std::vector<const Real*> state_;
   GaussStepping<Real> at_;
-  Real step_ = 0;                ///< being tried
+  Real step_ = 0;  ///< being tried
+  /// What the slopes are of, from which those of the next try are guessed.
+  enum class Guess { none, last_step, repeated_step };
+  Guess guess_ = Guess::none;
+  Real repeated_step_ = 0;       ///< the size that was refused
   std::vector<Real> end_slope_;  ///< at the end of the last step, where the next one starts
 };
 

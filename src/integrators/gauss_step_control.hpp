@@ -59,7 +59,7 @@ class GaussStepControl {
   double start_defect(const std::vector<Real>& end_slope) {
     double result = 0;
     for (std::size_t c = 0; c < end_slope.size(); ++c) {
-      const Real difference = stages_.slope_polynomial(c, Real(0)) - end_slope[c];
+      const Real difference = stages_.slope_at_start(c) - end_slope[c];
       result = std::max(result, std::abs(static_cast<double>(difference)));
     }
     return result;
@@ -137,6 +137,9 @@ class GaussStepControl {
   double periods(const Real& h) {
     return static_cast<double>(magnitude(h)) * frequency() / (2 * std::numbers::pi);
   }
+
+  /// The weights of the Legendre mode of degree s - 1.
+  const P& last_mode_weights() const { return modes_.back(); }
 
   /// The largest component of the Legendre mode of one degree, below s, of the slopes.
   double mode(int degree) {

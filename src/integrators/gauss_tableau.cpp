@@ -90,6 +90,19 @@ GaussTableau compute_tableau(std::size_t s) {
       tableau.matrix[i * s + j] = tableau.weights[j] * sum;
     }
   }
+  tableau.lagrange.resize(s);
+  tableau.start.resize(s);
+  for (std::size_t j = 0; j < s; ++j) {
+    Extended product = 1;
+    Extended at_start = 1;
+    for (std::size_t k = 0; k < s; ++k) {
+      if (k == j) continue;
+      product *= tableau.nodes[j] - tableau.nodes[k];
+      at_start *= -tableau.nodes[k];
+    }
+    tableau.lagrange[j] = 1 / product;
+    tableau.start[j] = at_start * tableau.lagrange[j];
+  }
   for (std::size_t i = 0; i < s; ++i) {
     for (std::size_t j = 0; j < s; ++j) {
       for (std::size_t k = 0; k < s; ++k) {

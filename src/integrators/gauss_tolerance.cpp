@@ -93,8 +93,10 @@ template <class Real>
 StepTolerance choose_step_tolerance(const FlowProblem<Real>& problem,
                                     const GaussSettings& settings) {
   const double asked = settings.tolerance.value_or(0);
-  if (!settings.tolerance || problem.space->order() == 0 || problem.duration == 0)
+  const bool is_chosen_in_steps = !settings.tolerance || settings.controls_all_degrees;
+  if (is_chosen_in_steps || problem.space->order() == 0 || problem.duration == 0) {
     return {asked, {}};
+  }
   const double smallest = smallest_step_tolerance<Real>();
   const DirectionalFlow<Real> flow(problem, 2);
   Trial first = try_tolerance(flow, settings, asked);

@@ -1,18 +1,21 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <vector>
 
 #include "hamjet/dynamics/slice_evaluator.hpp"
 #include "hamjet/integrators/flow_problem.hpp"
+#include "stage_iteration.hpp"
 #include "stage_system.hpp"
 
 namespace hamjet {
 
-/// The stages of one step: degree 0 by Newton's method on the slopes G, the higher degrees through
-/// the same linearisation. Y_c are the inputs of the evaluator, G_c the slopes g(Y)_c.
+/// The stages of one step: degree 0 by fixed-point iteration, or by Newton's method on the slopes G
+/// where that does not contract; the higher degrees through the linearisation. Y_c are the inputs
+/// of the evaluator, G_c the slopes g(Y)_c.
 template <class Real, int Lanes>
 class StageSlopes {
  public:
@@ -24,9 +27,18 @@ class StageSlopes {
         list_(system.evaluated_list()),
         evaluator_(list_, space, working_order),
         space_(std::move(space)),
-        slopes_(system_.components()) {}
+        iteration_(system_),
+        slopes_(system_.components()) {
+    for (std::size_t j = 0; j < tableau.stages; ++j) {
+      lagrange_weights_.set_lane(static_cast<int>(j), convert<Real>(tableau.lagrange[j]));
+      start_weights_.set_lane(static_cast<int>(j), convert<Real>(tableau.start[j]));
+    }
+  }
+  StageSlopes(const StageSlopes&) = delete;
+  StageSlopes& operator=(const StageSlopes&) = delete;
 
   StageSystem<Real, Lanes>& system() { return system_; }
+  const StageSystem<Real, Lanes>& system() const { return system_; }
   SliceEvaluator<P, Real>& evaluator() { return evaluator_; }
   std::vector<P>& slopes() { return slopes_; }
 
@@ -40,29 +52,37 @@ class StageSlopes {
     return sum;
   }
 
-  /// The collocation polynomial of the slopes at x, one number per component.
-  Real slope_polynomial(std::size_t c, const Real& x) const {
+  /// The collocation polynomial of the slopes at the start of the step.
+  Real slope_at_start(std::size_t c) const { return dot(start_weights_, slopes_[c]); }
+
+  /// Evaluates the collocation polynomial of the slopes at start + length c_i, the unit being its
+  /// own step: the first guess of the slopes of another step.
+  void reposition(const Real& start, const Real& length) {
     const std::size_t s = system_.stages();
-    Real sum = 0;
+    const P x = P(start) + P(length) * system_.nodes();
+    // The products of x - c_k over k < j, and then those over k > j.
+    std::array<P, Lanes> basis;
+    P product(Real(1));
     for (std::size_t j = 0; j < s; ++j) {
-      Real basis = 1;
-      for (std::size_t k = 0; k < s; ++k) {
-        if (k != j)
-          basis *= (x - system_.nodes().lane(static_cast<int>(k))) /
-                   (system_.nodes().lane(static_cast<int>(j)) -
-                    system_.nodes().lane(static_cast<int>(k)));
-      }
-      sum += basis * slopes_[c].lane(static_cast<int>(j));
+      basis[j] = product * P(lagrange_weights_.lane(static_cast<int>(j)));
+      product *= x - P(system_.nodes().lane(static_cast<int>(j)));
     }
-    return sum;
+    product = P(Real(1));
+    for (std::size_t j = s; j-- > 0;) {
+      basis[j] *= product;
+      product *= x - P(system_.nodes().lane(static_cast<int>(j)));
+    }
+    for (P& slope : slopes_) {
+      P sum(Real(0));
+      for (std::size_t j = 0; j < s; ++j) sum += basis[j] * P(slope.lane(static_cast<int>(j)));
+      slope = sum;
+    }
   }
 
   double largest_slope() const {
     double result = 0;
     for (const P& slope : slopes_) {
-      for (int i = 0; i < static_cast<int>(system_.stages()); ++i) {
-        result = std::max(result, std::abs(static_cast<double>(slope.lane(i))));
-      }
+      result = std::max(result, static_cast<double>(largest_magnitude(slope)));
     }
     return result;
   }
@@ -81,8 +101,10 @@ class StageSlopes {
   /// The same over all stages.
   double largest_gradient() const {
     double result = 0;
-    for (int i = 0; i < static_cast<int>(system_.stages()); ++i) {
-      result = std::max(result, largest_gradient(i));
+    for (std::size_t c = 0; c < system_.components(); ++c) {
+      for (std::size_t k = 0; k < system_.components(); ++k) {
+        result = std::max(result, static_cast<double>(largest_magnitude(slope_gradient(c, k))));
+      }
     }
     return result;
   }
@@ -93,9 +115,7 @@ class StageSlopes {
     double result = 0;
     for (std::size_t c = 0; c < system_.components(); ++c) {
       const P moved = evaluator_.input(c)[0] - P(state(c));
-      for (int i = 0; i < static_cast<int>(system_.stages()); ++i) {
-        result = std::max(result, std::abs(static_cast<double>(moved.lane(i))));
-      }
+      result = std::max(result, static_cast<double>(largest_magnitude(moved)));
     }
     return result;
   }
@@ -119,10 +139,25 @@ class StageSlopes {
     }
   }
 
-  /// Newton's method from the slopes that stand in slopes(); true if it converged to round-off.
-  /// With rho = g(Y) - G and Y = base + W G:  dY = K rho,  dG = rho + Dg dY.
+  /// Solves degree 0 from the slopes that stand in slopes(); true if it came to round-off.
   template <class State>
   bool solve_constant_terms(const State& state, IntegrationStatistics& statistics) {
+    const auto evaluate = [&](const std::vector<P>& stages, std::vector<P>& slopes) {
+      for (std::size_t c = 0; c < stages.size(); ++c) evaluator_.input(c)[0] = stages[c];
+      evaluator_.evaluate_constant_values();
+      ++statistics.nominal_evaluations;
+      for (std::size_t c = 0; c < stages.size(); ++c) slopes[c] = slope(c);
+    };
+    if (iteration_.solve_constant_terms(state, slopes_, evaluate)) {
+      evaluate_at_slopes(state, statistics);
+      return true;
+    }
+    return solve_by_newton(state, statistics);
+  }
+
+  /// Newton's method. With rho = g(Y) - G and Y = base + W G:  dY = K rho,  dG = rho + Dg dY.
+  template <class State>
+  bool solve_by_newton(const State& state, IntegrationStatistics& statistics) {
     const std::size_t m = system_.components();
     std::vector<P> residual(m);
     std::vector<P> change(m);
@@ -175,6 +210,33 @@ class StageSlopes {
   bool factorise() {
     return system_.factorise(
         [&](std::size_t c, std::size_t from) { return slope_gradient(c, from); });
+  }
+
+  /// Whether solving so many monomials by iteration takes less than one factorisation, which is
+  /// about `unknowns` pivots by 3/2 as many columns; the iteration converges in eight.
+  bool is_iteration_cheaper(std::size_t monomials) const {
+    const std::size_t m = system_.components();
+    const std::size_t unknowns = m * system_.stages();
+    return 16 * monomials * (m + system_.stages()) < 3 * unknowns * unknowns;
+  }
+
+  /// As solve_degree, by fixed-point iteration and without a factorisation. False where it does not
+  /// contract.
+  bool iterate_degree(int d, const std::vector<const Real*>& state) {
+    const std::size_t m = system_.components();
+    if (system_.second_order() && !system_.unit_mass() && d >= 2) apply_inverse_mass(d);
+    known_.resize(m);
+    const auto gradient = [&](std::size_t c, std::size_t k) { return slope_gradient(c, k); };
+    for (std::size_t k = space_->first(d); k < space_->first(d + 1); ++k) {
+      const auto monomial = [&](std::size_t i) -> const Real& { return state[i][k]; };
+      for (std::size_t c = 0; c < m; ++c) {
+        known_[c] = system_.base(c, monomial);
+        if (has_remainder(c, d)) known_[c] += system_.couple(remainder(c)[k]);
+      }
+      if (!iteration_.solve_linear(known_, gradient, solved_)) return false;
+      for (std::size_t c = 0; c < m; ++c) evaluator_.input(c)[k] = solved_[c];
+    }
+    return true;
   }
 
   /// The degree-d slices of the stages from those of the outputs' remainders and of the state:
@@ -315,7 +377,12 @@ class StageSlopes {
   OperationList list_;
   SliceEvaluator<P, Real> evaluator_;
   SpacePointer space_;
+  P lagrange_weights_{Real(0)};  ///< 1 / product over k of c_j - c_k
+  P start_weights_{Real(0)};     ///< Lagrange's polynomials at the start of the step
+  StageIteration<Real, Lanes> iteration_;
   std::vector<P> slopes_;
+  std::vector<P> known_;
+  std::vector<P> solved_;
   std::vector<std::vector<P>> mapped_;
 };
 

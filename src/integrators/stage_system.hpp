@@ -95,11 +95,17 @@ class StageSystem {
 
   /// sum over j of W_ij G_j, for one component.
   P couple(const P& slopes) const {
-    P sum(Real(0));
-    for (std::size_t j = 0; j < stages_; ++j) {
-      sum += coupling_[j] * P(slopes.lane(static_cast<int>(j)));
+    // Four sums, for each addition waits for the one before.
+    std::array<P, 4> sums;
+    for (P& sum : sums) sum = P(Real(0));
+    std::size_t j = 0;
+    for (; j + 4 <= stages_; j += 4) {
+      for (std::size_t k = 0; k < 4; ++k) {
+        sums[k] += coupling_[j + k] * P(slopes.lane(static_cast<int>(j + k)));
+      }
     }
-    return sum * P(scale_);
+    for (; j < stages_; ++j) sums[0] += coupling_[j] * P(slopes.lane(static_cast<int>(j)));
+    return ((sums[0] + sums[1]) + (sums[2] + sums[3])) * P(scale_);
   }
 
   /// What the rounding of the coefficients has taken from base + couple. The rounded coefficients

@@ -34,6 +34,10 @@ std::string header(const Columns& columns) {
       "rejected_steps,vector_field_evaluations,nominal_evaluations,multiply_adds,memory_bytes,"
       "repeats,median_seconds,least_seconds,most_seconds,error_at_formation_m,largest_error";
   for (std::size_t d = 0; d < columns.errors; ++d) line += fmt::format(",error_degree_{}", d);
+  line += ",largest_error_estimate";
+  for (std::size_t d = 0; d < columns.errors; ++d) {
+    line += fmt::format(",error_estimate_degree_{}", d);
+  }
   line += ",largest_symplecticity";
   for (std::size_t d = 0; d < columns.symplecticity; ++d) {
     line += fmt::format(",symplecticity_absolute_degree_{0},symplecticity_scaled_degree_{0}", d);
@@ -82,12 +86,20 @@ std::string cost_fields(const ComparedRun& run) {
                               csv_number(*most));
 }
 
+/// The largest of errors by degree, then all of them, in so many columns more.
+std::string error_fields(const std::vector<double>& errors, double largest, std::size_t columns) {
+  std::string fields = "," + (errors.empty() ? "" : csv_number(largest));
+  for (std::size_t d = 0; d < columns; ++d) {
+    fields += "," + (d < errors.size() ? csv_number(errors[d]) : "");
+  }
+  return fields;
+}
+
 std::string map_fields(const ComparedRun& run, const Columns& columns, bool has_formation) {
   std::string fields = "," + (has_formation ? csv_number(run.error_at_formation_m) : "");
-  fields += "," + (run.error_by_degree.empty() ? "" : csv_number(run.largest_error()));
-  for (std::size_t d = 0; d < columns.errors; ++d) {
-    fields += "," + (d < run.error_by_degree.size() ? csv_number(run.error_by_degree[d]) : "");
-  }
+  fields += error_fields(run.error_by_degree, run.largest_error(), columns.errors);
+  fields +=
+      error_fields(run.error_estimate_by_degree, run.largest_error_estimate(), columns.errors);
   fields += "," + (run.symplecticity.empty() ? "" : csv_number(run.largest_symplecticity()));
   for (std::size_t d = 0; d < columns.symplecticity; ++d) {
     fields += d < run.symplecticity.size()

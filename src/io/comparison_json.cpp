@@ -38,6 +38,7 @@ Json run_json(const ComparedRun& run) {
                {"median_seconds", nullptr},
                {"error_by_degree", json_value(run.error_by_degree)},
                {"largest_error", nullptr},
+               {"error_estimate_by_degree", json_value(run.error_estimate_by_degree)},
                {"error_at_formation_m", json_number(run.error_at_formation_m)},
                {"exactness", Json::array()},
                {"exactness_failure", text_or_null(run.exactness_failure)},

@@ -45,6 +45,9 @@ ComparedRun read_run(const JsonReader& value) {
   run.memory_bytes = value.at("memory_bytes").number();
   run.seconds = value.at("seconds").numbers();
   run.error_by_degree = value.at("error_by_degree").numbers();
+  if (value.has("error_estimate_by_degree")) {  // absent from older files
+    run.error_estimate_by_degree = value.at("error_estimate_by_degree").numbers();
+  }
   run.error_at_formation_m = value.at("error_at_formation_m").number();
   run.exactness = value.at("exactness").list(read_exactness);
   run.exactness_failure = value.at("exactness_failure").text_or_empty();

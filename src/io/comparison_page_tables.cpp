@@ -96,8 +96,8 @@ std::string run_table_html(const ComparisonResult& result) {
                                     "least … most", "steps",         "rejected",
                                     "evaluations",  "multiply-adds", "memory"};
   if (is_metric) names.push_back(shown_error_name(result));
-  for (const char* name :
-       {"largest relative error", "symplecticity defect", "energy error", "corner"}) {
+  for (const char* name : {"largest relative error", "error estimate", "symplecticity defect",
+                           "energy error", "corner"}) {
     names.emplace_back(name);
   }
   const double smallest = largest_claimed_error(result);
@@ -112,12 +112,17 @@ std::string run_table_html(const ComparisonResult& result) {
     if (is_metric) rows += cell(claimed(run.error_at_formation_m, smallest_metric, true));
     rows +=
         cell(run.error_by_degree.empty() ? "–" : claimed(run.largest_error(), smallest, false)) +
+        cell(run.error_estimate_by_degree.empty() ? "–"
+                                                  : small_number(run.largest_error_estimate())) +
         cell(run.symplecticity.empty() ? "–" : small_number(run.largest_symplecticity())) +
         cell(small_number(run.energy_error)) + cell(run.corner ? corner_text(*run.corner) : "–") +
         "</tr>\n";
   }
-  return table_html("All runs at the scene's order. Evaluations of the vector field are on series.",
-                    "<tr>" + header_cells(names) + "</tr>", rows);
+  return table_html(
+      "All runs at the scene's order. Evaluations of the vector field are on series. The error "
+      "estimate is made without the reference, from independent runs along two "
+      "directions.",
+      "<tr>" + header_cells(names) + "</tr>", rows);
 }
 
 std::string degree_table_html(const ComparisonResult& result) {

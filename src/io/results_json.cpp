@@ -53,6 +53,16 @@ Json checks_json(const std::vector<SelfCheck>& checks) {
   return json;
 }
 
+/// Relative errors by degree, or null.
+Json by_degree_json(const std::optional<std::vector<double>>& errors) {
+  if (!errors) return nullptr;
+  Json json = Json::array();
+  for (std::size_t d = 0; d < errors->size(); ++d) {
+    json.push_back({{"degree", d}, {"relative", (*errors)[d]}});
+  }
+  return json;
+}
+
 /// How a run was split, and why.
 Json arcs_json(const Scene& scene, const ArcStatistics& arcs) {
   const ArcPlan& plan = arcs.plan;
@@ -96,7 +106,7 @@ Json run_json(const PropagationResult& result, const RunResult& run) {
     for (const char* key :
          {"checks", "steps", "rejected_steps", "vector_field_evaluations", "nominal_evaluations",
           "wall_seconds", "nominal_final", "energy_error", "exactness", "symplecticity_by_degree",
-          "error_by_degree", "operations"}) {
+          "error_by_degree", "error_estimate_by_degree", "operations"}) {
       json[key] = nullptr;
     }
     return json;
@@ -121,13 +131,8 @@ Json run_json(const PropagationResult& result, const RunResult& run) {
           {{"degree", entry.degree}, {"absolute", entry.absolute}, {"scaled", entry.scaled}});
     }
   }
-  json["error_by_degree"] = nullptr;
-  if (run.error_by_degree) {
-    json["error_by_degree"] = Json::array();
-    for (std::size_t d = 0; d < run.error_by_degree->size(); ++d) {
-      json["error_by_degree"].push_back({{"degree", d}, {"relative", (*run.error_by_degree)[d]}});
-    }
-  }
+  json["error_by_degree"] = by_degree_json(run.error_by_degree);
+  json["error_estimate_by_degree"] = by_degree_json(run.error_estimate.by_degree);
   json["operations"] = operations_json(result, run);
   if (run.arcs) json["arcs"] = arcs_json(result.scene, *run.arcs);
   return json;

@@ -69,8 +69,8 @@ std::vector<std::size_t> shown_degrees(const Scene& scene) {
 }
 
 Row header(const PropagationResult& result) {
-  Row row = {"integrator",     "steps",          "rejected",      "time",
-             "position error", "relative error", "symplecticity", "energy error"};
+  Row row = {"integrator",     "steps",          "rejected",      "time",        "position error",
+             "relative error", "error estimate", "symplecticity", "energy error"};
   if (!result.scene.kinds || !result.problem.is_full_jet) return row;
   for (const std::string& kind : *result.scene.kinds) {
     for (const std::size_t d : shown_degrees(result.scene)) {
@@ -86,6 +86,8 @@ Row run_row(const PropagationResult& result, const RunResult& run) {
              std::to_string(run.statistics.rejected_steps),
              duration_text(run.statistics.wall_seconds), position_error(result, run)};
   row.push_back(relative_error(result, run));
+  row.push_back(run.error_estimate.by_degree ? fmt::format("{:.1e}", run.error_estimate.largest())
+                                             : not_computed);
   row.push_back(largest(run.symplecticity, [](const auto& entry) { return entry.scaled; }));
   row.push_back(fmt::format("{:.1e}", run.energy_error));
   for (const KindResult& kind : run.kinds) {
@@ -132,7 +134,8 @@ std::string explanation(const PropagationResult& result) {
   std::string text =
       "position error: of the nominal at the end. relative error: largest over all degrees, "
       "relative "
-      "to the\nlargest coefficient of the degree. symplecticity: largest scaled Poisson-bracket "
+      "to the\nlargest coefficient of the degree. error estimate: the same, from independent runs "
+      "along two directions,\nwithout a reference. symplecticity: largest scaled Poisson-bracket "
       "defect over all degrees.\n";
   if (result.scene.kinds && result.problem.is_full_jet) {
     text += "F1, auto, ... degree d: absolute exactness residual";

@@ -87,6 +87,11 @@ double ComparedRun::median_seconds() const {
   return sorted.size() % 2 == 1 ? sorted[middle] : (sorted[middle - 1] + sorted[middle]) / 2;
 }
 
+double ComparedRun::largest_error_estimate() const {
+  if (error_estimate_by_degree.empty()) return std::numeric_limits<double>::infinity();
+  return *std::max_element(error_estimate_by_degree.begin(), error_estimate_by_degree.end());
+}
+
 double ComparedRun::largest_error() const {
   if (error_by_degree.empty()) return std::numeric_limits<double>::infinity();
   return *std::max_element(error_by_degree.begin(), error_by_degree.end());

@@ -1,12 +1,15 @@
 #include "integration.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <span>
 #include <type_traits>
 
 #include "hamjet/algebra/composition.hpp"
 #include "hamjet/integrators/cvode.hpp"
+#include "hamjet/integrators/error_estimate.hpp"
 #include "hamjet/integrators/explicit_runge_kutta.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
 #include "hamjet/integrators/newmark.hpp"
@@ -14,6 +17,7 @@
 #include "hamjet/integrators/symmetric_composition.hpp"
 #include "hamjet/studies/arcs.hpp"
 #include "stability_limit.hpp"
+#include "stopwatch.hpp"
 
 namespace hamjet {
 namespace {
@@ -135,6 +139,30 @@ FlowJet<Real> integrate_split(const FlowProblem<Real>& flow, const IntegratorSet
                                  progress);
 }
 
+template <class Real>
+JetErrorEstimate estimate_jet_error(const FlowProblem<Real>& flow, const FlowJet<Real>& jet,
+                                    const IntegratorSettings& settings,
+                                    const IntegrationStatistics& statistics,
+                                    const std::function<void(double)>& progress) {
+  JetErrorEstimate result;
+  const Stopwatch stopwatch(result.seconds);
+  ErrorEstimateSettings estimate;
+  if (settings.method == IntegrationMethod::gauss && settings.tolerance) {
+    constexpr double finer = 0.01;
+    estimate.tolerance = std::max(finer * *settings.tolerance,
+                                  4 * static_cast<double>(std::numeric_limits<Real>::epsilon()));
+  }
+  estimate.most_steps = std::max(estimate.most_steps, 4 * statistics.steps);
+  estimate.progress = progress;
+  try {
+    result.by_degree = estimate_error<Real>(flow, jet, estimate);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::numerical && error.kind() != ErrorKind::too_large) throw;
+    result.failure = error.what();
+  }
+  return result;
+}
+
 double integration_memory(const IntegratorSettings& settings, const DynamicalSystem& system,
                           double coefficients, double real_bytes) {
   const OperationList& list = system.evaluated_list();
@@ -152,6 +180,14 @@ template FlowJet<double> integrate(const FlowProblem<double>&, const IntegratorS
                                    IntegrationStatistics&, const StepObserver<double>&, bool);
 template FlowJet<Extended> integrate(const FlowProblem<Extended>&, const IntegratorSettings&,
                                      IntegrationStatistics&, const StepObserver<Extended>&, bool);
+template JetErrorEstimate estimate_jet_error(const FlowProblem<double>&, const FlowJet<double>&,
+                                             const IntegratorSettings&,
+                                             const IntegrationStatistics&,
+                                             const std::function<void(double)>&);
+template JetErrorEstimate estimate_jet_error(const FlowProblem<Extended>&, const FlowJet<Extended>&,
+                                             const IntegratorSettings&,
+                                             const IntegrationStatistics&,
+                                             const std::function<void(double)>&);
 template FlowJet<double> integrate_split(const FlowProblem<double>&, const IntegratorSettings&,
                                          const ArcSettings&, IntegrationStatistics&, ArcStatistics&,
                                          const StepObserver<double>&, const ArcProgress&, bool);

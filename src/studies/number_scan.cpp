@@ -54,6 +54,9 @@ NumberScan scan_numbers(const Scene& scene, const RunResult& run) {
     scanner.add(entry.absolute, "the symplecticity by degree");
     scanner.add(entry.scaled, "the symplecticity by degree");
   }
+  if (run.error_estimate.by_degree) {
+    for (const double x : *run.error_estimate.by_degree) scanner.add(x, "the error estimate");
+  }
   if (run.error_by_degree) {
     for (const double x : *run.error_by_degree) scanner.add(x, "the error by degree");
   }

@@ -64,6 +64,10 @@ void run_integrator(const Scene& scene, const ComputedProblem& problem, std::siz
                   progress(static_cast<double>(time) / scene.duration);
                 },
                 records_step_error);
+  if (scene.checks[SelfCheckName::error_estimate].is_on) {
+    run.error_estimate =
+        estimate_jet_error<Real>(flow, jet, run.settings, run.statistics, progress);
+  }
   run.jet = convert_map<Extended>(jet);
   run.nominal_final = full_state(run.jet, problem, scene.nominal.size());
   run.energy_error = recorder.largest_energy_error();

@@ -248,6 +248,72 @@ void check_surface(SelfCheck& check, const Scene& scene, const RunResult& run) {
   }
 }
 
+/// How often a run's tolerance may count: once a period of the linearised motion for Gauss, whose
+/// tolerance is that of the error after one; once a step for the others, whose tolerance is that of
+/// a step.
+double tolerance_count(const RunResult& run) {
+  return std::max(
+      1.0, is_gauss(run) ? run.statistics.periods : static_cast<double>(run.statistics.steps));
+}
+
+/// By degree, by how much half-ulp changes of the start alone change the coefficients, relative to
+/// the largest: those of degree d by the derivatives of the flow of one degree more. The last
+/// degree is taken to grow as the one before.
+std::vector<double> half_ulp_changes(const Scene& scene, const RunResult& run) {
+  double size = 0;
+  for (const double x : scene.nominal) size = std::max(size, std::abs(x));
+  std::vector<double> changes;
+  for (int d = 0; d < scene.order; ++d) {
+    const double at = d == 0 ? size : largest_coefficient(run.jet, d);
+    const double above = largest_coefficient(run.jet, d + 1);
+    changes.push_back(at > 0 ? 0.5 * rounding(scene) * (1 + (d + 1) * above * size / at) : 0);
+  }
+  changes.push_back(changes.back() * (scene.order + 1) / scene.order);
+  return changes;
+}
+
+/// By degree, the error that a run with a tolerance is allowed; see self_checks.
+std::vector<double> promised_errors(const Scene& scene, const RunResult& run) {
+  std::vector<double> promised = half_ulp_changes(scene, run);
+  const std::vector<double>& measured = run.statistics.rounding_by_degree;
+  const double steps = static_cast<double>(run.statistics.steps);
+  for (std::size_t d = 0; d < promised.size(); ++d) {
+    double floor = std::sqrt(1 + steps) * promised[d];
+    if (d < measured.size()) floor = std::max(floor, measured[d]);
+    promised[d] = 10 * floor + 100 * *run.settings.tolerance * tolerance_count(run);
+  }
+  return promised;
+}
+
+void check_error_estimate(SelfCheck& check, const Scene& scene, const RunResult& run) {
+  check.seconds += run.error_estimate.seconds;
+  if (!run.error_estimate.by_degree) return not_applicable(check, run.error_estimate.failure);
+  const std::vector<double>& estimate = *run.error_estimate.by_degree;
+  std::vector<double> limits;  // none for fixed steps, which promise nothing
+  if (check.limit) {
+    limits.assign(estimate.size(), *check.limit);
+  } else if (run.settings.tolerance) {
+    limits = promised_errors(scene, run);
+  }
+  std::size_t worst = 0;
+  const auto badness = [&](std::size_t d) {
+    return limits.empty() ? estimate[d] : estimate[d] / limits[d];
+  };
+  for (std::size_t d = 1; d < estimate.size(); ++d) {
+    if (!(badness(d) <= badness(worst))) worst = d;
+  }
+  check.text =
+      fmt::format("degree {} of the jet has an error of about {:.2g}", worst, estimate[worst]);
+  if (limits.empty()) {
+    check.value = estimate[worst];
+    check.state = SelfCheckState::passed;
+    check.text += "; fixed steps promise none";
+  } else if (!judge(check, estimate[worst], limits[worst])) {
+    check.text +=
+        ", more than the tolerance lets expect; a smaller one, or other steps, are needed";
+  }
+}
+
 void run_check(SelfCheck& check, const Scene& scene, const RunResult& run) {
   switch (check.name) {
     case SelfCheckName::finite:
@@ -264,6 +330,8 @@ void run_check(SelfCheck& check, const Scene& scene, const RunResult& run) {
       return check_inversion(check, scene, run);
     case SelfCheckName::surface:
       return check_surface(check, scene, run);
+    case SelfCheckName::error_estimate:
+      return check_error_estimate(check, scene, run);
   }
 }
 
@@ -285,7 +353,7 @@ std::string_view name_of(SelfCheckState state) {
 
 std::vector<SelfCheck> self_checks(const Scene& scene, const RunResult& run) {
   std::vector<SelfCheck> checks;
-  for (std::size_t i = 0; i < self_check_names().size(); ++i) {
+  for (std::size_t i = 0; i < self_check_count; ++i) {
     SelfCheck& check = checks.emplace_back();
     check.name = static_cast<SelfCheckName>(i);
     const SelfCheckSetting& setting = scene.checks[check.name];

@@ -40,7 +40,7 @@ const std::string fixed_midpoint = "integrator=[{label=\"a\", method=\"gauss\", 
 TEST_F(SelfChecks, StandInTheSummary) {
   const Json summary = run("quick.toml", {}, 0);
   const std::vector<std::string> names = {"finite",        "convergence", "step-error", "energy",
-                                          "symplecticity", "inversion",   "surface"};
+                                          "symplecticity", "inversion",   "surface",    "error-estimate"};
   for (const Json& entry : summary["runs"]) {
     ASSERT_EQ(entry["checks"].size(), names.size());
     EXPECT_TRUE(entry["failed_checks"].empty());

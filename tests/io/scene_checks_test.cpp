@@ -44,7 +44,7 @@ TEST(SceneChecks, MistakesAreNamed) {
   expect("enrgy = 1e-3", {"checks.enrgy: unknown key", "did you mean energy?"});
   expect("closedness = false", {"checks.closedness: unknown key",
                                 "finite, convergence, step-error, energy, "
-                                "symplecticity, inversion, surface"});
+                                "symplecticity, inversion, surface, error-estimate"});
   expect("energy = \"off\"",
          {"checks.energy: wrong type", "\"off\"", "a number above 0 (the limit), true or false"});
   expect("energy = 0", {"checks.energy: ", "got 0", "above 0"});

@@ -71,7 +71,7 @@ const RunResult& good_run() {
 
 TEST(SelfChecks, AllPassOnAGoodRun) {
   EXPECT_TRUE(good_run().failed_checks.empty());
-  ASSERT_EQ(good_run().checks.size(), 7U);
+  ASSERT_EQ(good_run().checks.size(), self_check_count);
   for (const SelfCheck& entry : good_run().checks) {
     expect_state(entry, SelfCheckState::passed);
     ASSERT_TRUE(entry.value);
@@ -81,7 +81,9 @@ TEST(SelfChecks, AllPassOnAGoodRun) {
 
 TEST(SelfChecks, ThatAreOffDoNothing) {
   Scene scene = good_scene();
-  for (std::size_t i = 0; i < 7; ++i) scene.checks[static_cast<SelfCheckName>(i)].is_on = false;
+  for (std::size_t i = 0; i < self_check_count; ++i) {
+    scene.checks[static_cast<SelfCheckName>(i)].is_on = false;
+  }
   const RunResult result = run(scene, with_step(IntegrationMethod::gauss, 0.05, 4));
   for (const SelfCheck& entry : result.checks) {
     expect_state(entry, SelfCheckState::off, "turned off in the scene");
@@ -89,6 +91,7 @@ TEST(SelfChecks, ThatAreOffDoNothing) {
   }
   EXPECT_FALSE(result.lowest_point);
   EXPECT_FALSE(result.inversion);
+  EXPECT_FALSE(result.error_estimate.by_degree);
   EXPECT_FALSE(result.statistics.largest_step_error);
 }
 

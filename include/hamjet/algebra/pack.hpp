@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <experimental/simd>
+#include <limits>
 #include <type_traits>
 
 #include "hamjet/instruction_set.hpp"
@@ -117,6 +118,47 @@ Real dot(const Pack<Real, Lanes>& a, const Pack<Real, Lanes>& b) {
     return std::experimental::reduce(sum);
   } else {
     return sum;
+  }
+}
+
+/// Lane by lane the larger of a and the magnitude of b.
+template <class Real, int Lanes>
+Pack<Real, Lanes> larger_magnitude(const Pack<Real, Lanes>& a, const Pack<Real, Lanes>& b) {
+  Pack<Real, Lanes> result;
+  for (std::size_t i = 0; i < a.parts; ++i) {
+    if constexpr (Pack<Real, Lanes>::width > 1) {
+      result.part[i] = std::experimental::max(a.part[i], std::experimental::abs(b.part[i]));
+    } else {
+      const Real size = b.part[i] < 0 ? Real(-b.part[i]) : b.part[i];
+      result.part[i] = a.part[i] < size ? size : a.part[i];
+    }
+  }
+  return result;
+}
+
+/// The largest magnitude of the lanes; not a number if one of them is none.
+template <class Real, int Lanes>
+Real largest_magnitude(const Pack<Real, Lanes>& x) {
+  if constexpr (Pack<Real, Lanes>::width > 1) {
+    namespace simd = std::experimental;
+    auto largest = simd::abs(x.part[0]);
+    for (std::size_t i = 1; i < x.parts; ++i) largest = simd::max(largest, simd::abs(x.part[i]));
+    const Real result = simd::hmax(largest);
+    // The machine's maximum of a number and of none is the number.
+    for (std::size_t i = 0; i < x.parts; ++i) {
+      if (!simd::all_of(simd::abs(x.part[i]) <= result)) {
+        return std::numeric_limits<Real>::quiet_NaN();
+      }
+    }
+    return result;
+  } else {
+    Real result = 0;
+    for (const Real& value : x.part) {
+      const Real size = value < 0 ? Real(-value) : value;
+      if (!(size <= result)) result = size;
+      if (!(result == result)) break;
+    }
+    return result;
   }
 }
 

@@ -198,6 +198,14 @@ void form_unrolled_blocks(const ProductSchedule::Output* output, const ProductSc
   }
 }
 
+/// With one variable a slice is one coefficient, and the schedule would take longer than the sum.
+template <class T>
+void form_univariate(int d, const T* a, const T* b, T* c) {
+  T sum = a[1] * b[d - 1];
+  for (int i = 2; i < d; ++i) sum += a[i] * b[d - i];
+  c[d] = sum;
+}
+
 template <bool Square, class T>
 void form_slice(const ProductSchedule& schedule, const T* a, const T* b, T* c) {
   const ProductSchedule::Output* output = schedule.outputs.data();
@@ -220,12 +228,14 @@ void form_slice(const ProductSchedule& schedule, const T* a, const T* b, T* c) {
 /// `a` or `b`, whose slices of degree d are not read.
 template <class T>
 void interior_product(const SeriesSpace& space, int d, const T* a, const T* b, T* c) {
+  if (space.variables() == 1 && d >= 2) return detail::form_univariate(d, a, b, c);
   detail::form_slice<false>(space.products(d), a, b, c);
 }
 
 /// The same for a square, at about half the cost.
 template <class T>
 void interior_square(const SeriesSpace& space, int d, const T* a, T* c) {
+  if (space.variables() == 1 && d >= 2) return detail::form_univariate(d, a, a, c);
   detail::form_slice<true>(space.products(d), a, a, c);
 }
 

@@ -64,9 +64,15 @@ class SliceEvaluator {
 
   /// Evaluates the constant terms and the gradients of all values.
   void evaluate_constant_terms() {
+    evaluate_constant_values();
+    for (std::size_t i = list_->inputs(); i < list_->operations().size(); ++i) {
+      evaluate_gradient(i, list_->operations()[i]);
+    }
+  }
+  /// The constant terms alone.
+  void evaluate_constant_values() {
     for (std::size_t i = list_->inputs(); i < list_->operations().size(); ++i) {
       evaluate_constant_term(i, list_->operations()[i]);
-      evaluate_gradient(i, list_->operations()[i]);
     }
   }
 

@@ -24,6 +24,10 @@ struct GaussSettings {
   /// Also estimate the error of fixed steps (adaptive ones are always estimated); some hundred
   /// operations a step on plain numbers.
   bool estimates_step_error = false;
+  /// Adaptive steps are short enough for every degree of the series, not for the nominal alone. A
+  /// step that is too long for a high degree is repeated with all its series, which is cheap with
+  /// few variables.
+  bool controls_all_degrees = false;
   GaussProfile* profile = nullptr;  ///< filled where given; costs a few clock readings a step
 };
 

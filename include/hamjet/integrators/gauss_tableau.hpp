@@ -19,6 +19,10 @@ struct GaussTableau {
   /// s x s: row k has the weights that give, from values at the nodes, their Legendre mode of
   /// degree k on [0, 1].
   std::vector<Extended> modes;
+  /// Of Lagrange's polynomials at the nodes, l_j(x) = lagrange_j times the product over k != j of
+  /// x - c_k: these factors, and the values l_j(0).
+  std::vector<Extended> lagrange;
+  std::vector<Extended> start;
 
   const Extended& a(std::size_t i, std::size_t j) const { return matrix[i * stages + j]; }
   const Extended& mode(std::size_t degree, std::size_t i) const {

@@ -34,10 +34,12 @@ struct ComparedRun {
   std::string failure;          ///< not empty: a numerical failure, and which
   std::string left_out;         ///< not empty: not run, and why
   IntegrationStatistics statistics;
-  double multiply_adds = 0;               ///< of the products of series, all evaluations together
-  double memory_bytes = 0;                ///< of the integrator's series, estimated
-  std::vector<double> seconds;            ///< of the integration alone, one entry a repeat
-  std::vector<double> error_by_degree;    ///< see relative_error_by_degree
+  double multiply_adds = 0;             ///< of the products of series, all evaluations together
+  double memory_bytes = 0;              ///< of the integrator's series, estimated
+  std::vector<double> seconds;          ///< of the integration alone, one entry a repeat
+  std::vector<double> error_by_degree;  ///< see relative_error_by_degree
+  /// Without the reference, see estimate_error; empty where the independent run failed.
+  std::vector<double> error_estimate_by_degree;
   double error_at_formation_m = 0;        ///< see ComparisonResult::separation_points
   std::vector<ExactnessEntry> exactness;  ///< of ComparisonResult::kind; empty if there is none
   std::string exactness_failure;          ///< not empty: the kind does not exist for this run's map
@@ -46,9 +48,10 @@ struct ComparedRun {
   std::optional<Corner> corner;  ///< none where the jet is not a full map of phase space
 
   bool is_finished() const { return failure.empty() && left_out.empty(); }
-  double median_seconds() const;         ///< 0 before the first timing
-  double largest_error() const;          ///< of all degrees
-  double largest_symplecticity() const;  ///< scaled, of all degrees
+  double median_seconds() const;          ///< 0 before the first timing
+  double largest_error() const;           ///< of all degrees
+  double largest_error_estimate() const;  ///< the same; infinite if there is none
+  double largest_symplecticity() const;   ///< scaled, of all degrees
 };
 
 /// A fitted order of convergence: slope of log error against log step.

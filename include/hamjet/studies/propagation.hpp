@@ -71,7 +71,8 @@ struct RunResult {
   std::vector<KindResult> kinds;
   std::vector<SymplecticityDefect> symplecticity;  ///< empty if not all variables are expanded in
   std::optional<std::vector<double>> error_by_degree;  ///< see relative_error_by_degree
-  std::optional<RunAlongTime> along_time;              ///< if the scene asks for a figure
+  JetErrorEstimate error_estimate;
+  std::optional<RunAlongTime> along_time;  ///< if the scene asks for a figure
 };
 
 /// The extended-precision reference: two runs of different step size, the finer one kept.

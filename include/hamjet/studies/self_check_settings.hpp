@@ -10,14 +10,18 @@ namespace hamjet {
 
 /// What a run checks of its own result; see self_checks.
 enum class SelfCheckName {
-  finite,         ///< no number of the result is infinite or none
-  convergence,    ///< Newton's iteration of implicit methods came to round-off in every step
-  step_error,     ///< the method's own estimate of its local error
-  energy,         ///< the energy along the nominal
-  symplecticity,  ///< Poisson brackets of the linear part, of symplectic methods
-  inversion,      ///< inverted maps composed with the map are the identity
-  surface,        ///< the nominal's smallest distance from the centre
+  finite,          ///< no number of the result is infinite or none
+  convergence,     ///< Newton's iteration of implicit methods came to round-off in every step
+  step_error,      ///< the method's own estimate of its local error
+  energy,          ///< the energy along the nominal
+  symplecticity,   ///< Poisson brackets of the linear part, of symplectic methods
+  inversion,       ///< inverted maps composed with the map are the identity
+  surface,         ///< the nominal's smallest distance from the centre
+  error_estimate,  ///< the error of every degree, from independent runs along directions
 };
+
+inline constexpr std::size_t self_check_count =
+    static_cast<std::size_t>(SelfCheckName::error_estimate) + 1;
 
 /// The checks' names in scenes and results, in the order of the enumeration.
 const std::vector<std::string_view>& self_check_names();
@@ -43,7 +47,7 @@ class SelfCheckSettings {
   }
 
  private:
-  std::array<SelfCheckSetting, 7> settings_;
+  std::array<SelfCheckSetting, self_check_count> settings_;
 };
 
 }  // namespace hamjet

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -45,6 +46,16 @@ struct LowestPoint {
   double failure_time = 0;
 };
 
+/// The estimated error of a run's jet; see estimate_error.
+struct JetErrorEstimate {
+  std::optional<std::vector<double>> by_degree;  ///< none if it was turned off or failed
+  std::string failure;                           ///< not empty: there is none, and why
+  double seconds = 0;                            ///< that it took
+
+  /// Over all degrees; there must be an estimate.
+  double largest() const { return *std::max_element(by_degree->begin(), by_degree->end()); }
+};
+
 /// How far inverted maps are from the inverses of a run's map, the worst of its kinds.
 struct InversionQuality {
   double miss = 0;             ///< see inversion_miss
@@ -84,6 +95,14 @@ struct InversionQuality {
 /// part, and the limit 1e-4.
 ///
 /// surface: smallest distance from the centre in km, between steps too. Limit: radius_km.
+///
+/// error-estimate: the estimated error of the degree that exceeds its limit most, see
+/// estimate_error. Limit with a tolerance: 100 tolerance n, n being the periods of the linearised
+/// motion (IntegrationStatistics::periods) for Gauss and the steps for other methods, at least 1;
+/// and ten floors for rounding, the larger of what shorter steps did not take away
+/// (rounding_by_degree) and sqrt(1 + steps) times what half-ulp changes of the start change in the
+/// degree. Fixed steps promise nothing, and have a limit only where the scene sets one, for all
+/// degrees.
 std::vector<SelfCheck> self_checks(const Scene& scene, const RunResult& run);
 
 }  // namespace hamjet

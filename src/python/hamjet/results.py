@@ -79,6 +79,18 @@ class Run:
         """The run's part of summary.json: steps, times, checks, residuals and errors by degree."""
         return dict(json.loads(self._summary))
 
+    @property
+    def error_estimate_by_degree(self) -> Floats | None:
+        """Estimated relative errors of degrees 0..order, without a reference; a read-only array.
+
+        None if the check error-estimate is off, or if the independent runs failed: then its text in
+        the checks of the summary says why.
+        """
+        rows = json.loads(self._summary).get("error_estimate_by_degree")
+        if rows is None:
+            return None
+        return _read_only(np.array([row["relative"] for row in rows]))
+
     def _required(self, result: _T | None) -> _T:
         if result is None:
             raise NumericalError(self.error)

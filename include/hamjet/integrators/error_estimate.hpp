@@ -1,0 +1,54 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "hamjet/integrators/flow_problem.hpp"
+
+namespace hamjet {
+
+/// How the error of a jet is estimated.
+struct ErrorEstimateSettings {
+  /// Of the independent runs, for every degree; by default four times the rounding of the numbers.
+  std::optional<double> tolerance = {};
+  /// Of one independent run; one that would need more is given up.
+  long most_steps = 5000;
+  /// Called after steps of the independent runs with the fraction that is done. May throw to stop.
+  std::function<void(double)> progress = {};
+};
+
+/// Estimates the error of every degree of a delivered jet without a reference: entry d is about the
+/// largest error of a coefficient of degree d, relative to the largest coefficient of that degree,
+/// truncation and rounding together. What made the jet is of no account.
+///
+/// Along two directions the univariate series of the same flow is integrated independently, with
+/// N + 1 coefficients a component: Gauss with 12 and with 11 stages, whose steps are chosen for all
+/// degrees. The jet's degree-d part at the
+/// direction, less the degree-d coefficient of that run, is the sum of the errors of all monomials
+/// of the degree with weights of order 1. The estimate is the larger of the two differences,
+/// relative to the smaller of the jet's largest coefficient and the run's, times a factor of safety
+/// of 2, and never below the rounding of Real.
+///
+/// Directions are drawn from a generator of constant seed, entries of random sign between
+/// sqrt(1/2) and sqrt(2) in magnitude so that no monomial is lost; of sixteen the two are taken at
+/// which the degrees of the jet are nearest in size to their largest coefficients, so that large
+/// monomials do not cancel.
+///
+/// How far it can be below the error: a direction sees less than a tenth of an error by chance
+/// alone. Where rounding dominates, the run's own error is a sample of the same distribution as
+/// the jet's; for normal ones P(|e| > x |e - e'|) is about 0.32 / x, so that with the factor 2 one
+/// direction misses by ten times in 1.6 % of cases and both in fewer than 0.1 % (their difference
+/// at degree 0 is judged too). Where truncation dominates, the error of degree d at a random
+/// direction is a polynomial of degree d that is small near its zeros only: less than a tenth of
+/// its typical size, over 2, in about 5 % of directions for low degrees, 0.25 % for two.
+/// Measured over hundreds of random scenes, see the tests.
+///
+/// Returns zeros for a duration of zero, where the jet is exact. Throws Error(usage) if the jet
+/// does not fit the problem, Error(numerical) if the independent run fails, Error(too_large) if it
+/// would take too many steps.
+template <class Real>
+std::vector<double> estimate_error(const FlowProblem<Real>& problem, const FlowJet<Real>& jet,
+                                   const ErrorEstimateSettings& settings = {});
+
+}  // namespace hamjet

@@ -1,0 +1,152 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "hamjet/dynamics/slice_evaluator.hpp"
+#include "hamjet/integrators/flow_problem.hpp"
+#include "stage_system.hpp"
+
+namespace hamjet {
+
+/// Fixed-point iteration for the stage equations Y = base + W g(Y) of steps that are not stiff: an
+/// iteration costs about a hundredth of a factorisation. Each function gives up where the iteration
+/// does not contract, and then leaves to a factorisation what it was given.
+template <class Real, int Lanes>
+class StageIteration {
+ public:
+  using P = Pack<Real, Lanes>;
+
+  explicit StageIteration(const StageSystem<Real, Lanes>& system)
+      : system_(system),
+        base_(system.components()),
+        stages_(system.components()),
+        slopes_(system.components()),
+        inverse_scale_(system.components()) {}
+
+  /// Degree 0: `evaluate(stages, slopes)` gives g at stages. From a guess of the slopes to slopes
+  /// whose stages differ from the last ones by rounding alone.
+  template <class State, class Evaluate>
+  bool solve_constant_terms(const State& state, std::vector<P>& slopes, const Evaluate& evaluate) {
+    const std::size_t m = system_.components();
+    for (std::size_t c = 0; c < m; ++c) {
+      // What rounding takes from the coefficients is too small to change with the iteration.
+      base_[c] = system_.base(c, state) + system_.lost(c, state, slopes[c]);
+      stages_[c] = base_[c] + system_.couple(slopes[c]);
+    }
+    set_scale(stages_, base_);
+    Contraction contraction;
+    while (true) {
+      evaluate(stages_, slopes_);
+      const Real size = replace_stages(base_);
+      const auto outcome = contraction.judge(size);
+      if (outcome == Outcome::goes_on) continue;
+      if (outcome == Outcome::fails || !is_finite_number(stages_)) return false;
+      // Once more, so that what is left is below rounding.
+      evaluate(stages_, slopes);
+      return true;
+    }
+  }
+
+  /// One monomial above degree 0, whose equations Y = base + W (R + Dg Y) are linear. `known` is
+  /// base + W R, `gradient(c, k)` is Dg.
+  template <class Gradient>
+  bool solve_linear(const std::vector<P>& known, const Gradient& gradient, std::vector<P>& stages) {
+    stages_ = known;
+    apply(gradient);
+    replace_stages(known);
+    set_scale(stages_, known);
+    Contraction contraction;
+    while (true) {
+      // Judging takes as long as iterating: every second time will do.
+      apply(gradient);
+      replace_stages(known);
+      apply(gradient);
+      const auto outcome = contraction.judge(replace_stages(known));
+      if (outcome == Outcome::goes_on) continue;
+      stages = stages_;
+      return outcome == Outcome::converged && is_finite_number(stages);
+    }
+  }
+
+ private:
+  enum class Outcome { goes_on, converged, fails };
+
+  /// Follows the sizes of the changes, relative to the stages.
+  class Contraction {
+   public:
+    Outcome judge(const Real& size) {
+      const Real before = previous_;
+      previous_ = size;
+      if (!(size <= before * slowest)) {
+        // Changes that no longer shrink are rounding, if they are no larger than that.
+        if (size <= 2 * epsilon) return Outcome::converged;
+        if (++stalls_ > most_stalls) return Outcome::fails;
+      } else if (size * size <= 0.25 * epsilon * (before - size)) {
+        return Outcome::converged;  // all the changes to come add up to less than this
+      }
+      return ++count_ < largest_count ? Outcome::goes_on : Outcome::fails;
+    }
+
+   private:
+    static constexpr double slowest = 0.5;
+    static constexpr int most_stalls = 1;  ///< the first changes may grow
+    static constexpr int largest_count = 40;
+    int count_ = 0;
+    int stalls_ = 0;
+    Real previous_ = 1;
+  };
+
+  static inline const Real epsilon = std::numeric_limits<Real>::epsilon();
+
+  /// Changes count relative to the largest of a component's stages, or of the terms that they are
+  /// sums of.
+  void set_scale(const std::vector<P>& stages, const std::vector<P>& terms) {
+    for (std::size_t c = 0; c < stages.size(); ++c) {
+      const Real scale =
+          largest_magnitude(larger_magnitude(larger_magnitude(P(Real(0)), stages[c]), terms[c]));
+      inverse_scale_[c] = P(scale > 0 ? Real(1 / scale) : Real(0));
+    }
+  }
+
+  /// Y = terms + W slopes_; returns the largest change.
+  Real replace_stages(const std::vector<P>& terms) {
+    P largest(Real(0));
+    for (std::size_t c = 0; c < terms.size(); ++c) {
+      const P stage = terms[c] + system_.couple(slopes_[c]);
+      largest = larger_magnitude(largest, (stage - stages_[c]) * inverse_scale_[c]);
+      stages_[c] = stage;
+    }
+    return largest_magnitude(largest);
+  }
+
+  /// slopes_ = Dg Y.
+  template <class Gradient>
+  void apply(const Gradient& gradient) {
+    const std::size_t m = stages_.size();
+    for (std::size_t c = 0; c < m; ++c) {
+      P slope = gradient(c, 0) * stages_[0];
+      for (std::size_t k = 1; k < m; ++k) slope += gradient(c, k) * stages_[k];
+      slopes_[c] = slope;
+    }
+  }
+
+  /// The machine's maximum of a number and of none is the number: the changes do not show it.
+  static bool is_finite_number(const std::vector<P>& stages) {
+    for (const P& stage : stages) {
+      if (!is_finite(largest_magnitude(stage))) return false;
+    }
+    return true;
+  }
+
+  const StageSystem<Real, Lanes>& system_;
+  std::vector<P> base_;
+  std::vector<P> stages_;
+  std::vector<P> slopes_;
+  std::vector<P> inverse_scale_;
+};
+
+}  // namespace hamjet
