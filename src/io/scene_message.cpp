@@ -59,9 +59,15 @@ std::vector<std::string_view> name_parts(std::string_view name) {
   return words;
 }
 
-/// Whether one name can be a slip of the other. In names of quantities one letter more or less of a
-/// short word is another quantity or another unit (ma_deg and ta_deg, a_m and a_km), and so is
-/// another digit (J2 and J20): these must be right. Of all letters half must be.
+/// Whether half of the letters are right.
+bool is_half_right(std::string_view name, std::string_view candidate) {
+  return 2 * edit_distance(name, candidate) <= std::max(name.size(), candidate.size());
+}
+
+/// Whether one name can be a slip of the other: half of the letters of each of its words are right.
+/// In names of quantities one letter more or less of a short word is another quantity or another
+/// unit (ma_deg and ta_deg, a_m and a_km), and so is another digit (J2 and J20): these must be
+/// right in full.
 bool is_slip(std::string_view name, std::string_view candidate, std::size_t distance) {
   constexpr std::size_t longest_symbol = 2;
   const std::size_t length = std::max(name.size(), candidate.size());
@@ -70,8 +76,9 @@ bool is_slip(std::string_view name, std::string_view candidate, std::size_t dist
   const auto right = name_parts(candidate);
   if (words.size() != right.size()) return 4 * distance <= length;
   for (std::size_t i = 0; i < words.size(); ++i) {
-    const bool is_symbol = std::max(words[i].size(), right[i].size()) <= longest_symbol;
-    if (is_symbol && words[i] != right[i]) return false;
+    if (words[i] == right[i]) continue;
+    const bool is_symbol = std::min(words[i].size(), right[i].size()) <= longest_symbol;
+    if (is_symbol || !is_half_right(words[i], right[i])) return false;
   }
   return true;
 }

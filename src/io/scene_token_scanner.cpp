@@ -88,7 +88,7 @@ class TokenScanner {
   void check_start_of_string() const {
     constexpr std::string_view right = "\n\r\t =[{,.";
     const bool is_at_start = position_ == 0 || right.find(text_[position_ - 1]) != right.npos;
-    if (is_at_start && (!levels_.back().in_value || run_is_fresh_)) return;
+    if (is_at_start && !is_within_value() && !levels_.back().is_within_value) return;
     throw_scene_error(here(),
                       "not valid TOML: got a quotation mark within or behind a word or "
                       "a string, must be at the start of a key or a value");
@@ -160,8 +160,7 @@ class TokenScanner {
       case '[':
       case '{':
         ++depth_;
-        // What is in an array is a value; a table, and the header of one, begins with a key.
-        levels_.push_back({c == '[' && level().in_value, c == '[' && level().in_value, 0});
+        open(c);
         check_depth();
         break;
       case ']':
@@ -243,10 +242,20 @@ class TokenScanner {
   /// What is known of the unfinished item within a bracket.
   struct Level {
     bool is_array = false;
-    bool in_value = false;  ///< what comes is a value, and no key
+    bool in_value = false;         ///< what comes is a value, and no key
+    bool is_within_value = false;  ///< to the parser the bracket is a part of a value
     std::size_t dots = 0;
   };
   Level& level() { return levels_.back(); }
+
+  /// Whether the parser still takes what comes for a part of a value that is no string.
+  bool is_within_value() const { return levels_.back().in_value && !run_is_fresh_; }
+
+  /// What is in an array is a value; a table, and the header of one, begins with a key.
+  void open(char bracket) {
+    const bool is_array = bracket == '[' && level().in_value;
+    levels_.push_back({is_array, is_array, level().is_within_value || is_within_value()});
+  }
 
   std::string here() const { return location(source_, line_, column_); }
 

@@ -281,7 +281,7 @@ TEST_F(OrbitMessages, AnotherCentreThanTheScenesIsRefused) {
   write("other.opm", changed(mars, "GM                = 398600.4415", "GM = 42828"));
   refuse(from_message(opm),
          {"other.toml:9:12: nominal.opm_file: another mu than the scene's, got GM = 42828 in "
-          "other.opm:33 and system.mu_km3_s2 = 398600.4415, must agree to 1e-05"});
+          "other.opm:31 and system.mu_km3_s2 = 398600.4415, must agree to 1e-05"});
   write("other.opm", mars);
   refuse(from_message(opm),
          {"other.toml:9:12: nominal.opm_file: another centre than the scene's, got CENTER_NAME = "

@@ -44,7 +44,7 @@ TEST(LikelySlips, AGoodSceneHasNone) {
 TEST(LikelySlips, MetresForKilometres) {
   expect_warning(changed(orbit, "[7000, 0, 0]", "[7000000, 0, 0]"),
                  {"warning: file.toml:9:15: nominal.position_km: the start lies 7e+06 km",
-                  "1098 radii of EARTH", "it must be 7000 km"});
+                  "1097 radii of EARTH", "it must be 7000 km"});
   expect_warning(changed(orbit, "radius_km = 6378", "radius_km = 6378136.3"),
                  {"file.toml:6:13: system.radius_km: 6378136.3 is the radius of EARTH in metres",
                   "in kilometres it is 6378.1363"});

@@ -195,7 +195,7 @@ TEST(SceneErrors, NoSuggestionIsOtherPhysics) {
     EXPECT_EQ(with_element(key).find("did you mean"), std::string::npos) << with_element(key);
     EXPECT_NE(with_element(key).find("unknown key"), std::string::npos) << with_element(key);
   }
-  EXPECT_NE(with_element("taa_deg").find("did you mean ta_deg?"), std::string::npos);
+  EXPECT_NE(with_element("agrp_deg").find("did you mean argp_deg?"), std::string::npos);
   const auto with_zonal = [&](const std::string& key) {
     return message(changed(orbit, "J2 = 1e-3", key + " = 1e-3"));
   };
