@@ -167,7 +167,8 @@ Jet jet_of(const PropagationResult& result, const RunResult& run) {
   stored.components = result.problem.components;
   stored.variables = result.scene.variables;
   stored.ephemeris = result.scene.ephemeris;
-  stored.error_by_degree = run.error_by_degree.value_or(std::vector<double>());
+  stored.error_by_degree =
+      run.error_by_degree.value_or(run.error_estimate.by_degree.value_or(std::vector<double>()));
   stored.jet = run.jet;
   return Jet(std::move(stored));
 }

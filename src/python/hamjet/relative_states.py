@@ -15,7 +15,7 @@ class RelativeStates(NamedTuple):
     states: npt.NDArray[np.float64]
     #: (N,) float64: by how much the position may be wrong, in m: what the missing degrees would add,
     #: rounding of coefficients and evaluation, and the errors of the coefficients where the run has
-    #: a reference. An estimate and no bound; NaN where ``support`` is not "inside".
+    #: measured or estimated them. An estimate and no bound; NaN where ``support`` is not "inside".
     miss_m: npt.NDArray[np.float64]
     #: (N,) str: "inside"; "outside", beyond the polynomial's reach, where the degrees do not
     #: decay and the states say nothing; or "unknown", where there is but one degree to judge by, or
