@@ -147,16 +147,20 @@ std::string table(const EnergyConservationResult& result) {
   if (!fixed.failure.empty()) text += fmt::format("                    {}\n", fixed.failure);
   if (run.stop) {
     text += fmt::format("  stopped           {}\n", run.stop->message);
-    text +=
-        result.predicted_time
-            ? fmt::format(
-                  "  predicted         t = {:.10g} for small steps, where the condition "
-                  "changes sign on the exact flow; observed t = {:.10g}, {:+.3g} last "
-                  "steps from it\n",
-                  *result.predicted_time, run.stop->time,
-                  (run.stop->time - *result.predicted_time) / run.last_step)
-            : "  predicted         nothing: on the exact flow the condition does not change sign "
-              "near here; steps this large mislead the line, and smaller ones may pass\n";
+    if (result.predicted_time) {
+      text += fmt::format(
+          "  predicted         t = {:.10g} for small steps, where the condition changes sign on "
+          "the "
+          "exact flow; observed t = {:.10g}, {:+.3g} last steps from it\n",
+          *result.predicted_time, run.stop->time,
+          (run.stop->time - *result.predicted_time) / run.last_step);
+    } else if (run.steps == 0) {
+      text += "  predicted         not computed, for no step was taken\n";
+    } else {
+      text +=
+          "  predicted         nothing: on the exact flow the condition does not change sign near "
+          "here; steps this large mislead the line, and smaller ones may pass\n";
+    }
   }
   return text;
 }

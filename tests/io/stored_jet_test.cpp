@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cstdint>
 #include <fstream>
 #include <functional>
@@ -298,13 +297,12 @@ TEST_F(StoredJetTest, DamagedSummary) {
 }
 
 // Two gigabytes in place of some kilobytes (a file with a hole, which takes no room) are refused by
-// their size: reading them would take a thousand times as long as is allowed here.
+// their size.
 TEST_F(StoredJetTest, TheSizeIsLookedAtBeforeTheFileIsRead) {
   constexpr std::uintmax_t two_gigabytes = std::uintmax_t{2} << 30;
   store(kepler);
   const auto file = directory_ / "gauss8/jet.csv";
   const std::string good = test::content(file);
-  const auto begin = std::chrono::steady_clock::now();
   std::filesystem::resize_file(file, two_gigabytes);
   expect_refused({"gauss8/jet.csv: was changed after it was written: 2147483648 bytes, must be"});
   test::put(file, good);
@@ -319,7 +317,6 @@ TEST_F(StoredJetTest, TheSizeIsLookedAtBeforeTheFileIsRead) {
   std::filesystem::resize_file(directory_ / "summary.json", two_gigabytes);
   expect_refused({"summary.json", "too large, got 2147483648 bytes, must be at most 268435456"},
                  ErrorKind::too_large);
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(500));
 }
 
 TEST_F(StoredJetTest, ADamagedOrderTakesNoMemory) {
