@@ -64,7 +64,10 @@ using ArcProgress = std::function<void(double fraction)>;
 /// to the order.
 ///
 /// An arc does not start from the identity but from coordinates that suit the flow, without which
-/// composing would lose most digits at high order; see CutCoordinates.
+/// composing would lose most digits at high order; see CutCoordinates. The composed jet is compared
+/// with the unsplit flow along two lines of deviations: where its error is more than ten times the
+/// unsplit one's at some degree, the number of arcs that was asked for is refused with
+/// Error(numerical), and one that was left to the plan becomes 1, with the reason in ArcPlan.
 ///
 /// `observer` is called after every step of the nominal, with jets of order 0. Arcs are at most as
 /// many as steps. Statistics: steps are those of the nominal, evaluations all that were made.

@@ -19,7 +19,8 @@ struct GaussProfile {
 struct GaussSettings {
   int stages = 8;              ///< 1 (the implicit midpoint rule) to 16; the order is 2 stages
   std::optional<double> step;  ///< fixed: the span is cut into equal steps not longer than this
-  std::optional<double> tolerance;    ///< adaptive: relative local error of the nominal
+  /// Adaptive: the relative error of every degree of the jet, for each period of the motion.
+  std::optional<double> tolerance;
   bool compensated_summation = true;  ///< of the steps; without it round-off grows faster
   /// Also estimate the error of fixed steps (adaptive ones are always estimated); some hundred
   /// operations a step on plain numbers.
@@ -40,16 +41,24 @@ struct GaussSettings {
 /// constants with respect to the deviations, so variable steps keep the map symplectic. They are
 /// chosen to make
 ///
-///   100 (defect / largest slope)^2 = tolerance ,
+///   100 (defect / largest slope)^2 = local tolerance ,
 ///
 /// defect being the distance, at the start of the step, between the slope and the collocation
 /// polynomial that was fitted to it inside: about the first neglected Legendre mode, whose square
 /// has the order 2s of the method. The factor is empirical: the error of the coefficients of degree
-/// 0..4, relative to the largest of their degree, then comes out near the tolerance after a few
-/// revolutions (that of the nominal some 50 times below). A step is also short enough for the
-/// linearised equations (h times their frequency), for a nominal at rest, or one that does not move
-/// where the deviations do, shows nothing of them. The update is summed with compensation,
-/// unless the settings say not to.
+/// 0..4 of a nearly circular orbit, relative to the largest of their degree, then comes out near
+/// the local tolerance after a few revolutions (that of the nominal some 50 times below). A step is
+/// also short enough for the linearised equations (h times their frequency), for a nominal at rest,
+/// or one that does not move where the deviations do, shows nothing of them; for modes that decay
+/// more slowly than those of a field of one scale do; and for two stages on the field's shortest
+/// wave (DynamicalSystem::waves_on_a_circle).
+///
+/// The local tolerance is the settings' tolerance or less: as much less as is found to keep the
+/// error of every degree below 10 tolerance max(1, periods), periods being those of the linearised
+/// motion, along two lines of deviations on which the flow costs little (GaussSettings::tolerance
+/// is checked for jets of order 1 and more). Where rounding alone exceeds that, no shorter steps
+/// are taken than show it, and IntegrationStatistics::rounding_by_degree says by how much. The
+/// update is summed with compensation, unless the settings say not to.
 ///
 /// Source: Hairer, Lubich and Wanner, Geometric Numerical Integration, sections II.1 and VIII.6.
 /// Throws Error(usage) for settings out of range, Error(numerical) if the stage equations have no
