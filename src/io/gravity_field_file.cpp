@@ -253,9 +253,10 @@ GravityField parse_gravity_field(const std::string& name, std::string_view text,
 GravityField read_gravity_field(const std::filesystem::path& file, const ZonalChoice& choice) {
   const FileContent content = read_regular_file(file, largest_gravity_field_bytes);
   if (!content.problem.empty()) {
-    throw Error(content.is_too_large ? ErrorKind::too_large : ErrorKind::input_output,
-                fmt::format("{}: the gravity field cannot be read: {}", printable_path(file),
-                            content.problem));
+    throw_no_content(file, content,
+                     content.is_too_large ? ErrorKind::too_large : ErrorKind::input_output,
+                     fmt::format("{}: the gravity field cannot be read: {}", printable_path(file),
+                                 content.problem));
   }
   return parse_gravity_field(printable_path(file), content.text, choice);
 }

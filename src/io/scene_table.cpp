@@ -37,6 +37,16 @@ TableReader::TableReader(const toml::table& table, std::string path, const Scene
     : table_(&table), path_(std::move(path)), source_(&source) {}
 
 void TableReader::check_keys(const KnownKeys& known) const {
+  for (const SceneSource::AbsentKey& absent : source_->absent_keys) {
+    const std::vector<std::string_view> names = joined(known.keys, known.keys_elsewhere);
+    if (absent.table != path_ ||
+        std::find(names.begin(), names.end(), absent.name) != names.end()) {
+      continue;
+    }
+    throw Error(ErrorKind::usage,
+                fmt::format("{}: nothing to remove, got no key {}; {}", absent.override_name,
+                            in_quotes(absent.name), suggestion(absent.name, known.keys)));
+  }
   const toml::key* unknown = nullptr;
   for (const auto& [key, node] : *table_) {
     if (std::find(known.keys.begin(), known.keys.end(), key.str()) != known.keys.end()) continue;
@@ -207,8 +217,8 @@ std::string TableReader::content_beside_scene(std::string_view key, std::size_t 
   const std::filesystem::path file = path_beside_scene(key);
   FileContent content = read_regular_file(file, most_bytes);
   if (!content.problem.empty()) {
-    throw Error(
-        content.is_too_large ? ErrorKind::too_large : ErrorKind::input_output,
+    throw_no_content(
+        file, content, content.is_too_large ? ErrorKind::too_large : ErrorKind::input_output,
         fmt::format("{}: {} cannot be read: {}", head(key), printable_path(file), content.problem));
   }
   return std::move(content.text);

@@ -45,8 +45,8 @@ void check_encoding(std::string_view text, std::string_view source) {
 std::string read_scene_file(const std::filesystem::path& file) {
   FileContent content = read_regular_file(file, largest_scene_bytes);
   if (!content.problem.empty()) {
-    throw Error(
-        content.is_too_large ? ErrorKind::scene : ErrorKind::input_output,
+    throw_no_content(
+        file, content, content.is_too_large ? ErrorKind::scene : ErrorKind::input_output,
         fmt::format("{}: the scene cannot be read: {}", printable_path(file), content.problem));
   }
   return std::move(content.text);

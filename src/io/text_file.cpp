@@ -19,9 +19,16 @@
 namespace hamjet::io {
 namespace {
 
+/// Why a call of the system failed.
+FileContent failed_content() {
+  const bool is_missing = errno == ENOENT;
+  return {{}, errno_text(), false, is_missing};
+}
+
 [[noreturn]] void throw_unreadable(const std::filesystem::path& file) {
-  throw Error(ErrorKind::input_output, fmt::format("{}: cannot be read: {}", printable_path(file),
-                                                   std::generic_category().message(errno)));
+  const FileContent content = failed_content();
+  throw_no_content(file, content, ErrorKind::input_output,
+                   fmt::format("{}: cannot be read: {}", printable_path(file), content.problem));
 }
 
 const char* kind_of_file(mode_t mode) {
@@ -40,12 +47,11 @@ FileContent too_large(std::uintmax_t bytes, std::size_t most_bytes) {
 }  // namespace
 
 FileContent read_regular_file(const std::filesystem::path& file, std::size_t most_bytes) {
-  const auto failed = [] { return FileContent{{}, errno_text()}; };
   // Without O_NONBLOCK, opening a pipe would wait for its writer for ever.
   const Descriptor descriptor(file, O_RDONLY | O_NONBLOCK);
-  if (!descriptor.is_open()) return failed();
+  if (!descriptor.is_open()) return failed_content();
   struct stat status {};
-  if (::fstat(descriptor.value(), &status) != 0) return failed();
+  if (::fstat(descriptor.value(), &status) != 0) return failed_content();
   if (!S_ISREG(status.st_mode)) {
     return {{}, fmt::format("it is {}", kind_of_file(status.st_mode))};
   }
@@ -56,7 +62,7 @@ FileContent read_regular_file(const std::filesystem::path& file, std::size_t mos
   while (true) {
     const ssize_t count = ::read(descriptor.value(), buffer.data(), buffer.size());
     if (count < 0 && errno == EINTR) continue;
-    if (count < 0) return failed();
+    if (count < 0) return failed_content();
     if (count == 0) break;
     text.append(buffer.data(), static_cast<std::size_t>(count));
     // The file may have grown since its size was asked for.
@@ -64,7 +70,7 @@ FileContent read_regular_file(const std::filesystem::path& file, std::size_t mos
   }
   // Half of an old file and half of a new one can be a good one.
   struct stat now {};
-  if (::fstat(descriptor.value(), &now) != 0) return failed();
+  if (::fstat(descriptor.value(), &now) != 0) return failed_content();
   const bool is_as_before = now.st_size == status.st_size &&
                             now.st_mtim.tv_sec == status.st_mtim.tv_sec &&
                             now.st_mtim.tv_nsec == status.st_mtim.tv_nsec;
@@ -74,6 +80,12 @@ FileContent read_regular_file(const std::filesystem::path& file, std::size_t mos
   return {std::move(text), {}};
 }
 
+void throw_no_content(const std::filesystem::path& file, const FileContent& content, ErrorKind kind,
+                      const std::string& message) {
+  if (content.is_missing) throw MissingFile(file, message);
+  throw Error(kind, message);
+}
+
 std::string printable_path(const std::filesystem::path& file) {
   return printable(file.string(), std::string::npos);
 }
@@ -81,8 +93,9 @@ std::string printable_path(const std::filesystem::path& file) {
 std::string require_regular_file(const std::filesystem::path& file, std::size_t most_bytes) {
   FileContent content = read_regular_file(file, most_bytes);
   if (!content.problem.empty()) {
-    throw Error(content.is_too_large ? ErrorKind::too_large : ErrorKind::input_output,
-                fmt::format("{}: cannot be read: {}", printable_path(file), content.problem));
+    throw_no_content(file, content,
+                     content.is_too_large ? ErrorKind::too_large : ErrorKind::input_output,
+                     fmt::format("{}: cannot be read: {}", printable_path(file), content.problem));
   }
   return std::move(content.text);
 }

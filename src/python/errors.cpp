@@ -1,8 +1,11 @@
+#include <pybind11/stl/filesystem.h>
+
 #include <exception>
 #include <new>
 #include <string>
 
 #include "../cli/interruption.hpp"
+#include "../io/text_file.hpp"
 #include "bindings.hpp"
 #include "hamjet/error.hpp"
 
@@ -38,6 +41,10 @@ py::object text_of(const std::string& message) {
 void translate(std::exception_ptr pointer) {
   try {
     if (pointer) std::rethrow_exception(pointer);
+  } catch (const io::MissingFile& error) {
+    const py::object type = py::module_::import("hamjet.errors").attr("MissingFileError");
+    const py::object raised = type(text_of(error.what()), py::cast(error.file()));
+    PyErr_SetObject(type.ptr(), raised.ptr());
   } catch (const Error& error) {
     const py::object type = py::module_::import("hamjet.errors").attr(class_name(error.kind()));
     PyErr_SetObject(type.ptr(), text_of(error.what()).ptr());

@@ -1,9 +1,11 @@
 #include "evaluation.hpp"
 
 #include <fmt/format.h>
+#include <pybind11/stl.h>
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 
 #include "arithmetic_scope.hpp"
 #include "hamjet/error.hpp"
@@ -44,6 +46,55 @@ bool has_masked(const py::handle& points) {
          py::module_::import("numpy.ma").attr("is_masked")(points).cast<bool>();
 }
 
+/// The labels by which the numbers of a row are told apart: a data frame's names of columns, or the
+/// index of one row of it. Nothing of what goes by position; a method of this name, as a list's
+/// index, is no label.
+std::optional<py::list> labels_of(const py::handle& points) {
+  if (Py_TYPE(points.ptr()) == py::detail::npy_api::get().PyArray_Type_ ||
+      PyList_Check(points.ptr()) != 0 || PyTuple_Check(points.ptr()) != 0) {
+    return std::nullopt;
+  }
+  for (const char* name : {"columns", "index"}) {
+    const py::object labels = py::getattr(points, name, py::none());
+    if (!labels.is_none() && PyCallable_Check(labels.ptr()) == 0) return py::list(labels);
+  }
+  return std::nullopt;
+}
+
+/// Whether rows within a list have labels, which NumPy would leave aside.
+bool has_labelled_rows(const py::handle& points) {
+  const bool is_list = PyList_Check(points.ptr()) != 0 || PyTuple_Check(points.ptr()) != 0;
+  return is_list && std::any_of(points.begin(), points.end(), [](const py::handle& row) {
+           return PyFloat_CheckExact(row.ptr()) == 0 && labels_of(row).has_value();
+         });
+}
+
+/// The columns in the order of their names.
+py::object in_order(const py::object& points, const py::list& labels,
+                    const std::vector<std::string>& names, const std::string& what) {
+  const py::list wanted = py::cast(names);
+  const bool are_same =
+      labels.size() == names.size() &&
+      std::all_of(wanted.begin(), wanted.end(), [&](const py::handle& name) {
+        return std::any_of(labels.begin(), labels.end(), [&](const py::handle& label) {
+          return PyUnicode_Check(label.ptr()) != 0 && label.equal(name);
+        });
+      });
+  if (!are_same) {
+    constexpr std::size_t most_shown = 20;
+    std::vector<std::string> shown;
+    for (std::size_t i = 0; i < std::min(labels.size(), most_shown); ++i) {
+      shown.push_back(py::repr(labels[i]).cast<std::string>());
+    }
+    refuse(
+        fmt::format("{}: the columns must be {}, in any order, got {}{}; an array without names "
+                    "is taken by position",
+                    what, fmt::join(names, ", "), fmt::join(shown, ", "),
+                    labels.size() > most_shown ? ", ..." : ""));
+  }
+  return points[wanted];
+}
+
 py::array_t<double> target(const py::object& out, const std::vector<py::ssize_t>& shape,
                            const py::array& points) {
   if (out.is_none()) return py::array_t<double>(shape);
@@ -62,8 +113,12 @@ py::array_t<double> target(const py::object& out, const std::vector<py::ssize_t>
 
 }  // namespace
 
-py::array_t<double> rows_of(const py::object& points, std::size_t columns,
+py::array_t<double> rows_of(const py::object& points, std::size_t columns, const ColumnNames& names,
                             const std::string& what) {
+  if (const auto labels = labels_of(points)) {
+    const py::object ordered = in_order(points, *labels, names(), what);
+    return rows_of(py::module_::import("numpy").attr("asarray")(ordered), columns, names, what);
+  }
   const py::array given = py::array::ensure(points);
   if (!given) {
     PyErr_Clear();
@@ -80,15 +135,19 @@ py::array_t<double> rows_of(const py::object& points, std::size_t columns,
                        shape_text(given)));
   }
   // After the shape, for a list within itself has none.
+  if (has_labelled_rows(points)) {
+    refuse(fmt::format("{}: a list of rows with labels, must be a data frame or an array", what));
+  }
   if (has_masked(points)) {
     refuse(fmt::format("{}: has masked elements, must be numbers throughout", what));
   }
   return Array::ensure(given);
 }
 
-py::object evaluate_array(const MapEvaluator& map, const py::object& points, const py::object& out,
+py::object evaluate_array(const MapEvaluator& map, const py::object& points,
+                          const ColumnNames& names, const py::object& out,
                           const std::string& what) {
-  const py::array_t<double> rows = rows_of(points, map.variables(), what);
+  const py::array_t<double> rows = rows_of(points, map.variables(), names, what);
   const bool is_one = rows.ndim() == 1;
   const auto count = is_one ? 1 : static_cast<std::size_t>(rows.shape(0));
   std::vector<py::ssize_t> shape;

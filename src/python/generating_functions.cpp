@@ -6,6 +6,8 @@
 #include "by_degree.hpp"
 #include "evaluation.hpp"
 #include "inverted_jet.hpp"
+#include "pickling.hpp"
+#include "signature.hpp"
 
 namespace hamjet::python {
 namespace {
@@ -31,12 +33,20 @@ of d sigma_i / d w_j - d sigma_j / d w_i over all pairs, and the same divided by
 d sigma_i / d w_j. It vanishes if and only if the map is symplectic; below the round-off that the
 inversion amplifies it says nothing (the floor that a scene with [reference] states).)";
 
+py::object evaluate(const InvertedJet& f, const MapEvaluator& map, const py::object& w,
+                    const py::object& out) {
+  return evaluate_array(
+      map, w, [&] { return f.variables(); }, out, "w");
+}
+
 }  // namespace
 
 void bind_generating_functions(py::module_& module) {
   using Pointer = std::shared_ptr<InvertedJet>;
   const auto keep = [](const py::object& self) { return self.cast<Pointer>(); };
-  py::class_<InvertedJet, Pointer>(module, "GeneratingFunction", function_doc)
+  py::class_<InvertedJet, Pointer> function(module, "GeneratingFunction", function_doc);
+  bind_copies(function);
+  function
       .def_property_readonly(
           "kind", [](const InvertedJet& f) { return f.kind().name(); },
           "In letters, final choice and initial choice: F1 of three degrees of freedom is qqq-qqq.")
@@ -73,26 +83,34 @@ void bind_generating_functions(py::module_& module) {
       .def(
           "evaluate",
           [](const InvertedJet& f, const py::object& w) {
-            const py::object values = evaluate_array(f.value(), w, py::none(), "w");
+            const py::object values = evaluate(f, f.value(), w, py::none());
             // One component: (N, 1) is (N,), and (1,) is a number.
             return values.attr("__getitem__")(py::make_tuple(py::ellipsis(), 0));
           },
-          py::arg("w"), "Values of S, (N,), at w, (N, 2n); see Jet.evaluate for what w may be.")
+          py::arg("w"),
+          documented("evaluate(self, w)",
+                     "Values of S, (N,), at w, (N, 2n); see Jet.evaluate for what w may be. The "
+                     "columns of\na data frame are the variables.")
+              .c_str())
       .def(
           "gradient",
           [](const InvertedJet& f, const py::object& w, const py::object& out) {
-            return evaluate_array(f.gradient(), w, out, "w");
+            return evaluate(f, f.gradient(), w, out);
           },
           py::arg("w"), py::kw_only(), py::arg("out") = py::none(),
-          "Gradient of S by w, (N, 2n), at w, (N, 2n); of the degrees 1 to N.")
+          documented("gradient(self, w, *, out=None)",
+                     "Gradient of S by w, (N, 2n), at w, (N, 2n); of the degrees 1 to N.")
+              .c_str())
       .def(
           "remaining",
           [](const InvertedJet& f, const py::object& w, const py::object& out) {
-            return evaluate_array(f.remaining(), w, out, "w");
+            return evaluate(f, f.remaining(), w, out);
           },
           py::arg("w"), py::kw_only(), py::arg("out") = py::none(),
-          "The remaining variables, (N, 2n), at w, (N, 2n): the solution of the boundary-value\n"
-          "problem that gives w, by the inverted map itself.")
+          documented("remaining(self, w, *, out=None)",
+                     "The remaining variables, (N, 2n), at w, (N, 2n): the solution of the "
+                     "boundary-value\nproblem that gives w, by the inverted map itself.")
+              .c_str())
       .def("__repr__", [](const InvertedJet& f) {
         return "<hamjet.GeneratingFunction " + f.kind().name() + " of degree " +
                std::to_string(f.space()->order()) + ">";

@@ -1,6 +1,7 @@
 #include "inverted_jet.hpp"
 
 #include <span>
+#include <utility>
 
 #include "hamjet/algebra/calculus.hpp"
 #include "hamjet/algebra/composition.hpp"
@@ -34,31 +35,39 @@ std::vector<std::string> names(const io::StoredJet& stored, const GeneratingFunc
   return result;
 }
 
-}  // namespace
-
-InvertedJet::InvertedJet(const Jet& jet, std::string_view kind)
-    : kind_(chosen_kind(jet.stored(), kind)),
-      variables_(names(jet.stored(), kind_, true)),
-      remaining_names_(names(jet.stored(), kind_, false)) {
+InvertedJet::Parts solve(const Jet& jet, std::string_view requested) {
   const io::StoredJet& stored = jet.stored();
+  const GeneratingFunctionKind kind = chosen_kind(stored, requested);
   const auto inversion =
-      invert_partially<Extended>(JetSpan(stored.jet), kind_, rounding_of(stored.precision));
-  condition_ = inversion.condition;
+      invert_partially<Extended>(JetSpan(stored.jet), kind, rounding_of(stored.precision));
   const auto sigma = one_form(inversion);
-  exactness_ = exactness_residual(sigma);
   const Series<Extended> function = generating_function(sigma);
-  space_ = function.space_pointer();
-  const Series<double> rounded = convert_series<double>(function);
-  coefficients_.assign(rounded.coefficients().begin(), rounded.coefficients().end());
-
   std::vector<Series<Extended>> gradient;
-  for (std::size_t i = 0; i < space_->variables(); ++i) gradient.push_back(derivative(function, i));
+  for (std::size_t i = 0; i < function.space().variables(); ++i) {
+    gradient.push_back(derivative(function, i));
+  }
   std::vector<Series<Extended>> remaining = inversion.remaining_final;
   remaining.insert(remaining.end(), inversion.remaining_initial.begin(),
                    inversion.remaining_initial.end());
-  evaluators_.emplace_back(std::span<const Series<double>>(&rounded, 1));
-  evaluators_.emplace_back(convert_map<double>(gradient), stored.order());
-  evaluators_.emplace_back(convert_map<double>(remaining));
+  return {kind,
+          inversion.condition,
+          names(stored, kind, true),
+          names(stored, kind, false),
+          {convert_series<double>(function)},
+          convert_map<double>(gradient),
+          convert_map<double>(remaining),
+          exactness_residual(sigma)};
+}
+
+}  // namespace
+
+InvertedJet::InvertedJet(const Jet& jet, std::string_view kind) : InvertedJet(solve(jet, kind)) {}
+
+InvertedJet::InvertedJet(Parts parts) : parts_(std::move(parts)) {
+  evaluators_.emplace_back(parts_.function);
+  // The gradient has one degree less than the function, whose space it is in.
+  evaluators_.emplace_back(parts_.gradient, space()->order() - 1);
+  evaluators_.emplace_back(parts_.remaining);
 }
 
 }  // namespace hamjet::python

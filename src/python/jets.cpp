@@ -14,7 +14,9 @@
 #include "interruptible.hpp"
 #include "inverted_jet.hpp"
 #include "jet.hpp"
+#include "pickling.hpp"
 #include "relative_evaluation.hpp"
+#include "signature.hpp"
 
 namespace hamjet::python {
 namespace {
@@ -38,7 +40,8 @@ constexpr const char* evaluate_doc =
     R"(Final deviations from the nominal for initial ones, both canonical.
 
 deviations: array (N, variables), or (variables,) for one. An aligned float64 array in C order is
-read where it is; anything else is converted first, which takes a copy.
+read where it is; anything else is converted first, which takes a copy. The columns of a data frame,
+and a row of one, are taken by name, whatever their order: the jet's variables.
 out: None, or a writable float64 array in C order of the result's shape, which may be `deviations`
 itself if the jet has as many components as variables.
 degree: leaves out the terms above it.
@@ -51,7 +54,8 @@ constexpr const char* evaluate_relative_doc =
     R"(Carries relative states through the jet of an orbit, as `hamjet eval` does.
 
 states: (N, 6) or (6,), the deputy relative to the chief at the start: position in m and velocity in
-m/s along the axes of the frame. frame: "RTN" (radial, transverse, normal of the chief) or
+m/s along the axes of the frame; columns of a data frame by name, as the columns of a file of `hamjet
+eval`, R_m, T_m, ... or x_m, y_m, .... frame: "RTN" (radial, transverse, normal of the chief) or
 "inertial". derivatives: of RTN, "rotating" (default: velocities as seen from the turning axes) or
 "inertial". degree: leaves out the terms above it. strict: raises NumericalError if a row is not
 inside the polynomial's reach; otherwise such rows give a RuntimeWarning.
@@ -86,11 +90,12 @@ Returns a structured array with the fields degree (0 to N-1), absolute, and scal
 coefficient of {z_i, z_j} - J_ij, divided by the largest sum of absolute values that cancel in one.
 The jet must be expanded in all variables of phase space. Raises UsageError.)";
 
-py::tuple names(const io::StoredJet& stored, const std::vector<std::size_t>& indices) {
+std::vector<std::string> names(const io::StoredJet& stored,
+                               const std::vector<std::size_t>& indices) {
   const auto all = stored.variable_names();
-  py::list result;
-  for (const std::size_t i : indices) result.append(py::str(std::string(all[i])));
-  return py::tuple(result);
+  std::vector<std::string> result;
+  for (const std::size_t i : indices) result.emplace_back(all[i]);
+  return result;
 }
 
 py::array_t<double> linear_part(const Jet& jet) {
@@ -107,8 +112,9 @@ py::array_t<double> linear_part(const Jet& jet) {
 
 py::object evaluate(const Jet& jet, const py::object& deviations, const py::object& out,
                     std::optional<int> degree) {
-  if (!degree) return evaluate_array(jet.deviation(), deviations, out, "deviations");
-  return evaluate_array(jet.deviation_to(*degree), deviations, out, "deviations");
+  const auto columns = [&] { return names(jet.stored(), jet.stored().variables); };
+  if (!degree) return evaluate_array(jet.deviation(), deviations, columns, out, "deviations");
+  return evaluate_array(jet.deviation_to(*degree), deviations, columns, out, "deviations");
 }
 
 void warn_if_not_inside(const std::vector<unsigned char>& support, bool is_strict) {
@@ -129,7 +135,8 @@ py::object evaluate_relative_states(const Jet& jet, const py::object& states,
                                     const std::optional<std::string>& derivatives,
                                     std::optional<int> degree, bool is_strict) {
   constexpr std::size_t columns = 6;
-  const py::array_t<double> rows = rows_of(states, columns, "states");
+  const auto column_names = [&] { return relative_columns(jet, {frame, derivatives, degree}); };
+  const py::array_t<double> rows = rows_of(states, columns, column_names, "states");
   const bool is_one = rows.ndim() == 1;
   const auto count = is_one ? 1 : static_cast<std::size_t>(rows.shape(0));
   std::vector<double> results(columns * count);
@@ -160,10 +167,11 @@ std::string representation(const Jet& jet) {
 }
 
 void bind_units(py::module_& module) {
-  py::class_<CanonicalUnits>(
+  py::class_<CanonicalUnits> units(
       module, "Units",
-      "Canonical units: an SI value is the canonical one times these. For an orbit mu = 1.")
-      .def_property_readonly("length_km", [](const CanonicalUnits& u) { return u.length_km; })
+      "Canonical units: an SI value is the canonical one times these. For an orbit mu = 1.");
+  bind_copies(units);
+  units.def_property_readonly("length_km", [](const CanonicalUnits& u) { return u.length_km; })
       .def_property_readonly("time_s", [](const CanonicalUnits& u) { return u.time_s; })
       .def_property_readonly("velocity_km_s",
                              [](const CanonicalUnits& u) { return u.length_km / u.time_s; })
@@ -193,10 +201,14 @@ void bind_description(py::class_<Jet, JetPointer>& jet) {
       .def_property_readonly(
           "order", [](const Jet& j) { return j.stored().order(); }, "Degree N of the polynomials.")
       .def_property_readonly(
-          "variables", [](const Jet& j) { return names(j.stored(), j.stored().variables); },
+          "variables",
+          [](const Jet& j) { return py::tuple(py::cast(names(j.stored(), j.stored().variables))); },
           "Names of the initial deviations it is expanded in.")
       .def_property_readonly(
-          "components", [](const Jet& j) { return names(j.stored(), j.stored().components); },
+          "components",
+          [](const Jet& j) {
+            return py::tuple(py::cast(names(j.stored(), j.stored().components)));
+          },
           "Names of the components of the final state; those left out stay zero.")
       .def_property_readonly(
           "units", [](const Jet& j) { return j.stored().units; }, "Canonical units in km and s.")
@@ -250,17 +262,24 @@ void bind_jets(py::module_& module) {
   bind_units(module);
   py::class_<Jet, JetPointer> jet(module, "Jet", jet_doc);
   bind_description(jet);
+  bind_copies(jet);
   jet.def("evaluate", &evaluate, py::arg("deviations"), py::kw_only(), py::arg("out") = py::none(),
-          py::arg("degree") = py::none(), evaluate_doc)
+          py::arg("degree") = py::none(),
+          documented("evaluate(self, deviations, *, out=None, degree=None)", evaluate_doc).c_str())
       .def(
           "__call__",
           [](const Jet& self, const py::object& deviations) {
             return evaluate(self, deviations, py::none(), std::nullopt);
           },
-          py::arg("deviations"), "evaluate(deviations).")
+          py::arg("deviations"),
+          documented("__call__(self, deviations)", "evaluate(deviations).").c_str())
       .def("evaluate_relative", &evaluate_relative_states, py::arg("states"), py::kw_only(),
            py::arg("frame") = "RTN", py::arg("derivatives") = py::none(),
-           py::arg("degree") = py::none(), py::arg("strict") = false, evaluate_relative_doc)
+           py::arg("degree") = py::none(), py::arg("strict") = false,
+           documented("evaluate_relative(self, states, *, frame='RTN', derivatives=None, "
+                      "degree=None, strict=False)",
+                      evaluate_relative_doc)
+               .c_str())
       .def(
           "compose",
           [](const JetPointer& self, const JetPointer& after) {
@@ -268,14 +287,14 @@ void bind_jets(py::module_& module) {
               return self->composed_with(*after);
             });
           },
-          py::arg("after"), compose_doc)
+          py::arg("after"), documented("compose(self, after)", compose_doc).c_str())
       .def(
           "inverse",
           [](const JetPointer& self) {
             return interruptibly(py::none(),
                                  [self](const ProgressCallback&) { return self->inverse(); });
           },
-          inverse_doc)
+          documented("inverse(self)", inverse_doc).c_str())
       .def(
           "invert_partially",
           [](const JetPointer& self, const std::string& kind) {
@@ -283,7 +302,7 @@ void bind_jets(py::module_& module) {
               return InvertedJet(*self, kind);
             });
           },
-          py::arg("kind"), invert_partially_doc)
+          py::arg("kind"), documented("invert_partially(self, kind)", invert_partially_doc).c_str())
       .def(
           "exactness",
           [](const JetPointer& self, const std::string& kind) {
@@ -291,14 +310,15 @@ void bind_jets(py::module_& module) {
               return InvertedJet(*self, kind).exactness();
             }));
           },
-          py::arg("kind"), "invert_partially(kind).exactness.")
+          py::arg("kind"),
+          documented("exactness(self, kind)", "invert_partially(kind).exactness.").c_str())
       .def(
           "symplecticity",
           [](const JetPointer& self) {
             return by_degree(interruptibly(
                 py::none(), [self](const ProgressCallback&) { return self->symplecticity(); }));
           },
-          symplecticity_doc);
+          documented("symplecticity(self)", symplecticity_doc).c_str());
   module.def(
       "load_jet",
       [](const std::filesystem::path& directory, const std::optional<std::string>& run) {

@@ -11,6 +11,21 @@
 #include "hamjet/error.hpp"
 
 namespace hamjet::python {
+namespace {
+
+cli::EvalCoordinates frame_of(const io::StoredJet& stored, const RelativeCoordinates& coordinates) {
+  if (coordinates.frame == "canonical") {
+    throw Error(ErrorKind::usage, "--frame canonical: evaluate() takes canonical deviations");
+  }
+  return {stored, coordinates.frame, coordinates.derivatives};
+}
+
+}  // namespace
+
+std::vector<std::string> relative_columns(const Jet& jet, const RelativeCoordinates& coordinates) {
+  const cli::EvalCoordinates frame = frame_of(jet.stored(), coordinates);
+  return {frame.initial_columns().begin(), frame.initial_columns().end()};
+}
 
 void evaluate_relative(const Jet& jet, const RelativeCoordinates& coordinates, const double* states,
                        std::size_t count, const RelativeResults& results,
@@ -18,10 +33,7 @@ void evaluate_relative(const Jet& jet, const RelativeCoordinates& coordinates, c
   constexpr std::size_t columns = 6;
   const io::StoredJet& stored = jet.stored();
   if (coordinates.degree) jet.deviation_to(*coordinates.degree);  // refuses what is out of range
-  if (coordinates.frame == "canonical") {
-    throw Error(ErrorKind::usage, "--frame canonical: evaluate() takes canonical deviations");
-  }
-  const cli::EvalCoordinates frame(stored, coordinates.frame, coordinates.derivatives);
+  const cli::EvalCoordinates frame = frame_of(stored, coordinates);
   cli::JetEvaluation evaluation(stored, coordinates.degree);
   std::size_t done = 0;
   for (std::size_t row = 0; row < count; ++row) {

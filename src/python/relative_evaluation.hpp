@@ -3,6 +3,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "jet.hpp"
 
@@ -14,6 +15,10 @@ struct RelativeCoordinates {
   std::optional<std::string> derivatives = std::nullopt;
   std::optional<int> degree = std::nullopt;
 };
+
+/// Names of the columns of a relative state. Throws Error(usage) if the coordinates do not fit the
+/// jet.
+std::vector<std::string> relative_columns(const Jet& jet, const RelativeCoordinates& coordinates);
 
 /// Where results go: of each of `count` rows the final state (6 numbers), the estimate of the miss
 /// in metres (NaN where there is none) and TruncationEstimate::Support as a number.

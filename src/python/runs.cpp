@@ -19,6 +19,7 @@
 #include "hamjet/io/study_report.hpp"
 #include "interruptible.hpp"
 #include "jet.hpp"
+#include "pickling.hpp"
 #include "written_set.hpp"
 
 namespace hamjet::python {
@@ -144,8 +145,9 @@ void bind_runs(py::module_& module) {
       .def("nominal", &nominal)
       .def("along_time", &along_time)
       .def("write", &write_propagation);
-  py::class_<io::StudyReport>(module, "StudyReport")
-      .def_property_readonly("summary", [](const io::StudyReport& r) { return r.summary(); })
+  py::class_<io::StudyReport> report(module, "StudyReport");
+  bind_copies(report);
+  report.def_property_readonly("summary", [](const io::StudyReport& r) { return r.summary(); })
       .def_property_readonly("exit_code", [](const io::StudyReport& r) { return r.exit_code; })
       .def_property_readonly("failure", [](const io::StudyReport& r) { return r.failure; })
       .def_property_readonly("files", &files_of)

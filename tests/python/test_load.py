@@ -1,5 +1,10 @@
 """What load reads and refuses besides the runs of a scene: sweeps, files, runs that failed."""
 
+import errno
+import os
+import pathlib
+import pickle
+
 import numpy as np
 import pytest
 
@@ -81,3 +86,28 @@ def test_columns_of_truth_values_are_bool():
     assert hamjet.tables.read_table("a,b\n")["a"].dtype == np.float64
     with pytest.raises(ValueError):
         table["a"][0] = False
+
+
+@pytest.mark.parametrize("call, missing", [
+    (lambda folder: hamjet.run(folder / "none.toml"), "none.toml"),
+    (lambda folder: hamjet.load(folder / "none"), "none/summary.json"),
+    (lambda folder: hamjet.run(scene(OSCILLATOR, nominal={
+        "oem_file": str(folder / "none.oem"), "epoch": "2026-03-01T00:00:00"},
+        system={"model": "kepler", "mu_km3_s2": 398600.4415})), "none.oem"),
+])
+def test_what_is_not_there_is_a_file_not_found_error(tmp_path, call, missing):
+    with pytest.raises(FileNotFoundError) as raised:
+        call(tmp_path)
+    error = raised.value
+    assert isinstance(error, hamjet.InputOutputError) and error.exit_code == 5
+    assert error.errno == errno.ENOENT and error.strerror == os.strerror(errno.ENOENT)
+    assert pathlib.Path(error.filename) == tmp_path / missing
+    assert str(tmp_path / missing) in str(error) and "No such file" in str(error)
+    again = pickle.loads(pickle.dumps(error))
+    assert (str(again), again.errno, again.filename) == (str(error), error.errno, error.filename)
+
+
+def test_other_files_that_cannot_be_read_are_no_missing_ones(tmp_path):
+    with pytest.raises(hamjet.InputOutputError) as raised:
+        hamjet.run(tmp_path)
+    assert not isinstance(raised.value, FileNotFoundError)

@@ -15,15 +15,15 @@ text that the command prints. Long work lets other threads run and ends within a
 """
 
 from ._hamjet import GeneratingFunction, Jet, Units, __version__
-from .errors import (Error, InputOutputError, NumericalError, SceneError, TooLargeError,
-                     UsageError)
+from .errors import (Error, InputOutputError, MissingFileError, NumericalError, SceneError,
+                     TooLargeError, UsageError)
 from .relative_motion import Transfers, Validity, transfer, validity
 from .relative_states import RelativeStates
 from .results import AlongTime, Nominal, Result, Run, StudyResult, load, run
 
 __all__ = [
-    "AlongTime", "Error", "GeneratingFunction", "InputOutputError", "Jet", "Nominal",
-    "NumericalError", "RelativeStates", "Result", "Run", "SceneError", "StudyResult",
+    "AlongTime", "Error", "GeneratingFunction", "InputOutputError", "Jet", "MissingFileError",
+    "Nominal", "NumericalError", "RelativeStates", "Result", "Run", "SceneError", "StudyResult",
     "TooLargeError", "Transfers", "Units", "UsageError", "Validity", "__version__", "load", "run",
     "transfer", "validity",
 ]

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import errno
+import os
+
 
 class Error(Exception):
     """The base of all; ``exit_code`` is the one that the command ends with."""
@@ -31,6 +34,22 @@ class InputOutputError(Error, OSError):
     """A file could not be read or written, or is not what was written once."""
 
     exit_code = 5
+
+
+class MissingFileError(InputOutputError, FileNotFoundError):
+    """A file that was to be read is not there; ``filename`` says which."""
+
+    def __init__(self, text: str, filename: str | os.PathLike[str]) -> None:
+        super().__init__(text)
+        self.errno = errno.ENOENT
+        self.strerror = os.strerror(errno.ENOENT)
+        self.filename = os.fspath(filename)
+
+    def __str__(self) -> str:
+        return str(self.args[0])
+
+    def __reduce__(self) -> tuple[type[MissingFileError], tuple[str, str]]:
+        return type(self), (str(self), self.filename)
 
 
 class TooLargeError(Error):

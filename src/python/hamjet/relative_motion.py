@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _hamjet, arguments, scenes
+from .immutable import Immutable
 from .results import Floats, Progress
 
 Flags = npt.NDArray[np.bool_]
@@ -20,7 +21,7 @@ _MOST_INTERVALS = 1_000_000
 
 
 @dataclass(frozen=True, eq=False)
-class Transfers:
+class Transfers(Immutable):
     """Velocity changes for T transfer times; immutable, arrays read-only.
 
     Velocity changes are along the axes of the scene's frame; misses are distances of the flown
@@ -75,7 +76,7 @@ class Transfers:
 
 
 @dataclass(frozen=True, eq=False)
-class Validity:
+class Validity(Immutable):
     """Separations up to which the polynomials are right, for T times; immutable."""
 
     times_s: Floats  #: (T,)

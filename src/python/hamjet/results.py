@@ -15,6 +15,7 @@ import numpy.typing as npt
 from . import _hamjet, arguments, scenes
 from ._hamjet import Jet
 from .errors import InputOutputError, NumericalError, UsageError
+from .immutable import Immutable
 from .tables import Table, read_table
 
 Floats = npt.NDArray[np.float64]
@@ -28,7 +29,7 @@ def _read_only(array: Floats) -> Floats:
 
 
 @dataclass(frozen=True, eq=False)
-class Nominal:
+class Nominal(Immutable):
     """The nominal trajectory of a run at the ends of its steps, M points; read-only arrays."""
 
     times_canonical: Floats  #: (M,)
@@ -38,7 +39,7 @@ class Nominal:
 
 
 @dataclass(frozen=True, eq=False)
-class AlongTime:
+class AlongTime(Immutable):
     """What the scene's [figure] watches, at some hundred times; read-only arrays."""
 
     times_canonical: Floats  #: (M,)
@@ -50,7 +51,7 @@ class AlongTime:
 
 
 @dataclass(frozen=True, eq=False)
-class Run:
+class Run(Immutable):
     """What one integrator of a scene gave."""
 
     label: str
@@ -98,7 +99,7 @@ class Run:
 
 
 @dataclass(frozen=True, eq=False)
-class Result:
+class Result(Immutable):
     """All results of a scene whose study is a flow's jet; immutable."""
 
     #: Runs by label, in the order of the scene.
@@ -116,12 +117,16 @@ class Result:
     def write(self, directory: str | os.PathLike[str]) -> None:
         """Writes what ``hamjet run`` writes: the whole set or nothing. Raises InputOutputError."""
         if self._propagation is None:
-            raise UsageError("write: these results were read from files")
+            raise UsageError("write: these results were read from files, or unpickled")
         self._propagation.write(arguments.path(directory, "directory"))
+
+    def __getstate__(self) -> dict[str, Any]:
+        # What all files are written of is many times what is shown.
+        return {**super().__getstate__(), "_propagation": None}
 
 
 @dataclass(frozen=True, eq=False)
-class StudyResult:
+class StudyResult(Immutable):
     """Results of a study without a flow jet, of relative motion or a sweep as stored; immutable."""
 
     #: As of the command: 0, 1 (a check failed) or 4 (a numerical failure).

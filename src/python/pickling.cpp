@@ -1,0 +1,233 @@
+#include "pickling.hpp"
+
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "../io/stored_coefficients.hpp"
+#include "arrays.hpp"
+#include "refusal.hpp"
+
+namespace hamjet::python {
+namespace {
+
+using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+[[noreturn]] void refuse_state() { refuse("pickle: this is no state of such an object"); }
+
+py::tuple call_of(const char* function, py::tuple arguments) {
+  return py::make_tuple(py::module_::import("hamjet._hamjet").attr(function), std::move(arguments));
+}
+
+/// (components, count), component by component.
+Numbers numbers_of(std::span<const Series<double>> map) {
+  std::vector<double> numbers;
+  for (const Series<double>& component : map) {
+    numbers.insert(numbers.end(), component.coefficients().begin(), component.coefficients().end());
+  }
+  return array_of(std::move(numbers), {size_of(map.size()), size_of(map[0].size())});
+}
+
+std::vector<Series<double>> map_of(const Numbers& numbers, const SpacePointer& space) {
+  if (numbers.ndim() != 2 || numbers.shape(0) < 1 || numbers.shape(1) != size_of(space->size())) {
+    refuse_state();
+  }
+  std::vector<Series<double>> map;
+  for (py::ssize_t c = 0; c < numbers.shape(0); ++c) {
+    map.emplace_back(space,
+                     std::vector<double>(numbers.data(c, 0), numbers.data(c, 0) + space->size()));
+  }
+  return map;
+}
+
+// The members of a jet that are one number, text or list each, in the order of its state.
+
+using Ephemeris = std::vector<std::string>;
+
+/// All members by name: one that is added does not compile unless it takes part.
+Ephemeris texts_of(const EphemerisSettings& settings) {
+  const auto& [epoch, time_system, reference_frame, center_name, reference_frame_epoch, object_name,
+               object_id, deputy_name, deputy_id, originator, oem_version] = settings;
+  return {epoch,       time_system, reference_frame, center_name, reference_frame_epoch,
+          object_name, object_id,   deputy_name,     deputy_id,   originator,
+          oem_version};
+}
+
+EphemerisSettings ephemeris_of(const Ephemeris& texts) {
+  if (texts.size() != texts_of({}).size()) refuse_state();
+  return {texts[0], texts[1], texts[2], texts[3], texts[4], texts[5],
+          texts[6], texts[7], texts[8], texts[9], texts[10]};
+}
+
+using JetState =
+    std::tuple<std::string, std::string, std::size_t, std::size_t, double, double, double,
+               std::vector<double>, std::vector<double>, std::vector<std::size_t>,
+               std::vector<std::size_t>, std::optional<Ephemeris>, std::vector<double>, int>;
+
+JetState state_of(const io::StoredJet& stored) {
+  const auto& [scene, label, model, precision, units, duration, nominal_initial, nominal_final,
+               components, variables, ephemeris, error_by_degree, jet] = stored;
+  return {scene,
+          label,
+          static_cast<std::size_t>(model),
+          static_cast<std::size_t>(precision),
+          units.length_km,
+          units.time_s,
+          duration,
+          nominal_initial,
+          nominal_final,
+          components,
+          variables,
+          ephemeris ? std::optional(texts_of(*ephemeris)) : std::nullopt,
+          error_by_degree,
+          jet.at(0).order()};
+}
+
+/// Without its series.
+io::StoredJet jet_of(const JetState& state) {
+  io::StoredJet jet;
+  std::size_t model = 0;
+  std::size_t precision = 0;
+  std::optional<Ephemeris> ephemeris;
+  std::tie(jet.scene, jet.label, model, precision, jet.units.length_km, jet.units.time_s,
+           jet.duration, jet.nominal_initial, jet.nominal_final, jet.components, jet.variables,
+           ephemeris, jet.error_by_degree, std::ignore) = state;
+  if (model >= model_names().size() || precision > 1) refuse_state();
+  jet.model = static_cast<SystemModel>(model);
+  jet.precision = static_cast<Precision>(precision);
+  if (ephemeris) jet.ephemeris = ephemeris_of(*ephemeris);
+  const std::size_t size = jet.nominal_initial.size();
+  for (const auto* indices : {&jet.components, &jet.variables}) {
+    for (const std::size_t i : *indices) {
+      if (i >= size) refuse_state();
+    }
+  }
+  if (jet.nominal_final.size() != size || jet.variables.empty()) refuse_state();
+  return jet;
+}
+
+/// Coefficients of a jet in extended precision as digits that bring back all bits.
+std::vector<std::string> digits_of(const FlowJet<Extended>& jet) {
+  std::vector<std::string> digits;
+  for (const Series<Extended>& component : jet) {
+    for (const Extended& c : component.coefficients()) digits.push_back(io::extended_digits(c));
+  }
+  return digits;
+}
+
+FlowJet<Extended> jet_of_digits(const std::vector<std::string>& digits, std::size_t components,
+                                const SpacePointer& space) {
+  if (digits.size() != components * space->size()) refuse_state();
+  FlowJet<Extended> jet;
+  auto next = digits.begin();
+  for (std::size_t c = 0; c < components; ++c) {
+    std::vector<Extended> coefficients;
+    for (std::size_t k = 0; k < space->size(); ++k) {
+      const auto number = io::parse_coefficient(*next++, Precision::extended);
+      if (!number) refuse_state();
+      coefficients.push_back(*number);
+    }
+    jet.emplace_back(space, std::move(coefficients));
+  }
+  return jet;
+}
+
+std::shared_ptr<Jet> restored_jet(const JetState& state, const py::object& coefficients) {
+  io::StoredJet stored = jet_of(state);
+  const SpacePointer space = SeriesSpace::create(stored.variables.size(), std::get<int>(state));
+  if (stored.precision == Precision::extended) {
+    stored.jet = jet_of_digits(coefficients.cast<std::vector<std::string>>(),
+                               stored.components.size(), space);
+  } else {
+    stored.jet = convert_map<Extended>(map_of(coefficients.cast<Numbers>(), space));
+  }
+  if (stored.jet.size() != stored.components.size()) refuse_state();
+  return std::make_shared<Jet>(std::move(stored));
+}
+
+using ExactnessRow = std::tuple<int, double, double>;
+
+std::shared_ptr<InvertedJet> restored_function(const std::string& kind, double condition,
+                                               const std::vector<std::string>& variables,
+                                               const std::vector<std::string>& remaining_variables,
+                                               int order, const Numbers& function,
+                                               const Numbers& gradient, const Numbers& remaining,
+                                               const std::vector<ExactnessRow>& exactness) {
+  const SpacePointer space = SeriesSpace::create(variables.size(), order);
+  const SpacePointer lower = SeriesSpace::create(variables.size(), order - 1);
+  InvertedJet::Parts parts{parse_kind(kind, variables.size() / 2),
+                           condition,
+                           variables,
+                           remaining_variables,
+                           map_of(function, space),
+                           map_of(gradient, space),
+                           map_of(remaining, lower),
+                           {}};
+  for (const auto& [degree, absolute, scaled] : exactness) {
+    parts.exactness.push_back({degree, absolute, scaled, std::nullopt});
+  }
+  return std::make_shared<InvertedJet>(std::move(parts));
+}
+
+using Files = std::vector<std::pair<std::string, py::bytes>>;
+
+io::StudyReport restored_report(const Files& files, int exit_code, const std::string& failure) {
+  if (files.empty()) refuse_state();
+  io::StudyReport report;
+  for (const auto& [path, content] : files) report.files.push_back({path, std::string(content)});
+  report.exit_code = exit_code;
+  report.failure = failure;
+  return report;
+}
+
+}  // namespace
+
+py::tuple reduced(const CanonicalUnits& units) {
+  return call_of("_restored_units", py::make_tuple(units.length_km, units.time_s));
+}
+
+py::tuple reduced(const Jet& jet) {
+  const io::StoredJet& stored = jet.stored();
+  const py::object coefficients = stored.precision == Precision::extended
+                                      ? py::cast(digits_of(stored.jet))
+                                      : py::object(numbers_of(convert_map<double>(stored.jet)));
+  return call_of("_restored_jet", py::make_tuple(state_of(stored), coefficients));
+}
+
+py::tuple reduced(const InvertedJet& function) {
+  const InvertedJet::Parts& parts = function.parts();
+  std::vector<ExactnessRow> exactness;
+  for (const ExactnessResidual& entry : parts.exactness) {
+    exactness.emplace_back(entry.degree, entry.absolute, entry.scaled);
+  }
+  return call_of(
+      "_restored_function",
+      py::make_tuple(parts.kind.name(), parts.condition, parts.variables, parts.remaining_variables,
+                     function.space()->order(), numbers_of(parts.function),
+                     numbers_of(parts.gradient), numbers_of(parts.remaining), exactness));
+}
+
+py::tuple reduced(const io::StudyReport& report) {
+  Files files;
+  for (const io::ReportFile& file : report.files) {
+    files.emplace_back(file.path.string(), py::bytes(file.content));
+  }
+  return call_of("_restored_report", py::make_tuple(files, report.exit_code, report.failure));
+}
+
+void bind_pickling(py::module_& module) {
+  module.def("_restored_units", [](double length_km, double time_s) {
+    return CanonicalUnits{length_km, time_s};
+  });
+  module.def("_restored_jet", &restored_jet);
+  module.def("_restored_function", &restored_function);
+  module.def("_restored_report", &restored_report);
+}
+
+}  // namespace hamjet::python
