@@ -1,8 +1,13 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <iterator>
 #include <new>
 #include <sstream>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <vector>
 
 #include "../io/shell_text.hpp"
 #include "arithmetic.hpp"
@@ -16,6 +21,7 @@
 #include "list_command.hpp"
 #include "run_command.hpp"
 #include "stability_command.hpp"
+#include "stack_limit.hpp"
 #include "standard_streams.hpp"
 #include "sweep_command.hpp"
 #include "transfer_command.hpp"
@@ -246,12 +252,16 @@ int dispatch(int argc, char** argv) {
       "Example: hamjet completion bash > ~/.local/share/bash-completion/completions/hamjet");
   completion->add_option("shell", shell, "bash")->required()->check(CLI::IsMember({"bash"}));
 
-  if (argc <= 1) {
+  // The command's options come behind its name; a -- before it ends those of the program.
+  const int first = argc > 1 && std::string_view(argv[1]) == "--" ? 2 : 1;
+  if (argc <= first) {
     std::fputs(app.help().c_str(), stderr);
     return static_cast<int>(ErrorKind::usage);
   }
   try {
-    app.parse(argc, argv);
+    // CLI11 takes the words from the last to the first.
+    app.parse(std::vector<std::string>(std::reverse_iterator(argv + argc),
+                                       std::reverse_iterator(argv + first)));
   } catch (const CLI::ParseError& error) {
     const bool is_request = error.get_exit_code() == 0;  // --help, --version
     if (!is_request) throw hamjet::Error(ErrorKind::usage, hamjet::cli::usage_message(app, error));
@@ -287,9 +297,11 @@ int dispatch(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  hamjet::cli::open_standard_streams();
   hamjet::cli::catch_signals();
   std::set_terminate(hamjet::cli::end_after_unhandled_exception);
   try {
+    hamjet::cli::require_stack();
     hamjet::cli::reset_arithmetic();
     return dispatch(argc, argv);
   } catch (const hamjet::cli::Interrupted& interrupted) {
@@ -301,6 +313,13 @@ int main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     hamjet::cli::print_error(hamjet::cli::out_of_memory);
     return static_cast<int>(ErrorKind::too_large);
+  } catch (const std::system_error& error) {
+    // What the system refuses: a thread where memory or the number of processes is limited, or else
+    // a file.
+    const bool lacks_resources = error.code() == std::errc::resource_unavailable_try_again ||
+                                 error.code() == std::errc::not_enough_memory;
+    hamjet::cli::print_error(lacks_resources ? hamjet::cli::out_of_memory : error.what());
+    return static_cast<int>(lacks_resources ? ErrorKind::too_large : ErrorKind::input_output);
   } catch (const std::exception& error) {
     hamjet::cli::print_error(error.what());
     return static_cast<int>(ErrorKind::numerical);

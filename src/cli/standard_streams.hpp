@@ -4,6 +4,10 @@
 
 namespace hamjet::cli {
 
+/// Puts /dev/null in the place of a standard stream that is closed: the next file that is opened
+/// would take its number, and what is printed would go there.
+void open_standard_streams();
+
 /// Text to standard output, all of it at once. A reader that went away (`| head`) is no error; a
 /// full disk is: throws Error(input_output).
 void print(const std::string& text);

@@ -22,24 +22,48 @@ namespace {
 /// Points of the trajectory that is drawn.
 constexpr int trajectory_intervals = 400;
 
+[[noreturn]] void refuse_jet(const TransferOptions& transfers, const io::StoredJet& stored,
+                             const std::string& problem) {
+  throw Error(ErrorKind::scene, fmt::format("{}: the jet of {} {}",
+                                            io::printable(*transfers.directory, std::string::npos),
+                                            stored.label, problem));
+}
+
+io::StoredJet read_stored_jet(const TransferOptions& transfers) {
+  io::StoredJet stored = io::read_jet_file(*transfers.directory, transfers.run);
+  if (stored.duration == 0) {
+    refuse_jet(transfers, stored, "has the duration 0, in which nothing can be transferred");
+  }
+  return stored;
+}
+
+/// The scene, which need not say a time where a stored jet has the only one.
+Scene read_scene_of(const io::StoredJet& stored, const RunOptions& options) {
+  try {
+    return read_scene(options);
+  } catch (const Error& error) {
+    RunOptions with_time = options;
+    with_time.overrides.push_back(
+        fmt::format("transfer.times_canonical=[{:.17g}]", stored.duration));
+    try {
+      return read_scene(with_time);
+    } catch (const Error&) {
+      throw error;  // it was something else
+    }
+  }
+}
+
 /// The stored jet, if it is of the scene's chief.
-EarlierJet earlier_jet(const TransferOptions& transfers, const Scene& scene) {
-  const io::StoredJet stored = io::read_jet_file(*transfers.directory, transfers.run);
-  const auto refuse_jet = [&](const std::string& problem) {
-    throw Error(
-        ErrorKind::scene,
-        fmt::format("{}: the jet of {} {}", io::printable(*transfers.directory, std::string::npos),
-                    stored.label, problem));
-  };
+EarlierJet earlier_jet(const TransferOptions& transfers, const io::StoredJet& stored,
+                       const Scene& scene) {
   const bool is_same_chief =
       stored.model == scene.system.model && stored.units.length_km == scene.units.length_km &&
       stored.units.time_s == scene.units.time_s && stored.nominal_initial == scene.nominal;
-  if (!is_same_chief) refuse_jet("is about another orbit than the scene's");
+  if (!is_same_chief) refuse_jet(transfers, stored, "is about another orbit than the scene's");
   if (stored.components.size() != scene.nominal.size() ||
       stored.variables.size() != scene.nominal.size()) {
-    refuse_jet("is not expanded in all six variables, which transfers need");
+    refuse_jet(transfers, stored, "is not expanded in all six variables, which transfers need");
   }
-  if (stored.duration == 0) refuse_jet("has the duration 0, in which nothing can be transferred");
   return {stored.label, stored.duration, convert_map<double>(stored.jet)};
 }
 
@@ -57,16 +81,17 @@ void refuse_to_replace(const std::filesystem::path& jet, const std::filesystem::
 }  // namespace
 
 int transfer(const RunOptions& options, const TransferOptions& transfers) {
+  std::optional<io::StoredJet> stored;
+  if (transfers.directory) stored = read_stored_jet(transfers);
   // A stored jet may well have been composed of arcs.
-  const Scene scene = transfers.directory && !transfers.directory->empty()
-                          ? read_scene(options)
-                          : read_unsplit_scene(options, "hamjet transfer");
+  const Scene scene =
+      stored ? read_scene_of(*stored, options) : read_unsplit_scene(options, "hamjet transfer");
   require_transfer(scene, *options.scene_file);
   std::optional<EarlierJet> earlier;
   const std::string name = scene.name + "-transfer";
-  if (transfers.directory) {
+  if (stored) {
     refuse_to_replace(*transfers.directory, output_path(options, name));
-    earlier = earlier_jet(transfers, scene);
+    earlier = earlier_jet(transfers, *stored, scene);
     if (!options.quiet && scene.transfer->times != std::vector<double>{earlier->time}) {
       print_error(
           fmt::format("note: the stored jet has one time, {:.10g} s, and order {}; they take "

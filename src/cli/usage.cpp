@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -32,12 +34,17 @@ std::string command_suggestion(const CLI::App& app, std::string_view word) {
 
 std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
   const auto commands = app.get_subcommands();
-  const std::vector<std::string> unknown = app.remaining(true);
+  std::vector<std::string> unknown = app.remaining(true);
+  // Behind the end of options there are none.
+  const auto end = std::find(unknown.begin(), unknown.end(), "--");
   // An unknown option first: the words around it may only look wrong because of it.
-  const auto option = std::find_if(unknown.begin(), unknown.end(),
-                                   [](const std::string& word) { return word.starts_with("-"); });
+  const auto first_option = std::find_if(
+      unknown.begin(), end, [](const std::string& word) { return word.starts_with("-"); });
+  std::optional<std::string> option;
+  if (first_option != end) option = *first_option;
+  if (end != unknown.end()) unknown.erase(end);
   std::string problem = io::printable(error.what(), 200);
-  if (option != unknown.end()) {
+  if (option) {
     problem = fmt::format("unknown option {}; {}", io::printable(*option),
                           option_suggestion(commands.empty() ? app : *commands[0], *option));
   } else if (!unknown.empty() && commands.empty()) {

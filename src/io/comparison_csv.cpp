@@ -30,7 +30,8 @@ Columns count_columns(const ComparisonResult& result) {
 
 std::string header(const Columns& columns) {
   std::string line =
-      "part,series,label,method,stages,step_canonical,tolerance,order,status,reason,steps,"
+      "part,series,label,method,stages,method_order,beta,step_canonical,tolerance,order,status,"
+      "reason,steps,"
       "rejected_steps,vector_field_evaluations,nominal_evaluations,multiply_adds,memory_bytes,"
       "repeats,median_seconds,least_seconds,most_seconds,error_at_formation_m,largest_error";
   for (std::size_t d = 0; d < columns.errors; ++d) line += fmt::format(",error_degree_{}", d);
@@ -65,11 +66,15 @@ std::string status(const ComparedRun& run) {
 
 std::string settings_fields(const ComparedRun& run, std::string_view part) {
   const IntegratorSettings& settings = run.settings;
-  const bool is_gauss = settings.method == IntegrationMethod::gauss;
-  return fmt::format("{},{},{},{},{},{},{},{},{},{}", part, csv_field(run.series),
+  const auto of = [&](IntegrationMethod method, const auto& value) {
+    return settings.method == method ? fmt::format("{}", value) : std::string();
+  };
+  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}", part, csv_field(run.series),
                      csv_field(settings.label),
                      method_names()[static_cast<std::size_t>(settings.method)],
-                     is_gauss ? std::to_string(settings.stages) : "",
+                     of(IntegrationMethod::gauss, settings.stages),
+                     of(IntegrationMethod::velocity_verlet, settings.order),
+                     of(IntegrationMethod::newmark, settings.beta),
                      csv_number(settings.step_canonical), csv_number(settings.tolerance), run.order,
                      status(run), csv_field(run.failure.empty() ? run.left_out : run.failure));
 }
@@ -126,8 +131,8 @@ std::string map_fields(const ComparedRun& run, const Columns& columns, bool has_
 std::string comparison_csv(const ComparisonResult& result) {
   const Columns columns = count_columns(result);
   const std::string first = header(columns);
-  // Commas behind the ten fields that a run without figures has too.
-  const auto figures = static_cast<std::size_t>(std::count(first.begin(), first.end(), ',')) - 9;
+  // Commas behind the twelve fields that a run without figures has too.
+  const auto figures = static_cast<std::size_t>(std::count(first.begin(), first.end(), ',')) - 11;
   const bool has_formation = result.separation_points > 0;
   std::string text = first;
   for (const auto* runs : {&result.runs, &result.cost_runs}) {

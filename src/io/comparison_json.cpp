@@ -4,6 +4,7 @@
 #include "hamjet/io/comparison_report.hpp"
 #include "hamjet/version.hpp"
 #include "json_values.hpp"
+#include "system_json.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -26,7 +27,7 @@ Json residual_json(const ExactnessResidual& residual) {
 }
 
 Json run_json(const ComparedRun& run) {
-  Json json = {{"settings", fields_json(run.settings)},
+  Json json = {{"settings", integrator_json(run.settings)},
                {"series", run.series},
                {"order", run.order},
                {"failure", text_or_null(run.failure)},
@@ -86,7 +87,7 @@ Json scene_json(const Scene& scene) {
   for (const std::size_t v : scene.variables) variables.push_back(names[v]);
   Json integrators = Json::array();
   for (const IntegratorSettings& settings : scene.integrators) {
-    integrators.push_back(fields_json(settings));
+    integrators.push_back(integrator_json(settings));
   }
   return {{"name", scene.name},
           {"title", scene.title},

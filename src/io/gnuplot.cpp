@@ -200,7 +200,11 @@ GnuplotOutcome run_gnuplot(const std::string& program, std::string_view script,
 }
 
 std::string gnuplot_literal(std::string_view text) {
-  std::string literal = "'";
+  const std::size_t leading = std::min(text.find_first_not_of('\''), text.size());
+  std::string literal;
+  if (leading > 0) literal = '"' + std::string(text.substr(0, leading)) + "\".";
+  text.remove_prefix(leading);
+  literal += '\'';
   for (const char c : text) {
     if (c == '\'') literal += '\'';
     literal += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;

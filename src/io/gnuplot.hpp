@@ -20,8 +20,9 @@ struct GnuplotOutcome {
 GnuplotOutcome run_gnuplot(const std::string& program, std::string_view script,
                            std::chrono::milliseconds limit = std::chrono::seconds(10));
 
-/// A text as a gnuplot literal. In single quotes neither backslashes nor commands in back-quotes
-/// mean anything; line breaks would end the command and become spaces.
+/// A text as a gnuplot expression. In single quotes neither backslashes nor commands in back-quotes
+/// mean anything; line breaks would end the command and become spaces. Apostrophes at the start
+/// stand in double quotes, for gnuplot takes two that are doubled there for an empty text.
 std::string gnuplot_literal(std::string_view text);
 
 }  // namespace hamjet::io

@@ -112,12 +112,13 @@ class JsonReader {
     value = one_of<Enumeration>(names_of(value));
   }
 
-  /// Reads what fields_json has written.
+  /// Reads what fields_json or integrator_json has written: null has no say.
   template <HasFields Settings>
   Settings fields() const {
     Settings settings;
-    for_each_field(settings,
-                   [&](std::string_view name, auto& member) { at(name).read_into(member); });
+    for_each_field(settings, [&](std::string_view name, auto& member) {
+      if (!at(name).is_null()) at(name).read_into(member);
+    });
     return settings;
   }
 

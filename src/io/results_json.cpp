@@ -87,26 +87,14 @@ Json arcs_json(const Scene& scene, const ArcStatistics& arcs) {
 }
 
 Json run_json(const PropagationResult& result, const RunResult& run) {
-  const IntegratorSettings& settings = run.settings;
-  const bool is_gauss = settings.method == IntegrationMethod::gauss;
-  const bool is_verlet = settings.method == IntegrationMethod::velocity_verlet;
-  const bool is_newmark = settings.method == IntegrationMethod::newmark;
-  Json json = {
-      {"label", settings.label},
-      {"method", method_names()[static_cast<std::size_t>(settings.method)]},
-      {"stages", is_gauss ? Json(settings.stages) : Json(nullptr)},
-      {"order", is_verlet ? Json(settings.order) : Json(nullptr)},
-      {"beta", is_newmark ? Json(settings.beta) : Json(nullptr)},
-      {"compensated_summation", is_gauss ? Json(settings.compensated_summation) : Json(nullptr)},
-      {"step_canonical", or_null(settings.step_canonical)},
-      {"tolerance", or_null(settings.tolerance)},
-      {"error", text_or_null(run.failure)},
-      {"failed_checks", run.failed_checks}};
+  Json json = integrator_json(run.settings);
+  json["error"] = text_or_null(run.failure);
+  json["failed_checks"] = run.failed_checks;
   if (!run.failure.empty()) {
     for (const char* key :
          {"checks", "steps", "rejected_steps", "vector_field_evaluations", "nominal_evaluations",
           "wall_seconds", "nominal_final", "energy_error", "exactness", "symplecticity_by_degree",
-          "error_by_degree", "error_estimate_by_degree", "operations"}) {
+          "error_by_degree", "error_estimate_by_degree", "position_error_m", "operations"}) {
       json[key] = nullptr;
     }
     return json;
@@ -133,6 +121,7 @@ Json run_json(const PropagationResult& result, const RunResult& run) {
   }
   json["error_by_degree"] = by_degree_json(run.error_by_degree);
   json["error_estimate_by_degree"] = by_degree_json(run.error_estimate.by_degree);
+  json["position_error_m"] = or_null(run.position_error_m);
   json["operations"] = operations_json(result, run);
   if (run.arcs) json["arcs"] = arcs_json(result.scene, *run.arcs);
   return json;

@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 
+#include "display_text.hpp"
 #include "hamjet/io/results.hpp"
 #include "results_names.hpp"
 
@@ -13,31 +13,6 @@ namespace {
 using Row = std::vector<std::string>;
 
 constexpr const char* not_computed = "-";
-
-std::string duration_text(double seconds) {
-  if (seconds < 1e-3) return fmt::format("{:.1f} us", seconds * 1e6);
-  if (seconds < 1) return fmt::format("{:.2f} ms", seconds * 1e3);
-  return fmt::format("{:.2f} s", seconds);
-}
-
-std::string length_text(double metres) {
-  if (metres >= 1000) return fmt::format("{:.3g} km", metres / 1000);
-  if (metres >= 1 || metres == 0) return fmt::format("{:.3g} m", metres);
-  return fmt::format("{:.2e} m", metres);
-}
-
-/// Distance between the nominal's final position and the reference's.
-std::string position_error(const PropagationResult& result, const RunResult& run) {
-  if (!result.reference) return not_computed;
-  const std::size_t n = result.problem.degrees_of_freedom.size();
-  Extended square = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    const Extended difference = run.jet[i][0] - result.reference->jet[i][0];
-    square += difference * difference;
-  }
-  const double canonical = static_cast<double>(Extended(sqrt(square)));
-  return length_text(canonical * result.scene.units.length_km * 1000);
-}
 
 template <class Values, class Get>
 std::string largest(const Values& values, Get get) {
@@ -84,7 +59,8 @@ Row run_row(const PropagationResult& result, const RunResult& run) {
   if (!run.failure.empty()) return {run.settings.label, "FAILED: " + run.failure};
   Row row = {run.settings.label, std::to_string(run.statistics.steps),
              std::to_string(run.statistics.rejected_steps),
-             duration_text(run.statistics.wall_seconds), position_error(result, run)};
+             duration_text(run.statistics.wall_seconds),
+             run.position_error_m ? length_text(*run.position_error_m) : not_computed};
   row.push_back(relative_error(result, run));
   row.push_back(run.error_estimate.by_degree ? fmt::format("{:.1e}", run.error_estimate.largest())
                                              : not_computed);
@@ -96,14 +72,21 @@ Row run_row(const PropagationResult& result, const RunResult& run) {
   return row;
 }
 
+/// Characters, not bytes: times and lengths have a micro sign.
+std::size_t width(const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xc0) != 0x80;
+  }));
+}
+
 std::string aligned(const std::vector<Row>& rows) {
   std::vector<std::size_t> widths;
   for (const Row& row : rows) {
     if (row.size() < rows[0].size()) continue;  // a failure's text does not widen the column
     widths.resize(std::max(widths.size(), row.size()), 0);
-    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], width(row[i]));
   }
-  for (const Row& row : rows) widths[0] = std::max(widths[0], row[0].size());
+  for (const Row& row : rows) widths[0] = std::max(widths[0], width(row[0]));
   std::string text;
   for (const Row& row : rows) {
     std::string line = fmt::format("{:<{}}", row[0], widths[0]);

@@ -108,13 +108,11 @@ struct Assignment {
   const Override& change;
   toml::node* value;      ///< nothing: what is there is removed
   std::string path = "";  ///< so far, with indices in place of labels
+  /// What was to be removed and is not there.
+  std::optional<SceneSource::AbsentKey> absent = {};
 
   void descend(const std::string& name) { path += path.empty() ? name : '.' + name; }
 };
-
-[[noreturn]] void throw_nothing_to_remove(const Assignment& assignment, std::string_view name) {
-  throw_usage(assignment.change, fmt::format("nothing to remove, got no key {}", in_quotes(name)));
-}
 
 void assign(toml::node& place, std::string_view path, Assignment& assignment);
 
@@ -126,9 +124,12 @@ void assign_in_table(toml::table& table, std::string_view path, Assignment& assi
     throw_usage(assignment.change,
                 "empty name, must be names with single dots between, as in jet.order");
   }
-  assignment.descend(printable(name));
   const bool is_there = table.contains(name);
-  if (!is_there && assignment.value == nullptr) throw_nothing_to_remove(assignment, name);
+  if (!is_there && assignment.value == nullptr) {
+    assignment.absent = {source, assignment.path, std::string(name)};
+    return;
+  }
+  assignment.descend(printable(name));
   if (dot != std::string_view::npos) {
     if (!is_there) insert(table, name, *parse_value("{}", source).get("value"), source);
     assign(*table.get(name), path.substr(dot + 1), assignment);
@@ -186,8 +187,7 @@ void assign(toml::node& place, std::string_view path, Assignment& assignment) {
   }
 }
 
-/// Applies the override; returns the path of what it changed.
-std::string apply(const Override& change, toml::table& table) {
+void apply(const Override& change, SceneDocument& document) {
   if (change.key.size() > longest_override_key) {
     throw_usage(change, fmt::format("the key is too long, got {} bytes, must be at most {}",
                                     change.key.size(), longest_override_key));
@@ -199,15 +199,16 @@ std::string apply(const Override& change, toml::table& table) {
   toml::table value;
   if (change.value != removal) value = override_value(change);
   Assignment assignment{change, value.get("value")};
-  assign(table, change.key, assignment);
-  return assignment.path;
+  assign(document.table, change.key, assignment);
+  if (assignment.absent) {
+    document.source.absent_keys.push_back(*assignment.absent);
+  } else {
+    document.source.override_paths.insert_or_assign(override_source(change.key), assignment.path);
+  }
 }
 
 void apply(const std::vector<Override>& overrides, SceneDocument& document) {
-  for (const Override& change : overrides) {
-    const std::string path = apply(change, document.table);
-    document.source.override_paths.insert_or_assign(override_source(change.key), path);
-  }
+  for (const Override& change : overrides) apply(change, document);
 }
 
 }  // namespace

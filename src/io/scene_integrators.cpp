@@ -14,6 +14,10 @@ namespace hamjet::io {
 namespace {
 
 constexpr std::size_t longest_label = 100;
+
+/// The jets of all are held until the end.
+constexpr std::size_t most_integrators = 1000;
+
 /// The files that stand beside the integrators' directories in the output.
 bool is_reserved(std::string_view label) {
   static constexpr std::string_view names[] = {"summary.json",       "relative_hamiltonian.csv",
@@ -30,19 +34,6 @@ bool is_reserved(std::string_view label) {
 bool has_fixed_steps_only(IntegrationMethod method) {
   return method == IntegrationMethod::stormer || method == IntegrationMethod::velocity_verlet ||
          method == IntegrationMethod::newmark;
-}
-
-std::vector<std::string_view> keys_of(IntegrationMethod method) {
-  std::vector<std::string_view> keys = {"label", "method", "require_relative_error",
-                                        "require_symplecticity"};
-  if (method == IntegrationMethod::gauss) {
-    keys.insert(keys.end(), {"stages", "compensated_summation"});
-  }
-  if (method == IntegrationMethod::velocity_verlet) keys.push_back("order");
-  if (method == IntegrationMethod::newmark) keys.push_back("beta");
-  if (!is_cvode(method)) keys.insert(keys.end(), {"step_canonical", "step_s"});
-  if (!has_fixed_steps_only(method)) keys.push_back("tolerance");
-  return keys;
 }
 
 /// The keys of any method.
@@ -143,7 +134,8 @@ IntegratorSettings read_integrator(const TableReader& integrator, Precision prec
   IntegratorSettings settings;
   settings.method = static_cast<IntegrationMethod>(integrator.choice("method", method_names()));
   const std::string_view method = method_names()[static_cast<std::size_t>(settings.method)];
-  integrator.check_keys({keys_of(settings.method), all_keys, "the method " + std::string(method)});
+  integrator.check_keys(
+      {integrator_keys(settings.method), all_keys, "the method " + std::string(method)});
   if (is_cvode(settings.method) && precision == Precision::extended) {
     integrator.fail("method", fmt::format("not available in extended precision, got {}, must be "
                                           "another method, or precision = \"double\": CVODE "
@@ -176,9 +168,29 @@ IntegratorSettings read_integrator(const TableReader& integrator, Precision prec
 
 }  // namespace
 
+std::vector<std::string_view> integrator_keys(IntegrationMethod method) {
+  std::vector<std::string_view> keys = {"label", "method", "require_relative_error",
+                                        "require_symplecticity"};
+  if (method == IntegrationMethod::gauss) {
+    keys.insert(keys.end(), {"stages", "compensated_summation"});
+  }
+  if (method == IntegrationMethod::velocity_verlet) keys.push_back("order");
+  if (method == IntegrationMethod::newmark) keys.push_back("beta");
+  if (!is_cvode(method)) keys.insert(keys.end(), {"step_canonical", "step_s"});
+  if (!has_fixed_steps_only(method)) keys.push_back("tolerance");
+  return keys;
+}
+
 std::vector<IntegratorSettings> read_integrators(const std::vector<TableReader>& integrators,
                                                  Precision precision, double duration,
                                                  const CanonicalScale& scale) {
+  if (integrators.size() > most_integrators) {
+    throw Error(
+        ErrorKind::too_large,
+        fmt::format("{}: too many, got {} integrators, must be at most {}; hamjet sweep runs "
+                    "a scene many times",
+                    integrators[most_integrators].head(""), integrators.size(), most_integrators));
+  }
   std::vector<IntegratorSettings> all_settings;
   std::map<std::string, std::string> places;  // of the labels so far
   for (const TableReader& integrator : integrators) {

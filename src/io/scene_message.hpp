@@ -48,6 +48,13 @@ struct SceneSource {
   /// What each override changed: its source name, and the path with indices in place of labels.
   std::map<std::string, std::string, std::less<>> override_paths;
   std::filesystem::path folder = {};  ///< what files that the scene names are relative to
+  /// A key that an override removes and that is not there: no mistake if the table may have it.
+  struct AbsentKey {
+    std::string override_name;  ///< see `override_source`
+    std::string table;          ///< path, with indices in place of labels
+    std::string name;
+  };
+  std::vector<AbsentKey> absent_keys = {};
 };
 
 /// The head of a message about the value of `key` at `where` (see `location`): `where: key`, but

@@ -39,6 +39,9 @@ Study read_optimal_control(const TableReader& root);
 /// The keys that the table `[system]` may have for a model.
 std::vector<std::string_view> system_keys(SystemModel model);
 
+/// The keys that a table `[[integrator]]` may have for a method.
+std::vector<std::string_view> integrator_keys(IntegrationMethod method);
+
 /// Table `[system]`.
 SystemSettings read_system(const TableReader& system);
 

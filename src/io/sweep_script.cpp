@@ -51,10 +51,12 @@ std::string parallel_script(const SweepStudy& study, const SweepScriptPaths& pat
       "# Run again, it computes what is missing.\n"
       "set -uo pipefail\n"
       "{}"
+      "# In the command itself parallel would put the task in place of braces in a path.\n"
+      "export hamjet study directory\n"
       "# How the tasks end is in the rows, which --merge counts.\n"
-      "seq {} | parallel --quote --jobs {}% \"$@\" \"$hamjet\" sweep \"$study\" -o \"$directory\" "
-      "\\\n"
-      "  --shard '{{}}/{}' --threads {} --resume --quiet\n"
+      "seq {} | parallel --env hamjet --env study --env directory --jobs {}% \"$@\" \\\n"
+      "  '\"$hamjet\" sweep \"$study\" -o \"$directory\" --shard {{}}/{} --threads {} --resume "
+      "--quiet'\n"
       "exec \"$hamjet\" sweep --merge -o \"$directory\"\n",
       study.items.size(), tasks, head(paths), tasks, std::max<std::size_t>(100 / threads, 1), tasks,
       threads);

@@ -131,6 +131,12 @@ void read_columns(const TableReader& root, SweepStudy& study) {
                   fmt::format("{}, got {}, must be a name of its own",
                               entry.name.empty() ? "empty" : "there twice", in_quotes(entry.name)));
     }
+    // Quotes in the table's header would not keep a spreadsheet from computing it.
+    if (std::string_view("=+-@").find(entry.name[0]) != std::string_view::npos) {
+      column.fail("name", fmt::format("begins as a formula of a spreadsheet, got {}, must begin "
+                                      "with another character than = + - @",
+                                      in_quotes(entry.name)));
+    }
     study.columns.push_back(std::move(entry));
   }
 }

@@ -6,6 +6,7 @@
 #include <exception>
 #include <mutex>
 #include <stop_token>
+#include <system_error>
 #include <thread>
 
 #include "hamjet/error.hpp"
@@ -83,9 +84,16 @@ SweepProgress run_sweep_items(const SweepStudy& study, const SweepDirectory& dir
     const SignalsBlocked blocked;
     const std::size_t count = std::min(threads, items.size());
     shared.threads_at_work = count;
-    for (std::size_t i = 0; i < count; ++i) {
-      workers.emplace_back(
-          [&](const std::stop_token& stop) { work(study, directory, items, shared, stop); });
+    try {
+      while (workers.size() < count) {
+        workers.emplace_back(
+            [&](const std::stop_token& stop) { work(study, directory, items, shared, stop); });
+      }
+    } catch (const std::system_error&) {
+      // No more threads to be had: those that run do it.
+      if (workers.empty()) throw;
+      const std::lock_guard lock(shared.mutex);
+      shared.threads_at_work -= count - workers.size();
     }
   }
   const auto stop_all = [&] {

@@ -9,7 +9,6 @@
 #include "scene_sections.hpp"
 
 namespace hamjet::io {
-
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -48,6 +47,16 @@ Json system_json(const SystemSettings& system) {
                             {"model_name", text_or_null(system.gravity_file->model_name)},
                             {"tide_system", system.gravity_file->tide_system}};
   }
+  return json;
+}
+
+Json integrator_json(const IntegratorSettings& settings) {
+  const std::vector<std::string_view> keys = integrator_keys(settings.method);
+  Json json;
+  for_each_field(settings, [&](std::string_view name, const auto& member) {
+    const bool is_of_method = std::find(keys.begin(), keys.end(), name) != keys.end();
+    json[std::string(name)] = is_of_method ? json_value(member) : Json(nullptr);
+  });
   return json;
 }
 

@@ -10,4 +10,7 @@ namespace hamjet::io {
 /// its table `[system]` with their values, defaults included.
 nlohmann::ordered_json system_json(const SystemSettings& system);
 
+/// All members of the settings by their names; parameters of other methods than theirs are null.
+nlohmann::ordered_json integrator_json(const IntegratorSettings& settings);
+
 }  // namespace hamjet::io

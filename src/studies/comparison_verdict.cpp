@@ -5,23 +5,19 @@
 #include <limits>
 #include <map>
 
+#include "display_text.hpp"
 #include "hamjet/studies/comparison.hpp"
 #include "nominal_period.hpp"
 
 namespace hamjet {
 namespace {
 
-std::string length_text(double metres) {
+/// A length as a scene gives it: all its digits.
+std::string given_length_text(double metres) {
   if (metres >= 1000 * (1 - 1e-12)) return fmt::format("{:g} km", metres / 1000);
   if (metres >= 1) return fmt::format("{:g} m", metres);
   if (metres >= 1e-3) return fmt::format("{:g} mm", metres * 1e3);
   return fmt::format("{:.0e} m", metres);
-}
-
-std::string duration_text(double seconds) {
-  if (seconds < 1e-3) return fmt::format("{:.0f} μs", seconds * 1e6);
-  if (seconds < 1) return fmt::format("{:.3g} ms", seconds * 1e3);
-  return fmt::format("{:.3g} s", seconds);
 }
 
 /// "Gauss 8 adaptive (tolerance 1e-07)".
@@ -146,9 +142,10 @@ std::vector<const ComparedRun*> cheapest_runs(const ComparisonResult& result, do
 
 std::string verdict(const ComparisonResult& result) {
   const Scene& scene = result.scene;
-  const std::string task = fmt::format(
-      "For {} at {} separation after {}, order {}", length_text(scene.comparison.wanted_error_m),
-      length_text(separation_m(scene)), span_text(scene), scene.order);
+  const std::string task =
+      fmt::format("For {} at {} separation after {}, order {}",
+                  given_length_text(scene.comparison.wanted_error_m),
+                  given_length_text(separation_m(scene)), span_text(scene), scene.order);
   const auto runs = cheapest_runs(result, scene.comparison.wanted_error_m);
   if (runs.empty()) {
     return task + (result.is_complete ? ": no integrator that was run reaches it."
@@ -171,7 +168,7 @@ std::string advice(const ComparisonResult& result) {
   const auto runs = cheapest_runs(result, wanted);
   if (runs.empty()) {
     return fmt::format("# no configuration that was run is within {} at {} separation\n",
-                       length_text(wanted), length_text(separation_m(result.scene)));
+                       given_length_text(wanted), given_length_text(separation_m(result.scene)));
   }
   const ComparedRun& run = *runs[0];
   const double claimed = result.smallest_claimed_error_m();
@@ -179,8 +176,8 @@ std::string advice(const ComparisonResult& result) {
       "# error {}{:.1e} m at {} separation (wanted: {}), {} a run\n[[integrator]]\nlabel = \"{}\"\n"
       "method = \"{}\"\n",
       run.error_at_formation_m < claimed ? "below " : "",
-      std::max(run.error_at_formation_m, claimed), length_text(separation_m(result.scene)),
-      length_text(wanted), duration_text(run.median_seconds()), run.settings.label,
+      std::max(run.error_at_formation_m, claimed), given_length_text(separation_m(result.scene)),
+      given_length_text(wanted), duration_text(run.median_seconds()), run.settings.label,
       method_names()[static_cast<std::size_t>(run.settings.method)]);
   if (run.settings.method == IntegrationMethod::gauss) {
     text += fmt::format("stages = {}\n", run.settings.stages);

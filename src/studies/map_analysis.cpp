@@ -13,6 +13,17 @@ namespace {
 
 using JetSpan = std::span<const Series<Extended>>;
 
+/// Between the final positions of two nominals, which are the first components; canonical.
+double position_distance(const FlowJet<Extended>& a, const FlowJet<Extended>& b,
+                         std::size_t degrees_of_freedom) {
+  Extended square = 0;
+  for (std::size_t i = 0; i < degrees_of_freedom; ++i) {
+    const Extended difference = a[i][0] - b[i][0];
+    square += difference * difference;
+  }
+  return static_cast<double>(Extended(sqrt(square)));
+}
+
 }  // namespace
 
 std::vector<double> MapAnalysis::scales(const GeneratingFunctionKind& kind) const {
@@ -102,7 +113,12 @@ KindResult MapAnalysis::invert(RunResult& run, const std::string& requested) {
 }
 
 void MapAnalysis::analyse(RunResult& run) {
-  if (reference_) run.error_by_degree = relative_error_by_degree(run.jet, reference_->jet);
+  if (reference_) {
+    run.error_by_degree = relative_error_by_degree(run.jet, reference_->jet);
+    run.position_error_m =
+        position_distance(run.jet, reference_->jet, problem_.degrees_of_freedom.size()) *
+        scene_.units.length_km * 1000;
+  }
   if (!problem_.is_full_jet) return;
   run.symplecticity = symplecticity_by_degree<Extended>(JetSpan(run.jet));
   const auto components = static_cast<long>(run.jet.size());

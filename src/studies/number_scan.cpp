@@ -60,6 +60,7 @@ NumberScan scan_numbers(const Scene& scene, const RunResult& run) {
   if (run.error_by_degree) {
     for (const double x : *run.error_by_degree) scanner.add(x, "the error by degree");
   }
+  if (run.position_error_m) scanner.add(*run.position_error_m, "the position error");
   for (const KindResult& kind : run.kinds) {
     if (!kind.failure.empty()) continue;
     scanner.add(kind.condition, "the condition of " + kind.requested);

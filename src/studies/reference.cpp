@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <future>
+#include <system_error>
 
 #include "hamjet/integrators/gauss_collocation.hpp"
 
@@ -39,9 +40,16 @@ ReferenceResult compute_reference(const ComputedProblem& problem, double duratio
   result.stages = reference_stages;
   result.tolerance = settings.tolerance;
   IntegrationStatistics coarse_statistics;
-  auto coarse = std::async(std::launch::async, [&] {
+  const auto run_coarse = [&] {
     return run(compared_stages, looser_tolerance * settings.tolerance, coarse_statistics, false);
-  });
+  };
+  std::future<FlowJet<Extended>> coarse;
+  try {
+    coarse = std::async(std::launch::async, run_coarse);
+  } catch (const std::system_error&) {
+    // No thread to be had: it runs afterwards and not meanwhile.
+    coarse = std::async(std::launch::deferred, run_coarse);
+  }
   try {
     result.jet = run(reference_stages, settings.tolerance, result.statistics, true);
   } catch (...) {

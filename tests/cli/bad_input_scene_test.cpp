@@ -117,6 +117,17 @@ TEST_F(BadScene, ZonalHarmonics) {
       scene);
 }
 
+TEST_F(BadScene, MoreIntegratorsThanCanBeHeld) {
+  std::string scene = quick_scene();
+  for (int i = 0; i < 1000; ++i) {
+    scene +=
+        fmt::format("[[integrator]]\nlabel = \"{}\"\nmethod = \"gauss\"\ntolerance = 1e-9\n", i);
+  }
+  write("bad.toml", scene);
+  expect_error({"check", "bad.toml"}, 6,
+               {"integrator.1000: too many, got 1002 integrators, must be at most 1000"});
+}
+
 TEST_F(BadScene, KeysOfAnotherMethod) {
   const string method = "method = \"gauss\"\nstages = 1\nstep_canonical = 0.01";
   const string verlet = "method = \"velocity-verlet\"\norder = 2\n";

@@ -75,6 +75,44 @@ TEST_F(Surroundings, ArithmeticOfTheHostIsReset) {
     EXPECT_EQ(content(directory_ / "other" / file), content(directory_ / "right" / file)) << file;
   }
 }
+
+// Without enough stack a program ends in the midst of its work without a word.
+TEST_F(Surroundings, LessStackThanTheProgramTakes) {
+  options_.stack = 64 * 1024;
+  expect_error({"run", "small.toml"}, 6, {"the stack is limited to 64 kB, must be at least 1024"});
+  options_.stack = 1024 * 1024;
+  succeed({"run", "small.toml", "-q"});
+}
+
+// A limit of memory or of processes keeps threads from starting.
+TEST_F(Surroundings, ThreadsThatCannotBeStarted) {
+  succeed({"run", "small.toml", "-q", "-o", "right"});
+  const auto let_fail = [&](const char* which) {
+    options_.environment = {{"LD_PRELOAD", HAMJET_FAILING_CALLS}, {"HAMJET_FAILING_CALL", which}};
+  };
+  // The reference's two runs then come one after the other.
+  let_fail("pthread_create:1");
+  succeed({"run", "small.toml", "-q", "-o", "alone"});
+  EXPECT_EQ(read_json(directory_ / "alone/summary.json")["reference"]["uncertainty_by_degree"],
+            read_json(directory_ / "right/summary.json")["reference"]["uncertainty_by_degree"]);
+  write("sweep.toml", R"(schema = 1
+title = "two"
+[sweep]
+scene = "quick.toml"
+command = "run"
+[[axis]]
+key = "nominal.e"
+values = [0.1, 0.2, 0.3]
+[[column]]
+name = "energy"
+value = "/runs/gauss8/energy_error"
+)");
+  const CommandResult none = hamjet({"sweep", "sweep.toml", "-q", "--threads", "3"});
+  EXPECT_EQ(none.exit_code, 6) << none.err;
+  EXPECT_EQ(none.err, "hamjet: out of memory; a lower order or fewer variables would fit\n");
+  let_fail("pthread_create:3");
+  succeed({"sweep", "sweep.toml", "-q", "--threads", "3"});
+}
 #endif
 
 // Row 60. What was not computed is null, and infinite numbers do not get into a file.

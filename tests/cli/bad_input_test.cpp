@@ -320,6 +320,20 @@ TEST_F(BadOutput, WithBothStreamsClosedTheFilesAreStillRight) {
             content(directory_ / "closed/gauss8/jet.csv"));
 }
 
+TEST_F(BadOutput, WithNoStreamsAtAllTheResultsAreWhole) {
+  options_.has_input = false;
+  options_.out = options_.err = Stream::closed;
+  // Not -q: what would be printed has no place to go, and must not end in a file of the results.
+  EXPECT_EQ(hamjet({"run", "quick.toml", "-o", "closed"}).exit_code, 0);
+  EXPECT_EQ(hamjet({"run", "missing.toml"}).exit_code, 5);
+  options_ = {};
+  options_.directory = directory_;
+  succeed({"run", "quick.toml", "-o", "open", "-q"});
+  EXPECT_EQ(content(directory_ / "open/gauss8/jet.csv"),
+            content(directory_ / "closed/gauss8/jet.csv"));
+  EXPECT_EQ(read_json(directory_ / "closed/summary.json")["exit_code"], 0);
+}
+
 /// Permissions keep out everybody but the superuser, who becomes somebody else for these.
 class Permissions : public CommandTest {
  protected:

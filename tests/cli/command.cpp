@@ -98,10 +98,12 @@ void limit(decltype(RLIMIT_AS) resource, const std::optional<rlim_t>& most) {
   pointers.push_back(command.data());
   for (std::string& argument : copies) pointers.push_back(argument.data());
   pointers.push_back(nullptr);
+  if (!options.has_input) ::close(STDIN_FILENO);
   connect(options.out, out, STDOUT_FILENO);
   connect(options.err, err, STDERR_FILENO);
   limit(RLIMIT_FSIZE, options.largest_file);
   limit(RLIMIT_AS, options.address_space);
+  limit(RLIMIT_STACK, options.stack);
   ::execv(command.c_str(), pointers.data());
   ::_exit(cannot_start);
 }

@@ -38,10 +38,12 @@ struct CommandOptions {
   std::filesystem::path directory;  ///< the working directory
   /// Variables to set, or to remove where the value is absent.
   std::vector<std::pair<std::string, std::optional<std::string>>> environment;
+  bool has_input = true;  ///< false: standard input is closed
   Stream out = Stream::captured;
   Stream err = Stream::captured;
   std::optional<rlim_t> largest_file;   ///< bytes
   std::optional<rlim_t> address_space;  ///< bytes
+  std::optional<rlim_t> stack;          ///< bytes
   /// As the user nobody, who unlike the superuser is kept out by permissions.
   bool as_nobody = false;
   /// Sent when the command is at work.

@@ -2,6 +2,7 @@
 #include <map>
 #include <set>
 
+#include "../../src/studies/display_text.hpp"
 #include "command_test.hpp"
 
 // What `hamjet run` writes: files, columns and keys are those of the documentation of the results.
@@ -145,6 +146,33 @@ TEST_F(RunFiles, SummaryHasTheDocumentedKeys) {
     }
   }
   EXPECT_EQ(summary["runs"][1]["steps"], 100);  // a duration of 1 in steps of 0.01
+}
+
+// The table for the terminal says nothing that is not in the file, and says times and lengths as
+// all other tables and pages do.
+TEST_F(RunFiles, TheTablesTimesAndPositionErrorsAreThoseOfTheSummary) {
+  const CommandResult result = succeed({"run", "small.toml", "-o", "results"});
+  const Json summary = read_json(directory_ / "results/summary.json");
+  for (const Json& run : summary["runs"]) {
+    std::istringstream lines(result.out);
+    std::string line;
+    while (std::getline(lines, line) && !line.starts_with(run["label"].get<std::string>())) {
+    }
+    for (const std::string& text : {duration_text(run["wall_seconds"].get<double>()),
+                                    length_text(run["position_error_m"].get<double>())}) {
+      EXPECT_NE(line.find("  " + text + "  "), std::string::npos) << line << "\nlacks " << text;
+    }
+  }
+  // Distance of the final positions, the nominals' digits being canonical.
+  const Json& midpoint = summary["runs"][1];
+  double square = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double difference = midpoint["nominal_final"][i].get<double>() -
+                              summary["reference"]["nominal_final"][i].get<double>();
+    square += difference * difference;
+  }
+  const double metres = std::sqrt(square) * summary["units"]["length_km"].get<double>() * 1000;
+  EXPECT_NEAR(midpoint["position_error_m"].get<double>(), metres, 1e-6 * metres);
 }
 
 TEST_F(RunFiles, WithoutAReferenceErrorsAndFloorsAreNull) {

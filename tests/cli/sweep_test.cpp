@@ -240,13 +240,49 @@ TEST_F(Sweep, JobScriptsRunTheParts) {
   }
   succeed({"sweep", "--merge", "-q", "-o", "a folder"});
   EXPECT_EQ(table("a folder"), whole);
+}
 
-  succeed({"sweep", "study.toml", "-o", "by parallel", "--emit", "parallel", "--tasks", "4"});
-  const std::string parallel = content(directory_ / "by parallel/sweep-parallel");
-  EXPECT_NE(parallel.find("seq 4 | parallel --quote"), std::string::npos) << parallel;
-  const std::string check =
-      fmt::format("bash -n '{}'", (directory_ / "by parallel/sweep-parallel").string());
-  EXPECT_EQ(std::system(check.c_str()), 0);
+TEST_F(Sweep, AScriptForParallelKeepsBracesInItsPaths) {
+  const std::string whole = expected();
+  // As GNU parallel does it: in every word of the command, {} is the argument, {#} the number of
+  // the job, and the words are one line for a shell.
+  const std::string name = "{} by {#}";
+  fs::create_directory(directory_ / "bin");
+  write("bin/parallel", R"(#!/bin/bash
+while [[ $1 == --* ]]; do shift 2; done
+job=0
+while read -r argument; do
+  job=$((job + 1))
+  line=${*//'{}'/$argument}
+  bash -c "${line//'{#}'/$job}"
+done
+)");
+  fs::permissions(directory_ / "bin/parallel", fs::perms::owner_all);
+  succeed({"sweep", "study.toml", "-o", name, "--emit", "parallel", "--tasks", "2"});
+  const std::string command =
+      fmt::format("PATH='{}':\"$PATH\" bash '{}' >/dev/null", (directory_ / "bin").string(),
+                  (directory_ / name / "sweep-parallel").string());
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  EXPECT_EQ(table(name), whole);
+}
+
+// gnuplot would lose the map of the first, a spreadsheet would take the others for formulas.
+TEST_F(Sweep, ColumnsMayHaveAnyNameButAFormulas) {
+  const std::string small =
+      changed(changed(study, "count = 10", "count = 2"), "[0, 30, 60, 90]", "[0, 30]");
+  const auto with_name = [&](const std::string& name) {
+    return changed(changed(small, "\"condition\"", "\"" + name + "\""), "value = \"condition\"",
+                   "value = \"" + name + "\"");
+  };
+  write("named.toml", with_name("'condition's"));
+  succeed({"sweep", "named.toml", "-q"});
+  EXPECT_NE(content(directory_ / "out/named/map.svg").find("'condition's"), std::string::npos);
+  for (const char* name : {"=1+1", "+1", "-1", "@x"}) {
+    write("named.toml", with_name(name));
+    expect_error({"sweep", "named.toml", "-q"}, 3,
+                 {"named.toml:18:8: column.0.name: begins as a formula of a spreadsheet, got",
+                  "must begin with another character than = + - @"});
+  }
 }
 
 /// Forty items of which each takes a while.

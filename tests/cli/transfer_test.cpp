@@ -263,6 +263,20 @@ TEST_F(TransferCommand, TakesAStoredJet) {
                {"jets: the jet of gauss8 is about another orbit"});
 }
 
+TEST_F(TransferCommand, AStoredJetNeedsNoTimeOfTheScene) {
+  write("timeless.toml", circle + changed(transfer, "times_orbits = [0.2, 0.3, 0.7]\n", ""));
+  succeed({"run", "circle.toml", "-q", "-o", "jets", "--set", "jet.duration_orbits=0.7"});
+  succeed({"transfer", "timeless.toml", "-q", "-o", "timeless", "--jet", "jets"});
+  succeed({"transfer", "transfer.toml", "-q", "-o", "timed", "--jet", "jets"});
+  EXPECT_EQ(read_json(directory_ / "timeless/summary.json")["best"],
+            read_json(directory_ / "timed/summary.json")["best"]);
+  // Without the jet the time is missing, and with it what else is wrong is named.
+  expect_error({"transfer", "timeless.toml"}, 3, {"timeless.toml", "times_s", "count"});
+  expect_error({"transfer", "timeless.toml", "--jet", "jets", "--set", "transfer.frame=x"}, 3,
+               {"transfer.frame", "RTN"});
+  expect_error({"transfer", "circle.toml", "--jet", "jets"}, 3, {"transfer: missing"});
+}
+
 TEST_F(TransferCommand, DeputiesGoToTheSlotsThatCostLeast) {
   succeed({"assign", "assignment.toml", "-q"});
   const Json summary = read_json(directory_ / "out/assignment-assign/summary.json");

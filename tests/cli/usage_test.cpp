@@ -74,6 +74,20 @@ TEST_F(Usage, NoArgumentsPrintTheUsage) {
   EXPECT_NE(result.err.find("Usage: hamjet"), std::string::npos) << result.err;
 }
 
+// As POSIX has it: what follows -- is no option.
+TEST_F(Usage, TwoHyphensEndTheOptions) {
+  write("-small.toml", content(directory_ / "small.toml"));
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"check", "--", "-small.toml"},
+        {"--", "check", "small.toml"},
+        {"--", "check", "--set", "jet.order=2", "--", "-small.toml"}}) {
+    EXPECT_NE(succeed(arguments).out.find("small.toml: the scene is good"), std::string::npos);
+  }
+  expect_error({"check", "--", "small.toml", "--set"}, 2, {"unexpected argument --set;"});
+  expect_error({"--", "chekc", "small.toml"}, 2, {"unknown command chekc; did you mean check?"});
+  EXPECT_EQ(hamjet({"--"}).exit_code, 2);
+}
+
 TEST_F(Usage, MistakesOnTheCommandLine) {
   const struct {
     std::vector<std::string> arguments;
@@ -92,7 +106,8 @@ TEST_F(Usage, MistakesOnTheCommandLine) {
       {{"run", "small.toml", "--set", "=3"}, {"must be key=value"}},
       {{"run", "small.toml", "--set", "a\nb"}, {"a\\x0ab"}},
       {{"run", "small.toml", "--set", "system.J2="}, {"--set system.J2: empty"}},
-      {{"run", "small.toml", "--set", "jet.ordre=null"}, {"--set jet.ordre: nothing to remove"}},
+      {{"run", "small.toml", "--set", "jet.ordre=null"},
+       {"--set jet.ordre: nothing to remove, got no key \"ordre\"; did you mean order?"}},
       {{"run", "small.toml", "--set", "jet..order=3"}, {"--set jet..order", "empty name"}},
       {{"run", "small.toml", "--set", "title.x=3"}, {"--set title.x", "no such key"}},
       {{"run", "small.toml", "--set", "integrator.guass8.stages=3"}, {"guass8", "no such element"}},

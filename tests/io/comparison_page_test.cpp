@@ -278,6 +278,8 @@ TEST(Gnuplot, LongOutputArrivesWhole) {
 
 TEST(Gnuplot, ALiteralCannotEndEarly) {
   EXPECT_EQ(gnuplot_literal("it's `x`\nplot"), "'it''s `x` plot'");
+  EXPECT_EQ(gnuplot_literal("''x'"), "\"''\".'x'''");
+  EXPECT_EQ(gnuplot_literal("'"), "\"'\".''");
 }
 
 }  // namespace

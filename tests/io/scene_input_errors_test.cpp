@@ -219,7 +219,16 @@ TEST(SceneInputErrors, NullRemovesAKeyOrAnElement) {
   const auto usage = ErrorKind::usage;
   expect_override_error({"jet.order", "null"}, ErrorKind::scene,
                         {"file.toml:11:1: jet.order: missing"});
-  expect_override_error({"jet.duration_s", "null"}, usage, {"nothing to remove", "duration_s"});
+  expect_override_error({"jet.duration_sec", "null"}, usage,
+                        {"nothing to remove, got no key \"duration_sec\"", "duration_s?"});
+  // What the table may have but has not is removed already.
+  const Scene same = parse_scene(orbit, "x",
+                                 {{"jet.duration_s", "null"},
+                                  {"figure", "null"},
+                                  {"validity.count", "null"},
+                                  {"integrator.gauss8.beta", "null"}});
+  EXPECT_EQ(same.duration, parse_scene(orbit, "x", {}).duration);
+  expect_override_error({"integrator.gauss8.bta", "null"}, usage, {"nothing to remove", "\"bta\""});
   expect_override_error({"a.b", "null"}, usage, {"--set a.b: nothing to remove, got no key \"a\""});
   expect_override_error({"integrator.2", "null"}, usage, {"no such element"});
   expect_override_error({"title", ""}, usage, {"--set title: empty", "null removes"});

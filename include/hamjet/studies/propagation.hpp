@@ -72,6 +72,8 @@ struct RunResult {
   std::vector<SymplecticityDefect> symplecticity;  ///< empty if not all variables are expanded in
   std::optional<std::vector<double>> error_by_degree;  ///< see relative_error_by_degree
   JetErrorEstimate error_estimate;
+  /// Distance of the nominal's final position from the reference's.
+  std::optional<double> position_error_m;
   std::optional<RunAlongTime> along_time;  ///< if the scene asks for a figure
 };
 

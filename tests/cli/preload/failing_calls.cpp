@@ -1,11 +1,12 @@
 // Loaded into the command before it starts: lets one call that writes to the disk fail, as a full
-// or broken disk does, or one that takes memory. HAMJET_FAILING_CALL names it and says which of
-// these calls, counted from 1: "write:3", "malloc:200". Of those with a descriptor the ones on
-// files that were opened for writing alone are counted; a write that fails has written half of what
-// it should. "stall:3" is the third flush, which never ends.
+// or broken disk does, one that takes memory, or one that starts a thread. HAMJET_FAILING_CALL
+// names it and says which of these calls, counted from 1: "write:3", "malloc:200". Of those with a
+// descriptor the ones on files that were opened for writing alone are counted; a write that fails
+// has written half of what it should. "stall:3" is the third flush, which never ends.
 
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <pthread.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -53,6 +54,12 @@ void* malloc(size_t bytes) noexcept {
   if (!must_fail("malloc")) return __libc_malloc(bytes);
   errno = ENOMEM;
   return nullptr;
+}
+
+int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*start)(void*),
+                   void* argument) noexcept {
+  if (must_fail("pthread_create")) return EAGAIN;
+  return next<decltype(&pthread_create)>("pthread_create")(thread, attributes, start, argument);
 }
 
 int open(const char* path, int flags, ...) {

@@ -1,0 +1,114 @@
+#include "hamjet/studies/skipped_work.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "formation_scenes.hpp"
+
+// What is said to be left out is what the scene does not need, and the counters of the work that
+// was done agree.
+
+namespace hamjet {
+namespace {
+
+using Names = std::vector<std::string>;
+
+Names left_out(const PropagationResult& result) {
+  Names names;
+  for (const SkippedWork& entry : skipped_work(result)) {
+    EXPECT_FALSE(entry.why.empty()) << entry.what;
+    names.push_back(entry.what);
+  }
+  return names;
+}
+
+std::string reason(const PropagationResult& result, const std::string& what) {
+  for (const SkippedWork& entry : skipped_work(result)) {
+    if (entry.what == what) return entry.why;
+  }
+  return "not left out";
+}
+
+Scene oscillator(int order) {
+  Scene scene;
+  scene.system.model = SystemModel::harmonic_oscillator;
+  scene.nominal = {1, 0.5};
+  scene.duration = 1;
+  scene.order = order;
+  scene.variables = {0, 1};
+  scene.integrators = {precise_gauss()};
+  return scene;
+}
+
+/// What a scene with nothing but a jet leaves out at its end.
+Names with_parts(Names names, bool has_all_variables = true) {
+  names.emplace_back("reference");
+  if (!has_all_variables) names.emplace_back("Poisson brackets");
+  for (const char* name : {"generating functions", "relative Hamiltonian", "figure"}) {
+    names.emplace_back(name);
+  }
+  return names;
+}
+
+TEST(SkippedWork, OfALinearSystemIsAllAboveTheFirstDegree) {
+  const PropagationResult result = propagate(oscillator(3));
+  EXPECT_EQ(left_out(result), with_parts({"degrees 2 to 3"}));
+  const RunResult& run = result.runs[0];
+  for (const auto& component : run.jet) {
+    for (std::size_t k = component.space().first(2); k < component.size(); ++k) {
+      EXPECT_EQ(component[k], 0);
+    }
+  }
+  EXPECT_EQ(run.counts.inversions, 0);
+  EXPECT_EQ(run.counts.exactness_residuals, 0);
+  EXPECT_EQ(run.counts.poisson_brackets, 1);  // of q and p
+  EXPECT_EQ(left_out(propagate(oscillator(1))), with_parts({}));
+}
+
+TEST(SkippedWork, IsNothingOfWhatTheSceneAsksFor) {
+  Scene scene = oscillator(1);
+  scene.reference = ReferenceSettings{};
+  scene.kinds = {"F1", "F2"};
+  scene.relative_hamiltonian_times = {0};
+  scene.figure = FigureSettings{FigureQuantity::energy_error, ""};
+  const PropagationResult result = propagate(scene);
+  EXPECT_EQ(left_out(result), Names());
+  EXPECT_EQ(result.runs[0].counts.inversions, 2);
+  EXPECT_EQ(result.runs[0].counts.exactness_residuals, 2);
+  EXPECT_TRUE(result.reference.has_value());
+  scene.checks[SelfCheckName::energy].is_on = false;
+  EXPECT_EQ(left_out(propagate(scene)), Names{"check energy"});
+}
+
+TEST(SkippedWork, OfZonalHarmonicsIsThoseThatAreAbsent) {
+  Scene scene = paper_chief(1);
+  scene.duration = 0.1;
+  EXPECT_EQ(left_out(propagate(scene)), with_parts({"J4 to J20"}));
+  scene.system.J[3] = 0;
+  EXPECT_EQ(left_out(propagate(scene)), with_parts({"J3", "J4 to J20"}));
+  scene.system.J[6] = 5e-7;
+  const PropagationResult result = propagate(scene);
+  EXPECT_EQ(left_out(result), with_parts({"J3", "J4", "J5", "J7 to J20"}));
+  // Legendre's recursion goes through every degree.
+  EXPECT_NE(reason(result, "J4").find("J6 needs the steps through its degree"), std::string::npos);
+  EXPECT_EQ(reason(result, "J7 to J20").find("needs"), std::string::npos);
+}
+
+TEST(SkippedWork, OfAnEquatorialOrbitIsTheMotionOutOfThePlane) {
+  Scene scene = kepler_chief(0.1, 7000, 1000, 2);
+  scene.variables = {0, 1, 3, 4};
+  PropagationResult result = propagate(scene);
+  EXPECT_EQ(left_out(result), with_parts({"components z, pz"}));
+  EXPECT_EQ(result.runs[0].jet.size(), 4U);
+  EXPECT_EQ(result.runs[0].counts.poisson_brackets, 6);  // 4 components in pairs
+  scene.variables = {0, 1};
+  result = propagate(scene);
+  EXPECT_EQ(left_out(result), with_parts({"components z, pz", "variables px, py"}, false));
+  EXPECT_EQ(result.runs[0].counts.poisson_brackets, 0);
+}
+
+}  // namespace
+}  // namespace hamjet
