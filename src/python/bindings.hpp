@@ -7,6 +7,8 @@
 namespace hamjet::python {
 
 void bind_errors();
+/// What pickle calls.
+void bind_pickling(pybind11::module_& module);
 void bind_jets(pybind11::module_& module);
 void bind_generating_functions(pybind11::module_& module);
 void bind_scenes(pybind11::module_& module);

@@ -12,6 +12,7 @@
 
 #include "../io/stored_coefficients.hpp"
 #include "arrays.hpp"
+#include "bindings.hpp"
 #include "refusal.hpp"
 
 namespace hamjet::python {

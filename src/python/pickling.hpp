@@ -1,13 +1,10 @@
 #pragma once
 
+#include <pybind11/pybind11.h>
+
 #include "hamjet/io/study_report.hpp"
 #include "inverted_jet.hpp"
 #include "jet.hpp"
-
-namespace pybind11 {
-class tuple;
-class module_;
-}  // namespace pybind11
 
 namespace hamjet::python {
 
@@ -17,9 +14,6 @@ pybind11::tuple reduced(const CanonicalUnits& units);
 pybind11::tuple reduced(const Jet& jet);
 pybind11::tuple reduced(const InvertedJet& function);
 pybind11::tuple reduced(const io::StudyReport& report);
-
-/// Those functions, for pickle alone.
-void bind_pickling(pybind11::module_& module);
 
 /// Pickling by reduced(); a copy of what is immutable is the object itself.
 template <class PythonClass>
