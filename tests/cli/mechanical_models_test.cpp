@@ -71,35 +71,6 @@ class MechanicalModels : public EvalTest {
   }
 };
 
-// What was computed with, under the keys of the scenes above.
-TEST_F(MechanicalModels, SummariesHaveTheParameters) {
-  const std::string particle = R"([nominal]
-position_m = [1]
-momentum_kg_m_s = [0]
-[jet]
-order = 1
-duration_s = 1
-)" + tail;
-  const struct {
-    std::string scene;
-    const char* parameters;
-  } cases[] = {
-      {pair_scene, R"({"mass_kg": 2, "stiffness_N_per_m": [2, 32]})"},
-      {pendulum_scene,
-       R"({"mass_kg": 1, "stiffness_N_per_m": 100, "length_m": 1, "gravity_m_s2": 10})"},
-      {chain_scene, R"({"omega_rad_per_s": 10, "pairs": 2})"},
-      {head + "model = \"harmonic-oscillator\"\nstiffness_N_per_m = 4\n" + particle,
-       R"({"mass_kg": 1, "stiffness_N_per_m": 4})"},
-      {head + "model = \"double-well\"\n" + particle, "{}"},
-  };
-  for (const auto& entry : cases) {
-    write("scene.toml", entry.scene);
-    succeed({"run", "scene.toml", "-q", "-o", "results", "--set", "jet.order=1", "--set",
-             "reference=null", "--set", "generating_function=null"});
-    EXPECT_EQ(summary("results")["system"], Json::parse(entry.parameters));
-  }
-}
-
 TEST_F(MechanicalModels, RunWithNamesForEveryDegreeOfFreedom) {
   const struct {
     const char* name;
