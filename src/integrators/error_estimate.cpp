@@ -19,7 +19,7 @@ namespace {
 constexpr double safety = 2;
 constexpr std::size_t candidates = 16;
 /// Other stages, and so other steps, for each direction.
-constexpr std::array<int, 2> stages = {12, 11};
+constexpr std::array<int, 2> stages = {14, 12};
 
 template <class Real>
 constexpr double rounding() {

@@ -85,7 +85,7 @@ class StageIteration {
         // Changes that no longer shrink are rounding, if they are no larger than that.
         if (size <= 2 * epsilon) return Outcome::converged;
         if (++stalls_ > most_stalls) return Outcome::fails;
-      } else if (size * size <= 0.25 * epsilon * (before - size)) {
+      } else if (count_ > 0 && size * size <= 0.25 * epsilon * (before - size)) {
         return Outcome::converged;  // all the changes to come add up to less than this
       }
       return ++count_ < largest_count ? Outcome::goes_on : Outcome::fails;
@@ -97,7 +97,7 @@ class StageIteration {
     static constexpr int largest_count = 40;
     int count_ = 0;
     int stalls_ = 0;
-    Real previous_ = 1;
+    Real previous_ = std::numeric_limits<Real>::max();  ///< none yet
   };
 
   static inline const Real epsilon = std::numeric_limits<Real>::epsilon();

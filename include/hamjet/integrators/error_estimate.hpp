@@ -23,7 +23,7 @@ struct ErrorEstimateSettings {
 /// truncation and rounding together. What made the jet is of no account.
 ///
 /// Along two directions the univariate series of the same flow is integrated independently, with
-/// N + 1 coefficients a component: Gauss with 12 and with 11 stages, whose steps are chosen for all
+/// N + 1 coefficients a component: Gauss with 14 and with 12 stages, whose steps are chosen for all
 /// degrees. The jet's degree-d part at the
 /// direction, less the degree-d coefficient of that run, is the sum of the errors of all monomials
 /// of the degree with weights of order 1. The estimate is the larger of the two differences,
