@@ -16,18 +16,22 @@ namespace hamjet::attack {
 namespace {
 
 constexpr const char* usage =
-    "usage: attack [--scenes N] [--seed S] [--scene K] [--seconds T] [--verbose] [--print]\n"
+    "usage: attack [--scenes N] [--seed S] [--scene K] [--seconds T] [--command PATH] [--verbose]\n"
+    "              [--print]\n"
     "  Draws N scenes (default 100) from the seed (default: random, and printed), runs each "
     "through\n"
     "  hamjet and compares all degrees of its jet along random lines with an integration of its\n"
     "  own. --scene K does scene K alone, --print writes its text; --seconds ends earlier;\n"
-    "  --verbose has a line for each scene. Exit code 1 if anything is wrong and not marked.\n";
+    "  --verbose has a line for each scene; --command is the program that some scenes are given "
+    "to\n"
+    "  as well. Exit code 1 if anything is wrong and not marked.\n";
 
 struct Options {
   std::uint64_t scenes = 100;
   std::uint64_t seed = 0;
   std::optional<std::uint64_t> scene;
   double seconds = HUGE_VAL;
+  std::string command;
   bool is_verbose = false;
   bool is_printing = false;
 };
@@ -43,6 +47,8 @@ std::optional<Options> read_options(int count, char** arguments) {
       options.is_printing = true;
     } else if (i + 1 == count) {
       return std::nullopt;
+    } else if (name == "--command") {
+      options.command = arguments[++i];
     } else {
       char* end = nullptr;
       const char* text = arguments[++i];
@@ -71,8 +77,9 @@ const char* name_of(Verdict::Outcome outcome) {
 }
 
 void print_verdict(const DrawnScene& drawn, const Verdict& verdict) {
-  fmt::print("seed {} scene {}: {}: {}; error {:.1e}, {:.2f} s + {:.2f} s{}{}\n", drawn.seed,
-             drawn.number, name_of(verdict.outcome), summary(drawn), verdict.largest_error,
+  fmt::print("seed {} scene {}: {}: {}{}{}; error {:.1e}, {:.2f} s + {:.2f} s{}{}\n", drawn.seed,
+             drawn.number, name_of(verdict.outcome), summary(drawn),
+             verdict.variation.empty() ? "" : ", also ", verdict.variation, verdict.largest_error,
              verdict.hamjet_seconds, verdict.reference_seconds, verdict.message.empty() ? "" : ": ",
              verdict.message);
   for (const Finding& finding : verdict.findings) {
@@ -90,6 +97,7 @@ int attack(const Options& options) {
   };
   JudgeSettings settings;
   settings.is_talkative = options.scene.has_value();
+  settings.command = options.command;
   std::map<Verdict::Outcome, int> counts;
   double hamjet_seconds = 0, reference_seconds = 0, uncertainty = 0;
   const std::uint64_t first = options.scene.value_or(0);

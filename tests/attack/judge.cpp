@@ -6,19 +6,19 @@
 #include <chrono>
 #include <cmath>
 
-namespace hamjet::attack {
-namespace {
+#include "variations.hpp"
 
-/// Extended precision has 113 bits: its floor is that of double precision, scaled.
+namespace hamjet::attack {
+/// Extended precision has 113 bits.
 double floor_of(const DrawnScene& drawn, double floor) {
   return drawn.precision == "extended" ? floor * 0x1p-60 : floor;
 }
 
-/// What is promised of adaptive Gauss methods: the relative error of every degree is at most 100
-/// times the tolerance in each revolution, besides ten floors.
 double promised_error(const DrawnScene& drawn, double floor) {
   return 100 * *drawn.tolerance * std::max(1.0, drawn.revolutions) + 10 * floor_of(drawn, floor);
 }
+
+namespace {
 
 class Judge {
  public:
@@ -59,6 +59,7 @@ class Judge {
     const Scene& scene = *attacked.scene;
     const Model model = canonical_model(scene, drawn_.model);
     const bool is_extended = drawn_.precision == "extended";
+    std::vector<JudgedLine> lines;
     for (int i = 0; i < settings_.directions; ++i) {
       const std::vector<double> direction = draw_direction(scene, model, random_);
       const auto start = std::chrono::steady_clock::now();
@@ -68,11 +69,24 @@ class Judge {
       verdict_.reference_seconds +=
           std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
       if (!reference.failure.empty()) return skip(reference.failure);
-      const JetAlongLine jet =
-          along_line(attacked.run().jet, attacked.result->problem, direction, reference);
-      const RelativeErrors errors = relative_errors(jet, reference);
-      compare_degrees(errors);
+      JudgedLine line{
+          direction,
+          reference,
+          along_line(attacked.run().jet, attacked.result->problem, direction, reference),
+          {}};
+      line.errors = relative_errors(line.jet, reference);
+      compare_degrees(line.errors);
+      lines.push_back(line);
     }
+    if (!random_.chance(settings_.variations)) return;
+    const auto start = std::chrono::steady_clock::now();
+    const Variation variation = draw_variation(drawn_, random_);
+    verdict_.variation = variation.name;
+    for (const Finding& finding : judge_variation(variation, drawn_, attacked, lines, settings_)) {
+      find(finding);
+    }
+    verdict_.variation_seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
 
   void compare_degrees(const RelativeErrors& errors) {

@@ -33,15 +33,27 @@ struct Verdict {
   double largest_uncertainty = 0;  ///< of the reference, relative
   double hamjet_seconds = 0;
   double reference_seconds = 0;
+  std::string variation;  ///< that was run, if any
+  double variation_seconds = 0;
 };
 
 struct JudgeSettings {
   int directions = 2;
   double most_seconds = 20;  ///< of one run of hamjet
+  double variations = 0.5;   ///< of this part of the scenes a variation is run too
+  std::string command = {};  ///< path of the hamjet program; empty: none is run
   bool is_talkative = false;
 };
 
-/// Runs a scene and compares it, degree by degree, with the independent integration.
+/// Runs a scene and compares it, degree by degree, with the independent integration; then, of some,
+/// a variation that should not change the result, see variations.hpp.
 Verdict judge(const DrawnScene& drawn, const JudgeSettings& settings);
+
+/// What is promised of adaptive Gauss methods: the relative error of every degree is at most 100
+/// times the tolerance in each revolution, besides ten floors of the scene's precision.
+double promised_error(const DrawnScene& drawn, double floor);
+
+/// The floor of a scene's precision from that of double precision.
+double floor_of(const DrawnScene& drawn, double floor);
 
 }  // namespace hamjet::attack

@@ -72,6 +72,7 @@ bool sample_floor(const Model& model, const Line& line, std::uint64_t seed,
   LineState<double, N> undisturbed = start_of<double, N>(model, line);
   if (!integrator->run(undisturbed, line.duration, most_steps)) return false;
   const auto steps = integrator->steps();
+  reference.floor_steps = steps.size();
   std::mt19937_64 generator(seed);
   reference.floor.assign(static_cast<std::size_t>(N) + 1, 0);
   for (int sample = 0; sample < floor_samples; ++sample) {

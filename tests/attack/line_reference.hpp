@@ -32,6 +32,7 @@ struct LineReference {
   /// the state after every step of this integrator, all coefficients, are changed by up to half a
   /// unit in the last place of the largest position or momentum of their degree.
   std::vector<double> floor;
+  std::size_t floor_steps = 0;  ///< after which there was such a change
 };
 
 inline constexpr int floor_samples = 16;

@@ -21,7 +21,8 @@ std::string system_table(const DrawnScene& scene) {
           fmt::format("model = \"zonal-gravity\"\nmu_km3_s2 = {:.17g}\nradius_km = {:.17g}\n",
                       scene.mu_km3_s2, m.radius);
       for (std::size_t n = 2; n <= 20; ++n) {
-        if (m.zonal[n] != 0) text += fmt::format("J{} = {:.17g}\n", n, m.zonal[n]);
+        if (m.zonal[n] != 0 || scene.has_zeros)
+          text += fmt::format("J{} = {:.17g}\n", n, m.zonal[n]);
       }
       return text;
     }

@@ -1,0 +1,154 @@
+#include "variations.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "command_run.hpp"
+
+namespace hamjet::attack {
+namespace {
+
+using Kind = Variation::Kind;
+
+bool has_fixed_steps(const DrawnScene& drawn) { return !drawn.tolerance; }
+
+/// q, p and d in another unit of length: lengths times `ratio`, momenta by its root, for mu = 1.
+std::vector<double> in_unit(std::vector<double> state, double ratio) {
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    state[i] = i < state.size() / 2 ? state[i] * ratio : state[i] / std::sqrt(ratio);
+  }
+  return state;
+}
+
+/// The other run's jet along the same line, in the units of the first.
+JetAlongLine along_same_line(const AttackedRun& other, const JudgedLine& line, double ratio) {
+  LineReference sizes;
+  sizes.position_size = line.reference.position_size * ratio;
+  sizes.momentum_size = line.reference.momentum_size / std::sqrt(ratio);
+  JetAlongLine jet =
+      along_line(other.run().jet, other.result->problem, in_unit(line.direction, ratio), sizes);
+  const DoubleDouble length = DoubleDouble(1) / DoubleDouble(ratio);
+  const DoubleDouble momentum = sqrt(DoubleDouble(ratio));
+  for (std::size_t c = 0; c < jet.coefficients.size(); ++c) {
+    for (DoubleDouble& x : jet.coefficients[c]) {
+      x *= c < jet.coefficients.size() / 2 ? length : momentum;
+    }
+  }
+  return jet;
+}
+
+/// Up to the lower order of the two.
+LineReference cut(LineReference reference, std::size_t degrees) {
+  for (auto& series : reference.coefficients) series.resize(degrees);
+  reference.size.resize(degrees);
+  reference.uncertainty.resize(degrees);
+  reference.floor.resize(degrees);
+  return reference;
+}
+
+/// What two runs may differ by: ten floors of each, of as many roundings as the longer run has
+/// steps (the floor is a sample with as many as the reference has; roundings add up as a random
+/// walk does); where the steps are chosen, they may be others, so that the errors are too.
+double allowed_difference(const DrawnScene& drawn, const AttackedRun& attacked,
+                          const JudgedLine& line, std::size_t k, double other_error) {
+  const auto steps = static_cast<double>(attacked.run().statistics.steps);
+  const double walk = std::sqrt(1 + steps / static_cast<double>(line.reference.floor_steps + 1));
+  const double rounding = 20 * walk * line.errors.floor[k];
+  return has_fixed_steps(drawn) ? rounding : rounding + 2 * (line.errors.error[k] + other_error);
+}
+
+/// Both runs against the reference: what the tolerance promises, and in one piece no better than
+/// ten times.
+void compare(const Variation& variation, const DrawnScene& drawn, const AttackedRun& attacked,
+             const AttackedRun& other, const JudgedLine& line, std::vector<Finding>& findings) {
+  const double ratio = attacked.scene->units.length_km / other.scene->units.length_km;
+  const JetAlongLine jet = along_same_line(other, line, ratio);
+  const LineReference reference = cut(line.reference, jet.largest_term.size());
+  const RelativeErrors errors = relative_errors(jet, reference);
+  LineReference first = reference;
+  for (std::size_t c = 0; c < first.coefficients.size(); ++c) {
+    std::copy_n(line.jet.coefficients[c].begin(), jet.largest_term.size(),
+                first.coefficients[c].begin());
+  }
+  const RelativeErrors differences = relative_errors(jet, first);
+  for (std::size_t k = 0; k < errors.error.size(); ++k) {
+    const auto add = [&](const char* rule, double value, double allowed) {
+      if (value > allowed) {
+        findings.push_back({rule, static_cast<int>(k), value, allowed, variation.name});
+      }
+    };
+    const double error = errors.error[k] - errors.uncertainty[k];
+    if (variation.drawn.is_adaptive_gauss()) {
+      add("tolerance of the variation", error, promised_error(variation.drawn, errors.floor[k]));
+    }
+    if (variation.kind == Kind::unsplit) {
+      add("arcs against one piece", line.errors.error[k] - errors.uncertainty[k],
+          10 * std::max(errors.error[k], floor_of(drawn, errors.floor[k])));
+    } else if (variation.kind == Kind::zeros) {
+      add("zeros against nothing", differences.error[k], 0);
+    } else {
+      add("difference", differences.error[k],
+          allowed_difference(drawn, attacked, line, k, errors.error[k]));
+    }
+  }
+}
+
+}  // namespace
+
+Variation draw_variation(const DrawnScene& drawn, RandomNumbers& random) {
+  Variation variation{Kind::none, {}, drawn};
+  DrawnScene& other = variation.drawn;
+  const auto become = [&](Kind kind, std::string name) {
+    variation.kind = kind;
+    variation.name = std::move(name);
+  };
+  const int choice = random.integer(0, 49);
+  if (choice == 0) {
+    become(Kind::command, "by the command");
+  } else if (choice < 5 && drawn.precision == "double" && drawn.order <= 3 &&
+             drawn.revolutions < 2 && has_fixed_steps(drawn)) {
+    other.precision = "extended";
+    become(Kind::precision, "in extended precision");
+  } else if (choice < 10 && drawn.model.radius > 0) {
+    other.has_zeros = true;
+    become(Kind::zeros, "with zeros written out");
+  } else if (choice < 18 && drawn.order > 1) {
+    other.order = random.integer(1, drawn.order - 1);
+    become(Kind::order, fmt::format("to order {}", other.order));
+  } else if (choice < 25 && !drawn.variables.empty()) {
+    other.variables.clear();
+    become(Kind::variables, "in all variables");
+  } else if (choice < 38 && drawn.arcs != 1) {
+    other.arcs = 1;
+    become(Kind::unsplit, "in one piece");
+  } else if (drawn.is_orbit) {
+    other.length_km = random.log_uniform(1e-3, 1.5e8);
+    become(Kind::unit, fmt::format("with the unit {:.3g} km", *other.length_km));
+  }
+  return variation;
+}
+
+std::vector<Finding> judge_variation(const Variation& variation, const DrawnScene& drawn,
+                                     const AttackedRun& attacked,
+                                     const std::vector<JudgedLine>& lines,
+                                     const JudgeSettings& settings) {
+  std::vector<Finding> findings;
+  if (variation.kind == Kind::none) return findings;
+  if (variation.kind == Kind::command) {
+    if (settings.command.empty()) return findings;
+    const std::string difference = difference_of_command(settings.command, toml(drawn), attacked);
+    if (!difference.empty()) findings.push_back({"command", -1, 0, 0, difference});
+    return findings;
+  }
+  const AttackedRun other = run_hamjet(toml(variation.drawn), settings.most_seconds);
+  // A variation that is marked is not wrong in silence.
+  if (!other.is_unmarked()) return findings;
+  for (const JudgedLine& line : lines) {
+    compare(variation, drawn, attacked, other, line, findings);
+  }
+  return findings;
+}
+
+}  // namespace hamjet::attack
