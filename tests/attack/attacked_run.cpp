@@ -156,6 +156,7 @@ JetAlongLine along_line(const FlowJet<Extended>& jet, const ComputedProblem& pro
   JetAlongLine result;
   result.coefficients.assign(dimension, std::vector<DoubleDouble>(degrees));
   result.largest_term.assign(degrees, 0);
+  std::vector<std::vector<double>> squares(dimension, std::vector<double>(degrees, 0));
   for (std::size_t m = 0; m < space.size(); ++m) {
     DoubleDouble power(1);
     const auto exponents = space.exponents(m);
@@ -172,7 +173,15 @@ JetAlongLine along_line(const FlowJet<Extended>& jet, const ComputedProblem& pro
       result.coefficients[component][k] += term;
       const double size =
           component < dimension / 2 ? reference.position_size : reference.momentum_size;
-      result.largest_term[k] = std::max(result.largest_term[k], magnitude(term) / size);
+      const double scaled = magnitude(term) / size;
+      result.largest_term[k] = std::max(result.largest_term[k], scaled);
+      squares[component][k] += scaled * scaled;
+    }
+  }
+  result.independent_sum.assign(degrees, 0);
+  for (const std::vector<double>& component : squares) {
+    for (std::size_t k = 0; k < degrees; ++k) {
+      result.independent_sum[k] = std::max(result.independent_sum[k], std::sqrt(component[k]));
     }
   }
   return result;
@@ -194,8 +203,11 @@ RelativeErrors relative_errors(const JetAlongLine& jet, const LineReference& ref
     const auto relative = [&](double x) { return x == 0 ? 0 : x / size; };
     errors.error.push_back(relative(error));
     errors.uncertainty.push_back(relative(reference.uncertainty[k]));
+    const double cancellation =
+        reference.size[k] > 0 ? std::max(1.0, jet.independent_sum[k] / reference.size[k]) : 1;
     // The result itself is rounded too.
-    errors.floor.push_back(std::max(relative(reference.floor[k]), size > 0 ? 0x1p-53 : 0));
+    errors.floor.push_back(std::max(cancellation * relative(reference.floor[k]),
+                                    relative(0x1p-53 * jet.independent_sum[k])));
   }
   return errors;
 }

@@ -45,6 +45,9 @@ struct JetAlongLine {
   /// By degree the largest |c_a d^a| of any component, in the sizes of the reference: what errors
   /// are relative to, for along one direction large coefficients may cancel.
   std::vector<double> largest_term;
+  /// By degree the root of the sum of the squares of the terms, likewise: what their sum would be
+  /// if they did not cancel more than independent ones do.
+  std::vector<double> independent_sum;
 };
 JetAlongLine along_line(const FlowJet<Extended>& jet, const ComputedProblem& problem,
                         const std::vector<double>& direction, const LineReference& reference);
@@ -54,7 +57,9 @@ JetAlongLine along_line(const FlowJet<Extended>& jet, const ComputedProblem& pro
 struct RelativeErrors {
   std::vector<double> error;
   std::vector<double> uncertainty;  ///< of the reference
-  std::vector<double> floor;        ///< of double precision, see LineReference
+  /// Of double precision, see LineReference; larger where the terms of a jet cancel along the line,
+  /// for each is rounded by itself.
+  std::vector<double> floor;
 };
 RelativeErrors relative_errors(const JetAlongLine& jet, const LineReference& reference);
 
