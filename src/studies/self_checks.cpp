@@ -19,6 +19,7 @@ constexpr double largest_fixed_step_error = 5;
 constexpr double gauss_excess = 10;  ///< up to which a Gauss method accepts a step
 constexpr double largest_energy_change = 0.1;
 constexpr double largest_symplecticity_defect = 1e-6;
+constexpr double largest_rounding = 1e-3;         ///< of a degree that is delivered
 constexpr double largest_inversion_miss = 1e-20;  ///< or epsilon, where that is larger
 constexpr double largest_amplified_rounding = 1e-4;
 
@@ -266,7 +267,7 @@ std::vector<double> half_ulp_changes(const Scene& scene, const RunResult& run) {
   for (int d = 0; d < scene.order; ++d) {
     const double at = d == 0 ? size : largest_coefficient(run.jet, d);
     const double above = largest_coefficient(run.jet, d + 1);
-    changes.push_back(at > 0 ? 0.5 * rounding(scene) * (1 + (d + 1) * above * size / at) : 0);
+    changes.push_back(at > 0 ? 0.5 * rounding_of(scene.precision) * (1 + (d + 1) * above * size / at) : 0);
   }
   changes.push_back(changes.back() * (scene.order + 1) / scene.order);
   return changes;
@@ -280,7 +281,9 @@ std::vector<double> promised_errors(const Scene& scene, const RunResult& run) {
   for (std::size_t d = 0; d < promised.size(); ++d) {
     double floor = std::sqrt(1 + steps) * promised[d];
     if (d < measured.size()) floor = std::max(floor, measured[d]);
-    promised[d] = 10 * floor + 100 * *run.settings.tolerance * tolerance_count(run);
+    // A degree without three digits is none, even where rounding is the reason.
+    promised[d] = std::min(10 * floor, largest_rounding) +
+                  100 * *run.settings.tolerance * tolerance_count(run);
   }
   return promised;
 }
@@ -310,7 +313,10 @@ void check_error_estimate(SelfCheck& check, const Scene& scene, const RunResult&
     check.text += "; fixed steps promise none";
   } else if (!judge(check, estimate[worst], limits[worst])) {
     check.text +=
-        ", more than the tolerance lets expect; a smaller one, or other steps, are needed";
+        estimate[worst] > largest_rounding && worst < run.statistics.rounding_by_degree.size()
+            ? ": rounding leaves it fewer than three digits; precision = \"extended\" or a lower "
+              "order is needed"
+            : ", more than the tolerance lets expect; a smaller one, or other steps, are needed";
   }
 }
 

@@ -99,9 +99,9 @@ struct InversionQuality {
 /// error-estimate: the estimated error of the degree that exceeds its limit most, see
 /// estimate_error. Limit with a tolerance: 100 tolerance n, n being the periods of the linearised
 /// motion (IntegrationStatistics::periods) for Gauss and the steps for other methods, at least 1;
-/// and ten floors for rounding, the larger of what shorter steps did not take away
-/// (rounding_by_degree) and sqrt(1 + steps) times what half-ulp changes of the start change in the
-/// degree. Fixed steps promise nothing, and have a limit only where the scene sets one, for all
+/// and ten floors for rounding, at most 1e-3, a floor being the larger of what shorter steps did
+/// not take away (rounding_by_degree) and sqrt(1 + steps) times what half-ulp changes of the start
+/// change in the degree. Fixed steps promise nothing, and have a limit only where the scene sets one, for all
 /// degrees.
 std::vector<SelfCheck> self_checks(const Scene& scene, const RunResult& run);
 
