@@ -22,7 +22,7 @@ namespace {
 
 namespace odeint = boost::numeric::odeint;
 
-constexpr const char* method_name = "Fehlberg 7(8)";
+constexpr const char* fehlberg_name = "Fehlberg 7(8)";
 
 /// odeint's algebra on ranges with a norm that takes every number type: its own looks for the type
 /// of the real numbers inside Extended.
@@ -74,8 +74,8 @@ class FehlbergIntegration {
         settings_(settings),
         statistics_(statistics),
         observer_(observer),
-        field_(problem, method_name),
-        guard_(problem, settings.tolerance.value_or(0), method_name),
+        field_(problem, fehlberg_name),
+        guard_(problem, settings.tolerance.value_or(0), fehlberg_name),
         jet_(starting_jet(problem)),
         state_(field_.initial_state()),
         derivative_(state_.size()),
@@ -105,7 +105,7 @@ class FehlbergIntegration {
   double span() const { return std::abs(static_cast<double>(problem_.duration)); }
 
   void run_fixed_steps() {
-    const long steps = equal_step_count(problem_.duration, *settings_.step, method_name);
+    const long steps = equal_step_count(problem_.duration, *settings_.step, fehlberg_name);
     const Real h = problem_.duration / Real(steps);
     Stepper stepper;
     for (long left = steps - 1; left >= 0; --left) {
@@ -134,7 +134,7 @@ class FehlbergIntegration {
       statistics_.record_step_error(static_cast<double>(Real(error * tolerance)));
       time_ = h == remaining ? problem_.duration : Real(time_ + h);
       accept();
-      limit_step_count(method_name, statistics_.steps, static_cast<double>(time_), span());
+      limit_step_count(fehlberg_name, statistics_.steps, static_cast<double>(time_), span());
     }
   }
 

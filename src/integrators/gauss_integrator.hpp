@@ -39,11 +39,11 @@ class GaussIntegrator {
         statistics_(statistics),
         order_(working_order(problem)),
         is_linear_(problem.system->vector_field.is_linear_system()),
-        tableau_(gauss_tableau(static_cast<std::size_t>(settings.stages))),
-        stages_(*problem.system, tableau_, problem.space, order_),
+        stages_(*problem.system, gauss_tableau(static_cast<std::size_t>(settings.stages)),
+                problem.space, order_),
         point_(problem.system->evaluated_list(), problem.space, 0),
         jet_(problem, settings.compensated_summation),
-        control_(settings, tableau_, stages_, jet_, controlled_order) {
+        control_(settings, stages_, jet_, controlled_order) {
     for (const auto& component : jet_.value()) state_.push_back(component.coefficients().data());
   }
 
@@ -400,7 +400,6 @@ class GaussIntegrator {
   IntegrationClock clock_;
   int order_;
   bool is_linear_;
-  const GaussTableau& tableau_;
   StageSlopes<Real, Lanes> stages_;
   SliceEvaluator<Real, Real> point_;  ///< the vector field at one point
   SummedJet<Real, Lanes> jet_;

@@ -20,15 +20,9 @@ class GaussStepControl {
   using P = Pack<Real, Lanes>;
 
   /// Looks at what the integrator that it serves has in these objects.
-  GaussStepControl(const GaussSettings& settings, const GaussTableau& tableau,
-                   StageSlopes<Real, Lanes>& stages, SummedJet<Real, Lanes>& jet, int order)
+  GaussStepControl(const GaussSettings& settings, StageSlopes<Real, Lanes>& stages,
+                   SummedJet<Real, Lanes>& jet, int order)
       : settings_(settings), stages_(stages), jet_(jet), order_(order) {
-    modes_.assign(tableau.stages, P(Real(0)));
-    for (std::size_t k = 0; k < tableau.stages; ++k) {
-      for (std::size_t i = 0; i < tableau.stages; ++i) {
-        modes_[k].set_lane(static_cast<int>(i), convert<Real>(tableau.mode(k, i)));
-      }
-    }
     const double s = settings.stages;
     pade_constant_ =
         std::pow(std::tgamma(s + 1), 2) / (std::tgamma(2 * s + 1) * std::tgamma(2 * s + 2));
@@ -139,12 +133,12 @@ class GaussStepControl {
   }
 
   /// The weights of the Legendre mode of degree s - 1.
-  const P& last_mode_weights() const { return modes_.back(); }
+  const P& last_mode_weights() const { return stages_.system().coefficients().modes.back(); }
 
   /// The largest component of the Legendre mode of one degree, below s, of the slopes.
   double mode(int degree) {
     double result = 0;
-    const P& weights = modes_[static_cast<std::size_t>(degree)];
+    const P& weights = stages_.system().coefficients().modes[static_cast<std::size_t>(degree)];
     for (const P& slope : stages_.slopes()) {
       result = std::max(result, std::abs(static_cast<double>(dot(weights, slope))));
     }
@@ -206,7 +200,6 @@ class GaussStepControl {
   SummedJet<Real, Lanes>& jet_;
   int order_;             ///< of the jet
   double pade_constant_;  ///< (s!)^2 / ((2s)! (2s+1)!)
-  std::vector<P> modes_;  ///< by degree, weights of the Legendre modes
 };
 
 }  // namespace hamjet

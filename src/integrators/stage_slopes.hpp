@@ -28,12 +28,7 @@ class StageSlopes {
         evaluator_(list_, space, working_order),
         space_(std::move(space)),
         iteration_(system_),
-        slopes_(system_.components()) {
-    for (std::size_t j = 0; j < tableau.stages; ++j) {
-      lagrange_weights_.set_lane(static_cast<int>(j), convert<Real>(tableau.lagrange[j]));
-      start_weights_.set_lane(static_cast<int>(j), convert<Real>(tableau.start[j]));
-    }
-  }
+        slopes_(system_.components()) {}
   StageSlopes(const StageSlopes&) = delete;
   StageSlopes& operator=(const StageSlopes&) = delete;
 
@@ -53,7 +48,7 @@ class StageSlopes {
   }
 
   /// The collocation polynomial of the slopes at the start of the step.
-  Real slope_at_start(std::size_t c) const { return dot(start_weights_, slopes_[c]); }
+  Real slope_at_start(std::size_t c) const { return dot(system_.coefficients().start, slopes_[c]); }
 
   /// Evaluates the collocation polynomial of the slopes at start + length c_i, the unit being its
   /// own step: the first guess of the slopes of another step.
@@ -64,7 +59,7 @@ class StageSlopes {
     std::array<P, Lanes> basis;
     P product(Real(1));
     for (std::size_t j = 0; j < s; ++j) {
-      basis[j] = product * P(lagrange_weights_.lane(static_cast<int>(j)));
+      basis[j] = product * P(system_.coefficients().lagrange.lane(static_cast<int>(j)));
       product *= x - P(system_.nodes().lane(static_cast<int>(j)));
     }
     product = P(Real(1));
@@ -377,8 +372,6 @@ class StageSlopes {
   OperationList list_;
   SliceEvaluator<P, Real> evaluator_;
   SpacePointer space_;
-  P lagrange_weights_{Real(0)};  ///< 1 / product over k of c_j - c_k
-  P start_weights_{Real(0)};     ///< Lagrange's polynomials at the start of the step
   StageIteration<Real, Lanes> iteration_;
   std::vector<P> slopes_;
   std::vector<P> known_;

@@ -9,8 +9,8 @@
 
 #include "hamjet/algebra/pack.hpp"
 #include "hamjet/dynamics/dynamical_system.hpp"
-#include "hamjet/integrators/gauss_tableau.hpp"
 #include "real_number.hpp"
+#include "stage_coefficients.hpp"
 
 namespace hamjet {
 
@@ -37,25 +37,9 @@ class StageSystem {
       : stages_(tableau.stages),
         second_order_(system.second_order.has_value()),
         components_(second_order_ ? system.degrees_of_freedom : system.dimension()),
-        state_size_(system.dimension()) {
-    const std::size_t s = stages_;
-    const auto position_weight = [&](std::size_t i) {
-      return Extended(tableau.weights[i] * (1 - tableau.nodes[i]));
-    };
-    weights_ = pack_of([&](std::size_t i) { return tableau.weights[i]; }, false);
-    nodes_ = pack_of([&](std::size_t i) { return tableau.nodes[i]; }, true);
-    position_weights_ = pack_of(position_weight, false);
-    weights_lost_ =
-        pack_of([&](std::size_t i) { return lost_by_rounding(tableau.weights[i]); }, false);
-    nodes_lost_ = pack_of([&](std::size_t i) { return lost_by_rounding(tableau.nodes[i]); }, true);
-    position_weights_lost_ =
-        pack_of([&](std::size_t i) { return lost_by_rounding(position_weight(i)); }, false);
-    const auto& matrix = second_order_ ? tableau.squared : tableau.matrix;
-    for (std::size_t j = 0; j < s; ++j) {
-      coupling_.push_back(pack_of([&](std::size_t i) { return matrix[i * s + j]; }, true));
-      coupling_lost_.push_back(
-          pack_of([&](std::size_t i) { return lost_by_rounding(matrix[i * s + j]); }, true));
-    }
+        state_size_(system.dimension()),
+        coefficients_(StageCoefficients<Real, Lanes>::of(tableau)),
+        coupling_(second_order_ ? coefficients_.squared : coefficients_.matrix) {
     if (second_order_) {
       for (const Extended& x : system.second_order->inverse_mass) {
         inverse_mass_.push_back(convert<Real>(x));
@@ -66,7 +50,7 @@ class StageSystem {
         }
       }
     }
-    unknowns_ = components_ * s;
+    unknowns_ = components_ * stages_;
     matrix_.resize(unknowns_ * components_);
     response_.resize(unknowns_ * components_);
     base_.resize(state_size_ * components_);
@@ -81,11 +65,12 @@ class StageSystem {
   const Real& inverse_mass(std::size_t c, std::size_t k) const {
     return inverse_mass_[c * components_ + k];
   }
-  const P& weights() const { return weights_; }
-  const P& nodes() const { return nodes_; }
-  const P& position_weights() const { return position_weights_; }
-  const P& weights_lost() const { return weights_lost_; }
-  const P& position_weights_lost() const { return position_weights_lost_; }
+  const StageCoefficients<Real, Lanes>& coefficients() const { return coefficients_; }
+  const P& weights() const { return coefficients_.weights.value; }
+  const P& nodes() const { return coefficients_.nodes.value; }
+  const P& position_weights() const { return coefficients_.position_weights.value; }
+  const P& weights_lost() const { return coefficients_.weights.lost; }
+  const P& position_weights_lost() const { return coefficients_.position_weights.lost; }
 
   void set_step(const Real& h) {
     step_ = h;
@@ -101,10 +86,10 @@ class StageSystem {
     std::size_t j = 0;
     for (; j + 4 <= stages_; j += 4) {
       for (std::size_t k = 0; k < 4; ++k) {
-        sums[k] += coupling_[j + k] * P(slopes.lane(static_cast<int>(j + k)));
+        sums[k] += coupling_[j + k].value * P(slopes.lane(static_cast<int>(j + k)));
       }
     }
-    for (; j < stages_; ++j) sums[0] += coupling_[j] * P(slopes.lane(static_cast<int>(j)));
+    for (; j < stages_; ++j) sums[0] += coupling_[j].value * P(slopes.lane(static_cast<int>(j)));
     return ((sums[0] + sums[1]) + (sums[2] + sums[3])) * P(scale_);
   }
 
@@ -116,10 +101,10 @@ class StageSystem {
   P lost(std::size_t c, const State& state, const P& slopes) const {
     P sum(Real(0));
     for (std::size_t j = 0; j < stages_; ++j) {
-      sum += coupling_lost_[j] * P(slopes.lane(static_cast<int>(j)));
+      sum += coupling_[j].lost * P(slopes.lane(static_cast<int>(j)));
     }
     sum *= P(scale_);
-    if (second_order_) sum += P(Real(step_ * velocity(c, state))) * nodes_lost_;
+    if (second_order_) sum += P(Real(step_ * velocity(c, state))) * coefficients_.nodes.lost;
     return sum;
   }
 
@@ -127,7 +112,7 @@ class StageSystem {
   template <class State>
   P base(std::size_t c, const State& state) const {
     if (!second_order_) return P(state(c));
-    return P(state(c)) + P(Real(step_ * velocity(c, state))) * nodes_;
+    return P(state(c)) + P(Real(step_ * velocity(c, state))) * nodes();
   }
 
   /// K_(c, (from, stage)) as a pack over the stages of component c.
@@ -160,32 +145,12 @@ class StageSystem {
     return sum;
   }
 
-  static Extended lost_by_rounding(const Extended& coefficient) {
-    return coefficient - Extended(convert<Real>(coefficient));
-  }
-
-  /// A pack from a function of the stage. Lanes beyond the last stage repeat the first stage where
-  /// `repeat` is set (so that they hold finite numbers) and are zero elsewhere.
-  template <class Function>
-  P pack_of(Function f, bool repeat) const {
-    P result(Real(0));
-    for (int i = 0; i < Lanes; ++i) {
-      const auto stage = static_cast<std::size_t>(i);
-      if (stage < stages_) {
-        result.set_lane(i, convert<Real>(Extended(f(stage))));
-      } else if (repeat) {
-        result.set_lane(i, convert<Real>(Extended(f(0))));
-      }
-    }
-    return result;
-  }
-
   template <class Gradient>
   void fill(const Gradient& gradient) {
     const P zero(Real(0));
     for (std::size_t from = 0; from < components_; ++from) {
       for (std::size_t j = 0; j < stages_; ++j) {
-        const P column = coupling_[j] * P(scale_);
+        const P column = coupling_[j].value * P(scale_);
         P* m = &matrix_[(from * stages_ + j) * components_];
         P* r = &response_[(from * stages_ + j) * components_];
         for (std::size_t c = 0; c < components_; ++c) {
@@ -201,7 +166,7 @@ class StageSystem {
         if (k < components_) {
           entry = c == k ? P(Real(1)) : zero;
         } else {
-          entry = nodes_ * P(Real(step_ * inverse_mass(c, k - components_)));
+          entry = nodes() * P(Real(step_ * inverse_mass(c, k - components_)));
         }
       }
     }
@@ -302,18 +267,13 @@ class StageSystem {
   bool second_order_;
   std::size_t components_;
   std::size_t state_size_;
+  const StageCoefficients<Real, Lanes>& coefficients_;
+  /// Columns of A, or of A^2 for a second-order system.
+  const std::vector<typename StageCoefficients<Real, Lanes>::Rounded>& coupling_;
   std::size_t unknowns_ = 0;
   bool unit_mass_ = true;
   Real step_ = 0;
   Real scale_ = 0;
-  P weights_;
-  P nodes_;
-  P position_weights_;
-  std::vector<P> coupling_;
-  P weights_lost_;  ///< and so on: the coefficients less their rounded values
-  P nodes_lost_;
-  P position_weights_lost_;
-  std::vector<P> coupling_lost_;
   std::vector<Real> inverse_mass_;
   std::vector<P> matrix_;
   std::vector<P> response_;

@@ -267,7 +267,8 @@ std::vector<double> half_ulp_changes(const Scene& scene, const RunResult& run) {
   for (int d = 0; d < scene.order; ++d) {
     const double at = d == 0 ? size : largest_coefficient(run.jet, d);
     const double above = largest_coefficient(run.jet, d + 1);
-    changes.push_back(at > 0 ? 0.5 * rounding_of(scene.precision) * (1 + (d + 1) * above * size / at) : 0);
+    changes.push_back(
+        at > 0 ? 0.5 * rounding_of(scene.precision) * (1 + (d + 1) * above * size / at) : 0);
   }
   changes.push_back(changes.back() * (scene.order + 1) / scene.order);
   return changes;

@@ -1,0 +1,132 @@
+#include "hamjet/integrators/error_estimate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "hamjet/dynamics/harmonic_oscillator.hpp"
+#include "hamjet/dynamics/zonal_gravity.hpp"
+#include "hamjet/integrators/gauss_collocation.hpp"
+#include "hamjet/integrators/stormer_verlet.hpp"
+#include "support/errors.hpp"
+
+// Estimates are compared with errors that are put into a jet, or known from extended precision.
+
+namespace hamjet::test {
+namespace {
+
+struct Orbit {
+  DynamicalSystem system = kepler();
+  FlowProblem<double> problem{
+      &system, SeriesSpace::create(6, 3), {0, 1, 2, 3, 4, 5}, {1, 0, 0, 0, 0.9, 0.7}, 7};
+
+  FlowJet<double> jet(double tolerance = 1e-13) const {
+    GaussSettings settings;
+    settings.tolerance = tolerance;
+    IntegrationStatistics statistics;
+    return integrate_gauss<double>(problem, settings, statistics);
+  }
+};
+
+double largest(const FlowJet<double>& jet, int degree) {
+  double result = 0;
+  for (const auto& component : jet) {
+    for (const double c : component.slice(degree)) result = std::max(result, std::abs(c));
+  }
+  return result;
+}
+
+TEST(ErrorEstimate, IsSmallForAGoodJet) {
+  const Orbit orbit;
+  const auto estimate = estimate_error<double>(orbit.problem, orbit.jet());
+  ASSERT_EQ(estimate.size(), 4U);
+  for (const double error : estimate) {
+    EXPECT_GT(error, 1e-16);  // never below the rounding of the numbers
+    EXPECT_LT(error, 1e-10);
+  }
+}
+
+TEST(ErrorEstimate, SeesOneWrongCoefficientOfAnyMonomial) {
+  const Orbit orbit;
+  const FlowJet<double> good = orbit.jet();
+  const SeriesSpace& space = *orbit.problem.space;
+  for (std::size_t k = 0; k < space.size(); ++k) {
+    const int degree = space.degree(k);
+    FlowJet<double> wrong = good;
+    wrong[k % 6][k] += 1e-6 * largest(good, degree);
+    const auto estimate = estimate_error<double>(orbit.problem, wrong);
+    const double seen = estimate[static_cast<std::size_t>(degree)];
+    EXPECT_GT(seen, 1e-7) << k;
+    EXPECT_LT(seen, 1e-4) << k;
+    for (int d = 0; d <= 3; ++d) {
+      if (d != degree) EXPECT_LT(estimate[static_cast<std::size_t>(d)], 1e-10) << k << ", " << d;
+    }
+  }
+}
+
+TEST(ErrorEstimate, OfAJetThatIsWrongByManyPowersOfTenSaysSo) {
+  const Orbit orbit;
+  FlowJet<double> wrong = orbit.jet();
+  wrong[0][50] = 1e19;
+  EXPECT_GT(estimate_error<double>(orbit.problem, wrong)[3], 1e15);
+}
+
+TEST(ErrorEstimate, HoldsForOtherMethodsSubsetsAndBackwards) {
+  Orbit orbit;
+  orbit.problem.duration = -2;
+  orbit.problem.space = SeriesSpace::create(2, 3);
+  orbit.problem.variables = {1, 3};
+  IntegrationStatistics statistics;
+  const auto verlet = integrate_velocity_verlet<double>(orbit.problem, {0.01}, statistics);
+  const FlowJet<double> exact = orbit.jet(1e-15);
+  const auto estimate = estimate_error<double>(orbit.problem, verlet);
+  for (int d = 0; d <= 3; ++d) {
+    double error = 0;
+    for (std::size_t i = 0; i < 6; ++i) {
+      for (std::size_t k = orbit.problem.space->first(d); k < orbit.problem.space->first(d + 1);
+           ++k) {
+        error = std::max(error, std::abs(verlet[i][k] - exact[i][k]));
+      }
+    }
+    error /= largest(exact, d);
+    EXPECT_LT(error, 10 * estimate[static_cast<std::size_t>(d)]) << d;
+    EXPECT_GT(error, 0.01 * estimate[static_cast<std::size_t>(d)]) << d;
+  }
+}
+
+TEST(ErrorEstimate, IsZeroWhereTheJetIsExact) {
+  Orbit orbit;
+  orbit.problem.duration = 0;
+  for (const double error : estimate_error<double>(orbit.problem, orbit.jet())) {
+    EXPECT_EQ(error, 0);
+  }
+  // The slices of a linear system vanish above degree 1.
+  const DynamicalSystem oscillator = harmonic_oscillator();
+  const FlowProblem<double> linear{&oscillator, SeriesSpace::create(2, 3), {0, 1}, {1, 0}, 5};
+  GaussSettings settings;
+  settings.tolerance = 1e-12;
+  IntegrationStatistics statistics;
+  const auto jet = integrate_gauss<double>(linear, settings, statistics);
+  const auto estimate = estimate_error<double>(linear, jet);
+  EXPECT_GT(estimate[1], 0);
+  EXPECT_EQ(estimate[2], 0);
+  EXPECT_EQ(estimate[3], 0);
+}
+
+TEST(ErrorEstimate, ErrorsAreNamed) {
+  const Orbit orbit;
+  ErrorEstimateSettings settings;
+  settings.most_steps = 3;
+  expect_error(ErrorKind::too_large, "more than 3 steps",
+               [&] { estimate_error<double>(orbit.problem, orbit.jet(), settings); });
+  FlowJet<double> other = orbit.jet();
+  other.pop_back();
+  expect_error(ErrorKind::usage, "another number of components",
+               [&] { estimate_error<double>(orbit.problem, other); });
+}
+
+}  // namespace
+}  // namespace hamjet::test
