@@ -129,6 +129,15 @@ std::string misread(const DrawnScene& drawn, const Scene& scene) {
   return {};
 }
 
+std::vector<double> draw_unit_direction(const Scene& scene, RandomNumbers& random) {
+  std::vector<double> direction(scene.nominal.size(), 0);
+  for (const std::size_t c : scene.variables) {
+    const double part = random.uniform(0.5, 1);
+    direction[c] = random.chance(0.5) ? part : -part;
+  }
+  return direction;
+}
+
 std::vector<double> draw_direction(const Scene& scene, const Model& model, RandomNumbers& random) {
   const std::size_t n = model.degrees_of_freedom;
   double q = largest(scene.nominal.data(), n), p = largest(scene.nominal.data() + n, n);
@@ -137,14 +146,8 @@ std::vector<double> draw_direction(const Scene& scene, const Model& model, Rando
     if (q == 0) q = 1;
     p = q * ratio;
   }
-  std::vector<double> direction(2 * n, 0);
-  for (std::size_t c = 0; c < 2 * n; ++c) {
-    const double part = random.uniform(0.5, 1), sign = random.chance(0.5) ? 1 : -1;
-    if (std::find(scene.variables.begin(), scene.variables.end(), c) == scene.variables.end()) {
-      continue;
-    }
-    direction[c] = sign * part * (c < n ? q : p);
-  }
+  std::vector<double> direction = draw_unit_direction(scene, random);
+  for (std::size_t c = 0; c < 2 * n; ++c) direction[c] *= c < n ? q : p;
   return direction;
 }
 

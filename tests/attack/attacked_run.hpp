@@ -39,6 +39,9 @@ std::string misread(const DrawnScene& drawn, const Scene& scene);
 /// the nominal is at rest): then every variable counts alike, in every unit.
 std::vector<double> draw_direction(const Scene& scene, const Model& model, RandomNumbers& random);
 
+/// A direction whose components are of size 1 in the scene's canonical units.
+std::vector<double> draw_unit_direction(const Scene& scene, RandomNumbers& random);
+
 /// A jet along a direction: by degree the sum of c_a d^a over the monomials of that degree.
 struct JetAlongLine {
   std::vector<std::vector<DoubleDouble>> coefficients;  ///< [component of the model][degree]

@@ -37,12 +37,11 @@ class Judge {
     }
     if (attacked.is_too_slow) {
       skip("hamjet takes too long");
-    } else if (attacked.exit_code == 1 || attacked.exit_code == 4) {
-      verdict_.outcome = Verdict::Outcome::marked;
-    } else if (attacked.exit_code != 0) {
+    } else if (attacked.exit_code != 0 && attacked.exit_code != 1 && attacked.exit_code != 4) {
       verdict_.outcome = Verdict::Outcome::refused;
     } else {
-      compare(attacked);
+      if (attacked.exit_code != 0) verdict_.outcome = Verdict::Outcome::marked;
+      if (attacked.result && !attacked.run().jet.empty()) compare(attacked);
     }
     if (!verdict_.findings.empty()) verdict_.outcome = Verdict::Outcome::wrong;
     return verdict_;
@@ -58,27 +57,71 @@ class Judge {
   void compare(const AttackedRun& attacked) {
     const Scene& scene = *attacked.scene;
     const Model model = canonical_model(scene, drawn_.model);
-    const bool is_extended = drawn_.precision == "extended";
     std::vector<JudgedLine> lines;
+    bool keeps_promise = drawn_.is_adaptive_gauss();
     for (int i = 0; i < settings_.directions; ++i) {
-      const std::vector<double> direction = draw_direction(scene, model, random_);
-      const auto start = std::chrono::steady_clock::now();
-      const LineReference reference =
-          follow(model, {scene.nominal, direction, scene.duration, scene.order}, drawn_.number,
-                 is_extended ? 1e-28 : 1e-26, is_extended ? 1e-26 : 1e-22);
-      verdict_.reference_seconds +=
-          std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-      if (!reference.failure.empty()) return skip(reference.failure);
-      JudgedLine line{
-          direction,
-          reference,
-          along_line(attacked.run().jet, attacked.result->problem, direction, reference),
-          {}};
-      line.errors = relative_errors(line.jet, reference);
-      compare_degrees(line.errors);
-      lines.push_back(line);
+      const auto line = judged_line(attacked, model, false);
+      if (!line) return;
+      keeps_promise = keeps_promise && is_as_promised(line->errors);
+      if (attacked.is_unmarked()) compare_degrees(line->errors);
+      lines.push_back(*line);
     }
-    if (!random_.chance(settings_.variations)) return;
+    verdict_.is_false_alarm = attacked.exit_code == 1 && keeps_promise;
+    judge_estimate(attacked, model, lines);
+    if (attacked.is_unmarked() && random_.chance(settings_.variations)) vary(attacked, lines);
+  }
+
+  std::optional<JudgedLine> judged_line(const AttackedRun& attacked, const Model& model,
+                                        bool has_unit_sizes) {
+    const Scene& scene = *attacked.scene;
+    const bool is_extended = drawn_.precision == "extended";
+    const auto start = std::chrono::steady_clock::now();
+    JudgedLine line;
+    line.direction = has_unit_sizes ? draw_unit_direction(scene, random_)
+                                    : draw_direction(scene, model, random_);
+    line.reference =
+        follow(model, {scene.nominal, line.direction, scene.duration, scene.order, has_unit_sizes},
+               drawn_.number, is_extended ? 1e-28 : 1e-26, is_extended ? 1e-26 : 1e-22);
+    verdict_.reference_seconds +=
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (!line.reference.failure.empty()) {
+      if (attacked.is_unmarked()) skip(line.reference.failure);
+      return std::nullopt;
+    }
+    line.jet =
+        along_line(attacked.run().jet, attacked.result->problem, line.direction, line.reference);
+    line.errors = relative_errors(line.jet, line.reference);
+    return line;
+  }
+
+  /// hamjet's estimate is relative to the largest coefficient in canonical units. With the default
+  /// unit position and momentum are of size 1 and directions do not differ.
+  void judge_estimate(const AttackedRun& attacked, const Model& model,
+                      std::vector<JudgedLine> lines) {
+    const auto& estimate = attacked.run().error_estimate.by_degree;
+    if (!estimate) return;
+    if (drawn_.length_km || !drawn_.is_orbit) {
+      const auto line = judged_line(attacked, model, true);
+      if (!line) return;
+      lines = {*line};
+    }
+    verdict_.estimate_ratio = 0;
+    for (const JudgedLine& line : lines) {
+      for (std::size_t k = 0; k < line.errors.error.size(); ++k) {
+        const double error = line.errors.error[k] - line.errors.uncertainty[k];
+        const double ratio = error <= 0 ? 0 : error / estimate->at(k);
+        verdict_.estimate_ratio = std::max(*verdict_.estimate_ratio, ratio);
+        if (settings_.is_talkative) {
+          fmt::print("  degree {}: error {:.2e}, estimate {:.2e}\n", k, error, estimate->at(k));
+        }
+        if (ratio > worst_estimate) {
+          find({"estimate", static_cast<int>(k), error, worst_estimate * estimate->at(k), {}});
+        }
+      }
+    }
+  }
+
+  void vary(const AttackedRun& attacked, const std::vector<JudgedLine>& lines) {
     const auto start = std::chrono::steady_clock::now();
     const Variation variation = draw_variation(drawn_, random_);
     verdict_.variation = variation.name;
@@ -87,6 +130,15 @@ class Judge {
     }
     verdict_.variation_seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
+
+  bool is_as_promised(const RelativeErrors& errors) const {
+    for (std::size_t k = 0; k < errors.error.size(); ++k) {
+      if (errors.error[k] - errors.uncertainty[k] > promised_error(drawn_, errors.floor[k])) {
+        return false;
+      }
+    }
+    return true;
   }
 
   void compare_degrees(const RelativeErrors& errors) {

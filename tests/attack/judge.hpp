@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,10 @@ struct Verdict {
   std::vector<Finding> findings;
   std::string message;  ///< of hamjet's failure or refusal, or why it was skipped
   double largest_error = 0;
+  /// The largest ratio of a degree's error to hamjet's own estimate of it.
+  std::optional<double> estimate_ratio;
+  /// A marked run of an adaptive Gauss method whose errors keep what is promised.
+  bool is_false_alarm = false;
   double largest_uncertainty = 0;  ///< of the reference, relative
   double hamjet_seconds = 0;
   double reference_seconds = 0;
@@ -52,6 +57,11 @@ Verdict judge(const DrawnScene& drawn, const JudgeSettings& settings);
 /// What is promised of adaptive Gauss methods: the relative error of every degree is at most 100
 /// times the tolerance in each revolution, besides ten floors of the scene's precision.
 double promised_error(const DrawnScene& drawn, double floor);
+
+/// An estimate may be below the error by this factor in one of a hundred scenes, and by
+/// `worst_estimate` in none.
+inline constexpr double good_estimate = 10;
+inline constexpr double worst_estimate = 100;
 
 /// The floor of a scene's precision from that of double precision.
 double floor_of(const DrawnScene& drawn, double floor);

@@ -5,6 +5,7 @@
 #include <memory>
 #include <random>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 #include "extrapolation.hpp"
@@ -109,6 +110,7 @@ LineReference follow_to_order(const Model& model, const Line& line, std::uint64_
       (model.kind == ModelKind::zonal_gravity ? sizes : fine->sizes()).of_degree(0);
   reference.position_size = q_size > 0 ? q_size : 1;
   reference.momentum_size = p_size > 0 ? p_size : momentum_of_amplitude(model);
+  if (line.has_unit_sizes) reference.position_size = reference.momentum_size = 1;
   const auto coarse = std::make_unique<Extrapolation<DoubleDouble, N>>(model, second_tolerance);
   auto second = start_of<DoubleDouble, N>(model, line);
   if (!coarse->run(second, line.duration, most_steps)) {

@@ -14,6 +14,8 @@ struct Line {
   std::vector<double> direction;  ///< d
   double duration = 0;
   int order = 1;  ///< of the series in s, 1 to most_order
+  /// Errors are measured in the units of the numbers instead of the sizes of the final state.
+  bool has_unit_sizes = false;
 };
 
 inline constexpr int most_order = 6;
