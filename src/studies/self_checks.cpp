@@ -77,10 +77,10 @@ void check_convergence(SelfCheck& check, const RunResult& run) {
     check.state = SelfCheckState::failed;
     check.text = fmt::format("Newton's iteration took {} iterations in a step", iterations);
   } else {
-    check.text = fmt::format(
-        "Newton's iteration came to round-off in every step (one that does not is an error), in {} "
-        "iterations at most",
-        iterations);
+    check.text = "the equations of every step were solved to round-off (else it is an error), ";
+    check.text += iterations == 0 ? "by fixed-point iteration"
+                                  : fmt::format("some by Newton's method, in {} iterations at most",
+                                                iterations);
   }
 }
 

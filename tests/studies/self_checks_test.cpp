@@ -126,10 +126,22 @@ TEST(SelfChecks, FiniteFindsEveryKindOfNumber) {
 TEST(SelfChecks, ConvergenceCountsIterations) {
   Scene scene = good_scene();
   const SelfCheck passed = check(scene, good_run(), SelfCheckName::convergence);
-  EXPECT_GE(*passed.value, 2);
-  EXPECT_LE(*passed.value, 40);  // the most that the method allows
-  scene.checks[SelfCheckName::convergence].limit = 1;
-  expect_state(check(scene, good_run(), SelfCheckName::convergence), SelfCheckState::failed,
+  EXPECT_EQ(passed.value, 0);  // of Newton's method, for fixed-point iteration contracts
+  expect_state(passed, SelfCheckState::passed, "fixed-point");
+  // omega tau = 4: the midpoint rule's fixed-point iteration grows fourfold each time.
+  Scene stiff = scene;
+  stiff.system = {};
+  stiff.system.model = SystemModel::double_well;
+  stiff.nominal = {3, 0};
+  stiff.variables = {0, 1};
+  stiff.kinds.reset();
+  stiff.duration = 0.8;
+  const RunResult newton = run(stiff, with_step(IntegrationMethod::gauss, 0.8));
+  const SelfCheck counted = check(stiff, newton, SelfCheckName::convergence);
+  EXPECT_GE(*counted.value, 1);
+  EXPECT_LE(*counted.value, 40);  // the most that the method allows
+  scene.checks[SelfCheckName::convergence].limit = 0.5;
+  expect_state(check(scene, newton, SelfCheckName::convergence), SelfCheckState::failed,
                "iterations in a step");
   scene.kinds.reset();
   scene.duration = 1;

@@ -46,8 +46,9 @@ struct IntegrationStatistics {
   long nominal_evaluations = 0;  ///< on plain numbers, of all stages at once for implicit methods
   double wall_seconds = 0;       ///< of the integration alone
   SeriesWork series_work;        ///< products of series, of all evaluations and stages
-  /// Of Newton's method on the nominal, the most that one solution took; 0 for explicit methods and
-  /// CVODE, which has an iteration of its own.
+  /// Of Newton's method on the nominal, the most that one solution took; 0 where fixed-point
+  /// iteration contracted in every step, for explicit methods, and for CVODE, which has an
+  /// iteration of its own.
   int most_newton_iterations = 0;
   /// The largest estimate of the relative local error of an accepted step, in the sense in which
   /// the method compares it with its tolerance; none where the method makes none.

@@ -36,8 +36,9 @@ struct GaussSettings {
 /// the result is the jet of the numerical map, which is symplectic, so its generating functions
 /// exist to round-off whatever the step (but exactness is not accuracy).
 ///
-/// A step solves degree 0 by Newton's method, then each degree by one evaluation on series and one
-/// linear solve (see SliceEvaluator, StageSystem). Step sizes depend on the nominal alone and are
+/// A step solves degree 0 by fixed-point iteration, or by Newton's method where that does not
+/// contract, then each degree by one evaluation on series and one linear solve (see SliceEvaluator,
+/// StageSystem, StageIteration). Step sizes depend on the nominal alone and are
 /// constants with respect to the deviations, so variable steps keep the map symplectic. They are
 /// chosen to make
 ///

@@ -11,7 +11,7 @@ namespace hamjet {
 /// What a run checks of its own result; see self_checks.
 enum class SelfCheckName {
   finite,          ///< no number of the result is infinite or none
-  convergence,     ///< Newton's iteration of implicit methods came to round-off in every step
+  convergence,     ///< the equations of implicit methods were solved to round-off in every step
   step_error,      ///< the method's own estimate of its local error
   energy,          ///< the energy along the nominal
   symplecticity,   ///< Poisson brackets of the linear part, of symplectic methods

@@ -72,8 +72,9 @@ struct InversionQuality {
 /// finite: the number of coefficients (jet, generating functions), residuals and other results that
 /// are not finite in the precision in which they are stored; 0 is right.
 ///
-/// convergence: the most iterations that Newton's method took in a step. No limit by default, for a
-/// step whose iteration does not come to round-off is an error.
+/// convergence: the most iterations that Newton's method took in a step, 0 where fixed-point
+/// iteration sufficed in all of them. No limit by default, for a step whose equations are not
+/// solved to round-off is an error.
 ///
 /// step-error: the largest local error estimate of an accepted step. Limits: the tolerance, ten
 /// times that for Gauss, which repeats a step beyond that; 5 for fixed steps of Gauss: the slope
@@ -101,8 +102,8 @@ struct InversionQuality {
 /// motion (IntegrationStatistics::periods) for Gauss and the steps for other methods, at least 1;
 /// and ten floors for rounding, at most 1e-3, a floor being the larger of what shorter steps did
 /// not take away (rounding_by_degree) and sqrt(1 + steps) times what half-ulp changes of the start
-/// change in the degree. Fixed steps promise nothing, and have a limit only where the scene sets one, for all
-/// degrees.
+/// change in the degree. Fixed steps promise nothing, and have a limit only where the scene sets
+/// one, for all degrees.
 std::vector<SelfCheck> self_checks(const Scene& scene, const RunResult& run);
 
 }  // namespace hamjet
