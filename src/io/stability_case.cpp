@@ -90,17 +90,8 @@ void read_right(const TableReader& table, std::string_view text, const std::stri
   expected.source = table.text("source");
   if (table.has("state")) expected.state = decimals(table, "state");
   if (table.has("matrix")) expected.matrix = decimals(table, "matrix");
-  if (table.has("state_floor")) {
-    expected.state_floor = table.numbers("state_floor");
-    for (std::size_t i = 0; i < expected.state_floor.size(); ++i) {
-      if (expected.state_floor[i] < 0) table.fail_element("state_floor", i, "must be at least 0");
-    }
-  }
   if (table.has("tolerance")) {
     expected.tolerance = table.number_between("tolerance", 0, largest_number);
-  }
-  if (table.has("floor_factor")) {
-    expected.floor_factor = table.number_between("floor_factor", 0, largest_number);
   }
   if (table.has("round_trip")) expected.round_trip = table.boolean("round_trip");
   if (table.has("condition")) expected.condition = read_condition(table.table("condition"));

@@ -12,7 +12,6 @@ inline const std::vector<std::string_view> common_case_keys = {"group", "why", "
 inline const std::vector<std::string_view> refusal_case_keys = {"exit_code", "message"};
 inline const std::vector<std::string_view> mark_case_keys = {"mark"};
 inline const std::vector<std::string_view> reference_case_keys = {
-    "source",       "state", "matrix",    "state_floor", "tolerance",
-    "floor_factor", "twin",  "condition", "growth",      "round_trip"};
+    "source", "state", "matrix", "tolerance", "twin", "condition", "growth", "round_trip"};
 
 }  // namespace hamjet::io

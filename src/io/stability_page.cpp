@@ -37,8 +37,9 @@ Chart ratio_chart(const std::vector<StabilityResult>& results) {
   chart.curves.push_back(std::move(curve));
   chart.rules.push_back({false, 1});
   chart.reading =
-      "The error against an independent reference, divided by the error that half-ulp changes of "
-      "the inputs alone cause. Below 1 no program in double precision can promise to be.";
+      "The error against an independent reference, divided by the largest that random roundings at "
+      "the start and in every step, carried along the flow, cause in a sample. Below 1 no program "
+      "in double precision can promise to be.";
   return chart;
 }
 

@@ -21,7 +21,7 @@ Json error_json(const MeasuredError& error) {
           {"error", json_number(error.error)},
           {"floor", json_number(error.floor)},
           {"tolerance", json_number(error.tolerance)},
-          {"floor_factor", json_number(error.floor_factor)}};
+          {"allowed", json_number(error.allowed())}};
 }
 
 Json growth_json(const GrowthCurve& curve) {
@@ -49,7 +49,7 @@ Json case_json(const StabilityResult& result) {
                {"error", nullptr},
                {"floor", nullptr},
                {"tolerance", nullptr},
-               {"floor_factor", nullptr},
+               {"allowed", nullptr},
                {"seconds", result.seconds},
                {"source", text_or_null(subject.expected.source)},
                {"measured", Json::array()},
@@ -63,7 +63,7 @@ Json case_json(const StabilityResult& result) {
     json["error"] = json_number(result.error->error);
     json["floor"] = json_number(result.error->floor);
     json["tolerance"] = json_number(result.error->tolerance);
-    json["floor_factor"] = json_number(result.error->floor_factor);
+    json["allowed"] = json_number(result.error->allowed());
   }
   for (const MeasuredError& error : result.measured) json["measured"].push_back(error_json(error));
   for (const GrowthCurve& curve : result.growth) json["growth"].push_back(growth_json(curve));
@@ -71,8 +71,7 @@ Json case_json(const StabilityResult& result) {
 }
 
 std::string stability_csv(const std::vector<StabilityResult>& results) {
-  std::string text =
-      "case,group,outcome,quantity,error,floor,tolerance,floor_factor,seconds,text\n";
+  std::string text = "case,group,outcome,quantity,error,floor,tolerance,allowed,seconds,text\n";
   for (const StabilityResult& result : results) {
     const auto& error = result.error;
     text += csv_field(result.subject->name) + ',' + csv_field(result.subject->group) + ',' +
@@ -80,8 +79,8 @@ std::string stability_csv(const std::vector<StabilityResult>& results) {
             (error ? csv_number(error->error) : "") + ',' +
             (error ? csv_number(error->floor) : "") + ',' +
             (error ? csv_number(error->tolerance) : "") + ',' +
-            (error ? csv_number(error->floor_factor) : "") + ',' + csv_number(result.seconds) +
-            ',' + csv_field(result.text) + '\n';
+            (error ? csv_number(error->allowed()) : "") + ',' + csv_number(result.seconds) + ',' +
+            csv_field(result.text) + '\n';
   }
   return text;
 }

@@ -58,7 +58,7 @@ std::string first_excess(const StabilityResult& result) {
   if (result.error && !(result.error->ratio() <= 1)) {
     return fmt::format("{}: error {:.3g} exceeds {:.3g} (tolerance {:.3g} + {:g} x floor {:.3g})",
                        result.error->quantity, result.error->error, result.error->allowed(),
-                       result.error->tolerance, result.error->floor_factor, result.error->floor);
+                       result.error->tolerance, rounding_factor, result.error->floor);
   }
   for (const GrowthCurve& curve : result.growth) {
     if (curve.is_as_expected) continue;

@@ -4,9 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
-#include "half_ulp_floor.hpp"
+#include "rounding_sample.hpp"
 
 namespace hamjet {
 namespace {
@@ -36,17 +37,18 @@ void require_size(const char* key, std::size_t got, std::size_t wanted) {
 }
 
 MeasuredError worst_of_state(const StabilityExpectation& expected, const FlowJet<Extended>& jet,
-                             const std::vector<double>& floor) {
+                             const RoundingFloor& floor) {
   std::optional<MeasuredError> worst;
   for (std::size_t i = 0; i < expected.state.size(); ++i) {
-    keep_worse(worst, {"state", distance(jet[i][0], expected.state[i]), floor[i],
-                       expected.tolerance, expected.floor_factor});
+    keep_worse(worst, {"state", distance(jet[i][0], expected.state[i]), floor.state[i],
+                       expected.tolerance});
   }
   return *worst;
 }
 
 MeasuredError worst_of_matrix(const StabilityExpectation& expected, const FlowJet<Extended>& jet,
-                              const std::vector<std::size_t>& variables, double floor) {
+                              const std::vector<std::size_t>& variables,
+                              const RoundingFloor& floor) {
   const std::size_t dimension = jet.size();
   std::optional<MeasuredError> worst;
   for (std::size_t i = 0; i < dimension; ++i) {
@@ -55,31 +57,36 @@ MeasuredError worst_of_matrix(const StabilityExpectation& expected, const FlowJe
       const Extended& value = jet[i][jet[i].space().linear_index(k)];
       // Symmetry alone makes an entry exactly 0, and it must be kept.
       const bool is_zero = expected.matrix[entry] == 0;
-      keep_worse(worst, {"matrix", distance(value, expected.matrix[entry]), is_zero ? 0 : floor,
-                         is_zero ? 0 : expected.tolerance, expected.floor_factor});
+      keep_worse(worst, {"matrix", distance(value, expected.matrix[entry]),
+                         is_zero ? 0 : floor.matrix[entry], is_zero ? 0 : expected.tolerance});
     }
   }
   return *worst;
 }
 
+/// Of the rounding sample, for the user's progress.
+std::function<void(double)> sampling(const ProgressCallback& progress) {
+  return [&progress](double done) {
+    if (progress) progress("rounding", done);
+  };
+}
+
 void add_reference_errors(const StabilityExpectation& expected, const PropagationResult& result,
-                          std::vector<MeasuredError>& errors) {
+                          const ProgressCallback& progress, std::vector<MeasuredError>& errors) {
   if (expected.state.empty() && expected.matrix.empty()) return;
   const std::size_t dimension = result.scene.nominal.size();
-  const FlowJet<Extended>& computed = result.runs.front().jet;
-  const FlowJet<Extended> jet = full_jet(result);
-  const std::vector<double> floor = expected.state_floor.empty()
-                                        ? half_ulp_floor(result.scene, result.problem, computed)
-                                        : expected.state_floor;
-  require_size("state_floor", floor.size(), dimension);
-  if (!expected.state.empty()) {
-    require_size("state", expected.state.size(), dimension);
-    errors.push_back(worst_of_state(expected, jet, floor));
-  }
+  if (!expected.state.empty()) require_size("state", expected.state.size(), dimension);
   if (!expected.matrix.empty()) {
     require_size("matrix", expected.matrix.size(), dimension * dimension);
-    errors.push_back(worst_of_matrix(expected, jet, result.scene.variables,
-                                     matrix_floor(result.scene, result.problem, computed, floor)));
+  }
+  const FlowJet<Extended> jet = full_jet(result);
+  RoundingSample sample;
+  sample.follow(result.scene, result.problem, sampling(progress));
+  if (!expected.state.empty()) {
+    errors.push_back(worst_of_state(expected, jet, sample.floor()));
+  }
+  if (!expected.matrix.empty()) {
+    errors.push_back(worst_of_matrix(expected, jet, result.scene.variables, sample.floor()));
   }
 }
 
@@ -101,8 +108,7 @@ void add_twin_errors(const StabilityExpectation& expected, const PropagationResu
   }
   const auto by_degree = relative_error_by_degree(full_jet(result), full_jet(twin));
   for (std::size_t d = 0; d < by_degree.size(); ++d) {
-    errors.push_back({fmt::format("twin, degree {}", d), by_degree[d], 0, expected.tolerance,
-                      expected.floor_factor});
+    errors.push_back({fmt::format("twin, degree {}", d), by_degree[d], 0, expected.tolerance});
   }
 }
 
@@ -113,19 +119,15 @@ void add_round_trip_error(const StabilityExpectation& expected, const Propagatio
   back.nominal = result.runs.front().nominal_final;
   back.duration = -back.duration;
   const PropagationResult returned = propagate_well(back, progress);
-  const auto out = half_ulp_floor(result.scene, result.problem, result.runs.front().jet);
-  const auto home = half_ulp_floor(back, returned.problem, returned.runs.front().jet);
+  RoundingSample sample;
+  sample.follow(result.scene, result.problem, sampling(progress));
+  sample.follow(back, returned.problem, sampling(progress));
   const FlowJet<Extended> jet = full_jet(returned);
   std::optional<MeasuredError> worst;
   for (std::size_t i = 0; i < back.nominal.size(); ++i) {
-    double floor = home[i];  // and what the way out has lost, carried back
-    for (std::size_t k = 0; k < back.variables.size(); ++k) {
-      const std::size_t linear = returned.problem.space->linear_index(k);
-      floor += std::abs(static_cast<double>(jet[i][linear])) * out[back.variables[k]];
-    }
     keep_worse(worst,
                {"start, out and back", distance(jet[i][0], Extended(result.scene.nominal[i])),
-                floor, expected.tolerance, expected.floor_factor});
+                sample.floor().state[i], expected.tolerance});
   }
   errors.push_back(*worst);
 }
@@ -137,7 +139,7 @@ void add_condition_error(const StabilityExpectation& expected, const Propagation
     if (kind.requested != expected.condition->kind) continue;
     errors.push_back({"condition of " + kind.requested,
                       std::abs(kind.condition / expected.condition->value - 1), 0,
-                      expected.tolerance, expected.floor_factor});
+                      expected.tolerance});
     return;
   }
   throw Error(ErrorKind::usage,
@@ -157,7 +159,7 @@ std::vector<MeasuredError> measure_errors(const StabilityExpectation& expected,
                                           const PropagationResult& result,
                                           const ProgressCallback& progress) {
   std::vector<MeasuredError> errors;
-  add_reference_errors(expected, result, errors);
+  add_reference_errors(expected, result, progress, errors);
   add_twin_errors(expected, result, progress, errors);
   add_round_trip_error(expected, result, progress, errors);
   add_condition_error(expected, result, errors);

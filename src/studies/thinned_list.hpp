@@ -8,7 +8,7 @@ namespace hamjet {
 
 /// Points along a trajectory of unknown length. When there are too many every second one is
 /// dropped, so that a million steps fit too; the last one always stays.
-template <class Point>
+template <class Point, std::size_t LargestSize = 20001>
 class ThinnedList {
  public:
   void add(Point point) {
@@ -16,7 +16,7 @@ class ThinnedList {
     if (has_extra_last_) points_.pop_back();
     has_extra_last_ = !is_kept;
     points_.push_back(std::move(point));
-    if (!is_kept || points_.size() < largest_size) return;
+    if (!is_kept || points_.size() < LargestSize) return;
     for (std::size_t i = 0; 2 * i < points_.size(); ++i) points_[i] = std::move(points_[2 * i]);
     points_.resize((points_.size() + 1) / 2);
     stride_ *= 2;
@@ -25,7 +25,7 @@ class ThinnedList {
   std::vector<Point> take() { return std::move(points_); }
 
  private:
-  static constexpr std::size_t largest_size = 20001;  // odd, so that halving keeps the last
+  static_assert(LargestSize % 2 == 1, "halving keeps the last of an odd number of points");
 
   std::vector<Point> points_;
   long count_ = 0;

@@ -120,8 +120,9 @@ TEST(OptimalControlStudy, ChecksFailWhereTheyMust) {
   study.require_cost_error = 1e-12;
   study.require_equivalence = 1e-12;
   EXPECT_EQ(run_study(study, {}).exit_code(), 0);
-  study.require_cost_error = 1e-30;
-  study.require_equivalence = 1e-30;
+  // However the run is rounded: errors can be 0, but not below.
+  study.require_cost_error = -1e-30;
+  study.require_equivalence = -1e-30;
   const OptimalControlResult result = run_study(study, {});
   EXPECT_EQ(result.exit_code(), 1);
   EXPECT_EQ(result.failed_checks.size(), 2U);
