@@ -115,8 +115,9 @@ std::string terminal_table(const SweepStudy& study, const SweepRows& rows, const
       fmt::format("{}\n  {:<16} {}: {} done, {} failed, {} missing\n", study.title, "items",
                   study.items.size(), counts.done, counts.failed, counts.missing);
   for (const auto& [code, number] : counts.by_exit_code) {
-    const auto first = std::find_if(rows.rows.begin(), rows.rows.end(),
-                                    [&](const auto& row) { return row && row->exit_code == code; });
+    const auto first =
+        std::find_if(rows.rows.begin(), rows.rows.end(),
+                     [wanted = code](const auto& row) { return row && row->exit_code == wanted; });
     text += fmt::format("  {:<16} {}, the first is item {} ({}): {:.200}\n",
                         fmt::format("exit code {}", code), number, (*first)->item,
                         sweep_item_text(study, (*first)->item), (*first)->error);

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <hamjet/studies/optimal_control_study.hpp>

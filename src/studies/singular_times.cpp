@@ -77,7 +77,7 @@ class ZeroSearch {
       times_.push_back(flow.times()[i]);
       ratios_.push_back(watched_value(flow.checkpoint(i), kind));
     }
-    for (const std::size_t parts : {8, 4}) divide(parts);
+    for (const std::size_t parts : {std::size_t{8}, std::size_t{4}}) divide(parts);
   }
 
   std::vector<SingularTime> run() {
