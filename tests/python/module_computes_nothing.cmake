@@ -1,0 +1,10 @@
+# Fails if one of OBJECTS defines a function in which numbers are added and multiplied.
+execute_process(COMMAND ${NM} --demangle --defined-only ${OBJECTS} OUTPUT_VARIABLE symbols
+  COMMAND_ERROR_IS_FATAL ANY)
+set(arithmetic "(Eigen::internal::(general|gebp|partial_lu|triangular)|hamjet::detail::)")
+string(REGEX MATCHALL "[^\n]* [WVTt] [^\n]*${arithmetic}[^\n]*" found "${symbols}")
+if(found)
+  list(TRANSFORM found REPLACE "^[0-9a-f]* " "")
+  list(JOIN found "\n  " lines)
+  message(FATAL_ERROR "the module computes on its own:\n  ${lines}")
+endif()
