@@ -14,6 +14,10 @@ double floor_of(const DrawnScene& drawn, double floor) {
   return drawn.precision == "extended" ? floor * 0x1p-60 : floor;
 }
 
+bool has_promise(const DrawnScene& drawn) {
+  return drawn.is_adaptive_gauss() && (drawn.eccentricity <= 0.95 || drawn.eccentricity > 1);
+}
+
 double promised_error(const DrawnScene& drawn, double floor) {
   return 100 * *drawn.tolerance * std::max(1.0, drawn.revolutions) + 10 * floor_of(drawn, floor);
 }
@@ -59,6 +63,7 @@ class Judge {
     const Model model = canonical_model(scene, drawn_.model);
     std::vector<JudgedLine> lines;
     bool keeps_promise = drawn_.is_adaptive_gauss();
+    has_estimate_ = attacked.run().error_estimate.by_degree.has_value();
     for (int i = 0; i < settings_.directions; ++i) {
       const auto line = judged_line(attacked, model, false);
       if (!line) return;
@@ -152,7 +157,7 @@ class Judge {
       }
       if (!drawn_.is_adaptive_gauss()) continue;
       const double allowed = promised_error(drawn_, errors.floor[k]);
-      if (errors.error[k] - uncertainty > allowed) {
+      if (errors.error[k] - uncertainty > allowed && (has_promise(drawn_) || !has_estimate_)) {
         find({"tolerance", static_cast<int>(k), errors.error[k] - uncertainty, allowed,
               fmt::format("floor {:.1e}", floor_of(drawn_, errors.floor[k]))});
       }
@@ -162,6 +167,7 @@ class Judge {
   const DrawnScene& drawn_;
   const JudgeSettings& settings_;
   RandomNumbers random_;
+  bool has_estimate_ = false;
   Verdict verdict_;
 };
 

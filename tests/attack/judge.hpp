@@ -54,6 +54,10 @@ struct JudgeSettings {
 /// a variation that should not change the result, see variations.hpp.
 Verdict judge(const DrawnScene& drawn, const JudgeSettings& settings);
 
+/// Whether a relative error is promised: of adaptive Gauss methods, to an eccentricity of 0.95.
+/// Beyond, an error that hamjet estimates itself is no silent one.
+bool has_promise(const DrawnScene& drawn);
+
 /// What is promised of adaptive Gauss methods: the relative error of every degree is at most 100
 /// times the tolerance in each revolution, besides ten floors of the scene's precision.
 double promised_error(const DrawnScene& drawn, double floor);
