@@ -154,7 +154,8 @@ EnergyConservingStop make_stop(const EnergyConservingProblem<Real>& problem,
   stop.time = static_cast<double>(time);
   stop.condition = here;
   const double distance = here / (here - ahead);
-  if (std::isfinite(distance)) stop.steps_to_sign_change = distance;
+  // The size of a first step that is too large tells nothing of what lies ahead.
+  if (step > 0 && std::isfinite(distance)) stop.steps_to_sign_change = distance;
   stop.message =
       fmt::format("energy-conserving {}: step {} at t = {:.10g}: {}{}", method_name(problem.method),
                   step, stop.time, attempt.reason, condition_text(system, problem.method, stop));

@@ -36,7 +36,7 @@ std::vector<std::string_view> words_of(std::string_view line) {
 std::optional<Extended> number_in(std::string_view word) {
   std::string text(word);
   std::replace_if(
-      text.begin(), text.end(), [](char c) { return c == 'D' || c == 'd'; }, 'e');
+      text.begin(), text.end(), [](char c) { return c == 'D' || c == 'd' || c == 'E'; }, 'e');
   // Within double precision too, in which a scene has its numbers.
   if (!finite_number(text)) return std::nullopt;
   if (text.starts_with('+')) text.erase(0, 1);

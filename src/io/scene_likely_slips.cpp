@@ -10,9 +10,9 @@
 namespace hamjet::io {
 namespace {
 
-/// A start this many radii from a centre is beyond the reach of its gravity (Jupiter's sphere of
-/// influence is 743 of its radii, the Earth's 235), and in metres it would be above the surface:
-/// 1000 radii, less the flattening.
+/// A start, or a semi-major axis, this many radii from a centre is beyond the reach of its gravity
+/// (Jupiter's sphere of influence is 743 of its radii, the Earth's 235), and in metres it would be
+/// above the surface: 1000 radii, less the flattening.
 constexpr double farthest_start = 950;
 
 /// No body that orbits are flown about is as prolate: J2 of planets and moons is positive.
@@ -91,18 +91,18 @@ class LikelySlips {
     const double radius = body_ != nullptr ? body_->equator_radius_km : scene_.system.radius_km;
     const bool is_sun = body_ != nullptr && body_->name == "SUN";  // planets are beyond this
     if (radius == 0 || is_sun) return;
-    const double distance = scene_.units.length_km *
-                            std::hypot(scene_.nominal[0], scene_.nominal[1], scene_.nominal[2]);
-    if (!(distance >= farthest_start * radius)) return;
     static constexpr std::string_view keys[] = {"a_km", "position_km", "oem_file", "opm_file"};
     const auto* const key = std::find_if(std::begin(keys), std::end(keys),
                                          [&](std::string_view k) { return nominal_.has(k); });
+    const std::vector<double>& q = scene_.nominal;
+    const double distance = *key == "a_km" ? nominal_.number("a_km")
+                                           : scene_.units.length_km * std::hypot(q[0], q[1], q[2]);
+    if (!(distance >= farthest_start * radius)) return;
     add(nominal_, *key,
-        fmt::format(
-            "the start lies {:.6g} km from the centre, {:.0f} radii{}; if these are metres, "
-            "it must be {:.6g} km",
-            distance, distance / radius, body_ != nullptr ? fmt::format(" of {}", body_->name) : "",
-            1e-3 * distance));
+        fmt::format("{:.6g} km from the centre are {:.0f} radii{}; if these are metres, it must be "
+                    "{:.6g} km",
+                    distance, distance / radius,
+                    body_ != nullptr ? fmt::format(" of {}", body_->name) : "", 1e-3 * distance));
   }
 
   TableReader system_;

@@ -43,8 +43,13 @@ TEST(LikelySlips, AGoodSceneHasNone) {
 
 TEST(LikelySlips, MetresForKilometres) {
   expect_warning(changed(orbit, "[7000, 0, 0]", "[7000000, 0, 0]"),
-                 {"warning: file.toml:9:15: nominal.position_km: the start lies 7e+06 km",
+                 {"warning: file.toml:9:15: nominal.position_km: 7e+06 km from the centre are",
                   "1097 radii of EARTH", "it must be 7000 km"});
+  // The semi-major axis tells, wherever the start lies on a long ellipse.
+  expect_warning(changed(orbit, "position_km = [7000, 0, 0]\nvelocity_km_s = [0, 7.5, 1]",
+                         "a_km = 7_000_000\ne = 0.9\ni_deg = 0\nraan_deg = 0\nargp_deg = 0\n"
+                         "ta_deg = 0"),
+                 {"file.toml:9:8: nominal.a_km: 7e+06 km", "it must be 7000 km"});
   expect_warning(changed(orbit, "radius_km = 6378", "radius_km = 6378136.3"),
                  {"file.toml:6:13: system.radius_km: 6378136.3 is the radius of EARTH in metres",
                   "in kilometres it is 6378.1363"});
