@@ -85,8 +85,7 @@ struct EnergyConservingStop {
   double time = 0;       ///< at its start
   double condition = 0;  ///< StepCondition at its start
   /// Where StepCondition changes sign, by the line through its values at the start of the step and
-  /// a last step size later, in steps of the last size; negative: behind. None if it is constant,
-  /// or if no step was taken.
+  /// a last step size later, in steps of the last size; negative: behind. None if it is constant.
   std::optional<double> steps_to_sign_change;
   std::string message;  ///< one line with step, time and condition
 };
