@@ -77,7 +77,9 @@ bool is_slip(std::string_view name, std::string_view candidate, std::size_t dist
   if (words.size() != right.size()) return 4 * distance <= length;
   for (std::size_t i = 0; i < words.size(); ++i) {
     if (words[i] == right[i]) continue;
-    const bool is_symbol = std::min(words[i].size(), right[i].size()) <= longest_symbol;
+    const std::size_t letters = std::min(words[i].size() - digits_of(words[i]).size(),
+                                         right[i].size() - digits_of(right[i]).size());
+    const bool is_symbol = letters <= longest_symbol;
     if (is_symbol || !is_half_right(words[i], right[i])) return false;
   }
   return true;

@@ -219,8 +219,8 @@ TEST(SceneInputErrors, NullRemovesAKeyOrAnElement) {
   const auto usage = ErrorKind::usage;
   expect_override_error({"jet.order", "null"}, ErrorKind::scene,
                         {"file.toml:11:1: jet.order: missing"});
-  expect_override_error({"jet.duration_sec", "null"}, usage,
-                        {"nothing to remove, got no key \"duration_sec\"", "duration_s?"});
+  expect_override_error({"jet.duraton_s", "null"}, usage,
+                        {"nothing to remove, got no key \"duraton_s\"", "duration_s?"});
   // What the table may have but has not is removed already.
   const Scene same = parse_scene(orbit, "x",
                                  {{"jet.duration_s", "null"},
