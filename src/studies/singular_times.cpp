@@ -46,8 +46,14 @@ LinearArc linear_arc(const DynamicalSystem& system, const SpacePointer& space,
 template <int n>
 double signed_smallest(const Matrix<double>& block) {
   using Block = Eigen::Matrix<double, n, n>;
-  const Eigen::JacobiSVD<Block> decomposition(Block(block),
-                                              Eigen::ComputeFullU | Eigen::ComputeFullV);
+  // The determinant is summed from products of up to the largest value's n-th power, rounded.
+  constexpr double certain = 1e-12;
+  const Block matrix(block);
+  const auto values = Eigen::JacobiSVD<Block>(matrix).singularValues().eval();
+  if (values.prod() > certain * std::pow(values[0], block.rows())) {
+    return std::copysign(values[block.rows() - 1], matrix.determinant());
+  }
+  const Eigen::JacobiSVD<Block> decomposition(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const double sign = decomposition.matrixU().determinant() * decomposition.matrixV().determinant();
   return std::copysign(decomposition.singularValues()[block.rows() - 1], sign);
 }
@@ -151,7 +157,7 @@ class ZeroSearch {
   /// See SingularTime. Doubled until both sides differ from zero.
   double resolution_at(double t, double rounding) const {
     const double longest = std::abs(times_.back()) / static_cast<double>(times_.size());
-    double half_width = std::numeric_limits<double>::epsilon() * std::abs(t);
+    double half_width = 16 * std::numeric_limits<double>::epsilon() * std::abs(t);
     while (half_width < longest && std::min(std::abs(ratio_at(t - half_width)),
                                             std::abs(ratio_at(t + half_width))) <= rounding) {
       half_width *= 2;
