@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <vector>
 
@@ -26,6 +27,7 @@ int report(int scenes, std::uint64_t first) {
   double run_seconds = 0, estimate_seconds = 0;
   for (int k = 0; k < scenes; ++k) {
     Scene scene = estimated_scene(first + static_cast<std::uint64_t>(k));
+    std::fflush(stdout);
     try {
       const PropagationResult result = propagate(scene);
       const RunResult& run = result.runs.front();
