@@ -16,7 +16,6 @@
 namespace hamjet {
 namespace {
 
-constexpr double safety = 2;
 constexpr std::size_t candidates = 16;
 /// Other stages, and so other steps, for each direction.
 constexpr std::array<int, 2> stages = {14, 12};
@@ -109,7 +108,7 @@ FlowJet<Real> run_along(const FlowProblem<Real>& problem, const std::vector<Real
                         std::size_t number, const ErrorEstimateSettings& settings) {
   GaussSettings gauss;
   gauss.stages = stages[number];
-  gauss.tolerance = settings.tolerance.value_or(4 * rounding<Real>());
+  gauss.tolerance = settings.tolerance.value_or(0.1 * rounding<Real>());
   gauss.controls_all_degrees = true;
   const SpacePointer line = SeriesSpace::create(1, problem.space->order());
   const FlowJet<Real> start = restrict_to_line(starting_jet(problem), direction, line);
@@ -154,14 +153,15 @@ std::vector<double> estimate_error(const FlowProblem<Real>& problem, const FlowJ
       double scale = along[d] > 0 ? std::min(along[d], largest[d]) : largest[d];
       if (scale == 0) scale = std::max(along[d], largest[d]);
       if (scale == 0) continue;
-      double estimate = safety * differing[d] / scale;
+      double estimate = error_estimate_safety * differing[d] / scale;
       if (estimate < rounding<Real>()) estimate = rounding<Real>();
       if (!(estimate <= result[d])) result[d] = estimate;
     }
   }
   // Both runs have the same nominal: by how much they differ is round-off as well.
   if (largest[0] > 0) {
-    result[0] = std::max(result[0], safety * differences(runs[0], runs[1])[0] / largest[0]);
+    result[0] =
+        std::max(result[0], error_estimate_safety * differences(runs[0], runs[1])[0] / largest[0]);
   }
   return result;
 }

@@ -148,9 +148,10 @@ JetErrorEstimate estimate_jet_error(const FlowProblem<Real>& flow, const FlowJet
   const Stopwatch stopwatch(result.seconds);
   ErrorEstimateSettings estimate;
   if (settings.method == IntegrationMethod::gauss && settings.tolerance) {
-    constexpr double finer = 0.01;
+    // What a thousand times the tolerance accepts must still lie far below the run's errors.
+    constexpr double finer = 1e-7;
     estimate.tolerance = std::max(finer * *settings.tolerance,
-                                  4 * static_cast<double>(std::numeric_limits<Real>::epsilon()));
+                                  0.1 * static_cast<double>(std::numeric_limits<Real>::epsilon()));
   }
   estimate.most_steps = std::max(estimate.most_steps, 4 * statistics.steps);
   estimate.progress = progress;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <span>
 
+#include "hamjet/integrators/error_estimate.hpp"
 #include "hamjet/studies/propagation.hpp"
 #include "largest_coefficient.hpp"
 #include "number_scan.hpp"
@@ -274,7 +275,7 @@ std::vector<double> half_ulp_changes(const Scene& scene, const RunResult& run) {
   return changes;
 }
 
-/// By degree, the error that a run with a tolerance is allowed; see self_checks.
+/// By degree, the estimate of the error that a run with a tolerance is allowed; see self_checks.
 std::vector<double> promised_errors(const Scene& scene, const RunResult& run) {
   std::vector<double> promised = half_ulp_changes(scene, run);
   const std::vector<double>& measured = run.statistics.rounding_by_degree;
@@ -283,8 +284,9 @@ std::vector<double> promised_errors(const Scene& scene, const RunResult& run) {
     double floor = std::sqrt(1 + steps) * promised[d];
     if (d < measured.size()) floor = std::max(floor, measured[d]);
     // A degree without three digits is none, even where rounding is the reason.
-    promised[d] = std::min(10 * floor, largest_rounding) +
-                  100 * *run.settings.tolerance * tolerance_count(run);
+    const double error = std::min(10 * floor, largest_rounding) +
+                         100 * *run.settings.tolerance * tolerance_count(run);
+    promised[d] = error_estimate_safety * error;
   }
   return promised;
 }

@@ -8,9 +8,13 @@
 
 namespace hamjet {
 
+/// The factor of safety of estimate_error, by which an estimate is above the error that it sees.
+inline constexpr double error_estimate_safety = 2;
+
 /// How the error of a jet is estimated.
 struct ErrorEstimateSettings {
-  /// Of the independent runs, for every degree; by default four times the rounding of the numbers.
+  /// Of the independent runs, for every degree; by default a tenth of the rounding of the numbers.
+  /// Steps are repeated beyond a thousand times that.
   std::optional<double> tolerance = {};
   /// Of one independent run; one that would need more is given up.
   long most_steps = 5000;
