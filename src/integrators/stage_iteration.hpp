@@ -43,7 +43,11 @@ class StageIteration {
       evaluate(stages_, slopes_);
       const Real size = replace_stages(base_);
       const auto outcome = contraction.judge(size);
-      if (outcome == Outcome::goes_on) continue;
+      if (outcome == Outcome::goes_on) {
+        // An extrapolated guess can be far off: what counts is the size of the stages as they are.
+        set_scale(stages_, base_);
+        continue;
+      }
       if (outcome == Outcome::fails || !is_finite_number(stages_)) return false;
       // Once more, so that what is left is below rounding.
       evaluate(stages_, slopes);

@@ -118,6 +118,20 @@ TEST(GaussTolerance, HoldsInAFieldOfShortWaves) {
   }
 }
 
+TEST(GaussTolerance, HoldsWhereStepsGrowFourfold) {
+  // Away from a perigee each step is four times the last, and its slopes are extrapolated from
+  // there by a polynomial of degree 15: a guess beyond all bounds, whose size must not count as
+  // that of the stages (three steps, a position wrong by 1e-3).
+  for (const int stages : {8, 12, 14, 16}) {
+    for (const double tolerance : {1e-8, 1e-11}) {
+      for (const int order : {0, 2}) {
+        expect_errors_within({70000, 0.957, 51, 82.8, 0.104}, 2, order,
+                             test::adaptive(stages, tolerance));
+      }
+    }
+  }
+}
+
 TEST(GaussTolerance, NeverUndersamplesTheShortestWave) {
   // Two stages a wave: 20 waves a revolution, 8 stages, so at least 5 steps, however loose the
   // tolerance.
