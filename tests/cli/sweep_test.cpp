@@ -280,7 +280,7 @@ TEST_F(Sweep, ColumnsMayHaveAnyNameButAFormulas) {
   for (const char* name : {"=1+1", "+1", "-1", "@x"}) {
     write("named.toml", with_name(name));
     expect_error({"sweep", "named.toml", "-q"}, 3,
-                 {"named.toml:18:8: column.0.name: begins as a formula of a spreadsheet, got",
+                 {"named.toml:17:8: column.0.name: begins as a formula of a spreadsheet, got",
                   "must begin with another character than = + - @"});
   }
 }
