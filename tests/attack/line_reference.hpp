@@ -29,7 +29,7 @@ struct LineReference {
   double position_size = 0;
   double momentum_size = 0;
   std::vector<double> size;         ///< of each degree: its largest coefficient
-  std::vector<double> uncertainty;  ///< the difference from a second run with another tolerance
+  std::vector<double> uncertainty;  ///< difference from a second run, and rounding
   /// What rounding to double precision does to the result, the largest of 16 samples: the start and
   /// the state after every step of this integrator, all coefficients, are changed by up to half a
   /// unit in the last place of the largest position or momentum of their degree.
