@@ -106,24 +106,34 @@ class Judge {
     const auto& estimate = attacked.run().error_estimate.by_degree;
     if (!estimate) return;
     if (drawn_.length_km || !drawn_.is_orbit) {
-      const auto line = judged_line(attacked, model, true);
-      if (!line) return;
-      lines = {*line};
-    }
-    verdict_.estimate_ratio = 0;
-    for (const JudgedLine& line : lines) {
-      for (std::size_t k = 0; k < line.errors.error.size(); ++k) {
-        const double error = line.errors.error[k] - line.errors.uncertainty[k];
-        const double ratio = error <= 0 ? 0 : error / estimate->at(k);
-        verdict_.estimate_ratio = std::max(*verdict_.estimate_ratio, ratio);
-        if (settings_.is_talkative) {
-          fmt::print("  degree {}: error {:.2e}, estimate {:.2e}\n", k, error, estimate->at(k));
-        }
-        if (ratio > worst_estimate) {
-          find({"estimate", static_cast<int>(k), error, worst_estimate * estimate->at(k), {}});
-        }
+      for (JudgedLine& line : lines) {
+        const auto other = judged_line(attacked, model, true);
+        if (!other) return;
+        line = *other;
       }
     }
+    verdict_.estimate_ratio = 0;
+    for (std::size_t k = 0; k < estimate->size(); ++k) {
+      const double error = mean_error(lines, k);
+      const double ratio = error <= 0 ? 0 : error / estimate->at(k);
+      verdict_.estimate_ratio = std::max(*verdict_.estimate_ratio, ratio);
+      if (settings_.is_talkative) {
+        fmt::print("  degree {}: error {:.2e}, estimate {:.2e}\n", k, error, estimate->at(k));
+      }
+      if (ratio > worst_estimate) {
+        find({"estimate", static_cast<int>(k), error, worst_estimate * estimate->at(k), {}});
+      }
+    }
+  }
+
+  /// The geometric mean along the lines: along one of them the errors of a degree's monomials may
+  /// add up to many times the largest, or cancel.
+  static double mean_error(const std::vector<JudgedLine>& lines, std::size_t k) {
+    double product = 1;
+    for (const JudgedLine& line : lines) {
+      product *= std::max(0.0, line.errors.error[k] - line.errors.uncertainty[k]);
+    }
+    return std::pow(product, 1.0 / static_cast<double>(lines.size()));
   }
 
   void vary(const AttackedRun& attacked, const std::vector<JudgedLine>& lines) {
