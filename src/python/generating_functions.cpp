@@ -33,8 +33,8 @@ of d sigma_i / d w_j - d sigma_j / d w_i over all pairs, and the same divided by
 d sigma_i / d w_j. It vanishes if and only if the map is symplectic; below the round-off that the
 inversion amplifies it says nothing (the floor that a scene with [reference] states).)";
 
-py::object evaluate(const InvertedJet& f, const MapEvaluator& map, const py::object& w,
-                    const py::object& out) {
+py::object values_at(const InvertedJet& f, const MapEvaluator& map, const py::object& w,
+                     const py::object& out) {
   return evaluate_array(
       map, w, [&] { return f.variables(); }, out, "w");
 }
@@ -83,7 +83,7 @@ void bind_generating_functions(py::module_& module) {
       .def(
           "evaluate",
           [](const InvertedJet& f, const py::object& w) {
-            const py::object values = evaluate(f, f.value(), w, py::none());
+            const py::object values = values_at(f, f.value(), w, py::none());
             // One component: (N, 1) is (N,), and (1,) is a number.
             return values.attr("__getitem__")(py::make_tuple(py::ellipsis(), 0));
           },
@@ -95,7 +95,7 @@ void bind_generating_functions(py::module_& module) {
       .def(
           "gradient",
           [](const InvertedJet& f, const py::object& w, const py::object& out) {
-            return evaluate(f, f.gradient(), w, out);
+            return values_at(f, f.gradient(), w, out);
           },
           py::arg("w"), py::kw_only(), py::arg("out") = py::none(),
           documented("gradient(self, w, *, out=None)",
@@ -104,7 +104,7 @@ void bind_generating_functions(py::module_& module) {
       .def(
           "remaining",
           [](const InvertedJet& f, const py::object& w, const py::object& out) {
-            return evaluate(f, f.remaining(), w, out);
+            return values_at(f, f.remaining(), w, out);
           },
           py::arg("w"), py::kw_only(), py::arg("out") = py::none(),
           documented("remaining(self, w, *, out=None)",

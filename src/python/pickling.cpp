@@ -91,7 +91,7 @@ JetState state_of(const io::StoredJet& stored) {
 }
 
 /// Without its series.
-io::StoredJet jet_of(const JetState& state) {
+io::StoredJet stored_jet_of(const JetState& state) {
   io::StoredJet jet;
   std::size_t model = 0;
   std::size_t precision = 0;
@@ -140,7 +140,7 @@ FlowJet<Extended> jet_of_digits(const std::vector<std::string>& digits, std::siz
 }
 
 std::shared_ptr<Jet> restored_jet(const JetState& state, const py::object& coefficients) {
-  io::StoredJet stored = jet_of(state);
+  io::StoredJet stored = stored_jet_of(state);
   const SpacePointer space = SeriesSpace::create(stored.variables.size(), std::get<int>(state));
   if (stored.precision == Precision::extended) {
     stored.jet = jet_of_digits(coefficients.cast<std::vector<std::string>>(),
