@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t candidates = 16;
 /// Other stages, and so other steps, for each direction.
-constexpr std::array<int, 2> stages = {14, 12};
+constexpr std::array<int, 2> stages = {16, 15};
 
 template <class Real>
 constexpr double rounding() {
@@ -108,7 +108,7 @@ FlowJet<Real> run_along(const FlowProblem<Real>& problem, const std::vector<Real
                         std::size_t number, const ErrorEstimateSettings& settings) {
   GaussSettings gauss;
   gauss.stages = stages[number];
-  gauss.tolerance = settings.tolerance.value_or(0.1 * rounding<Real>());
+  gauss.tolerance = settings.tolerance.value_or(4 * rounding<Real>());
   gauss.controls_all_degrees = true;
   const SpacePointer line = SeriesSpace::create(1, problem.space->order());
   const FlowJet<Real> start = restrict_to_line(starting_jet(problem), direction, line);

@@ -141,18 +141,12 @@ FlowJet<Real> integrate_split(const FlowProblem<Real>& flow, const IntegratorSet
 
 template <class Real>
 JetErrorEstimate estimate_jet_error(const FlowProblem<Real>& flow, const FlowJet<Real>& jet,
-                                    const IntegratorSettings& settings,
+                                    const IntegratorSettings& /*settings*/,
                                     const IntegrationStatistics& statistics,
                                     const std::function<void(double)>& progress) {
   JetErrorEstimate result;
   const Stopwatch stopwatch(result.seconds);
   ErrorEstimateSettings estimate;
-  if (settings.method == IntegrationMethod::gauss && settings.tolerance) {
-    // What a thousand times the tolerance accepts must still lie far below the run's errors.
-    constexpr double finer = 1e-7;
-    estimate.tolerance = std::max(finer * *settings.tolerance,
-                                  0.1 * static_cast<double>(std::numeric_limits<Real>::epsilon()));
-  }
   estimate.most_steps = std::max(estimate.most_steps, 4 * statistics.steps);
   estimate.progress = progress;
   try {
