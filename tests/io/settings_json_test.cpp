@@ -19,11 +19,11 @@
 namespace hamjet::io {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 struct Written {
   std::string lines;  ///< of the member's table
-  Json value;
+  OrderedJson value;
 };
 using WrittenFields = std::map<std::string_view, Written>;
 
@@ -35,12 +35,12 @@ std::vector<std::string_view> field_names() {
   return names;
 }
 
-Json comparison_of(const Scene& scene) {
+OrderedJson comparison_of(const Scene& scene) {
   ComparisonResult result = sample_comparison();
   result.scene = scene;
   result.runs.resize(1);
   result.runs[0].settings = scene.integrators[0];
-  return Json::parse(comparison_json(result, sample_origin()));
+  return OrderedJson::parse(comparison_json(result, sample_origin()));
 }
 
 TEST(SettingsJson, EveryMemberOfAnIntegratorComesFromTheSceneAndIsReadBack) {
@@ -64,21 +64,21 @@ TEST(SettingsJson, EveryMemberOfAnIntegratorComesFromTheSceneAndIsReadBack) {
         1e-5}}};
   std::string head = oscillator;
   head.resize(head.find("[[integrator]]"));
-  const Json plain = comparison_of(parse_scene(
+  const OrderedJson plain = comparison_of(parse_scene(
       head + "[[integrator]]\nlabel = \"a\"\nmethod = \"gauss\"\nstep_canonical = 0.1\n", "a"));
   for (const std::string_view name : field_names<IntegratorSettings>()) {
     SCOPED_TRACE(std::string(name));
     ASSERT_TRUE(fields.contains(name));
     const Written& field = fields.at(name);
     const Scene scene = parse_scene(head + "[[integrator]]\n" + field.lines + "\n", "a");
-    const Json json = comparison_of(scene);
+    const OrderedJson json = comparison_of(scene);
     const std::string key(name);
     EXPECT_EQ(json["scene"]["integrators"][0][key], field.value);
     EXPECT_NE(plain["scene"]["integrators"][0][key], field.value) << "the value is the default";
     ComparisonResult again = sample_comparison();
     again.scene = scene;
     again.runs = read_comparison_runs(json.dump()).runs;
-    EXPECT_EQ(Json::parse(comparison_json(again, sample_origin()))["runs"], json["runs"]);
+    EXPECT_EQ(OrderedJson::parse(comparison_json(again, sample_origin()))["runs"], json["runs"]);
     EXPECT_EQ(json["runs"][0]["settings"][key], field.value);
   }
 }
@@ -92,12 +92,12 @@ TEST(SettingsJson, EveryMemberOfAComparisonComesFromTheScene) {
                                 {"repeats", {"repeats = 7", 7}},
                                 {"time_budget_s", {"time_budget_s = 60", 60}},
                                 {"wanted_error_m", {"wanted_error_m = 5", 5}}};
-  const Json plain = comparison_of(parse_scene(oscillator, "a"));
+  const OrderedJson plain = comparison_of(parse_scene(oscillator, "a"));
   for (const std::string_view name : field_names<ComparisonSettings>()) {
     SCOPED_TRACE(std::string(name));
     ASSERT_TRUE(fields.contains(name));
     const Written& field = fields.at(name);
-    const Json json =
+    const OrderedJson json =
         comparison_of(parse_scene(std::string(oscillator) + "[compare]\n" + field.lines, "a"));
     EXPECT_EQ(json["scene"]["compare"][std::string(name)], field.value);
     EXPECT_NE(plain["scene"]["compare"][std::string(name)], field.value);
@@ -105,8 +105,8 @@ TEST(SettingsJson, EveryMemberOfAComparisonComesFromTheScene) {
 }
 
 /// `system` of summary.json.
-Json summary_system(const Scene& scene) {
-  return Json::parse(summary_json(propagate(scene, {}, 1)))["system"];
+OrderedJson summary_system(const Scene& scene) {
+  return OrderedJson::parse(summary_json(propagate(scene, {}, 1)))["system"];
 }
 
 TEST(SettingsJson, EveryMemberOfASystemComesFromTheScene) {
@@ -126,7 +126,7 @@ TEST(SettingsJson, EveryMemberOfASystemComesFromTheScene) {
     std::string table;
     std::string nominal;
     std::string pointer;
-    Json value;
+    OrderedJson value;
   };
   const std::map<std::string_view, Place> places = {
       {"mu_km3_s2", {zonal + "J2 = 1e-3", orbit_end, "/mu_km3_s2", 398600}},
@@ -152,7 +152,7 @@ TEST(SettingsJson, EveryMemberOfASystemComesFromTheScene) {
                         "[jet]\norder = 1\nduration_canonical = 0.1\n[[integrator]]\nlabel = "
                         "\"a\"\nmethod = \"gauss\"\ntolerance = 1e-6\n",
                     "a");
-    EXPECT_EQ(summary_system(scene)[Json::json_pointer(place.pointer)], place.value);
+    EXPECT_EQ(summary_system(scene)[OrderedJson::json_pointer(place.pointer)], place.value);
   }
 }
 

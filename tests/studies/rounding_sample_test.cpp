@@ -13,18 +13,18 @@
 #include "hamjet/io/scene_reader.hpp"
 #include "hamjet/studies/stability.hpp"
 
-// What rounding does is bounded on the oscillator, whose flow is a rotation and amplifies nothing,
-// and compared with half-ulp starts integrated in extended precision on Kepler's problem.
+// What rounding does is bounded on the oscillator_case, whose flow is a rotation and amplifies
+// nothing, and compared with half-ulp starts integrated in extended precision on Kepler's problem.
 
 namespace hamjet {
 namespace {
 
 constexpr double u = 0x1p-53;
 
-constexpr const char* oscillator = R"(schema = 1
-title = "oscillator"
+constexpr const char* oscillator_case = R"(schema = 1
+title = "oscillator_case"
 [system]
-model = "harmonic-oscillator"
+model = "harmonic-oscillator_case"
 [nominal]
 position_m = [1]
 momentum_kg_m_s = [0]
@@ -78,7 +78,8 @@ double uniform(std::mt19937_64& random) {
 }
 
 TEST(RoundingSample, NoStepRoundsNothing) {
-  const RoundingFloor floor = floor_of(scene_of(oscillator, {{"jet.duration_canonical", "0"}}));
+  const RoundingFloor floor =
+      floor_of(scene_of(oscillator_case, {{"jet.duration_canonical", "0"}}));
   EXPECT_EQ(largest(floor.state), 0);
   EXPECT_EQ(largest(floor.matrix), 0);
 }
@@ -89,7 +90,7 @@ TEST(RoundingSample, NoStepRoundsNothing) {
 TEST(RoundingSample, OnACircleItIsBelowTheSumOfAllRoundings) {
   for (const char* steps : {"0.1", "0.01"}) {
     const RoundingFloor floor =
-        floor_of(scene_of(oscillator, {{"integrator.gauss8.step_canonical", steps}}));
+        floor_of(scene_of(oscillator_case, {{"integrator.gauss8.step_canonical", steps}}));
     const double step = std::stod(steps);
     const double all = u * (1 + 10 + 10 / step * (std::sqrt(2) * (1 + 3 * step) + step));
     const double random = u * std::sqrt(10 / step);
@@ -102,8 +103,8 @@ TEST(RoundingSample, OnACircleItIsBelowTheSumOfAllRoundings) {
 
 // The same sample, in 113 bits.
 TEST(RoundingSample, FollowsThePrecision) {
-  const RoundingFloor coarse = floor_of(scene_of(oscillator));
-  const RoundingFloor fine = floor_of(scene_of(oscillator, {{"precision", "\"extended\""}}));
+  const RoundingFloor coarse = floor_of(scene_of(oscillator_case));
+  const RoundingFloor fine = floor_of(scene_of(oscillator_case, {{"precision", "\"extended\""}}));
   for (std::size_t i = 0; i < 2; ++i) {
     EXPECT_NEAR(fine.state[i] / (coarse.state[i] * 0x1p-60), 1, 1e-6);
   }

@@ -32,7 +32,7 @@ std::string reason(const PropagationResult& result, const std::string& what) {
   return "not left out";
 }
 
-Scene oscillator(int order) {
+Scene oscillator_scene(int order) {
   Scene scene;
   scene.system.model = SystemModel::harmonic_oscillator;
   scene.nominal = {1, 0.5};
@@ -54,7 +54,7 @@ Names with_parts(Names names, bool has_all_variables = true) {
 }
 
 TEST(SkippedWork, OfALinearSystemIsAllAboveTheFirstDegree) {
-  const PropagationResult result = propagate(oscillator(3));
+  const PropagationResult result = propagate(oscillator_scene(3));
   EXPECT_EQ(left_out(result), with_parts({"degrees 2 to 3"}));
   const RunResult& run = result.runs[0];
   for (const auto& component : run.jet) {
@@ -65,11 +65,11 @@ TEST(SkippedWork, OfALinearSystemIsAllAboveTheFirstDegree) {
   EXPECT_EQ(run.counts.inversions, 0);
   EXPECT_EQ(run.counts.exactness_residuals, 0);
   EXPECT_EQ(run.counts.poisson_brackets, 1);  // of q and p
-  EXPECT_EQ(left_out(propagate(oscillator(1))), with_parts({}));
+  EXPECT_EQ(left_out(propagate(oscillator_scene(1))), with_parts({}));
 }
 
 TEST(SkippedWork, IsNothingOfWhatTheSceneAsksFor) {
-  Scene scene = oscillator(1);
+  Scene scene = oscillator_scene(1);
   scene.reference = ReferenceSettings{};
   scene.kinds = {"F1", "F2"};
   scene.relative_hamiltonian_times = {0};
