@@ -13,7 +13,7 @@
 #include "hamjet/io/scene_reader.hpp"
 #include "hamjet/studies/stability.hpp"
 
-// What rounding does is bounded on the oscillator_case, whose flow is a rotation and amplifies
+// What rounding does is bounded on the oscillator, whose flow is a rotation and amplifies
 // nothing, and compared with half-ulp starts integrated in extended precision on Kepler's problem.
 
 namespace hamjet {
@@ -22,7 +22,7 @@ namespace {
 constexpr double u = 0x1p-53;
 
 constexpr const char* oscillator_case = R"(schema = 1
-title = "oscillator_case"
+title = "oscillator"
 [system]
 model = "harmonic-oscillator_case"
 [nominal]
