@@ -22,8 +22,10 @@ using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
 [[noreturn]] void refuse_state() { refuse("pickle: this is no state of such an object"); }
 
-py::tuple call_of(const char* function, py::tuple arguments) {
-  return py::make_tuple(py::module_::import("hamjet._hamjet").attr(function), std::move(arguments));
+/// By way of a function of Python, for those of pybind11 have no name by which pickle finds them.
+py::tuple call_of(const char* function, const py::tuple& arguments) {
+  return py::make_tuple(py::module_::import("hamjet.immutable").attr("_restored"),
+                        py::make_tuple(function) + arguments);
 }
 
 /// (components, count), component by component.

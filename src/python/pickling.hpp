@@ -8,7 +8,7 @@
 
 namespace hamjet::python {
 
-/// What Python's pickle stores of an object: a function of the module and its arguments, of which
+/// What Python's pickle stores of an object: a function of the package and its arguments, of which
 /// the function makes the same object bit by bit.
 pybind11::tuple reduced(const CanonicalUnits& units);
 pybind11::tuple reduced(const Jet& jet);

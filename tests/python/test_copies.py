@@ -140,9 +140,9 @@ def test_another_process_reads_a_pickle(tmp_path, jet):
 
 
 def test_what_is_no_state_is_refused(jet):
-    function, (state, coefficients) = jet.__reduce__()
+    restore, (function, state, coefficients) = jet.__reduce__()
     for wrong in ((state[:9] + ([0, 99],) + state[10:], coefficients),
                   (state, coefficients[:, 1:]), (state, coefficients[1:]),
                   (state[:2] + (99,) + state[3:], coefficients)):
         with pytest.raises(hamjet.UsageError, match="^pickle: this is no state"):
-            function(*wrong)
+            restore(function, *wrong)

@@ -8,6 +8,8 @@ from typing import Any, TypeVar
 
 import numpy as np
 
+from . import _hamjet
+
 _Self = TypeVar("_Self", bound="Immutable")
 
 
@@ -24,6 +26,11 @@ def _frozen(value: Any) -> Any:
     if isinstance(value, np.ndarray):
         value.flags.writeable = False
     return value
+
+
+def _restored(function: str, *state: Any) -> Any:
+    """What pickle calls for the objects of the compiled part."""
+    return getattr(_hamjet, function)(*state)
 
 
 class Immutable:
