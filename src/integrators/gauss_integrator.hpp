@@ -368,7 +368,9 @@ class GaussIntegrator {
 
   /// The degrees 1..N of the stages; false if their equations cannot be solved.
   bool solve_degrees(Clock::time_point& mark) {
-    bool iterates = stages_.is_iteration_cheaper(problem_.space->first(order_ + 1) - 1);
+    // Univariate series are too few for a factorisation. Others are all solved by one, so that the
+    // first degrees do not depend on the order.
+    bool iterates = problem_.space->variables() == 1;
     bool is_factorised = false;
     auto& evaluator = stages_.evaluator();
     for (int d = 1; d <= order_; ++d) {

@@ -207,14 +207,6 @@ class StageSlopes {
         [&](std::size_t c, std::size_t from) { return slope_gradient(c, from); });
   }
 
-  /// Whether solving so many monomials by iteration takes less than one factorisation, which is
-  /// about `unknowns` pivots by 3/2 as many columns; the iteration converges in eight.
-  bool is_iteration_cheaper(std::size_t monomials) const {
-    const std::size_t m = system_.components();
-    const std::size_t unknowns = m * system_.stages();
-    return 16 * monomials * (m + system_.stages()) < 3 * unknowns * unknowns;
-  }
-
   /// As solve_degree, by fixed-point iteration and without a factorisation. False where it does not
   /// contract.
   bool iterate_degree(int d, const std::vector<const Real*>& state) {
