@@ -168,12 +168,12 @@ TEST_F(Savings, PartsOfTheScene) {
 
 TEST_F(Savings, SelfChecks) {
   const Json with = run({"generating_function={kinds=[\"F1\"]}"});
-  EXPECT_EQ(count(with, "self_checks"), 7);
+  EXPECT_EQ(count(with, "self_checks"), 8);
   for (const Json& entry : with["runs"][0]["checks"]) {
     const std::string name = entry["name"];
     const Json without = run({"generating_function={kinds=[\"F1\"]}", "checks." + name + "=false"});
     expect_saving(without, with, "check " + name, {"self_checks"});
-    EXPECT_EQ(count(without, "self_checks"), 6);
+    EXPECT_EQ(count(without, "self_checks"), 7);
     for (const Json& check : without["runs"][0]["checks"]) {
       if (check["name"] == name) {
         EXPECT_EQ(check["seconds"], 0) << name;
