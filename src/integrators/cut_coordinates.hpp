@@ -34,7 +34,7 @@ namespace hamjet {
 ///
 /// H is a coordinate as far as its second-order terms are smaller than its linear ones. Near an
 /// equilibrium that is not far, much less than the vector field takes to change: there, where the
-/// motion is nearly linear and shears little, and for linear systems, w = Q^T S^-1 x.
+/// motion is nearly linear and shears little, and for linear systems, w = S^-1 x.
 template <class Real>
 class CutCoordinates {
  public:
@@ -48,6 +48,9 @@ class CutCoordinates {
         n_(system.dimension()) {
     find_axes();
     form_start();
+    if (uses_energy_) return;
+    axes_ = Matrix<Real>::Identity(n_, n_);
+    form_linear_start();
   }
 
   /// z* + x(w): what the map behind the cut is integrated from.
@@ -115,14 +118,22 @@ class CutCoordinates {
 
   /// x(w): the slices of x_1 from those of H below, by H(z* + x(w)) = H(z*) + |S g| w_1.
   void form_start() {
+    form_linear_start();
+    uses_energy_ = order_ >= 2 && slope_ != 0 && !system_->vector_field.is_linear_system();
+    if (uses_energy_) form_energy_start();
+  }
+
+  void form_linear_start() {
+    start_.clear();
     for (const Real& value : state_) start_.emplace_back(space_, value);
     for (std::size_t i = 0; i < n_; ++i) {
       for (std::size_t j = 0; j < n_; ++j) {
         start_[i][space_->linear_index(j)] = scale(i) * axis(i, j);
       }
     }
-    uses_energy_ = order_ >= 2 && slope_ != 0 && !system_->vector_field.is_linear_system();
-    if (!uses_energy_) return;
+  }
+
+  void form_energy_start() {
     SliceEvaluator<Real, Real> energy(system_->hamiltonian, space_, order_);
     for (std::size_t i = 0; i < n_; ++i) {
       std::copy_n(start_[i].coefficients().data(), space_->first(order_ + 1), energy.input(i));

@@ -19,6 +19,8 @@ constexpr double aim = 0.1;
 /// The least factor between the tolerances of two trials.
 constexpr double least_reduction = 1e-8;
 constexpr int most_trials = 4;
+/// From this degree on the zonal harmonics are weak and short enough to hide from the step control.
+constexpr int least_short_waves = 5;
 
 /// Below this the step control, which squares a defect of slopes, sees rounding alone.
 template <class Real>
@@ -94,7 +96,11 @@ StepTolerance choose_step_tolerance(const FlowProblem<Real>& problem,
                                     const GaussSettings& settings) {
   const double asked = settings.tolerance.value_or(0);
   const bool is_chosen_in_steps = !settings.tolerance || settings.controls_all_degrees;
-  if (is_chosen_in_steps || problem.space->order() == 0 || problem.duration == 0) {
+  // Of the nominal alone the step control knows enough, unless the field has waves that are much
+  // shorter than the rest of it.
+  const bool is_known =
+      problem.space->order() == 0 && problem.system->waves_on_a_circle < least_short_waves;
+  if (is_chosen_in_steps || is_known || problem.duration == 0) {
     return {asked, {}};
   }
   const double smallest = smallest_step_tolerance<Real>();

@@ -29,8 +29,8 @@ struct StepTolerance {
 /// the local tolerance until it meets rounding. Source of the order: Hairer, Lubich and Wanner,
 /// Geometric Numerical Integration, section II.1; of the restriction to lines, see DirectionalFlow.
 ///
-/// Settings of fixed steps and jets of order 0 have none: the settings' tolerance is returned, or
-/// 0. Throws what integrate_gauss throws.
+/// Settings of fixed steps, and jets of order 0 in a field without short waves, need none: the
+/// settings' tolerance is returned, or 0. Throws what integrate_gauss throws.
 template <class Real>
 StepTolerance choose_step_tolerance(const FlowProblem<Real>& problem,
                                     const GaussSettings& settings);

@@ -24,7 +24,7 @@ constexpr double u = 0x1p-53;
 constexpr const char* oscillator_case = R"(schema = 1
 title = "oscillator"
 [system]
-model = "harmonic-oscillator_case"
+model = "harmonic-oscillator"
 [nominal]
 position_m = [1]
 momentum_kg_m_s = [0]
