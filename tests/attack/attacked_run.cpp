@@ -158,7 +158,6 @@ JetAlongLine along_line(const FlowJet<Extended>& jet, const ComputedProblem& pro
   const auto degrees = static_cast<std::size_t>(space.order()) + 1;
   JetAlongLine result;
   result.coefficients.assign(dimension, std::vector<DoubleDouble>(degrees));
-  result.largest_term.assign(degrees, 0);
   std::vector<std::vector<double>> squares(dimension, std::vector<double>(degrees, 0));
   for (std::size_t m = 0; m < space.size(); ++m) {
     DoubleDouble power(1);
@@ -177,7 +176,6 @@ JetAlongLine along_line(const FlowJet<Extended>& jet, const ComputedProblem& pro
       const double size =
           component < dimension / 2 ? reference.position_size : reference.momentum_size;
       const double scaled = magnitude(term) / size;
-      result.largest_term[k] = std::max(result.largest_term[k], scaled);
       squares[component][k] += scaled * scaled;
     }
   }
@@ -202,7 +200,7 @@ RelativeErrors relative_errors(const JetAlongLine& jet, const LineReference& ref
       error = difference >= error ? difference : error;
       if (!std::isfinite(difference)) error = HUGE_VAL;
     }
-    const double size = std::max(jet.largest_term[k], reference.size[k]);
+    const double size = std::max(jet.independent_sum[k], reference.size[k]);
     const auto relative = [&](double x) { return x == 0 ? 0 : x / size; };
     errors.error.push_back(relative(error));
     errors.uncertainty.push_back(relative(reference.uncertainty[k]));

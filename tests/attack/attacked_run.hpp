@@ -45,18 +45,15 @@ std::vector<double> draw_unit_direction(const Scene& scene, RandomNumbers& rando
 /// A jet along a direction: by degree the sum of c_a d^a over the monomials of that degree.
 struct JetAlongLine {
   std::vector<std::vector<DoubleDouble>> coefficients;  ///< [component of the model][degree]
-  /// By degree the largest |c_a d^a| of any component, in the sizes of the reference: what errors
-  /// are relative to, for along one direction large coefficients may cancel.
-  std::vector<double> largest_term;
-  /// By degree the root of the sum of the squares of the terms, likewise: what their sum would be
-  /// if they did not cancel more than independent ones do.
+  /// By degree, in the sizes of the reference, the root of the sum of the squares of the terms of a
+  /// component: what their sum is along a line where they neither cancel nor agree.
   std::vector<double> independent_sum;
 };
 JetAlongLine along_line(const FlowJet<Extended>& jet, const ComputedProblem& problem,
                         const std::vector<double>& direction, const LineReference& reference);
 
-/// By degree, relative to the larger of the reference's coefficient and the jet's largest term; 0
-/// where both vanish.
+/// By degree, relative to the larger of the reference's coefficient and the jet's independent sum,
+/// as the error along the line is a sum of the errors of the terms; 0 where both vanish.
 struct RelativeErrors {
   std::vector<double> error;
   std::vector<double> uncertainty;  ///< of the reference

@@ -128,10 +128,10 @@ LineReference follow_to_order(const Model& model, const Line& line, std::uint64_
     return reference;
   }
   // Both runs are rounded to 106 bits; the weights of the extrapolation, 2 k^(2k) / (2k)! in row k,
-  // amplify that a thousandfold in the longest rows that pay.
+  // amplify that some thousandfold in the longest rows.
   for (std::size_t k = 0; k < reference.uncertainty.size(); ++k) {
     reference.uncertainty[k] =
-        std::max(reference.uncertainty[k], 1e3 * 0x1p-53 * reference.floor[k]);
+        std::max(reference.uncertainty[k], 1e4 * 0x1p-53 * reference.floor[k]);
   }
   return reference;
 }

@@ -65,11 +65,11 @@ void compare(const Variation& variation, const DrawnScene& drawn, const Attacked
              const AttackedRun& other, const JudgedLine& line, std::vector<Finding>& findings) {
   const double ratio = attacked.scene->units.length_km / other.scene->units.length_km;
   const JetAlongLine jet = along_same_line(other, line, ratio);
-  const LineReference reference = cut(line.reference, jet.largest_term.size());
+  const LineReference reference = cut(line.reference, jet.independent_sum.size());
   const RelativeErrors errors = relative_errors(jet, reference);
   LineReference first = reference;
   for (std::size_t c = 0; c < first.coefficients.size(); ++c) {
-    std::copy_n(line.jet.coefficients[c].begin(), jet.largest_term.size(),
+    std::copy_n(line.jet.coefficients[c].begin(), jet.independent_sum.size(),
                 first.coefficients[c].begin());
   }
   const RelativeErrors differences = relative_errors(jet, first);
@@ -84,8 +84,10 @@ void compare(const Variation& variation, const DrawnScene& drawn, const Attacked
       add("tolerance of the variation", error, promised_error(variation.drawn, errors.floor[k]));
     }
     if (variation.kind == Kind::unsplit) {
+      // Below the tolerance the error of one piece is luck.
+      const double least = std::max(floor_of(drawn, errors.floor[k]), drawn.tolerance.value_or(0));
       add("arcs against one piece", line.errors.error[k] - errors.uncertainty[k],
-          10 * std::max(errors.error[k], floor_of(drawn, errors.floor[k])));
+          10 * std::max(errors.error[k], least));
     } else if (variation.kind == Kind::zeros) {
       add("zeros against nothing", differences.error[k], 0);
     } else {
