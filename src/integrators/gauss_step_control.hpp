@@ -168,13 +168,13 @@ class GaussStepControl {
   static constexpr double error_constant = 100;
 
   /// What rounding makes of a slope: near rest its terms cancel, each about the gradient times the
-  /// distance from the origin.
+  /// distance from the origin; and denormal numbers have few digits or none.
   double slope_noise() {
     double size = 0;
     for (std::size_t c = 0; c < stages_.system().components(); ++c) {
       size = std::max(size, std::abs(static_cast<double>(jet_.value()[c][0])));
     }
-    return 8 * epsilon * stages_.largest_gradient(0) * size;
+    return 8 * (epsilon * stages_.largest_gradient(0) * size + std::numeric_limits<double>::min());
   }
 
   /// Size of the slopes, which does not vanish where a single force passes through zero: with a

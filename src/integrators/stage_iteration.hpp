@@ -33,7 +33,7 @@ class StageIteration {
   bool solve_constant_terms(const State& state, std::vector<P>& slopes, const Evaluate& evaluate) {
     const std::size_t m = system_.components();
     for (std::size_t c = 0; c < m; ++c) {
-      // What rounding takes from the coefficients is too small to change with the iteration.
+      // What rounding takes from the coefficients hardly changes with the iteration.
       base_[c] = system_.base(c, state) + system_.lost(c, state, slopes[c]);
       stages_[c] = base_[c] + system_.couple(slopes[c]);
     }
@@ -49,7 +49,11 @@ class StageIteration {
         continue;
       }
       if (outcome == Outcome::fails || !is_finite_number(stages_)) return false;
-      // Once more, so that what is left is below rounding.
+      // Once more, with what rounding takes from the coefficients at these slopes.
+      for (std::size_t c = 0; c < m; ++c) {
+        base_[c] = system_.base(c, state) + system_.lost(c, state, slopes_[c]);
+      }
+      replace_stages(base_);
       evaluate(stages_, slopes);
       return true;
     }
@@ -89,7 +93,7 @@ class StageIteration {
         // Changes that no longer shrink are rounding, if they are no larger than that.
         if (size <= 2 * epsilon) return Outcome::converged;
         if (++stalls_ > most_stalls) return Outcome::fails;
-      } else if (count_ > 0 && size * size <= 0.25 * epsilon * (before - size)) {
+      } else if (count_ > 0 && size * size <= remainder * epsilon * (before - size)) {
         return Outcome::converged;  // all the changes to come add up to less than this
       }
       return ++count_ < largest_count ? Outcome::goes_on : Outcome::fails;
@@ -97,6 +101,9 @@ class StageIteration {
 
    private:
     static constexpr double slowest = 0.5;
+    /// Of a rounding, what may be left: it has the same sign in every step, so that half a rounding
+    /// would make the energy drift (Hairer, McLachlan and Razakarivony, BIT 48 (2008) 231).
+    static constexpr double remainder = 0x1p-12;
     static constexpr int most_stalls = 1;  ///< the first changes may grow
     static constexpr int largest_count = 40;
     int count_ = 0;
