@@ -208,7 +208,7 @@ TEST(SceneTransfer, Errors) {
        {"[1, 2, 3]", "[3e3, 3e3, 0]", {"position_m: too large", "4243", "below 4000"}},
        {"[1, 2, 3]", "[1e300, 1e300, 0]", {"position_m: too large"}},
        {"[0.5, 0, -1]", "[0, 500, 0]", {"velocity_m_s: too large", "below 500"}},
-       {"velocity_m_s", "velocity_km_s", {"start.velocity_km_s: unknown key", "velocity_m_s?"}},
+       {"velocity_m_s", "velocity_km_s", {"start.velocity_km_s: unknown key", "must be one of"}},
        {"[transfer.end]\nposition_m = [0, 0, 4]\n", "", {"transfer.end: missing, must be a table"}},
        {"[transfer.start]\nposition_m = [1, 2, 3]\nvelocity_m_s = [0.5, 0, -1]\n",
         "",
