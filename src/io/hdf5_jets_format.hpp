@@ -11,6 +11,9 @@ namespace hamjet::io::hdf5 {
 inline const std::string format = "hamjet jets";
 inline constexpr int format_version = 1;
 
+/// Of a run, where it is known: relative errors of the coefficients of each degree.
+inline constexpr const char* error_attribute = "coefficient_error_by_degree";
+
 /// In the order of the enumeration Precision.
 inline const std::vector<std::string> precision_names = {"double", "extended"};
 

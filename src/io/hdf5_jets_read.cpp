@@ -184,6 +184,10 @@ StoredJet read_jets_hdf5(const std::string& name, std::string_view bytes,
   const Reader run = root.group(stored.label);
   stored.nominal_final = run.numbers("nominal_final", stored.nominal_initial.size());
   stored.jet = read_jet(run, stored, order);
+  if (run.has_attribute(hdf5::error_attribute)) {
+    stored.error_by_degree =
+        run.numbers(hdf5::error_attribute, static_cast<std::size_t>(order) + 1);
+  }
   for (std::size_t c = 0; c < stored.components.size(); ++c) {
     if (static_cast<double>(stored.jet[c].constant()) !=
         stored.nominal_final[stored.components[c]]) {

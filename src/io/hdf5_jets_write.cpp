@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "hamjet/error.hpp"
 #include "hamjet/io/hdf5_jets.hpp"
@@ -127,6 +128,15 @@ void write_jet(const Writer& file, hid_t group, const FlowJet<Extended>& jet, Pr
   write_exponents(file, group, space, 0);
 }
 
+/// Of the coefficients, which estimates of what is computed from them need; none where nothing is
+/// known of them.
+void write_errors(const Writer& file, hid_t group, const std::vector<double>& error_by_degree) {
+  const bool is_known = std::all_of(error_by_degree.begin(), error_by_degree.end(),
+                                    [](double error) { return std::isfinite(error); });
+  if (error_by_degree.empty() || !is_known) return;
+  file.attribute(group, hdf5::error_attribute, error_by_degree);
+}
+
 void write_nominal(const Writer& file, hid_t group, const RunResult& run) {
   if (run.nominal.empty()) return;
   std::vector<double> times;
@@ -175,6 +185,7 @@ void write_run(const Writer& file, const PropagationResult& result, const RunRes
   }
   file.attribute(group, "nominal_final", run.nominal_final);
   write_jet(file, group, run.jet, result.scene.precision);
+  write_errors(file, group, describe_jet(result, run).error_by_degree);
   write_nominal(file, group, run);
   write_generating_functions(file, group, result, run);
 }
@@ -201,6 +212,7 @@ std::string jets_hdf5(const StoredJet& stored) {
   const Handle group = file.group(file.root(), stored.label);
   file.attribute(group, "nominal_final", stored.nominal_final);
   write_jet(file, group, stored.jet, stored.precision);
+  write_errors(file, group, stored.error_by_degree);
   return seal_hdf5(file.image());
 }
 

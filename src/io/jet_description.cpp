@@ -20,6 +20,8 @@ StoredJet describe_jet(const PropagationResult& result, const RunResult& run) {
   description.components = result.problem.components;
   description.variables = scene.variables;
   description.ephemeris = scene.ephemeris;
+  description.error_by_degree =
+      run.error_by_degree.value_or(run.error_estimate.by_degree.value_or(std::vector<double>()));
   return description;
 }
 
