@@ -13,7 +13,7 @@ namespace hamjet {
 namespace {
 
 /// Of the tolerance and the number of periods, what the error of a degree may come to.
-constexpr double allowed_excess = 10;
+constexpr double allowed_excess = 3;
 /// A trial aims this far below what is allowed, for the error is only about proportional.
 constexpr double aim = 0.1;
 /// The least factor between the tolerances of two trials.

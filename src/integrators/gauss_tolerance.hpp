@@ -17,7 +17,7 @@ struct StepTolerance {
 /// The largest local tolerance, at most that of the settings, with which the error of every degree
 /// of the jet stays below
 ///
-///   10 tolerance max(1, periods) ,
+///   3 tolerance max(1, periods) ,
 ///
 /// periods being those of the linearised motion (IntegrationStatistics::periods). Steps that suit
 /// the nominal need not suit the coefficients: those of degree d are larger at a perigee than at
