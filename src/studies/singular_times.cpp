@@ -216,7 +216,7 @@ class ZeroSearch {
     double right = time(i + 1);
     double middle = time(i);
     double lowest = sign * ratios_[i];
-    const double resolution = 1e-13 * std::abs(times_.back());
+    const double resolution = 4 * std::numeric_limits<double>::epsilon() * std::abs(times_.back());
     while (std::abs(right - left) > resolution) {
       const bool is_right_longer = std::abs(right - middle) > std::abs(middle - left);
       const double trial = middle + golden * ((is_right_longer ? right : left) - middle);
@@ -234,7 +234,10 @@ class ZeroSearch {
         (is_right_longer ? right : left) = trial;
       }
     }
-    if (lowest < rounding_of_zero(flow_.at(middle))) add(middle);
+    // Beside a zero that is passed with a slope on either side the rounding of the time shows too.
+    const double slope = std::max(std::abs(ratios_[i - 1] / (middle - time(i - 1))),
+                                  std::abs(ratios_[i + 1] / (time(i + 1) - middle)));
+    if (lowest <= rounding_of_zero(flow_.at(middle)) + resolution * slope) add(middle);
   }
 
   void add_zero(double from, double to) {
