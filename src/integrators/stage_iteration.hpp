@@ -23,6 +23,7 @@ class StageIteration {
   explicit StageIteration(const StageSystem<Real, Lanes>& system)
       : system_(system),
         base_(system.components()),
+        lost_(system.components()),
         stages_(system.components()),
         slopes_(system.components()),
         inverse_scale_(system.components()) {}
@@ -33,15 +34,16 @@ class StageIteration {
   bool solve_constant_terms(const State& state, std::vector<P>& slopes, const Evaluate& evaluate) {
     const std::size_t m = system_.components();
     for (std::size_t c = 0; c < m; ++c) {
+      base_[c] = system_.base(c, state);
       // What rounding takes from the coefficients hardly changes with the iteration.
-      base_[c] = system_.base(c, state) + system_.lost(c, state, slopes[c]);
-      stages_[c] = base_[c] + system_.couple(slopes[c]);
+      lost_[c] = system_.lost(c, state, slopes[c]);
+      stages_[c] = base_[c] + (system_.couple(slopes[c]) + lost_[c]);
     }
     set_scale(stages_, base_);
     Contraction contraction;
     while (true) {
       evaluate(stages_, slopes_);
-      const Real size = replace_stages(base_);
+      const Real size = replace_stages(base_, &lost_);
       const auto outcome = contraction.judge(size);
       if (outcome == Outcome::goes_on) {
         // An extrapolated guess can be far off: what counts is the size of the stages as they are.
@@ -50,10 +52,8 @@ class StageIteration {
       }
       if (outcome == Outcome::fails || !is_finite_number(stages_)) return false;
       // Once more, with what rounding takes from the coefficients at these slopes.
-      for (std::size_t c = 0; c < m; ++c) {
-        base_[c] = system_.base(c, state) + system_.lost(c, state, slopes_[c]);
-      }
-      replace_stages(base_);
+      for (std::size_t c = 0; c < m; ++c) lost_[c] = system_.lost(c, state, slopes_[c]);
+      replace_stages(base_, &lost_);
       evaluate(stages_, slopes);
       return true;
     }
@@ -123,11 +123,14 @@ class StageIteration {
     }
   }
 
-  /// Y = terms + W slopes_; returns the largest change.
-  Real replace_stages(const std::vector<P>& terms) {
+  /// Y = terms + (W slopes_ + lost); returns the largest change. The lost part is below the
+  /// rounding of the terms, and would always vanish if it were added to them.
+  Real replace_stages(const std::vector<P>& terms, const std::vector<P>* lost = nullptr) {
     P largest(Real(0));
     for (std::size_t c = 0; c < terms.size(); ++c) {
-      const P stage = terms[c] + system_.couple(slopes_[c]);
+      P moved = system_.couple(slopes_[c]);
+      if (lost != nullptr) moved += (*lost)[c];
+      const P stage = terms[c] + moved;
       largest = larger_magnitude(largest, (stage - stages_[c]) * inverse_scale_[c]);
       stages_[c] = stage;
     }
@@ -155,6 +158,7 @@ class StageIteration {
 
   const StageSystem<Real, Lanes>& system_;
   std::vector<P> base_;
+  std::vector<P> lost_;  ///< of base + W g, by the rounding of the coefficients
   std::vector<P> stages_;
   std::vector<P> slopes_;
   std::vector<P> inverse_scale_;
