@@ -83,11 +83,27 @@ double watched_value(const StateTransition& flow, const GeneratingFunctionKind& 
   return value / flow.norm();
 }
 
-/// Beside the flow's norm: what rounding, grown along the flow, leaves of a zero. Errors of the
-/// nominal grow as the flow does, and so does what they change in its matrix.
-double rounding_of_zero(const StateTransition& flow) {
-  constexpr double roundings = 8;
-  return roundings * std::numeric_limits<double>::epsilon() * std::max(1.0, std::sqrt(flow.norm()));
+/// What rounding leaves of a zero of watched_value at a time, where the flow's matrix is `flow`: an
+/// ulp in each checkpoint's matrix M_s, carried on to that time by M M_s^-1, adds up to
+///
+///   u sqrt( sum over s of |M M_s^-1|^2 |M_s|^2 ) / |M| ,
+///
+/// summed over no more than some sixty of them. M^-1 = -J M^T J of a symplectic matrix.
+double rounding_of_zero(const LinearFlow& whole, double time, const StateTransition& flow) {
+  constexpr std::size_t most_summed = 64;
+  const auto before = static_cast<std::size_t>(
+      std::upper_bound(whole.times().begin(), whole.times().end(), time,
+                       [](double a, double b) { return std::abs(a) < std::abs(b); }) -
+      whole.times().begin());
+  const std::size_t stride = before / most_summed + 1;
+  double sum = flow.squaredNorm();
+  for (std::size_t s = stride; s < before; s += stride) {
+    const StateTransition& matrix = whole.checkpoint(s);
+    // M M_s^-1 and M J M_s^T have one norm, for J turns rows and signs alone.
+    const StateTransition turned = symplectic_unit_times(StateTransition(matrix.transpose()));
+    sum += static_cast<double>(stride) * (flow * turned).squaredNorm() * matrix.squaredNorm();
+  }
+  return std::numeric_limits<double>::epsilon() * std::sqrt(sum) / flow.norm();
 }
 
 /// Looks for the zeros of one kind's signed ratio.
@@ -237,7 +253,8 @@ class ZeroSearch {
     // Beside a zero that is passed with a slope on either side the rounding of the time shows too.
     const double slope = std::max(std::abs(ratios_[i - 1] / (middle - time(i - 1))),
                                   std::abs(ratios_[i + 1] / (time(i + 1) - middle)));
-    if (lowest <= rounding_of_zero(flow_.at(middle)) + resolution * slope) add(middle);
+    if (lowest <= rounding_of_zero(flow_, middle, flow_.at(middle)) + resolution * slope)
+      add(middle);
   }
 
   void add_zero(double from, double to) {
@@ -260,7 +277,7 @@ class ZeroSearch {
     const auto& values = decomposition.singularValues();
     const Eigen::Index last = values.size() - 1;
     SingularTime zero{kind_, t};
-    const double rounding = rounding_of_zero(matrix);
+    const double rounding = rounding_of_zero(flow_, t, matrix);
     zero.resolution = resolution_at(t, rounding);
     // A double zero is found where the smaller value vanishes, a little off that of the larger one.
     constexpr double roundings = 4;
