@@ -13,8 +13,7 @@ inline constexpr double error_estimate_safety = 2;
 
 /// How the error of a jet is estimated.
 struct ErrorEstimateSettings {
-  /// Of the independent runs, for every degree; by default a tenth of the rounding of the numbers.
-  /// Steps are repeated beyond a thousand times that.
+  /// Of the independent runs, for every degree; by default four times the rounding of the numbers.
   std::optional<double> tolerance = {};
   /// Of one independent run; one that would need more is given up.
   long most_steps = 5000;
@@ -27,12 +26,11 @@ struct ErrorEstimateSettings {
 /// truncation and rounding together. What made the jet is of no account.
 ///
 /// Along two directions the univariate series of the same flow is integrated independently, with
-/// N + 1 coefficients a component: Gauss with 14 and with 12 stages, whose steps are chosen for all
-/// degrees. The jet's degree-d part at the
-/// direction, less the degree-d coefficient of that run, is the sum of the errors of all monomials
-/// of the degree with weights of order 1. The estimate is the larger of the two differences,
-/// relative to the smaller of the jet's largest coefficient and the run's, times a factor of safety
-/// of 2, and never below the rounding of Real.
+/// N + 1 coefficients a component: Gauss with 16 and with 15 stages, whose steps are chosen for all
+/// degrees. The jet's degree-d part at the direction, less the degree-d coefficient of that run, is
+/// the sum of the errors of all monomials of the degree with weights of order 1. The estimate is
+/// the larger of the two differences, relative to the smaller of the jet's largest coefficient and
+/// the run's, times error_estimate_safety, and never below the rounding of Real.
 ///
 /// Directions are drawn from a generator of constant seed, entries of random sign between
 /// sqrt(1/2) and sqrt(2) in magnitude so that no monomial is lost; of sixteen the two are taken at

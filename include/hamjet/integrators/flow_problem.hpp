@@ -55,7 +55,7 @@ struct IntegrationStatistics {
   std::optional<double> largest_step_error;
   double step_error_seconds = 0;  ///< of estimates made for this alone; not in wall_seconds
   /// Periods of the linearised motion in the duration, for Gauss methods: the integral of the
-  /// largest frequency along the nominal, divided by 2 pi. On a circular orbit 1.4 times the
+  /// largest frequency along the nominal, divided by 2 pi. On a circular orbit 1.2 to 1.4 times the
   /// revolutions.
   double periods = 0;
   /// The local tolerance of the steps of an adaptive Gauss method; see GaussSettings::tolerance.

@@ -25,9 +25,10 @@ struct GaussSettings {
   /// Also estimate the error of fixed steps (adaptive ones are always estimated); some hundred
   /// operations a step on plain numbers.
   bool estimates_step_error = false;
-  /// Adaptive steps are short enough for every degree of the series, not for the nominal alone. A
-  /// step that is too long for a high degree is repeated with all its series, which is cheap with
-  /// few variables.
+  /// Each adaptive step is judged by every degree of its own series, in place of a local tolerance
+  /// chosen beforehand along two lines. A step is repeated with all its series if its estimate
+  /// exceeds the tolerance a thousand times: cheap with few variables, for tolerances far below
+  /// what is wanted.
   bool controls_all_degrees = false;
   GaussProfile* profile = nullptr;  ///< filled where given; costs a few clock readings a step
 };
@@ -55,7 +56,7 @@ struct GaussSettings {
 /// wave (DynamicalSystem::waves_on_a_circle).
 ///
 /// The local tolerance is the settings' tolerance or less: as much less as is found to keep the
-/// error of every degree below 10 tolerance max(1, periods), periods being those of the linearised
+/// error of every degree below 3 tolerance max(1, periods), periods being those of the linearised
 /// motion, along two lines of deviations on which the flow costs little (GaussSettings::tolerance
 /// is checked for jets of order 1 and more). Where rounding alone exceeds that, no shorter steps
 /// are taken than show it, and IntegrationStatistics::rounding_by_degree says by how much. The

@@ -98,12 +98,12 @@ struct InversionQuality {
 /// surface: smallest distance from the centre in km, between steps too. Limit: radius_km.
 ///
 /// error-estimate: the estimated error of the degree that exceeds its limit most, see
-/// estimate_error. Limit with a tolerance: 100 tolerance n, n being the periods of the linearised
-/// motion (IntegrationStatistics::periods) for Gauss and the steps for other methods, at least 1;
-/// and ten floors for rounding, at most 1e-3, a floor being the larger of what shorter steps did
-/// not take away (rounding_by_degree) and sqrt(1 + steps) times what half-ulp changes of the start
-/// change in the degree. Fixed steps promise nothing, and have a limit only where the scene sets
-/// one, for all degrees.
+/// estimate_error. Limit with a tolerance: error_estimate_safety times the sum of 100 tolerance n,
+/// n being the periods of the linearised motion (IntegrationStatistics::periods) for Gauss and the
+/// steps for other methods, at least 1; and of ten floors for rounding, at most 1e-3, a floor being
+/// the larger of what shorter steps did not take away (rounding_by_degree) and sqrt(1 + steps)
+/// times what half-ulp changes of the start change in the degree. Fixed steps promise nothing, and
+/// have a limit only where the scene sets one, for all degrees.
 std::vector<SelfCheck> self_checks(const Scene& scene, const RunResult& run);
 
 }  // namespace hamjet
