@@ -1,4 +1,5 @@
 # Fails if one of OBJECTS defines a function in which numbers are added and multiplied.
+list(FILTER OBJECTS EXCLUDE REGEX "\\.gch$")  # precompiled headers are no objects
 execute_process(COMMAND ${NM} --demangle --defined-only ${OBJECTS} OUTPUT_VARIABLE symbols
   COMMAND_ERROR_IS_FATAL ANY)
 set(arithmetic "(Eigen::internal::(general|gebp|partial_lu|triangular)|hamjet::detail::)")
