@@ -3,7 +3,7 @@
 namespace hamjet {
 
 /// Kahan's addition: `lost` is what rounding has taken from `value` so far, with opposite sign.
-/// Over many steps it lets round-off grow as slowly as it can (Hairer, Lubich and Wanner, Geometric
+/// Over many steps round-off grows much more slowly with it (Hairer, Lubich and Wanner, Geometric
 /// Numerical Integration, section VIII.5).
 template <class Real>
 void add_compensated(Real& value, Real& lost, const Real& increment) {

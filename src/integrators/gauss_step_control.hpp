@@ -92,9 +92,12 @@ class GaussStepControl {
     return near * std::pow(decay, s + 2);
   }
 
-  /// The longest step on which the stages still sample the shortest wave of the field, twice on
-  /// each (Nyquist), from a state: a field of n waves on a circle about the origin passes at
-  /// n |v| / |q| at most. Infinite where the system has no such field.
+  /// The longest step on which the stages resolve the shortest wave of the field, from a state: a
+  /// field of n waves on a circle about the origin passes at n |v| / |q| at most, and a Legendre
+  /// expansion begins to converge at pi points a wave (Gottlieb and Orszag, Numerical Analysis of
+  /// Spectral Methods, 1977, section 3). The end of the step, whose error goes as the Bessel
+  /// function J_2s(s) then, has it to four digits with 8 stages. Infinite where the system has no
+  /// such field.
   template <class State>
   double longest_sampling_step(const DynamicalSystem& system, const State& state) const {
     if (system.waves_on_a_circle == 0) return std::numeric_limits<double>::infinity();
@@ -105,7 +108,7 @@ class GaussStepControl {
       distance = std::hypot(distance, static_cast<double>(state(c)));
       speed = std::hypot(speed, static_cast<double>(state(n + c)));
     }
-    return std::numbers::pi * settings_.stages * distance / (system.waves_on_a_circle * speed);
+    return 2 * settings_.stages * distance / (system.waves_on_a_circle * speed);
   }
 
   /// Error of the deviations after one of their own periods. A nominal at rest, or one that does
