@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cfloat>
 #include <chrono>
 #include <cmath>
 #include <numbers>
@@ -186,6 +187,32 @@ JetAlongLine along_line(const FlowJet<Extended>& jet, const ComputedProblem& pro
     }
   }
   return result;
+}
+
+std::vector<double> aligned_direction(const FlowJet<Extended>& jet, const ComputedProblem& problem,
+                                      const std::function<std::vector<double>()>& draw) {
+  constexpr int candidates = 8;
+  std::vector<double> best;
+  double best_agreement = -1;
+  for (int i = 0; i < candidates; ++i) {
+    const std::vector<double> direction = draw();
+    const std::size_t n = direction.size() / 2;
+    LineReference sizes;
+    sizes.position_size = std::max(largest(direction.data(), n), DBL_MIN);
+    sizes.momentum_size = std::max(largest(direction.data() + n, n), DBL_MIN);
+    const JetAlongLine line = along_line(jet, problem, direction, sizes);
+    double agreement = 0;
+    for (std::size_t c = 0; c < 2 * n; ++c) {
+      const double size = c < n ? sizes.position_size : sizes.momentum_size;
+      agreement = std::max(agreement, magnitude(line.coefficients[c].back()) / size /
+                                          std::max(line.independent_sum.back(), DBL_MIN));
+    }
+    if (agreement > best_agreement) {
+      best = direction;
+      best_agreement = agreement;
+    }
+  }
+  return best;
 }
 
 RelativeErrors relative_errors(const JetAlongLine& jet, const LineReference& reference) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -51,6 +52,12 @@ struct JetAlongLine {
 };
 JetAlongLine along_line(const FlowJet<Extended>& jet, const ComputedProblem& problem,
                         const std::vector<double>& direction, const LineReference& reference);
+
+/// Of several directions that `draw` gives, the one along which the terms of the highest degree
+/// agree most. Errors that grow along the flow have one pattern in all coefficients, and where
+/// these cancel along a line, they do too.
+std::vector<double> aligned_direction(const FlowJet<Extended>& jet, const ComputedProblem& problem,
+                                      const std::function<std::vector<double>()>& draw);
 
 /// By degree, relative to the larger of the reference's coefficient and the jet's independent sum,
 /// as the error along the line is a sum of the errors of the terms; 0 where both vanish.

@@ -65,11 +65,14 @@ class Judge {
     bool keeps_promise = drawn_.is_adaptive_gauss();
     has_estimate_ = attacked.run().error_estimate.by_degree.has_value();
     for (int i = 0; i < settings_.directions; ++i) {
-      const auto line = judged_line(attacked, model, false);
+      const auto line = judged_line(attacked, model, i == 0, false);
       if (!line) return;
-      keeps_promise = keeps_promise && is_as_promised(line->errors);
-      if (attacked.is_unmarked()) compare_degrees(line->errors);
       lines.push_back(*line);
+    }
+    share_floors(lines);
+    for (const JudgedLine& line : lines) {
+      keeps_promise = keeps_promise && is_as_promised(line.errors);
+      if (attacked.is_unmarked()) compare_degrees(line.errors);
     }
     verdict_.is_false_alarm = attacked.exit_code == 1 && keeps_promise;
     judge_estimate(attacked, model, lines);
@@ -77,13 +80,17 @@ class Judge {
   }
 
   std::optional<JudgedLine> judged_line(const AttackedRun& attacked, const Model& model,
-                                        bool has_unit_sizes) {
+                                        bool is_aligned, bool has_unit_sizes) {
     const Scene& scene = *attacked.scene;
     const bool is_extended = drawn_.precision == "extended";
     const auto start = std::chrono::steady_clock::now();
     JudgedLine line;
-    line.direction = has_unit_sizes ? draw_unit_direction(scene, random_)
-                                    : draw_direction(scene, model, random_);
+    const auto draw = [&] {
+      return has_unit_sizes ? draw_unit_direction(scene, random_)
+                            : draw_direction(scene, model, random_);
+    };
+    line.direction =
+        is_aligned ? aligned_direction(attacked.run().jet, attacked.result->problem, draw) : draw();
     line.reference =
         follow(model, {scene.nominal, line.direction, scene.duration, scene.order, has_unit_sizes},
                drawn_.number, is_extended ? 1e-28 : 1e-26, is_extended ? 1e-26 : 1e-22);
@@ -99,6 +106,16 @@ class Judge {
     return line;
   }
 
+  /// A jet is rounded in all its monomials, whatever the line along which they are added up: the
+  /// floor of a degree is the largest along any of the lines.
+  static void share_floors(std::vector<JudgedLine>& lines) {
+    for (std::size_t k = 0; k < lines[0].errors.floor.size(); ++k) {
+      double largest = 0;
+      for (const JudgedLine& line : lines) largest = std::max(largest, line.errors.floor[k]);
+      for (JudgedLine& line : lines) line.errors.floor[k] = largest;
+    }
+  }
+
   /// hamjet's estimate is relative to the largest coefficient in canonical units. With the default
   /// unit position and momentum are of size 1 and directions do not differ.
   void judge_estimate(const AttackedRun& attacked, const Model& model,
@@ -107,7 +124,7 @@ class Judge {
     if (!estimate) return;
     if (drawn_.length_km || !drawn_.is_orbit) {
       for (JudgedLine& line : lines) {
-        const auto other = judged_line(attacked, model, true);
+        const auto other = judged_line(attacked, model, &line == &lines[0], true);
         if (!other) return;
         line = *other;
       }

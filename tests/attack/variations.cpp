@@ -80,12 +80,13 @@ void compare(const Variation& variation, const DrawnScene& drawn, const Attacked
       }
     };
     const double error = errors.error[k] - errors.uncertainty[k];
+    const double floor = std::max(errors.floor[k], line.errors.floor[k]);
     if (has_promise(variation.drawn)) {
-      add("tolerance of the variation", error, promised_error(variation.drawn, errors.floor[k]));
+      add("tolerance of the variation", error, promised_error(variation.drawn, floor));
     }
     if (variation.kind == Kind::unsplit) {
       // Below the tolerance the error of one piece is luck.
-      const double least = std::max(floor_of(drawn, errors.floor[k]), drawn.tolerance.value_or(0));
+      const double least = std::max(floor_of(drawn, floor), drawn.tolerance.value_or(0));
       add("arcs against one piece", line.errors.error[k] - errors.uncertainty[k],
           10 * std::max(errors.error[k], least));
     } else if (variation.kind == Kind::zeros) {
