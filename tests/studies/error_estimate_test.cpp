@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "studies/estimated_scenes.hpp"
+#include "studies/formation_scenes.hpp"
 
 // The estimated error of random scenes beside the true one, from the reference in extended
 // precision; error_estimate_statistics does the same with hundreds.
@@ -23,6 +24,38 @@ TEST(ErrorEstimate, IsNotFarBelowTheErrorOnRandomScenes) {
     }
   }
   EXPECT_GT(judged, 20);
+}
+
+const SelfCheck& estimate_check(const RunResult& run) {
+  return run.checks[static_cast<std::size_t>(SelfCheckName::error_estimate)];
+}
+
+/// About a revolution of the paper's chief to order 3.
+Scene coarse_scene() {
+  Scene scene = paper_chief(3);
+  scene.duration = 12;
+  scene.integrators = {precise_gauss()};
+  scene.integrators[0].tolerance = 1e-7;
+  return scene;
+}
+
+TEST(ErrorEstimateCheck, FailsWhereAJetIsWorseThanItsToleranceOrItsLimit) {
+  Scene scene = coarse_scene();
+  EXPECT_EQ(estimate_check(propagate(scene).runs[0]).state, SelfCheckState::passed);
+  scene.checks[SelfCheckName::error_estimate].limit = 1e-13;
+  const RunResult beyond = propagate(scene).runs[0];
+  EXPECT_EQ(estimate_check(beyond).state, SelfCheckState::failed) << estimate_check(beyond).text;
+  EXPECT_FALSE(beyond.failed_checks.empty());
+
+  // A jet of 1e-7 under a tolerance of 1e-14 breaks its promise; the state is not wrong.
+  scene.checks[SelfCheckName::error_estimate].limit.reset();
+  RunResult wrong = beyond;
+  wrong.settings.tolerance = 1e-14;
+  const SelfCheck check =
+      self_checks(scene, wrong)[static_cast<std::size_t>(SelfCheckName::error_estimate)];
+  EXPECT_EQ(check.state, SelfCheckState::failed) << check.text;
+  EXPECT_NE(check.text.find("more than the tolerance lets expect"), std::string::npos)
+      << check.text;
 }
 
 }  // namespace
