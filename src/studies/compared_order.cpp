@@ -67,8 +67,8 @@ ComparedRun ComparedOrder::judge(const Candidate& candidate, const std::string& 
           keep_going(passed.count());
         });
     const auto estimate =
-        estimate_jet_error<double>(flow_problem<double>(problem_, scene_.duration), jet, {},
-                                   run.statistics, [&](double) { keep_going(0); });
+        estimate_jet_error<double>(flow_problem<double>(problem_, scene_.duration), jet,
+                                   run.settings, run.statistics, [&](double) { keep_going(0); });
     run.error_estimate_by_degree = estimate.by_degree.value_or(std::vector<double>());
     RunResult result;
     result.jet = convert_map<Extended>(jet);

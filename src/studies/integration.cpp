@@ -141,13 +141,12 @@ FlowJet<Real> integrate_split(const FlowProblem<Real>& flow, const IntegratorSet
 
 template <class Real>
 JetErrorEstimate estimate_jet_error(const FlowProblem<Real>& flow, const FlowJet<Real>& jet,
-                                    std::optional<double> tolerance,
+                                    const IntegratorSettings& /*settings*/,
                                     const IntegrationStatistics& statistics,
                                     const std::function<void(double)>& progress) {
   JetErrorEstimate result;
   const Stopwatch stopwatch(result.seconds);
   ErrorEstimateSettings estimate;
-  estimate.tolerance = tolerance;
   estimate.most_steps = std::max(estimate.most_steps, 4 * statistics.steps);
   estimate.progress = progress;
   try {
@@ -177,10 +176,12 @@ template FlowJet<double> integrate(const FlowProblem<double>&, const IntegratorS
 template FlowJet<Extended> integrate(const FlowProblem<Extended>&, const IntegratorSettings&,
                                      IntegrationStatistics&, const StepObserver<Extended>&, bool);
 template JetErrorEstimate estimate_jet_error(const FlowProblem<double>&, const FlowJet<double>&,
-                                             std::optional<double>, const IntegrationStatistics&,
+                                             const IntegratorSettings&,
+                                             const IntegrationStatistics&,
                                              const std::function<void(double)>&);
 template JetErrorEstimate estimate_jet_error(const FlowProblem<Extended>&, const FlowJet<Extended>&,
-                                             std::optional<double>, const IntegrationStatistics&,
+                                             const IntegratorSettings&,
+                                             const IntegrationStatistics&,
                                              const std::function<void(double)>&);
 template FlowJet<double> integrate_split(const FlowProblem<double>&, const IntegratorSettings&,
                                          const ArcSettings&, IntegrationStatistics&, ArcStatistics&,

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <functional>
-#include <optional>
-
 #include "hamjet/integrators/arc_splitting.hpp"
 #include "hamjet/integrators/flow_problem.hpp"
 #include "hamjet/studies/propagation.hpp"
@@ -31,11 +28,10 @@ FlowJet<Real> integrate_split(const FlowProblem<Real>& flow, const IntegratorSet
 
 /// Estimates the error of what an integration has delivered; a failure of the independent runs is
 /// recorded. They may take four times the steps of the integration, or as many as
-/// ErrorEstimateSettings allows. `tolerance` is theirs, see ErrorEstimateSettings. `progress` is
-/// called after their steps with the fraction done.
+/// ErrorEstimateSettings allows. `progress` is called after their steps with the fraction done.
 template <class Real>
 JetErrorEstimate estimate_jet_error(const FlowProblem<Real>& flow, const FlowJet<Real>& jet,
-                                    std::optional<double> tolerance,
+                                    const IntegratorSettings& settings,
                                     const IntegrationStatistics& statistics,
                                     const std::function<void(double)>& progress);
 

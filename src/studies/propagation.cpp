@@ -4,11 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
 #include <utility>
 
 #include "along_time_recorder.hpp"
-#include "error_estimate_limits.hpp"
 #include "followed_nominal.hpp"
 #include "hamjet/dynamics/relative_hamiltonian.hpp"
 #include "hamjet/studies/arcs.hpp"
@@ -28,23 +26,6 @@ std::vector<double> full_state(const FlowJet<Extended>& jet, const ComputedProbl
     state[problem.components[i]] = static_cast<double>(jet[i][0]);
   }
   return state;
-}
-
-/// An estimate beyond its limit may come from the rounding of the independent runs themselves,
-/// which take other steps than the integration or no arcs: it is made again where they round far
-/// less.
-void confirm_error_estimate(const Scene& scene, const ComputedProblem& problem, RunResult& run,
-                            const std::function<void(double)>& progress) {
-  constexpr double tolerance = 1e-18;  // a hundredth of what double precision rounds
-  constexpr long most_steps = 300;     // more would take longer than anybody expects of a check
-  JetErrorEstimate& first = run.error_estimate;
-  if (!first.by_degree || run.statistics.steps > most_steps) return;
-  if (!exceeds_limits(*first.by_degree, error_estimate_limits(scene, run))) return;
-  const JetErrorEstimate second =
-      estimate_jet_error<Extended>(flow_problem<Extended>(problem, scene.duration), run.jet,
-                                   tolerance, run.statistics, progress);
-  if (second.by_degree) first.by_degree = second.by_degree;
-  first.seconds += second.seconds;
 }
 
 template <class Real>
@@ -83,11 +64,11 @@ void run_integrator(const Scene& scene, const ComputedProblem& problem, std::siz
                   progress(static_cast<double>(time) / scene.duration);
                 },
                 records_step_error);
-  run.jet = convert_map<Extended>(jet);
   if (scene.checks[SelfCheckName::error_estimate].is_on) {
-    run.error_estimate = estimate_jet_error<Real>(flow, jet, {}, run.statistics, progress);
-    if (std::is_same_v<Real, double>) confirm_error_estimate(scene, problem, run, progress);
+    run.error_estimate =
+        estimate_jet_error<Real>(flow, jet, run.settings, run.statistics, progress);
   }
+  run.jet = convert_map<Extended>(jet);
   run.nominal_final = full_state(run.jet, problem, scene.nominal.size());
   run.energy_error = recorder.largest_energy_error();
   run.energy = recorder.energy();

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <span>
 
-#include "error_estimate_limits.hpp"
+#include "hamjet/integrators/error_estimate.hpp"
 #include "hamjet/studies/propagation.hpp"
 #include "largest_coefficient.hpp"
 #include "number_scan.hpp"
@@ -20,6 +20,7 @@ constexpr double largest_fixed_step_error = 5;
 constexpr double gauss_excess = 10;  ///< up to which a Gauss method accepts a step
 constexpr double largest_energy_change = 0.1;
 constexpr double largest_symplecticity_defect = 1e-6;
+constexpr double largest_rounding = 1e-3;         ///< of a degree that is delivered
 constexpr double largest_inversion_miss = 1e-20;  ///< or epsilon, where that is larger
 constexpr double largest_amplified_rounding = 1e-4;
 
@@ -249,11 +250,57 @@ void check_surface(SelfCheck& check, const Scene& scene, const RunResult& run) {
   }
 }
 
+/// How often a run's tolerance may count: once a period of the linearised motion for Gauss, whose
+/// tolerance is that of the error after one; once a step for the others, whose tolerance is that of
+/// a step.
+double tolerance_count(const RunResult& run) {
+  return std::max(
+      1.0, is_gauss(run) ? run.statistics.periods : static_cast<double>(run.statistics.steps));
+}
+
+/// By degree, by how much half-ulp changes of the start alone change the coefficients, relative to
+/// the largest: those of degree d by the derivatives of the flow of one degree more. The last
+/// degree is taken to grow as the one before.
+std::vector<double> half_ulp_changes(const Scene& scene, const RunResult& run) {
+  double size = 0;
+  for (const double x : scene.nominal) size = std::max(size, std::abs(x));
+  std::vector<double> changes;
+  for (int d = 0; d < scene.order; ++d) {
+    const double at = d == 0 ? size : largest_coefficient(run.jet, d);
+    const double above = largest_coefficient(run.jet, d + 1);
+    changes.push_back(
+        at > 0 ? 0.5 * rounding_of(scene.precision) * (1 + (d + 1) * above * size / at) : 0);
+  }
+  changes.push_back(changes.back() * (scene.order + 1) / scene.order);
+  return changes;
+}
+
+/// By degree, the estimate of the error that a run with a tolerance is allowed; see self_checks.
+std::vector<double> promised_errors(const Scene& scene, const RunResult& run) {
+  std::vector<double> promised = half_ulp_changes(scene, run);
+  const std::vector<double>& measured = run.statistics.rounding_by_degree;
+  const double steps = static_cast<double>(run.statistics.steps);
+  for (std::size_t d = 0; d < promised.size(); ++d) {
+    double floor = std::sqrt(1 + steps) * promised[d];
+    if (d < measured.size()) floor = std::max(floor, measured[d]);
+    // A degree without three digits is none, even where rounding is the reason.
+    const double error = std::min(10 * floor, largest_rounding) +
+                         100 * *run.settings.tolerance * tolerance_count(run);
+    promised[d] = error_estimate_safety * error;
+  }
+  return promised;
+}
+
 void check_error_estimate(SelfCheck& check, const Scene& scene, const RunResult& run) {
   check.seconds += run.error_estimate.seconds;
   if (!run.error_estimate.by_degree) return not_applicable(check, run.error_estimate.failure);
   const std::vector<double>& estimate = *run.error_estimate.by_degree;
-  const std::vector<double> limits = error_estimate_limits(scene, run);
+  std::vector<double> limits;  // none for fixed steps, which promise nothing
+  if (check.limit) {
+    limits.assign(estimate.size(), *check.limit);
+  } else if (run.settings.tolerance) {
+    limits = promised_errors(scene, run);
+  }
   std::size_t worst = 0;
   const auto badness = [&](std::size_t d) {
     return limits.empty() ? estimate[d] : estimate[d] / limits[d];
@@ -269,11 +316,12 @@ void check_error_estimate(SelfCheck& check, const Scene& scene, const RunResult&
     check.text += "; fixed steps promise none";
   } else if (!judge(check, estimate[worst], limits[worst])) {
     check.text +=
-        estimate[worst] > largest_delivered_rounding &&
-                worst < run.statistics.rounding_by_degree.size()
+        estimate[worst] > largest_rounding && worst < run.statistics.rounding_by_degree.size()
             ? ": rounding leaves it fewer than three digits; precision = \"extended\" or a lower "
               "order is needed"
-            : ", more than the tolerance lets expect; a smaller one, or other steps, are needed";
+            : ", more than the tolerance lets expect: a smaller one is needed, other steps, or, "
+              "where "
+              "rounding is the reason, precision = \"extended\"";
   }
 }
 

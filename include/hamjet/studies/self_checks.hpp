@@ -103,9 +103,7 @@ struct InversionQuality {
 /// steps for other methods, at least 1; and of ten floors for rounding, at most 1e-3, a floor being
 /// the larger of what shorter steps did not take away (rounding_by_degree) and sqrt(1 + steps)
 /// times what half-ulp changes of the start change in the degree. Fixed steps promise nothing, and
-/// have a limit only where the scene sets one, for all degrees. In double precision, and up to 300
-/// steps, an estimate beyond its limit is made once more by independent runs in extended precision,
-/// so that it is no rounding of theirs that fails a run.
+/// have a limit only where the scene sets one, for all degrees.
 std::vector<SelfCheck> self_checks(const Scene& scene, const RunResult& run);
 
 }  // namespace hamjet
