@@ -143,6 +143,10 @@ TEST_F(RunFiles, SummaryHasTheDocumentedKeys) {
     for (int d = 0; d < 3; ++d) {
       EXPECT_EQ(run["error_by_degree"][d]["degree"], d);
       EXPECT_TRUE(run["error_by_degree"][d]["relative"].is_number());
+      EXPECT_EQ(run["error_estimate_by_degree"][d]["degree"], d);
+      // What the estimate of a single scene may miss; the true error is the reference's.
+      EXPECT_GE(100 * run["error_estimate_by_degree"][d]["relative"].get<double>(),
+                run["error_by_degree"][d]["relative"].get<double>());
     }
   }
   EXPECT_EQ(summary["runs"][1]["steps"], 100);  // a duration of 1 in steps of 0.01
@@ -181,6 +185,7 @@ TEST_F(RunFiles, WithoutAReferenceErrorsAndFloorsAreNull) {
   EXPECT_TRUE(summary["reference"].is_null());
   for (const Json& run : summary["runs"]) {
     EXPECT_TRUE(run["error_by_degree"].is_null());
+    EXPECT_EQ(run["error_estimate_by_degree"].size(), 3U);
     for (const Json& entry : run["exactness"]) {
       for (const Json& row : entry["by_degree"]) {
         EXPECT_TRUE(row["floor"].is_null());

@@ -62,6 +62,7 @@ void expect_same(const ComparedRun& a, const ComparedRun& b) {
   expect_same(a.memory_bytes, b.memory_bytes);
   expect_same(a.seconds, b.seconds);
   expect_same(a.error_by_degree, b.error_by_degree);
+  expect_same(a.error_estimate_by_degree, b.error_estimate_by_degree);
   expect_same(a.error_at_formation_m, b.error_at_formation_m);
   ASSERT_EQ(a.exactness.size(), b.exactness.size());
   for (std::size_t i = 0; i < a.exactness.size(); ++i) {
@@ -293,6 +294,13 @@ TEST(ComparisonCsv, SaysTheNumbersOfTheRuns) {
     expect_same(number("largest_error"), run.largest_error());
     expect_same(number("error_degree_0"), run.error_by_degree[0]);
     expect_same(number("error_degree_2"), run.error_by_degree[2]);
+    if (run.error_estimate_by_degree.empty()) {
+      EXPECT_EQ(row["largest_error_estimate"], "");
+      EXPECT_EQ(row["error_estimate_degree_1"], "");
+    } else {
+      expect_same(number("largest_error_estimate"), run.error_estimate_by_degree[1]);
+      expect_same(number("error_estimate_degree_2"), run.error_estimate_by_degree[2]);
+    }
     expect_same(number("symplecticity_scaled_degree_0"), run.symplecticity[0].scaled);
     expect_same(number("largest_symplecticity"), run.largest_symplecticity());
     expect_same(number("energy_error"), run.energy_error);

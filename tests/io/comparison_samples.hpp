@@ -24,6 +24,7 @@ inline ComparedRun sample_run(const std::string& series, const std::string& labe
   run.memory_bytes = 123456;
   run.seconds = {0.003, 0.0020000000000000001, 1.0 / 300};
   run.error_by_degree = {error, 2 * error, error / 3};
+  run.error_estimate_by_degree = {3 * error, 5 * error, error};
   run.error_at_formation_m = 1e6 * error;
   run.exactness = {{{0, 1e-15, 3e-16, 1e-9}, ExactnessResidual{0, 2e-15, 1e-15, std::nullopt}},
                    {{1, 5e-13, 7e-14, std::nullopt}, std::nullopt}};
@@ -72,6 +73,7 @@ inline ComparisonResult sample_comparison() {
   loose.corner = Corner::neither;
   loose.symplecticity[0].scaled = -0.0;
   loose.error_by_degree[2] = infinity;
+  loose.error_estimate_by_degree.clear();  // its independent run failed
   loose.exactness.clear();
   loose.exactness_failure = "singular, \"F1\" does not exist";
   result.runs.push_back(sample_run("cvode-bdf", "bdf-1e-2", 0));

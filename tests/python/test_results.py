@@ -53,6 +53,21 @@ def assert_same_run(a, b, energy_digits):
     assert np.allclose(a.nominal.energy_error, b.nominal.energy_error, rtol=energy_digits, atol=0)
 
 
+def test_the_error_estimate_is_that_of_the_summary(computed):
+    for run in computed.runs.values():
+        rows = run.summary["error_estimate_by_degree"]
+        assert [row["degree"] for row in rows] == [0, 1, 2]
+        assert run.error_estimate_by_degree.tolist() == [row["relative"] for row in rows]
+        # Gauss at 1e-13 and Fehlberg at 1e-12 over half a revolution: not worse than a local
+        # tolerance a step, and never without rounding.
+        assert (run.error_estimate_by_degree < 1e-9).all()
+        assert (run.error_estimate_by_degree > 0).all()
+        with pytest.raises(ValueError, match="read-only"):
+            run.error_estimate_by_degree[0] = 0
+    off = hamjet.run(SCENE, overrides=SHORT + ["checks.error-estimate=false"])
+    assert off.runs["gauss8"].error_estimate_by_degree is None
+
+
 def test_results_are_bit_by_bit_those_of_the_command(computed, stored):
     loaded = hamjet.load(stored)
     assert list(loaded.runs) == list(computed.runs) == ["gauss8", "fehlberg78"]
