@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "command_test.hpp"
 
 // Scenes with one mistake each, for the rows of the table at the head of bad_input_test.cpp that
@@ -115,6 +117,30 @@ TEST_F(BadScene, ZonalHarmonics) {
        {31, "1e-3\n", "10\n", {":6:6: system.J2: out of range, got 10", "from -1 to 1"}},
        {23, "1e-3\n", "-inf\n", {":6:6: system.J2: not finite, got -inf"}}},
       scene);
+}
+
+// A scene that can be right, but hardly is: each command warns of it, and the results keep it.
+TEST_F(BadScene, ALikelySlipIsSaidAndKept) {
+  write("slip.toml", changed(quick_scene(), "model = \"kepler\"",
+                             "model = \"zonal-gravity\"\nradius_km = 6378\nJ2 = -1.08e-3"));
+  const CommandResult run = hamjet({"run", "slip.toml", "-o", "slip", "-q"});
+  EXPECT_EQ(run.exit_code, 0);
+  const Json warnings = read_json(directory_ / "slip/summary.json")["warnings"];
+  ASSERT_EQ(warnings.size(), 1U);
+  const string warning = warnings[0];
+  EXPECT_EQ(warning.find("warning: slip.toml:6:6: system.J2: -0.00108 is that of"), 0U) << warning;
+  const string line = "hamjet: " + warning + "\n";
+  EXPECT_EQ(run.err, line);
+  const CommandResult check = hamjet({"check", "slip.toml"});
+  EXPECT_EQ(check.exit_code, 0);
+  EXPECT_EQ(check.err, line);
+  // Before the reason why there is no transfer in it.
+  const CommandResult transfer = hamjet({"transfer", "slip.toml"});
+  EXPECT_EQ(transfer.exit_code, 3);
+  EXPECT_EQ(transfer.err.find(line), 0U) << transfer.err;
+  // Of a scene without a slip there is no word.
+  succeed({"run", "quick.toml", "-o", "quick", "-q"});
+  EXPECT_EQ(read_json(directory_ / "quick/summary.json")["warnings"], Json::array());
 }
 
 TEST_F(BadScene, MoreIntegratorsThanCanBeHeld) {

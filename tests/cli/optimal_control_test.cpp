@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numbers>
 
@@ -131,6 +133,52 @@ TEST_F(OptimalControl, FailedCheckKeepsTheResults) {
   const Json summary = read_json(directory_ / "out/summary.json");
   EXPECT_EQ(summary["exit_code"], 1);
   EXPECT_EQ(summary["failed_checks"].size(), 1U);
+}
+
+// Two loops turn by 4 pi. The first conjugate time of a circle is when it has gone once around, the
+// second at its turn of 8.9868, twice the first positive root of tan(w) = w; they are known up to a
+// step. Once around, the end is conjugate itself; less than that is a least.
+TEST_F(OptimalControl, AnExtremalThatIsNoLeastIsSaidToBeNone) {
+  const auto second_order = [&](const std::string& scene, const std::string& guess, Json& summary) {
+    std::vector<std::string> arguments = {
+        "run",   std::string(HAMJET_SOURCE_DIR) + "/data/scenes/paper/" + scene,
+        "-o",    "out",
+        "--set", "optimal_control.refinements=null",
+        "--set", "optimal_control.require_cost_error=null"};
+    if (!guess.empty()) {
+      arguments.insert(arguments.end(), {"--set", "optimal_control.costate_guess=" + guess});
+    }
+    const std::string out = succeed(arguments).out;
+    summary = read_json(directory_ / "out/summary.json");
+    const std::size_t first = out.find("  second order ");
+    return out.substr(first, out.find('\n', first) - first);
+  };
+  Json two;
+  const std::string of_two = second_order("heisenberg-loop.toml", "[-3, 0, -6.3]", two);
+  const double step = two["duration"].get<double>() / two["steps"].get<double>();
+  const Json& times = two["conjugate_times_below"];
+  ASSERT_EQ(times.size(), 2U);
+  EXPECT_NEAR(times[0].get<double>(), 0.5, 1.01 * step);
+  EXPECT_NEAR(times[1].get<double>(), 8.9868 / (4 * std::numbers::pi), 1.01 * step);
+  EXPECT_EQ(two["local_least"], false);
+  EXPECT_NE(of_two.find(fmt::format("no local least: a conjugate time before t = {:.6g}, 2 in all; "
+                                    "another costate_guess may lead to a lesser cost",
+                                    times[0].get<double>())),
+            std::string::npos)
+      << of_two;
+  Json one;
+  const std::string of_one = second_order("heisenberg-loop.toml", "", one);
+  EXPECT_EQ(one["conjugate_times_below"], Json::array());
+  EXPECT_TRUE(one["local_least"].is_null());
+  EXPECT_NE(of_one.find("a least is not excluded, and not shown"), std::string::npos) << of_one;
+  EXPECT_NEAR(two["cost"].get<double>() / one["cost"].get<double>(),
+              std::tan(2 * std::numbers::pi / 64) / std::tan(std::numbers::pi / 64), 1e-12);
+  Json line;
+  const std::string of_line = second_order("heisenberg-line.toml", "", line);
+  EXPECT_EQ(line["conjugate_times_below"], Json::array());
+  EXPECT_EQ(line["local_least"], true);
+  EXPECT_NE(of_line.find("a local least: no conjugate time up to the end"), std::string::npos)
+      << of_line;
 }
 
 // From rest no direction of the costate lifts z to first order.

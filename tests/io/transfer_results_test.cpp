@@ -208,10 +208,39 @@ TEST(TransferSummary, HoldsTheBestPointCountsAndSeconds) {
   EXPECT_EQ(json["position_singular_times"][0]["direction_inertial"][2], -0.8);
   EXPECT_EQ(json["flight_floor_m"], 2e-6);
   EXPECT_EQ(json["largest_hamilton_jacobi_residual"], 1e-14 / 3);
+  EXPECT_EQ(json["hamilton_jacobi_floor"], 1e-15);
   EXPECT_EQ(json["seconds"]["study"], 0.9375);
   EXPECT_EQ(json["seconds"]["proof"], 3);
   EXPECT_EQ(json["validity"]["times"][0]["orders"][0]["predicted_m"], 2000.0 / 3);
   EXPECT_EQ(json["exit_code"], 0);
+}
+
+TEST(TransferSummary, SaysWhetherTheLeastIsAtAnEndOrBetweenTheListedTimes) {
+  TransferResult result = sample_transfer();
+  const auto summary = [&] {
+    Json json;
+    return summary_of(transfer_report(result, {}, {}, sample_transfer_origin()), json);
+  };
+  // The best is the last of the six, and nothing was searched between them.
+  EXPECT_EQ(summary()["is_first_or_last_time"], true);
+  EXPECT_TRUE(summary()["least_between_listed_times"].is_null());
+  EXPECT_EQ(summary()["times_between_listed"], 0);
+  result.points[1] = sample_point(2, 1);
+  result.least_between = sample_point(2.5, 0.5);
+  result.times_between = 17;
+  EXPECT_EQ(summary()["best"]["time_canonical"], 2);
+  EXPECT_EQ(summary()["is_first_or_last_time"], false);
+  EXPECT_EQ(summary()["times_between_listed"], 17);
+  const Json between = summary()["least_between_listed_times"];
+  EXPECT_EQ(between["time_canonical"], 2.5);
+  EXPECT_EQ(between["time_s"], 2.5 * 927.6);
+  EXPECT_EQ(between["total_change_m_s"], result.least_between->refined->total_change_m_s());
+  EXPECT_EQ(between["miss_m"], result.least_between->refined->miss_m);
+  result.points[0] = sample_point(1, 0.75);
+  EXPECT_EQ(summary()["is_first_or_last_time"], true);
+  // The only time there is has no ends about it.
+  result.points.resize(1);
+  EXPECT_EQ(summary()["is_first_or_last_time"], false);
 }
 
 TEST(TransferSummary, WithoutAnAnswerTheBestIsNullAndTheFailureIsNamed) {
@@ -221,6 +250,7 @@ TEST(TransferSummary, WithoutAnAnswerTheBestIsNullAndTheFailureIsNamed) {
   Json json;
   summary_of(report, json);
   EXPECT_TRUE(json["best"].is_null());
+  EXPECT_EQ(json["is_first_or_last_time"], false);
   EXPECT_TRUE(json["validity"].is_null());
   EXPECT_TRUE(json["largest_hamilton_jacobi_residual"].is_null());
   EXPECT_EQ(json["exit_code"], 4);
@@ -246,9 +276,29 @@ TEST(TransferTable, HoldsBestWorstAndSingularTimes) {
   const TransferResult result = sample_transfer();
   const std::string table = transfer_report(result, {}, {}, sample_transfer_origin()).table;
   EXPECT_NE(table.find(transfer_verdict(result)), std::string::npos) << table;
-  EXPECT_NE(table.find("F1 singular      at 2792.0760, 5843.8800 (double, or a pair closer than 7e-06 s) s"), std::string::npos) << table;
+  EXPECT_NE(
+      table.find(
+          "F1 singular      at 2792.0760, 5843.8800 (double, or a pair closer than 7e-06 s) s"),
+      std::string::npos)
+      << table;
   EXPECT_NE(table.find("5 answered, 1 near a singularity"), std::string::npos) << table;
   EXPECT_NE(table.find("greatest"), std::string::npos) << table;
+}
+
+TEST(TransferTable, TellsTheResidualFromWhatAnUlpMakesOfIt) {
+  TransferResult result = sample_transfer();
+  const std::string line =
+      "  Hamilton-Jacobi  residual 3.3e-15 at worst, at the transfers' own ends";
+  const auto table = [&] {
+    return transfer_report(result, {}, {}, sample_transfer_origin()).table;
+  };
+  EXPECT_NE(table().find(line + " (an ulp in the coefficients makes 1.0e-15)\n"), std::string::npos)
+      << table();
+  result.hamilton_jacobi_floor.reset();
+  EXPECT_NE(table().find(line + "\n"), std::string::npos) << table();
+  Json json;
+  summary_of(transfer_report(result, {}, {}, sample_transfer_origin()), json);
+  EXPECT_TRUE(json["hamilton_jacobi_floor"].is_null());
 }
 
 TEST(ValidityReport, HoldsTheNumbersOfTheResult) {
@@ -271,6 +321,36 @@ TEST(ValidityReport, HoldsTheNumbersOfTheResult) {
   EXPECT_EQ(validity["flights"], 1234);
   EXPECT_EQ(validity["seconds"]["proof"], 2.5);
   EXPECT_NE(report.table.find(">500 km"), std::string::npos) << report.table;
+}
+
+TEST(ValidityReport, NamesTheFrameInEveryFile) {
+  struct Names {
+    RelativeFrame frame;
+    std::string name;
+    std::string derivatives;  ///< empty: there are no axes that could turn
+  };
+  ValidityResult result = sample_validity();
+  for (const Names& names : {Names{RelativeFrame::rtn_rotating, "RTN", "rotating"},
+                             Names{RelativeFrame::rtn_inertial, "RTN", "inertial"},
+                             Names{RelativeFrame::inertial, "inertial", ""}}) {
+    const bool is_rtn = names.name == "RTN";
+    result.scene.validity->frame = names.frame;
+    const StudyReport report = validity_report(result, sample_transfer_origin());
+    const std::string kind = is_rtn ? " with " + names.derivatives + " derivatives" : "";
+    EXPECT_NE(report.table.find("\nframe " + names.name + kind + "\n"), std::string::npos)
+        << report.table;
+    Json json;
+    const Json& validity = summary_of(report, json)["validity"];
+    EXPECT_EQ(validity["frame"], names.name);
+    EXPECT_EQ(validity["derivatives"], is_rtn ? Json(names.derivatives) : Json(nullptr));
+    EXPECT_EQ(validity["axes"], is_rtn ? Json({"R", "T", "N"}) : Json({"x", "y", "z"}));
+    const Table table = parse(validity_csv(result));
+    ASSERT_EQ(table.rows.size(), 4U);
+    for (std::size_t row = 0; row < 4; ++row) {
+      EXPECT_EQ(table.at(row, "frame"), names.name);
+      EXPECT_EQ(table.at(row, "derivatives"), names.derivatives);
+    }
+  }
 }
 
 TEST(AssignmentReport, HoldsTheNumbersOfTheResult) {
