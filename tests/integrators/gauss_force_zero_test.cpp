@@ -50,8 +50,8 @@ double error_of_rotation(const FlowJet<double>& jet, double angle) {
   return error;
 }
 
-/// README: within about a factor of ten of tolerance times revolutions. Far below, the steps would
-/// be shorter than was asked for.
+/// Within about a factor of ten of tolerance times revolutions; tests/README.md says what is
+/// promised. Far below, the steps would be shorter than was asked for.
 void expect_near_tolerance(double error, double tolerance) {
   EXPECT_LE(error, 10 * tolerance * run_time / 6.28);
   EXPECT_GE(error, 1e-3 * tolerance);

@@ -193,7 +193,8 @@ TEST(GaussReference, PolarAndEquatorialOrbitsKeepExactZeros) {
 }
 
 TEST(GaussReference, KeplerJetHasItsClosedForm) {
-  // mu = 1, start (1, 0), velocity (0, 1 + d), t = 2 pi, through d^5 (README, "More numbers", 4).
+  // mu = 1, start (1, 0), velocity (0, 1 + d), t = 2 pi, through d^5: "More numbers", 4, of
+  // data/references/README.md.
   test::Flow<Extended> flow{kepler(), {1, 0, 0, 0, 1, 0}, 0, 5, {4}};
   const Extended pi = boost::math::constants::pi<Extended>();
   const Extended pi2 = pi * pi;

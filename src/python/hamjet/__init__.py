@@ -8,8 +8,8 @@
     f1 = jet.invert_partially("F1")                # a generating function
     transfers = hamjet.transfer("data/scenes/transfer-earth-orbit.toml")
 
-A scene is a TOML file, its text, or a dict; the README describes its keys. Systems are those that
-scenes can name: a Hamiltonian of your own needs the C++ library. Coefficients, exponents and
+A scene is a TOML file, its text, or a dict; data/scenes/README.md has its keys. Systems are those
+that scenes can name: a Hamiltonian of your own needs the C++ library. Coefficients, exponents and
 trajectories are NumPy arrays, read-only. Mistakes are raised as subclasses of `Error`, with the
 text that the command prints. Long work lets other threads run and ends within a second of Ctrl-C.
 """

@@ -173,7 +173,7 @@ def run(scene: scenes.Scene, *, overrides: scenes.Overrides | None = None,
     """Runs a scene, as ``hamjet run`` does, and writes no files.
 
     scene: a path, TOML text (a str with a line break), or the tables as a dict; keys and checks are
-    those of the command, see the README.
+    those of the command, see data/scenes/README.md.
     overrides: changes of keys as ``--set`` makes them: {"jet.order": 6, "reference": None}, where
     None removes the key, or strings such as "jet.order=6".
     threads: for the arcs of a scene with jet.arcs, 1 to 1024; the results do not depend on it.
