@@ -44,12 +44,14 @@ DirectionalFlow<Real>::DirectionalFlow(const FlowProblem<Real>& problem, std::si
   const std::span<const Real> state(problem.initial_state);
   const double scale = momentum_scale(*problem.system, state);
   const std::vector<double> gradient = energy_gradient(*problem.system, state);
+  const auto field = [&](std::size_t v) { return v < n ? gradient[n + v] : -gradient[v - n]; };
   std::mt19937_64 generator(1);
   for (std::size_t j = 0; j < count; ++j) {
     std::vector<Real>& direction = directions_.emplace_back();
     for (const std::size_t v : problem.variables) {
       double size = signed_size(generator);
-      if (j == 0 && gradient[v] != 0) size = std::copysign(size, gradient[v]);
+      const double sign = j == 0 ? gradient[v] : (j == 1 ? field(v) : 0);
+      if (sign != 0) size = std::copysign(size, sign);
       direction.emplace_back(v < n ? size : size * scale);
     }
   }

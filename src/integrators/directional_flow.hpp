@@ -17,6 +17,8 @@ namespace hamjet {
 /// momentum_scale, so that every monomial takes part, and random signs, the same in every run. The
 /// signs of the first are those of the gradient of H: neighbours of another energy drift away along
 /// the flow, so that on this line the series is about as large as the jet's largest coefficients.
+/// Those of the second are the signs of the vector field: neighbours ahead or behind meet the waves
+/// of the field at another phase, of which the jet's high degrees are made.
 template <class Real>
 class DirectionalFlow {
  public:

@@ -14,11 +14,14 @@ namespace {
 
 /// Of the tolerance and the number of periods, what the error of a degree may come to.
 constexpr double allowed_excess = 3;
-/// A trial aims this far below what is allowed, for the error is only about proportional.
+/// A trial aims this far below what is allowed, for the error falls only about as expected.
 constexpr double aim = 0.1;
 /// The least factor between the tolerances of two trials.
-constexpr double least_reduction = 1e-8;
-constexpr int most_trials = 4;
+constexpr double least_reduction = 1e-5;
+/// The largest factor after a trial whose steps were no shorter than those of the one before: then
+/// it is the waves of the field that limit them, not yet the tolerance.
+constexpr double next_reduction = 1e-3;
+constexpr int most_trials = 6;
 /// From this degree on the zonal harmonics are weak and short enough to hide from the step control.
 constexpr int least_short_waves = 5;
 
@@ -34,6 +37,7 @@ struct Trial {
   double tolerance = 0;
   std::vector<double> error_by_degree;
   double limit = 0;
+  long steps = 0;  ///< of the lines, all together
 
   double excess(std::size_t degree) const { return error_by_degree[degree] / limit; }
   double largest_excess() const {
@@ -58,26 +62,41 @@ Trial try_tolerance(const DirectionalFlow<Real>& flow, const GaussSettings& sett
   coarse.profile = nullptr;
   const GaussSettings fine = finer_gauss<Real>(settings, tolerance);
   IntegrationStatistics statistics;
+  long steps = 0;
   const auto with = [&](const GaussSettings& used) {
-    return flow.integrate(
-        [&](const FlowProblem<Real>& line) { return integrate_as_given(line, used, statistics); });
+    steps = 0;
+    return flow.integrate([&](const FlowProblem<Real>& line) {
+      FlowJet<Real> jet = integrate_as_given(line, used, statistics);
+      steps += statistics.steps;
+      return jet;
+    });
   };
+  Trial trial{tolerance, {}, 0, 0};
   const auto lines = with(coarse);
-  Trial trial{tolerance, flow.relative_difference(lines, with(fine)), 0};
+  trial.steps = steps;
+  trial.error_by_degree = flow.relative_difference(lines, with(fine));
   trial.limit = allowed_excess * *settings.tolerance * std::max(1.0, statistics.periods);
   return trial;
 }
 
-/// With errors proportional to the tolerance, the one at which truncation has fallen to what
-/// `last`, which fell less, shows to be rounding.
-double where_rounding_begins(const Trial& first, const Trial& last) {
+/// The power of the tolerance with which the largest error fell from one trial to the next: 1 where
+/// the step control measures what it limits, less for high degrees, which it does not see.
+double convergence(const Trial& before, const Trial& after) {
+  const double fall = std::log(before.largest_excess() / after.largest_excess());
+  const double power = fall / std::log(before.tolerance / after.tolerance);
+  return std::isfinite(power) ? std::clamp(power, 0.4, 1.0) : 1;
+}
+
+/// The tolerance at which truncation has fallen to what `last`, the errors of which shorter steps
+/// do not take away, shows to be rounding.
+double where_rounding_begins(const Trial& before, const Trial& last) {
   double ratio = 1;
-  for (std::size_t d = 0; d < first.error_by_degree.size(); ++d) {
-    if (first.excess(d) > 1) {
-      ratio = std::min(ratio, last.error_by_degree[d] / first.error_by_degree[d]);
+  for (std::size_t d = 0; d < before.error_by_degree.size(); ++d) {
+    if (before.excess(d) > 1) {
+      ratio = std::min(ratio, last.error_by_degree[d] / before.error_by_degree[d]);
     }
   }
-  return std::max(last.tolerance, ratio * first.tolerance);
+  return std::max(last.tolerance, ratio * before.tolerance);
 }
 
 }  // namespace
@@ -105,24 +124,28 @@ StepTolerance choose_step_tolerance(const FlowProblem<Real>& problem,
   }
   const double smallest = smallest_step_tolerance<Real>();
   const DirectionalFlow<Real> flow(problem, 2);
-  Trial first = try_tolerance(flow, settings, asked);
-  if (!(first.largest_excess() > 1)) return {asked, {}};
+  Trial before = try_tolerance(flow, settings, asked);
+  if (!(before.largest_excess() > 1)) return {asked, {}};
+  double power = 1;
+  double largest_reduction = 0.1;
   for (int i = 1; i < most_trials; ++i) {
-    const double wanted = std::isfinite(first.largest_excess())
-                              ? std::max(aim / first.largest_excess(), least_reduction)
-                              : least_reduction;
-    const double next = std::max(wanted * first.tolerance, smallest);
-    if (!(next < first.tolerance)) break;
+    const double excess = before.largest_excess();
+    const double wanted = std::isfinite(excess) ? std::pow(aim / excess, 1 / power) : 0;
+    const double next = std::max(
+        std::clamp(wanted, least_reduction, largest_reduction) * before.tolerance, smallest);
     Trial trial = try_tolerance(flow, settings, next);
     if (!(trial.largest_excess() > 1)) return {next, {}};
-    // Ten times as far from the law of proportion as truncation would be: rounding.
-    const double expected = first.largest_excess() * next / first.tolerance;
-    if (trial.largest_excess() > 10 * expected || next == smallest) {
-      return {where_rounding_begins(first, trial), trial.error_by_degree};
+    const bool is_shorter = trial.steps > before.steps;
+    // Steps that are shorter by so much would take away far more of a truncation error.
+    const bool is_rounding = is_shorter && trial.largest_excess() > 0.5 * excess;
+    if (is_rounding || next == smallest) {
+      return {where_rounding_begins(before, trial), trial.error_by_degree};
     }
-    first = std::move(trial);
+    power = is_shorter ? convergence(before, trial) : 1;
+    largest_reduction = is_shorter ? 0.1 : next_reduction;
+    before = std::move(trial);
   }
-  return {first.tolerance, first.error_by_degree};
+  return {before.tolerance, {}};
 }
 
 template StepTolerance choose_step_tolerance(const FlowProblem<double>&, const GaussSettings&);

@@ -25,8 +25,9 @@ struct StepTolerance {
 /// with them.
 ///
 /// The flow is integrated along two lines (DirectionalFlow) with the settings' steps and with finer
-/// ones of another order; their difference is the error of each degree, which is proportional to
-/// the local tolerance until it meets rounding. Source of the order: Hairer, Lubich and Wanner,
+/// ones of another order; their difference is the error of each degree, which falls with the local
+/// tolerance until it meets rounding: what steps that are shorter by at least a tenth of the
+/// tolerance do not halve. Source of the order: Hairer, Lubich and Wanner,
 /// Geometric Numerical Integration, section II.1; of the restriction to lines, see DirectionalFlow.
 ///
 /// Settings of fixed steps, and jets of order 0 in a field without short waves, need none: the

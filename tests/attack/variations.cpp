@@ -85,8 +85,9 @@ void compare(const Variation& variation, const DrawnScene& drawn, const Attacked
       add("tolerance of the variation", error, promised_error(variation.drawn, floor));
     }
     if (variation.kind == Kind::unsplit) {
-      // Below the tolerance the error of one piece is luck.
-      const double least = std::max(floor_of(drawn, floor), drawn.tolerance.value_or(0));
+      // Below the tolerance a revolution the error of one piece is luck.
+      const double promised = drawn.tolerance.value_or(0) * std::max(1.0, drawn.revolutions);
+      const double least = std::max(floor_of(drawn, floor), promised);
       add("arcs against one piece", line.errors.error[k] - errors.uncertainty[k],
           10 * std::max(errors.error[k], least));
     } else if (variation.kind == Kind::zeros) {
