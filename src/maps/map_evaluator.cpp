@@ -18,8 +18,8 @@ constexpr int native_width = Pack<double, 16>::width;
 /// Vectors to a block of points: each coefficient is loaded once for all of them. With AVX-512
 /// there are 32 registers for the sums (6 x 3) and operands, else 16 (6 x 2).
 constexpr int vectors = native_width == 8 ? 3 : 2;
-constexpr int block_size = vectors * native_width;
-using Block = Pack<double, block_size>;
+constexpr int block_points = vectors * native_width;
+using Block = Pack<double, block_points>;
 
 /// Number of monomials of exactly this degree in `variables` variables.
 std::size_t monomials_of_degree(std::size_t variables, int degree) {
@@ -135,7 +135,7 @@ constexpr std::array<Kernel, group_size> kernels =
 
 Block load(const double* from, std::size_t count) {
   Block result;
-  if (count == block_size) {
+  if (count == block_points) {
     for (std::size_t v = 0; v < vectors; ++v) {
       result.part[v].copy_from(from + v * native_width, std::experimental::element_aligned);
     }
@@ -147,7 +147,7 @@ Block load(const double* from, std::size_t count) {
 }
 
 void store(const Block& block, double* to, std::size_t count) {
-  if (count == block_size) {
+  if (count == block_points) {
     for (std::size_t v = 0; v < vectors; ++v) {
       block.part[v].copy_to(to + v * native_width, std::experimental::element_aligned);
     }
@@ -201,8 +201,8 @@ void MapEvaluator::evaluate(std::span<const double> points, const MapValues& res
   const auto share = [&](std::size_t d, std::size_t c) -> const Block& {
     return shares[d * group_size + c];
   };
-  for (std::size_t j = 0; j < count; j += block_size) {
-    const std::size_t here = std::min<std::size_t>(block_size, count - j);
+  for (std::size_t j = 0; j < count; j += block_points) {
+    const std::size_t here = std::min<std::size_t>(block_points, count - j);
     for (std::size_t i = 0; i < variables_; ++i) x[i] = load(&points[i * count + j], here);
     for (std::size_t first = 0; first < components_; first += group_size) {
       const std::size_t group = group_at(first, components_);
