@@ -198,8 +198,8 @@ class Reader {
     if (std::find(wanted_.begin(), wanted_.end(), *degree) == wanted_.end()) return;
     if (is_variable) {
       fail(
-          fmt::format("{}: C({},0) varies with time, and a scene's field is constant: leave J{} "
-                      "out, or take a static model",
+          fmt::format("{}: C({},0) varies with time, and a scene's field is constant: give J{} in "
+                      "the scene with its value at your epoch, or take a static model",
                       key, *degree, *degree));
     }
     const auto [first, is_new] = line_of_.emplace(*degree, line_);

@@ -27,7 +27,7 @@ bool is_reserved(std::string_view label) {
                                                "singular_times.csv", "conditions.csv",
                                                "validity.csv",       "assignment.csv",
                                                "costs.csv",          "stability.csv",
-                                               "stability.html"};
+                                               "stability.html",     "jets.h5"};
   return std::find(std::begin(names), std::end(names), label) != std::end(names);
 }
 

@@ -165,12 +165,15 @@ RelativeFrame read_relative_frame_or_rtn(const TableReader& table) {
 RelativeState read_relative_state(const TableReader& table, const Nominal& nominal) {
   const CanonicalUnits units = canonical_units(nominal.scale);
   const double length_m = units.length_km * 1000;
+  const double distance = Eigen::Vector3d(nominal.state.data()).norm();
+  const double circular_speed = 1 / std::sqrt(distance);  // canonical, as mu = 1
   RelativeState state;
   state.position_m =
-      read_vector(table, "position_m", length_m, "the chief's distance from the centre");
+      read_vector(table, "position_m", distance * length_m, "the chief's distance from the centre");
   if (table.has("velocity_m_s")) {
-    state.velocity_m_s = read_vector(table, "velocity_m_s", length_m / units.time_s,
-                                     "the speed of a circular orbit through the chief");
+    state.velocity_m_s =
+        read_vector(table, "velocity_m_s", circular_speed * length_m / units.time_s,
+                    "the speed of a circular orbit through the chief");
   }
   return state;
 }

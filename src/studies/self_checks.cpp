@@ -315,13 +315,12 @@ void check_error_estimate(SelfCheck& check, const Scene& scene, const RunResult&
     check.state = SelfCheckState::passed;
     check.text += "; fixed steps promise none";
   } else if (!judge(check, estimate[worst], limits[worst])) {
+    const bool is_rounding = worst < run.statistics.rounding_by_degree.size();
     check.text +=
-        estimate[worst] > largest_rounding && worst < run.statistics.rounding_by_degree.size()
-            ? ": rounding leaves it fewer than three digits; precision = \"extended\" or a lower "
-              "order is needed"
-            : ", more than the tolerance lets expect: a smaller one is needed, other steps, or, "
-              "where "
-              "rounding is the reason, precision = \"extended\"";
+        is_rounding ? ": shorter steps leave it what rounding makes; precision = \"extended\" or a "
+                      "lower order is needed"
+                    : ", more than the tolerance lets expect; a smaller one, or other steps, are "
+                      "needed";
   }
 }
 

@@ -220,6 +220,18 @@ TEST(SceneTransfer, Errors) {
   expect_scene_error(still + changed(transfer, times, "count = 3"), {"count: no time to divide"});
 }
 
+TEST(SceneTransfer, HowFarADeputyMayBeDoesNotDependOnTheUnitOfLength) {
+  for (const char* length_km : {"1e-6", "0.003", "2", "1e8"}) {
+    const std::string orbit = std::string(circle) + "[units]\nlength_km = " + length_km + "\n";
+    const std::string far = changed(transfer, "[1, 2, 3]", "[3998, 0, 0]");
+    EXPECT_NO_THROW(parse_scene(orbit + far, "file.toml")) << length_km;
+    expect_scene_error(orbit + changed(transfer, "[1, 2, 3]", "[4002, 0, 0]"),
+                       {"position_m: too large", "below 4000"});
+    expect_scene_error(orbit + changed(transfer, "[0.5, 0, -1]", "[0, 502, 0]"),
+                       {"velocity_m_s: too large", "below 500"});
+  }
+}
+
 TEST(SceneTransfer, NeedsAPeriodForOrbitsOnly) {
   const std::string open = changed(circle, "[0, 0.5, 0]", "[0, 0.8, 0]");
   EXPECT_NEAR(parse_scene(open + transfer, "x").transfer->singular_margin,
