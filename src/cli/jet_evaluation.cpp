@@ -4,8 +4,6 @@
 #include <chrono>
 #include <cmath>
 
-#include "hamjet/maps/evaluation_error.hpp"
-
 namespace hamjet::cli {
 namespace {
 
@@ -28,7 +26,7 @@ JetEvaluation::JetEvaluation(const io::StoredJet& stored, std::optional<int> deg
 JetEvaluation::JetEvaluation(const io::StoredJet& stored, const std::vector<Series<double>>& map,
                              int degree)
     : evaluator_(map, degree),
-      error_(evaluation_error(map, degree, stored.error_by_degree), degree),
+      error_(io::evaluation_error(stored, map, degree), degree),
       positions_(static_cast<std::size_t>(std::lower_bound(stored.components.begin(),
                                                            stored.components.end(),
                                                            stored.nominal_initial.size() / 2) -

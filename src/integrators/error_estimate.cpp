@@ -12,6 +12,7 @@
 #include "hamjet/error.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
 #include "line_restriction.hpp"
+#include "momentum_unit.hpp"
 
 namespace hamjet {
 namespace {
@@ -111,13 +112,18 @@ FlowJet<Real> run_along(const FlowProblem<Real>& problem, const std::vector<Real
   gauss.tolerance = settings.tolerance.value_or(4 * rounding<Real>());
   gauss.controls_all_degrees = true;
   const SpacePointer line = SeriesSpace::create(1, problem.space->order());
-  const FlowJet<Real> start = restrict_to_line(starting_jet(problem), direction, line);
+  const std::size_t n = problem.system->degrees_of_freedom;
+  std::vector<Real> entries = direction;
+  for (std::size_t v = 0; v < entries.size(); ++v) {
+    if (problem.variables[v] >= n) entries[v] *= Real(std::ldexp(1.0, settings.momentum_exponent));
+  }
+  const FlowJet<Real> start = restrict_to_line(starting_jet(problem), entries, line);
   const FlowProblem<Real> along{problem.system,   line,  {0}, problem.initial_state,
                                 problem.duration, &start};
   IntegrationStatistics statistics;
   long steps = 0;
-  return integrate_gauss<Real>(
-      along, gauss, statistics, [&](const Real& time, const FlowJet<Real>&) {
+  FlowJet<Real> end =
+      integrate_gauss<Real>(along, gauss, statistics, [&](const Real& time, const FlowJet<Real>&) {
         if (++steps > settings.most_steps) {
           throw Error(ErrorKind::too_large,
                       fmt::format("error estimate: the independent run would take more than {} "
@@ -129,19 +135,23 @@ FlowJet<Real> run_along(const FlowProblem<Real>& problem, const std::vector<Real
         settings.progress((static_cast<double>(number) + done) /
                           static_cast<double>(stages.size()));
       });
+  constexpr std::size_t position[] = {0};  // the line's variable has no unit of momentum
+  return in_momentum_unit(std::move(end), position, settings.momentum_exponent);
 }
 
 }  // namespace
 
 template <class Real>
-std::vector<double> estimate_error(const FlowProblem<Real>& problem, const FlowJet<Real>& jet,
+std::vector<double> estimate_error(const FlowProblem<Real>& problem, const FlowJet<Real>& delivered,
                                    const ErrorEstimateSettings& settings) {
   validate(problem);
-  validate_jet(problem, jet);
+  validate_jet(problem, delivered);
   const auto degrees = static_cast<std::size_t>(problem.space->order()) + 1;
   std::vector<double> result(degrees, 0);
   if (problem.duration == 0) return result;
   const SpacePointer line = SeriesSpace::create(1, problem.space->order());
+  const FlowJet<Real> jet =
+      in_momentum_unit(delivered, problem.variables, settings.momentum_exponent);
   const std::vector<double> largest = largest_by_degree(jet);
   const auto directions = choose_directions(jet, line, largest);
   std::vector<FlowJet<Real>> runs;

@@ -8,8 +8,10 @@
 
 #include "hamjet/error.hpp"
 #include "hamjet/io/result_set.hpp"
+#include "hamjet/maps/evaluation_error.hpp"
 #include "hamjet/version.hpp"
 #include "json_reader.hpp"
+#include "momentum_unit.hpp"
 #include "scene_message.hpp"
 #include "stored_jet_source.hpp"
 #include "text_file.hpp"
@@ -186,6 +188,16 @@ StoredJet read_stored_jet(const std::filesystem::path& directory,
     }
   }
   return stored;
+}
+
+std::vector<Series<double>> evaluation_error(const StoredJet& stored,
+                                             const std::vector<Series<double>>& map, int degree) {
+  const auto kinds =
+      kinds_of_variables(stored.variables, stored.nominal_initial.size(), map.size());
+  const int exponent = natural_momentum_exponent(is_orbit(stored.model), stored.nominal_initial);
+  const std::vector<Series<double>> comparable = in_momentum_unit(map, kinds, exponent);
+  return in_momentum_unit(hamjet::evaluation_error(comparable, degree, stored.error_by_degree),
+                          kinds, -exponent);
 }
 
 }  // namespace hamjet::io

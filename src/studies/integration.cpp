@@ -141,13 +141,13 @@ FlowJet<Real> integrate_split(const FlowProblem<Real>& flow, const IntegratorSet
 
 template <class Real>
 JetErrorEstimate estimate_jet_error(const FlowProblem<Real>& flow, const FlowJet<Real>& jet,
-                                    const IntegratorSettings& /*settings*/,
-                                    const IntegrationStatistics& statistics,
+                                    int momentum_exponent, const IntegrationStatistics& statistics,
                                     const std::function<void(double)>& progress) {
   JetErrorEstimate result;
   const Stopwatch stopwatch(result.seconds);
   ErrorEstimateSettings estimate;
   estimate.most_steps = std::max(estimate.most_steps, 4 * statistics.steps);
+  estimate.momentum_exponent = momentum_exponent;
   estimate.progress = progress;
   try {
     result.by_degree = estimate_error<Real>(flow, jet, estimate);
@@ -176,12 +176,10 @@ template FlowJet<double> integrate(const FlowProblem<double>&, const IntegratorS
 template FlowJet<Extended> integrate(const FlowProblem<Extended>&, const IntegratorSettings&,
                                      IntegrationStatistics&, const StepObserver<Extended>&, bool);
 template JetErrorEstimate estimate_jet_error(const FlowProblem<double>&, const FlowJet<double>&,
-                                             const IntegratorSettings&,
-                                             const IntegrationStatistics&,
+                                             int, const IntegrationStatistics&,
                                              const std::function<void(double)>&);
 template JetErrorEstimate estimate_jet_error(const FlowProblem<Extended>&, const FlowJet<Extended>&,
-                                             const IntegratorSettings&,
-                                             const IntegrationStatistics&,
+                                             int, const IntegrationStatistics&,
                                              const std::function<void(double)>&);
 template FlowJet<double> integrate_split(const FlowProblem<double>&, const IntegratorSettings&,
                                          const ArcSettings&, IntegrationStatistics&, ArcStatistics&,

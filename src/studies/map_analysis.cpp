@@ -6,6 +6,7 @@
 #include "formation_scale.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/maps/inversion_miss.hpp"
+#include "momentum_unit.hpp"
 #include "stopwatch.hpp"
 
 namespace hamjet {
@@ -114,7 +115,10 @@ KindResult MapAnalysis::invert(RunResult& run, const std::string& requested) {
 
 void MapAnalysis::analyse(RunResult& run) {
   if (reference_) {
-    run.error_by_degree = relative_error_by_degree(run.jet, reference_->jet);
+    const int exponent = natural_momentum_exponent(is_orbit(scene_.system.model), scene_.nominal);
+    run.error_by_degree =
+        relative_error_by_degree(in_momentum_unit(run.jet, problem_.variables, exponent),
+                                 in_momentum_unit(reference_->jet, problem_.variables, exponent));
     run.position_error_m =
         position_distance(run.jet, reference_->jet, problem_.degrees_of_freedom.size()) *
         scene_.units.length_km * 1000;

@@ -9,6 +9,7 @@
 #include "hamjet/integrators/error_estimate.hpp"
 #include "hamjet/studies/propagation.hpp"
 #include "largest_coefficient.hpp"
+#include "momentum_unit.hpp"
 #include "number_scan.hpp"
 #include "phase_space_scale.hpp"
 #include "stopwatch.hpp"
@@ -149,6 +150,13 @@ double frequency_growth(const Scene& scene, const RunResult& run) {
   return last > 0 && std::isfinite(largest) ? std::max(1.0, largest / last) : 1;
 }
 
+/// The run's jet, whose coefficients are comparable whatever the unit of length.
+FlowJet<Extended> comparable_jet(const Scene& scene, const RunResult& run) {
+  const std::size_t dimension = scene.nominal.size();
+  return in_momentum_unit(run.jet, kinds_of_variables(scene.variables, dimension, run.jet.size()),
+                          natural_momentum_exponent(is_orbit(scene.system.model), scene.nominal));
+}
+
 void check_symplecticity(SelfCheck& check, const Scene& scene, const RunResult& run) {
   switch (run.settings.method) {
     case IntegrationMethod::gauss:
@@ -166,7 +174,7 @@ void check_symplecticity(SelfCheck& check, const Scene& scene, const RunResult& 
   const double steps = static_cast<double>(run.statistics.steps);
   const double linear_limit =
       1000 * rounding_of(scene.precision) *
-      std::sqrt((1 + steps) * std::max(1.0, largest_coefficient(run.jet, 1)));
+      std::sqrt((1 + steps) * std::max(1.0, largest_coefficient(comparable_jet(scene, run), 1)));
   const double growth = frequency_growth(scene, run);
   const SymplecticityDefect* worst = nullptr;
   double worst_limit = 0;
@@ -262,12 +270,17 @@ double tolerance_count(const RunResult& run) {
 /// the largest: those of degree d by the derivatives of the flow of one degree more. The last
 /// degree is taken to grow as the one before.
 std::vector<double> half_ulp_changes(const Scene& scene, const RunResult& run) {
+  const int exponent = natural_momentum_exponent(is_orbit(scene.system.model), scene.nominal);
+  const FlowJet<Extended> jet = comparable_jet(scene, run);
   double size = 0;
-  for (const double x : scene.nominal) size = std::max(size, std::abs(x));
+  for (std::size_t i = 0; i < scene.nominal.size(); ++i) {
+    const int momentum = i < scene.nominal.size() / 2 ? 0 : exponent;
+    size = std::max(size, std::ldexp(std::abs(scene.nominal[i]), -momentum));
+  }
   std::vector<double> changes;
   for (int d = 0; d < scene.order; ++d) {
-    const double at = d == 0 ? size : largest_coefficient(run.jet, d);
-    const double above = largest_coefficient(run.jet, d + 1);
+    const double at = d == 0 ? size : largest_coefficient(jet, d);
+    const double above = largest_coefficient(jet, d + 1);
     changes.push_back(
         at > 0 ? 0.5 * rounding_of(scene.precision) * (1 + (d + 1) * above * size / at) : 0);
   }

@@ -17,6 +17,8 @@ struct ErrorEstimateSettings {
   std::optional<double> tolerance = {};
   /// Of one independent run; one that would need more is given up.
   long most_steps = 5000;
+  /// Momenta are compared with positions, and directions drawn, in units of two to this power.
+  int momentum_exponent = 0;
   /// Called after steps of the independent runs with the fraction that is done. May throw to stop.
   std::function<void(double)> progress = {};
 };

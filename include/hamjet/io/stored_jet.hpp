@@ -54,6 +54,12 @@ struct StoredJet {
 StoredJet read_stored_jet(const std::filesystem::path& directory,
                           const std::optional<std::string>& label = {});
 
+/// What evaluating a stored jet in double precision loses up to a degree, see
+/// hamjet::evaluation_error; its largest coefficients are those that are the largest whatever the
+/// unit of length. `map` is the jet in double precision without its constant terms.
+std::vector<Series<double>> evaluation_error(const StoredJet& stored,
+                                             const std::vector<Series<double>>& map, int degree);
+
 /// The bytes of a file; throws Error(input_output) if it cannot be read.
 using FileReader = std::function<std::string(const std::filesystem::path& file)>;
 

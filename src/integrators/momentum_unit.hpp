@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "hamjet/integrators/flow_problem.hpp"
+
+namespace hamjet {
+
+/// The binary exponent of the unit in which momenta are compared with positions in the canonical
+/// unit of length: for an orbit, whose mu is 1, the speed of a circle through the start over its
+/// radius, r^(-3/2), rounded to a power of two; 0 in the default unit of length, the chief's
+/// distance, and for systems whose units are fixed.
+inline int natural_momentum_exponent(bool is_orbit, std::span<const double> start) {
+  if (!is_orbit) return 0;
+  double distance = 0;
+  for (std::size_t i = 0; i < start.size() / 2; ++i) distance = std::hypot(distance, start[i]);
+  return static_cast<int>(std::lround(-1.5 * std::log2(distance)));
+}
+
+/// The variables of a jet of which some degrees of freedom were left out, for in_momentum_unit: an
+/// index among its own components that has the kind, position or momentum, of the variable in the
+/// model, whose state has `dimension` numbers.
+inline std::vector<std::size_t> kinds_of_variables(std::span<const std::size_t> variables,
+                                                   std::size_t dimension, std::size_t components) {
+  std::vector<std::size_t> result;
+  for (const std::size_t v : variables) result.push_back(v < dimension / 2 ? 0 : components / 2);
+  return result;
+}
+
+/// A jet with its momenta, as components and as variables, in units of 2^exponent, so that nothing
+/// is rounded. Coefficients of one degree are compared with each other, and those of positions and
+/// momenta have different units: which of them is the largest would depend on the unit of length.
+/// `variables` has the index in z = (q, p) of each variable. A negative exponent undoes a positive.
+template <class Real>
+FlowJet<Real> in_momentum_unit(FlowJet<Real> jet, std::span<const std::size_t> variables,
+                               int exponent) {
+  if (exponent == 0) return jet;
+  const std::size_t n = jet.size() / 2;
+  const SeriesSpace& space = jet[0].space();
+  for (std::size_t k = 0; k < space.size(); ++k) {
+    int momenta = 0;
+    for (std::size_t v = 0; v < variables.size(); ++v) {
+      if (variables[v] >= n) momenta += space.exponents(k)[v];
+    }
+    for (std::size_t c = 0; c < jet.size(); ++c) {
+      jet[c][k] *= Real(std::ldexp(1.0, exponent * (momenta - (c < n ? 0 : 1))));
+    }
+  }
+  return jet;
+}
+
+}  // namespace hamjet
