@@ -22,6 +22,9 @@ constexpr double least_reduction = 1e-5;
 /// it is the waves of the field that limit them, not yet the tolerance.
 constexpr double next_reduction = 1e-3;
 constexpr int most_trials = 6;
+/// Lines of more steps are tried twice only: each trial is a good part of the whole work then, and
+/// what is left after so long is rounding.
+constexpr long most_steps_of_more_trials = 20000;
 /// From this degree on the zonal harmonics are weak and short enough to hide from the step control.
 constexpr int least_short_waves = 5;
 
@@ -138,7 +141,8 @@ StepTolerance choose_step_tolerance(const FlowProblem<Real>& problem,
     const bool is_shorter = trial.steps > before.steps;
     // Steps that are shorter by so much would take away far more of a truncation error.
     const bool is_rounding = is_shorter && trial.largest_excess() > 0.5 * excess;
-    if (is_rounding || next == smallest) {
+    const bool is_long = before.steps > most_steps_of_more_trials;
+    if (is_rounding || is_long || next == smallest) {
       return {where_rounding_begins(before, trial), trial.error_by_degree};
     }
     power = is_shorter ? convergence(before, trial) : 1;
