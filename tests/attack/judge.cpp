@@ -116,13 +116,14 @@ class Judge {
     }
   }
 
-  /// hamjet's estimate is relative to the largest coefficient in canonical units. With the default
-  /// unit position and momentum are of size 1 and directions do not differ.
+  /// hamjet's estimate is relative to the largest coefficient, of an orbit in the chief's own
+  /// units, in which position and momentum are of size 1 as the directions are; of other systems in
+  /// theirs.
   void judge_estimate(const AttackedRun& attacked, const Model& model,
                       std::vector<JudgedLine> lines) {
     const auto& estimate = attacked.run().error_estimate.by_degree;
     if (!estimate) return;
-    if (drawn_.length_km || !drawn_.is_orbit) {
+    if (!drawn_.is_orbit) {
       for (JudgedLine& line : lines) {
         const auto other = judged_line(attacked, model, &line == &lines[0], true);
         if (!other) return;
