@@ -24,7 +24,7 @@ constexpr double next_reduction = 1e-3;
 constexpr int most_trials = 6;
 /// Lines of more steps are tried twice only: each trial is a good part of the whole work then, and
 /// what is left after so long is rounding.
-constexpr long most_steps_of_more_trials = 20000;
+constexpr long most_steps_of_more_trials = 10000;
 /// From this degree on the zonal harmonics are weak and short enough to hide from the step control.
 constexpr int least_short_waves = 5;
 
@@ -40,7 +40,7 @@ struct Trial {
   double tolerance = 0;
   std::vector<double> error_by_degree;
   double limit = 0;
-  long steps = 0;  ///< of the lines, all together
+  long steps = 0;  ///< of each line: the nominal chooses them, and both have one
 
   double excess(std::size_t degree) const { return error_by_degree[degree] / limit; }
   double largest_excess() const {
@@ -65,18 +65,13 @@ Trial try_tolerance(const DirectionalFlow<Real>& flow, const GaussSettings& sett
   coarse.profile = nullptr;
   const GaussSettings fine = finer_gauss<Real>(settings, tolerance);
   IntegrationStatistics statistics;
-  long steps = 0;
   const auto with = [&](const GaussSettings& used) {
-    steps = 0;
-    return flow.integrate([&](const FlowProblem<Real>& line) {
-      FlowJet<Real> jet = integrate_as_given(line, used, statistics);
-      steps += statistics.steps;
-      return jet;
-    });
+    return flow.integrate(
+        [&](const FlowProblem<Real>& line) { return integrate_as_given(line, used, statistics); });
   };
   Trial trial{tolerance, {}, 0, 0};
   const auto lines = with(coarse);
-  trial.steps = steps;
+  trial.steps = statistics.steps;
   trial.error_by_degree = flow.relative_difference(lines, with(fine));
   trial.limit = allowed_excess * *settings.tolerance * std::max(1.0, statistics.periods);
   return trial;

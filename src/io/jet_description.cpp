@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "hamjet/studies/propagation.hpp"
 #include "hamjet/version.hpp"
 
 namespace hamjet::io {

@@ -4,12 +4,8 @@
 #include <vector>
 
 #include "hamjet/io/stored_jet.hpp"
-#include "hamjet/studies/propagation.hpp"
 
 namespace hamjet::io {
-
-/// All that is stored of a run's jet but the coefficients.
-StoredJet describe_jet(const PropagationResult& result, const RunResult& run);
 
 /// The coordinates of a model, in words.
 std::string frame_of(SystemModel model);

@@ -155,20 +155,7 @@ std::vector<SymplecticityDefect> Jet::symplecticity() const {
 }
 
 Jet jet_of(const PropagationResult& result, const RunResult& run) {
-  io::StoredJet stored;
-  stored.scene = result.scene.name;
-  stored.label = run.settings.label;
-  stored.model = result.scene.system.model;
-  stored.precision = result.scene.precision;
-  stored.units = result.scene.units;
-  stored.duration = result.scene.duration;
-  stored.nominal_initial = result.scene.nominal;
-  stored.nominal_final = run.nominal_final;
-  stored.components = result.problem.components;
-  stored.variables = result.scene.variables;
-  stored.ephemeris = result.scene.ephemeris;
-  stored.error_by_degree =
-      run.error_by_degree.value_or(run.error_estimate.by_degree.value_or(std::vector<double>()));
+  io::StoredJet stored = io::describe_jet(result, run);
   stored.jet = run.jet;
   return Jet(std::move(stored));
 }

@@ -8,7 +8,6 @@
 #include "hamjet/dynamics/operation_count.hpp"
 #include "hamjet/error.hpp"
 #include "integration.hpp"
-#include "momentum_unit.hpp"
 #include "nominal_recorder.hpp"
 #include "reference.hpp"
 
@@ -67,10 +66,9 @@ ComparedRun ComparedOrder::judge(const Candidate& candidate, const std::string& 
           const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
           keep_going(passed.count());
         });
-    const auto estimate = estimate_jet_error<double>(
-        flow_problem<double>(problem_, scene_.duration), jet,
-        natural_momentum_exponent(is_orbit(scene_.system.model), scene_.nominal), run.statistics,
-        [&](double) { keep_going(0); });
+    const auto estimate =
+        estimate_jet_error<double>(scene_, flow_problem<double>(problem_, scene_.duration), jet,
+                                   run.statistics, [&](double) { keep_going(0); });
     run.error_estimate_by_degree = estimate.by_degree.value_or(std::vector<double>());
     RunResult result;
     result.jet = convert_map<Extended>(jet);

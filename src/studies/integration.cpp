@@ -16,6 +16,7 @@
 #include "hamjet/integrators/stormer_verlet.hpp"
 #include "hamjet/integrators/symmetric_composition.hpp"
 #include "hamjet/studies/arcs.hpp"
+#include "momentum_unit.hpp"
 #include "stability_limit.hpp"
 #include "stopwatch.hpp"
 
@@ -140,14 +141,16 @@ FlowJet<Real> integrate_split(const FlowProblem<Real>& flow, const IntegratorSet
 }
 
 template <class Real>
-JetErrorEstimate estimate_jet_error(const FlowProblem<Real>& flow, const FlowJet<Real>& jet,
-                                    int momentum_exponent, const IntegrationStatistics& statistics,
+JetErrorEstimate estimate_jet_error(const Scene& scene, const FlowProblem<Real>& flow,
+                                    const FlowJet<Real>& jet,
+                                    const IntegrationStatistics& statistics,
                                     const std::function<void(double)>& progress) {
   JetErrorEstimate result;
   const Stopwatch stopwatch(result.seconds);
   ErrorEstimateSettings estimate;
   estimate.most_steps = std::max(estimate.most_steps, 4 * statistics.steps);
-  estimate.momentum_exponent = momentum_exponent;
+  estimate.momentum_exponent =
+      natural_momentum_exponent(is_orbit(scene.system.model), scene.nominal);
   estimate.progress = progress;
   try {
     result.by_degree = estimate_error<Real>(flow, jet, estimate);
@@ -175,11 +178,11 @@ template FlowJet<double> integrate(const FlowProblem<double>&, const IntegratorS
                                    IntegrationStatistics&, const StepObserver<double>&, bool);
 template FlowJet<Extended> integrate(const FlowProblem<Extended>&, const IntegratorSettings&,
                                      IntegrationStatistics&, const StepObserver<Extended>&, bool);
-template JetErrorEstimate estimate_jet_error(const FlowProblem<double>&, const FlowJet<double>&,
-                                             int, const IntegrationStatistics&,
+template JetErrorEstimate estimate_jet_error(const Scene&, const FlowProblem<double>&,
+                                             const FlowJet<double>&, const IntegrationStatistics&,
                                              const std::function<void(double)>&);
-template JetErrorEstimate estimate_jet_error(const FlowProblem<Extended>&, const FlowJet<Extended>&,
-                                             int, const IntegrationStatistics&,
+template JetErrorEstimate estimate_jet_error(const Scene&, const FlowProblem<Extended>&,
+                                             const FlowJet<Extended>&, const IntegrationStatistics&,
                                              const std::function<void(double)>&);
 template FlowJet<double> integrate_split(const FlowProblem<double>&, const IntegratorSettings&,
                                          const ArcSettings&, IntegrationStatistics&, ArcStatistics&,

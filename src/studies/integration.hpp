@@ -28,11 +28,11 @@ FlowJet<Real> integrate_split(const FlowProblem<Real>& flow, const IntegratorSet
 
 /// Estimates the error of what an integration has delivered; a failure of the independent runs is
 /// recorded. They may take four times the steps of the integration, or as many as
-/// ErrorEstimateSettings allows. `momentum_exponent` see there. `progress` is called after their
-/// steps with the fraction done.
+/// ErrorEstimateSettings allows. `progress` is called after their steps with the fraction done.
 template <class Real>
-JetErrorEstimate estimate_jet_error(const FlowProblem<Real>& flow, const FlowJet<Real>& jet,
-                                    int momentum_exponent, const IntegrationStatistics& statistics,
+JetErrorEstimate estimate_jet_error(const Scene& scene, const FlowProblem<Real>& flow,
+                                    const FlowJet<Real>& jet,
+                                    const IntegrationStatistics& statistics,
                                     const std::function<void(double)>& progress);
 
 /// Bytes that the series of one integration take, `coefficients` numbers of `real_bytes` a series.

@@ -12,7 +12,6 @@
 #include "hamjet/studies/arcs.hpp"
 #include "integration.hpp"
 #include "map_analysis.hpp"
-#include "momentum_unit.hpp"
 #include "nominal_recorder.hpp"
 #include "reference.hpp"
 
@@ -66,9 +65,7 @@ void run_integrator(const Scene& scene, const ComputedProblem& problem, std::siz
                 },
                 records_step_error);
   if (scene.checks[SelfCheckName::error_estimate].is_on) {
-    run.error_estimate = estimate_jet_error<Real>(
-        flow, jet, natural_momentum_exponent(is_orbit(scene.system.model), scene.nominal),
-        run.statistics, progress);
+    run.error_estimate = estimate_jet_error<Real>(scene, flow, jet, run.statistics, progress);
   }
   run.jet = convert_map<Extended>(jet);
   run.nominal_final = full_state(run.jet, problem, scene.nominal.size());

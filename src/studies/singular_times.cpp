@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/SVD>
 #include <algorithm>
@@ -11,53 +10,14 @@
 #include <iterator>
 #include <limits>
 #include <numbers>
-#include <numeric>
 #include <span>
 
-#include "exact_flow.hpp"
-#include "hamjet/dynamics/relative_hamiltonian.hpp"
 #include "hamjet/error.hpp"
-#include "hamjet/integrators/gauss_collocation.hpp"
 
 namespace hamjet {
 namespace {
 
 using StateTransition = LinearFlow::StateTransition;
-
-/// A linear flow from a state, and the state that it reaches.
-struct LinearArc {
-  std::vector<double> state;
-  StateTransition matrix;
-};
-
-/// To a relative local error of 1e-14. Most arcs are so short that one step is good for them, which
-/// spares what choosing steps takes, several times the step itself.
-FlowJet<double> precise_jet(const FlowProblem<double>& flow) {
-  constexpr double local_error = 1e-14;
-  IntegrationStatistics statistics;
-  GaussSettings one_step;
-  one_step.step = std::abs(flow.duration);
-  one_step.estimates_step_error = true;
-  try {
-    FlowJet<double> jet = integrate_gauss<double>(flow, one_step, statistics);
-    if (statistics.largest_step_error && *statistics.largest_step_error <= local_error) return jet;
-  } catch (const Error& error) {
-    // A step too long has no solution.
-    if (error.kind() != ErrorKind::numerical) throw;
-  }
-  GaussSettings adaptive;
-  adaptive.tolerance = local_error;
-  return integrate_gauss<double>(flow, adaptive, statistics);
-}
-
-LinearArc linear_arc(const DynamicalSystem& system, const SpacePointer& space,
-                     const std::vector<double>& start, double duration) {
-  std::vector<std::size_t> variables(start.size());
-  std::iota(variables.begin(), variables.end(), std::size_t{0});
-  const FlowProblem<double> flow{&system, space, variables, start, duration};
-  const FlowJet<double> jet = precise_jet(flow);
-  return {nominal_of(jet), linear_part(std::span<const Series<double>>(jet))};
-}
 
 /// The smallest singular value of a block of n x n numbers, with the determinant's sign.
 template <int n>
@@ -91,10 +51,7 @@ double watched_value(const StateTransition& flow, const GeneratingFunctionKind& 
 /// summed over no more than some sixty of them. M^-1 = -J M^T J of a symplectic matrix.
 double rounding_of_zero(const LinearFlow& whole, double time, const StateTransition& flow) {
   constexpr std::size_t most_summed = 64;
-  const auto before = static_cast<std::size_t>(
-      std::upper_bound(whole.times().begin(), whole.times().end(), time,
-                       [](double a, double b) { return std::abs(a) < std::abs(b); }) -
-      whole.times().begin());
+  const std::size_t before = whole.checkpoint_before(time) + 1;
   const std::size_t stride = before / most_summed + 1;
   double sum = flow.squaredNorm();
   for (std::size_t s = stride; s < before; s += stride) {
@@ -301,73 +258,6 @@ class ZeroSearch {
 };
 
 }  // namespace
-
-LinearFlow::LinearFlow(const ComputedProblem& problem, double duration, double per_revolution,
-                       const std::function<void(double)>& progress)
-    : problem_(&problem), space_(SeriesSpace::create(problem.system.dimension(), 1)) {
-  constexpr std::size_t most_checkpoints = 100000;
-  const std::size_t dimension = problem.system.dimension();
-  if (problem.variables.size() != dimension || !(per_revolution > 0)) {
-    throw Error(ErrorKind::usage,
-                "linear flow: a map of phase space and a number of checkpoints are needed");
-  }
-  times_.push_back(0);
-  states_.push_back(problem.nominal);
-  const auto size = static_cast<Eigen::Index>(dimension);
-  matrices_.push_back(StateTransition::Identity(size, size));
-  double step = std::abs(duration) / per_revolution;
-  while (times_.back() != duration) {
-    step = std::min({2 * step, std::abs(duration) / per_revolution,
-                     checkpoint_distance(states_.back(), per_revolution)});
-    const double left = std::abs(duration - times_.back());
-    const double time =
-        left <= 1.01 * step ? duration : times_.back() + std::copysign(step, duration);
-    LinearArc arc = linear_arc(problem.system, space_, states_.back(), time - times_.back());
-    matrices_.push_back(arc.matrix * matrices_.back());
-    states_.push_back(std::move(arc.state));
-    times_.push_back(time);
-    if (times_.size() > most_checkpoints) {
-      throw Error(ErrorKind::too_large,
-                  fmt::format("singular times: the span takes more than {} checkpoints, some {} "
-                              "revolutions; a shorter one is needed",
-                              most_checkpoints,
-                              std::lround(static_cast<double>(most_checkpoints) / per_revolution)));
-    }
-    if (progress) progress(time / duration);
-  }
-}
-
-double LinearFlow::checkpoint_distance(const std::vector<double>& state,
-                                       double per_revolution) const {
-  std::vector<Series<double>> z;
-  for (std::size_t i = 0; i < state.size(); ++i) {
-    z.push_back(Series<double>::variable(space_, i, state[i]));
-  }
-  const auto slope =
-      evaluate_on_series(problem_->system.vector_field, std::span<const Series<double>>(z));
-  const double rate =
-      linear_part(std::span<const Series<double>>(slope)).eigenvalues().cwiseAbs().maxCoeff();
-  return 2 * std::numbers::sqrt2 * std::numbers::pi / (rate * per_revolution);
-}
-
-std::size_t LinearFlow::checkpoint_before(double time) const {
-  const auto behind = std::upper_bound(times_.begin(), times_.end(), time, [](double a, double b) {
-    return std::abs(a) < std::abs(b);
-  });
-  return behind == times_.begin() ? 0 : static_cast<std::size_t>(behind - times_.begin()) - 1;
-}
-
-std::vector<double> LinearFlow::nominal(double time) const {
-  const std::size_t before = checkpoint_before(time);
-  return exact_flow(problem_->system, states_[before], time - times_[before]);
-}
-
-LinearFlow::StateTransition LinearFlow::at(double time) const {
-  const std::size_t before = checkpoint_before(time);
-  if (time == times_[before]) return matrices_[before];
-  return linear_arc(problem_->system, space_, states_[before], time - times_[before]).matrix *
-         matrices_[before];
-}
 
 Matrix<double> inverted_block(const LinearFlow::StateTransition& flow,
                               const GeneratingFunctionKind& kind) {

@@ -120,16 +120,6 @@ bool catches(pid_t process, int signal) {
   return false;
 }
 
-void send(pid_t process, const Signal& signal, Clock::time_point deadline) {
-  while (!catches(process, signal.number) && Clock::now() < deadline) {
-    std::this_thread::sleep_for(milliseconds(5));
-  }
-  for (int i = 0; i < signal.times; ++i) {
-    std::this_thread::sleep_for(signal.after);
-    ::kill(process, signal.number);
-  }
-}
-
 /// Whether the process has ended; it is still to be waited for.
 bool has_ended(pid_t process) {
   siginfo_t information{};
@@ -138,11 +128,27 @@ bool has_ended(pid_t process) {
          information.si_pid == process;
 }
 
-void send(pid_t process, const Kill& kill) {
+/// Waits until the file is there or the process has ended.
+void wait_for_file(pid_t process, const std::filesystem::path& path) {
   constexpr std::chrono::microseconds interval(20);
-  while (!kill.path.empty() && ::access(kill.path.c_str(), F_OK) != 0 && !has_ended(process)) {
+  while (!path.empty() && ::access(path.c_str(), F_OK) != 0 && !has_ended(process)) {
     std::this_thread::sleep_for(interval);
   }
+}
+
+void send(pid_t process, const Signal& signal, Clock::time_point deadline) {
+  while (!catches(process, signal.number) && !has_ended(process) && Clock::now() < deadline) {
+    std::this_thread::sleep_for(milliseconds(5));
+  }
+  wait_for_file(process, signal.path);
+  for (int i = 0; i < signal.times; ++i) {
+    std::this_thread::sleep_for(signal.after);
+    ::kill(process, signal.number);
+  }
+}
+
+void send(pid_t process, const Kill& kill) {
+  wait_for_file(process, kill.path);
   std::this_thread::sleep_for(kill.after);
   ::kill(process, SIGKILL);
 }

@@ -25,7 +25,9 @@ enum class Stream {
 struct Signal {
   int number = 0;
   int times = 1;
-  std::chrono::milliseconds after{200};  ///< the command's start, and between two
+  /// The command's start, or the moment at which `path` is there, and between two.
+  std::chrono::milliseconds after{200};
+  std::filesystem::path path = {};
 };
 
 /// SIGKILL, which no program can catch.

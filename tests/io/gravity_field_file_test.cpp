@@ -105,7 +105,8 @@ TEST(GravityFieldFile, TakesHeadersOfOtherKinds) {
 }
 
 TEST(GravityFieldFile, RefusesWhatVariesWithTimeOnlyWhereItIsAskedFor) {
-  expect_field_refused(eigen, {"field.gfc:16: gfct: C(2,0) varies with time", "give J2 in the scene"}, {2});
+  expect_field_refused(
+      eigen, {"field.gfc:16: gfct: C(2,0) varies with time", "give J2 in the scene"}, {2});
   for (const char* key : {"trnd", "dot", "asin", "acos"}) {
     const std::string text = std::string(eigen) + key + " 6 0 1e-11 0 0 0 20041001 20051001 1.0\n";
     expect_field_refused(text, {fmt::format("field.gfc:21: {}: C(6,0) varies with time", key)});

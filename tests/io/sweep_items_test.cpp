@@ -132,9 +132,9 @@ TEST_F(SweepItems, ARowIsReadAsItWasWritten) {
   const SweepRow row{7, 1, "a check, \"failed\"", {std::nextafter(0.1, 1), std::string("F1, \n")}};
   directory.write(row);
   EXPECT_EQ(directory.read(7), row);
-  auto state = SweepDirectory::RowState::whole;
-  EXPECT_FALSE(directory.read(8, &state));
-  EXPECT_EQ(state, SweepDirectory::RowState::missing);
+  auto row_state = SweepDirectory::RowState::whole;
+  EXPECT_FALSE(directory.read(8, &row_state));
+  EXPECT_EQ(row_state, SweepDirectory::RowState::missing);
   // Cut at any byte, or with any byte changed, it is none.
   const std::filesystem::path file = rows() / "rows/000/000007.json";
   const std::string text = text_in(file);
@@ -143,8 +143,8 @@ TEST_F(SweepItems, ARowIsReadAsItWasWritten) {
     flipped[i] = static_cast<char>(flipped[i] ^ 1);
     for (const std::string& damaged : {text.substr(0, i), flipped}) {
       write_text(file, damaged);
-      EXPECT_FALSE(directory.read(7, &state)) << i;
-      EXPECT_EQ(state, SweepDirectory::RowState::damaged);
+      EXPECT_FALSE(directory.read(7, &row_state)) << i;
+      EXPECT_EQ(row_state, SweepDirectory::RowState::damaged);
     }
   }
 }
@@ -152,10 +152,10 @@ TEST_F(SweepItems, ARowIsReadAsItWasWritten) {
 TEST_F(SweepItems, ARowOfAnotherStudyOrItemDoesNotCount) {
   const SweepDirectory directory(rows(), study_);
   directory.write({7, 0, "", {1.0, 2.0}});
-  auto state = SweepDirectory::RowState::whole;
+  auto row_state = SweepDirectory::RowState::whole;
   std::filesystem::copy_file(rows() / "rows/000/000007.json", rows() / "rows/000/000008.json");
-  EXPECT_FALSE(directory.read(8, &state));
-  EXPECT_EQ(state, SweepDirectory::RowState::foreign);
+  EXPECT_FALSE(directory.read(8, &row_state));
+  EXPECT_EQ(row_state, SweepDirectory::RowState::foreign);
 
   SweepStudy other = study_;
   other.items[0][0] = "0.01";
@@ -163,8 +163,8 @@ TEST_F(SweepItems, ARowOfAnotherStudyOrItemDoesNotCount) {
   others.write({3, 0, "", {1.0, 2.0}});
   std::filesystem::copy_file(temporary_.path() / "other/rows/000/000003.json",
                              rows() / "rows/000/000003.json");
-  EXPECT_FALSE(directory.read(3, &state));
-  EXPECT_EQ(state, SweepDirectory::RowState::foreign);
+  EXPECT_FALSE(directory.read(3, &row_state));
+  EXPECT_EQ(row_state, SweepDirectory::RowState::foreign);
   EXPECT_THROW(SweepDirectory(rows(), other), Error);
 }
 

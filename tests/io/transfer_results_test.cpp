@@ -1,12 +1,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "../../src/io/transfer_view.hpp"
+#include "report_tables.hpp"
 #include "transfer_samples.hpp"
 
 // CSV and JSON of the studies of relative motion: the numbers in the files are those of the
@@ -15,59 +14,7 @@
 namespace hamjet::io {
 namespace {
 
-using Json = nlohmann::json;
-
-/// A table by the names of its columns. Fields in quotes may hold commas.
-struct Table {
-  std::vector<std::string> columns;
-  std::vector<std::vector<std::string>> rows;
-
-  std::string at(std::size_t row, const std::string& column) const {
-    for (std::size_t i = 0; i < columns.size(); ++i) {
-      if (columns[i] == column) return rows.at(row).at(i);
-    }
-    ADD_FAILURE() << "no column " << column;
-    return "";
-  }
-  double number(std::size_t row, const std::string& column) const {
-    return std::stod(at(row, column));
-  }
-};
-
-std::vector<std::string> fields(const std::string& line) {
-  std::vector<std::string> result(1);
-  bool is_quoted = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    if (line[i] == '"') {
-      const bool is_double = is_quoted && i + 1 < line.size() && line[i + 1] == '"';
-      if (is_double) result.back() += line[i++];
-      if (!is_double) is_quoted = !is_quoted;
-    } else if (line[i] == ',' && !is_quoted) {
-      result.emplace_back();
-    } else {
-      result.back() += line[i];
-    }
-  }
-  return result;
-}
-
-Table parse(const std::string& csv) {
-  EXPECT_EQ(csv.find("nan"), std::string::npos);
-  std::istringstream text(csv);
-  Table table;
-  for (std::string line; std::getline(text, line);) {
-    (table.columns.empty() ? table.columns : table.rows.emplace_back()) = fields(line);
-  }
-  for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.columns.size());
-  return table;
-}
-
-const Json& summary_of(const StudyReport& report, Json& json) {
-  EXPECT_EQ(report.files.back().path, "summary.json");
-  EXPECT_EQ(report.summary().find("\"nan\""), std::string::npos);
-  json = Json::parse(report.summary());
-  return json;
-}
+using namespace report_tables;
 
 TEST(TransferCsv, HoldsTheNumbersOfTheResult) {
   const TransferResult result = sample_transfer();
@@ -299,102 +246,6 @@ TEST(TransferTable, TellsTheResidualFromWhatAnUlpMakesOfIt) {
   Json json;
   summary_of(transfer_report(result, {}, {}, sample_transfer_origin()), json);
   EXPECT_TRUE(json["hamilton_jacobi_floor"].is_null());
-}
-
-TEST(ValidityReport, HoldsTheNumbersOfTheResult) {
-  const ValidityResult result = sample_validity();
-  const Table table = parse(validity_csv(result));
-  ASSERT_EQ(table.rows.size(), 4U);
-  EXPECT_EQ(table.number(0, "predicted_m"), 2000.0 / 3);
-  EXPECT_EQ(table.number(1, "proved_m"), 3.9e4);
-  EXPECT_EQ(table.number(2, "time_s"), 2 * 927.6);
-  EXPECT_EQ(table.number(2, "proved_m"), 0);
-  EXPECT_EQ(table.at(3, "at_limit"), "true");
-  EXPECT_EQ(table.number(3, "miss_m"), 0.2);
-  const StudyReport report = validity_report(result, sample_transfer_origin());
-  Json json;
-  summary_of(report, json);
-  EXPECT_EQ(json["study"], "validity");
-  const Json& validity = json["validity"];
-  EXPECT_EQ(validity["times"][1]["orders"][1]["proved_m"], 5e5);
-  EXPECT_EQ(validity["times"][1]["orders"][1]["at_limit"], true);
-  EXPECT_EQ(validity["flights"], 1234);
-  EXPECT_EQ(validity["seconds"]["proof"], 2.5);
-  EXPECT_NE(report.table.find(">500 km"), std::string::npos) << report.table;
-}
-
-TEST(ValidityReport, NamesTheFrameInEveryFile) {
-  struct Names {
-    RelativeFrame frame;
-    std::string name;
-    std::string derivatives;  ///< empty: there are no axes that could turn
-  };
-  ValidityResult result = sample_validity();
-  for (const Names& names : {Names{RelativeFrame::rtn_rotating, "RTN", "rotating"},
-                             Names{RelativeFrame::rtn_inertial, "RTN", "inertial"},
-                             Names{RelativeFrame::inertial, "inertial", ""}}) {
-    const bool is_rtn = names.name == "RTN";
-    result.scene.validity->frame = names.frame;
-    const StudyReport report = validity_report(result, sample_transfer_origin());
-    const std::string kind = is_rtn ? " with " + names.derivatives + " derivatives" : "";
-    EXPECT_NE(report.table.find("\nframe " + names.name + kind + "\n"), std::string::npos)
-        << report.table;
-    Json json;
-    const Json& validity = summary_of(report, json)["validity"];
-    EXPECT_EQ(validity["frame"], names.name);
-    EXPECT_EQ(validity["derivatives"], is_rtn ? Json(names.derivatives) : Json(nullptr));
-    EXPECT_EQ(validity["axes"], is_rtn ? Json({"R", "T", "N"}) : Json({"x", "y", "z"}));
-    const Table table = parse(validity_csv(result));
-    ASSERT_EQ(table.rows.size(), 4U);
-    for (std::size_t row = 0; row < 4; ++row) {
-      EXPECT_EQ(table.at(row, "frame"), names.name);
-      EXPECT_EQ(table.at(row, "derivatives"), names.derivatives);
-    }
-  }
-}
-
-TEST(AssignmentReport, HoldsTheNumbersOfTheResult) {
-  const AssignmentResult result = sample_assignment();
-  const Table costs = parse(costs_csv(result));
-  ASSERT_EQ(costs.rows.size(), 4U);
-  EXPECT_EQ(costs.number(1, "total_change_m_s"), 1.0 / 3);
-  EXPECT_EQ(costs.number(2, "time_canonical"), 6);
-  EXPECT_EQ(costs.number(2, "time_s"), 6 * 927.6);
-  EXPECT_EQ(costs.at(3, "time_s"), "");
-  EXPECT_EQ(costs.at(3, "total_change_m_s"), "");
-  const Table table = parse(assignment_csv(result));
-  ASSERT_EQ(table.rows.size(), 2U);
-  const TransferPoint& point = result.transfers[1].transfer;
-  EXPECT_EQ(table.at(1, "deputy"), "1");
-  EXPECT_EQ(table.at(1, "slot"), "0");
-  EXPECT_EQ(table.number(1, "end_change_n_m_s"), point.refined->end_change_m_s[2]);
-  EXPECT_EQ(table.number(1, "total_change_m_s"), point.refined->total_change_m_s());
-  EXPECT_EQ(table.number(1, "miss_m"), point.refined->miss_m);
-  Json json;
-  const StudyReport report = assignment_report(result);
-  summary_of(report, json);
-  EXPECT_EQ(json["study"], "assignment");
-  EXPECT_EQ(json["total_change_m_s"], 1.0 / 3 + 2.25);
-  EXPECT_EQ(json["transfers"][1]["slot"], 0);
-  EXPECT_EQ(json["transfers"][1]["transfer"]["miss_m"], point.refined->miss_m);
-  EXPECT_TRUE(json["common_time_s"].is_null());
-  EXPECT_TRUE(json["failure"].is_null());
-  EXPECT_NE(report.table.find("deputy 1   to slot 0"), std::string::npos) << report.table;
-}
-
-TEST(AssignmentReport, WithoutAnAssignmentNothingIsMadeUp) {
-  AssignmentResult result = sample_assignment();
-  result.transfers.clear();
-  result.total_change_m_s = 0;
-  result.failure = "deputy 1 has no answer for any slot, at any time";
-  EXPECT_TRUE(parse(assignment_csv(result)).rows.empty());
-  const StudyReport report = assignment_report(result);
-  Json json;
-  summary_of(report, json);
-  EXPECT_TRUE(json["total_change_m_s"].is_null());
-  EXPECT_EQ(json["failure"], result.failure);
-  EXPECT_EQ(report.exit_code, 4);
-  EXPECT_EQ(report.failure, result.failure);
 }
 
 }  // namespace

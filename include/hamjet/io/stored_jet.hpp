@@ -12,6 +12,11 @@
 #include "hamjet/integrators/flow_problem.hpp"
 #include "hamjet/studies/scene.hpp"
 
+namespace hamjet {
+struct PropagationResult;
+struct RunResult;
+}  // namespace hamjet
+
 namespace hamjet::io {
 
 /// The jet of one run as `hamjet run` has stored it. Indices are those of the model's state (q, p);
@@ -53,6 +58,9 @@ struct StoredJet {
 /// Error(usage) if no run has this label.
 StoredJet read_stored_jet(const std::filesystem::path& directory,
                           const std::optional<std::string>& label = {});
+
+/// All that is stored of a run's jet but the coefficients.
+StoredJet describe_jet(const PropagationResult& result, const RunResult& run);
 
 /// What evaluating a stored jet in double precision loses up to a degree, see
 /// hamjet::evaluation_error; its largest coefficients are those that are the largest whatever the

@@ -33,9 +33,10 @@ class LinearFlow {
   std::vector<double> nominal(double time) const;
   const std::vector<double>& times() const noexcept { return times_; }  ///< of the checkpoints
   const StateTransition& checkpoint(std::size_t i) const { return matrices_[i]; }
+  /// The index of the last checkpoint at or before a time.
+  std::size_t checkpoint_before(double time) const;
 
  private:
-  std::size_t checkpoint_before(double time) const;
   double checkpoint_distance(const std::vector<double>& state, double per_revolution) const;
 
   const ComputedProblem* problem_;
