@@ -3,7 +3,7 @@
 set(tree ${DIRECTORY}/tree)
 file(REMOVE_RECURSE ${tree})
 foreach(file include/hamjet/error.hpp include/hamjet/maps/exactness.hpp src/maps/order.hpp
-    src/io/text.hpp src/cli/options.hpp src/python/arrays.hpp)
+    src/report/text.hpp src/cli/options.hpp src/python/arrays.hpp)
   file(WRITE ${tree}/${file} "")
 endforeach()
 
@@ -25,13 +25,13 @@ expect(include/hamjet/algebra/a.hpp "#include \"hamjet/maps/exactness.hpp\"" "in
 expect(include/hamjet/algebra/a.hpp "#include <hamjet/maps/exactness.hpp>" "includes upward")
 expect(src/algebra/a.cpp "#include \"../maps/order.hpp\"" "includes upward")
 expect(src/algebra/a.cpp "  #  include \"order.hpp\"" "includes upward")
-expect(src/studies/a.hpp "#include \"../io/text.hpp\"" "includes upward")
-expect(src/io/deep/a.cpp.in "#include \"../../cli/options.hpp\"" "includes upward")
+expect(src/studies/a.hpp "#include \"../report/text.hpp\"" "includes upward")
+expect(src/report/deep/a.cpp.in "#include \"../../cli/options.hpp\"" "includes upward")
 expect(src/cli/a.cpp "#include \"../python/arrays.hpp\"" "includes upward")
 expect(src/cli/a.cpp "#include \"../cli/absent.hpp\"" "not found")
 expect(src/python/a.cpp "#include \"../cli/options.hpp\"" "")
 expect(src/python/a.cpp "#include \"arrays.hpp\"" "")
-expect(src/io/a.cpp "#include \"../maps/order.hpp\"\n#include <vector>" "")
+expect(src/report/a.cpp "#include \"../maps/order.hpp\"\n#include <vector>" "")
 expect(src/algebra/a.cpp "#include \"hamjet/error.hpp\"" "")
 # Last, for the folder stays.
 expect(src/extra/a.cpp "" "src/extra is no layer")

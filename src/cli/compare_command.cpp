@@ -9,13 +9,13 @@
 #include <system_error>
 #include <utility>
 
-#include "../io/text_file.hpp"
+#include "../app/report_origin.hpp"
+#include "../store/text_file.hpp"
 #include "hamjet/error.hpp"
-#include "hamjet/io/reference_cache.hpp"
-#include "hamjet/io/result_set.hpp"
+#include "hamjet/formats/reference_cache.hpp"
+#include "hamjet/store/result_set.hpp"
 #include "interruption.hpp"
 #include "progress.hpp"
-#include "report_origin.hpp"
 #include "standard_streams.hpp"
 
 namespace hamjet::cli {

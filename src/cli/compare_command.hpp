@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hamjet/io/comparison_report.hpp"
+#include "hamjet/report/comparison_report.hpp"
 #include "scene_options.hpp"
 
 namespace hamjet::cli {

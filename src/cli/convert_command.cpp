@@ -7,7 +7,7 @@
 #include <system_error>
 
 #include "hamjet/error.hpp"
-#include "hamjet/io/jet_file.hpp"
+#include "hamjet/formats/jet_file.hpp"
 #include "output_file.hpp"
 #include "standard_streams.hpp"
 

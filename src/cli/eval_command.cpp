@@ -9,16 +9,16 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
-#include "../io/scene_message.hpp"
-#include "../io/text_file.hpp"
-#include "eval_coordinates.hpp"
+#include "../app/eval_coordinates.hpp"
+#include "../app/jet_evaluation.hpp"
+#include "../app/refusal.hpp"
+#include "../store/text_file.hpp"
+#include "../text/scene_message.hpp"
 #include "hamjet/error.hpp"
-#include "hamjet/io/jet_file.hpp"
-#include "hamjet/io/number_table.hpp"
+#include "hamjet/formats/jet_file.hpp"
+#include "hamjet/formats/number_table.hpp"
 #include "interruption.hpp"
-#include "jet_evaluation.hpp"
 #include "output_file.hpp"
-#include "refusal.hpp"
 #include "standard_streams.hpp"
 
 namespace hamjet::cli {

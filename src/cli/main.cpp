@@ -9,8 +9,8 @@
 #include <system_error>
 #include <vector>
 
-#include "../io/shell_text.hpp"
-#include "arithmetic.hpp"
+#include "../app/arithmetic.hpp"
+#include "../text/shell_text.hpp"
 #include "bash_completion.hpp"
 #include "compare_command.hpp"
 #include "convert_command.hpp"

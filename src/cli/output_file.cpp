@@ -6,9 +6,9 @@
 #include <string>
 #include <system_error>
 
-#include "../io/file_system.hpp"
-#include "../io/sealed_summary.hpp"
-#include "../io/text_file.hpp"
+#include "../store/file_system.hpp"
+#include "../store/sealed_summary.hpp"
+#include "../store/text_file.hpp"
 #include "hamjet/error.hpp"
 #include "interruption.hpp"
 

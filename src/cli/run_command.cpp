@@ -9,9 +9,9 @@
 #include <variant>
 
 #include "hamjet/error.hpp"
-#include "hamjet/io/output_directory.hpp"
-#include "hamjet/io/results.hpp"
-#include "hamjet/io/study_report.hpp"
+#include "hamjet/report/results.hpp"
+#include "hamjet/report/study_report.hpp"
+#include "hamjet/store/output_directory.hpp"
 #include "hamjet/studies/arcs.hpp"
 #include "hamjet/studies/propagation.hpp"
 #include "interruption.hpp"

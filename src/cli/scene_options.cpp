@@ -6,12 +6,12 @@
 #include <variant>
 #include <vector>
 
-#include "../io/scene_message.hpp"
+#include "../app/processors.hpp"
+#include "../text/scene_message.hpp"
 #include "demo_scene.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/integrators/cvode.hpp"
 #include "hamjet/studies/arcs.hpp"
-#include "processors.hpp"
 #include "standard_streams.hpp"
 
 namespace hamjet::cli {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "hamjet/io/scene_reader.hpp"
+#include "hamjet/scene/scene_reader.hpp"
 
 namespace hamjet::cli {
 

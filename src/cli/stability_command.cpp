@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "../app/report_origin.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/integrators/cvode.hpp"
-#include "hamjet/io/stability_report.hpp"
-#include "report_origin.hpp"
+#include "hamjet/report/stability_report.hpp"
 #include "standard_streams.hpp"
 #include "study_command.hpp"
 

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-#include "hamjet/io/output_directory.hpp"
+#include "hamjet/store/output_directory.hpp"
 #include "interruption.hpp"
 #include "progress.hpp"
 #include "standard_streams.hpp"

@@ -3,7 +3,7 @@
 #include <functional>
 #include <string>
 
-#include "hamjet/io/study_report.hpp"
+#include "hamjet/report/study_report.hpp"
 #include "hamjet/studies/progress.hpp"
 #include "scene_options.hpp"
 

@@ -7,16 +7,16 @@
 #include <filesystem>
 #include <system_error>
 
-#include "../io/file_system.hpp"
-#include "../io/scene_message.hpp"
-#include "../io/shell_text.hpp"
-#include "../io/text_file.hpp"
+#include "../app/processors.hpp"
+#include "../app/refusal.hpp"
+#include "../store/file_system.hpp"
+#include "../store/text_file.hpp"
+#include "../text/scene_message.hpp"
+#include "../text/shell_text.hpp"
 #include "hamjet/error.hpp"
-#include "hamjet/io/sweep_report.hpp"
+#include "hamjet/sweep/sweep_report.hpp"
 #include "interruption.hpp"
-#include "processors.hpp"
 #include "progress.hpp"
-#include "refusal.hpp"
 #include "standard_streams.hpp"
 #include "study_command.hpp"
 #include "sweep_shard.hpp"

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
-#include "../io/scene_message.hpp"
-#include "../io/whole_number.hpp"
+#include "../text/scene_message.hpp"
+#include "../text/whole_number.hpp"
 #include "hamjet/error.hpp"
-#include "hamjet/io/sweep_study.hpp"
+#include "hamjet/sweep/sweep_study.hpp"
 
 namespace hamjet::cli {
 

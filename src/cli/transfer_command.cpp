@@ -6,13 +6,13 @@
 #include <optional>
 #include <system_error>
 
-#include "../io/scene_message.hpp"
+#include "../app/report_origin.hpp"
+#include "../app/required_tables.hpp"
+#include "../text/scene_message.hpp"
 #include "hamjet/algebra/composition.hpp"
 #include "hamjet/error.hpp"
-#include "hamjet/io/jet_file.hpp"
-#include "hamjet/io/relative_motion_report.hpp"
-#include "report_origin.hpp"
-#include "required_tables.hpp"
+#include "hamjet/formats/jet_file.hpp"
+#include "hamjet/report/relative_motion_report.hpp"
 #include "standard_streams.hpp"
 #include "study_command.hpp"
 

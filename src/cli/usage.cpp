@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "../io/scene_message.hpp"
+#include "../text/scene_message.hpp"
 
 namespace hamjet::cli {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "stage_slopes.hpp"
+#include "gauss/stage_slopes.hpp"
 #include "summed_jet.hpp"
 
 namespace hamjet {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "compensated_addition.hpp"
+#include "gauss/stage_slopes.hpp"
 #include "hamjet/integrators/flow_problem.hpp"
-#include "stage_slopes.hpp"
 
 namespace hamjet {
 

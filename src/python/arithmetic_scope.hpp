@@ -2,7 +2,7 @@
 
 #include <cfenv>
 
-#include "../cli/arithmetic.hpp"
+#include "../app/arithmetic.hpp"
 
 namespace hamjet::python {
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "../cli/interruption.hpp"
-#include "../io/text_file.hpp"
+#include "../store/text_file.hpp"
 #include "bindings.hpp"
 #include "hamjet/error.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "hamjet/io/scene_reader.hpp"
+#include "hamjet/scene/scene_reader.hpp"
 
 namespace hamjet::python {
 

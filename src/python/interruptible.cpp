@@ -7,7 +7,7 @@
 #include <string>
 #include <thread>
 
-#include "../cli/arithmetic.hpp"
+#include "../app/arithmetic.hpp"
 
 namespace hamjet::python {
 namespace {

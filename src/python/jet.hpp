@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "hamjet/io/stored_jet.hpp"
+#include "hamjet/formats/stored_jet.hpp"
 #include "hamjet/maps/map_evaluator.hpp"
 #include "hamjet/maps/symplecticity.hpp"
 #include "hamjet/studies/propagation.hpp"

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "../io/stored_coefficients.hpp"
+#include "../formats/stored_coefficients.hpp"
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "refusal.hpp"

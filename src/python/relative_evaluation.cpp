@@ -6,8 +6,8 @@
 #include <limits>
 #include <span>
 
-#include "../cli/eval_coordinates.hpp"
-#include "../cli/jet_evaluation.hpp"
+#include "../app/eval_coordinates.hpp"
+#include "../app/jet_evaluation.hpp"
 #include "hamjet/error.hpp"
 
 namespace hamjet::python {

@@ -4,14 +4,14 @@
 #include <functional>
 #include <memory>
 
-#include "../cli/report_origin.hpp"
-#include "../cli/required_tables.hpp"
-#include "../io/transfer_view.hpp"
+#include "../app/report_origin.hpp"
+#include "../app/required_tables.hpp"
+#include "../report/formation/transfer_view.hpp"
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "given_scene.hpp"
 #include "hamjet/error.hpp"
-#include "hamjet/io/relative_motion_report.hpp"
+#include "hamjet/report/relative_motion_report.hpp"
 #include "hamjet/studies/arcs.hpp"
 #include "interruptible.hpp"
 #include "written_set.hpp"

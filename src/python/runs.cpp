@@ -7,16 +7,16 @@
 #include <type_traits>
 #include <variant>
 
-#include "../cli/processors.hpp"
-#include "../io/text_file.hpp"
+#include "../app/processors.hpp"
+#include "../store/text_file.hpp"
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "given_scene.hpp"
 #include "hamjet/error.hpp"
-#include "hamjet/io/output_directory.hpp"
-#include "hamjet/io/result_set.hpp"
-#include "hamjet/io/results.hpp"
-#include "hamjet/io/study_report.hpp"
+#include "hamjet/report/results.hpp"
+#include "hamjet/report/study_report.hpp"
+#include "hamjet/store/output_directory.hpp"
+#include "hamjet/store/result_set.hpp"
 #include "interruptible.hpp"
 #include "jet.hpp"
 #include "pickling.hpp"

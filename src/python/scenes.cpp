@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "../io/scene_document.hpp"
-#include "../io/scene_message.hpp"
+#include "../scene/scene_document.hpp"
+#include "../text/scene_message.hpp"
 #include "bindings.hpp"
 #include "given_scene.hpp"
 #include "hamjet/error.hpp"

@@ -4,8 +4,8 @@
 
 #include <filesystem>
 
-#include "hamjet/io/output_directory.hpp"
-#include "hamjet/io/study_report.hpp"
+#include "hamjet/report/study_report.hpp"
+#include "hamjet/store/output_directory.hpp"
 #include "interruptible.hpp"
 
 namespace hamjet::python {

@@ -7,6 +7,7 @@
 #include <span>
 #include <type_traits>
 
+#include "../integrators/momentum_unit.hpp"
 #include "hamjet/algebra/composition.hpp"
 #include "hamjet/integrators/cvode.hpp"
 #include "hamjet/integrators/error_estimate.hpp"
@@ -16,7 +17,6 @@
 #include "hamjet/integrators/stormer_verlet.hpp"
 #include "hamjet/integrators/symmetric_composition.hpp"
 #include "hamjet/studies/arcs.hpp"
-#include "momentum_unit.hpp"
 #include "stability_limit.hpp"
 #include "stopwatch.hpp"
 

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <span>
 
+#include "../integrators/momentum_unit.hpp"
 #include "formation_scale.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/maps/inversion_miss.hpp"
-#include "momentum_unit.hpp"
 #include "stopwatch.hpp"
 
 namespace hamjet {

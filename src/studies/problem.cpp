@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "arc_plan.hpp"
+#include "../integrators/arc_plan.hpp"
 #include "hamjet/dynamics/double_well.hpp"
 #include "hamjet/dynamics/fermi_pasta_ulam.hpp"
 #include "hamjet/dynamics/harmonic_oscillator.hpp"

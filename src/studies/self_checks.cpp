@@ -6,12 +6,12 @@
 #include <cmath>
 #include <span>
 
+#include "../integrators/momentum_unit.hpp"
+#include "../integrators/phase_space_scale.hpp"
 #include "hamjet/integrators/error_estimate.hpp"
 #include "hamjet/studies/propagation.hpp"
 #include "largest_coefficient.hpp"
-#include "momentum_unit.hpp"
 #include "number_scan.hpp"
-#include "phase_space_scale.hpp"
 #include "stopwatch.hpp"
 
 namespace hamjet {

@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "hamjet/error.hpp"
-#include "hamjet/io/scene_reader.hpp"
+#include "hamjet/scene/scene_reader.hpp"
 
 namespace hamjet::attack {
 namespace {

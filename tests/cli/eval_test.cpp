@@ -7,7 +7,7 @@
 
 #include "eval_command_test.hpp"
 #include "hamjet/algebra/calculus.hpp"
-#include "hamjet/io/stored_jet.hpp"
+#include "hamjet/formats/stored_jet.hpp"
 #include "hamjet/relative_motion/chief_frame.hpp"
 
 // `hamjet eval`: relative states through a stored jet.

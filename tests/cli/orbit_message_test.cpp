@@ -2,7 +2,7 @@
 #include <cstdlib>
 
 #include "command_test.hpp"
-#include "io/orbit_message_samples.hpp"
+#include "formats/orbit_message_samples.hpp"
 
 // Orbit messages in and out, as a user meets them. What is written is checked by a reader written
 // from the standard in another language (check_oem.py); what is read comes from the standard and

@@ -2,7 +2,7 @@
 #include <map>
 #include <set>
 
-#include "../../src/studies/display_text.hpp"
+#include "../../src/text/quantity_text.hpp"
 #include "command_test.hpp"
 
 // What `hamjet run` writes: files, columns and keys are those of the documentation of the results.

@@ -1,4 +1,4 @@
-#include "hamjet/io/dace_text.hpp"
+#include "hamjet/formats/dace_text.hpp"
 
 #include <bit>
 #include <cmath>

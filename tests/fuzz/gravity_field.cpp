@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "fuzz_target.hpp"
-#include "hamjet/io/gravity_field_file.hpp"
+#include "hamjet/formats/gravity_field_file.hpp"
 
 // Target: a gravity field in the format of ICGEM, all zonal coefficients to degree 6 asked for.
 

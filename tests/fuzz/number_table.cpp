@@ -1,4 +1,4 @@
-#include "hamjet/io/number_table.hpp"
+#include "hamjet/formats/number_table.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "hamjet/io/orbit_message.hpp"
+#include "hamjet/formats/orbit_message.hpp"
 
 #include "fuzz_target.hpp"
 

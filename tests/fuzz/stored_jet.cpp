@@ -1,4 +1,4 @@
-#include "hamjet/io/stored_jet.hpp"
+#include "hamjet/formats/stored_jet.hpp"
 
 #include <algorithm>
 #include <cmath>

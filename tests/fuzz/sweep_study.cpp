@@ -1,4 +1,4 @@
-#include "hamjet/io/sweep_study.hpp"
+#include "hamjet/sweep/sweep_study.hpp"
 
 #include <algorithm>
 #include <cctype>

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "hamjet/error.hpp"
-#include "hamjet/io/scene_reader.hpp"
+#include "hamjet/scene/scene_reader.hpp"
 #include "properties/random_scene.hpp"
 #include "support/random_series.hpp"
 

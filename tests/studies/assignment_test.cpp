@@ -8,7 +8,7 @@
 #include <numeric>
 #include <random>
 
-#include "../../src/studies/least_assignment.hpp"
+#include "../../src/studies/formation/least_assignment.hpp"
 #include "formation_scenes.hpp"
 #include "hamjet/error.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "../../src/studies/convergence_fit.hpp"
+#include "../../src/studies/comparison/convergence_fit.hpp"
 #include "comparison_scenes.hpp"
 
 // Orders of convergence that double precision cannot show: those of theory.

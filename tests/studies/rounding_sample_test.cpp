@@ -1,4 +1,4 @@
-#include "../../src/studies/rounding_sample.hpp"
+#include "../../src/studies/stability/rounding_sample.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "hamjet/integrators/gauss_collocation.hpp"
-#include "hamjet/io/scene_reader.hpp"
+#include "hamjet/scene/scene_reader.hpp"
 #include "hamjet/studies/stability.hpp"
 
 // What rounding does is bounded on the oscillator, whose flow is a rotation and amplifies

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "hamjet/io/scene_reader.hpp"
+#include "hamjet/scene/scene_reader.hpp"
 #include "hamjet/studies/propagation.hpp"
 
 // How a case comes out is decided on the harmonic oscillator, whose flow is the rotation (q, p) ->

@@ -6,8 +6,8 @@
 #include <random>
 
 #include "../../src/studies/exact_flow.hpp"
+#include "../../src/studies/formation/single_transfer.hpp"
 #include "../../src/studies/jets_along_time.hpp"
-#include "../../src/studies/single_transfer.hpp"
 #include "formation_scenes.hpp"
 #include "hamjet/algebra/monomial_values.hpp"
 

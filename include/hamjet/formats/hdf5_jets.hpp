@@ -1,0 +1,53 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "hamjet/formats/stored_jet.hpp"
+#include "hamjet/studies/propagation.hpp"
+
+// `jets.h5`: the jets of all runs of a scene in one HDF5 file, which h5py, MATLAB and Julia read.
+// The file says itself what it holds (attribute `description`). Its first 512 bytes, which HDF5
+// leaves to the user, hold size and CRC-32 of what follows, so that a file that was cut or changed
+// is refused before anything in it is believed.
+//
+//   /               attributes: format, format_version, hamjet_version, description, scene, title,
+//                   model, precision, frame, units, length_unit_km, time_unit_s, order,
+//                   duration_canonical, variables, components, state, nominal_initial, runs; of a
+//                   scene with [ephemeris] also reference_frame, center_name, epoch, time_system
+//   /<label>        one group a run, with its label; attributes: method, nominal_final; of a run
+//                   that failed the attribute error, and nothing else
+//     coefficients  (component, term) float64
+//     coefficients_decimal  (component, term) strings of 36 digits; in extended precision alone,
+//                   where `coefficients` are rounded
+//     exponents     (term, variable) uint8, graded: see SeriesSpace
+//     nominal_time  (time), nominal_state (time, state), nominal_energy_error (time); float64
+//     generating_functions/<kind>  coefficients (term), exponents (term, variable); attributes:
+//                   variables, condition
+//
+// In a build without HDF5 (HAMJET_HDF5 off) the functions throw Error(usage) that say how to build
+// it. Debian's HDF5 library is not thread-safe: calls from several threads wait for each other, and
+// a program that uses HDF5 itself must keep its own calls apart from them.
+
+namespace hamjet::io {
+
+/// Whether this build has HDF5.
+bool hdf5_available() noexcept;
+
+/// The bytes of `jets.h5`, the same for the same result. Throws Error(input_output).
+std::string jets_hdf5(const PropagationResult& result);
+
+/// The same of one jet, without nominal trajectory and generating functions.
+std::string jets_hdf5(const StoredJet& stored);
+
+/// Reads the run with this label, or else the first that has a result. A file that something else
+/// than hamjet has written, without the 512 bytes, is read all the same if it has what the jet
+/// needs in the layout above, contiguous and not compressed; if it is damaged, that is found out by
+/// HDF5, which some damage crashes. `name` is the file's, for messages. Throws Error(input_output),
+/// one line with the file and the dataset or attribute, for what is damaged, missing, of another
+/// shape, type or format version; Error(usage) if no run has this label.
+StoredJet read_jets_hdf5(const std::string& name, std::string_view bytes,
+                         const std::optional<std::string>& label = {});
+
+}  // namespace hamjet::io

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "hamjet/formats/stored_jet.hpp"
+
+// A jet in the formats that hamjet reads and writes: by the ending of the file's name
+//   .h5    HDF5 (hdf5_jets.hpp), which holds everything;
+//   .dace  DACE's text (dace_text.hpp), the polynomials alone, in double precision;
+//   .csv   as `jet.csv` of a run: the coefficients alone.
+// Of the last two the rest stands in the `summary.json` of the results.
+
+namespace hamjet::io {
+
+enum class JetFormat { hdf5, dace, csv };
+
+/// By the ending. Throws Error(usage) that names the endings for any other.
+JetFormat jet_format(const std::filesystem::path& file);
+
+/// Reads the run with this label, or else the first that has a result, from a results directory, an
+/// HDF5 file, or a file of coefficients beside its `summary.json` or one folder below, which then
+/// has the run's name unless `label` says otherwise. What the summary lists must be as it was
+/// written. DACE's text holds double precision, and so does what is read from it. Throws as
+/// read_stored_jet.
+StoredJet read_jet_file(const std::filesystem::path& path,
+                        const std::optional<std::string>& label = {});
+
+/// The content of a file of this format. Throws Error(input_output) if the format cannot hold the
+/// jet, Error(usage) for HDF5 in a build without it.
+std::string jet_file_content(const StoredJet& stored, JetFormat format);
+
+}  // namespace hamjet::io

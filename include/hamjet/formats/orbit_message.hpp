@@ -1,0 +1,103 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hamjet/formats/epoch.hpp"
+
+// Orbit messages of the Consultative Committee for Space Data Systems, versions 2.0 and 3.0, and
+// ephemerides of version 1.0, in keyword = value notation (KVN); the XML notation is not read.
+// Source: CCSDS 502.0-B-3, Orbit Data Messages (2023), sections 3 (OPM), 5 (OEM) and 7 (syntax),
+// CCSDS 502.0-B-2 (2009), and CCSDS 502.0-B-1 (2004), whose OEM is that of version 2.0 without
+// accelerations, covariances and REF_FRAME_EPOCH.
+
+namespace hamjet::io {
+
+/// Largest message that is read, in bytes: some 400 000 states.
+inline constexpr std::size_t largest_orbit_message_bytes = std::size_t{64} << 20;
+
+/// A state of one moment, along axes that do not rotate.
+struct OrbitState {
+  Epoch epoch;
+  std::array<double, 3> position_km = {};
+  std::array<double, 3> velocity_km_s = {};
+};
+
+/// Whose states, and in what they are measured.
+struct OrbitMetadata {
+  std::string object_name;      ///< OBJECT_NAME
+  std::string object_id;        ///< OBJECT_ID
+  std::string center_name;      ///< CENTER_NAME
+  std::string reference_frame;  ///< REF_FRAME, in capitals
+  TimeSystem time_system = TimeSystem::utc;
+  std::optional<Epoch> reference_frame_epoch = {};  ///< REF_FRAME_EPOCH, of a frame "of epoch"
+  std::size_t center_name_line = 0;                 ///< of CENTER_NAME, where it was read
+};
+
+/// One block of metadata with the states that follow it.
+struct EphemerisSegment {
+  OrbitMetadata metadata;
+  std::vector<std::string> comments;  ///< before the states; written, not read
+  std::vector<OrbitState> states;     ///< in order of time, at least one
+  /// USEABLE_START_TIME and USEABLE_STOP_TIME: states outside only help to interpolate.
+  std::optional<Epoch> useable_start;
+  std::optional<Epoch> useable_stop;
+  bool has_acceleration = false;  ///< behind the states, which is not kept
+  bool has_covariance = false;    ///< a covariance block followed, which is not kept
+  std::size_t line = 0;           ///< of META_START
+
+  bool is_useable(const Epoch& epoch) const {
+    return !(useable_start && epoch < *useable_start) && !(useable_stop && *useable_stop < epoch);
+  }
+};
+
+/// An Orbit Ephemeris Message (OEM): states of one object along time. What it cannot hold: Taylor
+/// coefficients, generating functions, checks.
+struct OrbitEphemerisMessage {
+  std::string version = "2.0";        ///< or "3.0"; "1.0" of what was read
+  std::vector<std::string> comments;  ///< of the header; written, not read
+  Epoch creation_date;                ///< UTC
+  std::string originator;
+  std::vector<EphemerisSegment> segments;
+};
+
+/// An Orbit Parameter Message (OPM): the state of one object at one moment.
+struct OrbitParameterMessage {
+  std::string version;
+  OrbitMetadata metadata;
+  OrbitState state;
+  std::optional<double> gm_km3_s2;  ///< GM, which stands with the Keplerian elements
+  std::size_t gm_line = 0;          ///< of GM
+  /// What else the message holds and is not used: "Keplerian elements", "spacecraft parameters",
+  /// "covariance", "user-defined parameters".
+  std::vector<std::string> unused;
+};
+
+/// Reads an OEM. `name` is the file's, printable, for messages. Accelerations and covariances are
+/// checked and left out. Throws Error(input_output), one line `name:line: keyword: what is wrong,
+/// got, must be`, for whatever is not such a message, among others: other versions, XML, a missing
+/// or doubled keyword, a keyword that there is not, blocks that do not end, epochs out of order or
+/// outside of the span, what is no finite number, a frame that rotates with its body or is not
+/// known, a time system in which a second is not a second of the model.
+OrbitEphemerisMessage read_oem(const std::string& name, std::string_view text);
+
+/// Reads an OPM likewise. Units, where they are written, must be those of the standard. Throws too
+/// for a manoeuvre, which the state says nothing about.
+OrbitParameterMessage read_opm(const std::string& name, std::string_view text);
+
+/// An OEM as text. Numbers have 16 digits, as many as the standard allows (7.5.6, 7.5.7): what is
+/// read back and written again is the same text, and differs from the numbers given by at most
+/// 7e-16 of each. Texts must be printable ASCII.
+std::string oem_text(const OrbitEphemerisMessage& message);
+
+/// Whether a reference frame is one whose axes do not rotate, as far as it is known here.
+bool is_inertial_frame(std::string_view reference_frame);
+
+/// What is wrong with a frame that is not, and what would be right: for messages.
+std::string frame_problem(std::string_view reference_frame);
+
+}  // namespace hamjet::io

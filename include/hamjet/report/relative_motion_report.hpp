@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "hamjet/report/report_origin.hpp"
+#include "hamjet/report/study_report.hpp"
+#include "hamjet/studies/assignment.hpp"
+#include "hamjet/studies/transfer.hpp"
+#include "hamjet/studies/validity.hpp"
+
+// Numbers in CSV files have 17 digits; what was not computed is empty there and null in JSON.
+
+namespace hamjet::io {
+
+/// `transfers.csv`: one row a transfer time.
+std::string transfers_csv(const TransferResult& result);
+/// `singular_times.csv`: one row a kind and time at which the kind does not exist.
+std::string singular_times_csv(const TransferResult& result);
+/// `conditions.csv`: one row a transfer time, one column a kind; "inf" where it is singular.
+std::string conditions_csv(const TransferResult& result);
+/// `validity.csv`: one row a time and order.
+std::string validity_csv(const ValidityResult& result);
+/// `assignment.csv`: one row a deputy with its slot and transfer.
+std::string assignment_csv(const AssignmentResult& result);
+/// `costs.csv`: one row a deputy and slot.
+std::string costs_csv(const AssignmentResult& result);
+
+/// The files of `hamjet transfer`: the CSV files, `report.html`, `summary.json`. `trajectory` is
+/// that of the best point, if there is one; `validity` is there if the scene asks for it.
+StudyReport transfer_report(const TransferResult& result,
+                            const std::optional<RelativeTrajectory>& trajectory,
+                            const std::optional<ValidityResult>& validity,
+                            const ReportOrigin& origin);
+/// The files of `hamjet validity`: `validity.csv`, `report.html`, `summary.json`.
+StudyReport validity_report(const ValidityResult& result, const ReportOrigin& origin);
+/// The files of `hamjet assign`: `assignment.csv`, `costs.csv`, `summary.json`.
+StudyReport assignment_report(const AssignmentResult& result);
+
+}  // namespace hamjet::io

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hamjet/store/report_file.hpp"
+#include "hamjet/studies/canonical_transformation.hpp"
+#include "hamjet/studies/energy_conservation.hpp"
+#include "hamjet/studies/optimal_control_study.hpp"
+
+namespace hamjet::io {
+
+/// What a study that has no flow jet leaves.
+struct StudyReport {
+  /// CSV files, `figure.svg` where it could be drawn, `summary.json` last.
+  std::vector<ReportFile> files;
+  std::string table;                           ///< for the terminal
+  std::string json = "";                       ///< what --json prints; empty: the summary
+  int exit_code = 0;                           ///< 0, 1 (a check failed) or 4 (numerical failure)
+  std::string failure;                         ///< one line, if the exit code is not 0
+  std::optional<std::string> drawing_problem;  ///< one line, if gnuplot could not draw
+
+  /// The content of `summary.json`.
+  const std::string& summary() const { return files.back().content; }
+};
+
+/// Whether a report has its figure, which takes most of its time.
+enum class Figure { drawn, left_out };
+
+/// The report of a study's result; each study has its own. The figure is drawn by gnuplot; without
+/// it the tables are complete all the same.
+template <class Result>
+StudyReport study_report(const Result& result, Figure figure = Figure::drawn);
+
+/// A trajectory for each step size, `figure.svg` with the phase planes and the energy errors,
+/// `summary.json`.
+template <>
+StudyReport study_report(const CanonicalTransformationResult& result, Figure figure);
+
+/// `trajectory.csv`, `figure.svg` with the energy errors and the step size along time,
+/// `summary.json`.
+template <>
+StudyReport study_report(const EnergyConservationResult& result, Figure figure);
+
+/// `trajectory.csv` and `convergence.csv`; the trajectory, its controls and the cost's error
+/// against the step as a figure.
+template <>
+StudyReport study_report(const OptimalControlResult& result, Figure figure);
+
+}  // namespace hamjet::io

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "hamjet/formats/stored_jet.hpp"
+#include "hamjet/maps/map_evaluator.hpp"
+#include "hamjet/maps/truncation_estimate.hpp"
+
+namespace hamjet::cli {
+
+/// By how much an evaluated position may be wrong, in metres.
+struct MissEstimate {
+  TruncationEstimate::Support support = TruncationEstimate::Support::unknown;
+  double truncation_m = 0;  ///< what the missing degrees would add; infinite unless inside
+  /// Rounding of coefficients and evaluation, and the coefficients' errors where the jet states
+  /// them: see evaluation_error.
+  double rounding_m = 0;
+
+  bool is_inside() const { return support == TruncationEstimate::Support::inside; }
+  double miss_m() const { return truncation_m + rounding_m; }
+};
+
+/// Evaluates the deviations from a stored jet's nominal, a few thousand at a time, and measures the
+/// time that this takes.
+class JetEvaluation {
+ public:
+  /// So many points at once: they stay in the cache.
+  static constexpr std::size_t most_points = 4096;
+
+  /// With a degree below the jet's order the next degree, which the jet has, tells what is left
+  /// out.
+  JetEvaluation(const io::StoredJet& stored, std::optional<int> degree);
+
+  /// The values of the jet's variables of one more point. At most `most_points` until `run`.
+  void add(const std::vector<double>& variables);
+  /// Hands final deviation of the components (canonical) and estimate of the miss of each
+  /// point that was added to `take`, in order, and starts anew.
+  void run(const std::function<void(const std::vector<double>&, const MissEstimate&)>& take);
+
+  std::size_t pending() const { return pending_.size(); }
+  std::size_t points() const { return points_; }
+  /// Of all evaluations so far, conversions, input and output excluded.
+  double seconds() const { return seconds_; }
+  const MapEvaluator& evaluator() const { return evaluator_; }
+
+ private:
+  JetEvaluation(const io::StoredJet& stored, const std::vector<Series<double>>& map, int degree);
+  DegreeShares shares(std::size_t point) const;
+  MissEstimate estimate(std::size_t point) const;
+
+  MapEvaluator evaluator_;
+  std::optional<MapEvaluator> next_;  ///< one degree more than the first, where the jet has it
+  MapEvaluator error_;                ///< see evaluation_error
+  std::size_t positions_;             ///< so many components are positions, the first
+  double length_m_;
+  std::vector<std::vector<double>> pending_;
+  std::size_t points_ = 0;
+  double seconds_ = 0;
+  // Structures of arrays, see MapEvaluator.
+  std::vector<double> variables_;
+  std::vector<double> values_;
+  std::vector<double> last_;
+  std::vector<double> last_but_one_;
+  std::vector<double> magnitudes_;  ///< of the variables
+  std::vector<double> errors_;
+};
+
+}  // namespace hamjet::cli

@@ -1,0 +1,63 @@
+#include "hamjet/formats/dace_text.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+
+#include "../text/scene_message.hpp"
+#include "dace_columns.hpp"
+#include "hamjet/error.hpp"
+
+namespace hamjet::io {
+namespace {
+
+[[noreturn]] void refuse(const std::string& what) {
+  throw Error(ErrorKind::input_output, "DACE text: " + what);
+}
+
+bool is_written(double coefficient) { return coefficient != 0 || std::signbit(coefficient); }
+
+void write_polynomial(fmt::memory_buffer& out, const Series<Extended>& polynomial) {
+  const auto write = std::back_inserter(out);
+  const SeriesSpace& space = polynomial.space();
+  std::size_t rows = 0;
+  for (std::size_t k = 0; k < space.size(); ++k) {
+    const auto coefficient = static_cast<double>(polynomial[k]);
+    if (!std::isfinite(coefficient)) refuse("a coefficient is beyond double precision");
+    if (!is_written(coefficient)) continue;
+    if (++rows > dace::most_rows) {
+      refuse(fmt::format("more than {} coefficients of one polynomial do not fit its columns",
+                         dace::most_rows));
+    }
+    if (rows == 1) fmt::format_to(write, "{}\n", dace::header);
+    fmt::format_to(write, "{:6}  {:24.16e}{:4} ", rows, coefficient, space.degree(k));
+    for (const auto exponent : space.exponents(k)) fmt::format_to(write, " {:2}", exponent);
+    fmt::format_to(write, "\n");
+  }
+  if (rows == 0) fmt::format_to(write, "{}\n", dace::zero);
+  fmt::format_to(write, "{}\n", dace::end);
+}
+
+}  // namespace
+
+std::string dace_text(const std::vector<Series<Extended>>& polynomials,
+                      const std::vector<std::string>& notes) {
+  fmt::memory_buffer out;
+  const auto write = std::back_inserter(out);
+  fmt::format_to(write, "[[[ {} vector\n", polynomials.size());
+  for (const Series<Extended>& polynomial : polynomials) {
+    if (polynomial.space().variables() > dace::most_variables) {
+      refuse(fmt::format("{} variables do not fit its lines, at most {} do",
+                         polynomial.space().variables(), dace::most_variables));
+    }
+    write_polynomial(out, polynomial);
+  }
+  fmt::format_to(write, "]]]\n");
+  for (const std::string& note : notes) {
+    fmt::format_to(write, "# {}\n", printable(note, std::string::npos));
+  }
+  return fmt::to_string(out);
+}
+
+}  // namespace hamjet::io

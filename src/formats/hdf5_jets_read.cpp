@@ -1,0 +1,200 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "../text/scene_message.hpp"
+#include "hamjet/error.hpp"
+#include "hamjet/formats/hdf5_jets.hpp"
+#include "hdf5_jets_format.hpp"
+#include "hdf5_reader.hpp"
+#include "hdf5_seal.hpp"
+#include "stored_coefficients.hpp"
+
+namespace hamjet::io {
+namespace {
+
+using hdf5::Reader;
+
+void require_this_format(const Reader& root) {
+  if (!root.has_attribute("format") || root.text("format") != hdf5::format) {
+    root.fail("format", fmt::format("must be {}: the file holds no jets", in_quotes(hdf5::format)));
+  }
+  const int stored = root.integer("format_version");
+  if (stored != hdf5::format_version) {
+    root.fail("format_version", fmt::format("is {}, this hamjet reads {}; write the file again",
+                                            stored, hdf5::format_version));
+  }
+}
+
+double positive(const Reader& root, const char* name) {
+  const double number = root.number(name);
+  if (!(number > 0)) root.fail(name, "the attribute must be positive");
+  return number;
+}
+
+template <class Name>
+std::size_t index_of(const Reader& root, const char* attribute, const std::string& text,
+                     const std::vector<Name>& names) {
+  const auto found = std::find(names.begin(), names.end(), text);
+  if (found == names.end()) {
+    root.fail(attribute, fmt::format("the attribute must be one of {}, got {}",
+                                     fmt::join(names, ", "), in_quotes(text)));
+  }
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+/// Indices of variables, which must ascend as the writer's do.
+std::vector<std::size_t> indices(const Reader& root, const char* attribute,
+                                 const std::vector<std::string_view>& names) {
+  std::vector<std::size_t> result;
+  for (const std::string& text : root.texts(attribute)) {
+    result.push_back(index_of(root, attribute, text, names));
+  }
+  if (result.empty()) root.fail(attribute, "the attribute must not be empty");
+  if (std::adjacent_find(result.begin(), result.end(), std::greater_equal<>()) != result.end()) {
+    root.fail(attribute, "the attribute must ascend in the order of the state");
+  }
+  return result;
+}
+
+StoredJet read_scene(const Reader& root) {
+  StoredJet stored;
+  stored.scene = root.text("scene");
+  stored.model =
+      static_cast<SystemModel>(index_of(root, "model", root.text("model"), model_names()));
+  stored.precision = static_cast<Precision>(
+      index_of(root, "precision", root.text("precision"), hdf5::precision_names));
+  stored.units = {positive(root, "length_unit_km"), positive(root, "time_unit_s")};
+  stored.duration = root.number("duration_canonical");
+  stored.nominal_initial = root.numbers("nominal_initial");
+  const std::size_t dimension = stored.nominal_initial.size();
+  const auto possible = possible_degrees_of_freedom(stored.model);
+  if (dimension % 2 != 0 ||
+      std::find(possible.begin(), possible.end(), dimension / 2) == possible.end()) {
+    root.fail("nominal_initial", fmt::format("the attribute has {} numbers, which is no state of "
+                                             "the model",
+                                             dimension));
+  }
+  const auto names = stored.variable_names();
+  stored.components = indices(root, "components", names);
+  stored.variables = indices(root, "variables", names);
+  if (!std::includes(stored.components.begin(), stored.components.end(), stored.variables.begin(),
+                     stored.variables.end())) {
+    root.fail("variables", "the attribute must be among the components");
+  }
+  if (root.has_attribute("epoch")) {
+    EphemerisSettings& ephemeris = stored.ephemeris.emplace();
+    ephemeris.epoch = root.text("epoch");
+    ephemeris.time_system = root.text("time_system");
+    ephemeris.reference_frame = root.text("reference_frame");
+    ephemeris.center_name = root.text("center_name");
+    if (root.has_attribute("reference_frame_epoch")) {
+      ephemeris.reference_frame_epoch = root.text("reference_frame_epoch");
+    }
+  }
+  return stored;
+}
+
+/// The label of the run that is wanted.
+std::string choose_run(const Reader& root, const std::optional<std::string>& label) {
+  const std::vector<std::string> labels = root.texts("runs");
+  for (const std::string& candidate : labels) {
+    if (candidate.empty() || candidate[0] == '.' || candidate.find('/') != std::string::npos) {
+      root.fail("runs", fmt::format("must be names of groups, got {}", in_quotes(candidate)));
+    }
+    if (label && candidate != *label) continue;
+    const Reader run = root.group(candidate);
+    if (!run.has_attribute("error")) return candidate;
+    if (label) {
+      run.fail("error",
+               fmt::format("the run has no result: {}", printable(run.text("error"), 300)));
+    }
+  }
+  if (!label) root.fail("runs", "no run has a result");
+  throw Error(ErrorKind::usage, fmt::format("no run has the label {}; {}", printable(*label),
+                                            suggestion(*label, {labels.begin(), labels.end()})));
+}
+
+void require_graded(const Reader& run, const SeriesSpace& space) {
+  const std::size_t width = space.variables();
+  const std::vector<std::uint8_t> exponents = run.bytes("exponents", {space.size(), width});
+  for (std::size_t k = 0; k < space.size(); ++k) {
+    const auto right = space.exponents(k);
+    const auto found = exponents.begin() + static_cast<std::ptrdiff_t>(k * width);
+    if (!std::equal(right.begin(), right.end(), found)) {
+      run.fail("exponents",
+               fmt::format("of term {} must be ({}) in the graded order, are ({})", k,
+                           fmt::join(right, ", "),
+                           fmt::join(found, found + static_cast<std::ptrdiff_t>(width), ", ")));
+    }
+  }
+}
+
+FlowJet<Extended> read_jet(const Reader& run, const StoredJet& stored, int order) {
+  const std::size_t components = stored.components.size();
+  const auto terms =
+      static_cast<hsize_t>(std::round(SeriesSpace::monomial_count(stored.variables.size(), order)));
+  // Read before anything of this size is made: a damaged order could ask for gigabytes.
+  const std::vector<double> rounded = run.doubles("coefficients", {components, terms});
+  const bool is_extended = stored.precision == Precision::extended;
+  std::vector<std::string> decimals;
+  if (is_extended) decimals = run.decimals("coefficients_decimal", {components, terms});
+  const SpacePointer space = SeriesSpace::create(stored.variables.size(), order);
+  require_graded(run, *space);
+  FlowJet<Extended> jet;
+  for (std::size_t c = 0; c < components; ++c) {
+    Series<Extended>& series = jet.emplace_back(space);
+    for (std::size_t k = 0; k < space->size(); ++k) {
+      const std::size_t i = c * space->size() + k;
+      series[k] = Extended(rounded[i]);
+      if (!is_extended) {
+        if (std::isfinite(rounded[i])) continue;
+        run.fail("coefficients",
+                 fmt::format("component {}, term {}: must be finite, is {}", c, k, rounded[i]));
+      }
+      const auto number = parse_coefficient(decimals[i], Precision::extended);
+      if (!number || static_cast<double>(*number) != rounded[i]) {
+        run.fail("coefficients_decimal",
+                 fmt::format("component {}, term {}: must be a finite number that rounds to {}, "
+                             "got {}",
+                             c, k, rounded[i], in_quotes(decimals[i])));
+      }
+      series[k] = *number;
+    }
+  }
+  return jet;
+}
+
+}  // namespace
+
+StoredJet read_jets_hdf5(const std::string& name, std::string_view bytes,
+                         const std::optional<std::string>& label) {
+  const std::string_view image = unseal_hdf5(name, bytes);
+  const hdf5::Session session;
+  const Reader root(name, image);
+  require_this_format(root);
+  StoredJet stored = read_scene(root);
+  const int order = root.integer("order");
+  if (order < 1 || order > 60) {
+    root.fail("order", fmt::format("the attribute must be 1 to 60, is {}", order));
+  }
+  stored.label = choose_run(root, label);
+  const Reader run = root.group(stored.label);
+  stored.nominal_final = run.numbers("nominal_final", stored.nominal_initial.size());
+  stored.jet = read_jet(run, stored, order);
+  if (run.has_attribute(hdf5::error_attribute)) {
+    stored.error_by_degree =
+        run.numbers(hdf5::error_attribute, static_cast<std::size_t>(order) + 1);
+  }
+  for (std::size_t c = 0; c < stored.components.size(); ++c) {
+    if (static_cast<double>(stored.jet[c].constant()) !=
+        stored.nominal_final[stored.components[c]]) {
+      run.fail("nominal_final", "the attribute is not the constant term of the coefficients");
+    }
+  }
+  return stored;
+}
+
+}  // namespace hamjet::io

@@ -1,0 +1,39 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "../text/scene_message.hpp"
+#include "hamjet/formats/orbit_message.hpp"
+
+namespace hamjet::io {
+namespace {
+
+/// Axes fixed among the stars, or moving among them with precession and nutation only, that is by
+/// some 1e-11 rad/s. Source: SANA registry of celestial body reference frames, which CCSDS
+/// 502.0-B-3, annex B4 refers to, and the names that older messages have.
+const std::vector<std::string_view> inertial_frames = {
+    "TOD",  "EME2000", "J2000", "ICRF", "ICRF1", "ICRF2",      "ICRF3",
+    "GCRF", "MOD",     "TEME",  "CIRF", "B1950", "TEMEOFDATE", "TEMEOFEPOCH"};
+
+/// How the names of frames begin that turn with a body or with an orbit.
+const std::vector<std::string_view> rotating_beginnings = {
+    "ITRF", "TIRF", "GTOD", "GRC", "EFG", "ECEF", "TDR", "PEF", "WGS", "IGS",
+    "DTRF", "RTN",  "RSW",  "QSW", "TNW", "LVLH", "NTW", "RIC", "VVLH"};
+
+}  // namespace
+
+bool is_inertial_frame(std::string_view reference_frame) {
+  return std::find(inertial_frames.begin(), inertial_frames.end(), reference_frame) !=
+         inertial_frames.end();
+}
+
+std::string frame_problem(std::string_view reference_frame) {
+  const bool is_rotating = std::any_of(
+      rotating_beginnings.begin(), rotating_beginnings.end(),
+      [&](std::string_view beginning) { return reference_frame.starts_with(beginning); });
+  return fmt::format("{}, got {}, must be one whose axes keep their direction: {}",
+                     is_rotating ? "a frame that rotates" : "unknown frame",
+                     in_quotes(reference_frame), listed(inertial_frames));
+}
+
+}  // namespace hamjet::io

@@ -1,0 +1,100 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hamjet/formats/orbit_message.hpp"
+
+// The syntax that all orbit messages share (CCSDS 502.0-B-3, 7.3 to 7.5).
+
+namespace hamjet::io {
+
+constexpr std::string_view blanks = " \t";
+
+/// A line that is not blank, without blanks around it.
+struct MessageLine {
+  std::size_t number = 0;
+  std::string_view text;
+  std::string_view keyword;  ///< before the first '=', or the whole text if it has none
+  std::string_view value;    ///< behind it
+  bool is_assignment = false;
+
+  bool is(std::string_view word) const { return !is_assignment && text == word; }
+  bool is_comment() const {
+    return text.starts_with("COMMENT") && (text.size() == 7 || text[7] == ' ' || text[7] == '\t');
+  }
+};
+
+/// The lines of a message one after the other, without comments and blank lines.
+class MessageLines {
+ public:
+  /// Throws for XML, and for UTF-16.
+  MessageLines(const std::string& name, std::string_view text);
+
+  /// False at the end of the text. Throws for a control character, or one that is not ASCII.
+  bool next(MessageLine& line);
+  /// The number of the last line read; of the one after it at the end of the text.
+  std::size_t number() const { return number_; }
+
+  /// Throws Error(input_output) with `name:line: keyword: problem`.
+  [[noreturn]] void fail(std::size_t line, std::string_view keyword,
+                         const std::string& problem) const;
+
+ private:
+  std::string_view take();
+  void check_characters(std::string_view line) const;
+
+  std::string name_;
+  std::string_view rest_;
+  std::size_t number_ = 0;
+};
+
+/// The first line must give the version of this message, one of `versions`.
+std::string read_version(MessageLines& lines, std::string_view keyword,
+                         const std::vector<std::string_view>& versions);
+
+/// The assignments of one part of a message.
+class MessageBlock {
+ public:
+  /// `lines` must outlive the block.
+  explicit MessageBlock(const MessageLines& lines) : lines_(&lines) {}
+
+  /// Throws for a keyword that is not among `keywords`, one that is there twice, an empty value, or
+  /// a line that is no assignment.
+  void add(const MessageLine& line, const std::vector<std::string_view>& keywords);
+  /// What is missing is missed at this line.
+  void end_at(std::size_t line) { end_ = line; }
+
+  bool has(std::string_view keyword) const { return values_.contains(keyword); }
+  /// Where a keyword that is there stands.
+  std::size_t line_of(std::string_view keyword) const { return values_.find(keyword)->second.line; }
+  /// Required.
+  std::string text(std::string_view keyword) const;
+  Epoch epoch(std::string_view keyword) const;
+  /// Required; the unit may stand behind the number, in brackets. An empty unit: none may.
+  double number(std::string_view keyword, std::string_view unit) const;
+
+  /// OBJECT_NAME, OBJECT_ID, CENTER_NAME, REF_FRAME, TIME_SYSTEM.
+  OrbitMetadata metadata() const;
+
+  [[noreturn]] void fail(std::string_view keyword, const std::string& problem) const;
+
+ private:
+  struct Value {
+    std::size_t line;
+    std::string_view text;
+  };
+  const Value& required(std::string_view keyword, std::string_view right) const;
+
+  const MessageLines* lines_;
+  std::map<std::string_view, Value, std::less<>> values_;
+  std::size_t end_ = 1;
+};
+
+/// How a moment must be written, for messages.
+inline constexpr std::string_view epoch_form = "YYYY-MM-DDThh:mm:ss or YYYY-DDDThh:mm:ss";
+
+}  // namespace hamjet::io

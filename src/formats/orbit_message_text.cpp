@@ -1,0 +1,83 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+#include "hamjet/formats/orbit_message.hpp"
+
+namespace hamjet::io {
+namespace {
+
+/// The standard allows 254 characters in a line (7.3.2).
+constexpr std::size_t longest_line = 254;
+
+/// Comments of the message in lines that are short enough, broken at blanks where there are any.
+void write_comments(std::back_insert_iterator<fmt::memory_buffer> out,
+                    const std::vector<std::string>& comments) {
+  constexpr std::string_view keyword = "COMMENT ";
+  for (std::string_view rest : comments) {
+    while (!rest.empty()) {
+      std::size_t length = std::min(rest.size(), longest_line - keyword.size());
+      if (length < rest.size()) {
+        const std::size_t blank = rest.rfind(' ', length);
+        if (blank != std::string_view::npos && blank > 0) length = blank;
+      }
+      fmt::format_to(out, "{}{}\n", keyword, rest.substr(0, length));
+      rest.remove_prefix(length);
+      if (rest.starts_with(' ')) rest.remove_prefix(1);
+    }
+  }
+}
+
+void write_segment(std::back_insert_iterator<fmt::memory_buffer> out,
+                   const EphemerisSegment& segment) {
+  const OrbitMetadata& metadata = segment.metadata;
+  fmt::format_to(out,
+                 "META_START\n"
+                 "OBJECT_NAME = {}\n"
+                 "OBJECT_ID = {}\n"
+                 "CENTER_NAME = {}\n"
+                 "REF_FRAME = {}\n",
+                 metadata.object_name, metadata.object_id, metadata.center_name,
+                 metadata.reference_frame);
+  if (metadata.reference_frame_epoch) {
+    fmt::format_to(out, "REF_FRAME_EPOCH = {}\n", format_epoch(*metadata.reference_frame_epoch));
+  }
+  fmt::format_to(out,
+                 "TIME_SYSTEM = {}\n"
+                 "START_TIME = {}\n",
+                 time_system_names()[static_cast<std::size_t>(metadata.time_system)],
+                 format_epoch(segment.states.front().epoch));
+  if (segment.useable_start) {
+    fmt::format_to(out, "USEABLE_START_TIME = {}\n", format_epoch(*segment.useable_start));
+  }
+  if (segment.useable_stop) {
+    fmt::format_to(out, "USEABLE_STOP_TIME = {}\n", format_epoch(*segment.useable_stop));
+  }
+  fmt::format_to(out, "STOP_TIME = {}\nMETA_STOP\n\n", format_epoch(segment.states.back().epoch));
+  write_comments(out, segment.comments);
+  for (const OrbitState& state : segment.states) {
+    fmt::format_to(out, "{}", format_epoch(state.epoch));
+    for (const double x : state.position_km) fmt::format_to(out, " {:22.15e}", x);
+    for (const double v : state.velocity_km_s) fmt::format_to(out, " {:22.15e}", v);
+    fmt::format_to(out, "\n");
+  }
+}
+
+}  // namespace
+
+std::string oem_text(const OrbitEphemerisMessage& message) {
+  fmt::memory_buffer buffer;
+  const auto out = std::back_inserter(buffer);
+  fmt::format_to(out, "CCSDS_OEM_VERS = {}\n", message.version);
+  write_comments(out, message.comments);
+  fmt::format_to(out, "CREATION_DATE = {}\nORIGINATOR = {}\n", format_epoch(message.creation_date),
+                 message.originator);
+  for (const EphemerisSegment& segment : message.segments) {
+    fmt::format_to(out, "\n");
+    write_segment(out, segment);
+  }
+  return fmt::to_string(buffer);
+}
+
+}  // namespace hamjet::io

@@ -1,0 +1,203 @@
+#include "hamjet/formats/stored_jet.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "../integrators/momentum_unit.hpp"
+#include "../store/json_reader.hpp"
+#include "../store/text_file.hpp"
+#include "../text/scene_message.hpp"
+#include "hamjet/error.hpp"
+#include "hamjet/maps/evaluation_error.hpp"
+#include "hamjet/store/result_set.hpp"
+#include "hamjet/version.hpp"
+#include "stored_jet_source.hpp"
+
+namespace hamjet::io {
+namespace {
+
+double finite_number(const JsonReader& value) {
+  const double number = value.number();
+  if (!std::isfinite(number)) value.fail("must be finite");
+  return number;
+}
+
+double positive_number(const JsonReader& value) {
+  const double number = finite_number(value);
+  if (!(number > 0)) value.fail("must be positive");
+  return number;
+}
+
+std::vector<double> state(const JsonReader& value, const std::vector<std::size_t>& dimensions) {
+  std::vector<double> numbers = value.list(finite_number);
+  if (std::find(dimensions.begin(), dimensions.end(), numbers.size()) == dimensions.end()) {
+    value.fail(
+        fmt::format("must have {} numbers, has {}", fmt::join(dimensions, " or "), numbers.size()));
+  }
+  return numbers;
+}
+
+/// The sizes that a state of this model can have.
+std::vector<std::size_t> dimensions(SystemModel model) {
+  std::vector<std::size_t> sizes = possible_degrees_of_freedom(model);
+  for (std::size_t& size : sizes) size *= 2;
+  return sizes;
+}
+
+/// Indices of variables, which must ascend as the writer's do.
+std::vector<std::size_t> indices(const JsonReader& value,
+                                 const std::vector<std::string_view>& names) {
+  const auto result = value.list([&](const JsonReader& name) { return name.index_in(names); });
+  if (result.empty()) value.fail("must not be empty");
+  if (std::adjacent_find(result.begin(), result.end(), std::greater_equal<>()) != result.end()) {
+    value.fail("must ascend in the order of the state");
+  }
+  return result;
+}
+
+/// A label is the name of a folder; a damaged one must not lead elsewhere.
+void require_plain(const JsonReader& label) {
+  const std::string text = label.text();
+  if (text.empty() || text[0] == '.' || text.find_first_of(std::string("/\0", 2)) != text.npos) {
+    label.fail("must be the name of a folder of the results");
+  }
+}
+
+/// The run that is wanted; what is wrong with it is refused.
+JsonReader choose_run(const JsonReader& root, const std::optional<std::string>& label) {
+  const auto runs = root.at("runs").list([](const JsonReader& run) { return run; });
+  std::vector<std::string> labels;
+  for (const JsonReader& run : runs) {
+    require_plain(run.at("label"));
+    labels.push_back(run.at("label").text());
+    const std::string failure = run.at("error").text_or_empty();
+    if (label ? labels.back() == *label : failure.empty()) {
+      if (!failure.empty()) {
+        run.at("error").fail(fmt::format("the run {} has no result: {}", printable(labels.back()),
+                                         printable(failure, 300)));
+      }
+      return run;
+    }
+  }
+  if (!label) root.at("runs").fail("no run has a result");
+  throw Error(ErrorKind::usage, fmt::format("no run has the label {}; {}", printable(*label),
+                                            suggestion(*label, {labels.begin(), labels.end()})));
+}
+
+/// As measured against a reference, else as estimated without one.
+std::vector<double> coefficient_errors(const JsonReader& run) {
+  for (const char* key : {"error_by_degree", "error_estimate_by_degree"}) {
+    if (!run.has(key) || run.at(key).is_null()) continue;
+    return run.at(key).list(
+        [](const JsonReader& entry) { return finite_number(entry.at("relative")); });
+  }
+  return {};
+}
+
+void require_this_version(const JsonReader& root) {
+  if (root.has("study")) root.at("study").fail("the results of this study have no flow jet");
+  const std::string stored = root.at("version").text();
+  if (stored != version) {
+    root.at("version").fail(
+        fmt::format("the results are of hamjet {}, this is {}; run the scene again",
+                    printable(stored), version));
+  }
+}
+
+std::optional<EphemerisSettings> read_stored_ephemeris(const JsonReader& json) {
+  if (json.is_null()) return std::nullopt;
+  EphemerisSettings ephemeris;
+  ephemeris.epoch = json.at("epoch").text();
+  ephemeris.time_system = json.at("time_system").text();
+  ephemeris.reference_frame = json.at("reference_frame").text();
+  ephemeris.reference_frame_epoch = json.at("reference_frame_epoch").text_or_empty();
+  ephemeris.center_name = json.at("center_name").text();
+  return ephemeris;
+}
+
+}  // namespace
+
+StoredJet read_stored_jet(const std::filesystem::path& directory,
+                          const std::optional<std::string>& label) {
+  ResultSet set(directory, "summary.json");
+  StoredJet stored = read_stored_jet(directory, label, [&](const std::filesystem::path& file) {
+    if (file == set.path()) return set.summary();
+    return set.read(file.lexically_relative(directory).generic_string());
+  });
+  // Last, for the reader's own checks say better what is wrong.
+  set.verify();
+  return stored;
+}
+
+StoredJet read_stored_jet(const std::filesystem::path& directory,
+                          const std::optional<std::string>& label, const FileReader& read) {
+  return read_stored_jet(directory, label, read, {{}, read_coefficients});
+}
+
+StoredJet read_stored_jet(const std::filesystem::path& directory,
+                          const std::optional<std::string>& label, const FileReader& read,
+                          const CoefficientSource& source) {
+  const std::filesystem::path summary = directory / "summary.json";
+  const std::string summary_name = printable_path(summary);
+  const nlohmann::json json = JsonReader::parse(read(summary), summary_name);
+  const JsonReader root(json, summary_name);
+  require_this_version(root);
+  StoredJet stored;
+  stored.scene = root.at("scene").text();
+  stored.model = root.at("model").one_of<SystemModel>(model_names());
+  stored.precision = root.at("precision").one_of<Precision>({"double", "extended"});
+  stored.units = {positive_number(root.at("units").at("length_km")),
+                  positive_number(root.at("units").at("time_s"))};
+  if (root.has("ephemeris")) stored.ephemeris = read_stored_ephemeris(root.at("ephemeris"));
+  stored.duration = finite_number(root.at("duration_canonical"));
+  stored.nominal_initial = state(root.at("nominal_initial"), dimensions(stored.model));
+  const auto names = stored.variable_names();
+  stored.components = indices(root.at("components"), names);
+  stored.variables = indices(root.at("variables"), names);
+  if (!std::includes(stored.components.begin(), stored.components.end(), stored.variables.begin(),
+                     stored.variables.end())) {
+    root.at("variables").fail("must be among the components");
+  }
+  const int order = root.at("order").integer<int>();
+  const JsonReader count = root.at("coefficients_per_component");
+  // The count is a product of quotients, exact but for its last digits.
+  if (order < 1 || order > 60 ||
+      count.number() != std::round(SeriesSpace::monomial_count(stored.variables.size(), order))) {
+    count.fail(fmt::format("is not the number of coefficients of order {} in {} variables", order,
+                           stored.variables.size()));
+  }
+
+  const JsonReader run = choose_run(root, label);
+  stored.label = run.at("label").text();
+  stored.nominal_final = state(run.at("nominal_final"), {names.size()});
+  stored.error_by_degree = coefficient_errors(run);
+  const std::filesystem::path file =
+      source.file.empty() ? directory / stored.label / "jet.csv" : source.file;
+  stored.jet = source.read(
+      {printable_path(file), names, stored.components, stored.variables, order, stored.precision},
+      read(file));
+  for (std::size_t c = 0; c < stored.components.size(); ++c) {
+    const std::size_t i = stored.components[c];
+    if (static_cast<double>(stored.jet[c].constant()) != stored.nominal_final[i]) {
+      run.at("nominal_final")
+          .fail(fmt::format("the {} is not that of {}: the files are of different runs", names[i],
+                            printable_path(file)));
+    }
+  }
+  return stored;
+}
+
+std::vector<Series<double>> evaluation_error(const StoredJet& stored,
+                                             const std::vector<Series<double>>& map, int degree) {
+  const auto kinds =
+      kinds_of_variables(stored.variables, stored.nominal_initial.size(), map.size());
+  const int exponent = natural_momentum_exponent(is_orbit(stored.model), stored.nominal_initial);
+  const std::vector<Series<double>> comparable = in_momentum_unit(map, kinds, exponent);
+  return in_momentum_unit(hamjet::evaluation_error(comparable, degree, stored.error_by_degree),
+                          kinds, -exponent);
+}
+
+}  // namespace hamjet::io

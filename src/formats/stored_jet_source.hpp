@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "hamjet/formats/stored_jet.hpp"
+#include "stored_coefficients.hpp"
+
+namespace hamjet::io {
+
+/// Where the coefficients of a stored jet stand, and how they are read.
+struct CoefficientSource {
+  std::filesystem::path file;  ///< empty: the run's jet.csv
+  std::function<FlowJet<Extended>(const CoefficientFile&, std::string_view text)> read;
+};
+
+/// As the others in stored_jet.hpp, with coefficients from elsewhere.
+StoredJet read_stored_jet(const std::filesystem::path& directory,
+                          const std::optional<std::string>& label, const FileReader& read,
+                          const CoefficientSource& source);
+
+}  // namespace hamjet::io

@@ -1,0 +1,419 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <vector>
+
+#include "../compensated_addition.hpp"
+#include "../integration_clock.hpp"
+#include "../series_step_control.hpp"
+#include "../step_sequence.hpp"
+#include "../summed_jet.hpp"
+#include "gauss_checkpoint.hpp"
+#include "gauss_step_control.hpp"
+#include "hamjet/error.hpp"
+#include "hamjet/integrators/gauss_collocation.hpp"
+#include "stage_slopes.hpp"
+
+namespace hamjet {
+
+/// One Gauss integration; Lanes >= stages.
+template <class Real, int Lanes>
+class GaussIntegrator {
+ public:
+  using P = Pack<Real, Lanes>;
+  using Clock = IntegrationClock::Clock;
+
+  GaussIntegrator(const FlowProblem<Real>& problem, const GaussSettings& settings,
+                  IntegrationStatistics& statistics)
+      : GaussIntegrator(problem, settings, statistics, working_order(problem)) {}
+
+  /// Steps are chosen as for a jet of order `controlled_order`, which can be above the problem's.
+  GaussIntegrator(const FlowProblem<Real>& problem, const GaussSettings& settings,
+                  IntegrationStatistics& statistics, int controlled_order)
+      : problem_(problem),
+        settings_(settings),
+        statistics_(statistics),
+        order_(working_order(problem)),
+        is_linear_(problem.system->vector_field.is_linear_system()),
+        stages_(*problem.system, gauss_tableau(static_cast<std::size_t>(settings.stages)),
+                problem.space, order_),
+        point_(problem.system->evaluated_list(), problem.space, 0),
+        jet_(problem, settings.compensated_summation),
+        control_(settings, stages_, jet_, controlled_order) {
+    for (const auto& component : jet_.value()) state_.push_back(component.coefficients().data());
+  }
+
+  FlowJet<Real> run(const StepObserver<Real>& observer) {
+    begin();
+    while (at_.time != problem_.duration) {
+      step();
+      if (observer) clock_.exclude([&] { observer(at_.time, jet_.value()); });
+    }
+    return finish();
+  }
+
+  /// As `run`, telling `keep` where the nominal stands at the start and after every step, if
+  /// `is_kept(taken)`.
+  template <class IsKept, class Keep>
+  FlowJet<Real> run_nominal(const StepObserver<Real>& observer, const IsKept& is_kept,
+                            const Keep& keep) {
+    begin();
+    while (at_.time != problem_.duration) {
+      if (is_kept(at_.taken)) keep(checkpoint());
+      step();
+      if (observer) clock_.exclude([&] { observer(at_.time, jet_.value()); });
+    }
+    if (is_kept(at_.taken)) keep(checkpoint());
+    return finish();
+  }
+
+  /// The steps of an earlier run of the same nominal from a checkpoint on, to the `last`-th. What
+  /// that run found is taken over where `after(taken)` has the checkpoint of so many steps, and
+  /// found again, with the same result, where it is null.
+  template <class After>
+  FlowJet<Real> run_from(const GaussCheckpoint<Real, Lanes>& start, long last, const After& after,
+                         const StepObserver<Real>& observer) {
+    jet_.resume(start.state, start.lost);
+    at_ = start.at;
+    stages_.slopes() = start.slopes;
+    end_slope_ = start.end_slope;
+    guess_ = at_.taken > 0 ? Guess::last_step : Guess::none;
+    while (at_.taken < last) {
+      const GaussCheckpoint<Real, Lanes>* const end = after(at_.taken + 1);
+      if (end != nullptr) {
+        repeat_step(*end);
+      } else {
+        step();
+      }
+      if (observer) clock_.exclude([&] { observer(at_.time, jet_.value()); });
+    }
+    return finish();
+  }
+
+ private:
+  FlowJet<Real> finish() {
+    statistics_.series_work = settings_.stages * stages_.evaluator().work();
+    statistics_.wall_seconds = clock_.seconds();
+    require_finite(jet_.value(), at_.time, "Gauss");
+    return jet_.take();
+  }
+
+  GaussCheckpoint<Real, Lanes> checkpoint() {
+    return {jet_.constants(), jet_.lost_constants(), at_, stages_.slopes(), end_slope_};
+  }
+
+  /// A step is repeated if its error estimate exceeds the tolerance more than this: the estimate
+  /// goes as h^(2s), so that a step hardly too long is not worth repeating.
+  /// Where every degree counts the tolerance is far below what is wanted.
+  double largest_excess() const { return settings_.controls_all_degrees ? 1000 : 10; }
+
+  /// Adds the time since `mark` to one entry of the profile and moves the mark.
+  void account(double GaussProfile::*entry, Clock::time_point& mark) {
+    if (settings_.profile == nullptr) return;
+    const auto now = Clock::now();
+    settings_.profile->*entry += std::chrono::duration<double>(now - mark).count();
+    mark = now;
+  }
+
+  void begin() {
+    if (problem_.duration == 0) return;
+    evaluate_end_slope(end_slope_);
+    if (settings_.step) {
+      at_.remaining_steps = equal_step_count(problem_.duration, *settings_.step, "Gauss");
+      at_.proposed = problem_.duration / Real(at_.remaining_steps);
+    } else {
+      point_.evaluate_constant_terms();
+      at_.proposed = control_.first_step(point_, problem_.duration);
+    }
+  }
+
+  /// The slopes g at the state's constant terms.
+  void evaluate_end_slope(std::vector<Real>& slope) {
+    const std::size_t m = stages_.system().components();
+    for (std::size_t c = 0; c < m; ++c) *point_.input(c) = jet_.value()[c][0];
+    point_.evaluate_constant_values();
+    slope.assign(m, Real(0));
+    for (std::size_t c = 0; c < m; ++c) {
+      if (stages_.system().unit_mass()) {
+        slope[c] = *point_.output(c);
+      } else {
+        for (std::size_t k = 0; k < m; ++k) {
+          slope[c] += stages_.system().inverse_mass(c, k) * *point_.output(k);
+        }
+      }
+      if (!is_finite(slope[c])) {
+        throw Error(
+            ErrorKind::numerical,
+            fmt::format("Gauss: the vector field is not finite at t = {:.10g}: a collision, "
+                        "or a point outside its domain",
+                        static_cast<double>(at_.time)));
+      }
+    }
+  }
+
+  void step() {
+    auto mark = Clock::now();
+    const Real remaining = (problem_.duration - at_.time) + at_.lost_time;
+    Real h = at_.proposed;
+    double growth = 1;
+    while (true) {
+      if (!settings_.step) h = fit_to_span(sampling_step(h), remaining);
+      if (at_.time + h == at_.time) {
+        throw Error(
+            ErrorKind::numerical,
+            fmt::format("Gauss: the step size fell to {:.3g} at t = {:.15g}: a collision or "
+                        "another singularity lies ahead",
+                        static_cast<double>(h), static_cast<double>(at_.time)));
+      }
+      step_ = h;
+      const bool is_solved = solve_nominal(h);
+      account(&GaussProfile::nominal, mark);
+      if (settings_.step) {
+        if (!is_solved) fail_fixed_step(h);
+        if (settings_.estimates_step_error) {
+          clock_.exclude(
+              [&] { statistics_.record_step_error(control_.error_estimate(step_, end_slope_)); },
+              statistics_.step_error_seconds);
+        }
+        if (!solve_degrees(mark)) fail_fixed_step(h);
+        break;
+      }
+      double error = is_solved ? control_.error_estimate(step_, end_slope_)
+                               : std::numeric_limits<double>::infinity();
+      if (error <= largest_excess() * *settings_.tolerance) {
+        if (!solve_degrees(mark)) fail_fixed_step(h);
+        if (settings_.controls_all_degrees) {
+          error = std::max(error, SeriesStepControl<Real, Lanes>::error_estimate(
+                                      stages_, control_.last_mode_weights(), jet_.value(), order_));
+        }
+      }
+      growth = is_solved ? control_.step_factor(error) : 0.5;
+      if (error <= largest_excess() * *settings_.tolerance) {
+        growth *= control_.time_scale_ratio();
+        statistics_.record_step_error(error);
+        break;
+      }
+      ++statistics_.rejected_steps;
+      guess_ = is_solved ? Guess::repeated_step : Guess::none;
+      repeated_step_ = h;
+      h *= Real(std::min(growth, 0.9));
+    }
+    advance_jet(h);
+    at_.previous_step = h;
+    guess_ = Guess::last_step;
+    ++at_.taken;
+    ++statistics_.steps;
+    statistics_.periods += control_.periods(h);
+    statistics_.vector_field_evaluations += settings_.stages;
+    if (settings_.step) {
+      --at_.remaining_steps;
+      at_.time = at_.remaining_steps == 0
+                     ? problem_.duration
+                     : problem_.duration - at_.proposed * Real(at_.remaining_steps);
+    } else {
+      // Thousands of steps would else end beside the duration, by what each addition rounds off.
+      add_compensated(at_.time, at_.lost_time, h);
+      if (h == remaining) at_.time = problem_.duration;
+      at_.proposed = h * Real(std::clamp(growth, 0.1, 4.0));
+      limit_step_count("Gauss", at_.taken, static_cast<double>(at_.time),
+                       static_cast<double>(problem_.duration));
+    }
+    account(&GaussProfile::update, mark);
+  }
+
+  /// A step, shortened to what samples the field's shortest wave.
+  Real sampling_step(const Real& h) const {
+    const double longest = control_.longest_sampling_step(*problem_.system, start());
+    if (!(static_cast<double>(magnitude(h)) > longest)) return h;
+    return h < 0 ? Real(-longest) : Real(longest);
+  }
+
+  /// A step that an earlier run of the same nominal took.
+  void repeat_step(const GaussCheckpoint<Real, Lanes>& end) {
+    auto mark = Clock::now();
+    step_ = end.at.previous_step;
+    stages_.system().set_step(step_);
+    stages_.slopes() = end.slopes;
+    stages_.evaluate_at_slopes(start(), statistics_);
+    if (!solve_degrees(mark)) fail_fixed_step(step_);
+    advance_jet(step_);
+    account(&GaussProfile::update, mark);
+    at_ = end.at;
+    guess_ = Guess::last_step;
+    ++statistics_.steps;
+    statistics_.vector_field_evaluations += settings_.stages;
+  }
+
+  [[noreturn]] void fail_fixed_step(const Real& h) const {
+    throw Error(
+        ErrorKind::numerical,
+        fmt::format("Gauss with {} stages: the implicit equations of the step of {:.6g} from "
+                    "t = {:.10g} have no solution connected to its start; a smaller step is "
+                    "needed",
+                    settings_.stages, static_cast<double>(h), static_cast<double>(at_.time)));
+  }
+
+  /// Degree 0 of a step: Newton from the extrapolated slopes, from constant slopes if that fails,
+  /// and along growing step sizes where the solution found might not be the one connected to the
+  /// start.
+  bool solve_nominal(const Real& h) {
+    if (guess_ != Guess::none) {
+      if (guess_ == Guess::last_step) {
+        stages_.reposition(Real(1), Real(h / at_.previous_step));
+      } else {
+        stages_.reposition(Real(0), Real(h / repeated_step_));
+      }
+      if (try_step(h) && !is_suspicious(h)) return true;
+    }
+    set_constant_slopes();
+    if (try_step(h) && !is_suspicious(h)) return true;
+    return settings_.step && continue_from_start(h);
+  }
+
+  bool try_step(const Real& h) {
+    stages_.system().set_step(h);
+    return stages_.solve_constant_terms(start(), statistics_);
+  }
+
+  /// The state at the start of the step, by component.
+  auto start() const {
+    return [this](std::size_t k) -> const Real& { return jet_.value()[k][0]; };
+  }
+
+  void set_constant_slopes() {
+    for (std::size_t c = 0; c < end_slope_.size(); ++c) stages_.slopes()[c] = P(end_slope_[c]);
+  }
+
+  /// Newton can converge to a detached root of the stage equations, whose map is symplectic and
+  /// wrong. The slopes then have nothing to do with the slope at the start of the step.
+  /// The equations of a linear system have one solution only.
+  bool is_suspicious(const Real& h) {
+    if (is_linear_) return false;
+    if (control_.start_defect(end_slope_) > 0.5 * stages_.largest_slope() + 2 * expected_change()) {
+      return true;
+    }
+    // Controlled steps are short, and what they miss their error estimate sees.
+    return settings_.step && stages_.displacement(start()) > 4 * reach(h);
+  }
+
+  /// By how much the slopes may differ between the start and the stages: |Dg| times the
+  /// displacement. In a stiff system that is almost anything; see reach.
+  double expected_change() { return stages_.largest_gradient() * stages_.displacement(start()); }
+
+  /// How far a step goes with the slopes at its start.
+  double reach(const Real& h) {
+    const double size = std::abs(static_cast<double>(h));
+    auto& system = stages_.system();
+    const std::size_t m = system.components();
+    double result = 0;
+    for (std::size_t c = 0; c < m; ++c) {
+      double distance = size * std::abs(static_cast<double>(end_slope_[c]));
+      if (system.second_order()) {
+        Real velocity = system.unit_mass() ? start()(m + c) : Real(0);
+        for (std::size_t i = 0; i < m && !system.unit_mass(); ++i) {
+          velocity += system.inverse_mass(c, i) * start()(m + i);
+        }
+        distance = size * (std::abs(static_cast<double>(velocity)) + distance);
+      }
+      result = std::max(result, distance);
+    }
+    return result;
+  }
+
+  /// Follows the solution from a tiny step to the full one. Where neighbouring solutions differ
+  /// much the path is refined; a path that ends (a fold) has no continuation, however far it is
+  /// refined.
+  bool continue_from_start(const Real& h) {
+    constexpr double first = 0x1p-10;
+    constexpr double smallest = 0x1p-16;
+    set_constant_slopes();
+    const Real first_step = h * Real(first);
+    if (!try_step(first_step) || is_suspicious(first_step)) return false;
+    double reached = first;
+    double part = first;
+    double distance = stages_.displacement(start());
+    while (reached < 1) {
+      const double next = std::min(1.0, reached + part);
+      const std::vector<P> before = stages_.slopes();
+      const Real next_step = h * Real(next);
+      if (try_step(next_step) &&
+          slope_change(before) <= 0.25 * stages_.largest_slope() + expected_change() &&
+          stages_.displacement(start()) <= 4 * std::max(distance, reach(next_step))) {
+        distance = stages_.displacement(start());
+        reached = next;
+        part *= 2;
+        continue;
+      }
+      stages_.slopes() = before;
+      part /= 2;
+      if (part < smallest) return false;
+    }
+    return true;
+  }
+
+  double slope_change(const std::vector<P>& before) {
+    double result = 0;
+    for (std::size_t c = 0; c < before.size(); ++c) {
+      const P difference = stages_.slopes()[c] - before[c];
+      for (int i = 0; i < settings_.stages; ++i) {
+        result = std::max(result, std::abs(static_cast<double>(difference.lane(i))));
+      }
+    }
+    return result;
+  }
+
+  /// The degrees 1..N of the stages; false if their equations cannot be solved.
+  bool solve_degrees(Clock::time_point& mark) {
+    // Univariate series are too few for a factorisation. Others are all solved by one, so that the
+    // first degrees do not depend on the order.
+    bool iterates = problem_.space->variables() == 1;
+    bool is_factorised = false;
+    auto& evaluator = stages_.evaluator();
+    for (int d = 1; d <= order_; ++d) {
+      evaluator.evaluate_remainder(d);
+      account(&GaussProfile::series, mark);
+      iterates = iterates && stages_.iterate_degree(d, state_);
+      if (!iterates) {
+        if (!is_factorised && !stages_.factorise()) return false;
+        is_factorised = true;
+        account(&GaussProfile::factorisation, mark);
+        stages_.solve_degree(d, state_);
+      }
+      account(&GaussProfile::linear_solves, mark);
+      evaluator.complete(d);
+      account(&GaussProfile::update, mark);
+    }
+    return true;
+  }
+
+  /// The new state from the stages.
+  void advance_jet(const Real& h) {
+    jet_.advance(stages_, h, order_);
+    evaluate_end_slope(end_slope_);
+  }
+
+  const FlowProblem<Real>& problem_;
+  const GaussSettings& settings_;
+  IntegrationStatistics& statistics_;
+  IntegrationClock clock_;
+  int order_;
+  bool is_linear_;
+  StageSlopes<Real, Lanes> stages_;
+  SliceEvaluator<Real, Real> point_;  ///< the vector field at one point
+  SummedJet<Real, Lanes> jet_;
+  GaussStepControl<Real, Lanes> control_;
+  std::vector<const Real*> state_;
+  GaussStepping<Real> at_;
+  Real step_ = 0;  ///< being tried
+  /// What the slopes are of, from which those of the next try are guessed.
+  enum class Guess { none, last_step, repeated_step };
+  Guess guess_ = Guess::none;
+  Real repeated_step_ = 0;       ///< the size that was refused
+  std::vector<Real> end_slope_;  ///< at the end of the last step, where the next one starts
+};
+
+}  // namespace hamjet

@@ -1,0 +1,155 @@
+#include "gauss_tolerance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "../directional_flow.hpp"
+#include "gauss_lanes.hpp"
+#include "hamjet/algebra/extended.hpp"
+
+namespace hamjet {
+namespace {
+
+/// Of the tolerance and the number of periods, what the error of a degree may come to.
+constexpr double allowed_excess = 3;
+/// A trial aims this far below what is allowed, for the error falls only about as expected.
+constexpr double aim = 0.1;
+/// The least factor between the tolerances of two trials.
+constexpr double least_reduction = 1e-5;
+/// The largest factor after a trial whose steps were no shorter than those of the one before: then
+/// it is the waves of the field that limit them, not yet the tolerance.
+constexpr double next_reduction = 1e-3;
+constexpr int most_trials = 6;
+/// Lines of more steps are tried twice only: each trial is a good part of the whole work then, and
+/// what is left after so long is rounding.
+constexpr long most_steps_of_more_trials = 10000;
+/// From this degree on the zonal harmonics are weak and short enough to hide from the step control.
+constexpr int least_short_waves = 5;
+
+/// Below this the step control, which squares a defect of slopes, sees rounding alone.
+template <class Real>
+double smallest_step_tolerance() {
+  const double noise = 64 * static_cast<double>(std::numeric_limits<Real>::epsilon());
+  return 100 * noise * noise;
+}
+
+/// The errors of one trial.
+struct Trial {
+  double tolerance = 0;
+  std::vector<double> error_by_degree;
+  double limit = 0;
+  long steps = 0;  ///< of each line: the nominal chooses them, and both have one
+
+  double excess(std::size_t degree) const { return error_by_degree[degree] / limit; }
+  double largest_excess() const {
+    return *std::max_element(error_by_degree.begin(), error_by_degree.end()) / limit;
+  }
+};
+
+template <class Real>
+FlowJet<Real> integrate_as_given(const FlowProblem<Real>& problem, const GaussSettings& settings,
+                                 IntegrationStatistics& statistics) {
+  statistics = {};
+  return with_lanes(settings.stages, [&]<int Lanes>(std::integral_constant<int, Lanes>) {
+    return run_gauss<Lanes>(problem, settings, statistics, StepObserver<Real>{});
+  });
+}
+
+template <class Real>
+Trial try_tolerance(const DirectionalFlow<Real>& flow, const GaussSettings& settings,
+                    double tolerance) {
+  GaussSettings coarse = settings;
+  coarse.tolerance = tolerance;
+  coarse.profile = nullptr;
+  const GaussSettings fine = finer_gauss<Real>(settings, tolerance);
+  IntegrationStatistics statistics;
+  const auto with = [&](const GaussSettings& used) {
+    return flow.integrate(
+        [&](const FlowProblem<Real>& line) { return integrate_as_given(line, used, statistics); });
+  };
+  Trial trial{tolerance, {}, 0, 0};
+  const auto lines = with(coarse);
+  trial.steps = statistics.steps;
+  trial.error_by_degree = flow.relative_difference(lines, with(fine));
+  trial.limit = allowed_excess * *settings.tolerance * std::max(1.0, statistics.periods);
+  return trial;
+}
+
+/// The power of the tolerance with which the largest error fell from one trial to the next: 1 where
+/// the step control measures what it limits, less for high degrees, which it does not see.
+double convergence(const Trial& before, const Trial& after) {
+  const double fall = std::log(before.largest_excess() / after.largest_excess());
+  const double power = fall / std::log(before.tolerance / after.tolerance);
+  return std::isfinite(power) ? std::clamp(power, 0.4, 1.0) : 1;
+}
+
+/// The tolerance at which truncation has fallen to what `last`, the errors of which shorter steps
+/// do not take away, shows to be rounding.
+double where_rounding_begins(const Trial& before, const Trial& last) {
+  double ratio = 1;
+  for (std::size_t d = 0; d < before.error_by_degree.size(); ++d) {
+    if (before.excess(d) > 1) {
+      ratio = std::min(ratio, last.error_by_degree[d] / before.error_by_degree[d]);
+    }
+  }
+  return std::max(last.tolerance, ratio * before.tolerance);
+}
+
+}  // namespace
+
+template <class Real>
+GaussSettings finer_gauss(const GaussSettings& settings, double tolerance) {
+  GaussSettings fine;
+  fine.stages = settings.stages < 8 ? 8 : (settings.stages == 12 ? 10 : 12);
+  fine.tolerance = std::max(1e-3 * tolerance, smallest_step_tolerance<Real>());
+  fine.compensated_summation = true;
+  return fine;
+}
+
+template <class Real>
+StepTolerance choose_step_tolerance(const FlowProblem<Real>& problem,
+                                    const GaussSettings& settings) {
+  const double asked = settings.tolerance.value_or(0);
+  const bool is_chosen_in_steps = !settings.tolerance || settings.controls_all_degrees;
+  // Of the nominal alone the step control knows enough, unless the field has waves that are much
+  // shorter than the rest of it.
+  const bool is_known =
+      problem.space->order() == 0 && problem.system->waves_on_a_circle < least_short_waves;
+  if (is_chosen_in_steps || is_known || problem.duration == 0) {
+    return {asked, {}};
+  }
+  const double smallest = smallest_step_tolerance<Real>();
+  const DirectionalFlow<Real> flow(problem, 2);
+  Trial before = try_tolerance(flow, settings, asked);
+  if (!(before.largest_excess() > 1)) return {asked, {}};
+  double power = 1;
+  double largest_reduction = 0.1;
+  for (int i = 1; i < most_trials; ++i) {
+    const double excess = before.largest_excess();
+    const double wanted = std::isfinite(excess) ? std::pow(aim / excess, 1 / power) : 0;
+    const double next = std::max(
+        std::clamp(wanted, least_reduction, largest_reduction) * before.tolerance, smallest);
+    Trial trial = try_tolerance(flow, settings, next);
+    if (!(trial.largest_excess() > 1)) return {next, {}};
+    const bool is_shorter = trial.steps > before.steps;
+    // Steps that are shorter by so much would take away far more of a truncation error.
+    const bool is_rounding = is_shorter && trial.largest_excess() > 0.5 * excess;
+    const bool is_long = before.steps > most_steps_of_more_trials;
+    if (is_rounding || is_long || next == smallest) {
+      return {where_rounding_begins(before, trial), trial.error_by_degree};
+    }
+    power = is_shorter ? convergence(before, trial) : 1;
+    largest_reduction = is_shorter ? 0.1 : next_reduction;
+    before = std::move(trial);
+  }
+  return {before.tolerance, {}};
+}
+
+template StepTolerance choose_step_tolerance(const FlowProblem<double>&, const GaussSettings&);
+template StepTolerance choose_step_tolerance(const FlowProblem<Extended>&, const GaussSettings&);
+template GaussSettings finer_gauss<double>(const GaussSettings&, double);
+template GaussSettings finer_gauss<Extended>(const GaussSettings&, double);
+
+}  // namespace hamjet

@@ -1,0 +1,285 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "../real_number.hpp"
+#include "hamjet/algebra/pack.hpp"
+#include "hamjet/dynamics/dynamical_system.hpp"
+#include "stage_coefficients.hpp"
+
+namespace hamjet {
+
+/// The linear system of the stage equations of one step, and its solution operator.
+///
+/// Unknown are m components Y_c, each a pack over the stages i, with
+///
+///   Y = base + (W (x) I) G,   G_j = g(Y_j),
+///
+/// where for a general system Y = z, g = z', W = h A and base_i = z_n; and for a second-order
+/// system Y = q, g = M^-1 F(q), W = h^2 A^2 and base_i = q_n + h c_i M^-1 p_n (elimination of p).
+/// One linearisation serves Newton's iteration and every monomial of every degree:
+///
+///   (I - W (x) Dg) Y_d = base_d + W R_d   =>   Y_d = K R_d + B z_d .
+///
+/// K and B are kept as packs over the output stage i, so that applying them to a monomial is a run
+/// of broadcast multiply-adds.
+template <class Real, int Lanes>
+class StageSystem {
+ public:
+  using P = Pack<Real, Lanes>;
+
+  StageSystem(const DynamicalSystem& system, const GaussTableau& tableau)
+      : stages_(tableau.stages),
+        second_order_(system.second_order.has_value()),
+        components_(second_order_ ? system.degrees_of_freedom : system.dimension()),
+        state_size_(system.dimension()),
+        coefficients_(StageCoefficients<Real, Lanes>::of(tableau)),
+        coupling_(second_order_ ? coefficients_.squared : coefficients_.matrix) {
+    if (second_order_) {
+      for (const Extended& x : system.second_order->inverse_mass) {
+        inverse_mass_.push_back(convert<Real>(x));
+      }
+      for (std::size_t c = 0; c < components_; ++c) {
+        for (std::size_t k = 0; k < components_; ++k) {
+          if (inverse_mass(c, k) != Real(c == k ? 1 : 0)) unit_mass_ = false;
+        }
+      }
+    }
+    unknowns_ = components_ * stages_;
+    matrix_.resize(unknowns_ * components_);
+    response_.resize(unknowns_ * components_);
+    base_.resize(state_size_ * components_);
+    pivot_row_.resize(unknowns_);
+    used_.resize(unknowns_);
+  }
+
+  std::size_t stages() const { return stages_; }
+  std::size_t components() const { return components_; }
+  bool second_order() const { return second_order_; }
+  bool unit_mass() const { return unit_mass_; }
+  const Real& inverse_mass(std::size_t c, std::size_t k) const {
+    return inverse_mass_[c * components_ + k];
+  }
+  const StageCoefficients<Real, Lanes>& coefficients() const { return coefficients_; }
+  const P& weights() const { return coefficients_.weights.value; }
+  const P& nodes() const { return coefficients_.nodes.value; }
+  const P& position_weights() const { return coefficients_.position_weights.value; }
+  const P& weights_lost() const { return coefficients_.weights.lost; }
+  const P& position_weights_lost() const { return coefficients_.position_weights.lost; }
+
+  void set_step(const Real& h) {
+    step_ = h;
+    scale_ = second_order_ ? Real(h * h) : h;
+  }
+  const Real& step() const { return step_; }
+
+  /// sum over j of W_ij G_j, for one component.
+  P couple(const P& slopes) const {
+    // Four sums, for each addition waits for the one before.
+    std::array<P, 4> sums;
+    for (P& sum : sums) sum = P(Real(0));
+    std::size_t j = 0;
+    for (; j + 4 <= stages_; j += 4) {
+      for (std::size_t k = 0; k < 4; ++k) {
+        sums[k] += coupling_[j + k].value * P(slopes.lane(static_cast<int>(j + k)));
+      }
+    }
+    for (; j < stages_; ++j) sums[0] += coupling_[j].value * P(slopes.lane(static_cast<int>(j)));
+    return ((sums[0] + sums[1]) + (sums[2] + sums[3])) * P(scale_);
+  }
+
+  /// What the rounding of the coefficients has taken from base + couple. The rounded coefficients
+  /// alone are those of a method that is neither symplectic nor symmetric to the last digit: its
+  /// energy drifts with time, where that of random rounding only wanders (Hairer, McLachlan and
+  /// Razakarivony, Achieving Brouwer's law with implicit Runge-Kutta methods, BIT 48 (2008) 231).
+  template <class State>
+  P lost(std::size_t c, const State& state, const P& slopes) const {
+    P sum(Real(0));
+    for (std::size_t j = 0; j < stages_; ++j) {
+      sum += coupling_[j].lost * P(slopes.lane(static_cast<int>(j)));
+    }
+    sum *= P(scale_);
+    if (second_order_) sum += P(Real(step_ * velocity(c, state))) * coefficients_.nodes.lost;
+    return sum;
+  }
+
+  /// base for one component, from the state's coefficients of one monomial.
+  template <class State>
+  P base(std::size_t c, const State& state) const {
+    if (!second_order_) return P(state(c));
+    return P(state(c)) + P(Real(step_ * velocity(c, state))) * nodes();
+  }
+
+  /// K_(c, (from, stage)) as a pack over the stages of component c.
+  const P& response(std::size_t from, std::size_t stage, std::size_t c) const {
+    return response_[(from * stages_ + stage) * components_ + c];
+  }
+  /// B_(c, k), k an index into the state.
+  const P& base_response(std::size_t k, std::size_t c) const { return base_[k * components_ + c]; }
+
+  /// Forms K and B from the slopes' gradients Dg_(c, from), packs over the stages. False if the
+  /// matrix is singular or not finite.
+  template <class Gradient>
+  bool factorise(const Gradient& gradient) {
+    fill(gradient);
+    if (!eliminate()) return false;
+    undo_pivoting(response_);
+    undo_pivoting(base_);
+    return true;
+  }
+
+ private:
+  /// (M^-1 p)_c of a second-order system.
+  template <class State>
+  Real velocity(std::size_t c, const State& state) const {
+    if (unit_mass_) return state(components_ + c);
+    Real sum(0);
+    for (std::size_t k = 0; k < components_; ++k) {
+      sum += inverse_mass(c, k) * state(components_ + k);
+    }
+    return sum;
+  }
+
+  template <class Gradient>
+  void fill(const Gradient& gradient) {
+    const P zero(Real(0));
+    for (std::size_t from = 0; from < components_; ++from) {
+      for (std::size_t j = 0; j < stages_; ++j) {
+        const P column = coupling_[j].value * P(scale_);
+        P* m = &matrix_[(from * stages_ + j) * components_];
+        P* r = &response_[(from * stages_ + j) * components_];
+        for (std::size_t c = 0; c < components_; ++c) {
+          m[c] = column * P(Real(-gradient(c, from).lane(static_cast<int>(j))));
+          r[c] = c == from ? column : zero;
+        }
+        m[from].set_lane(static_cast<int>(j), m[from].lane(static_cast<int>(j)) + Real(1));
+      }
+    }
+    for (std::size_t k = 0; k < state_size_; ++k) {
+      for (std::size_t c = 0; c < components_; ++c) {
+        P& entry = base_[k * components_ + c];
+        if (k < components_) {
+          entry = c == k ? P(Real(1)) : zero;
+        } else {
+          entry = nodes() * P(Real(step_ * inverse_mass(c, k - components_)));
+        }
+      }
+    }
+  }
+
+  Real row_of(const P* column, std::size_t row) const {
+    return column[row / stages_].lane(static_cast<int>(row % stages_));
+  }
+  void set_row(P* column, std::size_t row, const Real& value) const {
+    column[row / stages_].set_lane(static_cast<int>(row % stages_), value);
+  }
+
+  /// The row to eliminate with: the diagonal unless another one is ten times larger (threshold
+  /// pivoting: the order of rows then rarely changes).
+  std::optional<std::size_t> choose_pivot(std::size_t column) const {
+    const P* m = &matrix_[column * components_];
+    std::size_t best = unknowns_;
+    Real largest = 0;
+    std::size_t row = 0;
+    for (std::size_t c = 0; c < components_; ++c) {
+      for (std::size_t i = 0; i < stages_; ++i, ++row) {
+        const Real value = magnitude(m[c].lane(static_cast<int>(i)));
+        if (!(value <= largest) && !used_[row]) {
+          largest = value;
+          best = row;
+        }
+      }
+    }
+    if (best == unknowns_ || !is_finite(largest)) return std::nullopt;
+    if (!used_[column] && 10 * magnitude(row_of(m, column)) >= largest) best = column;
+    return best;
+  }
+
+  /// Gauss-Jordan elimination by columns: rows are lanes, so every update is a run of packs.
+  bool eliminate() {
+    std::fill(used_.begin(), used_.end(), false);
+    for (std::size_t r = 0; r < unknowns_; ++r) {
+      const auto pivot = choose_pivot(r);
+      if (!pivot) return false;
+      pivot_row_[r] = *pivot;
+      used_[*pivot] = true;
+      P* factor = &matrix_[r * components_];
+      const Real inverse = 1 / row_of(factor, *pivot);
+      set_row(factor, *pivot, Real(0));
+      const std::size_t done = (r + 1) * components_;
+      reduce(matrix_.data() + done, matrix_.data() + matrix_.size(), factor, *pivot, inverse);
+      reduce(response_.data(), response_.data() + response_.size(), factor, *pivot, inverse);
+      reduce(base_.data(), base_.data() + base_.size(), factor, *pivot, inverse);
+    }
+    return true;
+  }
+
+  void reduce(P* column, const P* end, const P* factor, std::size_t pivot,
+              const Real& inverse) const {
+    // The usual numbers of components are unrolled: this is half the time of a step of order 1.
+    if (components_ == 3) return reduce<3>(column, end, factor, pivot, inverse);
+    if (components_ == 2) return reduce<2>(column, end, factor, pivot, inverse);
+    reduce<0>(column, end, factor, pivot, inverse);
+  }
+
+  /// Subtracts the pivot row from all others, in every column from `column` to `end`; Components 0
+  /// means as many as there are.
+  template <std::size_t Components>
+  void reduce(P* column, const P* end, const P* factor, std::size_t pivot,
+              const Real& inverse) const {
+    const std::size_t components = Components == 0 ? components_ : Components;
+    const std::size_t component = pivot / stages_;
+    const auto lane = static_cast<int>(pivot % stages_);
+    std::array<P, Components> row;
+    std::copy_n(factor, Components, row.begin());
+    for (; column != end; column += components) {
+      const Real x = column[component].lane(lane) * inverse;
+      if (x == 0) continue;  // the right-hand sides start with blocks of zeros
+      const P broadcast(x);
+      if constexpr (Components == 0) {
+        for (std::size_t c = 0; c < components; ++c) column[c] -= factor[c] * broadcast;
+      } else {
+        for (std::size_t c = 0; c < Components; ++c) column[c] -= row[c] * broadcast;
+      }
+      column[component].set_lane(lane, x);
+    }
+  }
+
+  void undo_pivoting(std::vector<P>& columns) const {
+    bool in_order = true;
+    for (std::size_t r = 0; r < unknowns_; ++r) in_order = in_order && pivot_row_[r] == r;
+    if (in_order) return;
+    std::vector<P> copy(components_);
+    for (std::size_t q = 0; q < columns.size(); q += components_) {
+      std::copy_n(&columns[q], components_, copy.begin());
+      for (std::size_t r = 0; r < unknowns_; ++r) {
+        set_row(&columns[q], r, row_of(copy.data(), pivot_row_[r]));
+      }
+    }
+  }
+
+  std::size_t stages_;
+  bool second_order_;
+  std::size_t components_;
+  std::size_t state_size_;
+  const StageCoefficients<Real, Lanes>& coefficients_;
+  /// Columns of A, or of A^2 for a second-order system.
+  const std::vector<typename StageCoefficients<Real, Lanes>::Rounded>& coupling_;
+  std::size_t unknowns_ = 0;
+  bool unit_mass_ = true;
+  Real step_ = 0;
+  Real scale_ = 0;
+  std::vector<Real> inverse_mass_;
+  std::vector<P> matrix_;
+  std::vector<P> response_;
+  std::vector<P> base_;
+  std::vector<std::size_t> pivot_row_;
+  std::vector<char> used_;
+};
+
+}  // namespace hamjet

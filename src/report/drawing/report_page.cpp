@@ -1,0 +1,85 @@
+#include "report_page.hpp"
+
+#include <fmt/format.h>
+
+#include "../../text/html_text.hpp"
+#include "hamjet/version.hpp"
+
+namespace hamjet::io {
+
+std::string figure_html(const Chart& chart, ChartDrawer& drawer) {
+  if (!chart.missing.empty()) return fmt::format("<p>{}</p>\n", escape_html(chart.missing));
+  std::string reason;
+  const std::string drawing = drawer.draw_inline(chart, reason);
+  std::string html = fmt::format("<figure id=\"figure-{}\">\n{}", chart.name, drawing);
+  if (!reason.empty()) {
+    html += fmt::format("<p class=\"problem\">This plot could not be drawn: {}</p>\n",
+                        escape_html(reason));
+  }
+  if (!drawing.empty()) {
+    for (const std::string& note : chart.notes) {
+      html += fmt::format("<p class=\"note\">{}</p>\n", escape_html(note));
+    }
+  }
+  if (!drawing.empty() && !chart.reading.empty()) {
+    html += fmt::format("<figcaption><strong>How to read it.</strong> {}</figcaption>\n",
+                        escape_html(chart.reading));
+  }
+  return html + "</figure>\n";
+}
+
+std::string section_html(const Chart& chart, ChartDrawer& drawer) {
+  return fmt::format("<section>\n<h2>{}</h2>\n{}</section>\n", escape_html(chart.title),
+                     figure_html(chart, drawer));
+}
+
+std::string table_html(std::string_view caption, std::string_view head, std::string_view rows) {
+  return fmt::format(
+      "<p class=\"caption\">{}</p>\n<div class=\"scroll\" tabindex=\"0\"><table>\n"
+      "<thead>{}</thead>\n<tbody>{}</tbody></table></div>\n",
+      caption, head, rows);
+}
+
+std::string header_cells(const std::vector<std::string>& names) {
+  std::string cells;
+  for (const std::string& name : names) {
+    cells += fmt::format("<th scope=\"col\">{}</th>", escape_html(name));
+  }
+  return cells;
+}
+
+std::string row_name_cell(std::string_view text) {
+  return fmt::format("<th scope=\"row\">{}</th>", escape_html(text));
+}
+
+std::string cell(std::string_view text) { return fmt::format("<td>{}</td>", escape_html(text)); }
+
+std::string fact_html(std::string_view name, std::string_view value) {
+  return fmt::format("<dt>{}</dt><dd>{}</dd>\n", escape_html(name), escape_html(value));
+}
+
+std::string origin_facts_html(const ReportOrigin& origin) {
+  return fmt::format("<dt>Made by</dt><dd><code>{}</code></dd>\n", escape_html(origin.command)) +
+         fact_html("Version", fmt::format("hamjet {}", version)) +
+         fact_html("Processor", origin.processor) + fact_html("Date", origin.date);
+}
+
+std::string page_html(const ReportPage& page, const ChartDrawer& drawer) {
+  const std::string title = escape_html(page.title);
+  std::string html = fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+      "<title>{}</title>\n<style>{}</style>\n</head>\n<body>\n<header>\n<h1>{}</h1>\n{}",
+      title, page_style, title, page.notice);
+  html += fmt::format("<p class=\"verdict\">{}</p>\n", escape_html(page.verdict));
+  if (drawer.problem()) {
+    html += fmt::format("<p class=\"problem\">{}. The tables are complete.</p>\n",
+                        escape_html(*drawer.problem()));
+  }
+  const bool has_plot = page.first_figure.find("<svg") != std::string::npos;
+  html += fmt::format("</header>\n<main>\n<div class=\"first{}\">\n{}<dl>\n{}</dl>\n</div>\n",
+                      has_plot ? "" : " without-plot", page.first_figure, page.facts);
+  return html + page.sections + "</main>\n</body>\n</html>\n";
+}
+
+}  // namespace hamjet::io

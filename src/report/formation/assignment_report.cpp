@@ -1,0 +1,157 @@
+#include <fmt/format.h>
+
+#include "../../formats/relative_frame_text.hpp"
+#include "../../store/csv_values.hpp"
+#include "../../store/json_values.hpp"
+#include "../../text/html_text.hpp"
+#include "hamjet/report/relative_motion_report.hpp"
+#include "transfer_json.hpp"
+#include "transfer_view.hpp"
+
+namespace hamjet::io {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string_view time_choice(const AssignmentResult& result) {
+  return result.scene.assignment->time == AssignmentTime::common ? "common" : "per-pair";
+}
+
+/// Why the exit code is not 0.
+std::string failure_line(const AssignmentResult& result) {
+  if (exit_code(result) == 0) return "";
+  if (!result.failure.empty()) return result.failure;
+  for (const AssignedTransfer& assigned : result.transfers) {
+    const std::string failure = failure_text(assigned.transfer);
+    if (!failure.empty()) {
+      return fmt::format("deputy {} to slot {}: {}", assigned.deputy, assigned.slot, failure);
+    }
+  }
+  return fmt::format("strict: a transfer misses by more than {}; see assignment.csv",
+                     length_text(result.scene.transfer->tolerance_m));
+}
+
+std::string terminal_table(const AssignmentResult& result) {
+  std::string text = fmt::format("{}\n{} deputies to {} slots, {} time; frame {}, order {}\n",
+                                 result.scene.title, result.scene.assignment->deputies.size(),
+                                 result.scene.assignment->slots.size(), time_choice(result),
+                                 frame_text(result.scene.transfer->frame), result.scene.order);
+  if (!result.failure.empty()) text += fmt::format("NOT ASSIGNED: {}\n", result.failure);
+  for (const AssignedTransfer& assigned : result.transfers) {
+    const TransferPoint& point = assigned.transfer;
+    const TransferAnswer* answer = shown_answer(point);
+    text += fmt::format("  deputy {:<3} to slot {:<3}  ", assigned.deputy, assigned.slot);
+    text += answer == nullptr
+                ? failure_text(point) + "\n"
+                : fmt::format("{:>14} in {}, misses by {}{}\n",
+                              velocity_text(answer->total_change_m_s()),
+                              time_text(point.time * result.scene.units.time_s),
+                              miss_text(answer->miss_m, result.flight_floor_m),
+                              point.is_beyond_tolerance ? ", BEYOND THE TOLERANCE" : "");
+  }
+  if (!result.transfers.empty()) {
+    text +=
+        fmt::format("  total                   {:>14}\n", velocity_text(result.total_change_m_s));
+  }
+  return text + fmt::format(
+                    "  time: {} for costs and assignment, {} to prove it by flying (floor "
+                    "{})\n",
+                    duration_text(result.study_seconds), duration_text(result.proof_seconds),
+                    length_text(result.flight_floor_m));
+}
+
+Json transfers_json(const AssignmentResult& result) {
+  Json json = Json::array();
+  for (const AssignedTransfer& assigned : result.transfers) {
+    json.push_back({{"deputy", assigned.deputy},
+                    {"slot", assigned.slot},
+                    {"transfer", transfer_point_json(assigned.transfer, result.scene.units)}});
+  }
+  return json;
+}
+
+std::string summary(const AssignmentResult& result) {
+  const TransferSettings& settings = *result.scene.transfer;
+  const bool is_assigned = !result.transfers.empty();
+  Json json = study_head_json(result.scene, "assignment", result.integrator);
+  json["frame"] = frame_name(settings.frame);
+  json["derivatives"] = text_or_null(std::string(derivatives_name(settings.frame)));
+  json["axes"] = axis_letters(settings.frame);
+  json["kind"] = settings.kind;
+  json["tolerance_m"] = settings.tolerance_m;
+  json["deputies"] = result.scene.assignment->deputies.size();
+  json["slots"] = result.scene.assignment->slots.size();
+  json["time"] = time_choice(result);
+  json["common_time_s"] = nullptr;
+  if (result.common_time) {
+    json["common_time_s"] = settings.times[*result.common_time] * result.scene.units.time_s;
+  }
+  json["transfers"] = transfers_json(result);
+  json["total_change_m_s"] = is_assigned ? json_number(result.total_change_m_s) : Json(nullptr);
+  json["failure"] = text_or_null(result.failure);
+  json["flight_floor_m"] = json_number(result.flight_floor_m);
+  json["seconds"] = {{"study", result.study_seconds}, {"proof", result.proof_seconds}};
+  json["exit_code"] = exit_code(result);
+  return json.dump(2) + "\n";
+}
+
+}  // namespace
+
+std::string assignment_csv(const AssignmentResult& result) {
+  std::string text =
+      "deputy,slot,time_canonical,time_s,kind,condition,near_singular,beyond_tolerance,answer";
+  for (const char* end : {"start", "end"}) {
+    for (const std::string_view axis : axis_columns(result.scene.transfer->frame)) {
+      text += fmt::format(",{}_change_{}_m_s", end, axis);
+    }
+  }
+  text += ",total_change_m_s,miss_m,failure\n";
+  for (const AssignedTransfer& assigned : result.transfers) {
+    const TransferPoint& point = assigned.transfer;
+    text += fmt::format("{},{},{},{},{},{},{},{},{}", assigned.deputy, assigned.slot,
+                        csv_number(point.time), csv_number(point.time * result.scene.units.time_s),
+                        point.kind ? point.kind->name() : "",
+                        point.kind ? csv_number(point.condition) : "", point.is_near_singular,
+                        point.is_beyond_tolerance, answer_name(point));
+    if (const TransferAnswer* answer = shown_answer(point)) {
+      for (const Eigen::Vector3d* change : {&answer->start_change_m_s, &answer->end_change_m_s}) {
+        for (const double component : *change) text += "," + csv_number(component);
+      }
+      text +=
+          fmt::format(",{},{}", csv_number(answer->total_change_m_s()), csv_number(answer->miss_m));
+    } else {
+      text += ",,,,,,,,";
+    }
+    text += "," + csv_field(failure_text(point)) + "\n";
+  }
+  return text;
+}
+
+std::string costs_csv(const AssignmentResult& result) {
+  const std::vector<double>& times = result.scene.transfer->times;
+  std::string text = "deputy,slot,time_canonical,time_s,total_change_m_s\n";
+  for (std::size_t i = 0; i < result.costs.size(); ++i) {
+    for (std::size_t j = 0; j < result.costs[i].size(); ++j) {
+      const AssignmentCost& cost = result.costs[i][j];
+      text += fmt::format("{},{},", i, j);
+      text += cost.time ? fmt::format("{},{},{}\n", csv_number(times[*cost.time]),
+                                      csv_number(times[*cost.time] * result.scene.units.time_s),
+                                      csv_number(cost.total_change_m_s))
+                        : ",,\n";
+    }
+  }
+  return text;
+}
+
+StudyReport assignment_report(const AssignmentResult& result) {
+  StudyReport report;
+  report.files = {{"assignment.csv", assignment_csv(result)},
+                  {"costs.csv", costs_csv(result)},
+                  {"summary.json", summary(result)}};
+  report.table = terminal_table(result);
+  report.exit_code = exit_code(result);
+  report.failure = failure_line(result);
+  return report;
+}
+
+}  // namespace hamjet::io

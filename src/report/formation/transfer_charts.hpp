@@ -1,0 +1,29 @@
+#pragma once
+
+#include <vector>
+
+#include "../drawing/chart.hpp"
+#include "hamjet/studies/transfer.hpp"
+#include "hamjet/studies/validity.hpp"
+
+namespace hamjet::io {
+
+// None of these is fitted.
+
+/// Velocity changes against transfer time, with the margins around F1's singular times.
+Chart velocity_change_chart(const TransferResult& result);
+/// Where the deputies of each order come to, against transfer time.
+Chart miss_chart(const TransferResult& result);
+/// Conditions of F1..F4 and of the best kind along time.
+Chart condition_chart(const TransferResult& result);
+
+/// The trajectory relative to the chief, projected on three planes. How to read them stands under
+/// the first.
+std::vector<Chart> relative_trajectory_charts(const RelativeTrajectory& trajectory);
+
+/// The largest separation at which each order is right, along time.
+Chart validity_time_chart(const ValidityResult& result);
+/// The same against the order, for some of the times.
+Chart validity_order_chart(const ValidityResult& result);
+
+}  // namespace hamjet::io

@@ -1,0 +1,139 @@
+#include "transfer_page.hpp"
+
+#include <fmt/format.h>
+
+#include "../../formats/relative_frame_text.hpp"
+#include "../../text/html_text.hpp"
+#include "../drawing/report_page.hpp"
+#include "transfer_charts.hpp"
+#include "transfer_view.hpp"
+#include "validity_view.hpp"
+
+namespace hamjet::io {
+namespace {
+
+std::string fitted_section(Chart chart, ChartDrawer& drawer) {
+  fit(chart);
+  return section_html(chart, drawer);
+}
+
+std::string state_text(const RelativeState& state) {
+  const auto& q = state.position_m;
+  const auto& v = state.velocity_m_s;
+  return fmt::format("({:g}, {:g}, {:g}) m, ({:g}, {:g}, {:g}) m/s", q[0], q[1], q[2], v[0], v[1],
+                     v[2]);
+}
+
+std::string scene_text(const Scene& scene) {
+  return fmt::format("{}, order {}", scene.name, scene.order);
+}
+
+std::string facts_html(const TransferResult& result, const ReportOrigin& origin) {
+  const TransferSettings& settings = *result.scene.transfer;
+  const TransferCounts counts = count_points(result);
+  const double unit = result.scene.units.time_s;
+  return origin_facts_html(origin) + fact_html("Scene", scene_text(result.scene)) +
+         fact_html("Frame", frame_text(settings.frame)) +
+         fact_html("Start", state_text(settings.start)) +
+         fact_html("End", state_text(settings.end)) +
+         fact_html("Transfer times",
+                   fmt::format("{}, {:.6g} s to {:.6g} s; {} answered, {} near a singularity, {} "
+                               "miss by more than {}",
+                               counts.times, settings.times.front() * unit,
+                               settings.times.back() * unit, counts.answered, counts.near_singular,
+                               counts.beyond_tolerance, length_text(settings.tolerance_m))) +
+         fact_html("Generating function", settings.kind) +
+         fact_html("Time", fmt::format("{} for the answers, {} to prove them by flying",
+                                       duration_text(result.seconds.study()),
+                                       duration_text(result.seconds.proof)));
+}
+
+std::string trajectory_section(const TransferResult& result,
+                               const std::optional<RelativeTrajectory>& trajectory,
+                               ChartDrawer& drawer) {
+  std::string html = "<section>\n<h2>Relative trajectory</h2>\n";
+  const auto best = result.best_point();
+  if (!trajectory || !best) {
+    return html + "<p>No transfer is good enough to be drawn.</p>\n</section>\n";
+  }
+  html += fmt::format("<p>The transfer of the least velocity change, in {}.</p>\n",
+                      time_text(result.points[*best].time * result.scene.units.time_s));
+  for (Chart& chart : relative_trajectory_charts(*trajectory)) {
+    fit(chart);
+    html += figure_html(chart, drawer);
+  }
+  return html + "</section>\n";
+}
+
+}  // namespace
+
+std::string transfer_page(const TransferResult& result,
+                          const std::optional<RelativeTrajectory>& trajectory,
+                          const std::optional<ValidityResult>& validity, const ReportOrigin& origin,
+                          ChartDrawer& drawer) {
+  ReportPage page;
+  page.title = result.scene.title + ": velocity changes of transfers";
+  page.verdict = transfer_verdict(result);
+  Chart first = velocity_change_chart(result);
+  fit(first);
+  page.first_figure = figure_html(first, drawer);
+  page.facts = facts_html(result, origin);
+  page.sections = "<section>\n<h2>The best transfer</h2>\n" + best_transfer_table_html(result) +
+                  "</section>\n" + trajectory_section(result, trajectory, drawer) +
+                  fitted_section(miss_chart(result), drawer) + miss_table_html(result) +
+                  fitted_section(condition_chart(result), drawer) + singular_table_html(result);
+  if (validity) {
+    page.sections += fitted_section(validity_time_chart(*validity), drawer) +
+                     validity_sections_html(*validity, drawer);
+  }
+  page.sections += "<section>\n<h2>All transfer times</h2>\n" + transfers_table_html(result) +
+                   "</section>\n<section>\n<h2>What it took</h2>\n" + seconds_table_html(result) +
+                   "</section>\n";
+  return page_html(page, drawer);
+}
+
+std::string validity_sections_html(const ValidityResult& result, ChartDrawer& drawer) {
+  std::string rows;
+  for (const ValidityPoint& point : result.points) {
+    for (const ValidityEntry& entry : point.entries) {
+      rows += "<tr>" +
+              row_name_cell(fmt::format("{:.6g}", point.time * result.scene.units.time_s)) +
+              cell(std::to_string(entry.order)) + cell(length_text(entry.predicted_m)) +
+              cell((entry.is_at_limit ? "at least " : "") + length_text(entry.proved_m)) +
+              cell(length_text(entry.miss_m)) + "</tr>\n";
+    }
+  }
+  return fitted_section(validity_order_chart(result), drawer) +
+         table_html(
+             fmt::format(
+                 "The largest separation at which each order is right to the tolerance, as "
+                 "predicted from the decay of the degrees and as proved by flying, and the "
+                 "worst miss of the sampled deputies at the proved one. Positions fill the "
+                 "ellipsoid of that separation, velocities, {}, the same times the mean motion.",
+                 velocities_text(result.scene.validity->frame)),
+             "<tr>" + header_cells({"time (s)", "order", "predicted", "proved", "worst miss"}) +
+                 "</tr>",
+             rows);
+}
+
+std::string validity_page(const ValidityResult& result, const ReportOrigin& origin,
+                          ChartDrawer& drawer) {
+  ReportPage page;
+  page.title = result.scene.title + ": validity of the polynomials";
+  page.verdict = validity_verdict(result);
+  Chart first = validity_time_chart(result);
+  fit(first);
+  page.first_figure = figure_html(first, drawer);
+  page.facts = origin_facts_html(origin) + fact_html("Scene", scene_text(result.scene)) +
+               fact_html("Frame", frame_text(result.scene.validity->frame)) +
+               fact_html("Tolerance", length_text(result.scene.validity->tolerance_m)) +
+               fact_html("Flights", std::to_string(result.flights)) +
+               fact_html("Flight floor", length_text(result.flight_floor_m)) +
+               fact_html("Time", fmt::format("{} for the jets, {} to fly the deputies",
+                                             duration_text(result.propagation_seconds),
+                                             duration_text(result.proof_seconds)));
+  page.sections = validity_sections_html(result, drawer);
+  return page_html(page, drawer);
+}
+
+}  // namespace hamjet::io

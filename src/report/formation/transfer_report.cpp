@@ -1,0 +1,119 @@
+#include <fmt/format.h>
+
+#include "../../formats/relative_frame_text.hpp"
+#include "../../text/html_text.hpp"
+#include "../drawing/chart_drawer.hpp"
+#include "../propagation/orbit_ephemeris.hpp"
+#include "hamjet/report/relative_motion_report.hpp"
+#include "transfer_json.hpp"
+#include "transfer_page.hpp"
+#include "transfer_view.hpp"
+#include "validity_json.hpp"
+#include "validity_view.hpp"
+
+namespace hamjet::io {
+namespace {
+
+std::string change_line(const TransferResult& result, const char* name,
+                        std::optional<std::size_t> index) {
+  if (!index) return fmt::format("  {:<17}none\n", name);
+  const TransferPoint& point = result.points[*index];
+  const TransferAnswer& answer = *shown_answer(point);
+  return fmt::format("  {:<17}{} in {}, {}, {}: misses by {}\n", name,
+                     velocity_text(answer.total_change_m_s()),
+                     time_text(point.time * result.scene.units.time_s),
+                     point.kind ? point.kind->name() : "no kind", answer_name(point),
+                     miss_text(answer.miss_m, result.flight_floor_m));
+}
+
+std::string singular_line(const TransferResult& result) {
+  constexpr std::size_t most_shown = 12;
+  const std::vector<SingularTime> times = result.position_singularities();
+  if (times.empty()) return "  F1 singular      at no time of the span\n";
+  std::string text = "  F1 singular      at";
+  for (std::size_t i = 0; i < times.size() && i < most_shown; ++i) {
+    text += i == 0 ? " " : ", ";
+    text += singular_time_text(times[i], result.scene.units.time_s, 4);
+  }
+  text += times.size() > most_shown ? fmt::format(" and {} more", times.size() - most_shown) : "";
+  return text + " s\n";
+}
+
+std::string terminal_table(const TransferResult& result) {
+  const TransferSettings& settings = *result.scene.transfer;
+  const TransferCounts counts = count_points(result);
+  const double unit = result.scene.units.time_s;
+  std::string text = fmt::format(
+      "{}\n{}\n"
+      "  frame            {}; order {}, kind {}\n"
+      "  transfer times   {}, {:.6g} s to {:.6g} s: {} answered, {} near a singularity, {} of "
+      "the others beyond the tolerance of {}\n",
+      result.scene.title, transfer_verdict(result), frame_text(settings.frame), result.scene.order,
+      settings.kind, counts.times, settings.times.front() * unit, settings.times.back() * unit,
+      counts.answered, counts.near_singular, counts.beyond_tolerance_away,
+      length_text(settings.tolerance_m));
+  text += change_line(result, "least", result.best_point()) +
+          change_line(result, "greatest", costliest_point(result));
+  for (const MissStatistics& entry : miss_statistics(result)) {
+    text += fmt::format("  {:<17}misses by {} (median), {} (largest) away from singularities\n",
+                        entry.answer, miss_text(entry.median_m, result.flight_floor_m),
+                        miss_text(entry.largest_m, result.flight_floor_m));
+  }
+  text += singular_line(result);
+  if (const std::string residual = hamilton_jacobi_text(result); !residual.empty()) {
+    text += fmt::format("  Hamilton-Jacobi  residual {}\n", residual);
+  }
+  if (result.chief_error_m > settings.tolerance_m) {
+    text += fmt::format(
+        "  chief            the integrator's chief is {} from the flown one at the last time: too "
+        "inaccurate for the tolerance\n",
+        length_text(result.chief_error_m));
+  }
+  if (counts.refinement_failed > 0) {
+    text +=
+        fmt::format("  not refined      {} times; see transfers.csv\n", counts.refinement_failed);
+  }
+  return text + fmt::format(
+                    "  time             {} for the answers, {} to prove them by flying "
+                    "(floor {}), {} for the Hamilton-Jacobi residuals\n",
+                    duration_text(result.seconds.study()), duration_text(result.seconds.proof),
+                    length_text(result.flight_floor_m), duration_text(result.seconds.residual));
+}
+
+}  // namespace
+
+nlohmann::ordered_json transfer_report_json(const TransferResult& result,
+                                            const std::optional<ValidityResult>& validity) {
+  nlohmann::ordered_json summary = transfer_summary_json(result);
+  summary["validity"] = validity ? validity_json(*validity) : nlohmann::ordered_json(nullptr);
+  summary["exit_code"] = exit_code(result);
+  return summary;
+}
+
+StudyReport transfer_report(const TransferResult& result,
+                            const std::optional<RelativeTrajectory>& trajectory,
+                            const std::optional<ValidityResult>& validity,
+                            const ReportOrigin& origin) {
+  StudyReport report;
+  report.files = {{"transfers.csv", transfers_csv(result)},
+                  {"singular_times.csv", singular_times_csv(result)},
+                  {"conditions.csv", conditions_csv(result)}};
+  if (validity) report.files.push_back({"validity.csv", validity_csv(*validity)});
+  if (result.scene.output.oem && trajectory) {
+    for (ReportFile& file : transfer_oems(result, *trajectory)) {
+      report.files.push_back(std::move(file));
+    }
+  }
+  ChartDrawer drawer(origin.gnuplot);
+  report.files.push_back(
+      {"report.html", transfer_page(result, trajectory, validity, origin, drawer)});
+  report.drawing_problem = drawer.problem();
+  report.exit_code = exit_code(result);
+  report.failure = transfer_failure(result);
+  report.files.push_back({"summary.json", transfer_report_json(result, validity).dump(2) + "\n"});
+  report.table = terminal_table(result);
+  if (validity) report.table += "  validity         " + validity_verdict(*validity) + "\n";
+  return report;
+}
+
+}  // namespace hamjet::io

@@ -1,0 +1,109 @@
+#include <fmt/format.h>
+
+#include "../../formats/relative_frame_text.hpp"
+#include "../../store/csv_values.hpp"
+#include "../../store/json_values.hpp"
+#include "../../text/html_text.hpp"
+#include "../drawing/chart_drawer.hpp"
+#include "hamjet/report/relative_motion_report.hpp"
+#include "transfer_json.hpp"
+#include "transfer_page.hpp"
+#include "validity_json.hpp"
+#include "validity_view.hpp"
+
+namespace hamjet::io {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string terminal_table(const ValidityResult& result) {
+  std::string text =
+      fmt::format("{}\n{}\nframe {}\n  {:>12}", result.scene.title, validity_verdict(result),
+                  frame_text(result.scene.validity->frame), "time (s)");
+  for (int order = 1; order <= result.scene.order; ++order) {
+    text += fmt::format("  {:>10}", fmt::format("order {}", order));
+  }
+  text += "\n";
+  bool has_limit = false;
+  for (const ValidityPoint& point : result.points) {
+    text += fmt::format("  {:>12.6g}", point.time * result.scene.units.time_s);
+    for (const ValidityEntry& entry : point.entries) {
+      has_limit |= entry.is_at_limit;
+      text += fmt::format("  {:>10}", (entry.is_at_limit ? ">" : "") + length_text(entry.proved_m));
+    }
+    text += "\n";
+  }
+  if (has_limit) text += "> still right at the largest separation tried\n";
+  return text + fmt::format("{} flights; {} for the jets, {} to fly (floor {})\n", result.flights,
+                            duration_text(result.propagation_seconds),
+                            duration_text(result.proof_seconds),
+                            length_text(result.flight_floor_m));
+}
+
+}  // namespace
+
+Json validity_json(const ValidityResult& result) {
+  const ValiditySettings& settings = *result.scene.validity;
+  Json points = Json::array();
+  for (const ValidityPoint& point : result.points) {
+    Json entries = Json::array();
+    for (const ValidityEntry& entry : point.entries) {
+      entries.push_back({{"order", entry.order},
+                         {"predicted_m", json_number(entry.predicted_m)},
+                         {"proved_m", json_number(entry.proved_m)},
+                         {"miss_m", json_number(entry.miss_m)},
+                         {"at_limit", entry.is_at_limit}});
+    }
+    points.push_back({{"time_canonical", point.time},
+                      {"time_s", point.time * result.scene.units.time_s},
+                      {"orders", entries}});
+  }
+  return {
+      {"tolerance_m", settings.tolerance_m},
+      {"frame", frame_name(settings.frame)},
+      {"derivatives", text_or_null(std::string(derivatives_name(settings.frame)))},
+      {"axes", axis_letters(settings.frame)},
+      {"semi_axes", settings.semi_axes},
+      {"samples", settings.samples},
+      {"verdict", validity_verdict(result)},
+      {"times", points},
+      {"flights", result.flights},
+      {"flight_floor_m", json_number(result.flight_floor_m)},
+      {"seconds", {{"propagation", result.propagation_seconds}, {"proof", result.proof_seconds}}}};
+}
+
+Json validity_report_json(const ValidityResult& result) {
+  Json summary = study_head_json(result.scene, "validity", result.integrator);
+  summary["validity"] = validity_json(result);
+  summary["exit_code"] = 0;
+  return summary;
+}
+
+std::string validity_csv(const ValidityResult& result) {
+  const RelativeFrame frame = result.scene.validity->frame;
+  std::string text =
+      "time_canonical,time_s,order,predicted_m,proved_m,miss_m,at_limit,frame,derivatives\n";
+  for (const ValidityPoint& point : result.points) {
+    for (const ValidityEntry& entry : point.entries) {
+      text += fmt::format("{},{},{},{},{},{},{},{},{}\n", csv_number(point.time),
+                          csv_number(point.time * result.scene.units.time_s), entry.order,
+                          csv_number(entry.predicted_m), csv_number(entry.proved_m),
+                          csv_number(entry.miss_m), entry.is_at_limit, frame_name(frame),
+                          derivatives_name(frame));
+    }
+  }
+  return text;
+}
+
+StudyReport validity_report(const ValidityResult& result, const ReportOrigin& origin) {
+  StudyReport report;
+  ChartDrawer drawer(origin.gnuplot);
+  report.files = {{"validity.csv", validity_csv(result)},
+                  {"report.html", validity_page(result, origin, drawer)}};
+  report.drawing_problem = drawer.problem();
+  report.files.push_back({"summary.json", validity_report_json(result).dump(2) + "\n"});
+  report.table = terminal_table(result);
+  return report;
+}
+
+}  // namespace hamjet::io

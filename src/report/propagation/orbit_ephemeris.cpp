@@ -1,0 +1,204 @@
+#include "orbit_ephemeris.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <span>
+
+#include "../../formats/relative_frame_text.hpp"
+#include "../../store/json_values.hpp"
+#include "../formation/transfer_view.hpp"
+#include "hamjet/error.hpp"
+#include "hamjet/formats/orbit_message.hpp"
+#include "hamjet/version.hpp"
+
+namespace hamjet::io {
+namespace {
+
+Epoch now() {
+  const auto moment = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
+  const auto day = std::chrono::floor<std::chrono::days>(moment);
+  return {day, (moment - day).count() * std::int64_t{1'000'000'000'000}};
+}
+
+/// Messages are printable ASCII.
+std::string ascii(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c < 0x20 || c >= 0x7f; }, '?');
+  return text;
+}
+
+std::string model_text(const SystemSettings& system) {
+  std::string text =
+      fmt::format("Model: {}, GM = {} km**3/s**2",
+                  model_names()[static_cast<std::size_t>(system.model)], system.mu_km3_s2);
+  if (system.J.any()) text += fmt::format(", radius {} km", system.radius_km);
+  for (int n = ZonalCoefficients::lowest; n <= ZonalCoefficients::highest; ++n) {
+    if (system.J[n] != 0) text += fmt::format(", J{} = {}", n, system.J[n]);
+  }
+  return text + "; no drag, no other bodies";
+}
+
+/// A message of one segment without states.
+OrbitEphemerisMessage message_of(const Scene& scene, const std::string& source) {
+  const EphemerisSettings& settings = *scene.ephemeris;
+  OrbitEphemerisMessage message;
+  message.version = settings.oem_version;
+  message.creation_date = now();
+  message.originator = settings.originator;
+  message.comments = {
+      ascii(fmt::format("Written by hamjet {}, scene {}: {}", version, scene.name, scene.title)),
+      ascii(source)};
+  EphemerisSegment segment;
+  segment.metadata = {settings.object_name,     settings.object_id, settings.center_name,
+                      settings.reference_frame, TimeSystem::utc,    std::nullopt};
+  const auto& names = time_system_names();
+  segment.metadata.time_system = static_cast<TimeSystem>(
+      std::find(names.begin(), names.end(), settings.time_system) - names.begin());
+  if (!settings.reference_frame_epoch.empty()) {
+    segment.metadata.reference_frame_epoch = parse_epoch(settings.reference_frame_epoch).value();
+  }
+  segment.comments = {
+      model_text(scene.system),
+      fmt::format(
+          "The axes of {} are taken as inertial{}", settings.reference_frame,
+          scene.system.J.any()
+              ? ", its z axis as that of the zonal field: true of TOD; of EME2000, GCRF and "
+                "ICRF the nearer their poles are to the body's"
+              : ""),
+      fmt::format(
+          "Times: {} {} and the seconds of the motion, every day with 86400{}", settings.epoch,
+          settings.time_system,
+          settings.time_system == "UTC"
+              ? "; no leap second is known in this span (the last one known here is that at "
+                "the end of 2016-12-31)"
+              : "")};
+  message.segments.push_back(segment);
+  return message;
+}
+
+/// The reader of scenes has checked the scene's own span; a stored jet may bring another one.
+Epoch moment(const Scene& scene, double time) {
+  const EphemerisSettings& settings = *scene.ephemeris;
+  const Epoch start = parse_epoch(settings.epoch).value();
+  const Extended seconds = Extended(time) * scene.units.time_s;
+  const auto epoch = later(start, seconds);
+  const bool is_dated =
+      epoch && !(settings.time_system == "UTC" && leap_second_between(start, *epoch));
+  if (!is_dated) {
+    throw Error(ErrorKind::input_output,
+                fmt::format("ephemeris.epoch: {} {} and {:.6g} s are no moment that is known, must "
+                            "not be across a leap second nor outside of the years 1 to 9999",
+                            settings.epoch, settings.time_system, convert<double>(seconds)));
+  }
+  return *epoch;
+}
+
+OrbitState orbit_state(const Scene& scene, double time, std::span<const double> state) {
+  const Extended length = scene.units.length_km;
+  OrbitState result{moment(scene, time), {}, {}};
+  for (std::size_t i = 0; i < 3; ++i) {
+    result.position_km[i] = convert<double>(state[i] * length);
+    // The momenta are per unit of mass.
+    result.velocity_km_s[i] = convert<double>(state[3 + i] * length / scene.units.time_s);
+  }
+  return result;
+}
+
+/// Adds states in whatever direction of time; of two within a picosecond the first stays.
+void add_states(OrbitEphemerisMessage& message, std::vector<OrbitState> states) {
+  std::stable_sort(states.begin(), states.end(),
+                   [](const OrbitState& a, const OrbitState& b) { return a.epoch < b.epoch; });
+  const auto end =
+      std::unique(states.begin(), states.end(),
+                  [](const OrbitState& a, const OrbitState& b) { return a.epoch == b.epoch; });
+  states.erase(end, states.end());
+  message.segments.front().states = std::move(states);
+}
+
+std::string change_text(const Eigen::Vector3d& change_m_s, RelativeFrame frame) {
+  const auto letters = axis_letters(frame);
+  return fmt::format("{} = {:.9g} km/s, {} = {:.9g} km/s, {} = {:.9g} km/s", letters[0],
+                     change_m_s[0] / 1000, letters[1], change_m_s[1] / 1000, letters[2],
+                     change_m_s[2] / 1000);
+}
+
+std::vector<OrbitState> flown_states(const Scene& scene, const std::vector<double>& times,
+                                     const std::vector<std::vector<double>>& states) {
+  std::vector<OrbitState> result;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    result.push_back(orbit_state(scene, times[i], states[i]));
+  }
+  return result;
+}
+
+}  // namespace
+
+std::string nominal_oem(const PropagationResult& result, const RunResult& run) {
+  OrbitEphemerisMessage message =
+      message_of(result.scene, fmt::format("The nominal of the run {}", run.settings.label));
+  std::vector<std::string>& comments = message.segments.front().comments;
+  comments.push_back(
+      run.error_by_degree
+          ? fmt::format("Accuracy: relative error of the last state {:.2g}, against a reference in "
+                        "extended precision",
+                        run.error_by_degree->front())
+          : "Accuracy: not measured, for the scene asks for no reference");
+  comments.push_back(
+      "States at the steps of the integrator, which are not spaced for interpolation. Taylor "
+      "coefficients, generating functions and checks cannot stand here: see jet.csv, summary.json");
+  std::vector<OrbitState> states;
+  for (const NominalPoint& point : run.nominal) {
+    states.push_back(orbit_state(result.scene, point.time, point.state));
+  }
+  add_states(message, std::move(states));
+  return oem_text(message);
+}
+
+std::vector<ReportFile> transfer_oems(const TransferResult& result,
+                                      const RelativeTrajectory& trajectory) {
+  const Scene& scene = result.scene;
+  OrbitEphemerisMessage chief =
+      message_of(scene, "The chief, flown with the full equations of motion");
+  add_states(chief, flown_states(scene, trajectory.times, trajectory.chief));
+
+  OrbitEphemerisMessage deputy = message_of(
+      scene, fmt::format("The deputy of the best transfer relative to {}, flown with the full "
+                         "equations of motion",
+                         scene.ephemeris->object_name));
+  EphemerisSegment& segment = deputy.segments.front();
+  segment.metadata.object_name = scene.ephemeris->deputy_name;
+  segment.metadata.object_id = scene.ephemeris->deputy_id;
+  const TransferAnswer& answer = result.points[*result.best_point()].best();
+  const RelativeFrame frame = scene.transfer->frame;
+  segment.comments.push_back(
+      fmt::format("The states begin after the first velocity change and end before the second; the "
+                  "changes are given along axes relative to the chief: {}",
+                  frame_text(frame)));
+  segment.comments.push_back("First change: " + change_text(answer.start_change_m_s, frame));
+  segment.comments.push_back("Second change: " + change_text(answer.end_change_m_s, frame));
+  segment.comments.push_back(fmt::format("It misses its place by {:.3g} m", answer.miss_m));
+  add_states(deputy, flown_states(scene, trajectory.times, trajectory.deputy));
+  return {{"chief.oem", oem_text(chief)}, {"deputy.oem", oem_text(deputy)}};
+}
+
+nlohmann::ordered_json ephemeris_json(const Scene& scene) {
+  if (!scene.ephemeris) return nullptr;
+  const EphemerisSettings& settings = *scene.ephemeris;
+  return {{"epoch", settings.epoch},
+          {"time_system", settings.time_system},
+          {"reference_frame", settings.reference_frame},
+          {"reference_frame_epoch", text_or_null(settings.reference_frame_epoch)},
+          {"center_name", settings.center_name},
+          {"object_name", settings.object_name},
+          {"object_id", settings.object_id}};
+}
+
+nlohmann::ordered_json nominal_file_json(const Scene& scene) {
+  if (!scene.nominal_file) return nullptr;
+  const NominalFile& file = *scene.nominal_file;
+  return {{"path", file.path}, {"format", file.format}, {"unused", file.unused}};
+}
+
+}  // namespace hamjet::io

@@ -1,0 +1,182 @@
+#include <nlohmann/json.hpp>
+
+#include "../../formats/results_names.hpp"
+#include "../../scene/system_json.hpp"
+#include "../../store/json_values.hpp"
+#include "hamjet/report/results.hpp"
+#include "hamjet/version.hpp"
+#include "orbit_ephemeris.hpp"
+#include "results_operations_json.hpp"
+
+namespace hamjet::io {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json exactness_json(const PropagationResult& result, const KindResult& kind) {
+  Json by_degree = Json::array();
+  for (const ExactnessEntry& entry : kind.by_degree) {
+    Json row = {{"degree", entry.residual.degree},
+                {"absolute", entry.residual.absolute},
+                {"scaled", entry.residual.scaled},
+                {"at_formation_scale", or_null(entry.residual.at_formation_scale)},
+                {"floor", nullptr},
+                {"floor_scaled", nullptr},
+                {"floor_at_formation_scale", nullptr},
+                {"at_floor", nullptr}};
+    if (entry.floor) {
+      row["floor"] = entry.floor->absolute;
+      row["floor_scaled"] = entry.floor->scaled;
+      row["floor_at_formation_scale"] = or_null(entry.floor->at_formation_scale);
+      row["at_floor"] = is_at_floor(entry);
+    }
+    by_degree.push_back(row);
+  }
+  return {{"kind", kind_name(kind)},
+          {"requested", kind.requested},
+          {"variables", generating_function_variables(result, kind.kind)},
+          {"condition", kind.condition},
+          {"error", text_or_null(kind.failure)},
+          {"by_degree", kind.failure.empty() ? by_degree : Json(nullptr)}};
+}
+
+Json checks_json(const std::vector<SelfCheck>& checks) {
+  Json json = Json::array();
+  for (const SelfCheck& check : checks) {
+    json.push_back({{"name", name_of(check.name)},
+                    {"state", name_of(check.state)},
+                    {"value", or_null(check.value)},
+                    {"limit", or_null(check.limit)},
+                    {"seconds", check.seconds},
+                    {"text", check.text}});
+  }
+  return json;
+}
+
+/// Relative errors by degree, or null.
+Json by_degree_json(const std::optional<std::vector<double>>& errors) {
+  if (!errors) return nullptr;
+  Json json = Json::array();
+  for (std::size_t d = 0; d < errors->size(); ++d) {
+    json.push_back({{"degree", d}, {"relative", (*errors)[d]}});
+  }
+  return json;
+}
+
+/// How a run was split, and why.
+Json arcs_json(const Scene& scene, const ArcStatistics& arcs) {
+  const ArcPlan& plan = arcs.plan;
+  Json speed_ups = Json::object();
+  for (std::size_t i = 0; i < plan.speed_ups.size(); ++i) {
+    speed_ups[std::to_string(ArcPlan::thread_counts[i])] = plan.speed_ups[i];
+  }
+  return {{"asked", scene.arcs ? Json(*scene.arcs) : Json("auto")},
+          {"count", plan.arcs},
+          {"reason", plan.reason},
+          {"estimated_speed_up_by_threads", speed_ups},
+          {"multiply_adds",
+           {{"nominal_step", plan.nominal_multiply_adds},
+            {"step", plan.step_multiply_adds},
+            {"step_of_later_arcs", plan.arc_step_multiply_adds},
+            {"composition", plan.composition_multiply_adds}}},
+          {"compositions", arcs.compositions},
+          {"threads", arcs.threads},
+          {"nominal_seconds", arcs.nominal_seconds},
+          {"arcs_seconds", arcs.arcs_seconds},
+          {"composition_seconds", arcs.composition_seconds}};
+}
+
+Json run_json(const PropagationResult& result, const RunResult& run) {
+  Json json = integrator_json(run.settings);
+  json["error"] = text_or_null(run.failure);
+  json["failed_checks"] = run.failed_checks;
+  if (!run.failure.empty()) {
+    for (const char* key :
+         {"checks", "steps", "rejected_steps", "vector_field_evaluations", "nominal_evaluations",
+          "wall_seconds", "nominal_final", "energy_error", "exactness", "symplecticity_by_degree",
+          "error_by_degree", "error_estimate_by_degree", "position_error_m", "operations"}) {
+      json[key] = nullptr;
+    }
+    return json;
+  }
+  json["checks"] = checks_json(run.checks);
+  json["steps"] = run.statistics.steps;
+  json["rejected_steps"] = run.statistics.rejected_steps;
+  json["vector_field_evaluations"] = run.statistics.vector_field_evaluations;
+  json["nominal_evaluations"] = run.statistics.nominal_evaluations;
+  json["wall_seconds"] = run.statistics.wall_seconds;
+  json["nominal_final"] = run.nominal_final;
+  json["energy_error"] = run.energy_error;
+  json["exactness"] = Json::array();
+  for (const KindResult& kind : run.kinds)
+    json["exactness"].push_back(exactness_json(result, kind));
+  if (!result.scene.kinds || !result.problem.is_full_jet) json["exactness"] = nullptr;
+  json["symplecticity_by_degree"] = nullptr;
+  if (!run.symplecticity.empty()) {
+    json["symplecticity_by_degree"] = Json::array();
+    for (const SymplecticityDefect& entry : run.symplecticity) {
+      json["symplecticity_by_degree"].push_back(
+          {{"degree", entry.degree}, {"absolute", entry.absolute}, {"scaled", entry.scaled}});
+    }
+  }
+  json["error_by_degree"] = by_degree_json(run.error_by_degree);
+  json["error_estimate_by_degree"] = by_degree_json(run.error_estimate.by_degree);
+  json["position_error_m"] = or_null(run.position_error_m);
+  json["operations"] = operations_json(result, run);
+  if (run.arcs) json["arcs"] = arcs_json(result.scene, *run.arcs);
+  return json;
+}
+
+}  // namespace
+
+std::string summary_json(const PropagationResult& result) {
+  const Scene& scene = result.scene;
+  const auto names = variable_names(scene.system);
+  Json components = Json::array();
+  for (const std::size_t c : result.problem.components) components.push_back(names[c]);
+  Json variables = Json::array();
+  for (const std::size_t v : scene.variables) variables.push_back(names[v]);
+  Json json = {{"scene", scene.name},
+               {"title", scene.title},
+               {"version", version},
+               {"model", model_names()[static_cast<std::size_t>(scene.system.model)]},
+               {"system", system_json(scene.system)},
+               {"precision", scene.precision == Precision::extended ? "extended" : "double"},
+               {"units", {{"length_km", scene.units.length_km}, {"time_s", scene.units.time_s}}},
+               {"order", scene.order},
+               {"variables", variables},
+               {"components", components},
+               {"coefficients_per_component", result.problem.space->size()},
+               {"duration_canonical", scene.duration},
+               {"nominal_initial", scene.nominal},
+               {"ephemeris", ephemeris_json(scene)},
+               {"nominal_file", nominal_file_json(scene)},
+               {"separation_canonical", or_null(scene.separation)},
+               {"reference", nullptr}};
+  if (result.reference) {
+    const ReferenceResult& reference = *result.reference;
+    std::vector<double> state(scene.nominal.size(), 0);
+    for (std::size_t i = 0; i < reference.jet.size(); ++i) {
+      state[result.problem.components[i]] = static_cast<double>(reference.jet[i][0]);
+    }
+    json["reference"] = {{"method", "gauss"},
+                         {"precision", "extended"},
+                         {"stages", reference.stages},
+                         {"tolerance", reference.tolerance},
+                         {"steps", reference.statistics.steps},
+                         {"wall_seconds", reference.statistics.wall_seconds},
+                         {"nominal_final", state},
+                         {"uncertainty_by_degree", reference.uncertainty_by_degree}};
+  }
+  json["reference_error"] = text_or_null(result.reference_failure);
+  json["relative_hamiltonian_error"] = text_or_null(result.relative_hamiltonian_failure);
+  json["exit_code"] = exit_code(result);
+  json["runs"] = Json::array();
+  for (const RunResult& run : result.runs) json["runs"].push_back(run_json(result, run));
+  json["operations"] = operations_json(result);
+  json["skipped"] = skipped_json(result);
+  json["warnings"] = scene.warnings;
+  return json.dump(2) + "\n";
+}
+
+}  // namespace hamjet::io

@@ -1,0 +1,175 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <hamjet/algebra/extended.hpp>
+#include <limits>
+#include <system_error>
+#include <utility>
+
+#include "../../scene/scene_document.hpp"
+#include "../../scene/scene_sections.hpp"
+#include "../../scene/scene_text.hpp"
+#include "../../scene/stability_case_keys.hpp"
+#include "../../store/text_file.hpp"
+#include "../../text/scene_message.hpp"
+#include "hamjet/error.hpp"
+#include "hamjet/report/stability_report.hpp"
+#include "hamjet/studies/self_check_settings.hpp"
+
+namespace hamjet::io {
+namespace {
+
+constexpr double largest_number = std::numeric_limits<double>::max();
+
+/// Decimal texts of more digits than binary64 has.
+std::vector<Extended> decimals(const TableReader& table, std::string_view key) {
+  constexpr std::string_view digits = "0123456789";
+  const std::vector<std::string> texts = table.texts(key);
+  std::vector<Extended> values;
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    const bool has_digits = texts[i].find_first_of(digits) != std::string::npos &&
+                            texts[i].find_first_not_of("0123456789+-.eE") == std::string::npos;
+    try {
+      if (!has_digits) throw std::runtime_error("not a number");
+      values.emplace_back(texts[i]);
+    } catch (const std::runtime_error&) {
+      table.fail_element(
+          key, i, fmt::format("not a number, got {}, must be decimal digits", in_quotes(texts[i])));
+    }
+  }
+  return values;
+}
+
+GrowthExpectation read_growth(const TableReader& growth) {
+  growth.check_keys({{"checkpoints", "times", "states", "samples", "error_exponent",
+                      "energy_exponent", "coefficient_exponents", "exponent_tolerance"}});
+  GrowthExpectation expected;
+  if (growth.has("checkpoints")) {
+    expected.checkpoints = static_cast<int>(growth.integer_between("checkpoints", 3, 20));
+  }
+  if (growth.has("samples")) {
+    expected.samples = static_cast<int>(growth.integer_between("samples", 1, 64));
+  }
+  if (growth.has("times")) expected.times = growth.numbers("times");
+  if (growth.has("states")) {
+    if (expected.times.empty()) growth.fail("states", "without times, must stand beside times");
+    expected.states = decimals(growth, "states");
+  }
+  if (growth.has("error_exponent")) expected.error_exponent = growth.number("error_exponent");
+  if (growth.has("energy_exponent")) expected.energy_exponent = growth.number("energy_exponent");
+  if (growth.has("coefficient_exponents")) {
+    expected.coefficient_exponents = growth.numbers("coefficient_exponents");
+  }
+  if (growth.has("exponent_tolerance")) {
+    expected.exponent_tolerance = growth.positive_number("exponent_tolerance");
+  }
+  return expected;
+}
+
+ConditionExpectation read_condition(const TableReader& condition) {
+  condition.check_keys({{"kind", "value"}});
+  return {condition.text("kind"), condition.positive_number("value")};
+}
+
+/// The scene with the changes of the twin, `key = value` each as with --set.
+Scene read_twin(const TableReader& twin, std::string_view text, const std::string& file) {
+  twin.check_keys({{"set"}});
+  std::vector<Override> overrides;
+  for (const std::string& change : twin.texts("set")) {
+    const std::size_t equals = change.find('=');
+    if (equals == std::string::npos) {
+      twin.fail("set", fmt::format("not a change, got {}, must be key=value", in_quotes(change)));
+    }
+    overrides.push_back({change.substr(0, equals), change.substr(equals + 1)});
+  }
+  return parse_scene(text, file, overrides);
+}
+
+void read_right(const TableReader& table, std::string_view text, const std::string& file,
+                StabilityExpectation& expected) {
+  expected.source = table.text("source");
+  if (table.has("state")) expected.state = decimals(table, "state");
+  if (table.has("matrix")) expected.matrix = decimals(table, "matrix");
+  if (table.has("tolerance")) {
+    expected.tolerance = table.number_between("tolerance", 0, largest_number);
+  }
+  if (table.has("round_trip")) expected.round_trip = table.boolean("round_trip");
+  if (table.has("condition")) expected.condition = read_condition(table.table("condition"));
+  if (table.has("growth")) expected.growth = read_growth(table.table("growth"));
+  if (table.has("twin")) expected.twin = read_twin(table.table("twin"), text, file);
+}
+
+StabilityExpectation read_expectation(const TableReader& table, std::string_view text,
+                                      const std::string& file) {
+  StabilityExpectation expected;
+  expected.outcome =
+      static_cast<CaseOutcome>(table.choice("outcome", {"right", "refused", "marked"}));
+  const bool is_refused = expected.outcome == CaseOutcome::refused;
+  const bool is_marked = expected.outcome == CaseOutcome::marked;
+  std::vector<std::string_view> keys =
+      joined(common_case_keys, is_refused ? refusal_case_keys : reference_case_keys);
+  if (is_marked) keys = joined(std::move(keys), mark_case_keys);
+  table.check_keys({keys});
+  if (is_refused) {
+    expected.exit_code = static_cast<int>(table.integer_between("exit_code", 2, 6));
+    expected.message = table.text("message");
+    if (expected.message.empty()) table.fail("message", "empty, must be a part of the error");
+    return expected;
+  }
+  if (is_marked) {
+    expected.mark = self_check_names()[table.choice("mark", self_check_names())];
+  }
+  const bool has_reference = std::any_of(reference_case_keys.begin(), reference_case_keys.end(),
+                                         [&](std::string_view key) { return table.has(key); });
+  if (!is_marked || has_reference) read_right(table, text, file, expected);
+  return expected;
+}
+
+StabilityCase read_case(const std::filesystem::path& path) {
+  const std::string file = path.string();
+  const std::string text = read_scene_file(path);
+  const SceneDocument document = parse_document(text, printable_path(path), {});
+  const TableReader root(document.table, "", document.source);
+  const TableReader table = root.table("case");
+  StabilityCase subject{path.stem().string(),
+                        root.text("title"),
+                        table.text("group"),
+                        table.text("why"),
+                        read_expectation(table, text, file),
+                        Scene{}};
+  try {
+    subject.scene = parse_scene(text, file);
+  } catch (const Error& error) {
+    subject.scene = error;
+  }
+  return subject;
+}
+
+}  // namespace
+
+std::vector<StabilityCase> read_stability_suite(const std::filesystem::path& suite) {
+  std::error_code error;
+  if (!std::filesystem::is_directory(suite, error)) return {read_case(suite)};
+  std::vector<std::filesystem::path> files;
+  for (std::filesystem::directory_iterator entry(suite, error), end; !error && entry != end;
+       entry.increment(error)) {
+    if (entry->path().extension() == ".toml") files.push_back(entry->path());
+  }
+  const std::string name = printable_path(suite);
+  if (error) {
+    throw Error(ErrorKind::input_output,
+                fmt::format("{}: cannot be read: {}", name, error.message()));
+  }
+  if (files.empty()) {
+    throw Error(ErrorKind::input_output,
+                fmt::format("{}: has no case, must be a folder of scenes (*.toml) with a table "
+                            "[case]",
+                            name));
+  }
+  std::sort(files.begin(), files.end());
+  std::vector<StabilityCase> cases;
+  for (const auto& file : files) cases.push_back(read_case(file));
+  return cases;
+}
+
+}  // namespace hamjet::io

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "../drawing/chart_drawer.hpp"
+#include "hamjet/report/report_origin.hpp"
+#include "hamjet/studies/stability.hpp"
+
+namespace hamjet::io {
+
+/// "63 cases: 40 right, 15 refused, 8 marked, none wrong."
+std::string stability_verdict(const std::vector<StabilityResult>& results);
+
+/// The page `stability.html`.
+std::string stability_page(const std::vector<StabilityResult>& results, const ReportOrigin& origin,
+                           ChartDrawer& drawer);
+
+}  // namespace hamjet::io

@@ -1,0 +1,230 @@
+#include "scene_document.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cstddef>
+#include <hamjet/error.hpp>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "../text/scene_message.hpp"
+#include "scene_first_definition.hpp"
+#include "scene_text.hpp"
+
+namespace hamjet::io {
+namespace {
+
+/// Each dot of an override's key may add a table, and very deep tables overflow the stack when they
+/// are freed.
+constexpr std::size_t longest_override_key = 1000;
+
+/// The value that removes a key; TOML has none of this name.
+constexpr std::string_view removal = "null";
+
+toml::table parse_toml(std::string_view text, const std::string& source) {
+  text = check_scene_text(text, source);
+  try {
+    return toml::parse(text, std::string_view(source));
+  } catch (const toml::parse_error& error) {
+    const auto& begin = error.source().begin;
+    std::string problem = fmt::format("not valid TOML: {}", printable(error.description(), 300));
+    if (error.description().find("redefine") != std::string_view::npos) {
+      const auto first = first_definition(text, begin);
+      if (first) problem += ", which is already at " + location(source, first->line, first->column);
+    }
+    throw_scene_error(location(source, begin.line, begin.column), problem);
+  }
+}
+
+[[noreturn]] void throw_usage(const Override& change, const std::string& problem) {
+  throw Error(ErrorKind::usage, fmt::format("{}: {}", override_source(change.key), problem));
+}
+
+/// The text as a TOML string.
+std::string toml_string(std::string_view text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') {
+      result += '\\';
+      result += c;
+    } else if (code < 0x20 || code == 0x7f) {
+      result += fmt::format("\\u{:04x}", code);
+    } else {
+      result += c;
+    }
+  }
+  return result + '"';
+}
+
+/// A table with the single key `value`, every part of which remembers that it came from the
+/// override: toml++ lets only its parser say where a value comes from.
+toml::table parse_value(const std::string& value_as_toml, const std::string& source) {
+  return parse_toml("value = " + value_as_toml, source);
+}
+
+toml::table override_value(const Override& change) {
+  const std::string source = override_source(change.key);
+  try {
+    toml::table table = parse_value(change.value, source);
+    // A value with a line break could bring further keys along.
+    if (table.size() == 1) return table;
+  } catch (const Error&) {
+    // Not TOML, hence a string.
+  }
+  try {
+    return parse_value(toml_string(change.value), source);
+  } catch (const Error&) {
+    throw_usage(change, "the value is not a text, got bytes that are not UTF-8 or too many");
+  }
+}
+
+/// Puts the value into the table. Moving keeps what the value remembers of its origin; copying it
+/// would not.
+void insert(toml::table& table, std::string_view name, toml::node& value,
+            const std::string& source) {
+  const toml::source_region origin{{1, 1}, {1, 1}, std::make_shared<const std::string>(source)};
+  value.visit(
+      [&](auto& typed) { table.insert_or_assign(toml::key(name, origin), std::move(typed)); });
+}
+
+/// The element that has this label or, if there is none, this index.
+std::optional<std::size_t> element_named(const toml::array& array, std::string_view name) {
+  for (std::size_t i = 0; i < array.size(); ++i) {
+    const toml::table* table = array[i].as_table();
+    const auto* label = table != nullptr ? table->get_as<std::string>("label") : nullptr;
+    if (label != nullptr && label->get() == name) return i;
+  }
+  std::size_t index = 0;
+  const auto [rest, error] = std::from_chars(name.data(), name.data() + name.size(), index);
+  const bool is_index = error == std::errc() && rest == name.data() + name.size();
+  return is_index && index < array.size() ? std::optional(index) : std::nullopt;
+}
+
+/// An override on its way down the tables to what it changes.
+struct Assignment {
+  const Override& change;
+  toml::node* value;      ///< nothing: what is there is removed
+  std::string path = "";  ///< so far, with indices in place of labels
+  /// What was to be removed and is not there.
+  std::optional<SceneSource::AbsentKey> absent = {};
+
+  void descend(const std::string& name) { path += path.empty() ? name : '.' + name; }
+};
+
+void assign(toml::node& place, std::string_view path, Assignment& assignment);
+
+void assign_in_table(toml::table& table, std::string_view path, Assignment& assignment) {
+  const std::string source = override_source(assignment.change.key);
+  const std::size_t dot = path.find('.');
+  const std::string_view name = path.substr(0, dot);
+  if (name.empty()) {
+    throw_usage(assignment.change,
+                "empty name, must be names with single dots between, as in jet.order");
+  }
+  const bool is_there = table.contains(name);
+  if (!is_there && assignment.value == nullptr) {
+    assignment.absent = {source, assignment.path, std::string(name)};
+    return;
+  }
+  assignment.descend(printable(name));
+  if (dot != std::string_view::npos) {
+    if (!is_there) insert(table, name, *parse_value("{}", source).get("value"), source);
+    assign(*table.get(name), path.substr(dot + 1), assignment);
+  } else if (assignment.value != nullptr) {
+    insert(table, name, *assignment.value, source);
+  } else {
+    table.erase(name);
+  }
+}
+
+/// "gauss8, midpoint or an index below 2"
+std::string elements_of(const toml::array& array) {
+  std::vector<std::string> labels;
+  for (const toml::node& element : array) {
+    const toml::table* table = element.as_table();
+    const auto* label = table != nullptr ? table->get_as<std::string>("label") : nullptr;
+    if (label != nullptr) labels.push_back(printable(label->get()));
+  }
+  const std::string listed_labels = fmt::format("{}", fmt::join(labels, ", "));
+  const bool is_short = !labels.empty() && listed_labels.size() <= 200;
+  return fmt::format("{} or an index below {}", is_short ? listed_labels : "a label", array.size());
+}
+
+void assign_in_array(toml::array& array, std::string_view path, Assignment& assignment) {
+  // Labels may hold dots, so the longest name that fits is the one meant.
+  for (std::size_t end = path.size();; end = path.rfind('.', end - 1)) {
+    if (end == std::string_view::npos || end == 0) break;
+    const auto index = element_named(array, path.substr(0, end));
+    if (!index) continue;
+    assignment.descend(std::to_string(*index));
+    if (end < path.size()) return assign(array[*index], path.substr(end + 1), assignment);
+    const auto element = array.cbegin() + static_cast<std::ptrdiff_t>(*index);
+    if (assignment.value == nullptr) {
+      array.erase(element);
+    } else {
+      assignment.value->visit([&](auto& typed) { array.replace(element, std::move(typed)); });
+    }
+    return;
+  }
+  throw_usage(assignment.change,
+              fmt::format("no such element, got {}, must be {}",
+                          in_quotes(path.substr(0, path.find('.'))), elements_of(array)));
+}
+
+/// Goes on to the end of `path`, the part of the override's key that begins at `place`.
+void assign(toml::node& place, std::string_view path, Assignment& assignment) {
+  if (toml::table* table = place.as_table()) {
+    assign_in_table(*table, path, assignment);
+  } else if (toml::array* array = place.as_array()) {
+    assign_in_array(*array, path, assignment);
+  } else {
+    throw_usage(assignment.change, fmt::format("no such key, got {} below a value, must be a key "
+                                               "of a table",
+                                               in_quotes(path)));
+  }
+}
+
+void apply(const Override& change, SceneDocument& document) {
+  if (change.key.size() > longest_override_key) {
+    throw_usage(change, fmt::format("the key is too long, got {} bytes, must be at most {}",
+                                    change.key.size(), longest_override_key));
+  }
+  // An empty value comes from an unset variable of a script, and must not mean something else.
+  if (change.value.empty()) {
+    throw_usage(change, "empty, must be a value (null removes the key, \"\" is the empty string)");
+  }
+  toml::table value;
+  if (change.value != removal) value = override_value(change);
+  Assignment assignment{change, value.get("value")};
+  assign(document.table, change.key, assignment);
+  if (assignment.absent) {
+    document.source.absent_keys.push_back(*assignment.absent);
+  } else {
+    document.source.override_paths.insert_or_assign(override_source(change.key), assignment.path);
+  }
+}
+
+void apply(const std::vector<Override>& overrides, SceneDocument& document) {
+  for (const Override& change : overrides) apply(change, document);
+}
+
+}  // namespace
+
+SceneDocument parse_document(std::string_view text, const std::string& name,
+                             const std::vector<Override>& overrides) {
+  SceneDocument document{parse_toml(text, name), {name, true, {}}};
+  apply(overrides, document);
+  return document;
+}
+
+SceneDocument make_document(toml::table tables, const std::string& name,
+                            const std::vector<Override>& overrides) {
+  SceneDocument document{std::move(tables), {name, false, {}}};
+  apply(overrides, document);
+  return document;
+}
+
+}  // namespace hamjet::io

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <hamjet/scene/scene_reader.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "../text/scene_message.hpp"
+
+namespace hamjet::io {
+
+/// The TOML tables of a scene, and where they come from.
+struct SceneDocument {
+  toml::table table;
+  SceneSource source;
+};
+
+/// The tables with the overrides applied; nothing is known here of what the keys mean. `name` is
+/// the file's for messages, already printable.
+///
+/// An override's key is a dotted path; an element of an array is named by its index from 0, or, if
+/// it is a table, by its label: `integrator.0.tolerance`, `integrator.gauss8.tolerance`. Missing
+/// tables on the way are added. The value is TOML; what is not valid TOML is taken as a string. The
+/// value `null`, which TOML does not know, removes the key.
+///
+/// Throws Error(scene) if the text is not valid TOML (see also `check_scene_text`), and
+/// Error(usage) if an override's key leads nowhere or its value is empty.
+SceneDocument parse_document(std::string_view text, const std::string& name,
+                             const std::vector<Override>& overrides);
+
+/// The same of tables that a program has made, which have no lines.
+SceneDocument make_document(toml::table tables, const std::string& name,
+                            const std::vector<Override>& overrides);
+
+/// Reads the document; `file_name` names the scene. Throws as parse_study does.
+Study read_document(const SceneDocument& document, const std::string& file_name);
+
+}  // namespace hamjet::io

@@ -1,0 +1,84 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <hamjet/error.hpp>
+
+#include "../text/scene_message.hpp"
+#include "scene_sections.hpp"
+
+namespace hamjet::io {
+namespace {
+
+double read_first_step(const TableReader& table, double duration, const CanonicalScale& scale) {
+  const std::string_view key = table.exactly_one_of({"first_step_canonical", "first_step_s"});
+  const double given = table.positive_number(key);
+  const double step = key == "first_step_s" ? scale.time_of_s(given) : given;
+  if (!std::isfinite(step) || step == 0) {
+    table.fail(key, fmt::format("out of range, got {}, which is {} in canonical units, must be "
+                                "within binary64 there",
+                                table.found(key), step));
+  }
+  const double steps = std::ceil(std::abs(duration) / step);
+  if (steps > largest_energy_conserving_step_count) {
+    throw Error(
+        ErrorKind::too_large,
+        fmt::format("{}: too many steps, got {}, which takes about {:.3g} steps, must be "
+                    "at least {:.3g} to keep within {:.0e}",
+                    table.head(key), table.found(key), steps,
+                    std::abs(duration) * (given / step) / largest_energy_conserving_step_count,
+                    largest_energy_conserving_step_count));
+  }
+  return step;
+}
+
+/// Tables of a flow jet are no misspelt keys: their owner deserves to know why there is none.
+void refuse_jet(const TableReader& root) {
+  for (const std::string_view key : {"jet", "integrator"}) {
+    if (!root.has(key)) continue;
+    root.fail(key, fmt::format("not available for the study energy-conservation, got a table of a "
+                               "flow jet, must be left out: {}",
+                               no_energy_conserving_jet));
+  }
+}
+
+}  // namespace
+
+EnergyConservationStudy read_energy_conservation(const TableReader& root) {
+  refuse_jet(root);
+  EnergyConservationStudy study;
+  study.title = root.text("title");
+  const Nominal nominal = read_start(root, study);
+
+  const TableReader table = root.table("energy_conservation");
+  const bool has_orbits = is_orbit(study.system.model);
+  KnownKeys known = {{"method", "first_step_canonical", "first_step_s", "duration_s",
+                      "duration_canonical", "expect", "require_energy_error"},
+                     {},
+                     "the model " + std::string(model_name(study.system.model))};
+  (has_orbits ? known.keys : known.keys_elsewhere).push_back("duration_orbits");
+  table.check_keys(known);
+  study.method =
+      static_cast<EnergyConservingMethod>(table.choice("method", energy_conserving_method_names()));
+  study.duration = read_duration(table, has_orbits, nominal);
+  if (study.duration == 0) {
+    const std::string_view key =
+        table.exactly_one_of({"duration_s", "duration_orbits", "duration_canonical"});
+    table.fail(key, fmt::format("out of range, got {}, must not be 0", table.found(key)));
+  }
+  study.first_step = read_first_step(table, study.duration, nominal.scale);
+  if (study.first_step > std::abs(study.duration)) {
+    const std::string_view key = table.exactly_one_of({"first_step_canonical", "first_step_s"});
+    table.fail(key, fmt::format("out of range, got {}, must not be longer than the duration",
+                                table.found(key)));
+  }
+  if (table.has("expect")) {
+    study.expected = static_cast<EnergyConservationOutcome>(
+        table.choice("expect", energy_conservation_outcome_names()));
+  }
+  if (table.has("require_energy_error")) {
+    study.require_energy_error = table.positive_number("require_energy_error");
+  }
+  return study;
+}
+
+}  // namespace hamjet::io

@@ -1,0 +1,154 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "../text/scene_message.hpp"
+#include "hamjet/formats/orbit_message.hpp"
+#include "scene_sections.hpp"
+
+namespace hamjet::io {
+namespace {
+
+using std::chrono::sys_days;
+using std::chrono::year;
+
+/// Before, the second of UTC had other lengths.
+constexpr sys_days first_day_of_utc = sys_days(year(1972) / 1 / 1);
+
+/// A text that an orbit message can hold.
+std::string message_text(const TableReader& ephemeris, std::string_view key) {
+  constexpr std::size_t longest = 80;
+  const std::string text = ephemeris.text(key);
+  const bool is_printable =
+      std::all_of(text.begin(), text.end(), [](char c) { return c >= 0x20 && c < 0x7f; });
+  const bool is_bare = !text.empty() && text.front() != ' ' && text.back() != ' ';
+  if (!is_printable || !is_bare || text.size() > longest) {
+    ephemeris.fail(key, fmt::format("no text of an orbit message, got {}, must be 1 to {} "
+                                    "characters of ASCII without blanks at the ends",
+                                    in_quotes(text), longest));
+  }
+  return text;
+}
+
+std::string read_epoch(const TableReader& ephemeris, std::string_view key) {
+  const std::string text = ephemeris.text(key);
+  const auto epoch = parse_epoch(text);
+  if (!epoch) {
+    ephemeris.fail(key, fmt::format("no moment of the calendar, got {}, must be "
+                                    "YYYY-MM-DDThh:mm:ss or YYYY-DDDThh:mm:ss, with a fraction "
+                                    "of a second if wanted",
+                                    in_quotes(text)));
+  }
+  return format_epoch(*epoch);
+}
+
+std::string read_frame(const TableReader& ephemeris) {
+  const std::string frame = message_text(ephemeris, "reference_frame");
+  if (!is_inertial_frame(frame)) ephemeris.fail("reference_frame", frame_problem(frame));
+  return frame;
+}
+
+/// What the nominal's file says holds; the scene may say it again, but nothing else.
+void require_same(const TableReader& ephemeris, std::string_view key, const std::string& given,
+                  const std::string& of_file) {
+  if (given == of_file) return;
+  ephemeris.fail(key, fmt::format("not that of the nominal's file, got {}, must be {} or left out",
+                                  in_quotes(given), in_quotes(of_file)));
+}
+
+}  // namespace
+
+EphemerisSettings read_ephemeris(const TableReader& ephemeris,
+                                 const std::optional<NominalFile>& file) {
+  ephemeris.check_keys(
+      {{"epoch", "time_system", "reference_frame", "reference_frame_epoch", "center_name",
+        "object_name", "object_id", "deputy_name", "deputy_id", "originator", "oem_version"}});
+  EphemerisSettings settings;
+  if (file) settings = file->ephemeris;
+  const EphemerisSettings of_file = settings;
+  const auto read = [&](std::string_view key, std::string& value, const auto& read_value,
+                        const std::string& right) {
+    if (!ephemeris.has(key) && file) return;
+    value = read_value();
+    if (file) require_same(ephemeris, key, value, right);
+  };
+  read(
+      "epoch", settings.epoch, [&] { return read_epoch(ephemeris, "epoch"); }, of_file.epoch);
+  read(
+      "time_system", settings.time_system,
+      [&] {
+        return std::string(
+            time_system_names()[ephemeris.choice("time_system", time_system_names())]);
+      },
+      of_file.time_system);
+  read(
+      "reference_frame", settings.reference_frame, [&] { return read_frame(ephemeris); },
+      of_file.reference_frame);
+  if (ephemeris.has("reference_frame_epoch")) {
+    settings.reference_frame_epoch = read_epoch(ephemeris, "reference_frame_epoch");
+    if (file) {
+      require_same(ephemeris, "reference_frame_epoch", settings.reference_frame_epoch,
+                   of_file.reference_frame_epoch);
+    }
+  } else if (!file && settings.reference_frame.ends_with("OFEPOCH")) {
+    ephemeris.fail("reference_frame_epoch",
+                   fmt::format("missing, must be the epoch of the frame {}, ISO 8601",
+                               settings.reference_frame));
+  }
+  read(
+      "center_name", settings.center_name, [&] { return message_text(ephemeris, "center_name"); },
+      of_file.center_name);
+  const auto rename = [&](std::string_view key, std::string& value) {
+    if (ephemeris.has(key)) value = message_text(ephemeris, key);
+  };
+  rename("object_name", settings.object_name);
+  rename("object_id", settings.object_id);
+  rename("deputy_name", settings.deputy_name);
+  rename("deputy_id", settings.deputy_id);
+  rename("originator", settings.originator);
+  if (ephemeris.has("oem_version")) {
+    const double version = ephemeris.number("oem_version");
+    if (version != 2 && version != 3) {
+      ephemeris.fail("oem_version",
+                     fmt::format("unknown version, got {}, must be 2.0 or 3.0", version));
+    }
+    settings.oem_version = version == 2 ? "2.0" : "3.0";
+  }
+  return settings;
+}
+
+void require_calendar(const TableReader& table, std::string_view key, const Scene& scene) {
+  const EphemerisSettings& settings = *scene.ephemeris;
+  const Epoch start = parse_epoch(settings.epoch).value();
+  const bool is_utc = settings.time_system == "UTC";
+  constexpr std::string_view others =
+      "must be in TAI, TT, GPS or TDB, whose days all have 86400 seconds, or another one";
+  const auto fail = [&](const std::string& problem) {
+    table.fail(key, fmt::format("{}, {}", problem, others));
+  };
+  if (is_utc && start.day < first_day_of_utc) {
+    fail(fmt::format("before 1972, when the second of UTC had another length, got {}",
+                     settings.epoch));
+  }
+  if (format_epoch(start).find(":60.") != std::string::npos) {
+    fail(fmt::format("within a leap second, got {}", settings.epoch));
+  }
+  std::vector<double> times = {scene.duration};
+  if (scene.transfer) times.push_back(scene.transfer->times.back());
+  for (const double time : times) {
+    const Extended seconds = Extended(time) * scene.units.time_s;
+    const auto end = later(start, seconds);
+    if (!end) {
+      table.fail(key, fmt::format("a span that leaves the calendar, got {} and {:.6g} s, must "
+                                  "stay within the years 1 to 9999",
+                                  settings.epoch, convert<double>(seconds)));
+    }
+    const auto leap = is_utc ? leap_second_between(start, *end) : std::nullopt;
+    if (leap) {
+      fail(fmt::format("a span across the leap second at the end of {}, got {} to {}",
+                       format_epoch({*leap, 0}).substr(0, 10), settings.epoch, format_epoch(*end)));
+    }
+  }
+}
+
+}  // namespace hamjet::io

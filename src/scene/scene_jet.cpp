@@ -1,0 +1,139 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <hamjet/error.hpp>
+#include <numeric>
+#include <optional>
+
+#include "../text/scene_message.hpp"
+#include "scene_sections.hpp"
+
+namespace hamjet::io {
+namespace {
+
+constexpr std::int64_t largest_order = 20;
+
+/// C(variables + order, order), the number of monomials up to the order. Exact below 2^53; beyond,
+/// only its size matters.
+double number_of_coefficients(std::size_t variables, std::int64_t order) {
+  double count = 1;
+  for (std::size_t k = 1; k <= variables; ++k) {
+    count = count * (static_cast<double>(order) + static_cast<double>(k)) / static_cast<double>(k);
+  }
+  return count;
+}
+
+std::string with_unit(double bytes) {
+  constexpr std::string_view units[] = {"bytes", "kB", "MB", "GB", "TB", "PB", "EB"};
+  std::size_t unit = 0;
+  for (; bytes >= 1000 && unit + 1 < std::size(units); ++unit) bytes /= 1000;
+  return fmt::format("{:.3g} {}", bytes, units[unit]);
+}
+
+[[noreturn]] void throw_order_too_large(const TableReader& jet, std::int64_t order,
+                                        std::size_t variables, Precision precision) {
+  const double count = number_of_coefficients(variables, order);
+  const double bytes_each =
+      precision == Precision::double_precision ? sizeof(double) : sizeof(Extended);
+  const std::string count_text =
+      count < 0x1p53 ? fmt::format("{:.0f}", count) : fmt::format("{:.3g}", count);
+  throw Error(ErrorKind::too_large,
+              fmt::format("{}: too large, got {}, which takes C({}+{}, {}) = {} coefficients, "
+                          "{} for each series, must be an integer from 1 to {}",
+                          jet.head("order"), order, variables, order, order, count_text,
+                          with_unit(count * bytes_each), largest_order));
+}
+
+int read_order(const TableReader& jet, std::size_t variables, Precision precision) {
+  // An order below 1 is a mistake of the scene. One that is too high is not: it asks for more than
+  // a machine holds.
+  const std::optional<std::int64_t> asked = jet.integer_if_any("order");
+  if (asked && *asked > largest_order) throw_order_too_large(jet, *asked, variables, precision);
+  return static_cast<int>(jet.integer_between("order", 1, largest_order));
+}
+
+std::vector<std::size_t> read_variables(const TableReader& jet,
+                                        const std::vector<std::string_view>& names) {
+  std::vector<std::size_t> variables(names.size());
+  if (!jet.has("variables")) {
+    std::iota(variables.begin(), variables.end(), std::size_t{0});
+    return variables;
+  }
+  variables.clear();
+  const std::vector<std::string> given = jet.texts("variables");
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    const auto name = std::find(names.begin(), names.end(), given[i]);
+    if (name == names.end()) {
+      jet.fail_element("variables", i,
+                       fmt::format("unknown variable, got {}, must be one of: {}",
+                                   in_quotes(given[i]), listed(names)));
+    }
+    const auto index = static_cast<std::size_t>(name - names.begin());
+    if (std::find(variables.begin(), variables.end(), index) != variables.end()) {
+      jet.fail_element(
+          "variables", i,
+          fmt::format("duplicate variable, got {} again, must be there once", in_quotes(given[i])));
+    }
+    variables.push_back(index);
+  }
+  std::sort(variables.begin(), variables.end());
+  return variables;
+}
+
+/// jet.arcs: a number, or "auto".
+std::optional<std::size_t> read_arcs(const TableReader& jet) {
+  constexpr std::int64_t most = 1000;
+  if (!jet.has("arcs")) return 1;
+  const std::optional<std::int64_t> asked = jet.integer_if_any("arcs");
+  if (asked && *asked >= 1 && *asked <= most) return static_cast<std::size_t>(*asked);
+  if (jet.found("arcs") == "the string \"auto\"") return std::nullopt;
+  jet.fail("arcs", fmt::format("out of range, got {}, must be \"auto\" or an integer from 1 to {}",
+                               jet.found("arcs"), most));
+}
+
+}  // namespace
+
+double read_duration(const TableReader& table, bool has_orbits, const Nominal& nominal) {
+  std::vector<std::string_view> keys = {"duration_s", "duration_orbits", "duration_canonical"};
+  if (!has_orbits) std::erase(keys, "duration_orbits");
+  const std::string_view key = table.exactly_one_of(keys);
+  const double given = table.number(key);
+  double duration = given;
+  if (key == "duration_s") {
+    duration = nominal.scale.time_of_s(given);
+  } else if (key == "duration_orbits") {
+    if (!nominal.period_s) {
+      table.fail(key,
+                 fmt::format("no period, got {} periods of an orbit that is not elliptic, must "
+                             "be duration_s or duration_canonical",
+                             table.found(key)));
+    }
+    duration = convert<double>(Extended(given) * *nominal.period_s / nominal.scale.time_s);
+  }
+  if (!std::isfinite(duration) || (duration == 0 && given != 0)) {
+    table.fail(key,
+               fmt::format("out of range, got {}, which is {} in canonical units, must be 0 or "
+                           "within binary64 there",
+                           table.found(key), duration));
+  }
+  return duration;
+}
+
+JetSettings read_jet(const TableReader& jet, const SystemSettings& system, Precision precision,
+                     const Nominal& nominal) {
+  const bool has_orbits = is_orbit(system.model);
+  KnownKeys known = {{"order", "variables", "duration_s", "duration_canonical", "arcs"}, {}, {}};
+  (has_orbits ? known.keys : known.keys_elsewhere).push_back("duration_orbits");
+  known.owner = "the model " + std::string(model_name(system.model));
+  jet.check_keys(known);
+  const std::vector<std::string_view> names = variable_names(system);
+  JetSettings settings;
+  settings.order = read_order(jet, names.size(), precision);
+  settings.variables = read_variables(jet, names);
+  settings.duration = read_duration(jet, has_orbits, nominal);
+  settings.arcs = read_arcs(jet);
+  return settings;
+}
+
+}  // namespace hamjet::io

@@ -1,0 +1,121 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "../text/scene_message.hpp"
+#include "scene_sections.hpp"
+
+namespace hamjet::io {
+namespace {
+
+/// As many steps as a study may take is far below this; more is refused by the study itself.
+constexpr std::int64_t most_steps = 1'000'000'000;
+
+/// The components that `free_end` leaves free.
+std::vector<bool> read_free_end(const TableReader& table,
+                                const std::vector<std::string_view>& names) {
+  std::vector<bool> is_free(names.size(), false);
+  if (!table.has("free_end")) return is_free;
+  const std::vector<std::string> given = table.texts("free_end");
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    const auto place = std::find(names.begin(), names.end(), given[i]);
+    if (place == names.end()) {
+      table.fail_element("free_end", i,
+                         fmt::format("unknown state, got {}, must be one of {}",
+                                     in_quotes(given[i]), listed(names)));
+    }
+    const auto component = static_cast<std::size_t>(place - names.begin());
+    if (is_free[component]) {
+      table.fail_element(
+          "free_end", i,
+          fmt::format("duplicate state, got {}, must be there once", in_quotes(given[i])));
+    }
+    is_free[component] = true;
+  }
+  if (std::find(is_free.begin(), is_free.end(), false) == is_free.end()) {
+    table.fail("free_end", fmt::format("leaves no end condition, got all of {}, must leave at "
+                                       "least one state fixed",
+                                       listed(names)));
+  }
+  return is_free;
+}
+
+/// An array with one number for each of `names`.
+std::vector<double> read_components(const TableReader& table, std::string_view key,
+                                    const std::vector<std::string_view>& names,
+                                    std::string_view model) {
+  std::vector<double> values = table.numbers(key);
+  if (values.size() != names.size()) {
+    table.fail(key,
+               fmt::format("wrong size, got {} number{}, must be {} for {} ({})", values.size(),
+                           values.size() == 1 ? "" : "s", names.size(), model, listed(names)));
+  }
+  return values;
+}
+
+std::vector<std::optional<double>> read_end(const TableReader& table,
+                                            const std::vector<std::string_view>& names,
+                                            std::string_view model) {
+  const std::vector<bool> is_free = read_free_end(table, names);
+  std::vector<std::string_view> fixed;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (!is_free[i]) fixed.push_back(names[i]);
+  }
+  const std::vector<double> values = read_components(
+      table, "end", fixed,
+      fixed.size() == names.size() ? std::string(model) : fmt::format("{}, its free end", model));
+  std::vector<std::optional<double>> end(names.size());
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (!is_free[i]) end[i] = values[next++];
+  }
+  return end;
+}
+
+}  // namespace
+
+Study read_optimal_control(const TableReader& root) {
+  OptimalControlStudy study;
+  study.title = root.text("title");
+  const TableReader table = root.table("optimal_control");
+  table.check_keys(
+      {{"problem", "method", "duration", "steps", "refinements", "start", "end", "free_end",
+        "costate_guess", "shooting_intervals", "require_cost_error", "require_equivalence"}});
+  study.model = static_cast<ControlModel>(table.choice("problem", control_model_names()));
+  study.discretization =
+      static_cast<Discretization>(table.choice("method", discretization_names()));
+  const auto& names = state_names(study.model);
+  const auto model = control_model_names()[static_cast<std::size_t>(study.model)];
+  // Costs go as its inverse third power: binary64 must hold them.
+  study.duration = table.number_between("duration", 1e-30, 1e30);
+  study.steps = static_cast<std::size_t>(table.integer_between("steps", 1, most_steps));
+  if (table.has("refinements")) {
+    const std::vector<std::int64_t> counts = table.integers("refinements", 1, most_steps);
+    study.refinements.assign(counts.begin(), counts.end());
+  }
+  study.start = read_components(table, "start", names, model);
+  study.end = read_end(table, names, model);
+  if (table.has("costate_guess")) {
+    study.costate_guess = read_components(table, "costate_guess", names, model);
+  }
+  if (table.has("shooting_intervals")) {
+    study.shooting_intervals = static_cast<std::size_t>(
+        table.integer_between("shooting_intervals", 1, static_cast<std::int64_t>(study.steps)));
+  }
+  if (table.has("require_cost_error")) {
+    study.require_cost_error = table.positive_number("require_cost_error");
+    if (!closed_form_cost(study, study.steps)) {
+      table.fail(
+          "require_cost_error",
+          "cannot be checked, for the least cost has no closed form with this start, end and "
+          "number of steps; must be left out");
+    }
+  }
+  if (table.has("require_equivalence")) {
+    study.require_equivalence = table.positive_number("require_equivalence");
+  }
+  return study;
+}
+
+}  // namespace hamjet::io

@@ -1,0 +1,181 @@
+#include "scene_relative_motion.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <string>
+
+#include "../text/scene_message.hpp"
+
+namespace hamjet::io {
+namespace {
+
+/// A time as the key gives it, in canonical units.
+double canonical_time(const TableReader& table, std::string_view key, double given,
+                      const Nominal& nominal) {
+  if (key == "times_s") return nominal.scale.time_of_s(given);
+  if (key == "times_canonical") return given;
+  if (!nominal.period_s) {
+    table.fail(key, fmt::format("no period, got {} of an orbit that is not elliptic, must be "
+                                "times_s or times_canonical",
+                                table.found(key)));
+  }
+  return convert<double>(Extended(given) * *nominal.period_s / nominal.scale.time_s);
+}
+
+std::vector<double> equal_parts(const TableReader& table, int count, double duration) {
+  if (duration == 0) {
+    table.fail("count", fmt::format("no time to divide, got {} parts of a jet.duration of 0, must "
+                                    "be a duration that is not 0, or times",
+                                    count));
+  }
+  std::vector<double> times;
+  for (int i = 1; i <= count; ++i) times.push_back(i == count ? duration : duration * i / count);
+  return times;
+}
+
+std::string lower_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
+  return text;
+}
+
+/// A deputy as far from its chief as the centre of attraction is, or as fast as the orbit itself,
+/// is beyond every expansion.
+Eigen::Vector3d read_vector(const TableReader& table, std::string_view key, double limit,
+                            std::string_view what) {
+  const std::vector<double> numbers = table.numbers(key, 3);
+  const Eigen::Vector3d vector(numbers[0], numbers[1], numbers[2]);
+  if (!(vector.stableNorm() < limit)) {
+    table.fail(key, fmt::format("too large, got a magnitude of {:.4g}, must be below {:.4g}, {}",
+                                vector.stableNorm(), limit, what));
+  }
+  return vector;
+}
+
+}  // namespace
+
+void require_relative_motion(const TableReader& table, const Scene& scene) {
+  if (!is_orbit(scene.system.model)) {
+    table.fail("", fmt::format("not available for this model, got {}, must be an orbit: "
+                               "zonal-gravity or kepler",
+                               model_name(scene.system.model)));
+  }
+  const std::vector<std::string_view> names = variable_names(scene.system);
+  if (scene.variables.size() != names.size()) {
+    std::vector<std::string_view> given;
+    for (const std::size_t variable : scene.variables) given.push_back(names[variable]);
+    table.fail("", fmt::format("not defined for these jet.variables, got {}, must be all of {}",
+                               listed(given), listed(names)));
+  }
+  if (scene.precision == Precision::extended) {
+    table.fail("",
+               "not available in extended precision, got precision = \"extended\", must be "
+               "\"double\": every answer is proved by flying in double precision, whose rounding "
+               "hides what more digits would tell");
+  }
+}
+
+std::vector<double> read_transfer_times(const TableReader& table, const Scene& scene,
+                                        const Nominal& nominal, std::optional<int> default_count) {
+  const bool has_key = std::any_of(std::begin(transfer_time_keys), std::end(transfer_time_keys),
+                                   [&](std::string_view key) { return table.has(key); });
+  if (!has_key && default_count) return equal_parts(table, *default_count, scene.duration);
+  const std::string_view key =
+      table.exactly_one_of({std::begin(transfer_time_keys), std::end(transfer_time_keys)});
+  if (key == "count") {
+    const auto count = table.integer_between("count", 1, most_transfer_times);
+    return equal_parts(table, static_cast<int>(count), scene.duration);
+  }
+  const std::vector<double> given = table.number_or_numbers(key);
+  if (given.size() > static_cast<std::size_t>(most_transfer_times)) {
+    table.fail(key, fmt::format("too many, got {} times, must be at most {}", given.size(),
+                                most_transfer_times));
+  }
+  std::vector<double> times;
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    const double time = canonical_time(table, key, given[i], nominal);
+    if (given[i] == 0) {
+      table.fail_element(key, i,
+                         "zero transfer time, got 0, must not be 0: in no time only a jump leads "
+                         "from one position to another");
+    }
+    if (!std::isfinite(time) || time == 0) {
+      table.fail_element(key, i,
+                         fmt::format("out of range, got {}, which is {} in canonical units, must "
+                                     "be within binary64 there",
+                                     given[i], time));
+    }
+    const bool is_further =
+        times.empty() || (std::abs(time) > std::abs(times.back()) && time * times.back() > 0);
+    if (!is_further) {
+      table.fail_element(key, i,
+                         fmt::format("out of order, got {} after {}, must move away from 0 and "
+                                     "keep the sign",
+                                     given[i], given[i - 1]));
+    }
+    times.push_back(time);
+  }
+  return times;
+}
+
+namespace {
+
+/// The tables that have the keys `frame` and `derivatives`.
+RelativeFrame read_frame(const TableReader& of_frame, const TableReader& of_derivatives,
+                         bool is_rtn_by_default) {
+  if (of_frame.has("frame") && lower_case(of_frame.text("frame")) == "lvlh") {
+    of_frame.fail("frame",
+                  fmt::format("ambiguous, got {}, which means x radial outward and y along the "
+                              "motion (here RTN) to some, and to others z toward the Earth's "
+                              "centre, y opposite to the orbit normal and x along the motion; "
+                              "must be \"RTN\", into which coordinates of the latter are to be "
+                              "turned: R = -z, T = x, N = -y",
+                              in_quotes(of_frame.text("frame"))));
+  }
+  const bool is_named = of_frame.has("frame") || !is_rtn_by_default;
+  const bool is_inertial = is_named && of_frame.choice("frame", {"RTN", "inertial"}) == 1;
+  if (!of_derivatives.has("derivatives")) {
+    return is_inertial ? RelativeFrame::inertial : RelativeFrame::rtn_rotating;
+  }
+  const bool are_inertial = of_derivatives.choice("derivatives", {"rotating", "inertial"}) == 1;
+  if (is_inertial) {
+    of_derivatives.fail("derivatives",
+                        fmt::format("the frame inertial has one kind of derivatives, got {}, must "
+                                    "be left out",
+                                    of_derivatives.found("derivatives")));
+  }
+  return are_inertial ? RelativeFrame::rtn_inertial : RelativeFrame::rtn_rotating;
+}
+
+}  // namespace
+
+RelativeFrame read_relative_frame(const TableReader& table, const TableReader& fallback) {
+  return read_frame(table.has("frame") || !fallback.has("frame") ? table : fallback,
+                    table.has("derivatives") ? table : fallback, false);
+}
+
+RelativeFrame read_relative_frame_or_rtn(const TableReader& table) {
+  return read_frame(table, table, true);
+}
+
+RelativeState read_relative_state(const TableReader& table, const Nominal& nominal) {
+  const CanonicalUnits units = canonical_units(nominal.scale);
+  const double length_m = units.length_km * 1000;
+  const double distance = Eigen::Vector3d(nominal.state.data()).norm();
+  const double circular_speed = 1 / std::sqrt(distance);  // canonical, as mu = 1
+  RelativeState state;
+  state.position_m =
+      read_vector(table, "position_m", distance * length_m, "the chief's distance from the centre");
+  if (table.has("velocity_m_s")) {
+    state.velocity_m_s =
+        read_vector(table, "velocity_m_s", circular_speed * length_m / units.time_s,
+                    "the speed of a circular orbit through the chief");
+  }
+  return state;
+}
+
+}  // namespace hamjet::io

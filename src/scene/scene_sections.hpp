@@ -1,0 +1,197 @@
+#pragma once
+
+#include <cstddef>
+#include <hamjet/algebra/extended.hpp>
+#include <hamjet/scene/scene_reader.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene_table.hpp"
+
+// One function for each table of a scene, in the order in which they are read: a later one may need
+// what an earlier one found. Each reads, checks and converts all keys of its table, in a file of
+// its own, scene_<table>.cpp (tables of one key in scene_reader.cpp). All throw Error(scene), or
+// Error(too_large) where said.
+
+namespace hamjet::io {
+
+/// The model's name in scenes.
+inline std::string_view model_name(SystemModel model) {
+  return model_names()[static_cast<std::size_t>(model)];
+}
+
+/// Most stages of a Gauss method.
+inline constexpr int most_gauss_stages = 12;
+/// The range of tolerances in double precision.
+inline constexpr double least_tolerance = 1e-15;
+inline constexpr double greatest_tolerance = 1e-1;
+
+/// All tables of the study "flow-jet".
+Scene read_flow_jet(const TableReader& root);
+
+/// All tables of the study "canonical-transformation". Throws Error(too_large) for too many steps.
+CanonicalTransformationStudy read_canonical_transformation(const TableReader& root);
+/// The study "optimal-control": table `[optimal_control]`.
+Study read_optimal_control(const TableReader& root);
+
+/// The keys that the table `[system]` may have for a model.
+std::vector<std::string_view> system_keys(SystemModel model);
+
+/// The keys that a table `[[integrator]]` may have for a method.
+std::vector<std::string_view> integrator_keys(IntegrationMethod method);
+
+/// Table `[system]`.
+SystemSettings read_system(const TableReader& system);
+
+/// Canonical units before they are rounded: SI value = canonical value times these.
+struct CanonicalScale {
+  Extended length_km;
+  Extended time_s;
+
+  /// A length in km, or a time in seconds, in canonical units, rounded once.
+  double length_of_km(double km) const;
+  double time_of_s(double seconds) const;
+};
+
+/// What the table `[nominal]` holds.
+struct Nominal {
+  CanonicalScale scale;
+  std::vector<double> state;         ///< (q, p), canonical, 2n numbers
+  std::optional<Extended> period_s;  ///< of the osculating Kepler ellipse, if there is one
+  std::optional<NominalFile> file;   ///< that it was read from
+};
+
+/// Table `[units]`: the canonical unit of length, `length_km`. Throws Error(scene) for a model that
+/// is no orbit, whose units are fixed.
+double read_unit_of_length(const TableReader& units, SystemModel model);
+
+/// Table `[nominal]`. For an orbit the unit of length is `length_km`, or without it the distance
+/// from the centre, and the unit of time sqrt(length^3 / mu), so that mu = 1 and a momentum (per
+/// unit of mass) is a velocity over sqrt(mu / length). For the other models metre, second and
+/// kilogram stay. `center_name` is what the table `[ephemeris]` says, see read_nominal_file.
+Nominal read_nominal(const TableReader& nominal, const SystemSettings& system,
+                     const std::optional<double>& length_km,
+                     const std::optional<std::string>& center_name);
+
+/// The nearest binary64 numbers.
+CanonicalUnits canonical_units(const CanonicalScale& scale);
+
+/// The key `radius_km` of the table `[system]` in canonical units.
+double read_canonical_radius(const TableReader& system, const SystemSettings& settings,
+                             const CanonicalScale& scale);
+
+/// The tables `[system]`, `[units]` and `[nominal]` into the members that every scene of a model
+/// has.
+template <class ModelScene>
+Nominal read_start(const TableReader& root, ModelScene& scene) {
+  const TableReader system = root.table("system");
+  scene.system = read_system(system);
+  std::optional<double> length_km;
+  if (root.has("units")) length_km = read_unit_of_length(root.table("units"), scene.system.model);
+  std::optional<std::string> center_name;
+  if (root.has("ephemeris") && root.table("ephemeris").has("center_name")) {
+    center_name = root.table("ephemeris").text("center_name");
+  }
+  Nominal nominal = read_nominal(root.table("nominal"), scene.system, length_km, center_name);
+  scene.nominal = nominal.state;
+  scene.units = canonical_units(nominal.scale);
+  scene.canonical_radius = read_canonical_radius(system, scene.system, nominal.scale);
+  return nominal;
+}
+
+/// The only one of `duration_s`, `duration_canonical` and, for orbits, `duration_orbits`; in
+/// canonical units.
+double read_duration(const TableReader& table, bool has_orbits, const Nominal& nominal);
+
+/// What the table `[jet]` holds.
+struct JetSettings {
+  int order = 1;
+  std::vector<std::size_t> variables;   ///< indices into (q, p), ascending
+  double duration = 0;                  ///< canonical
+  std::optional<std::size_t> arcs = 1;  ///< none: auto
+};
+
+/// Table `[jet]`. Throws Error(too_large) for an order above the largest.
+JetSettings read_jet(const TableReader& jet, const SystemSettings& system, Precision precision,
+                     const Nominal& nominal);
+
+/// The tables `[[integrator]]`. Throws Error(too_large) for too many steps.
+std::vector<IntegratorSettings> read_integrators(const std::vector<TableReader>& integrators,
+                                                 Precision precision, double duration,
+                                                 const CanonicalScale& scale);
+
+/// Table `[formation]`: the separation in canonical units.
+double read_formation(const TableReader& formation, SystemModel model, const CanonicalScale& scale);
+
+/// Table `[generating_function]`: the kinds as the scene names them, checked against what `scene`
+/// already holds.
+std::vector<std::string> read_generating_function(const TableReader& generating_function,
+                                                  const Scene& scene);
+
+/// The degrees of freedom of the kinds that a scene's jet has; `table` and `key` ask for one.
+/// Throws Error(scene) if the jet is not expanded in all variables of phase space.
+std::size_t degrees_of_freedom_of_kinds(const TableReader& table, std::string_view key,
+                                        const Scene& scene);
+
+/// Final and initial choice in letters: "qqq-ppp" for "F2", and so on; "auto" stays, and what is no
+/// kind gives an empty text.
+std::string explicit_kind(const std::string& kind, std::size_t degrees_of_freedom);
+
+/// Table `[reference]`.
+ReferenceSettings read_reference(const TableReader& reference);
+
+/// Table `[compare]` of a scene with this order and canonical duration.
+ComparisonSettings read_compare(const TableReader& table, int order, double duration);
+
+/// Table `[checks]`, checked against what `scene` already holds.
+SelfCheckSettings read_checks(const TableReader& checks, const Scene& scene);
+
+/// Table `[output]`: the formats besides CSV and JSON.
+OutputSettings read_output(const TableReader& output, SystemModel model);
+
+/// Table `[ephemeris]`. What the nominal's file says of time, frame and centre need not be said
+/// again, and cannot be changed.
+EphemerisSettings read_ephemeris(const TableReader& ephemeris,
+                                 const std::optional<NominalFile>& file);
+
+/// Throws, about the key that says when the nominal starts, if the moments of the scene cannot be
+/// dated by adding seconds: before or across leap seconds of UTC, or outside of the years 1 to
+/// 9999.
+void require_calendar(const TableReader& table, std::string_view key, const Scene& scene);
+
+/// Table `[figure]`, checked against what `scene` already holds.
+FigureSettings read_figure(const TableReader& figure, const Scene& scene);
+
+/// Table `[transfer]`, checked against what `scene` already holds. Its tables `[transfer.start]`
+/// and
+/// `[transfer.end]` may be left out together where `needs_ends` is false.
+TransferSettings read_transfer(const TableReader& transfer, const Scene& scene,
+                               const Nominal& nominal, bool needs_ends);
+
+/// Table `[validity]`, checked against what `scene` already holds.
+ValiditySettings read_validity(const TableReader& validity, const Scene& scene,
+                               const Nominal& nominal);
+
+/// Table `[assignment]` of a scene whose table `[transfer]` has been read, if it has one.
+AssignmentSettings read_assignment(const TableReader& assignment, const Scene& scene,
+                                   const Nominal& nominal);
+
+/// Why the energy-conserving methods integrate no flow jet, for messages.
+inline constexpr std::string_view no_energy_conserving_jet =
+    "the map of an energy-conserving method at a fixed physical time is not symplectic, because "
+    "each neighbour takes its own steps; it integrates trajectories only";
+
+/// All tables of the study "energy-conservation". Throws Error(too_large) for too many steps.
+EnergyConservationStudy read_energy_conservation(const TableReader& root);
+
+/// What of an orbit is almost surely a slip, though it can be computed: a mu in m^3/s^2, a radius
+/// in metres or of another body than the mu, a negative J2 of a body's size, a start in metres. One
+/// line each for the user, with place, key and what would be right.
+std::vector<std::string> likely_slips(const TableReader& root, const Scene& scene);
+
+/// Table `[relative_hamiltonian]`: canonical times from the start to the duration.
+std::vector<double> read_relative_hamiltonian(const TableReader& table, double duration);
+
+}  // namespace hamjet::io

@@ -1,0 +1,182 @@
+#include <fmt/format.h>
+
+#include <array>
+#include <hamjet/formats/gravity_field_file.hpp>
+
+#include "../store/text_file.hpp"
+#include "scene_sections.hpp"
+
+namespace hamjet::io {
+namespace {
+
+/// Of the chain fermi-pasta-ulam.
+constexpr int most_pairs = 4;
+
+/// By n from ZonalCoefficients::lowest on.
+constexpr std::array<std::string_view, 19> zonal_keys = {
+    "J2",  "J3",  "J4",  "J5",  "J6",  "J7",  "J8",  "J9",  "J10", "J11",
+    "J12", "J13", "J14", "J15", "J16", "J17", "J18", "J19", "J20"};
+
+std::string_view zonal_key(int n) {
+  return zonal_keys.at(static_cast<std::size_t>(n - ZonalCoefficients::lowest));
+}
+
+const std::vector<std::string_view> zonal_gravity_keys =
+    joined({"model", "mu_km3_s2", "radius_km", "gravity_file", "highest_zonal", "zonals"},
+           std::vector<std::string_view>(zonal_keys.begin(), zonal_keys.end()));
+
+const std::vector<std::string_view> all_keys = joined(
+    zonal_gravity_keys,
+    {"mass_kg", "stiffness_N_per_m", "length_m", "gravity_m_s2", "omega_rad_per_s", "pairs"});
+
+/// J1 and J21 look like keys; the nearest that there is would not be what was meant.
+void refuse_other_zonals(const TableReader& system) {
+  for (int n = 0; n < 100; ++n) {
+    const std::string key = fmt::format("J{}", n);
+    const bool is_one = n >= ZonalCoefficients::lowest && n <= ZonalCoefficients::highest;
+    if (!is_one && system.has(key)) {
+      system.fail(key, fmt::format("unknown key, got {}, must be one of J{} to J{}", key,
+                                   ZonalCoefficients::lowest, ZonalCoefficients::highest));
+    }
+  }
+}
+
+/// The zonal coefficients and what they refer to, key by key. |J| <= 1 is far beyond every planet
+/// (Saturn, the most oblate, has J2 = 0.016); what is larger was meant in other units.
+void read_zonals(const TableReader& system, SystemSettings& settings) {
+  for (const std::string_view key : {"highest_zonal", "zonals"}) {
+    if (system.has(key)) {
+      system.fail(key, fmt::format("without a gravity_file, got {}, must be J2 to J20 one by one",
+                                   system.found(key)));
+    }
+  }
+  settings.mu_km3_s2 = system.positive_number("mu_km3_s2");
+  bool needs_radius = system.has("radius_km");
+  for (int n = ZonalCoefficients::lowest; n <= ZonalCoefficients::highest; ++n) {
+    if (!system.has(zonal_key(n))) continue;
+    settings.J[n] = system.number_between(zonal_key(n), -1, 1);
+    needs_radius = true;
+  }
+  // Without zonal coefficients nothing refers to the radius.
+  if (needs_radius) settings.radius_km = system.positive_number("radius_km");
+}
+
+ZonalChoice read_zonal_choice(const TableReader& system) {
+  constexpr int lowest = ZonalCoefficients::lowest, highest = ZonalCoefficients::highest;
+  ZonalChoice choice;
+  if (system.exactly_one_of({"highest_zonal", "zonals"}) == "highest_zonal") {
+    choice.highest = static_cast<int>(system.integer_between("highest_zonal", lowest, highest));
+    return choice;
+  }
+  for (const std::int64_t n : system.integers("zonals", lowest, highest)) {
+    const std::size_t index = choice.degrees.size();
+    if (index > 0 && n <= choice.degrees.back()) {
+      system.fail_element(
+          "zonals", index,
+          fmt::format("out of order, got {} after {}, must ascend", n, choice.degrees.back()));
+    }
+    choice.degrees.push_back(static_cast<int>(n));
+  }
+  return choice;
+}
+
+/// The same from a file, which has all: a key beside it would contradict it.
+void read_gravity_file(const TableReader& system, SystemSettings& settings) {
+  std::vector<std::string_view> keys = {"mu_km3_s2", "radius_km"};
+  keys.insert(keys.end(), zonal_keys.begin(), zonal_keys.end());
+  for (const std::string_view key : keys) {
+    if (system.has(key)) {
+      system.fail(key, fmt::format("given twice, got {} here, and the gravity_file has its own; "
+                                   "must be left out, or the gravity_file",
+                                   system.found(key)));
+    }
+  }
+  const ZonalChoice choice = read_zonal_choice(system);
+  const GravityField field = parse_gravity_field(
+      printable_path(system.path_beside_scene("gravity_file")),
+      system.content_beside_scene("gravity_file", largest_gravity_field_bytes), choice);
+  settings.mu_km3_s2 = field.mu_km3_s2;
+  settings.radius_km = field.radius_km;
+  settings.J = field.J;
+  settings.gravity_file =
+      GravityFile{system.text("gravity_file"), field.model_name, field.tide_system};
+}
+
+/// The keys of the models that are no orbits.
+void read_mechanics(const TableReader& system, SystemSettings& settings) {
+  if (system.has("mass_kg")) settings.mass_kg = system.positive_number("mass_kg");
+  switch (settings.model) {
+    case SystemModel::harmonic_oscillator:
+      if (system.has("stiffness_N_per_m")) {
+        settings.stiffness_N_per_m = system.positive_number("stiffness_N_per_m");
+      }
+      break;
+    case SystemModel::oscillator_pair: {
+      const std::vector<double> stiffnesses = system.numbers("stiffness_N_per_m", 2);
+      for (std::size_t i = 0; i < 2; ++i) {
+        if (stiffnesses[i] > 0) continue;
+        system.fail_element(
+            "stiffness_N_per_m", i,
+            fmt::format("not positive, got {}, must be a number above 0", stiffnesses[i]));
+      }
+      settings.stiffness_N_per_m = stiffnesses[0];
+      settings.second_stiffness_N_per_m = stiffnesses[1];
+      break;
+    }
+    case SystemModel::spring_pendulum:
+      settings.stiffness_N_per_m = system.positive_number("stiffness_N_per_m");
+      settings.length_m = system.positive_number("length_m");
+      settings.gravity_m_s2 = system.number("gravity_m_s2");
+      break;
+    case SystemModel::fermi_pasta_ulam:
+      settings.omega_rad_per_s = system.positive_number("omega_rad_per_s");
+      settings.pairs = static_cast<std::size_t>(system.integer_between("pairs", 1, most_pairs));
+      break;
+    default:
+      break;
+  }
+}
+
+}  // namespace
+
+std::vector<std::string_view> system_keys(SystemModel model) {
+  switch (model) {
+    case SystemModel::zonal_gravity:
+      return zonal_gravity_keys;
+    case SystemModel::kepler:
+      return {"model", "mu_km3_s2"};
+    case SystemModel::harmonic_oscillator:
+    case SystemModel::oscillator_pair:
+      return {"model", "mass_kg", "stiffness_N_per_m"};
+    case SystemModel::spring_pendulum:
+      return {"model", "mass_kg", "stiffness_N_per_m", "length_m", "gravity_m_s2"};
+    case SystemModel::fermi_pasta_ulam:
+      return {"model", "omega_rad_per_s", "pairs"};
+    case SystemModel::double_well:
+      break;
+  }
+  return {"model"};
+}
+
+SystemSettings read_system(const TableReader& system) {
+  if (!system.has("model")) system.check_keys({all_keys});  // a misspelt `model` is named
+  SystemSettings settings;
+  settings.model = static_cast<SystemModel>(system.choice("model", model_names()));
+  if (settings.model == SystemModel::zonal_gravity) refuse_other_zonals(system);
+  system.check_keys({system_keys(settings.model), all_keys,
+                     "the model " + std::string(model_name(settings.model))});
+  if (!is_orbit(settings.model)) {
+    read_mechanics(system, settings);
+    return settings;
+  }
+  if (settings.model == SystemModel::kepler) {
+    settings.mu_km3_s2 = system.positive_number("mu_km3_s2");
+  } else if (system.has("gravity_file")) {
+    read_gravity_file(system, settings);
+  } else {
+    read_zonals(system, settings);
+  }
+  return settings;
+}
+
+}  // namespace hamjet::io

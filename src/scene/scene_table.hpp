@@ -1,0 +1,127 @@
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "../text/scene_message.hpp"
+
+namespace hamjet::io {
+
+/// Keys that a table may have, and those that belong to other settings of the same table, so that
+/// the message for them can say so.
+struct KnownKeys {
+  std::vector<std::string_view> keys;
+  std::vector<std::string_view> keys_elsewhere = {};
+  std::string owner = {};  ///< what `keys` belong to, for example "the model kepler"
+};
+
+/// Two lists of keys, one after the other.
+inline std::vector<std::string_view> joined(std::vector<std::string_view> keys,
+                                            const std::vector<std::string_view>& more) {
+  keys.insert(keys.end(), more.begin(), more.end());
+  return keys;
+}
+
+/// Typed reader of one TOML table. Every function that reads throws Error(scene) with location,
+/// dotted key, what is wrong, what was found and what would be right. "Required" functions take a
+/// missing key for an error too; for an optional key ask `has` first.
+class TableReader {
+ public:
+  /// `path` is the table's dotted name, empty for the whole scene. Table and source must outlive
+  /// the reader.
+  TableReader(const toml::table& table, std::string path, const SceneSource& source);
+
+  /// Throws Error(scene) for the first key, in the order of the text, that is not known.
+  void check_keys(const KnownKeys& known) const;
+
+  bool has(std::string_view key) const { return table_->contains(key); }
+
+  /// Required: a finite number; integers are numbers too.
+  double number(std::string_view key) const;
+  /// Required: a finite number above 0.
+  double positive_number(std::string_view key) const;
+  /// Required: a finite number between the two, both included.
+  double number_between(std::string_view key, double least, double greatest) const;
+  /// Required: an integer (4.0 is none) between the two, both included.
+  std::int64_t integer_between(std::string_view key, std::int64_t least,
+                               std::int64_t greatest) const;
+  /// The key's value, if it is there and an integer.
+  std::optional<std::int64_t> integer_if_any(std::string_view key) const;
+  /// Required: an array of `count` finite numbers.
+  std::vector<double> numbers(std::string_view key, std::size_t count) const;
+  /// Required: an array of finite numbers, not empty.
+  std::vector<double> numbers(std::string_view key) const;
+  /// Required: an array of integers between the two, both included; not empty.
+  std::vector<std::int64_t> integers(std::string_view key, std::int64_t least,
+                                     std::int64_t greatest) const;
+  /// Required: an array of `size` arrays (rows) of `size` finite numbers; returned by rows.
+  std::vector<double> square_matrix(std::string_view key, std::size_t size) const;
+  /// Required: a finite number, or an array of them that is not empty.
+  std::vector<double> number_or_numbers(std::string_view key) const;
+  /// Required: true or false.
+  bool boolean(std::string_view key) const;
+  /// The key's value, if it is there and true or false.
+  std::optional<bool> boolean_if_any(std::string_view key) const;
+  /// Whether the key is there and a number, finite or not.
+  bool is_number(std::string_view key) const;
+  /// Required: a string.
+  std::string text(std::string_view key) const;
+  /// Required: the path of a file, relative to the folder of the scene.
+  std::filesystem::path path_beside_scene(std::string_view key) const;
+  /// Required: the same; returns the file's content. Throws Error(input_output) if it cannot be
+  /// read, Error(too_large) if it has more than so many bytes.
+  std::string content_beside_scene(std::string_view key, std::size_t most_bytes) const;
+  /// Required: an array of strings, not empty.
+  std::vector<std::string> texts(std::string_view key) const;
+  /// Required: one of `choices`; returns its index.
+  std::size_t choice(std::string_view key, const std::vector<std::string_view>& choices) const;
+  /// Required: the only one of `keys` that the table has.
+  std::string_view exactly_one_of(const std::vector<std::string_view>& keys) const;
+
+  /// Required: a table.
+  TableReader table(std::string_view key) const;
+  /// Required: an array of tables, not empty.
+  std::vector<TableReader> tables(std::string_view key) const;
+
+  /// Throws Error(scene) with the message `head: problem`.
+  [[noreturn]] void fail(std::string_view key, const std::string& problem) const;
+  /// The same about the element of an array, or about the key where it has no array.
+  [[noreturn]] void fail_element(std::string_view key, std::size_t index,
+                                 const std::string& problem) const;
+
+  /// `location: dotted key`, at the key's value if there is one, else at the table; for a value
+  /// that an override gave see `message_head`. An empty key stands for the table itself.
+  std::string head(std::string_view key) const;
+  /// Where the key's value stands, or the table if it has no such key.
+  std::string where(std::string_view key) const;
+  /// The value as messages quote it, for example `the string "4"`.
+  std::string found(std::string_view key) const;
+
+ private:
+  const toml::node& required(std::string_view key, std::string_view right) const;
+  const toml::array& required_array(std::string_view key, std::string_view right) const;
+  double finite(const toml::node& node, const std::string& dotted_key,
+                std::string_view right) const;
+  /// `key` with the table's dotted name before it.
+  std::string dotted(std::string_view key) const;
+  std::string location_of(const toml::node& node) const;
+  /// How the other keys of a choice are removed, if an override gave this one.
+  std::string removal_of_others(std::string_view key,
+                                const std::vector<std::string_view>& given) const;
+
+  const toml::table* table_;
+  std::string path_;
+  const SceneSource* source_;
+};
+
+/// A value as messages quote it.
+std::string describe(const toml::node& node);
+
+}  // namespace hamjet::io

@@ -1,0 +1,119 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "../formats/relative_frame_text.hpp"
+#include "../text/scene_message.hpp"
+#include "scene_relative_motion.hpp"
+
+namespace hamjet::io {
+namespace {
+
+constexpr std::size_t degrees_of_freedom = 3;
+
+/// A table that said in which frame it is.
+struct FramedTable {
+  TableReader table;
+  RelativeFrame frame;
+  std::string head;  ///< of the key that says so
+};
+
+/// The frame of a further table, which must be that of the first.
+void require_one_frame(const FramedTable& first, const FramedTable& other) {
+  if (first.frame == other.frame) return;
+  const bool has_derivatives_only = other.table.has("derivatives") && !other.table.has("frame");
+  const std::string_view key = has_derivatives_only ? "derivatives" : "frame";
+  other.table.fail(key, fmt::format("different frames, got {}, where {} has {}, must be the same",
+                                    frame_text(other.frame), first.head, frame_text(first.frame)));
+}
+
+/// One end; `fallback` is the table [transfer].
+FramedTable read_end(const TableReader& fallback, std::string_view key, const Nominal& nominal,
+                     RelativeState& state) {
+  const TableReader end = fallback.table(key);
+  end.check_keys({{"frame", "derivatives", "position_m", "velocity_m_s"}});
+  const RelativeFrame frame = read_relative_frame(end, fallback);
+  state = read_relative_state(end, nominal);
+  return {end, frame, (end.has("frame") ? end : fallback).head("frame")};
+}
+
+std::string read_kind(const TableReader& transfer) {
+  if (!transfer.has("kind")) return "auto";
+  const std::string kind = transfer.text("kind");
+  if (explicit_kind(kind, degrees_of_freedom).empty()) {
+    transfer.fail("kind",
+                  fmt::format("unknown kind, got {}, must be auto, F1, F2, F3, F4, or 3 letters q "
+                              "or p for the final variables, a hyphen, and as many for the initial "
+                              "ones, as in {}",
+                              in_quotes(kind), explicit_kind("F2", degrees_of_freedom)));
+  }
+  return kind;
+}
+
+/// Canonical.
+double read_singular_margin(const TableReader& transfer, const Nominal& nominal) {
+  // At this distance from a half revolution the normal velocity on a circular orbit is
+  // 1 / sin(2 pi 0.01) = 16 times what a quarter revolution takes.
+  constexpr double default_revolutions = 0.01;
+  const double period = nominal.period_s ? convert<double>(*nominal.period_s / nominal.scale.time_s)
+                                         : 2 * std::numbers::pi;
+  const bool has_seconds = transfer.has("singular_margin_s");
+  if (!has_seconds && !transfer.has("singular_margin_orbits")) return default_revolutions * period;
+  const std::string_view key =
+      transfer.exactly_one_of({"singular_margin_s", "singular_margin_orbits"});
+  const double given = transfer.number(key);
+  if (given < 0) {
+    transfer.fail(key, fmt::format("negative, got {}, must be a number from 0", given));
+  }
+  if (!has_seconds && !nominal.period_s) {
+    transfer.fail(key, fmt::format("no period, got {} of an orbit that is not elliptic, must be "
+                                   "singular_margin_s",
+                                   given));
+  }
+  const double margin = has_seconds ? nominal.scale.time_of_s(given) : given * period;
+  if (!std::isfinite(margin)) {
+    transfer.fail(key, fmt::format("out of range, got {}, which is {} in canonical units, must be "
+                                   "within binary64 there",
+                                   given, margin));
+  }
+  return margin;
+}
+
+}  // namespace
+
+TransferSettings read_transfer(const TableReader& transfer, const Scene& scene,
+                               const Nominal& nominal, bool needs_ends) {
+  transfer.check_keys(
+      {{"frame", "derivatives", "start", "end", "times_s", "times_orbits", "times_canonical",
+        "count", "kind", "tolerance_m", "refine", "refined_miss_m", "singular_margin_s",
+        "singular_margin_orbits", "strict"}});
+  require_relative_motion(transfer, scene);
+  TransferSettings settings;
+  std::optional<FramedTable> first;
+  if (transfer.has("frame")) {
+    first = {transfer, read_relative_frame(transfer, transfer), transfer.head("frame")};
+  }
+  if (needs_ends || transfer.has("start") || transfer.has("end")) {
+    const FramedTable start = read_end(transfer, "start", nominal, settings.start);
+    const FramedTable end = read_end(transfer, "end", nominal, settings.end);
+    require_one_frame(start, end);
+    if (first) require_one_frame(*first, start);
+    first = start;
+  }
+  if (!first) transfer.choice("frame", {"RTN", "inertial"});  // says what is missing
+  settings.frame = first->frame;
+  settings.times = read_transfer_times(transfer, scene, nominal);
+  settings.kind = read_kind(transfer);
+  if (transfer.has("tolerance_m")) settings.tolerance_m = transfer.positive_number("tolerance_m");
+  if (transfer.has("refine")) settings.refine = transfer.boolean("refine");
+  if (transfer.has("refined_miss_m")) {
+    settings.refined_miss_m = transfer.positive_number("refined_miss_m");
+  }
+  settings.singular_margin = read_singular_margin(transfer, nominal);
+  if (transfer.has("strict")) settings.strict = transfer.boolean("strict");
+  return settings;
+}
+
+}  // namespace hamjet::io

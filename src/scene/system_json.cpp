@@ -1,0 +1,63 @@
+#include "system_json.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <type_traits>
+
+#include "../store/json_values.hpp"
+#include "scene_sections.hpp"
+
+namespace hamjet::io {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The parameters that the model has, by the keys of scenes.
+Json mechanics_json(const SystemSettings& system) {
+  const std::vector<std::string_view> keys = system_keys(system.model);
+  Json json = Json::object();
+  for_each_field(system, [&](std::string_view name, const auto& member) {
+    if constexpr (std::is_arithmetic_v<std::decay_t<decltype(member)>>) {
+      const bool is_of_model = std::find(keys.begin(), keys.end(), name) != keys.end();
+      if (is_of_model) json[std::string(name)] = json_value(member);
+    }
+  });
+  if (system.model == SystemModel::oscillator_pair) {
+    json["stiffness_N_per_m"] = {json_value(system.stiffness_N_per_m),
+                                 json_value(system.second_stiffness_N_per_m)};
+  }
+  return json;
+}
+
+}  // namespace
+
+Json system_json(const SystemSettings& system) {
+  if (!is_orbit(system.model)) return mechanics_json(system);
+  Json J = Json::object();
+  for (int n = ZonalCoefficients::lowest; n <= ZonalCoefficients::highest; ++n) {
+    if (system.J[n] != 0) J[fmt::format("J{}", n)] = system.J[n];
+  }
+  Json json = {{"mu_km3_s2", system.mu_km3_s2},
+               {"radius_km", J.empty() ? Json(nullptr) : Json(system.radius_km)},
+               {"zonal_coefficients", J},
+               {"gravity_file", nullptr}};
+  if (system.gravity_file) {
+    json["gravity_file"] = {{"file", system.gravity_file->file},
+                            {"model_name", text_or_null(system.gravity_file->model_name)},
+                            {"tide_system", system.gravity_file->tide_system}};
+  }
+  return json;
+}
+
+Json integrator_json(const IntegratorSettings& settings) {
+  const std::vector<std::string_view> keys = integrator_keys(settings.method);
+  Json json;
+  for_each_field(settings, [&](std::string_view name, const auto& member) {
+    const bool is_of_method = std::find(keys.begin(), keys.end(), name) != keys.end();
+    json[std::string(name)] = is_of_method ? json_value(member) : Json(nullptr);
+  });
+  return json;
+}
+
+}  // namespace hamjet::io

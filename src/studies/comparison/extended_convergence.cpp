@@ -1,0 +1,141 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+
+#include "../integration.hpp"
+#include "../reference.hpp"
+#include "convergence_fit.hpp"
+#include "hamjet/error.hpp"
+
+namespace hamjet {
+namespace {
+
+constexpr std::size_t runs = 4;
+/// How far the finest run stays above what the reference can vouch for.
+constexpr double above_claimed = 30;
+/// No run over the whole duration needs a smaller error, and none so many more steps than those in
+/// double precision took.
+constexpr double smallest_floor = 1e-20;
+constexpr double most_refinement = 64;
+/// The coarsest error is this many times the finest, unless that takes more than halved steps.
+constexpr double error_range = 1e5;
+/// The parts of the duration that are tried, and the tolerance of the references of the shorter
+/// ones.
+constexpr std::array arcs = {1.0, 1.0 / 8, 1.0 / 64};
+constexpr double arc_tolerance = 1e-31;
+/// Steps after which the time of all is judged.
+constexpr long least_steps = 10;
+
+using Clock = std::chrono::steady_clock;
+
+/// The runs would take longer than is allowed.
+struct TooSlow {};
+
+/// The exponent of the term that follows the leading one, relative to it: symmetric methods have
+/// an expansion of the error in even powers of the step (Hairer, Nørsett and Wanner, Solving ODEs
+/// I, II.8).
+int correction_of(IntegrationMethod method) {
+  return method == IntegrationMethod::fehlberg78 || method == IntegrationMethod::stormer ? 1 : 2;
+}
+
+/// The numbers of steps, the most first, that continue a usable run down to the floor.
+std::vector<long> step_counts(const ConvergencePoint& start, double duration, double order,
+                              double floor) {
+  const double refinement = std::pow(start.error / floor, 1 / order);
+  const double most = duration / start.step * std::min(refinement, most_refinement);
+  const double ratio = std::min(2.0, std::pow(error_range, 1 / (order * (runs - 1))));
+  std::vector<long> counts;
+  for (std::size_t k = 0; k < runs; ++k) {
+    counts.push_back(std::lround(most / std::pow(ratio, k)));
+  }
+  return counts;
+}
+
+/// One fit, over one part of the duration.
+std::optional<ConvergenceFit> fit_over_arc(const ComparisonResult& result,
+                                           const CandidateSeries& series, int degree, double arc,
+                                           double seconds,
+                                           const std::function<void(double)>& keep_going) {
+  ConvergencePoint finest = usable_points(result, series.name, degree).front();
+  Scene scene = result.scene;
+  scene.order = degree;
+  scene.integrators.clear();
+  scene.kinds.reset();
+  scene.duration *= arc;
+  finest.error *= arc;
+  const ComputedProblem problem = make_problem(scene, available_memory());
+  const auto flow = flow_problem<Extended>(problem, scene.duration);
+  const bool is_whole = arc == 1;
+  const ReferenceResult reference =
+      is_whole ? truncated_reference(result.reference, problem.space)
+               : compute_reference(problem, scene.duration, {arc_tolerance}, keep_going);
+  const double claimed = is_whole ? result.smallest_claimed_error(degree)
+                                  : 10 * reference.uncertainty_by_degree.back();
+  const double floor = std::max(above_claimed * claimed, is_whole ? smallest_floor : 0);
+  const double span = std::abs(scene.duration);
+  const auto counts = step_counts(finest, span, series.order, floor);
+  // So few steps that rounding their number makes two runs alike tell nothing.
+  if (counts.back() < static_cast<long>(2 * runs)) return std::nullopt;
+  const long total = std::accumulate(counts.begin(), counts.end(), 0L);
+
+  IntegratorSettings settings = series.candidates.front().settings;
+  std::vector<ConvergencePoint> points;
+  long done = 0;
+  const auto start = Clock::now();
+  // The coarsest first: it tells what the others take.
+  for (std::size_t k = runs; k-- > 0;) {
+    settings.step_canonical = span / (static_cast<double>(counts[k]) - 0.5);
+    IntegrationStatistics statistics;
+    const auto jet = integrate<Extended>(
+        flow, settings, statistics, [&](const Extended&, const FlowJet<Extended>&) {
+          keep_going(static_cast<double>(++done) / static_cast<double>(total));
+          // What is done so far tells what the rest takes.
+          const std::chrono::duration<double> spent = Clock::now() - start;
+          if (spent.count() * static_cast<double>(total) > seconds * static_cast<double>(done) &&
+              done >= least_steps) {
+            throw TooSlow{};
+          }
+        });
+    const double error =
+        relative_error_by_degree(jet, reference.jet)[static_cast<std::size_t>(degree)];
+    if (error < claimed) return std::nullopt;
+    points.push_back({span / static_cast<double>(statistics.steps), error,
+                      fmt::format("{} steps", statistics.steps)});
+  }
+  std::reverse(points.begin(), points.end());
+  const auto slope = fitted_slope(points, correction_of(settings.method));
+  if (!slope) return std::nullopt;
+  ConvergenceFit fit = convergence_fit_of(series, degree, *slope, points);
+  fit.is_extended = true;
+  fit.arc = arc;
+  return fit;
+}
+
+}  // namespace
+
+std::optional<ConvergenceFit> fit_extended_convergence(
+    const ComparisonResult& result, const CandidateSeries& series, int degree, double seconds,
+    const std::function<void(double)>& keep_going) {
+  if (usable_points(result, series.name, degree).empty() || series.candidates.front().integrate) {
+    return std::nullopt;
+  }
+  std::optional<ConvergenceFit> best;
+  for (const double arc : arcs) {
+    try {
+      auto fit = fit_over_arc(result, series, degree, arc, seconds, keep_going);
+      if (fit && fit->agrees()) return fit;
+      if (fit) best = std::move(fit);
+    } catch (const TooSlow&) {
+      continue;
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::numerical) throw;
+    }
+  }
+  return best;
+}
+
+}  // namespace hamjet

@@ -1,0 +1,211 @@
+#include "hamjet/studies/assignment.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "../exact_flow.hpp"
+#include "../jets_along_time.hpp"
+#include "../stopwatch.hpp"
+#include "formation_problem.hpp"
+#include "hamjet/error.hpp"
+#include "least_assignment.hpp"
+#include "transfer_points.hpp"
+
+namespace hamjet {
+namespace {
+
+constexpr double no_cost = std::numeric_limits<double>::infinity();
+
+/// One study at work.
+class AssignmentStudy {
+ public:
+  AssignmentStudy(const Scene& scene, const ProgressCallback& progress)
+      : scene_(scene),
+        settings_(*scene.assignment),
+        progress_(progress),
+        points_(scene, progress, seconds_) {
+    result_.scene = scene;
+    // All pairs of few; of many as many, evenly taken.
+    constexpr std::size_t most_pairs = 64;
+    const std::size_t n = settings_.deputies.size();
+    const std::size_t stride = std::max<std::size_t>(1, n * n / most_pairs);
+    for (std::size_t k = 0; k < n * n; k += stride) {
+      typical_.push_back({settings_.deputies[k / n], settings_.slots[k % n]});
+    }
+  }
+
+  AssignmentResult run() {
+    const IntegratorSettings& integrator = symplectic_integrator(scene_);
+    result_.integrator = integrator.label;
+    const std::vector<double>& times = scene_.transfer->times;
+    const auto statistics =
+        visit_jets(points_.problem(), integrator, times,
+                   [&](std::size_t index, const FlowJet<double>& jet) { find_costs(index, jet); });
+    choose();
+    if (!result_.failure.empty()) return std::move(result_);
+    // The chosen times once more, for the proofs; kinds are chosen as the first time.
+    points_.forget_last_kind();
+    visit_jets(points_.problem(), integrator, times,
+               [&](std::size_t index, const FlowJet<double>& jet) { prove(index, jet); });
+    for (const AssignedTransfer& transfer : result_.transfers) {
+      if (transfer.transfer.has_answer()) {
+        result_.total_change_m_s += transfer.transfer.best().total_change_m_s();
+      }
+    }
+    result_.study_seconds = seconds_.study() + statistics.wall_seconds;
+    result_.proof_seconds = seconds_.proof;
+    return std::move(result_);
+  }
+
+ private:
+  /// Velocity changes of all pairs at one time; infinite where there is no answer.
+  void find_costs(std::size_t index, const FlowJet<double>& jet) {
+    const std::vector<double>& times = scene_.transfer->times;
+    if (progress_) {
+      progress_("costs", static_cast<double>(index) / static_cast<double>(times.size()));
+    }
+    costs_.emplace_back(settings_.deputies.size(),
+                        std::vector<double>(settings_.slots.size(), no_cost));
+    if (points_.is_near_singular(times[index])) return;
+    const ChosenKind chosen = points_.choose_kind(times[index], jet, typical_);
+    if (!chosen.inversion) return;
+    const Stopwatch watch(seconds_.solution);
+    const std::vector<double> chief_end = nominal_of(jet);
+    PositionBoundaryValues boundary(*chosen.inversion);
+    for (std::size_t i = 0; i < settings_.deputies.size(); ++i) {
+      if (progress_) {
+        progress_("costs", static_cast<double>(index) / static_cast<double>(times.size()));
+      }
+      for (std::size_t j = 0; j < settings_.slots.size(); ++j) {
+        const SingleTransfer transfer(scene_, points_.problem(), times[index], chief_end,
+                                      settings_.deputies[i], settings_.slots[j]);
+        try {
+          const double cost = transfer.answer(transfer.solve(boundary, scene_.order), scene_.order)
+                                  .total_change_m_s();
+          if (std::isfinite(cost)) costs_.back()[i][j] = cost;
+        } catch (const Error& error) {
+          if (error.kind() != ErrorKind::numerical) throw;
+        }
+      }
+    }
+  }
+
+  void choose() {
+    std::optional<std::vector<std::size_t>> slots;
+    if (settings_.time == AssignmentTime::common) {
+      slots = choose_common();
+    } else {
+      result_.costs = best_costs(0, costs_.size());
+      slots = least_assignment(totals(result_.costs));
+    }
+    if (!slots) {
+      result_.failure =
+          "no assignment gives every deputy a slot: at no transfer time away from singularities do "
+          "enough transfers have an answer";
+      return;
+    }
+    for (std::size_t i = 0; i < slots->size(); ++i) {
+      result_.transfers.push_back({i, (*slots)[i], {}});
+    }
+  }
+
+  std::optional<std::vector<std::size_t>> choose_common() {
+    std::optional<std::vector<std::size_t>> best;
+    double least = no_cost;
+    for (std::size_t t = 0; t < costs_.size(); ++t) {
+      const auto slots = least_assignment(costs_[t]);
+      if (!slots) continue;
+      double total = 0;
+      for (std::size_t i = 0; i < slots->size(); ++i) total += costs_[t][i][(*slots)[i]];
+      if (!(total < least)) continue;
+      least = total;
+      best = slots;
+      result_.common_time = t;
+    }
+    if (result_.common_time) {
+      result_.costs = best_costs(*result_.common_time, *result_.common_time + 1);
+    }
+    return best;
+  }
+
+  /// The cheapest of the times first..last - 1 for each pair.
+  std::vector<std::vector<AssignmentCost>> best_costs(std::size_t first, std::size_t last) const {
+    std::vector<std::vector<AssignmentCost>> best(
+        settings_.deputies.size(), std::vector<AssignmentCost>(settings_.slots.size()));
+    for (std::size_t i = 0; i < best.size(); ++i) {
+      for (std::size_t j = 0; j < best[i].size(); ++j) {
+        for (std::size_t t = first; t < last; ++t) {
+          const double cost = costs_[t][i][j];
+          if (!std::isfinite(cost)) continue;
+          AssignmentCost& entry = best[i][j];
+          if (!entry.time || cost < entry.total_change_m_s) entry = {t, cost};
+        }
+      }
+    }
+    return best;
+  }
+
+  static std::vector<std::vector<double>> totals(
+      const std::vector<std::vector<AssignmentCost>>& costs) {
+    std::vector<std::vector<double>> result;
+    for (const auto& row : costs) {
+      result.emplace_back();
+      for (const AssignmentCost& entry : row) {
+        result.back().push_back(entry.time ? entry.total_change_m_s : no_cost);
+      }
+    }
+    return result;
+  }
+
+  void prove(std::size_t index, const FlowJet<double>& jet) {
+    const std::vector<double>& times = scene_.transfer->times;
+    if (progress_) {
+      progress_("proofs", static_cast<double>(index) / static_cast<double>(times.size()));
+    }
+    if (index + 1 == times.size()) {
+      result_.flight_floor_m = points_.flight_floor_m(jet);
+    }
+    std::optional<ChosenKind> chosen;
+    for (AssignedTransfer& assigned : result_.transfers) {
+      if (result_.costs[assigned.deputy][assigned.slot].time != index) continue;
+      if (!chosen) chosen = points_.choose_kind(times[index], jet, typical_);
+      assigned.transfer = points_.answer(
+          *chosen, jet, {settings_.deputies[assigned.deputy], settings_.slots[assigned.slot]});
+    }
+  }
+
+  const Scene& scene_;
+  const AssignmentSettings& settings_;
+  const ProgressCallback& progress_;
+  TransferSeconds seconds_;
+  TransferPoints points_;
+  std::vector<RelativeTransfer> typical_;                ///< that the kind is chosen for
+  std::vector<std::vector<std::vector<double>>> costs_;  ///< [time][deputy][slot], m/s
+  AssignmentResult result_;
+};
+
+}  // namespace
+
+AssignmentResult study_assignment(const Scene& scene, const ProgressCallback& progress) {
+  require_formation_problem(scene, scene.assignment.has_value() && scene.transfer.has_value(),
+                            "assignment");
+  if (scene.assignment->deputies.size() != scene.assignment->slots.size()) {
+    throw Error(ErrorKind::scene, "assignment: there must be as many slots as deputies");
+  }
+  return AssignmentStudy(scene, progress).run();
+}
+
+int exit_code(const AssignmentResult& result) {
+  if (!result.failure.empty()) return static_cast<int>(ErrorKind::numerical);
+  bool has_fault = false;
+  for (const AssignedTransfer& assigned : result.transfers) {
+    const TransferPoint& transfer = assigned.transfer;
+    if (!transfer.has_answer()) return static_cast<int>(ErrorKind::numerical);
+    has_fault =
+        has_fault || transfer.is_beyond_tolerance || (transfer.refined && !transfer.is_refined());
+  }
+  return result.scene.transfer->strict && has_fault ? static_cast<int>(ErrorKind::check_failed) : 0;
+}
+
+}  // namespace hamjet

@@ -1,0 +1,249 @@
+#include "hamjet/studies/transfer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "../exact_flow.hpp"
+#include "../jets_along_time.hpp"
+#include "formation_problem.hpp"
+#include "hamjet/error.hpp"
+#include "single_transfer.hpp"
+#include "transfer_points.hpp"
+
+namespace hamjet {
+
+namespace {
+
+double change_of(const TransferPoint& point) { return point.best().total_change_m_s(); }
+
+}  // namespace
+
+std::optional<std::size_t> TransferResult::best_point() const {
+  std::optional<std::size_t> best;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!points[i].is_candidate()) continue;
+    if (!best || change_of(points[i]) < change_of(points[*best])) best = i;
+  }
+  return best;
+}
+
+std::vector<SingularTime> TransferResult::position_singularities() const {
+  const GeneratingFunctionKind f1 = parse_kind("F1", 3);
+  std::vector<SingularTime> found;
+  for (const SingularTime& singular : singular_times) {
+    if (singular.kind == f1) found.push_back(singular);
+  }
+  return found;
+}
+
+namespace {
+
+/// The chief of an earlier jet may differ from the scene's by no more than integrators do.
+constexpr double largest_chief_distance = 1e-6;
+
+void require_same_chief(const EarlierJet& earlier, double distance) {
+  if (distance <= largest_chief_distance) return;
+  throw Error(ErrorKind::scene,
+              fmt::format("transfer: the earlier jet {} is not of this scene: its chief comes to a "
+                          "place {:.3g} canonical lengths from where the scene's does",
+                          earlier.label, distance));
+}
+
+/// The spans between the neighbours of the lowest listed answers, at most so many.
+std::vector<std::pair<double, double>> lowest_spans(const TransferResult& result) {
+  constexpr std::size_t most_spans = 3;
+  const std::vector<double>& times = result.scene.transfer->times;
+  const auto change_at = [&](std::size_t i) {
+    const bool is_there = i < result.points.size() && result.points[i].is_candidate();
+    return is_there ? change_of(result.points[i]) : std::numeric_limits<double>::infinity();
+  };
+  std::vector<std::size_t> minima;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const double before = i > 0 ? change_at(i - 1) : std::numeric_limits<double>::infinity();
+    if (std::isfinite(change_at(i)) && change_at(i) <= before && change_at(i) <= change_at(i + 1)) {
+      minima.push_back(i);
+    }
+  }
+  std::stable_sort(minima.begin(), minima.end(),
+                   [&](std::size_t a, std::size_t b) { return change_at(a) < change_at(b); });
+  if (minima.size() > most_spans) minima.resize(most_spans);
+  std::vector<std::pair<double, double>> spans;
+  for (const std::size_t i : minima) {
+    spans.emplace_back(times[i > 0 ? i - 1 : 0], times[std::min(i + 1, times.size() - 1)]);
+  }
+  return spans;
+}
+
+/// Inner points of the spans, moving away from 0.
+std::vector<double> times_within(const std::vector<std::pair<double, double>>& spans) {
+  constexpr int parts = 12;
+  std::vector<double> times;
+  for (const auto& [left, right] : spans) {
+    for (int k = 1; k < parts; ++k) times.push_back(left + (right - left) * k / parts);
+  }
+  std::sort(times.begin(), times.end(),
+            [](double a, double b) { return std::abs(a) < std::abs(b); });
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  return times;
+}
+
+}  // namespace
+
+namespace {
+
+/// Looks for less between the listed times, about the lowest answers: twelve times in the span
+/// between the neighbours of each, then twelve about the least of these, so that the least is known
+/// to a thirtieth of the listed spacing.
+void search_between(TransferResult& result, TransferPoints& points,
+                    const IntegratorSettings& integrator, const RelativeTransfer& ends,
+                    const ProgressCallback& progress) {
+  constexpr int rounds = 2;
+  const auto listed = result.best_point();
+  if (!listed || result.points.size() < 2) return;
+  double least = change_of(result.points[*listed]);
+  std::vector<std::pair<double, double>> spans = lowest_spans(result);
+  points.forget_last_kind();
+  for (int round = 0; round < rounds; ++round) {
+    const std::vector<double> times = times_within(spans);
+    std::optional<double> lowest;
+    double lowest_time = 0;
+    const auto statistics = visit_jets(
+        points.problem(), integrator, times, [&](std::size_t index, const FlowJet<double>& jet) {
+          if (progress) {
+            progress("between the times",
+                     static_cast<double>(index) / static_cast<double>(times.size()));
+          }
+          ++result.times_between;
+          const TransferPoint point =
+              points.answer(points.choose_kind(times[index], jet, {ends}), jet, ends);
+          if (!point.is_candidate()) return;
+          if (!lowest || change_of(point) < *lowest) {
+            lowest = change_of(point);
+            lowest_time = times[index];
+          }
+          if (change_of(point) < least) {
+            least = change_of(point);
+            result.least_between = point;
+          }
+        });
+    result.seconds.propagation += statistics.wall_seconds;
+    if (!lowest) return;
+    const auto place = std::find(times.begin(), times.end(), lowest_time) - times.begin();
+    const auto at = [&](std::ptrdiff_t i) {
+      return times[static_cast<std::size_t>(
+          std::clamp<std::ptrdiff_t>(i, 0, static_cast<std::ptrdiff_t>(times.size()) - 1))];
+    };
+    spans = {{at(place - 1), at(place + 1)}};
+  }
+}
+
+}  // namespace
+
+TransferResult study_transfer(const Scene& asked, const ProgressCallback& progress,
+                              const EarlierJet* earlier) {
+  require_formation_problem(asked, asked.transfer.has_value(), "transfer");
+  Scene scene = asked;
+  if (earlier != nullptr) {
+    scene.order = earlier->jet.at(0).order();
+    scene.transfer->times = {earlier->time};
+  }
+  const TransferSettings& settings = *scene.transfer;
+  TransferResult result;
+  result.scene = scene;
+  const RelativeTransfer ends{settings.start, settings.end};
+  TransferPoints points(scene, progress, result.seconds);
+  result.conditions.kinds = points.kinds();
+  const auto visit = [&](std::size_t index, const FlowJet<double>& jet) {
+    const double time = settings.times[index];
+    if (progress) {
+      progress("transfers",
+               static_cast<double>(index) / static_cast<double>(settings.times.size()));
+    }
+    if (index + 1 == settings.times.size()) {
+      result.flight_floor_m = points.flight_floor_m(jet);
+      result.chief_error_m = points.chief_error_m(time, jet);
+    }
+    const ChosenKind chosen = points.choose_kind(time, jet, {ends});
+    result.points.push_back(points.answer(chosen, jet, ends));
+    result.conditions.times.push_back(time);
+    result.conditions.values.push_back(chosen.conditions);
+  };
+  if (earlier != nullptr) {
+    result.integrator = earlier->label;
+    require_same_chief(
+        *earlier, points.chief_error_m(earlier->time, earlier->jet) / metric_units(scene).length_m);
+    visit(0, earlier->jet);
+  } else {
+    const IntegratorSettings& integrator = symplectic_integrator(scene);
+    result.integrator = integrator.label;
+    result.statistics = visit_jets(points.problem(), integrator, settings.times, visit);
+    result.seconds.propagation = result.statistics.wall_seconds;
+    search_between(result, points, integrator, ends, progress);
+  }
+  result.hamilton_jacobi_floor = points.hamilton_jacobi_floor();
+  result.singular_times = points.singular_times();
+  return result;
+}
+
+int exit_code(const TransferResult& result) {
+  bool has_answer = false;
+  bool has_fault = false;
+  for (const TransferPoint& point : result.points) {
+    has_answer = has_answer || point.has_answer();
+    if (point.is_near_singular) continue;
+    has_fault = has_fault || !point.has_answer() || point.is_beyond_tolerance ||
+                (point.refined && !point.is_refined());
+  }
+  if (!has_answer) return static_cast<int>(ErrorKind::numerical);
+  return result.scene.transfer->strict && has_fault ? static_cast<int>(ErrorKind::check_failed) : 0;
+}
+
+namespace {
+
+bool has_orbital_plane(const std::vector<double>& chief) {
+  try {
+    const ChiefFrame frame(chief, MetricUnits{}, RelativeFrame::rtn_rotating);
+    return true;
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::numerical) throw;
+    return false;
+  }
+}
+
+}  // namespace
+
+RelativeTrajectory fly_relative(const TransferResult& result, std::size_t point, int count) {
+  const Scene& scene = result.scene;
+  const DynamicalSystem system = make_system(scene);
+  const TransferPoint& transfer = result.points[point];
+  const MetricUnits units = metric_units(scene);
+  RelativeState start = scene.transfer->start;
+  start.velocity_m_s += transfer.best().start_change_m_s;
+  std::vector<double> chief = scene.nominal;
+  std::vector<double> deputy = chief;
+  const auto deviation = ChiefFrame(chief, units, scene.transfer->frame).deviation(start);
+  for (std::size_t i = 0; i < deputy.size(); ++i) deputy[i] += deviation[i];
+  RelativeTrajectory trajectory;
+  if (scene.transfer->frame == RelativeFrame::inertial && !has_orbital_plane(chief)) {
+    trajectory.frame = RelativeFrame::inertial;
+  }
+  for (int k = 0; k <= count; ++k) {
+    if (k > 0) {
+      chief = exact_flow(system, chief, transfer.time / count);
+      deputy = exact_flow(system, deputy, transfer.time / count);
+    }
+    std::vector<double> difference;
+    for (std::size_t i = 0; i < deputy.size(); ++i) difference.push_back(deputy[i] - chief[i]);
+    trajectory.times.push_back(transfer.time * k / count);
+    trajectory.chief.push_back(chief);
+    trajectory.deputy.push_back(deputy);
+    trajectory.states.push_back(ChiefFrame(chief, units, trajectory.frame).relative(difference));
+  }
+  return trajectory;
+}
+
+}  // namespace hamjet

@@ -1,0 +1,265 @@
+#include "transfer_points.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <utility>
+
+#include "../exact_flow.hpp"
+#include "../random_direction.hpp"
+#include "../stopwatch.hpp"
+#include "hamjet/error.hpp"
+
+namespace hamjet {
+namespace {
+
+/// Along R, T, N of the chief, if it has an orbital plane.
+std::optional<Eigen::Vector3d> along_rtn(const std::vector<double>& chief,
+                                         const Eigen::Vector3d& direction) {
+  try {
+    return ChiefFrame(chief, MetricUnits{}, RelativeFrame::rtn_inertial).along_axes(direction);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::numerical) throw;
+    return std::nullopt;
+  }
+}
+
+using FlowMatrix = Eigen::Matrix<double, 6, 6>;
+
+/// The answer that `work` gives, or its numerical failure.
+template <class Work>
+TransferAnswer attempt(int order, const Work& work) {
+  try {
+    return work();
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::numerical) throw;
+    TransferAnswer failed;
+    failed.order = order;
+    failed.failure = error.what();
+    return failed;
+  }
+}
+
+}  // namespace
+
+TransferPoints::TransferPoints(const Scene& scene, const ProgressCallback& progress,
+                               TransferSeconds& seconds)
+    : scene_(scene),
+      settings_(*scene.transfer),
+      seconds_(seconds),
+      problem_(make_problem(scene, available_memory())),
+      kinds_(all_kinds(3)) {
+  find_singular_times(progress);
+}
+
+void TransferPoints::find_singular_times(const ProgressCallback& progress) {
+  const Stopwatch watch(seconds_.singularities);
+  const double last = settings_.times.back();
+  // A little longer, so that what lies right behind the last time is seen too; no more than a
+  // quarter of a revolution at the initial distance, in which some singularity lies anyway.
+  const double margin = std::min(settings_.singular_margin, std::numbers::pi / 2);
+  const LinearFlow flow(problem_, last + std::copysign(margin, last), checkpoints_per_revolution,
+                        [&](double done) {
+                          if (progress) progress("linear flow", done);
+                        });
+  for (std::size_t k = 0; k < kinds_.size(); ++k) {
+    if (progress) {
+      progress("singular times", static_cast<double>(k) / static_cast<double>(kinds_.size()));
+    }
+    for (SingularTime& found : hamjet::find_singular_times(flow, kinds_[k])) {
+      found.direction_rtn = along_rtn(flow.nominal(found.time), found.direction);
+      singular_times_.push_back(std::move(found));
+    }
+  }
+}
+
+std::optional<double> TransferPoints::singular_distance(double time) const {
+  std::optional<double> nearest;
+  for (const SingularTime& singular : singular_times_) {
+    if (singular.kind != kinds_.front()) continue;
+    const double distance = std::abs(singular.time - time);
+    nearest = std::min(nearest.value_or(distance), distance);
+  }
+  return nearest;
+}
+
+bool TransferPoints::is_near_singular(double time) const {
+  const auto distance = singular_distance(time);
+  return distance && *distance < settings_.singular_margin;
+}
+
+std::vector<double> TransferPoints::expansion_parameters(
+    const FlowJet<double>& jet, const std::vector<RelativeTransfer>& transfers, double time) const {
+  const std::span<const Series<double>> map(jet);
+  const FlowMatrix flow = linear_part(map);
+  std::vector<Eigen::PartialPivLU<Eigen::Matrix3d>> blocks;
+  std::vector<double> parameters;
+  for (const GeneratingFunctionKind& kind : kinds_) {
+    blocks.emplace_back(inverted_block(flow, kind));
+    // Round-off is amplified too, and decides where nothing else does.
+    parameters.push_back(std::numeric_limits<double>::epsilon() * flow.norm() *
+                         blocks.back().inverse().norm());
+  }
+  const std::vector<double> chief_end = nominal_of(jet);
+  MonomialValues values(jet[0].space_pointer());
+  for (const RelativeTransfer& ends : transfers) {
+    const SingleTransfer transfer(scene_, problem_, time, chief_end, ends.start, ends.end);
+    values.set_point(transfer.linear_deviation(flow));
+    FlowMatrix changed;
+    for (std::size_t i = 0; i < 6; ++i) {
+      for (std::size_t j = 0; j < 6; ++j) {
+        changed(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
+            values.derivative(jet[i], j, std::min(scene_.order, 2));
+      }
+    }
+    for (std::size_t k = 0; k < kinds_.size(); ++k) {
+      const Eigen::Matrix3d difference = inverted_block(changed - flow, kinds_[k]);
+      parameters[k] = std::max(parameters[k], blocks[k].solve(difference).norm());
+    }
+  }
+  return parameters;
+}
+
+ChosenKind TransferPoints::choose_kind(double time, const FlowJet<double>& jet,
+                                       const std::vector<RelativeTransfer>& transfers) {
+  const Stopwatch watch(seconds_.inversion);
+  const std::span<const Series<double>> map(jet);
+  const FlowMatrix flow = linear_part(map);
+  ChosenKind chosen;
+  chosen.time = time;
+  for (const GeneratingFunctionKind& kind : kinds_) {
+    chosen.conditions.push_back(condition_number<double>(inverted_block(flow, kind)));
+  }
+  try {
+    if (settings_.kind != "auto") {
+      chosen.inversion = invert_partially<double>(map, parse_kind(settings_.kind, 3));
+    } else if (const auto index = choice_.choose(expansion_parameters(jet, transfers, time))) {
+      chosen.inversion = invert_partially<double>(map, kinds_[*index]);
+    } else {
+      chosen.failure = "no kind of generating function exists at this time";
+    }
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::numerical) throw;
+    chosen.failure = error.what();
+  }
+  return chosen;
+}
+
+TransferPoint TransferPoints::answer(const ChosenKind& chosen, const FlowJet<double>& jet,
+                                     const RelativeTransfer& ends) {
+  TransferPoint point;
+  point.time = chosen.time;
+  point.position_condition = chosen.conditions.front();
+  point.singular_distance = singular_distance(chosen.time);
+  point.is_near_singular = is_near_singular(chosen.time);
+  point.failure = chosen.failure;
+  if (!chosen.inversion) return point;
+  point.kind = chosen.inversion->kind;
+  point.condition = chosen.inversion->condition;
+  // The ends are relative to the chief as it flies: an inaccurate integrator must not prove itself.
+  const SingleTransfer transfer(scene_, problem_, chosen.time, flown_chief(chosen.time), ends.start,
+                                ends.end);
+  std::vector<BoundaryMomenta> momenta(static_cast<std::size_t>(scene_.order));
+  {
+    const Stopwatch watch(seconds_.solution);
+    PositionBoundaryValues boundary(*chosen.inversion);
+    for (int order = 1; order <= scene_.order; ++order) {
+      point.answers.push_back(attempt(order, [&] {
+        BoundaryMomenta& found = momenta[static_cast<std::size_t>(order - 1)];
+        found = transfer.solve(boundary, order);
+        return transfer.answer(found, order);
+      }));
+    }
+  }
+  {
+    const Stopwatch watch(seconds_.proof);
+    for (std::size_t k = 0; k < momenta.size(); ++k) {
+      TransferAnswer& answer = point.answers[k];
+      if (!answer.failure.empty()) continue;
+      answer = attempt(answer.order, [&] {
+        TransferAnswer proved = answer;
+        proved.miss_m = transfer.miss_m(transfer.fly(momenta[k].initial));
+        return proved;
+      });
+    }
+    const TransferAnswer& last = point.answers.back();
+    point.is_beyond_tolerance = !last.failure.empty() || !(last.miss_m <= settings_.tolerance_m);
+    const bool is_to_refine =
+        settings_.refine || (point.is_beyond_tolerance && !point.is_near_singular);
+    if (is_to_refine && last.failure.empty()) {
+      point.refined = transfer.refine(jet, momenta.back(), point.refinement_flights);
+    }
+  }
+  if (point.has_answer()) {
+    measure_residual(chosen, jet, transfer.variables(chosen.inversion->kind, momenta.back()),
+                     point);
+  }
+  return point;
+}
+
+void TransferPoints::measure_residual(const ChosenKind& chosen, const FlowJet<double>& jet,
+                                      const std::vector<double>& w, TransferPoint& point) {
+  const Stopwatch watch(seconds_.residual);
+  HamiltonJacobiTerms terms =
+      hamilton_jacobi_terms<double>(problem_.system, nominal_of(jet), *chosen.inversion, w);
+  const double scaled = terms.scaled();
+  point.hamilton_jacobi_residual = scaled;
+  if (largest_residual_ && !(scaled > largest_residual_->scaled)) return;
+  largest_residual_ = {scaled, jet, chosen.inversion->kind, w, std::move(terms)};
+}
+
+std::optional<double> TransferPoints::hamilton_jacobi_floor() const {
+  if (!largest_residual_) return std::nullopt;
+  const Stopwatch watch(seconds_.residual);
+  constexpr int draws = 16;
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  std::mt19937_64 generator(1);
+  double floor = 0;
+  for (int draw = 0; draw < draws; ++draw) {
+    FlowJet<double> jet = largest_residual_->jet;
+    for (auto& component : jet) {
+      for (double& c : component.coefficients()) {
+        if (c != 0) c = std::nextafter(c, random_direction(generator, 1)[0] * infinity);
+      }
+    }
+    try {
+      const auto inversion =
+          invert_partially<double>(std::span<const Series<double>>(jet), largest_residual_->kind);
+      HamiltonJacobiTerms terms = hamilton_jacobi_terms<double>(
+          problem_.system, nominal_of(largest_residual_->jet), inversion, largest_residual_->w);
+      for (std::size_t i = 0; i < terms.residual.size(); ++i) {
+        terms.residual[i] -= largest_residual_->terms.residual[i];
+      }
+      floor = std::max(floor, terms.scaled());
+    } catch (const Error& error) {
+      // Beside a singularity an ulp may be what the kind exists by.
+      if (error.kind() != ErrorKind::numerical) throw;
+    }
+  }
+  return floor;
+}
+
+double TransferPoints::flight_floor_m(const FlowJet<double>& jet) const {
+  return rounding_of_flights(jet) * metric_units(scene_).length_m;
+}
+
+double TransferPoints::chief_error_m(double time, const FlowJet<double>& jet) {
+  const std::vector<double>& flown = flown_chief(time);
+  const std::vector<double> nominal = nominal_of(jet);
+  return std::hypot(flown[0] - nominal[0], flown[1] - nominal[1], flown[2] - nominal[2]) *
+         metric_units(scene_).length_m;
+}
+
+const std::vector<double>& TransferPoints::flown_chief(double time) {
+  if (flown_chief_.empty() || time != chief_time_) {
+    const Stopwatch watch(seconds_.proof);
+    flown_chief_ = exact_flow(problem_.system, problem_.nominal, time);
+    chief_time_ = time;
+  }
+  return flown_chief_;
+}
+
+}  // namespace hamjet

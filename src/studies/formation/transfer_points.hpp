@@ -1,0 +1,89 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "../kind_choice.hpp"
+#include "hamjet/maps/hamilton_jacobi.hpp"
+#include "hamjet/studies/transfer.hpp"
+#include "single_transfer.hpp"
+
+namespace hamjet {
+
+/// The kind with which one time's transfers are answered, and its jet solved for it.
+struct ChosenKind {
+  double time = 0;
+  std::vector<double> conditions;  ///< of all kinds, F1's first
+  std::optional<PartialInversion<double>> inversion;
+  std::string failure;  ///< not empty: there is no inversion, and why
+};
+
+/// From one relative state to another.
+struct RelativeTransfer {
+  RelativeState start;
+  RelativeState end;
+};
+
+/// Answers transfers about one chief, time after time. What it looks at must outlive it.
+class TransferPoints {
+ public:
+  /// Finds the singular times of all kinds up to the scene's last transfer time. Adds to `seconds`.
+  TransferPoints(const Scene& scene, const ProgressCallback& progress, TransferSeconds& seconds);
+
+  const ComputedProblem& problem() const noexcept { return problem_; }
+  const std::vector<GeneratingFunctionKind>& kinds() const noexcept { return kinds_; }
+  const std::vector<SingularTime>& singular_times() const noexcept { return singular_times_; }
+
+  bool is_near_singular(double time) const;
+
+  /// The scene's kind, or the best one for these transfers, with hysteresis along the calls.
+  ChosenKind choose_kind(double time, const FlowJet<double>& jet,
+                         const std::vector<RelativeTransfer>& transfers);
+  /// All orders' answers, proved, and the refinement if the scene asks for it.
+  TransferPoint answer(const ChosenKind& chosen, const FlowJet<double>& jet,
+                       const RelativeTransfer& ends);
+  /// The next choice of a kind looks at no earlier one.
+  void forget_last_kind() { choice_ = {}; }
+  /// See TransferResult.
+  double flight_floor_m(const FlowJet<double>& jet) const;
+  double chief_error_m(double time, const FlowJet<double>& jet);
+  std::optional<double> hamilton_jacobi_floor() const;
+
+ private:
+  /// The answer with the largest Hamilton-Jacobi residual so far.
+  struct LargestResidual {
+    double scaled = 0;
+    FlowJet<double> jet;
+    GeneratingFunctionKind kind;
+    std::vector<double> w;  ///< the variables of the kind
+    HamiltonJacobiTerms terms;
+  };
+
+  /// How fast each kind's polynomials decay: with B the block that the kind inverts and d the
+  /// linear answer, |B(0)^-1 (B(d) - B(0))|, the share by which the inverted block changes over the
+  /// transfer, largest over the transfers. (The condition of B alone is no guide: on the paper's
+  /// orbit kinds with a condition of 3 miss by metres where F1, with 60, misses by micrometres.)
+  std::vector<double> expansion_parameters(const FlowJet<double>& jet,
+                                           const std::vector<RelativeTransfer>& transfers,
+                                           double time) const;
+  void find_singular_times(const ProgressCallback& progress);
+  std::optional<double> singular_distance(double time) const;
+  /// The chief flown to a time; the last one is kept, for several deputies and the chief's error.
+  const std::vector<double>& flown_chief(double time);
+  void measure_residual(const ChosenKind& chosen, const FlowJet<double>& jet,
+                        const std::vector<double>& w, TransferPoint& point);
+
+  const Scene& scene_;
+  const TransferSettings& settings_;
+  TransferSeconds& seconds_;
+  ComputedProblem problem_;
+  std::vector<GeneratingFunctionKind> kinds_;
+  KindChoice choice_;
+  double chief_time_ = 0;
+  std::vector<double> flown_chief_;  ///< at that time
+  std::vector<SingularTime> singular_times_;
+  std::optional<LargestResidual> largest_residual_;
+};
+
+}  // namespace hamjet

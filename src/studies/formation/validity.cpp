@@ -1,0 +1,280 @@
+#include "hamjet/studies/validity.hpp"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+
+#include "../exact_flow.hpp"
+#include "../formation_scale.hpp"
+#include "../jets_along_time.hpp"
+#include "../random_direction.hpp"
+#include "../stopwatch.hpp"
+#include "formation_problem.hpp"
+#include "hamjet/algebra/monomial_values.hpp"
+#include "hamjet/error.hpp"
+#include "hamjet/relative_motion/chief_frame.hpp"
+#include "single_transfer.hpp"
+
+namespace hamjet {
+namespace {
+
+/// Separations tried, in canonical units of length: beyond the first no orbit is near.
+constexpr double largest_separation = 0.5;
+constexpr double smallest_separation = 1e-12;
+
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+/// One study at work.
+class ValidityStudy {
+ public:
+  ValidityStudy(const Scene& scene, const ProgressCallback& progress)
+      : scene_(scene),
+        settings_(*scene.validity),
+        progress_(progress),
+        problem_(make_problem(scene, available_memory())),
+        metres_(metric_units(scene).length_m),
+        tolerance_(settings_.tolerance_m / metres_),
+        values_(problem_.space) {
+    result_.scene = scene;
+    make_samples();
+  }
+
+  ValidityResult run() {
+    const IntegratorSettings& integrator = symplectic_integrator(scene_);
+    result_.integrator = integrator.label;
+    const auto statistics =
+        visit_jets(problem_, integrator, settings_.times,
+                   [&](std::size_t index, const FlowJet<double>& jet) { visit(index, jet); });
+    result_.propagation_seconds = statistics.wall_seconds;
+    return std::move(result_);
+  }
+
+ private:
+  /// Deviations of separation 1: on the surface of the ellipsoid in position, and of its like in
+  /// velocity.
+  void make_samples() {
+    // Columns: the canonical deviations of unit coordinates, three of position and three of
+    // velocity, each triple of length 1 on the surface of the ellipsoid. In a rotating frame those
+    // of position have a velocity too.
+    const ChiefFrame frame(problem_.nominal, MetricUnits{}, settings_.frame);
+    const double velocity = momentum_per_length(scene_);
+    for (std::size_t i = 0; i < 6; ++i) {
+      RelativeState state;
+      const auto axis = static_cast<Eigen::Index>(i % 3);
+      (i < 3 ? state.position_m : state.velocity_m_s)[axis] =
+          settings_.semi_axes[i % 3] * (i < 3 ? 1 : velocity);
+      const std::vector<double> deviation = frame.deviation(state);
+      for (std::size_t k = 0; k < 6; ++k) {
+        axes_(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(i)) = deviation[k];
+      }
+    }
+    std::mt19937_64 generator(1);
+    for (int k = 0; k < settings_.samples; ++k) {
+      Vector6 coordinates;
+      for (Eigen::Index first : {Eigen::Index{0}, Eigen::Index{3}}) {
+        const auto direction = random_direction(generator, 3);
+        for (Eigen::Index i = 0; i < 3; ++i) {
+          coordinates[first + i] = direction[static_cast<std::size_t>(i)];
+        }
+      }
+      samples_.push_back(coordinates);
+    }
+  }
+
+  std::vector<double> deviation(const Vector6& coordinates) const {
+    const Vector6 z = axes_ * coordinates;
+    return {z.begin(), z.end()};
+  }
+
+  /// The position's part of one degree at a sample.
+  double slice_size(const FlowJet<double>& jet, const Vector6& coordinates, int degree) {
+    values_.set_point(deviation(coordinates));
+    return std::hypot(values_.slice(jet[0], degree), values_.slice(jet[1], degree),
+                      values_.slice(jet[2], degree));
+  }
+
+  /// Ascent from a sample to a deviation at which the part of one degree is largest: the next point
+  /// is the gradient's direction, in position and in velocity apart. Random samples alone come out
+  /// at half of the worst.
+  Vector6 worst_from(const FlowJet<double>& jet, Vector6 point, int degree) {
+    constexpr int most_iterations = 30;
+    double size = slice_size(jet, point, degree);
+    for (int iteration = 0; iteration < most_iterations; ++iteration) {
+      values_.set_point(deviation(point));
+      Vector6 gradient = Vector6::Zero();
+      for (std::size_t c = 0; c < 3; ++c) {
+        const double value = values_.slice(jet[c], degree);
+        for (std::size_t v = 0; v < 6; ++v) {
+          gradient[static_cast<Eigen::Index>(v)] +=
+              value *
+              (values_.derivative(jet[c], v, degree) - values_.derivative(jet[c], v, degree - 1));
+        }
+      }
+      gradient = axes_.transpose() * gradient;
+      Vector6 next = point;
+      for (Eigen::Index first : {Eigen::Index{0}, Eigen::Index{3}}) {
+        const double length = gradient.segment<3>(first).norm();
+        if (length > 0) next.segment<3>(first) = gradient.segment<3>(first) / length;
+      }
+      const double found = slice_size(jet, next, degree);
+      if (!(found > size * (1 + 1e-6))) break;
+      size = found;
+      point = next;
+    }
+    return point;
+  }
+
+  /// The samples, and the worst deviations of one degree that are reached from the largest of them.
+  std::vector<Vector6> samples_with_worst(const FlowJet<double>& jet, int degree) {
+    constexpr std::size_t starts = 6;
+    std::vector<Vector6> samples = samples_;
+    std::vector<std::pair<double, std::size_t>> sizes;
+    for (std::size_t k = 0; k < samples_.size(); ++k) {
+      sizes.emplace_back(slice_size(jet, samples_[k], degree), k);
+    }
+    std::sort(sizes.rbegin(), sizes.rend());
+    for (std::size_t k = 0; k < std::min(starts, sizes.size()); ++k) {
+      samples.push_back(worst_from(jet, samples_[sizes[k].second], degree));
+    }
+    // The worst first: a deputy that misses by far ends the trial.
+    std::rotate(samples.begin(), samples.begin() + static_cast<std::ptrdiff_t>(samples_.size()),
+                samples.end());
+    return samples;
+  }
+
+  void visit(std::size_t index, const FlowJet<double>& jet) {
+    time_ = settings_.times[index];
+    ValidityPoint point;
+    point.time = time_;
+    const std::vector<double> sizes = slice_sizes(jet);
+    for (int order = 1; order <= scene_.order; ++order) {
+      if (progress_) {
+        const double share = static_cast<double>(order - 1) / scene_.order;
+        progress_("validity", (static_cast<double>(index) + share) /
+                                  static_cast<double>(settings_.times.size()));
+      }
+      ValidityEntry entry;
+      entry.order = order;
+      const double next = sizes[static_cast<std::size_t>(order + 1)];
+      const double predicted =
+          next > 0 ? std::pow(tolerance_ / next, 1.0 / (order + 1)) : largest_separation;
+      entry.predicted_m = std::min(predicted, largest_separation) * metres_;
+      const Stopwatch watch(result_.proof_seconds);
+      // The worst deviations of the order's error: of the next degree, or of the last one known.
+      flown_samples_ = samples_with_worst(jet, std::min(order + 1, scene_.order));
+      prove(jet, std::min(predicted, largest_separation), entry);
+      point.entries.push_back(entry);
+    }
+    if (index + 1 == settings_.times.size()) {
+      result_.flight_floor_m = rounding_of_flights(jet) * metres_;
+    }
+    result_.points.push_back(std::move(point));
+  }
+
+  /// The largest position of each degree's part, degree N + 1 extrapolated.
+  std::vector<double> slice_sizes(const FlowJet<double>& jet) {
+    std::vector<double> sizes(static_cast<std::size_t>(scene_.order) + 2, 0);
+    for (int d = 1; d <= scene_.order; ++d) {
+      for (const Vector6& sample : samples_with_worst(jet, d)) {
+        double& size = sizes[static_cast<std::size_t>(d)];
+        size = std::max(size, slice_size(jet, sample, d));
+      }
+    }
+    const std::size_t last = sizes.size() - 2;
+    // With the one degree of order 1 there is no ratio: a size per unit of length of 1.
+    const double ratio = last >= 2 && sizes[last - 1] > 0 ? sizes[last] / sizes[last - 1] : 1;
+    sizes[last + 1] = sizes[last] * ratio;
+    return sizes;
+  }
+
+  /// The largest miss over the samples at a separation; infinite if a deputy cannot be flown.
+  double miss(const FlowJet<double>& jet, int order, double separation) {
+    double largest = 0;
+    for (const Vector6& sample : flown_samples_) {
+      if (progress_) {
+        progress_("validity", static_cast<double>(result_.points.size()) /
+                                  static_cast<double>(settings_.times.size()));
+      }
+      const std::vector<double> start = deviation(separation * sample);
+      std::vector<double> deputy = problem_.nominal;
+      for (std::size_t k = 0; k < start.size(); ++k) deputy[k] += start[k];
+      ++result_.flights;
+      std::vector<double> flown;
+      try {
+        flown = exact_flow(problem_.system, deputy, time_);
+      } catch (const Error& error) {
+        if (error.kind() != ErrorKind::numerical) throw;
+        return std::numeric_limits<double>::infinity();
+      }
+      values_.set_point(start);
+      double square = 0;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const double difference = values_.value(jet[i], order) - flown[i];
+        square += difference * difference;
+      }
+      if (!std::isfinite(square)) return std::numeric_limits<double>::infinity();
+      largest = std::max(largest, std::sqrt(square));
+      if (largest > hopeless * tolerance_) return largest;
+    }
+    return largest;
+  }
+
+  /// The miss grows as the separation to the power order + 1: from the prediction on, the next
+  /// separation tried is the one at which that law meets the tolerance, until the largest that
+  /// holds is known to a few percent.
+  void prove(const FlowJet<double>& jet, double predicted, ValidityEntry& entry) {
+    constexpr int most_trials = 12;
+    constexpr double close = 1.03;
+    double good = 0;
+    double bad = 0;
+    double trial = predicted;
+    for (int k = 0; k < most_trials; ++k) {
+      const double found = miss(jet, entry.order, trial);
+      if (found <= tolerance_) {
+        good = trial;
+        entry.miss_m = found * metres_;
+        if (trial >= largest_separation) {
+          entry.is_at_limit = true;
+          break;
+        }
+      } else {
+        bad = trial;
+      }
+      if (bad > 0 && good > 0 && bad < close * good) break;
+      double factor = found > 0 ? std::pow(tolerance_ / found, 1.0 / (entry.order + 1)) : 2;
+      factor = std::clamp(factor, 0.1, 2.0);
+      // A little to the other side, so that the two come together.
+      trial *= factor * (found <= tolerance_ ? 1.01 : 0.99);
+      if (good > 0 && bad > 0 && !(trial > good && trial < bad)) trial = std::sqrt(good * bad);
+      trial = std::min(trial, largest_separation);
+      if (trial < smallest_separation) break;
+    }
+    entry.proved_m = good * metres_;
+  }
+
+  /// A miss this many times the tolerance needs no more samples.
+  static constexpr double hopeless = 1e3;
+
+  const Scene& scene_;
+  const ValiditySettings& settings_;
+  const ProgressCallback& progress_;
+  ComputedProblem problem_;
+  double metres_;
+  double tolerance_;  ///< canonical
+  MonomialValues values_;
+  Matrix6 axes_;                        ///< see make_samples
+  std::vector<Vector6> samples_;        ///< of separation 1
+  std::vector<Vector6> flown_samples_;  ///< those that one order is proved on
+  double time_ = 0;
+  ValidityResult result_;
+};
+
+}  // namespace
+
+ValidityResult study_validity(const Scene& scene, const ProgressCallback& progress) {
+  require_formation_problem(scene, scene.validity.has_value(), "validity");
+  return ValidityStudy(scene, progress).run();
+}
+
+}  // namespace hamjet

@@ -1,0 +1,121 @@
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <csignal>
+#include <exception>
+#include <mutex>
+#include <stop_token>
+#include <system_error>
+#include <thread>
+
+#include "hamjet/error.hpp"
+#include "hamjet/sweep/sweep_items.hpp"
+
+namespace hamjet::io {
+namespace {
+
+/// Thrown through the work of an item that is given up. No std::exception, so that nothing on the
+/// way takes it for a failure.
+struct GivenUp {};
+
+/// While it lives, threads that are started have signals of the user blocked: those go to the
+/// calling thread.
+class SignalsBlocked {
+ public:
+  SignalsBlocked() {
+    sigset_t signals;
+    sigemptyset(&signals);
+    for (const int signal : {SIGINT, SIGTERM, SIGALRM}) sigaddset(&signals, signal);
+    ::pthread_sigmask(SIG_BLOCK, &signals, &earlier_);
+  }
+  ~SignalsBlocked() { ::pthread_sigmask(SIG_SETMASK, &earlier_, nullptr); }
+  SignalsBlocked(const SignalsBlocked&) = delete;
+  SignalsBlocked& operator=(const SignalsBlocked&) = delete;
+
+ private:
+  sigset_t earlier_{};
+};
+
+/// What the threads share.
+struct SharedState {
+  std::atomic<std::size_t> next = 0;
+  std::mutex mutex;
+  std::condition_variable_any changed;
+  SweepProgress progress;
+  std::size_t threads_at_work = 0;
+  std::exception_ptr error;  ///< the first
+};
+
+void work(const SweepStudy& study, const SweepDirectory& directory,
+          const std::vector<std::size_t>& items, SharedState& shared, const std::stop_token& stop) {
+  try {
+    for (std::size_t i = shared.next++; i < items.size(); i = shared.next++) {
+      const SweepRow row = run_sweep_item(study, items[i], [&](const std::string&, double) {
+        if (stop.stop_requested()) throw GivenUp();
+      });
+      // A mistake in a column shows at once, and not after all have been computed.
+      if (i == 0 && !row.astray.empty()) throw Error(ErrorKind::scene, row.astray);
+      directory.write(row);
+      if (stop.stop_requested()) throw GivenUp();
+      const std::lock_guard lock(shared.mutex);
+      ++shared.progress.finished;
+      if (row.exit_code != 0) ++shared.progress.failed;
+    }
+  } catch (const GivenUp&) {
+  } catch (...) {
+    const std::lock_guard lock(shared.mutex);
+    if (!shared.error) shared.error = std::current_exception();
+  }
+  const std::lock_guard lock(shared.mutex);
+  --shared.threads_at_work;
+  shared.changed.notify_all();
+}
+
+}  // namespace
+
+SweepProgress run_sweep_items(const SweepStudy& study, const SweepDirectory& directory,
+                              const std::vector<std::size_t>& items, std::size_t threads,
+                              const std::function<void(const SweepProgress&)>& watch) {
+  constexpr std::chrono::milliseconds interval(100);
+  SharedState shared;
+  std::vector<std::jthread> workers;  // the last: joined before what it uses goes
+  {
+    const SignalsBlocked blocked;
+    const std::size_t count = std::min(threads, items.size());
+    shared.threads_at_work = count;
+    try {
+      while (workers.size() < count) {
+        workers.emplace_back(
+            [&](const std::stop_token& stop) { work(study, directory, items, shared, stop); });
+      }
+    } catch (const std::system_error&) {
+      // No more threads to be had: those that run do it.
+      if (workers.empty()) throw;
+      const std::lock_guard lock(shared.mutex);
+      shared.threads_at_work -= count - workers.size();
+    }
+  }
+  const auto stop_all = [&] {
+    for (std::jthread& worker : workers) worker.request_stop();
+  };
+  try {
+    std::unique_lock lock(shared.mutex);
+    while (shared.threads_at_work > 0 && !shared.error) {
+      shared.changed.wait_for(lock, interval);
+      const SweepProgress progress = shared.progress;
+      lock.unlock();
+      watch(progress);
+      lock.lock();
+    }
+  } catch (...) {
+    stop_all();
+    throw;
+  }
+  stop_all();
+  workers.clear();
+  if (shared.error) std::rethrow_exception(shared.error);
+  return shared.progress;
+}
+
+}  // namespace hamjet::io

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "quantity_text.hpp"
+
+namespace hamjet::io {
+
+/// A text as HTML or XML shows it literally, in elements and in attributes.
+std::string escape_html(std::string_view text);
+
+}  // namespace hamjet::io

@@ -1,0 +1,258 @@
+#include "hamjet/formats/jet_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <thread>
+
+#include "../scene/scene_samples.hpp"
+#include "hamjet/formats/hdf5_jets.hpp"
+#include "hamjet/report/results.hpp"
+#include "support/temporary_directory.hpp"
+
+// A jet comes back bit by bit from HDF5, DACE's text and CSV; damaged files are refused. What h5py
+// makes of jets.h5, and the damage that h5py can do, are in jets_hdf5_test.py.
+
+namespace hamjet::io {
+namespace {
+
+constexpr const char* small_kepler = R"(schema = 1
+title = "kepler"
+[system]
+model = "kepler"
+mu_km3_s2 = 398600.4415
+[nominal]
+position_km = [7000, 0, 0]
+velocity_km_s = [0.5, 7.5, 0]
+[jet]
+order = 3
+duration_canonical = 0.7
+[[integrator]]
+label = "gauss8"
+method = "gauss"
+stages = 8
+tolerance = 1e-14
+[[integrator]]
+label = "midpoint"
+method = "gauss"
+stages = 1
+step_canonical = 0.1
+[generating_function]
+kinds = ["F1"]
+)";
+
+/// The same number with the same sign, zero included.
+bool same(const Extended& a, const Extended& b) { return a == b && signbit(a) == signbit(b); }
+
+class JetFileTest : public ::testing::Test {
+ protected:
+  PropagationResult store(const std::vector<Override>& overrides = {}) {
+    Scene scene = parse_scene(small_kepler, "scene.toml", overrides);
+    scene.output = {.hdf5 = hdf5_available(), .dace = true};
+    PropagationResult result = propagate(scene);
+    // The kinds of zero are told apart.
+    for (RunResult& run : result.runs) {
+      if (run.failure.empty()) run.jet[0][5] = -Extended(0);
+    }
+    OutputDirectory output(directory_);
+    write_results(result, "", output);
+    return result;
+  }
+
+  static void expect_same(const StoredJet& stored, const StoredJet& right) {
+    EXPECT_EQ(stored.scene, right.scene);
+    EXPECT_EQ(stored.label, right.label);
+    EXPECT_EQ(stored.model, right.model);
+    EXPECT_EQ(stored.precision, right.precision);
+    EXPECT_EQ(stored.units.length_km, right.units.length_km);
+    EXPECT_EQ(stored.units.time_s, right.units.time_s);
+    EXPECT_EQ(stored.duration, right.duration);
+    EXPECT_EQ(stored.nominal_initial, right.nominal_initial);
+    EXPECT_EQ(stored.nominal_final, right.nominal_final);
+    EXPECT_EQ(stored.components, right.components);
+    EXPECT_EQ(stored.variables, right.variables);
+    expect_same(stored.jet, right.jet);
+  }
+
+  static void expect_same(const FlowJet<Extended>& jet, const FlowJet<Extended>& right) {
+    ASSERT_EQ(jet.size(), right.size());
+    for (std::size_t c = 0; c < jet.size(); ++c) {
+      ASSERT_EQ(jet[c].size(), right[c].size());
+      for (std::size_t k = 0; k < jet[c].size(); ++k) {
+        ASSERT_TRUE(same(jet[c][k], right[c][k])) << c << " " << k;
+      }
+    }
+  }
+
+  /// From every file of every run the same comes back as from the results, and was computed.
+  void expect_round_trips(const std::vector<Override>& overrides, bool with_dace = true) {
+    const PropagationResult result = store(overrides);
+    for (const RunResult& run : result.runs) {
+      const std::string& label = run.settings.label;
+      const StoredJet right = read_stored_jet(directory_, label);
+      expect_same(right.jet, run.jet);
+      expect_same(read_jet_file(directory_, label), right);
+      expect_same(read_jet_file(directory_ / label / "jet.csv"), right);
+      if (with_dace) expect_same(read_jet_file(directory_ / label / "jet.dace"), right);
+      if (hdf5_available()) expect_same(read_jet_file(directory_ / "jets.h5", label), right);
+      for (const JetFormat format : {JetFormat::csv, JetFormat::dace, JetFormat::hdf5}) {
+        if (format == JetFormat::hdf5 && !hdf5_available()) continue;
+        if (format == JetFormat::dace && !with_dace) continue;
+        const char* names[] = {"copy.h5", "copy.dace", "copy.csv"};
+        const auto file = directory_ / names[static_cast<int>(format)];
+        test::put(file, jet_file_content(right, format));
+        expect_same(read_jet_file(file, label), right);
+      }
+    }
+  }
+
+  void expect_refused(const std::filesystem::path& file, const std::vector<std::string>& words,
+                      ErrorKind kind = ErrorKind::input_output,
+                      const std::optional<std::string>& label = {}) {
+    expect_error([&] { read_jet_file(file, label); }, kind, words, words[0]);
+  }
+
+  const test::TemporaryDirectory temporary_;
+  const std::filesystem::path directory_ = temporary_.path() / "results";
+};
+
+TEST_F(JetFileTest, ComesBackBitByBit) {
+  expect_round_trips({});
+  EXPECT_EQ(std::filesystem::exists(directory_ / "jets.h5"), hdf5_available());
+}
+
+TEST_F(JetFileTest, FewerComponentsAndVariables) {
+  expect_round_trips({{"jet.variables", "[\"x\", \"y\", \"px\", \"py\"]"}});
+  expect_round_trips({{"jet.variables", "[\"x\", \"pz\"]"}, {"generating_function", "null"}});
+}
+
+TEST_F(JetFileTest, ExtendedPrecision) {
+  expect_round_trips({{"precision", "\"extended\""}}, false);
+  // DACE's text has the nearest doubles, and says so.
+  const StoredJet right = read_stored_jet(directory_);
+  const StoredJet rounded = read_jet_file(directory_ / "gauss8" / "jet.dace");
+  EXPECT_EQ(rounded.precision, Precision::double_precision);
+  for (std::size_t c = 0; c < right.jet.size(); ++c) {
+    for (std::size_t k = 0; k < right.jet[c].size(); ++k) {
+      ASSERT_TRUE(same(rounded.jet[c][k], Extended(static_cast<double>(right.jet[c][k]))));
+    }
+  }
+  EXPECT_NE(test::content(directory_ / "gauss8" / "jet.dace").find("rounded to double precision\n"),
+            std::string::npos);
+}
+
+TEST_F(JetFileTest, Refusals) {
+  store();
+  const auto dace = directory_ / "gauss8" / "jet.dace";
+  const std::string good = test::content(dace);
+  test::put(dace, changed(good, "# order", "# Order"));
+  expect_refused(dace, {"jet.dace", "was changed after it was written", "CRC-32"});
+  test::put(dace, good.substr(0, good.size() / 2));
+  expect_refused(dace, {"jet.dace:"});
+  test::put(directory_ / "copy.dace", changed(good, "[[[ 6", "[[[ 7"));
+  expect_refused(directory_ / "copy.dace", {"copy.dace:", "head of a polynomial"});
+  const std::size_t last = good.rfind("     I");
+  test::put(directory_ / "copy.dace", changed(good.substr(0, last) + "]]]\n", "[[[ 6", "[[[ 5"));
+  expect_refused(directory_ / "copy.dace", {"copy.dace: has 5 polynomials, must have 6"});
+  // Another first coefficient is not the nominal's final state.
+  const std::size_t first = good.find("     1  ") + 10;
+  test::put(directory_ / "copy.dace", std::string(good).replace(first, 3, "9.9"));
+  expect_refused(directory_ / "copy.dace", {"nominal_final: the x is not that of"});
+  test::put(temporary_.path() / "far.dace", good);
+  expect_refused(temporary_.path() / "far.dace", {"far.dace: no summary.json beside it"});
+  test::put(directory_ / "jet.txt", good);
+  expect_refused(directory_ / "jet.txt", {"jet.txt: is neither a results directory"});
+  expect_refused(directory_ / "absent", {"absent"});
+}
+
+TEST_F(JetFileTest, WithoutHdf5) {
+  if (hdf5_available()) GTEST_SKIP() << "this build has HDF5";
+  test::put(temporary_.path() / "jets.h5", "");
+  expect_refused(temporary_.path() / "jets.h5", {"-DHAMJET_HDF5=ON"}, ErrorKind::usage);
+  store();
+  const StoredJet stored = read_stored_jet(directory_);
+  expect_error([&] { jet_file_content(stored, JetFormat::hdf5); }, ErrorKind::usage,
+               {"-DHAMJET_HDF5=ON"}, "write");
+}
+
+class JetHdf5Test : public JetFileTest {
+ protected:
+  void SetUp() override {
+    if (!hdf5_available()) GTEST_SKIP() << "built without HDF5";
+  }
+};
+
+TEST_F(JetHdf5Test, TheSameBytesAtAnotherTime) {
+  const PropagationResult result = store();
+  const std::string bytes = test::content(directory_ / "jets.h5");
+  // HDF5 keeps seconds.
+  std::this_thread::sleep_for(std::chrono::milliseconds(1100));
+  EXPECT_EQ(jets_hdf5(result), bytes);
+}
+
+TEST_F(JetHdf5Test, NoRunOfThatLabel) {
+  store();
+  expect_refused(directory_ / "jets.h5", {"no run has the label midpiont", "mean midpoint?"},
+                 ErrorKind::usage, "midpiont");
+  EXPECT_EQ(read_jet_file(directory_ / "jets.h5").label, "gauss8");
+}
+
+TEST_F(JetHdf5Test, RunsThatFailed) {
+  // A fall into the centre, which no integrator can follow to its end.
+  const PropagationResult result = store({{"nominal.velocity_km_s", "[0, 0, 0]"},
+                                          {"jet.duration_canonical", "3"},
+                                          {"generating_function", "null"}});
+  const auto failed = [](const RunResult& run) { return !run.failure.empty(); };
+  ASSERT_TRUE(failed(result.runs[0]));
+  expect_refused(directory_ / "jets.h5", {"jets.h5: gauss8/error: the run has no result"},
+                 ErrorKind::input_output, "gauss8");
+  if (std::all_of(result.runs.begin(), result.runs.end(), failed)) {
+    expect_refused(directory_ / "jets.h5", {"jets.h5: runs: no run has a result"});
+  }
+}
+
+TEST_F(JetHdf5Test, CutAnywhere) {
+  store();
+  const auto file = directory_ / "jets.h5";
+  const std::string good = test::content(file);
+  for (std::size_t length = 0; length < good.size(); length += 1 + length / 9) {
+    test::put(file, good.substr(0, length));
+    expect_refused(file, {"jets.h5: "});
+  }
+  test::put(file, good.substr(0, good.size() - 1));
+  expect_refused(file, {"jets.h5: was cut or changed"});
+  test::put(file, good + "\n");
+  expect_refused(file, {"jets.h5: was cut or changed"});
+}
+
+TEST_F(JetHdf5Test, AnyBitTurned) {
+  store();
+  const auto file = directory_ / "jets.h5";
+  const std::string good = test::content(file);
+  for (std::size_t place = 0; place < good.size(); place += 1 + place / 40) {
+    std::string bad = good;
+    bad[place] = static_cast<char>(bad[place] ^ (1 << (place % 8)));
+    expect_error([&] { read_jets_hdf5("jets.h5", bad); }, ErrorKind::input_output, {"jets.h5: "},
+                 std::to_string(place));
+  }
+}
+
+// Without the block of hamjet nothing says that it was cut but HDF5 itself.
+TEST_F(JetHdf5Test, CutWithoutTheBlock) {
+  store();
+  const std::string image = test::content(directory_ / "jets.h5").substr(512);
+  EXPECT_EQ(read_jets_hdf5("jets.h5", image).label, "gauss8");
+  for (const std::size_t length :
+       {std::size_t{8}, std::size_t{40}, std::size_t{200}, image.size() / 2, image.size() - 1}) {
+    expect_error([&] { read_jets_hdf5("jets.h5", image.substr(0, length)); },
+                 ErrorKind::input_output, {"jets.h5: HDF5 cannot open it", "left open"},
+                 std::to_string(length));
+  }
+}
+
+}  // namespace
+}  // namespace hamjet::io

@@ -1,0 +1,286 @@
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <hamjet/error.hpp>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "../../src/report/comparison/comparison_charts.hpp"
+#include "../../src/report/comparison/comparison_view.hpp"
+#include "../../src/report/drawing/gnuplot.hpp"
+#include "comparison_samples.hpp"
+#include "support/temporary_directory.hpp"
+
+// report.html, and the child process that draws its plots.
+
+namespace hamjet::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A program in a directory.
+std::string write_program(const test::TemporaryDirectory& directory, const std::string& name,
+                          const std::string& text) {
+  const fs::path file = directory.path() / name;
+  std::ofstream(file) << "#!/bin/sh\n" << text << "\n";
+  fs::permissions(file, fs::perms::owner_all);
+  return file.string();
+}
+
+bool has_gnuplot() { return run_gnuplot("gnuplot", "print 1\n").is_installed; }
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t found = 0;
+  for (std::size_t i = text.find(part); i != std::string::npos; i = text.find(part, i + 1)) ++found;
+  return found;
+}
+
+/// All values that stand behind `before` up to the next `end`.
+std::vector<std::string> values(const std::string& text, const std::string& before, char end) {
+  std::vector<std::string> found;
+  for (std::size_t i = text.find(before); i != std::string::npos; i = text.find(before, i)) {
+    i += before.size();
+    found.push_back(text.substr(i, text.find(end, i) - i));
+  }
+  return found;
+}
+
+/// Whether every element is closed in its order; void ones as in `/>`.
+bool is_balanced(const std::string& xml) {
+  std::vector<std::string> open;
+  for (std::size_t i = xml.find('<'); i != std::string::npos; i = xml.find('<', i)) {
+    const std::size_t close = xml.find('>', i);
+    if (close == std::string::npos) return false;
+    const std::string tag = xml.substr(i + 1, close - i - 1);
+    const std::string name =
+        tag.substr(tag[0] == '/', tag.find_first_of(" \t\n/>", 1) - (tag[0] == '/'));
+    if (tag[0] == '/') {
+      if (open.empty() || open.back() != name) return false;
+      open.pop_back();
+    } else if (tag.back() != '/') {
+      open.push_back(name);
+    }
+    i = close;
+  }
+  return open.empty();
+}
+
+TEST(ComparisonPage, HoldsTheVerdictAndEscapesTheScene) {
+  ComparisonResult result = sample_comparison();
+  result.scene.title = "<script>alert('x')</script> & more";
+  result.runs[0].settings.label = "<img src=x>";
+  result.runs[4].failure = "<b>bold</b>";
+  for (ComparedRun& run : result.runs) {
+    if (run.series == "fehlberg78") run.series = "a' . system(\"x\") `y` id='z' <i>";
+  }
+  std::optional<std::string> problem;
+  const std::string page = comparison_html(result, sample_origin(), problem);
+  EXPECT_NE(page.find(escape_html(verdict(result))), std::string::npos);
+  EXPECT_EQ(count(page, "<script"), 0U);
+  EXPECT_EQ(count(page, "<img"), 0U);
+  EXPECT_EQ(count(page, "<b>"), 0U);
+  EXPECT_EQ(count(page, "<i>"), 0U);
+  EXPECT_NE(page.find("&lt;script&gt;alert(&#39;x&#39;)&lt;/script&gt; &amp; more"),
+            std::string::npos);
+  EXPECT_NE(page.find(escape_html(sample_origin().command)), std::string::npos);
+  EXPECT_NE(page.find(escape_html(sample_origin().processor)), std::string::npos);
+  EXPECT_NE(page.find(sample_origin().date), std::string::npos);
+  EXPECT_NE(page.find("would exceed the time budget"), std::string::npos);
+}
+
+TEST(ComparisonPage, APartialResultSaysSo) {
+  ComparisonResult result = sample_comparison();
+  ReportOrigin origin = sample_origin();
+  origin.gnuplot = "/nonexistent/gnuplot";
+  std::optional<std::string> problem;
+  EXPECT_EQ(comparison_html(result, origin, problem).find("Partial result"), std::string::npos);
+  result.is_complete = false;
+  EXPECT_NE(comparison_html(result, origin, problem).find("Partial result"), std::string::npos);
+}
+
+TEST(ComparisonPage, AnEmptyPartialResultIsAPageToo) {
+  ComparisonResult result;
+  result.scene = sample_comparison().scene;
+  std::optional<std::string> problem;
+  const std::string page = comparison_html(result, sample_origin(), problem);
+  EXPECT_NE(page.find("Partial result"), std::string::npos);
+  EXPECT_EQ(count(page, "<svg"), 0U);
+  EXPECT_FALSE(problem);
+  EXPECT_TRUE(read_comparison_runs(comparison_json(result, sample_origin())).runs.empty());
+  EXPECT_FALSE(comparison_table(result).empty());
+}
+
+TEST(ComparisonPage, WithoutGnuplotTheTablesAreThereAndOneLineSaysWhy) {
+  const test::TemporaryDirectory folder;
+  ReportOrigin origin = sample_origin();
+  origin.gnuplot = "/nonexistent/gnuplot";
+  OutputDirectory output(folder.path() / "out");
+  const ComparisonReport report = make_report(sample_comparison(), origin, PlotFormat::pdf);
+  const std::string written = write_report(report, output);
+  const auto& line = report.drawing_problem;
+  ASSERT_TRUE(line);
+  EXPECT_NE(line->find("/nonexistent/gnuplot is not installed"), std::string::npos);
+  EXPECT_EQ(line->find('\n'), std::string::npos);
+  const std::string page = test::content(folder.path() / "out" / "report.html");
+  EXPECT_EQ(count(page, "is not installed"), 1U);
+  EXPECT_NE(page.find("gauss4-0.05"), std::string::npos);
+  EXPECT_EQ(count(page, "<svg"), 0U);
+  EXPECT_EQ(test::content(folder.path() / "out" / "compare.csv"),
+            comparison_csv(sample_comparison()));
+  EXPECT_EQ(test::content(folder.path() / "out" / "compare.json"), written);
+  auto json = nlohmann::json::parse(written);
+  EXPECT_EQ(json["files"].size(), 2U);
+  json.erase("files");
+  json.erase("crc32");
+  EXPECT_EQ(json, nlohmann::json::parse(comparison_json(sample_comparison(), origin)));
+  EXPECT_FALSE(fs::exists(folder.path() / "out" / "plots"));
+}
+
+TEST(ComparisonPage, WhatIsNoDrawingIsNotBelieved) {
+  const test::TemporaryDirectory folder;
+  const fs::path program = folder.path() / "gnuplot";
+  std::ofstream(program) << "#!/bin/sh\ncat >/dev/null\necho hello\n";
+  fs::permissions(program, fs::perms::owner_all);
+  ReportOrigin origin = sample_origin();
+  origin.gnuplot = program.string();
+  const ComparisonReport report = make_report(sample_comparison(), origin, PlotFormat::png);
+  ASSERT_TRUE(report.drawing_problem);
+  EXPECT_NE(report.drawing_problem->find("no plot"), std::string::npos);
+  EXPECT_EQ(report.files.size(), 3U);
+}
+
+TEST(ComparisonPage, PlotsAreWellFormedAndTheirIdsUnique) {
+  if (!has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
+  std::optional<std::string> problem;
+  const std::string page = comparison_html(sample_comparison(), sample_origin(), problem);
+  EXPECT_FALSE(problem) << *problem;
+  EXPECT_EQ(count(page, "<svg"), 2 * comparison_charts(sample_comparison()).size());
+  const auto plots = values(page, "<svg", '\f');
+  for (std::string plot : plots) {
+    plot = "<svg" + plot.substr(0, plot.find("</svg>") + 6);
+    EXPECT_TRUE(is_balanced(plot)) << plot.substr(0, 300);
+  }
+  std::set<std::string> ids;
+  std::size_t given = 0;
+  for (const auto& [before, end] : {std::pair{" id='", '\''}, std::pair{" id=\"", '"'}}) {
+    for (const std::string& id : values(page, before, end)) {
+      ids.insert(id);
+      ++given;
+    }
+  }
+  EXPECT_GT(given, 100U);
+  EXPECT_EQ(ids.size(), given);
+  for (const std::string& reference : values(page, "href='#", '\'')) {
+    EXPECT_TRUE(ids.count(reference)) << reference;
+  }
+}
+
+TEST(ComparisonPage, PlotsGoToFilesOnRequestAndEarlierOnesAreRemoved) {
+  if (!has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
+  const test::TemporaryDirectory folder;
+  for (const auto& [format, extension, start] : {std::tuple{PlotFormat::pdf, ".pdf", "%PDF"},
+                                                 std::tuple{PlotFormat::png, ".png", "\x89PNG"}}) {
+    OutputDirectory output(folder.path());
+    const ComparisonReport report = make_report(sample_comparison(), sample_origin(), format);
+    EXPECT_FALSE(report.drawing_problem);
+    write_report(report, output);
+    std::size_t files = 0;
+    for (const auto& file : fs::directory_iterator(folder.path() / "plots")) {
+      EXPECT_EQ(file.path().extension(), extension);
+      EXPECT_EQ(test::content(file.path()).substr(0, 4), start);
+      ++files;
+    }
+    EXPECT_EQ(files, comparison_charts(sample_comparison()).size());
+  }
+}
+
+TEST(ComparisonCharts, AccountForEveryPoint) {
+  ComparisonResult result = sample_comparison();
+  result.runs[0].error_at_formation_m = 0;
+  for (const Chart& chart : comparison_charts(result)) {
+    SCOPED_TRACE(chart.name);
+    std::size_t drawn = 0;
+    for (const ChartCurve& curve : chart.curves) {
+      for (const auto& [x, y] : curve.points) {
+        EXPECT_TRUE(x >= chart.x.lower && x <= chart.x.upper) << x;
+        EXPECT_TRUE(y >= chart.y.lower && y <= chart.y.upper) << y;
+        ++drawn;
+      }
+    }
+    std::string notes;
+    for (const std::string& note : chart.notes) notes += note;
+    if (chart.name == "work-precision") {
+      // Of four finished runs one has an error of zero.
+      EXPECT_EQ(drawn, 3U);
+      EXPECT_NE(notes.find("exactly zero: 1."), std::string::npos) << notes;
+      EXPECT_NE(notes.find("left out have no point: 2"), std::string::npos) << notes;
+    }
+    if (chart.name == "energy-time") {
+      EXPECT_EQ(drawn, 39U);
+      ASSERT_EQ(chart.at_limit.size(), 2U);
+      EXPECT_EQ(chart.at_limit[0].points.size() + chart.at_limit[1].points.size(), 2U);
+      EXPECT_EQ(chart.at_limit[0].points[0].second, chart.y.lower);
+      EXPECT_NE(notes.find("a value of zero"), std::string::npos) << notes;
+    }
+    if (chart.name == "convergence") {
+      // The fitted line, its two points filled, the third run hollow.
+      ASSERT_EQ(chart.curves.size(), 3U);
+      EXPECT_TRUE(chart.curves[0].has_line);
+      ASSERT_EQ(chart.curves[0].points.size(), 2U);
+      EXPECT_DOUBLE_EQ(chart.curves[0].points[0].first, 0.05);
+      EXPECT_NEAR(std::log2(chart.curves[0].points[1].second / chart.curves[0].points[0].second),
+                  7.97, 1e-9);
+      EXPECT_TRUE(chart.curves[1].is_filled);
+      EXPECT_EQ(chart.curves[1].points.size(), 2U);
+      EXPECT_FALSE(chart.curves[2].is_filled);
+      EXPECT_EQ(chart.curves[2].points.size(), 1U);
+    }
+    if (chart.name == "exactness-time") {
+      EXPECT_EQ(drawn, 39U);
+      ASSERT_EQ(chart.curves[0].ticks.size(), 1U);
+      EXPECT_EQ(chart.curves[0].ticks[0], 0.7);
+    }
+  }
+}
+
+TEST(Gnuplot, IsEndedAfterItsTimeLimit) {
+  const test::TemporaryDirectory folder;
+  const std::string program = write_program(folder, "slow", "sleep 100");
+  const auto start = std::chrono::steady_clock::now();
+  const GnuplotOutcome outcome = run_gnuplot(program, "", std::chrono::milliseconds(200));
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
+  EXPECT_NE(outcome.problem.find("took longer than 0.2 s"), std::string::npos) << outcome.problem;
+}
+
+TEST(Gnuplot, WhatItComplainsOfIsHandedOn) {
+  const test::TemporaryDirectory folder;
+  const std::string program =
+      write_program(folder, "failing", "echo drawn; echo 'bad axis' >&2; exit 1");
+  // More than a socket holds, which the child does not read: writing must neither block nor raise.
+  const GnuplotOutcome outcome = run_gnuplot(program, std::string(4 << 20, '#'));
+  EXPECT_TRUE(outcome.is_installed);
+  EXPECT_TRUE(outcome.output.empty());
+  EXPECT_NE(outcome.problem.find("bad axis"), std::string::npos) << outcome.problem;
+}
+
+TEST(Gnuplot, LongOutputArrivesWhole) {
+  const test::TemporaryDirectory folder;
+  const std::string program = write_program(folder, "echoing", "exec cat");
+  const std::string script(3 << 20, 'x');
+  EXPECT_EQ(run_gnuplot(program, script).output, script);
+}
+
+TEST(Gnuplot, ALiteralCannotEndEarly) {
+  EXPECT_EQ(gnuplot_literal("it's `x`\nplot"), "'it''s `x` plot'");
+  EXPECT_EQ(gnuplot_literal("''x'"), "\"''\".'x'''");
+  EXPECT_EQ(gnuplot_literal("'"), "\"'\".''");
+}
+
+}  // namespace
+}  // namespace hamjet::io

@@ -1,0 +1,270 @@
+#include "hamjet/store/output_directory.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdint>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "../../src/store/sealed_summary.hpp"
+#include "../scene/scene_samples.hpp"
+#include "hamjet/error.hpp"
+#include "hamjet/store/result_set.hpp"
+#include "support/temporary_directory.hpp"
+
+// Sets of results are there whole or not at all, and are noticed when they are no longer what was
+// written.
+
+namespace hamjet::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+class ResultSets : public ::testing::Test {
+ protected:
+  using Files = std::map<std::string, std::string>;
+
+  std::string commit(const Files& files, const std::string& summary = "{\n  \"a\": 1\n}\n") const {
+    OutputDirectory output(directory_);
+    for (const auto& [path, text] : files) output.write(path, text);
+    output.write("summary.json", summary);
+    return output.commit();
+  }
+
+  /// All that is in the directory, without the summary.
+  Files found() const {
+    Files files;
+    for (const auto& entry : fs::recursive_directory_iterator(directory_)) {
+      const std::string path = entry.path().lexically_relative(directory_).string();
+      if (!entry.is_directory() && path != "summary.json")
+        files[path] = test::content(entry.path());
+    }
+    return files;
+  }
+
+  void verify(const Files& files) const {
+    ResultSet set(directory_, "summary.json");
+    for (const auto& [path, text] : files) EXPECT_EQ(set.read(path), text);
+    set.verify();
+  }
+
+  void expect_refused(const Files& files, const std::vector<std::string>& words) const {
+    expect_error([&] { verify(files); }, ErrorKind::input_output, words, words[0]);
+  }
+
+  const test::TemporaryDirectory temporary_;
+  const fs::path directory_ = temporary_.path() / "results";
+  const Files old_ = {{"a/x.csv", "old x"}, {"a/y.csv", "old y"}, {"b/z.csv", "old z"}};
+  const Files new_ = {{"a/x.csv", "new x"}, {"c/d/w.csv", "new w"}};
+};
+
+// The check value of CRC-32, that of the nine digits (the catalogue of parametrised CRC algorithms,
+// CRC-32/ISO-HDLC).
+TEST_F(ResultSets, AreDescribedByTheirSummary) {
+  const std::string summary = commit({{"a/digits.txt", "123456789"}});
+  EXPECT_EQ(test::content(directory_ / "summary.json"), summary);
+  const auto json = nlohmann::json::parse(summary);
+  EXPECT_EQ(json["a"], 1);
+  ASSERT_EQ(json["files"].size(), 1U);
+  EXPECT_EQ(json["files"][0]["path"], "a/digits.txt");
+  EXPECT_EQ(json["files"][0]["bytes"], 9);
+  EXPECT_EQ(json["files"][0]["crc32"], "cbf43926");
+  verify({{"a/digits.txt", "123456789"}});
+  EXPECT_EQ(nlohmann::json::parse(commit({}, "{}"))["files"].size(), 0U);
+  verify({});
+}
+
+TEST_F(ResultSets, ReplaceTheEarlierOneButNotWhatIsTheUsers) {
+  commit(old_);
+  test::put(directory_ / "notes.txt", "mine");
+  test::put(directory_ / "a/y.csv", "old y, and a remark of mine");
+  commit(new_);
+  Files expected = new_;
+  expected["notes.txt"] = "mine";
+  expected["a/y.csv"] = "old y, and a remark of mine";
+  EXPECT_EQ(found(), expected);
+  EXPECT_FALSE(fs::exists(directory_ / "b"));
+  verify(new_);
+}
+
+TEST_F(ResultSets, AnEarlierSummaryCannotHaveFilesElsewhereRemoved) {
+  test::put(temporary_.path() / "precious", "mine");
+  for (const char* path : {"../precious", "a/../../precious"}) {
+    test::put(directory_ / "summary.json", seal("{}", {record_of(path, "mine")}));
+    EXPECT_TRUE(is_sealed(test::content(directory_ / "summary.json")));
+    commit(new_);
+    EXPECT_EQ(test::content(temporary_.path() / "precious"), "mine");
+  }
+}
+
+// What is behind a link is not the directory's, though a file of that name would go there.
+TEST_F(ResultSets, ALinkInPlaceOfAFolderIsNotFollowed) {
+  const fs::path elsewhere = temporary_.path() / "elsewhere";
+  fs::create_directories(elsewhere);
+  test::put(elsewhere / "x.csv", "mine");
+  fs::create_directories(directory_);
+  fs::create_directory_symlink(elsewhere, directory_ / "a");
+  expect_error([&] { commit(new_); }, ErrorKind::input_output,
+               {"a/x.csv: cannot be written", "/a is a symbolic link", "remove it"}, "link");
+  EXPECT_EQ(test::content(elsewhere / "x.csv"), "mine");
+  EXPECT_FALSE(fs::exists(directory_ / "summary.json"));
+  // Nor are files removed there that an earlier set had under this name.
+  fs::remove(directory_ / "a");
+  commit(old_);
+  fs::remove_all(directory_ / "a");
+  test::put(elsewhere / "x.csv", "old x");
+  fs::create_directory_symlink(elsewhere, directory_ / "a");
+  commit({{"c/d/w.csv", "new w"}});
+  EXPECT_EQ(test::content(elsewhere / "x.csv"), "old x");
+  // The directory itself may be a link.
+  fs::create_directory_symlink(directory_, temporary_.path() / "linked");
+  OutputDirectory output(temporary_.path() / "linked");
+  output.write("b/x.csv", "x");
+  output.write("summary.json", "{}");
+  EXPECT_NO_THROW(output.commit());
+}
+
+TEST_F(ResultSets, LeaveNothingWhereTheyAreNotCommitted) {
+  {
+    OutputDirectory output(directory_ / "deep/deeper");
+    output.write("a/x.csv", "x");
+    output.write("summary.json", "{}");
+  }
+  EXPECT_FALSE(fs::exists(directory_));
+  commit(old_);
+  const std::string summary = test::content(directory_ / "summary.json");
+  {
+    OutputDirectory output(directory_);
+    output.write("c/x.csv", "x");
+    output.write("summary.json", "{}");
+  }
+  EXPECT_EQ(found(), old_);
+  EXPECT_EQ(test::content(directory_ / "summary.json"), summary);
+}
+
+TEST_F(ResultSets, EveryBitThatIsFlippedIsNoticed) {
+  commit(new_);
+  for (const char* name : {"summary.json", "a/x.csv"}) {
+    const std::string good = test::content(directory_ / name);
+    for (std::size_t bit = 0; bit < 8 * good.size(); ++bit) {
+      std::string bad = good;
+      bad[bit / 8] = static_cast<char>(bad[bit / 8] ^ (1 << (bit % 8)));
+      test::put(directory_ / name, bad);
+      ResultSet set(directory_, "summary.json");
+      set.read("a/x.csv");
+      EXPECT_THROW(set.verify(), Error) << name << " bit " << bit;
+    }
+    test::put(directory_ / name, good);
+  }
+  verify(new_);
+}
+
+TEST_F(ResultSets, WhatIsCutOffAtAnyByteIsNoticed) {
+  commit(new_);
+  for (const char* name : {"summary.json", "a/x.csv"}) {
+    const std::string good = test::content(directory_ / name);
+    for (std::size_t length = 0; length < good.size(); ++length) {
+      test::put(directory_ / name, good.substr(0, length));
+      ResultSet set(directory_, "summary.json");
+      set.read("a/x.csv");
+      EXPECT_THROW(set.verify(), Error) << name << " length " << length;
+    }
+    test::put(directory_ / name, good);
+  }
+  verify(new_);
+}
+
+TEST_F(ResultSets, WhatIsMissingOrForeignIsNoticed) {
+  commit(new_);
+  test::put(directory_ / "a/foreign.csv", "of another run");
+  expect_refused({{"a/foreign.csv", "of another run"}}, {"a/foreign.csv: is not of the set"});
+  fs::remove(directory_ / "a/x.csv");
+  expect_refused(new_, {"a/x.csv: cannot be read: No such file"});
+  fs::remove(directory_ / "summary.json");
+  expect_refused({}, {"summary.json: cannot be read: No such file"});
+}
+
+// What a process leaves that is killed while it puts a set in place: some files are there already,
+// the others still wait beside the summary.
+TEST_F(ResultSets, PlacingThatWasBrokenOffAnywhereIsCompleted) {
+  const std::string summary = commit(new_);
+  fs::remove_all(directory_);
+  const fs::path ready = directory_ / ".hamjet-ready";
+  for (std::size_t placed = 0; placed <= new_.size() + 1; ++placed) {
+    SCOPED_TRACE(placed);
+    commit(old_);
+    std::size_t number = 0;
+    for (const auto& [path, text] : new_) {
+      test::put((number++ < placed ? directory_ : ready / "files") / path, text);
+    }
+    // The earlier summary goes before the first file comes, and the new one comes last.
+    if (placed > 0) fs::remove(directory_ / "summary.json");
+    if (placed > new_.size()) {
+      test::put(directory_ / "summary.json", summary);
+      fs::create_directories(ready / "summary");
+    } else {
+      test::put(ready / "summary/summary.json", summary);
+    }
+    verify(new_);
+    EXPECT_FALSE(fs::exists(ready));
+    EXPECT_EQ(test::content(directory_ / "summary.json"), summary);
+    if (placed == 0) {
+      EXPECT_EQ(found(), new_);
+    }
+  }
+}
+
+TEST_F(ResultSets, WhatWasNotCompletelyWrittenIsForgotten) {
+  commit(old_);
+  test::put(directory_ / ".hamjet-new/files/a/x.csv", "half of the ne");
+  test::put(directory_ / ".hamjet-lock", "1\n");
+  verify(old_);
+  { const OutputDirectory output(directory_); }
+  EXPECT_EQ(found(), old_);
+  commit(new_);
+  EXPECT_EQ(found(), new_);
+}
+
+TEST_F(ResultSets, AreRefusedBeforeAnythingIsReplacedWhereAFileCannotGo) {
+  commit(old_);
+  test::put(directory_ / "c", "a file where a folder should be");
+  expect_error([&] { commit(new_); }, ErrorKind::input_output,
+               {"c/d/w.csv: cannot be written", "c is not a directory"}, "a file");
+  fs::remove(directory_ / "c");
+  fs::create_directories(directory_ / "c/d/w.csv");
+  expect_error([&] { commit(new_); }, ErrorKind::input_output,
+               {"c/d/w.csv: cannot be written", "is a directory"}, "a directory");
+  EXPECT_EQ(found(), old_);
+  verify(old_);
+}
+
+TEST_F(ResultSets, OneProcessAtATime) {
+  const std::string own_number = "process " + std::to_string(::getpid());
+  {
+    const OutputDirectory output(directory_);
+    expect_error([&] { OutputDirectory second(directory_); }, ErrorKind::input_output,
+                 {directory_.string() + ": the output directory is in use", own_number}, "second");
+    EXPECT_EQ(output.leftovers().front(), directory_ / ".hamjet-lock");
+  }
+  EXPECT_FALSE(fs::exists(directory_));
+  { const OutputDirectory second(directory_); }
+}
+
+TEST_F(ResultSets, ADirectoryThatWasRemovedMeanwhileIsMadeAnew) {
+  OutputDirectory output(directory_);
+  fs::remove_all(directory_);
+  output.write("a/x.csv", "new x");
+  output.write("summary.json", "{}");
+  output.commit();
+  verify({{"a/x.csv", "new x"}});
+  // And another that has its name by now, in use by somebody else, is not written to.
+  fs::remove_all(directory_);
+  const OutputDirectory other(directory_);
+  expect_error([&] { output.write("a/x.csv", "x"); }, ErrorKind::input_output, {"in use"}, "other");
+}
+
+}  // namespace
+}  // namespace hamjet::io
