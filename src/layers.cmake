@@ -2,3 +2,27 @@
 # its own.
 set(HAMJET_LAYERS text algebra dynamics integrators maps relative_motion optimal_control studies store
   formats scene report sweep app cli python)
+
+# All sources of the layer whose CMakeLists.txt calls it, but those behind EXCEPT, which it adds itself.
+# With CMAKE_UNITY_BUILD those of a folder are compiled together, so many at a time.
+function(hamjet_layer_sources)
+  cmake_parse_arguments(PARSE_ARGV 0 layer "" "" EXCEPT)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}
+    ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  if(layer_EXCEPT)
+    list(REMOVE_ITEM sources ${layer_EXCEPT})
+  endif()
+  target_sources(hamjet PRIVATE ${sources})
+  get_filename_component(name ${CMAKE_CURRENT_SOURCE_DIR} NAME)
+  set(together 14)
+  foreach(source ${sources})
+    get_filename_component(folder ${name}/${source} DIRECTORY)
+    string(MAKE_C_IDENTIFIER ${folder} group)
+    if(NOT DEFINED count_${group})
+      set(count_${group} 0)
+    endif()
+    math(EXPR part "${count_${group}} / ${together}")
+    math(EXPR count_${group} "${count_${group}} + 1")
+    set_property(SOURCE ${source} TARGET_DIRECTORY hamjet PROPERTY UNITY_GROUP ${group}_${part})
+  endforeach()
+endfunction()

@@ -29,7 +29,7 @@ template <std::size_t MA, std::size_t MB, class Sums, class P, class Real>
   (std::make_index_sequence<block_size(MA)>{});
 }
 
-/// The same for block degrees known at run time only.
+/// sums[i * j] += a[i] * b[j] for block degrees known at run time only.
 template <class Vector, class P, class Real>
 void multiply_by_numbers(Vector* sums, const P* a, const Real* b, std::size_t m_a, std::size_t m_b,
                          std::size_t part) {
@@ -45,7 +45,7 @@ void multiply_by_numbers(Vector* sums, const P* a, const Real* b, std::size_t m_
   }
 }
 
-/// c += the block's part of the product of packs a and numbers b.
+/// c += one block of the product of packs a and numbers b.
 template <std::size_t M, class P, class Real>
 void add_block(const ProductSchedule& schedule, const ProductSchedule::Output& output, const P* a,
                const Real* b, P* c) {
@@ -76,7 +76,7 @@ void add_block(const ProductSchedule& schedule, const ProductSchedule::Output& o
   }
 }
 
-/// The same for blocks too large for the registers.
+/// c += one block, too large for the registers, of the product of packs a and numbers b.
 template <class P, class Real>
 void add_large_block(const ProductSchedule& schedule, const ProductSchedule::Output& output,
                      const P* a, const Real* b, P* c) {
@@ -150,7 +150,7 @@ int highest_degree(std::span<const Series<T>> map) {
   return 0;
 }
 
-/// Up to Lanes components of the outer map.
+/// Composes up to Lanes components of the outer map with the inner one.
 template <class T, int Lanes>
 class HornerScheme {
  public:
@@ -180,15 +180,15 @@ class HornerScheme {
   }
 
  private:
-  /// nodes_[depth] is that of the next monomial of degree `depth`. A node's children are the
-  /// monomials times a variable not before its last one. So the words of variables grow at their
-  /// ends, and a walk depth first meets each degree's monomials in the order of the space.
+  /// Forms in nodes_[depth] the node of the next monomial of degree `depth`. A node's children are
+  /// the monomials times a variable not before its last one. So the words of variables grow at
+  /// their ends, and a walk depth first meets each degree's monomials in the order of the space.
   void form_node(int depth, std::size_t last_variable) {
     auto& node = nodes_[static_cast<std::size_t>(depth)];
     node[0] = coefficients_[next_[static_cast<std::size_t>(depth)]++];
     if (depth == degree_) return;
     std::fill(node.begin() + 1, node.end(), P(T(0)));
-    const int highest = space_.order() - depth;  // of this node
+    const int highest = space_.order() - depth;  // degree that the node needs
     for (std::size_t v = last_variable; v < inner_.size(); ++v) {
       form_node(depth + 1, v);
       const P* child = nodes_[static_cast<std::size_t>(depth) + 1].data();
@@ -204,8 +204,8 @@ class HornerScheme {
   const SeriesSpace& space_;
   int degree_;  ///< of the outer map
   std::vector<P> coefficients_;
-  std::vector<std::vector<P>> nodes_;  ///< of each depth the one that is being formed
-  std::vector<std::size_t> next_;      ///< of each degree the next monomial
+  std::vector<std::vector<P>> nodes_;  ///< by depth, the one that is being formed
+  std::vector<std::size_t> next_;      ///< by degree, the next monomial
 };
 
 }  // namespace
@@ -244,7 +244,7 @@ double horner_multiply_adds(std::size_t variables, int degree, const SeriesSpace
   double total = 0;
   const int deepest = std::min(degree, inner.order());
   for (int k = 1; k <= deepest; ++k) {
-    // One product of a node of degree N - k by a variable's series.
+    // The cost of one product of a node by a variable's series.
     const int highest = inner.order() - k + 1;
     double product = static_cast<double>(inner.first(highest + 1)) - 1;
     for (int d = 2; d <= highest && k < deepest; ++d) {

@@ -90,7 +90,7 @@ class ScheduleBuilder {
     }
   }
 
-  /// All splits of the outer exponents into two factors, for fixed inner degrees m_x <= m_y.
+  /// Adds all splits of the outer exponents into two factors, for fixed inner degrees m_x <= m_y.
   void add_run(ProductSchedule& schedule, const std::vector<std::uint8_t>& exponents, int degree,
                int m_x, int m_y) const {
     std::vector<std::uint8_t> part(exponents.size(), 0);

@@ -4,7 +4,7 @@
 
 #include "hamjet/algebra/extended.hpp"
 
-// Apart, because the decompositions take the compiler longer than whole layers of ours.
+// These stand in a file of their own because the decompositions take long to compile.
 
 namespace hamjet {
 

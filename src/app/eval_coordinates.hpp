@@ -26,8 +26,8 @@ class EvalCoordinates {
   const std::vector<std::string_view>& initial_columns() const { return initial_columns_; }
   const std::vector<std::string_view>& final_columns() const { return final_columns_; }
 
-  /// The jet's variables of a deviation: nothing if the deviation has other components too, which
-  /// the jet says nothing of.
+  /// The jet's variables of a deviation; no value if the deviation has other components too, of
+  /// which the jet says nothing.
   std::optional<std::vector<double>> variables(std::span<const double> deviation) const;
   /// The final state of the jet's components.
   std::vector<double> final_state(std::span<const double> components) const;

@@ -43,7 +43,7 @@ DegreeShares JetEvaluation::shares(std::size_t point) const {
   double squares[3] = {0, 0, 0};
   for (std::size_t c = 0; c < evaluator_.components(); ++c) {
     const std::size_t place = c * count + point;
-    // With the next degree at hand, all that was evaluated but its last degree is lower.
+    // With the next degree evaluated too, last_but_one_ is the last degree of values_.
     const double lower = next_ ? values_[place] - last_but_one_[place]
                                : values_[place] - last_[place] - last_but_one_[place];
     const double shares[3] = {lower, last_but_one_[place], last_[place]};

@@ -26,22 +26,22 @@ struct MissEstimate {
 /// time that this takes.
 class JetEvaluation {
  public:
-  /// So many points at once: they stay in the cache.
+  /// Points that are evaluated at once, few enough to stay in the cache.
   static constexpr std::size_t most_points = 4096;
 
-  /// With a degree below the jet's order the next degree, which the jet has, tells what is left
-  /// out.
+  /// Evaluates up to `degree`, or the whole jet without one. Below the jet's order, the next degree
+  /// tells what is left out.
   JetEvaluation(const io::StoredJet& stored, std::optional<int> degree);
 
-  /// The values of the jet's variables of one more point. At most `most_points` until `run`.
+  /// Adds the values of the jet's variables at one point; at most `most_points` before `run`.
   void add(const std::vector<double>& variables);
-  /// Hands final deviation of the components (canonical) and estimate of the miss of each
-  /// point that was added to `take`, in order, and starts anew.
+  /// Hands each added point's final deviation of the components (canonical) and estimate of the
+  /// miss to `take`, in order, and starts anew.
   void run(const std::function<void(const std::vector<double>&, const MissEstimate&)>& take);
 
   std::size_t pending() const { return pending_.size(); }
   std::size_t points() const { return points_; }
-  /// Of all evaluations so far, conversions, input and output excluded.
+  /// Seconds of all evaluations so far, without conversions, input and output.
   double seconds() const { return seconds_; }
   const MapEvaluator& evaluator() const { return evaluator_; }
 
@@ -53,7 +53,7 @@ class JetEvaluation {
   MapEvaluator evaluator_;
   std::optional<MapEvaluator> next_;  ///< one degree more than the first, where the jet has it
   MapEvaluator error_;                ///< see evaluation_error
-  std::size_t positions_;             ///< so many components are positions, the first
+  std::size_t positions_;             ///< how many components are positions, the first ones
   double length_m_;
   std::vector<std::vector<double>> pending_;
   std::size_t points_ = 0;

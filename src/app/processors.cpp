@@ -13,7 +13,7 @@ namespace hamjet::cli {
 std::size_t usable_processors() {
   std::size_t count = std::thread::hardware_concurrency();
   cpu_set_t allowed;
-  // Fails on machines with more processors than the set holds.
+  // The call fails on machines with more processors than the set holds.
   if (::sched_getaffinity(0, sizeof allowed, &allowed) == 0) {
     count = static_cast<std::size_t>(CPU_COUNT(&allowed));
   }

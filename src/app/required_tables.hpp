@@ -22,7 +22,7 @@ void require_assignment(const Scene& scene, const std::string& file);
 /// An Error(scene) that comes from a study gets the file's name before it.
 [[noreturn]] void rethrow_with_file(const Error& error, const std::string& file);
 
-/// What a study says of the scene, with the file's name.
+/// Runs a study; its Error(scene) gets the file's name before it.
 template <class Study>
 auto study_of(const std::string& file, const Study& study) {
   try {

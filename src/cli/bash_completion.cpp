@@ -8,8 +8,9 @@
 namespace hamjet::cli {
 namespace {
 
-/// What does not depend on the commands. `describe COMMAND` sets `commands`, `options` and
-/// `positionals` (their types); `type_of COMMAND OPTION` sets `type`, which stays empty for a flag.
+/// The part of the script that does not depend on the commands. `describe COMMAND` sets `commands`,
+/// `options` and `positionals` (their types); `type_of COMMAND OPTION` sets `type`, which stays
+/// empty for a flag.
 constexpr const char* engine = R"(
 # Words that begin with $current for an argument of this type.
 _hamjet_complete_type() {

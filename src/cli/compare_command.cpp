@@ -21,7 +21,7 @@
 namespace hamjet::cli {
 namespace {
 
-/// What is finished is saved after the first of these, then after intervals that double up to the
+/// What is finished is first saved after this time, then after intervals that double up to the
 /// longest.
 constexpr std::chrono::milliseconds first_checkpoint(50);
 constexpr std::chrono::milliseconds longest_interval(2000);

@@ -96,7 +96,7 @@ const char* support_name(Support support) {
   return "unknown";
 }
 
-/// Where the series says nothing, a number's size: one digit of it.
+/// A number's size, one digit of it, for where the series says nothing.
 double size_alone(double x) { return std::isfinite(x) ? std::stod(fmt::format("{:.0e}", x)) : x; }
 
 /// What an estimate of the miss is made of.
@@ -145,7 +145,7 @@ class Output {
   Json json_rows() const { return has_json_rows_ ? json_rows_ : Json(nullptr); }
   std::size_t outside() const { return outside_; }
   std::size_t unknown() const { return unknown_; }
-  /// Of the rows inside.
+  /// The largest estimate of the miss, in metres, among the rows inside; none without such rows.
   std::optional<double> largest_miss() const { return largest_miss_; }
 
  private:

@@ -22,10 +22,10 @@ volatile std::sig_atomic_t pending_signal = 0;
 volatile std::sig_atomic_t phase = computing;
 volatile std::sig_atomic_t has_checkpoint = 0;
 
-/// Of the RemovedAtSuddenEnd that lives, ended by a null pointer.
+/// The paths of the RemovedAtSuddenEnd that lives, ended by a null pointer.
 const char* const* volatile leftovers = nullptr;
 
-/// So that the end comes within a second.
+/// Time that the work has to stop, short enough that the end comes within a second.
 constexpr suseconds_t microseconds_to_stop = 700'000;
 
 void set_alarm() {
@@ -36,7 +36,7 @@ void set_alarm() {
 
 void remove_leftovers() {
   const char* const* name = leftovers;
-  // Each call fails on what the other is for.
+  // unlink removes files and rmdir folders; each fails harmlessly on the other.
   for (; name != nullptr && *name != nullptr; ++name) {
     ::unlink(*name);
     ::rmdir(*name);

@@ -11,7 +11,7 @@ class Interrupted : public std::exception {
  public:
   explicit Interrupted(int signal) : signal_(signal) {}
   const char* what() const noexcept override { return "interrupted"; }
-  /// 128 + the signal: 130 or 143.
+  /// The exit code, 128 + the signal: 130 or 143.
   int exit_code() const noexcept { return 128 + signal_; }
 
  private:
@@ -23,7 +23,7 @@ class Interrupted : public std::exception {
 /// program ends at once. SIGPIPE and SIGXFSZ become errors of the write.
 void catch_signals();
 
-/// What is said where memory runs out.
+/// The message where memory runs out.
 inline constexpr const char* out_of_memory =
     "out of memory; a lower order or fewer variables would fit";
 
@@ -48,7 +48,7 @@ class RemovedAtSuddenEnd {
   std::vector<const char*> names_;
 };
 
-/// What is written.
+/// The kind of writing that is under way.
 enum class Writing {
   results,         ///< the end of the work: afterwards a signal ends the program at once
   checkpoint,      ///< the work goes on

@@ -15,7 +15,8 @@
 namespace hamjet::cli {
 namespace {
 
-/// Results stand in the folder of the file that describes them or one below.
+/// Throws Error(usage) for a file of a set of results, which stands in the folder of the file that
+/// describes the set, or one below.
 void refuse_results(const std::filesystem::path& file) {
   std::error_code ignored;
   const auto target = std::filesystem::weakly_canonical(file, ignored);

@@ -8,8 +8,7 @@
 namespace hamjet::cli {
 namespace {
 
-/// Puts the text in place of the line; whether that works (the terminal may have gone) is of no
-/// account.
+/// Puts the text in place of the line. Best effort: the terminal may have gone.
 void show(const std::string& text) {
   std::fputs(fmt::format("\r{:78}\r{}", "", text).c_str(), stderr);
   std::fflush(stderr);

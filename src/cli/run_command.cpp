@@ -13,6 +13,7 @@
 #include "hamjet/report/study_report.hpp"
 #include "hamjet/store/output_directory.hpp"
 #include "hamjet/studies/arcs.hpp"
+#include "hamjet/studies/method_description.hpp"
 #include "hamjet/studies/propagation.hpp"
 #include "interruption.hpp"
 #include "progress.hpp"
@@ -100,17 +101,10 @@ void check_flow_jet(const RunOptions& options, const std::string& file, const Sc
       problem.space->size(), components,
       estimate_memory(scene, problem.system, scene.variables.size(), threads) / 1e6);
   for (const IntegratorSettings& settings : scene.integrators) {
-    text += fmt::format("  integrator   {}: {}", settings.label,
-                        method_names()[static_cast<std::size_t>(settings.method)]);
-    if (settings.method == IntegrationMethod::gauss) {
-      text += fmt::format(", {} stages{}", settings.stages,
-                          settings.compensated_summation ? "" : ", without compensated summation");
-    }
-    if (settings.method == IntegrationMethod::velocity_verlet) {
-      text += fmt::format(", order {}", settings.order);
-    }
-    if (settings.method == IntegrationMethod::newmark) {
-      text += fmt::format(", beta {}", settings.beta);
+    text += fmt::format("  integrator   {}: {}", settings.label, method_name(settings.method));
+    for (const MethodSetting& setting : description_of(settings.method).settings) {
+      const std::string words = setting.text(settings);
+      if (!words.empty()) text += ", " + words;
     }
     if (settings.tolerance) text += fmt::format(", tolerance {:g}", *settings.tolerance);
     if (settings.step_canonical)

@@ -10,8 +10,8 @@
 #include "../text/scene_message.hpp"
 #include "demo_scene.hpp"
 #include "hamjet/error.hpp"
-#include "hamjet/integrators/cvode.hpp"
 #include "hamjet/studies/arcs.hpp"
+#include "hamjet/studies/method_description.hpp"
 #include "standard_streams.hpp"
 
 namespace hamjet::cli {
@@ -41,9 +41,8 @@ void refuse_empty(const std::optional<std::string>& value, const char* option, c
 /// The built-in scene names CVODE; a build without it shows the rest. A scene of the user's own is
 /// refused instead: what it asks for must not vanish.
 void leave_out_what_is_not_built(Scene& scene) {
-  if (cvode_available()) return;
   const auto removed = std::erase_if(scene.integrators, [](const IntegratorSettings& settings) {
-    return is_cvode(settings.method);
+    return !description_of(settings.method).is_built();
   });
   if (removed > 0) {
     print_error(fmt::format("this build has no CVODE: {} runs of the scene are left out", removed));

@@ -25,12 +25,12 @@ struct RunOptions {
 /// Error(scene), Error(input_output).
 io::Study read_study(const RunOptions& options);
 
-/// The same for what takes a flow jet alone. Throws Error(usage), Error(scene),
-/// Error(input_output).
+/// The scene that the options name, which must be that of a flow jet. Throws Error(usage),
+/// Error(scene), Error(input_output).
 Scene read_scene(const RunOptions& options);
 
-/// The same for `command`, which does not split flows into arcs: throws Error(scene) too where the
-/// scene asks for that.
+/// read_scene for `command`, which does not split flows into arcs: throws Error(scene) too where
+/// the scene asks for that.
 Scene read_unsplit_scene(const RunOptions& options, const std::string& command);
 
 /// The number of threads that the options ask for, at least 1.

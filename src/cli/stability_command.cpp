@@ -7,16 +7,16 @@
 
 #include "../app/report_origin.hpp"
 #include "hamjet/error.hpp"
-#include "hamjet/integrators/cvode.hpp"
 #include "hamjet/report/stability_report.hpp"
+#include "hamjet/studies/method_description.hpp"
 #include "standard_streams.hpp"
 #include "study_command.hpp"
 
 namespace hamjet::cli {
 namespace {
 
-/// Of the working directory, of the tree that the program was built in, or of the installation that
-/// it belongs to, wherever that was moved.
+/// The folder of the cases that hamjet comes with: that of the working directory, of the tree that
+/// the program was built in, or of the installation that it belongs to, wherever that was moved.
 std::filesystem::path default_suite() {
   const std::filesystem::path here = "data/scenes/extreme";
   std::error_code ignored;
@@ -29,14 +29,14 @@ std::filesystem::path default_suite() {
               fmt::format("{}: no such folder; --suite names a folder of cases", here.string()));
 }
 
-/// Cases of CVODE where this build has none.
+/// Leaves out the cases whose integrator is not in this build (CVODE).
 void leave_out_what_is_not_built(std::vector<StabilityCase>& cases) {
-  if (cvode_available()) return;
   const auto count = std::erase_if(cases, [](const StabilityCase& subject) {
     const Scene* scene = std::get_if<Scene>(&subject.scene);
-    return scene != nullptr &&
-           std::any_of(scene->integrators.begin(), scene->integrators.end(),
-                       [](const auto& settings) { return is_cvode(settings.method); });
+    return scene != nullptr && std::any_of(scene->integrators.begin(), scene->integrators.end(),
+                                           [](const auto& settings) {
+                                             return !description_of(settings.method).is_built();
+                                           });
   });
   if (count > 0) print_error(fmt::format("this build has no CVODE: {} cases are left out", count));
 }

@@ -15,7 +15,7 @@ namespace hamjet::cli {
 void open_standard_streams() {
   for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(descriptor, F_GETFD) != -1 || errno != EBADF) continue;
-    // The lowest that is free, which is this one.
+    // The system gives the lowest free descriptor, which is this one.
     ::open("/dev/null", O_RDWR);
   }
 }
@@ -29,7 +29,7 @@ void print(const std::string& text) {
 }
 
 void print_error(const std::string& message) noexcept {
-  // Not fmt::print, which throws if the stream is closed or full.
+  // fputs is used, not fmt::print, which throws if the stream is closed or full.
   std::fputs("hamjet: ", stderr);
   std::fputs(message.c_str(), stderr);
   std::fputs("\n", stderr);

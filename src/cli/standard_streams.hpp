@@ -12,7 +12,7 @@ void open_standard_streams();
 /// full disk is: throws Error(input_output).
 void print(const std::string& text);
 
-/// "hamjet: message" as a line of standard error. There is nobody to tell if that fails.
+/// Prints "hamjet: message" as a line of standard error. There is nobody to tell if that fails.
 void print_error(const std::string& message) noexcept;
 
 }  // namespace hamjet::cli

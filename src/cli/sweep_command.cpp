@@ -58,7 +58,7 @@ void check_options(const RunOptions& run, const SweepOptions& options) {
   check_range("--tasks", options.tasks, static_cast<long>(io::most_sweep_items));
 }
 
-/// Table, map and summary of what is there.
+/// Writes table, map and summary of the rows that are there.
 int merge(const RunOptions& run, const io::SweepStudy& study, const io::SweepDirectory& directory) {
   const auto work = [&](const ProgressCallback& progress) {
     progress("reading the rows", 0);
@@ -115,9 +115,9 @@ int emit(const RunOptions& run, const SweepOptions& options, const io::SweepStud
   return 0;
 }
 
-/// Those that are still to be computed: with --resume the items without a row that is whole, and
-/// those that failed for what may have been another machine's, or another moment's, lack of memory
-/// or of a file.
+/// The items that are still to be computed: with --resume the items without a row that is whole,
+/// and those that failed for what may have been another machine's, or another moment's, lack of
+/// memory or of a file.
 std::vector<std::size_t> items_to_do(const std::vector<std::size_t>& items,
                                      const io::SweepDirectory& directory, std::size_t& failed) {
   std::vector<std::size_t> result;
@@ -159,7 +159,7 @@ int run_items(const RunOptions& run, const SweepOptions& options, const io::Swee
     now = io::run_sweep_items(
         study, directory, remaining, threads_of(options), [&](const io::SweepProgress& so_far) {
           if (so_far.finished > now.finished) {
-            // From now on a sudden end leaves something.
+            // From now on a sudden end leaves finished items.
             const UninterruptedWriting mark(Writing::checkpoint);
           }
           now = so_far;
@@ -204,7 +204,7 @@ int sweep(const RunOptions& run, const SweepOptions& options) {
   const io::SweepStudy study = io::read_sweep_study(*options.study);
   if (options.merge) {
     const fs::path path = output_path(run, study.name);
-    io::SweepDirectory::study_in(path);  // nothing is begun by a merge
+    io::SweepDirectory::study_in(path);  // throws if there is no sweep: a merge begins none
     return merge(run, study, io::SweepDirectory(path, study));
   }
   io::check_sweep_items(study);

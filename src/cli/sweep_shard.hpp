@@ -17,7 +17,7 @@ struct Shard {
   std::vector<std::size_t> items(std::size_t count) const;
 };
 
-/// "3/20". Throws Error(usage).
+/// Reads a part such as "3/20". Throws Error(usage).
 Shard parse_shard(const std::string& text);
 
 /// The task of an array of Slurm that this process is: from SLURM_ARRAY_TASK_ID, _COUNT, _MIN and

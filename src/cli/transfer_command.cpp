@@ -53,7 +53,7 @@ Scene read_scene_of(const io::StoredJet& stored, const RunOptions& options) {
   }
 }
 
-/// The stored jet, if it is of the scene's chief.
+/// The stored jet; throws unless it is of the scene's chief and expanded in all six variables.
 EarlierJet earlier_jet(const TransferOptions& transfers, const io::StoredJet& stored,
                        const Scene& scene) {
   const bool is_same_chief =
@@ -67,7 +67,7 @@ EarlierJet earlier_jet(const TransferOptions& transfers, const io::StoredJet& st
   return {stored.label, stored.duration, convert_map<double>(stored.jet)};
 }
 
-/// The results of a study take the place of what was in their directory.
+/// Throws Error(usage) if the results would replace the directory that the stored jet is read from.
 void refuse_to_replace(const std::filesystem::path& jet, const std::filesystem::path& output) {
   std::error_code none;
   const bool is_file = std::filesystem::is_regular_file(jet, none);

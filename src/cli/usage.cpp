@@ -13,8 +13,7 @@
 namespace hamjet::cli {
 namespace {
 
-/// "did you mean ...?" among the long options of the command, or of the program where there is
-/// none.
+/// The nearest long option of a command, or of the program where there is none, as a suggestion.
 std::string option_suggestion(const CLI::App& command, std::string_view word) {
   std::vector<std::string> names;
   for (const CLI::Option* option : command.get_options()) {
@@ -35,9 +34,9 @@ std::string command_suggestion(const CLI::App& app, std::string_view word) {
 std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
   const auto commands = app.get_subcommands();
   std::vector<std::string> unknown = app.remaining(true);
-  // Behind the end of options there are none.
+  // Behind "--", the end of options, no word is an option.
   const auto end = std::find(unknown.begin(), unknown.end(), "--");
-  // An unknown option first: the words around it may only look wrong because of it.
+  // An unknown option is named first: the words around it may only look wrong because of it.
   const auto first_option = std::find_if(
       unknown.begin(), end, [](const std::string& word) { return word.starts_with("-"); });
   std::optional<std::string> option;

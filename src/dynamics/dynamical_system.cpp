@@ -43,7 +43,7 @@ std::optional<SecondOrderForm> second_order_form(const OperationList& field) {
   return SecondOrderForm{*matrix, restrict_list(field, positions, forces)};
 }
 
-/// z' = J grad H.
+/// The vector field of z' = J grad H.
 OperationList hamiltonian_field(const OperationList& hamiltonian) {
   const std::size_t n = hamiltonian.inputs() / 2;
   const OperationList grad = gradient(hamiltonian);
@@ -56,7 +56,7 @@ OperationList hamiltonian_field(const OperationList& hamiltonian) {
   });
 }
 
-/// Inputs (or outputs) q_i and p_i of the kept degrees of freedom.
+/// Indices of the inputs (or outputs) q_i and p_i of the kept degrees of freedom.
 std::vector<std::size_t> phase_space_indices(std::span<const std::size_t> kept, std::size_t n) {
   std::vector<std::size_t> result(kept.begin(), kept.end());
   for (const std::size_t i : kept) result.push_back(n + i);

@@ -167,7 +167,7 @@ Expression Recorder::operation(OperationCode code, std::size_t u, std::size_t v,
 }
 
 std::pair<Expression, Expression> Recorder::sine_cosine(std::size_t u) {
-  // Recorded one after the other, so each knows the other's number.
+  // Sine and cosine are recorded one after the other, so each knows the other's number.
   const Key key{OperationCode::sine, u, 0, 0, {}};
   const auto known = known_.find(key);
   const std::size_t sine = known != known_.end() ? known->second : operations_.size();

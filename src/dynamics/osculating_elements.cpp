@@ -8,7 +8,7 @@ namespace {
 
 Extended pi() { return boost::math::constants::pi<Extended>(); }
 
-/// The same angle within (-360, 360): std::fmod is exact, so nothing is rounded, and the sum of two
+/// The angle reduced to (-360, 360): std::fmod is exact, so nothing is rounded, and the sum of two
 /// such angles keeps at least 100 bits below the degree.
 Extended within_one_turn(double angle_deg) { return Extended(std::fmod(angle_deg, 360.0)); }
 

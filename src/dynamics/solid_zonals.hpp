@@ -6,8 +6,8 @@
 
 namespace hamjet {
 
-/// The Legendre polynomials P_n(s), s = z/r, and their derivatives, of odd ones the part without
-/// the factor z. With u = 1/r^2, y = 1 - s^2 and a power a of 1/r, by k,
+/// The Legendre polynomials P_n(s), s = z/r, and their derivatives, odd functions without their
+/// factor z. With u = 1/r^2, y = 1 - s^2 and a power a of 1/r, for each k,
 ///
 ///   A_k = P'_(2k+1)(s) / r^(a+2k),          B_k = P'_(2k+2)(s)/s / r^(a+2k+2),
 ///   D_k = (2k+1) P_(2k+1)(s)/s / r^(a+2k) = A_k - B_(k-1) .
@@ -20,13 +20,13 @@ struct SolidZonals {
   std::vector<T> yB;  ///< y B_k
 };
 
-/// To this k, D_k is taken as the difference A_k - B_(k-1), which costs nothing. At the poles it is
-/// smaller than its parts by a factor k + 1, and y loses as much where it is 1 - s^2: up to the
+/// Up to this k, D_k is taken as the difference A_k - B_(k-1), at no extra cost. At the poles D_k
+/// is smaller than its parts by a factor k + 1, and y loses as much where it is 1 - s^2: up to the
 /// degree 2k+1 = 7 that costs less than one decimal, and at degree 20 it would be 2.5e-14 of a
 /// term.
 inline constexpr int last_difference = 3;
 
-/// All that zonal coefficients up to degree `highest` need. From n P'_(n+1) = (2n+1) s P'_n -
+/// Forms all that zonal coefficients up to degree `highest` need. From n P'_(n+1) = (2n+1) s P'_n -
 /// (n+1) P'_(n-1) and (n+1) P_(n+1) = s P'_(n+1) - P'_n,
 ///
 ///   B_k     = u A_k + (2k+2)/(2k+1) u D_k ,

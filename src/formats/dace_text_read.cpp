@@ -15,7 +15,7 @@
 namespace hamjet::io {
 namespace {
 
-/// Of a text that says itself how many variables and orders there are.
+/// Most coefficients of a text that itself says how many variables and orders it has.
 constexpr double most_coefficients = 1e5;
 
 struct Term {
@@ -67,7 +67,7 @@ class DaceReader {
     return polynomials;
   }
 
-  /// Of the rows; 0 if there is none.
+  /// The number of variables in the rows; 0 if there are no rows.
   std::size_t variables() const { return columns_; }
 
   [[noreturn]] void fail(const std::string& what) const { fail(line_number_, what); }

@@ -37,7 +37,7 @@ std::optional<Extended> number_in(std::string_view word) {
   std::string text(word);
   std::replace_if(
       text.begin(), text.end(), [](char c) { return c == 'D' || c == 'd' || c == 'E'; }, 'e');
-  // Within double precision too, in which a scene has its numbers.
+  // The number must be within double precision too, in which scenes have their numbers.
   if (!finite_number(text)) return std::nullopt;
   if (text.starts_with('+')) text.erase(0, 1);
   return finite_extended_number(text);
@@ -76,7 +76,7 @@ class Reader {
   }
   [[noreturn]] void fail(const std::string& problem) const { fail_at(line_, problem); }
 
-  /// The words of the next line; false at the end.
+  /// Takes the words of the next line; false at the end.
   bool next_line() {
     if (text_.empty()) return false;
     ++line_;
@@ -92,7 +92,7 @@ class Reader {
       }
       if (words_.empty()) continue;
       if (words_[0].starts_with("end_of_head")) break;
-      // What stands before is prose, in which a line may begin with a keyword.
+      // Before begin_of_head there is prose, in which a line may begin with a keyword.
       if (words_[0].starts_with("begin_of_head")) header_.clear();
       static constexpr std::array keywords = {
           "product_type", "modelname",  "product_name", "earth_gravity_constant",
@@ -134,7 +134,8 @@ class Reader {
     return found == header_.end() ? std::nullopt : std::optional(printable(found->second.value));
   }
 
-  /// The keyword's value, the first of `right` if it is not there.
+  /// The keyword's value, which must be one of `right`; the first of them if the keyword is not
+  /// there.
   std::string expect_value(std::string_view keyword, const std::vector<std::string_view>& right) {
     const auto found = header_.find(keyword);
     if (found == header_.end()) return std::string(right[0]);
@@ -147,7 +148,8 @@ class Reader {
     return value;
   }
 
-  /// The value of the keyword, which has several names, in kilometres.
+  /// The positive value of a keyword that has several names, divided by `divisor` to be in
+  /// kilometres.
   double positive(const std::vector<std::string_view>& keywords, int divisor) {
     for (const std::string_view keyword : keywords) {
       const auto found = header_.find(keyword);

@@ -11,7 +11,7 @@
 
 namespace hamjet::io::hdf5 {
 
-/// An identifier that is closed when it goes.
+/// An HDF5 identifier that is closed when the object goes.
 class Handle {
  public:
   using Close = herr_t (*)(hid_t);
@@ -61,8 +61,8 @@ class Session {
   void* data_ = nullptr;
 };
 
-/// What HDF5 says of an error, the innermost reason. Any further call forgets it, that of a Handle
-/// that goes too.
+/// What HDF5 says of an error, the innermost reason. Any further call forgets it, even the one that
+/// closes a Handle.
 inline std::string last_error() {
   std::string reason;
   const auto take = [](unsigned, const H5E_error2_t* error, void* text) -> herr_t {

@@ -11,10 +11,10 @@ namespace hamjet::io::hdf5 {
 inline const std::string format = "hamjet jets";
 inline constexpr int format_version = 1;
 
-/// Of a run, where it is known: relative errors of the coefficients of each degree.
+/// Attribute of a run: relative errors of the coefficients of each degree, where they are known.
 inline constexpr const char* error_attribute = "coefficient_error_by_degree";
 
-/// In the order of the enumeration Precision.
+/// Names of the precisions, in the order of the enumeration Precision.
 inline const std::vector<std::string> precision_names = {"double", "extended"};
 
 /// Bytes of a number of 36 digits with sign, point and exponent, filled up with zeros.

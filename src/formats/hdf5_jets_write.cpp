@@ -128,8 +128,8 @@ void write_jet(const Writer& file, hid_t group, const FlowJet<Extended>& jet, Pr
   write_exponents(file, group, space, 0);
 }
 
-/// Of the coefficients, which estimates of what is computed from them need; none where nothing is
-/// known of them.
+/// Writes the errors of the coefficients, which estimates of what is computed from them need;
+/// nothing where they are not known.
 void write_errors(const Writer& file, hid_t group, const std::vector<double>& error_by_degree) {
   const bool is_known = std::all_of(error_by_degree.begin(), error_by_degree.end(),
                                     [](double error) { return std::isfinite(error); });
@@ -164,7 +164,7 @@ void write_generating_functions(const Writer& file, hid_t run_group,
     if (!has_function(kind)) continue;
     const Handle group = file.group(functions, kind_name(kind));
     const Series<Extended>& series = *kind.generating_function;
-    // As in the CSV file: degrees 0 and 1 vanish.
+    // Degrees 0 and 1 vanish and are left out, as in the CSV file.
     const std::size_t first = series.space().first(2);
     Coefficients coefficients;
     coefficients.add(series, first, result.scene.precision);
@@ -177,8 +177,7 @@ void write_generating_functions(const Writer& file, hid_t run_group,
 
 void write_run(const Writer& file, const PropagationResult& result, const RunResult& run) {
   const Handle group = file.group(file.root(), run.settings.label);
-  file.attribute(group, "method",
-                 std::string(method_names()[static_cast<std::size_t>(run.settings.method)]));
+  file.attribute(group, "method", std::string(method_name(run.settings.method)));
   if (!run.failure.empty()) {
     file.attribute(group, "error", run.failure);
     return;

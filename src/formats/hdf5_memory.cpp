@@ -3,7 +3,7 @@
 namespace hamjet::io::hdf5 {
 namespace {
 
-/// By which the image in memory grows.
+/// Bytes by which the image in memory grows.
 constexpr std::size_t increment = 65536;
 
 Handle in_memory() {
@@ -20,7 +20,7 @@ constexpr const char* name = "/dev/null/jets.h5";
 
 Handle create_in_memory() {
   const Handle access = in_memory();
-  // Of the oldest format, the default: the images that HDF5 1.10 gives of files in a newer one have
+  // The file has the oldest format, the default: images that HDF5 1.10 gives of newer formats have
   // a wrong checksum.
   const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
   H5Pset_obj_track_times(creation, false);

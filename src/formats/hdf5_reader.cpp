@@ -12,7 +12,7 @@
 namespace hamjet::io::hdf5 {
 namespace {
 
-/// Of an attribute: names and states are short.
+/// Most values of an attribute: names and states are short.
 constexpr hsize_t most_values = 4096;
 
 /// How many values a space has: no axis is one value.

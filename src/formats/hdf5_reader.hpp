@@ -25,7 +25,7 @@ class Reader {
   std::string text(const char* name) const;
   std::vector<std::string> texts(const char* name) const;
   double number(const char* name) const;
-  /// So many, or any number up to 4096 of them; finite.
+  /// Finite numbers of an attribute: `count` of them or, if that is 0, up to 4096.
   std::vector<double> numbers(const char* name, std::size_t count = 0) const;
   int integer(const char* name) const;
 
@@ -34,7 +34,7 @@ class Reader {
   /// Texts of fixed length, at most `decimal_width`.
   std::vector<std::string> decimals(const char* name, const std::vector<hsize_t>& shape) const;
 
-  /// `what` of the attribute or dataset `name`; of the group itself if that is empty.
+  /// Throws `what` about the attribute or dataset `name`, or about the group if `name` is empty.
   [[noreturn]] void fail(std::string_view name, const std::string& what) const;
 
  private:

@@ -36,7 +36,7 @@ class Writer {
                  std::span<const double> numbers, const Axes& axes) const;
   Handle dataset(hid_t group, const char* name, const std::vector<hsize_t>& shape,
                  std::span<const std::uint8_t> numbers, const Axes& axes) const;
-  /// Fixed length: `decimal_width` bytes a text, filled up with zeros.
+  /// Texts of fixed length: `decimal_width` bytes each, filled up with zeros.
   Handle decimals(hid_t group, const char* name, const std::vector<hsize_t>& shape,
                   const std::string& texts, const Axes& axes) const;
 

@@ -114,7 +114,7 @@ StoredJet read_jet_file(const std::filesystem::path& path,
                 fmt::format("{}: cannot be read: not a regular file", printable_path(path)));
   }
   if (format != JetFormat::hdf5) return read_beside_summary(path, *format, label);
-  if (!hdf5_available()) (void)read_jets_hdf5({}, {}, {});  // says how to get it
+  if (!hdf5_available()) (void)read_jets_hdf5({}, {}, {});  // throws, saying how to get HDF5
   return read_jets_hdf5(printable_path(path), read_text_file(path, largest_jet_bytes), label);
 }
 

@@ -133,7 +133,7 @@ std::string format_epoch(const Epoch& epoch) {
 }
 
 std::optional<Epoch> later(const Epoch& epoch, const Extended& seconds) {
-  // Beyond the calendar, whatever the epoch; what is no number too.
+  // Whatever the epoch, so many seconds lead beyond the calendar; NaN does too.
   if (!(abs(seconds) < Extended(seconds_per_day) * (last_day - first_day).count())) {
     return std::nullopt;
   }

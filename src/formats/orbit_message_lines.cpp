@@ -17,7 +17,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(blanks) + 1 - first);
 }
 
-/// "missing" at a mandatory keyword.
+/// What a mandatory keyword must have, for the message that it is missing.
 constexpr std::string_view any_text = "a text";
 
 }  // namespace

@@ -34,7 +34,8 @@ class MessageLines {
   /// Throws for XML, and for UTF-16.
   MessageLines(const std::string& name, std::string_view text);
 
-  /// False at the end of the text. Throws for a control character, or one that is not ASCII.
+  /// Reads the next line; false at the end of the text. Throws for a control character, or one that
+  /// is not ASCII.
   bool next(MessageLine& line);
   /// The number of the last line read; of the one after it at the end of the text.
   std::size_t number() const { return number_; }
@@ -65,19 +66,20 @@ class MessageBlock {
   /// Throws for a keyword that is not among `keywords`, one that is there twice, an empty value, or
   /// a line that is no assignment.
   void add(const MessageLine& line, const std::vector<std::string_view>& keywords);
-  /// What is missing is missed at this line.
+  /// Sets the line at which missing keywords are reported.
   void end_at(std::size_t line) { end_ = line; }
 
   bool has(std::string_view keyword) const { return values_.contains(keyword); }
-  /// Where a keyword that is there stands.
+  /// The line of a keyword, which must be there.
   std::size_t line_of(std::string_view keyword) const { return values_.find(keyword)->second.line; }
-  /// Required.
+  /// The text of a required keyword.
   std::string text(std::string_view keyword) const;
   Epoch epoch(std::string_view keyword) const;
-  /// Required; the unit may stand behind the number, in brackets. An empty unit: none may.
+  /// The number of a required keyword; the unit may stand behind it, in brackets. If `unit` is
+  /// empty, none may.
   double number(std::string_view keyword, std::string_view unit) const;
 
-  /// OBJECT_NAME, OBJECT_ID, CENTER_NAME, REF_FRAME, TIME_SYSTEM.
+  /// The metadata from OBJECT_NAME, OBJECT_ID, CENTER_NAME, REF_FRAME and TIME_SYSTEM.
   OrbitMetadata metadata() const;
 
   [[noreturn]] void fail(std::string_view keyword, const std::string& problem) const;

@@ -51,7 +51,7 @@ class OemReader {
  private:
   void advance() { has_line_ = lines_.next(line_); }
 
-  /// Up to the first block of metadata.
+  /// Reads the header, up to the first block of metadata.
   void read_header(OrbitEphemerisMessage& message) {
     MessageBlock header(lines_);
     for (; has_line_ && !line_.is("META_START"); advance()) header.add(line_, header_keywords);
@@ -163,7 +163,8 @@ class OemReader {
     return *number;
   }
 
-  /// Rows of one to six numbers, each matrix after its epoch.
+  /// Checks covariances and leaves them out: rows of one to six numbers, each matrix after its
+  /// epoch.
   void pass_covariance() {
     const std::size_t begin = line_.number;
     for (advance(); !line_.is("COVARIANCE_STOP"); advance()) {

@@ -39,7 +39,7 @@ nlohmann::json json_of(const std::string& key, const ReferenceResult& reference)
           {"tolerance", reference.tolerance}};
 }
 
-/// Throws if anything is not as it was written.
+/// The reference in a cached file; throws if anything is not as it was written.
 ReferenceResult reference_of(const nlohmann::json& json, const SpacePointer& space) {
   ReferenceResult result;
   for (const nlohmann::json& numbers : json.at("jet")) {

@@ -8,12 +8,12 @@
 
 namespace hamjet::io {
 
-/// As scenes name them: "RTN" or "inertial"; "rotating", "inertial" or, where the axes do not turn,
-/// empty.
+/// A frame and its derivatives as scenes name them: "RTN" or "inertial"; "rotating", "inertial" or,
+/// where the axes do not turn, empty.
 std::string_view frame_name(RelativeFrame frame);
 std::string_view derivatives_name(RelativeFrame frame);
 
-/// "RTN with rotating derivatives", "RTN with inertial derivatives", "inertial".
+/// A frame in words: "RTN with rotating derivatives", "RTN with inertial derivatives", "inertial".
 std::string frame_text(RelativeFrame frame);
 
 /// Which velocities a frame's are: "as seen from the turning RTN axes" and the like.
@@ -21,7 +21,7 @@ std::string_view velocities_text(RelativeFrame frame);
 
 /// Letters of the three axes: R, T, N or x, y, z.
 std::array<std::string_view, 3> axis_letters(RelativeFrame frame);
-/// The same in names of columns: r, t, n or x, y, z.
+/// Letters of the three axes in names of columns: r, t, n or x, y, z.
 std::array<std::string_view, 3> axis_columns(RelativeFrame frame);
 
 }  // namespace hamjet::io

@@ -15,8 +15,8 @@ std::vector<std::string> generating_function_variables(const PropagationResult& 
 /// The name of a kind in files and tables: as the scene wrote it, and for `auto` the kind it chose.
 std::string kind_name(const KindResult& kind);
 
-/// Whether a residual says no more than its floor: within a factor of ten, for the floor is itself
-/// one sample of round-off.
+/// Whether a residual says no more than its rounding floor: within a factor of ten, for that is
+/// itself one sample of round-off.
 bool is_at_floor(const ExactnessEntry& entry);
 
 }  // namespace hamjet::io

@@ -47,7 +47,8 @@ class CoefficientReader {
     }
   }
 
-  /// Before anything is allocated, for a damaged order could ask for gigabytes.
+  /// Checks the number of rows before anything is allocated: a damaged order could ask for
+  /// gigabytes.
   void check_length(std::string_view rows) {
     const double expected =
         static_cast<double>(file_.components.size()) *

@@ -12,7 +12,7 @@
 
 namespace hamjet::io {
 
-/// 36 digits, which bring back the same 113 bits, and the sign of zero.
+/// A number with 36 digits, which bring back the same 113 bits, and with the sign of zero.
 std::string extended_digits(const Extended& number);
 
 /// A finite number as jet.csv has it; nothing if the text is anything else.

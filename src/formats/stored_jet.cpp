@@ -87,7 +87,7 @@ JsonReader choose_run(const JsonReader& root, const std::optional<std::string>& 
                                             suggestion(*label, {labels.begin(), labels.end()})));
 }
 
-/// As measured against a reference, else as estimated without one.
+/// Relative errors by degree: measured against a reference, else estimated without one.
 std::vector<double> coefficient_errors(const JsonReader& run) {
   for (const char* key : {"error_by_degree", "error_estimate_by_degree"}) {
     if (!run.has(key) || run.at(key).is_null()) continue;
@@ -127,7 +127,7 @@ StoredJet read_stored_jet(const std::filesystem::path& directory,
     if (file == set.path()) return set.summary();
     return set.read(file.lexically_relative(directory).generic_string());
   });
-  // Last, for the reader's own checks say better what is wrong.
+  // The checksums come last, for the reader's own checks say better what is wrong.
   set.verify();
   return stored;
 }

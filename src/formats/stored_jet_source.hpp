@@ -17,7 +17,7 @@ struct CoefficientSource {
   std::function<FlowJet<Extended>(const CoefficientFile&, std::string_view text)> read;
 };
 
-/// As the others in stored_jet.hpp, with coefficients from elsewhere.
+/// read_stored_jet of stored_jet.hpp with coefficients from another file or format.
 StoredJet read_stored_jet(const std::filesystem::path& directory,
                           const std::optional<std::string>& label, const FileReader& read,
                           const CoefficientSource& source);

@@ -13,7 +13,7 @@ namespace hamjet {
 
 /// Multiply-adds of one step.
 struct StepCost {
-  double nominal = 0;  ///< of the nominal alone, weighed by how much slower they are than products
+  double nominal = 0;  ///< of the nominal alone, weighed by their time relative to products
   double series = 0;   ///< of the degrees above 0
   double arc = 0;      ///< of a step of an arc, which takes the nominal from a checkpoint
 };
@@ -28,7 +28,7 @@ class ArcIntegrator {
   ArcIntegrator& operator=(const ArcIntegrator&) = delete;
   virtual ~ArcIntegrator() = default;
 
-  /// The nominal to its end, keeping checkpoints; jets of order 0.
+  /// Integrates the nominal to its end, in jets of order 0, keeping checkpoints.
   virtual FlowJet<Real> run_nominal(IntegrationStatistics& statistics,
                                     const StepObserver<Real>& observer) = 0;
   virtual std::size_t checkpoints() const = 0;
@@ -36,7 +36,7 @@ class ArcIntegrator {
   virtual long step(std::size_t checkpoint) const = 0;
   /// The nominal at a checkpoint.
   virtual const std::vector<Real>& state(std::size_t checkpoint) const = 0;
-  /// The steps from a checkpoint to the `last`-th of the whole, on a jet about its state.
+  /// Takes the steps from a checkpoint to the `last`-th of the whole, on a jet about its state.
   virtual FlowJet<Real> run_arc(std::size_t checkpoint, long last, const SpacePointer& space,
                                 const std::vector<std::size_t>& variables,
                                 const FlowJet<Real>& start, IntegrationStatistics& statistics,
@@ -60,7 +60,7 @@ class CheckpointList {
     stride_ *= 2;
   }
   std::size_t size() const { return list_.size(); }
-  /// Whether there is one of every step.
+  /// Whether every step has its checkpoint.
   bool has_all() const { return stride_ == 1; }
   const Checkpoint& operator[](std::size_t i) const { return list_[i]; }
 
@@ -71,7 +71,7 @@ class CheckpointList {
   long stride_ = 1;
 };
 
-/// Nominal of a problem: the same without deviations.
+/// The problem of the nominal alone, without deviations.
 template <class Real>
 FlowProblem<Real> nominal_problem(const FlowProblem<Real>& problem) {
   FlowProblem<Real> result = problem;
@@ -80,7 +80,7 @@ FlowProblem<Real> nominal_problem(const FlowProblem<Real>& problem) {
   return result;
 }
 
-/// A problem from a checkpoint on.
+/// The problem of an arc, from a checkpoint's state on.
 template <class Real>
 FlowProblem<Real> arc_problem(const FlowProblem<Real>& whole, const std::vector<Real>& state,
                               const SpacePointer& space, const std::vector<std::size_t>& variables,

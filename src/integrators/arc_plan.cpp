@@ -9,7 +9,7 @@ namespace {
 
 /// Below this speed-up on two threads a flow is not split.
 constexpr double least_speed_up = 1.2;
-/// More than two arcs may take this part of the whole work for their compositions.
+/// Largest part of the whole work that composing more than two arcs may take.
 constexpr double composing_share = 0.02;
 
 std::size_t quotient_up(std::size_t a, std::size_t b) { return (a + b - 1) / b; }

@@ -45,7 +45,7 @@ std::unique_ptr<ArcIntegrator<Real>> make_arcs(const FlowProblem<Real>& problem,
                              splitting_of<Real>(std::get<SymmetricCompositionSettings>(method)));
 }
 
-/// The method as it integrates unsplit, with the steps that are given to it.
+/// Integrates a problem unsplit, with the method's steps as they are given.
 template <class Real>
 FlowJet<Real> integrate_unsplit(const FlowProblem<Real>& problem, const SplittableMethod& method) {
   IntegrationStatistics statistics;
@@ -86,8 +86,8 @@ SpacePointer arc_space(const FlowProblem<Real>& problem) {
   return SeriesSpace::create(dimension, problem.space->order());
 }
 
-/// Of numbers, in one composition: Horner's scheme on lanes that are filled up, the energy along
-/// the inner map, and the rotation.
+/// Multiply-adds of numbers in one composition: Horner's scheme on lanes that are filled up, the
+/// energy along the inner map, and the rotation.
 template <class Real>
 double composition_cost(const FlowProblem<Real>& problem) {
   const double components = static_cast<double>(problem.system->dimension());
@@ -144,7 +144,7 @@ class ArcSplitting {
   }
 
  private:
-  /// Of the progress that is reported; the nominal takes a few hundredths.
+  /// The nominal's part of the reported progress; it takes a few hundredths of the time.
   static constexpr double nominal_share = 0.05;
 
   void report(double fraction) const {
@@ -154,8 +154,8 @@ class ArcSplitting {
   /// By how much the error of a composed jet may exceed that of the unsplit one.
   static constexpr double allowed_loss = 10;
 
-  /// Empty if along two lines, where the unsplit flow is cheap, the composed jet is as near to a
-  /// finer integration as the unsplit one, at every degree; else where it is not.
+  /// Where the composed jet has lost digits; empty if along two lines, on which the unsplit flow is
+  /// cheap, it is as near to a finer integration as the unsplit one, at every degree.
   std::string lost_digits(const FlowJet<Real>& jet) const {
     const DirectionalFlow<Real> flow(problem_, 2);
     const GaussSettings* gauss = std::get_if<GaussSettings>(&method_);
@@ -182,7 +182,7 @@ class ArcSplitting {
     return {};
   }
 
-  /// Refuses what was asked for; where the number of arcs is free, takes one.
+  /// Refuses the number of arcs that was asked for; where it is free, takes one arc.
   FlowJet<Real> stay_unsplit(const std::string& loss, const FlowJet<Real>& nominal) {
     if (settings_.arcs) {
       throw Error(ErrorKind::numerical,
@@ -219,7 +219,8 @@ class ArcSplitting {
     return end;
   }
 
-  /// The checkpoints at which the arcs start: as near as there are to equal numbers of steps.
+  /// Chooses the checkpoints at which the arcs start, as near as there are to equal numbers of
+  /// steps.
   void choose_cuts() {
     std::size_t place = 0;
     const std::size_t count = arc_statistics_.plan.arcs;
@@ -272,7 +273,7 @@ class ArcSplitting {
     return jets;
   }
 
-  /// Neighbours in pairs, then pairs of these, and so on.
+  /// Composes neighbouring maps in pairs, then pairs of these, and so on.
   FlowJet<Real> compose_all(std::vector<FlowJet<Real>> maps) {
     const IntegrationClock clock;
     std::vector<std::size_t> starts(maps.size());  // the arc with which each map starts

@@ -39,7 +39,7 @@ class SharedControl : public TaskControl {
     if (is_ending_.load(std::memory_order_relaxed)) throw Abandoned{};
   }
 
-  /// What each thread does.
+  /// Runs tasks until none is left: what each thread does.
   void work() {
     while (!is_ending_) {
       const std::size_t i = next_++;
@@ -106,7 +106,7 @@ std::size_t run_concurrently(std::size_t count, std::size_t threads,
     try {
       for (std::size_t t = 0; t < threads; ++t) workers.emplace_back([&] { control.work(); });
     } catch (const std::system_error&) {
-      // No more threads to be had: those that run do it.
+      // No more threads can be started: those that run do the work.
     }
     if (workers.empty()) return run_alone(count, task, poll);
     control.wait(workers.size(), poll);

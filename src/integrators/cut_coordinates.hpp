@@ -53,10 +53,10 @@ class CutCoordinates {
     form_linear_start();
   }
 
-  /// z* + x(w): what the map behind the cut is integrated from.
+  /// The jet z* + x(w), from which the map behind the cut is integrated.
   const FlowJet<Real>& start() const { return start_; }
 
-  /// w of a jet about z*, without constant terms.
+  /// The coordinates w of a jet about z*, without constant terms.
   std::vector<Series<Real>> of(const FlowJet<Real>& jet) const {
     const SpacePointer& space = jet[0].space_pointer();
     std::vector<Series<Real>> result(n_, Series<Real>(space));
@@ -116,7 +116,7 @@ class CutCoordinates {
     }
   }
 
-  /// x(w): the slices of x_1 from those of H below, by H(z* + x(w)) = H(z*) + |S g| w_1.
+  /// Forms x(w): the slices of x_1 from those of H below, by H(z* + x(w)) = H(z*) + |S g| w_1.
   void form_start() {
     form_linear_start();
     uses_energy_ = order_ >= 2 && slope_ != 0 && !system_->vector_field.is_linear_system();
@@ -157,7 +157,8 @@ class CutCoordinates {
     }
   }
 
-  /// `energy` has the slices of degree 1 and 2 of H on the linear x(w).
+  /// Whether H serves as a coordinate; `energy` has its slices of degree 1 and 2 on the linear
+  /// x(w).
   bool is_coordinate(const SliceEvaluator<Real, Real>& energy) const {
     double curvature = 0;
     for (std::size_t k = space_->first(2); k < space_->first(3); ++k) {

@@ -105,7 +105,7 @@ class CvodeIntegration {
     limit_step_count(name_.c_str(), statistics_.steps, time_, problem_.duration);
   }
 
-  /// The root mean square that CVODE keeps below 1, times the tolerance.
+  /// Records the root mean square that CVODE keeps below 1, times the tolerance.
   void record_step_error() {
     if (!errors_) {
       errors_.reset(sundials::require(N_VClone(state_.get())));
@@ -145,7 +145,7 @@ class CvodeIntegration {
     require(CVodeSetLinSysFn(memory_.get(), set_up_linear_system));
   }
 
-  /// Runs a callback's work: 0, or a negative number if it threw.
+  /// Runs a callback's work; returns 0, or a negative number if it threw.
   template <class Work>
   static int call(void* self, const Work& work) noexcept {
     auto& integration = *static_cast<CvodeIntegration*>(self);
@@ -157,7 +157,8 @@ class CvodeIntegration {
     }
   }
 
-  /// y' = f(y). Where it is not finite CVODE is told to try a smaller step (a positive number).
+  /// The callback y' = f(y). Where it is not finite CVODE is told to try a smaller step (a positive
+  /// number).
   static int right_hand_side(realtype time, N_Vector y, N_Vector derivative, void* self) {
     return call(self, [&](CvodeIntegration& integration) {
       try {
@@ -171,7 +172,8 @@ class CvodeIntegration {
     });
   }
 
-  /// `*is_new` tells whether J is evaluated here, which `may_keep` leaves open.
+  /// The callback that factorises I - gamma J. `*is_new` tells whether J is evaluated here, which
+  /// `may_keep` leaves open.
   static int set_up_linear_system(realtype, N_Vector y, N_Vector, SUNMatrix, booleantype may_keep,
                                   booleantype* is_new, realtype gamma, void* self, N_Vector,
                                   N_Vector, N_Vector) {
@@ -197,7 +199,8 @@ class CvodeIntegration {
     });
   }
 
-  /// CVODE would write to standard error. Warnings (positive numbers) are dropped.
+  /// Keeps the message that CVODE would write to standard error; warnings (positive codes) are
+  /// dropped.
   static void keep_message(int code, const char*, const char*, char* message, void* self) {
     if (code >= 0) return;
     call(self, [&](CvodeIntegration& integration) {
@@ -234,11 +237,12 @@ class CvodeIntegration {
   std::string not_finite_;
   std::string message_;
 
-  // In order of construction: CVODE's memory is freed before what it uses, the context last.
+  // These stand in order of construction: CVODE's memory is freed before what it uses, the context
+  // last.
   sundials::Context context_;
   sundials::Vector state_;
-  sundials::Vector errors_;         ///< where they are recorded
-  sundials::Vector error_weights_;  ///< likewise
+  sundials::Vector errors_;         ///< local errors, where they are recorded
+  sundials::Vector error_weights_;  ///< weights of errors_
   sundials::NonlinearSolver nonlinear_solver_;
   sundials::Matrix matrix_;
   sundials::LinearSolver linear_solver_;

@@ -48,7 +48,7 @@ struct FreeMemory {
 };
 using Memory = std::unique_ptr<void, FreeMemory>;
 
-/// These two hold no content of their own.
+/// The linear solver and the matrix hold no content of their own.
 struct FreeLinearSolver {
   void operator()(SUNLinearSolver s) const noexcept { SUNLinSolFreeEmpty(s); }
 };

@@ -17,12 +17,12 @@ namespace hamjet {
 /// momentum_scale, so that every monomial takes part, and random signs, the same in every run. The
 /// signs of the first are those of the gradient of H: neighbours of another energy drift away along
 /// the flow, so that on this line the series is about as large as the jet's largest coefficients.
-/// Those of the second are the signs of the vector field: neighbours ahead or behind meet the waves
+/// The signs of the second are those of the vector field: neighbours ahead or behind meet the waves
 /// of the field at another phase, of which the jet's high degrees are made.
 template <class Real>
 class DirectionalFlow {
  public:
-  /// By line, series of order N in one variable.
+  /// For each line the flow's jet, of order N in one variable.
   using Lines = std::vector<FlowJet<Real>>;
   /// Integrates a problem in one variable.
   using Integrate = std::function<FlowJet<Real>(const FlowProblem<Real>&)>;
@@ -31,7 +31,8 @@ class DirectionalFlow {
 
   Lines integrate(const Integrate& integrate) const;
 
-  /// A jet of the problem's variables on the lines: sum over |a| = k of c_a d^a for each degree k.
+  /// Restricts a jet of the problem's variables to the lines: sum over |a| = k of c_a d^a for each
+  /// degree k.
   Lines restrict(const FlowJet<Real>& jet) const;
 
   /// For each degree the largest difference of a coefficient of any line and component, relative to

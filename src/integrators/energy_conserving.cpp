@@ -27,14 +27,14 @@ class StepCondition<Real>::Evaluation {
   }
 
  private:
-  /// grad V . M^-1 p = -p' . q'.
+  /// The rate grad V . M^-1 p = -p' . q'.
   Real potential_rate() const {
     Real sum = 0;
     for (std::size_t i = 0; i < n_; ++i) sum -= field_.value(n_ + i) * field_.value(i);
     return sum;
   }
 
-  /// f^T H'' f = (J f)^T Df f, for Df = J H''.
+  /// The curvature f^T H'' f = (J f)^T Df f, for Df = J H''.
   Real curvature() const {
     Real sum = 0;
     for (std::size_t i = 0; i < 2 * n_; ++i) {
@@ -103,7 +103,8 @@ void validate(const EnergyConservingProblem<Real>& problem) {
   }
 }
 
-/// A step of the size h that disregards the energy: where the condition of a stop is looked at.
+/// The end of a step of size h that disregards the energy: there the condition of a stop is looked
+/// at.
 template <class Real>
 std::vector<Real> step_ahead(const DynamicalSystem& system, const std::vector<Real>& z,
                              const Real& h) {
@@ -178,7 +179,7 @@ EnergyConservingResult<Real> integrate(const EnergyConservingProblem<Real>& prob
   EnergyConservingResult<Real> result;
   result.state = problem.initial_state;
   Real size = problem.first_step * direction;
-  Real lost = 0;  // of the time
+  Real lost = 0;  // rounding residue of the time
   while (magnitude(result.time) < span) {
     if (static_cast<double>(result.steps) >= largest_energy_conserving_step_count) {
       throw Error(

@@ -207,7 +207,7 @@ class EnergyConservingMidpoint {
     return is_finite(trial.slope);
   }
 
-  /// grad H . x at the trial.
+  /// The product grad H . x at the trial.
   Real gradient_product(const Vector& x) const {
     Real sum = 0;
     for (Eigen::Index i = 0; i < size_; ++i) {
@@ -216,8 +216,8 @@ class EnergyConservingMidpoint {
     return sum;
   }
 
-  /// The wanted root nearest to the last step size by exhaustion: the step sizes within a factor of
-  /// largest_step_change, in either direction at once.
+  /// Searches all step sizes within a factor of largest_step_change, in both directions at once,
+  /// for the wanted root nearest to the last step size.
   std::optional<Trial> search(const std::vector<Real>& z, const Real& last) {
     using std::pow;
     Trial middle = explicit_trial(z, last);
@@ -289,7 +289,7 @@ class EnergyConservingMidpoint {
   Real scale_ = 0;
   Real energy_ = 0;
   int slope_sign_ = -1;
-  std::optional<Real> closest_;  ///< to 0 of H(z_m) - E in the last search
+  std::optional<Real> closest_;  ///< the H(z_m) - E nearest to 0 in the last search
 };
 
 }  // namespace hamjet

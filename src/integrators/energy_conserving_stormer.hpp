@@ -100,7 +100,7 @@ class EnergyConservingStormer {
  private:
   static constexpr int largest_iteration_count = 10;
 
-  /// g, a and b at z; false if not finite.
+  /// Evaluates g, a and b at z; false if one is not finite.
   bool read(const std::vector<Real>& z) {
     hamiltonian_.evaluate(z);
     a_ = b_ = 0;
@@ -126,7 +126,7 @@ class EnergyConservingStormer {
       StepAttempt<Real> next = take(z, corrected);
       next.iterations = attempt.iterations + 1;
       const Real remaining = hamiltonian_.value(0) - energy_;
-      if (!(magnitude(remaining) < magnitude(residual))) {  // at the floor of rounding
+      if (!(magnitude(remaining) < magnitude(residual))) {  // at the rounding floor
         attempt.iterations = next.iterations;
         break;
       }
@@ -137,7 +137,7 @@ class EnergyConservingStormer {
     return attempt;
   }
 
-  /// The step of size h from z, where g was read; H is evaluated at (q_k, p_(k+1)).
+  /// Takes the step of size h from z, where g was read; H is evaluated at (q_k, p_(k+1)).
   StepAttempt<Real> take(const std::vector<Real>& z, const Real& h) {
     StepAttempt<Real> attempt;
     attempt.is_taken = true;
@@ -152,7 +152,7 @@ class EnergyConservingStormer {
     return attempt;
   }
 
-  /// dH/dh = -g . dH/dp at (q_k, p_(k+1)), where H was evaluated last.
+  /// The slope dH/dh = -g . dH/dp at (q_k, p_(k+1)), where H was evaluated last.
   Real energy_slope() const {
     Real sum = 0;
     for (std::size_t i = 0; i < n_; ++i) sum -= slope_[i] * hamiltonian_.derivative(0, n_ + i);

@@ -18,8 +18,8 @@ namespace hamjet {
 namespace {
 
 constexpr std::size_t candidates = 16;
-/// Other stages, and so other steps, for each direction.
-constexpr std::array<int, 2> stages = {16, 15};
+/// Stages of the run along each direction; other stages make other steps.
+constexpr std::array<int, 2> stages_of_runs = {16, 15};
 
 template <class Real>
 constexpr double rounding() {
@@ -45,7 +45,7 @@ template <class Real>
 struct Direction {
   std::vector<Real> entries;
   FlowJet<Real> jet;
-  double distortion = 0;  ///< by which factor a degree is larger or smaller here, its logarithm
+  double distortion = 0;  ///< logarithm of the most that a degree is larger or smaller here
 };
 
 template <class Real>
@@ -79,7 +79,7 @@ std::vector<Direction<Real>> choose_directions(const FlowJet<Real>& jet, const S
   }
   std::stable_sort(drawn.begin(), drawn.end(),
                    [](const auto& a, const auto& b) { return a.distortion < b.distortion; });
-  drawn.resize(stages.size());
+  drawn.resize(stages_of_runs.size());
   return drawn;
 }
 
@@ -108,7 +108,7 @@ template <class Real>
 FlowJet<Real> run_along(const FlowProblem<Real>& problem, const std::vector<Real>& direction,
                         std::size_t number, const ErrorEstimateSettings& settings) {
   GaussSettings gauss;
-  gauss.stages = stages[number];
+  gauss.stages = stages_of_runs[number];
   gauss.tolerance = settings.tolerance.value_or(4 * rounding<Real>());
   gauss.controls_all_degrees = true;
   const SpacePointer line = SeriesSpace::create(1, problem.space->order());
@@ -133,7 +133,7 @@ FlowJet<Real> run_along(const FlowProblem<Real>& problem, const std::vector<Real
         if (!settings.progress) return;
         const double done = static_cast<double>(Real(time / problem.duration));
         settings.progress((static_cast<double>(number) + done) /
-                          static_cast<double>(stages.size()));
+                          static_cast<double>(stages_of_runs.size()));
       });
   constexpr std::size_t position[] = {0};  // the line's variable has no unit of momentum
   return in_momentum_unit(std::move(end), position, settings.momentum_exponent);
@@ -168,7 +168,7 @@ std::vector<double> estimate_error(const FlowProblem<Real>& problem, const FlowJ
       if (!(estimate <= result[d])) result[d] = estimate;
     }
   }
-  // Both runs have the same nominal: by how much they differ is round-off as well.
+  // Both runs have the same nominal, so that its difference between them is error too.
   if (largest[0] > 0) {
     result[0] =
         std::max(result[0], error_estimate_safety * differences(runs[0], runs[1])[0] / largest[0]);

@@ -138,7 +138,8 @@ class FehlbergIntegration {
     }
   }
 
-  /// One step of size h into `trial_`. Whether it is good, and the size to go on with.
+  /// Takes one step of size h into `trial_`; returns whether it is good, and in `proposed` the next
+  /// size.
   bool attempt(ControlledStepper& stepper, const Real& h, Real& proposed) {
     Real time = time_;
     proposed = h;
@@ -168,7 +169,8 @@ class FehlbergIntegration {
     });
   }
 
-  /// A hundredth of the time in which the nominal moves by its own size; the control does the rest.
+  /// The size of the first step: a hundredth of the time in which the nominal moves by its own
+  /// size; the control does the rest.
   Real first_step() const {
     double size = 0;
     double slope = 0;

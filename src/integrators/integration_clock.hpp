@@ -9,14 +9,14 @@ class IntegrationClock {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// Calls the observer.
+  /// Makes a call, such as the observer's, whose time is left out.
   template <class Call>
   void exclude(const Call& call) {
     const auto before = Clock::now();
     call();
     excluded_ += Clock::now() - before;
   }
-  /// The same for another call, whose time is added to `seconds`.
+  /// Makes a call whose time is left out and added to `seconds`.
   template <class Call>
   void exclude(const Call& call, double& seconds) {
     const auto before = Clock::now();

@@ -12,7 +12,8 @@
 namespace hamjet {
 namespace {
 
-/// Twice what quadratic convergence takes to round-off from a start that is good to a quarter.
+/// Twice the iterations that quadratic convergence takes to round-off from a start that is good to
+/// a quarter.
 constexpr int largest_iteration_count = 14;
 
 template <class Real>
@@ -57,8 +58,9 @@ Vector<Real> midpoint_step(DifferentiableHamiltonian<Real>& hamiltonian, const V
     matrix.bottomRows(n) = at_middle.hessian.topRows(n) * Real(tau / 2);
     matrix.diagonal().array() += Real(1);
     factors.compute(matrix);
-    // det = 1 for tau = 0; it changes sign only where the solution connected to that ends. The test
-    // is the same in all canonical coordinates, as are Newton's iterates (a norm would not be).
+    // det = 1 for tau = 0; it changes sign only where the solution connected to tau = 0 ends. The
+    // test is the same in all canonical coordinates, as are Newton's iterates (a norm would not
+    // be).
     if (!(factors.determinant() > 0)) {
       fail("it is longer than the way to a singular point; a shorter step would do", tau);
     }

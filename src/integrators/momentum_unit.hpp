@@ -21,9 +21,9 @@ inline int natural_momentum_exponent(bool is_orbit, std::span<const double> star
   return static_cast<int>(std::lround(-1.5 * std::log2(distance)));
 }
 
-/// The variables of a jet of which some degrees of freedom were left out, for in_momentum_unit: an
-/// index among its own components that has the kind, position or momentum, of the variable in the
-/// model, whose state has `dimension` numbers.
+/// The `variables` that in_momentum_unit takes for a jet without some degrees of freedom of its
+/// model: for each variable the index of one of the jet's components of the same kind, position or
+/// momentum. The model's state has `dimension` numbers.
 inline std::vector<std::size_t> kinds_of_variables(std::span<const std::size_t> variables,
                                                    std::size_t dimension, std::size_t components) {
   std::vector<std::size_t> result;
@@ -34,7 +34,8 @@ inline std::vector<std::size_t> kinds_of_variables(std::span<const std::size_t> 
 /// A jet with its momenta, as components and as variables, in units of 2^exponent, so that nothing
 /// is rounded. Coefficients of one degree are compared with each other, and those of positions and
 /// momenta have different units: which of them is the largest would depend on the unit of length.
-/// `variables` has the index in z = (q, p) of each variable. A negative exponent undoes a positive.
+/// `variables` has the index in z = (q, p) of each variable. A negative exponent undoes a positive
+/// one.
 template <class Real>
 FlowJet<Real> in_momentum_unit(FlowJet<Real> jet, std::span<const std::size_t> variables,
                                int exponent) {

@@ -19,8 +19,8 @@ namespace hamjet {
 ///
 ///   q = x + c M^-1 G,   G = F(q) .
 ///
-/// Degree 0 by Newton's method on G. At degree d, with R_d the remainder of F (SliceEvaluator) and
-/// DF the gradient at the converged q,
+/// Degree 0 is solved by Newton's method on G. At degree d, with R_d the remainder of F
+/// (SliceEvaluator) and DF the gradient at the converged q,
 ///
 ///   (I - c DF M^-1) G_d = R_d + DF x_d ,
 ///
@@ -63,7 +63,7 @@ class NewmarkForce {
   const Real* q(std::size_t i) { return evaluator_.input(i); }
   const Real* f(std::size_t i) const { return &force_[i * count_]; }
 
-  /// F(q) and x = q - c M^-1 F(q).
+  /// Evaluates F(q) and x = q - c M^-1 F(q); false if F(q) is not finite.
   bool start(const FlowJet<Real>& jet) {
     failure_ = "the force is not finite (a collision, or a point outside its domain)";
     for (std::size_t i = 0; i < n_; ++i) {
@@ -106,7 +106,7 @@ class NewmarkForce {
     return m(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
   }
 
-  /// target += factor series, from one monomial to another.
+  /// target += factor series, for the monomials from `first` to `last`.
   static void add(Real* target, const Real& factor, const Real* series, std::size_t first,
                   std::size_t last) {
     if (factor == 0) return;
@@ -132,8 +132,8 @@ class NewmarkForce {
     }
   }
 
-  /// q = (1 - s) q_start + s x + s c M^-1 G, G the trial force: at s = 1 the equation itself, at
-  /// s = 0 the start of the step.
+  /// Places q = (1 - s) q_start + s x + s c M^-1 G, G the trial force: at s = 1 the equation
+  /// itself, at s = 0 the start of the step.
   void place(double s) {
     for (std::size_t i = 0; i < n_; ++i) {
       Real sum = s == 1 ? target_[i] : Real(start_[i] + Real(s) * (target_[i] - start_[i]));
@@ -144,9 +144,9 @@ class NewmarkForce {
     ++statistics_.nominal_evaluations;
   }
 
-  /// I - s c DF M^-1 at the point that was placed. False if it is singular or, unless the force is
-  /// linear, its determinant is negative: it is 1 at s = 0 and changes sign only where the solution
-  /// connected to it ends, so that beyond lies a detached one.
+  /// Factorises I - s c DF M^-1 at the point that was placed. False if it is singular or, unless
+  /// the force is linear, its determinant is negative: it is 1 at s = 0 and changes sign only where
+  /// the solution connected to it ends, so that beyond lies a detached one.
   bool factorise(double s) {
     for (Eigen::Index i = 0; i < size(); ++i) {
       for (Eigen::Index j = 0; j < size(); ++j) {
@@ -221,7 +221,7 @@ class NewmarkForce {
     return scale > 0 ? Real(terms / scale) : Real(1);
   }
 
-  /// Degree 0: from the last force, and where that is no good start, along s from 0 to 1.
+  /// Solves degree 0 from the last force, and where that is no good start, along s from 0 to 1.
   bool solve_nominal() {
     for (std::size_t i = 0; i < n_; ++i) {
       start_[i] = *evaluator_.input(i);
@@ -256,7 +256,7 @@ class NewmarkForce {
     return true;
   }
 
-  /// K = (I - c DF M^-1)^-1 and K DF.
+  /// Forms K = (I - c DF M^-1)^-1 and K DF.
   void form_responses() {
     matrix_.setIdentity(size(), size());
     response_ = factors_.solve(matrix_);

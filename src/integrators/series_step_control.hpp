@@ -27,7 +27,8 @@ class SeriesStepControl {
  public:
   using P = Pack<Real, Lanes>;
 
-  /// The stages must hold all slices of the degrees 0..order of the step.
+  /// The largest local error of a degree. The stages must hold all slices of the degrees 0..order
+  /// of the step.
   static double error_estimate(const StageSlopes<Real, Lanes>& stages, const P& last_mode,
                                const FlowJet<Real>& jet, int order) {
     std::vector<double> ratios;
@@ -42,7 +43,7 @@ class SeriesStepControl {
   }
 
  private:
-  /// As in GaussStepControl.
+  /// The error_constant of GaussStepControl.
   static constexpr double error_constant = 100;
 
   static double mode_ratio(const StageSlopes<Real, Lanes>& stages, const P& last_mode,

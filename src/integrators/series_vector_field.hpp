@@ -13,7 +13,7 @@
 #include "hamjet/error.hpp"
 #include "hamjet/integrators/flow_problem.hpp"
 
-// What the methods that know nothing of series share: the flow's jet as one flat vector of real
+// The methods that know nothing of series share these: the flow's jet as one flat vector of real
 // numbers, its time derivative, and a guard of the nominal's energy.
 
 namespace hamjet {
@@ -44,7 +44,7 @@ class SeriesVectorField {
   /// Coefficients of one component.
   std::size_t coefficients() const noexcept { return coefficients_; }
   std::size_t size() const noexcept { return dimension() * coefficients_; }
-  /// Evaluations so far.
+  /// Evaluations of f so far.
   long evaluations() const noexcept { return evaluations_; }
   /// Products of series formed so far.
   const SeriesWork& work() const noexcept { return evaluator_.work(); }
@@ -104,7 +104,7 @@ class SeriesVectorField {
  private:
   const OperationList& list() const { return problem_->system->evaluated_list(); }
 
-  /// q' = M^-1 p.
+  /// Forms q' = M^-1 p.
   void multiply_inverse_mass(const Real* p, Real* velocity) const {
     const std::size_t n = list().inputs();
     std::fill_n(velocity, n * coefficients_, Real(0));

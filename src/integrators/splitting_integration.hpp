@@ -56,13 +56,13 @@ inline void validate_splitting(const DynamicalSystem& system, double step, const
 template <class Real>
 struct SplittingCheckpoint {
   std::vector<Real> state;           ///< with the kick that ends the step
-  std::vector<Real> summed_momenta;  ///< without it
+  std::vector<Real> summed_momenta;  ///< without the kick that ends the step
   std::vector<Real> lost;            ///< to rounding; positions, then momenta
   long taken = 0;                    ///< steps
   Real time = 0;
 };
 
-/// The methods as splittings.
+/// A method's settings as a splitting.
 template <class Real>
 Splitting<Real> splitting_of(const StormerSettings& settings);
 template <class Real>
@@ -70,12 +70,13 @@ Splitting<Real> splitting_of(const VelocityVerletSettings& settings);
 template <class Real>
 Splitting<Real> splitting_of(const SymmetricCompositionSettings& settings);
 
-/// Any explicit splitting in arcs. Throws as integrate_splitting does for what it is given.
+/// The arc integrator of any explicit splitting. Throws what integrate_splitting throws for its
+/// arguments.
 template <class Real>
 std::unique_ptr<ArcIntegrator<Real>> make_splitting_arcs(const FlowProblem<Real>& problem,
                                                          Splitting<Real> splitting);
 
-/// Integrates with any explicit splitting.
+/// Integrates the flow's jet with any explicit splitting.
 template <class Real>
 FlowJet<Real> integrate_splitting(const FlowProblem<Real>& problem, Splitting<Real> splitting,
                                   IntegrationStatistics& statistics,
@@ -123,8 +124,8 @@ class SplittingIntegration {
     return finish();
   }
 
-  /// As `run`, telling `keep` where the nominal stands at the start and after every step but the
-  /// last, if `is_kept(taken)`.
+  /// Runs like `run`, telling `keep` where the nominal stands at the start and after every step but
+  /// the last, if `is_kept(taken)`.
   template <class IsKept, class Keep>
   FlowJet<Real> run_nominal(const IsKept& is_kept, const Keep& keep) {
     set_kicks();
@@ -136,8 +137,8 @@ class SplittingIntegration {
     return finish();
   }
 
-  /// The steps of an earlier run of the same nominal from a checkpoint on, to the `last`-th. The
-  /// problem's starting jet is about the checkpoint's state.
+  /// Takes the steps of an earlier run of the same nominal from a checkpoint on, to the `last`-th.
+  /// The problem's starting jet is about the checkpoint's state.
   template <class AfterStep>
   FlowJet<Real> run_from(const SplittingCheckpoint<Real>& checkpoint, long last,
                          const AfterStep& after_step) {
@@ -146,7 +147,7 @@ class SplittingIntegration {
     time_ = checkpoint.time;
     start();
     if (taken_ > 0) {
-      // The nominal takes the joined kick, as it did then.
+      // The nominal takes the joined kick, as it did in the earlier run.
       for (std::size_t i = 0; i < n_; ++i) {
         *lost(i) = checkpoint.lost[i];
         *lost(n_ + i) = checkpoint.lost[n_ + i];
@@ -166,7 +167,7 @@ class SplittingIntegration {
     joined_kick_ = step_ * (splitting_.kicks[stages] + splitting_.kicks[0]);
   }
 
-  /// The first kick.
+  /// Evaluates the force at the start and takes the first kick.
   void start() {
     require(force_.start(jet_));
     ++statistics_.vector_field_evaluations;
@@ -229,7 +230,7 @@ class SplittingIntegration {
                             static_cast<double>(step_), static_cast<double>(time_)));
   }
 
-  /// value += factor series, so many numbers. The products are rounded apart from the sums: a
+  /// value += factor series, `count` numbers. The products are rounded apart from the sums: a
   /// compiler that fuses the two does so in vectors and not in what is left of them, and a nominal
   /// alone would have other last bits than the same nominal with its jet.
   void add(Real* value, Real* lost, const Real& factor, const Real* series, std::size_t count) {
@@ -237,14 +238,14 @@ class SplittingIntegration {
     for (std::size_t k = 0; k < count; ++k) add_compensated(value[k], lost[k], products_[k]);
   }
 
-  /// p += factor F(q).
+  /// Kicks the momenta: p += factor F(q).
   void kick(const Real& factor) {
     for (std::size_t i = 0; i < n_; ++i) {
       add(&momenta_[i * count_], lost(n_ + i), factor, force_.f(i), count_);
     }
   }
 
-  /// x += factor M^-1 p.
+  /// Lets the positions drift: x += factor M^-1 p.
   void drift(const Real& factor) {
     for (std::size_t i = 0; i < n_; ++i) {
       for (std::size_t j = 0; j < n_; ++j) {
@@ -257,7 +258,7 @@ class SplittingIntegration {
 
   Real* lost(std::size_t component) { return &lost_[component * count_]; }
 
-  /// The state with the kick that is still due. Degrees above the working order stay zero.
+  /// Writes the state with the kick that is still due. Degrees above the working order stay zero.
   void write_jet(const Real& factor) {
     for (std::size_t i = 0; i < n_; ++i) {
       std::copy_n(force_.q(i), count_, jet_[i].coefficients().data());

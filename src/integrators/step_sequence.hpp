@@ -10,7 +10,7 @@
 
 namespace hamjet {
 
-/// The last steps share what is left of the span, so that none is tiny.
+/// The step h, fitted to what is left of the span: the last steps share it, so that none is tiny.
 template <class Real>
 Real fit_to_span(const Real& h, const Real& remaining) {
   const double ratio = static_cast<double>(Real(remaining / h));

@@ -50,7 +50,7 @@ class ExplicitForce {
   SliceEvaluator<Real, Real> evaluator_;
 };
 
-/// An explicit splitting in arcs.
+/// The arc integrator of an explicit splitting.
 template <class Real>
 class SplittingArcs : public ArcIntegrator<Real> {
  public:
@@ -101,7 +101,8 @@ class SplittingArcs : public ArcIntegrator<Real> {
   }
 
  private:
-  /// Operations on single numbers one after the other, against runs of multiply-adds.
+  /// Time of an operation on single numbers, one after the other, relative to one in a run of
+  /// multiply-adds.
   static constexpr double nominal_weight = 4;
 
   SplittingIntegration<Real, ExplicitForce<Real>> integration(

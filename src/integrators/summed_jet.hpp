@@ -39,7 +39,7 @@ class SummedJet {
     }
     return result;
   }
-  /// Takes up constant terms with what they lost.
+  /// Goes on from given constant terms and what they lost.
   void resume(const std::vector<Real>& constants, const std::vector<Real>& lost) {
     for (std::size_t c = 0; c < jet_.size(); ++c) {
       jet_[c][0] = constants[c];
@@ -47,7 +47,7 @@ class SummedJet {
     }
   }
 
-  /// z_(n+1) = z_n + h sum b_j f_j, and with the second-order form
+  /// Takes a step: z_(n+1) = z_n + h sum b_j f_j, and with the second-order form
   /// q_(n+1) = q_n + h M^-1 p_n + h^2 sum b_j (1 - c_j) M^-1 F_j, up to a degree.
   void advance(StageSlopes<Real, Lanes>& stages, const Real& h, int highest) {
     // One choice a step: the loops over the coefficients have none.
@@ -78,7 +78,7 @@ class SummedJet {
       }
       return;
     }
-    // Positions first: they need the momenta at the start of the step.
+    // Positions come first: they need the momenta at the start of the step.
     for (std::size_t c = 0; c < m; ++c) {
       Real* value = jet_[c].coefficients().data();
       Real* lost = lost_[c].data();
@@ -100,7 +100,8 @@ class SummedJet {
     }
   }
 
-  /// Adds h sum b_j f_j to a component; of the nominal, with what rounding has taken from b_j.
+  /// Adds h sum b_j f_j to a component; for the nominal, the rounding residues of b_j are added
+  /// too.
   template <class Add>
   void add_slopes(std::size_t component, std::size_t count, const StageSystem<Real, Lanes>& system,
                   const P* slopes, const Real& h, const Add& add) {

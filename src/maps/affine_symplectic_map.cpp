@@ -10,7 +10,7 @@
 namespace hamjet {
 namespace {
 
-/// A J A^T - J.
+/// The defect A J A^T - J.
 template <class Real>
 Matrix<Real> defect_matrix(const Matrix<Real>& matrix) {
   const Eigen::Index n = matrix.rows() / 2;
@@ -124,7 +124,7 @@ double AffineSymplecticMap<Real>::condition() const {
 
 template <class Real>
 Matrix<Real> nearest_symplectic(Matrix<Real> matrix) {
-  constexpr int largest_iteration_count = 8;  // quadratic: from 1e-13 two reach 1e-34
+  constexpr int largest_iteration_count = 8;  // quadratic: two from 1e-13 reach 1e-34
   double previous = symplecticity_defect(matrix).relative;
   for (int i = 0; i < largest_iteration_count; ++i) {
     const Matrix<Real> correction = defect_matrix(matrix) * symplectic_unit_times(matrix) / Real(2);

@@ -12,7 +12,7 @@
 namespace hamjet {
 namespace {
 
-/// d chosen final variable / dp: the block that is inverted.
+/// The block that is inverted, d (chosen final variable) / dp.
 template <class Real>
 Matrix<Real> inverted_block(const AffineSymplecticMap<Real>& map,
                             DiscreteGeneratingFunctionKind kind) {
@@ -48,7 +48,7 @@ DiscreteGeneratingFunction<Real>::DiscreteGeneratingFunction(const AffineSymplec
                             is_first ? "first" : "second", is_first ? "dQ/dp" : "dP/dp",
                             existence_measure(map, kind)));
   }
-  // p from (q, w2) with w2 the chosen final variable; then the other final variable.
+  // Solves for p from (q, w2), w2 the chosen final variable; then for the other final variable.
   const Eigen::Index n = map.dimension() / 2;
   const auto chosen = [&](const auto& rows) {
     return is_first ? rows.topRows(n) : rows.bottomRows(n);

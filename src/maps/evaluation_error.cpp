@@ -10,8 +10,8 @@ namespace hamjet {
 namespace {
 
 constexpr double half_ulp = 0.5 * std::numeric_limits<double>::epsilon();
-/// Of a deviation into canonical units and axes that turn, and of the result back: a quotient,
-/// three products with their sum and the rate of the axes, each way.
+/// Roundings of the conversion of a deviation into canonical units and axes that turn, and of the
+/// result back: a quotient, three products with their sum and the rate of the axes, each way.
 constexpr double conversion_roundings = 10;
 
 /// The largest coefficient of a degree in any component.

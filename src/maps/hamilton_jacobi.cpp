@@ -25,7 +25,7 @@ void require_fitting(const DynamicalSystem& system, std::span<const T> nominal,
   }
 }
 
-/// z(w), the final deviations in the order (q, p).
+/// The final deviations z(w) in the order (q, p).
 template <class T>
 std::vector<Series<T>> final_deviations(const PartialInversion<T>& inversion) {
   const SpacePointer& space = inversion.remaining_final[0].space_pointer();
@@ -38,7 +38,7 @@ std::vector<Series<T>> final_deviations(const PartialInversion<T>& inversion) {
   return z;
 }
 
-/// X(z(w)): the vector field at nominal + z(w) less its value at the nominal.
+/// The relative vector field X(z(w)): the field at nominal + z(w) less its value at the nominal.
 template <class T>
 std::vector<Series<T>> relative_vector_field(const DynamicalSystem& system,
                                              std::span<const T> nominal,
@@ -49,7 +49,7 @@ std::vector<Series<T>> relative_vector_field(const DynamicalSystem& system,
       evaluate_on_series<T>(system.vector_field, std::span<const Series<T>>(z)));
 }
 
-/// start - sum over j of (d u / d w_f,j) X_f,j .
+/// Returns start - sum over j of (d u / d w_f,j) X_f,j .
 template <class T>
 Series<T> minus_transport(Series<T> start, const Series<T>& u, const std::vector<Series<T>>& X,
                           const GeneratingFunctionKind& kind) {
@@ -59,7 +59,7 @@ Series<T> minus_transport(Series<T> start, const Series<T>& u, const std::vector
   return start;
 }
 
-/// dS/dt|_w + H^h(z(w)), and H^h(z(w)).
+/// The residual dS/dt|_w + H^h(z(w)) and the Hamiltonian H^h(z(w)).
 template <class T>
 struct Equation {
   Series<T> residual;

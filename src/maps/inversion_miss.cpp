@@ -10,7 +10,7 @@
 namespace hamjet {
 namespace {
 
-/// Coefficients of s^0..s^N.
+/// A polynomial in s: its coefficients of s^0..s^N.
 template <class T>
 using Polynomial = std::vector<T>;
 
@@ -30,8 +30,8 @@ struct Sums {
   }
 };
 
-/// For every monomial that of one degree less which it is made from, and the variable that is
-/// missing there.
+/// For every monomial the one of one degree less that it is made from, and the variable of the
+/// factor.
 struct Parents {
   std::vector<std::size_t> parent;
   std::vector<std::size_t> variable;
@@ -87,7 +87,7 @@ std::vector<Sums<T>> along_line(const std::vector<const Series<T>*>& series, con
   return result;
 }
 
-/// Components between 1/2 and 1 in size, so that none is lost beside the others.
+/// A direction with components between 1/2 and 1 in size, so that none is lost beside the others.
 std::vector<double> direction(std::size_t size) {
   std::mt19937_64 generator(1);
   std::vector<double> result;
@@ -99,7 +99,7 @@ std::vector<double> direction(std::size_t size) {
   return result;
 }
 
-/// Largest |found - expected|, see inversion_miss.
+/// Largest |found - expected|, scaled as inversion_miss says.
 template <class T>
 double largest_difference(const Sums<T>& found, const Sums<T>& expected) {
   double result = 0;
@@ -107,7 +107,7 @@ double largest_difference(const Sums<T>& found, const Sums<T>& expected) {
   for (std::size_t d = 1; d < found.value.size(); ++d) {
     const double difference = std::abs(static_cast<double>(T(found.value[d] - expected.value[d])));
     scale = std::max({scale, found.terms[d], expected.terms[d]});
-    // What is not a number must not be lost in a maximum.
+    // A NaN must not be lost in a maximum.
     if (!std::isfinite(difference) || !std::isfinite(scale)) {
       return std::numeric_limits<double>::infinity();
     }

@@ -12,7 +12,8 @@
 namespace hamjet {
 namespace {
 
-/// One of the 2n pairs (q, p), the final ones first: its variable chosen by a kind is w_i.
+/// Whether a kind's w_i is the momentum of its pair (q, p), i = `pair` of 2n, the final pairs
+/// first.
 bool chooses_momentum(const GeneratingFunctionKind& kind, std::size_t pair) {
   const std::size_t n = kind.degrees_of_freedom();
   return pair < n ? kind.final_is_momentum[pair] : kind.initial_is_momentum[pair - n];

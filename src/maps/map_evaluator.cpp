@@ -11,11 +11,11 @@
 namespace hamjet {
 namespace {
 
-/// So many components are evaluated together: a state in space. Their sums fill the registers.
+/// Components that are evaluated together: a state in space, whose sums fill the registers.
 constexpr std::size_t group_size = 6;
 
 constexpr int native_width = Pack<double, 16>::width;
-/// Vectors to a block of points: each coefficient is loaded once for all of them. With AVX-512
+/// Vectors in a block of points: each coefficient is loaded once for all of them. With AVX-512
 /// there are 32 registers for the sums (6 x 3) and operands, else 16 (6 x 2).
 constexpr int vectors = native_width == 8 ? 3 : 2;
 constexpr int block_points = vectors * native_width;
@@ -53,8 +53,8 @@ struct Work {
   Block* shares;     ///< of degree d = 0..N and component c of the group: at d * group_size + c
 };
 
-/// Calls `action` with 0, 1, ... as compile-time constants. A loop would be unrolled too late for
-/// the compiler to keep arrays that it indexes in registers.
+/// Calls `action` with 0, ..., Count - 1 as compile-time constants. A loop would be unrolled too
+/// late for the compiler to keep arrays that it indexes in registers.
 template <std::size_t Count, class Action>
 void unrolled(const Action& action) {
   [&]<std::size_t... Index>(std::index_sequence<Index...>) {
@@ -63,7 +63,7 @@ void unrolled(const Action& action) {
   (std::make_index_sequence<Count>());
 }
 
-/// One sum a component and vector of the block.
+/// One sum for each component and each vector of a block.
 template <std::size_t Components>
 using BlockSums = std::array<Block::Vector, Components * vectors>;
 
@@ -87,7 +87,7 @@ const double* add_terms(const Block& x, const Block* parent, const Block* end, c
   return a;
 }
 
-/// The share of one degree, for the monomials x_i p of all parents p.
+/// Evaluates the share of one degree, for the monomials x_i p of all parents p.
 template <std::size_t Components, bool Stored>
 const double* evaluate_degree(const Work& work, const std::size_t* tails, const Block* parents_end,
                               const double* a, Block*& stored, Block* share) {
@@ -103,7 +103,7 @@ const double* evaluate_degree(const Work& work, const std::size_t* tails, const 
   return a;
 }
 
-/// The shares of all degrees, for a group of components.
+/// Evaluates the shares of all degrees, for a group of components.
 template <std::size_t Components>
 void evaluate_block(const Work& work) {
   const double* a = work.coefficients;
@@ -129,7 +129,7 @@ constexpr std::array<Kernel, group_size> make_kernels(std::index_sequence<Index.
   return {&evaluate_block<Index + 1>...};
 }
 
-/// Kernel of 1..6 components, at one less than their number.
+/// Kernels of 1..6 components, each at one less than their number.
 constexpr std::array<Kernel, group_size> kernels =
     make_kernels(std::make_index_sequence<group_size>());
 

@@ -18,7 +18,7 @@ PositionBoundaryValues::PositionBoundaryValues(const PartialInversion<double>& i
 void PositionBoundaryValues::find_unknowns(int degree) {
   constexpr int most_iterations = 40;
   constexpr double rest = 4 * std::numeric_limits<double>::epsilon();
-  constexpr double nearly_at_rest = 1e-9;  // stagnation there is round-off
+  constexpr double nearly_at_rest = 1e-9;  // stagnation below this is round-off
   const auto count = static_cast<Eigen::Index>(unknowns_.size());
   Eigen::MatrixXd jacobian(count, count);
   Eigen::VectorXd residual(count);
@@ -73,7 +73,7 @@ BoundaryMomenta PositionBoundaryValues::solve(std::span<const double> initial_po
       unknowns_.push_back({n + i, &inversion_.remaining_initial[i], initial_position[i]});
     }
   }
-  // From the linear answer on, each degree starts at the one before.
+  // Newton's method starts each degree at the solution of the degree below.
   for (int d = 1; d <= degree && !unknowns_.empty(); ++d) find_unknowns(d);
   values_.set_point(point_);
   BoundaryMomenta momenta;

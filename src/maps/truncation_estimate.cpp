@@ -14,12 +14,12 @@ bool is_finite(const DegreeShares::Norms& norms) {
   return std::isfinite(norms.state) && std::isfinite(norms.position);
 }
 
-/// The mean rate of decay over `steps` degrees; 0 towards a share that vanishes.
+/// The mean rate of decay over `steps` degrees; 0 where the later share vanishes.
 double mean_decay(double from, double to, int steps) {
   return to > 0 ? std::pow(to / from, 1.0 / steps) : 0;
 }
 
-/// max(d_N q, d_(N-1) q^2) / (1 - q)
+/// The degrees above N, continued at rate q: max(d_N q, d_(N-1) q^2) / (1 - q).
 double continued(double last, double last_but_one, double q) {
   return std::max(last * q, last_but_one * q * q) / (1 - q);
 }

@@ -17,7 +17,7 @@ constexpr double whole_turn = 2 * std::numbers::pi;
 /// An eigenvalue has come back to 1 only when it is beyond it by more than round-off.
 constexpr double phase_tolerance = 1e-9;
 
-/// Eigenvalues that turn further in a step could be taken for one another.
+/// Eigenvalues that turn by more than this in a step could be taken for one another.
 constexpr double largest_turn = 0.75 * std::numbers::pi;
 
 /// Follows the plane of neighbouring extremals.

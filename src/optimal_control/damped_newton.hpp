@@ -33,8 +33,8 @@ NewtonOutcome damped_newton(Eigen::VectorXd& s, std::string_view what,
                             const NewtonSettings& settings, const Residual& residual,
                             const Step& step) {
   constexpr int most_halvings = 30;
-  constexpr double least_descent = 1e-4;  // of the fraction that a linear residual would fall by
-  constexpr double least_gain = 0.5;      // of a further iteration near round-off
+  constexpr double least_descent = 1e-4;  // part of the linear fall that counts as descent
+  constexpr double least_gain = 0.5;      // fall that a further step must reach near round-off
   Eigen::VectorXd r = residual(s);
   if (!r.allFinite()) {
     throw Error(ErrorKind::numerical,

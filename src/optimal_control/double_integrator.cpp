@@ -3,7 +3,7 @@
 namespace hamjet {
 namespace {
 
-/// delta^T W^-1 delta / 2 on the fixed components.
+/// The least cost delta^T W^-1 delta / 2 on the fixed components.
 double least_cost(const std::array<double, 4>& gramian,
                   const std::array<std::optional<double>, 2>& end, double position,
                   double velocity) {
@@ -23,7 +23,7 @@ std::array<double, 4> double_integrator_gramian(Discretization discretization, d
   if (!steps) return {t * t * t / 3, t * t / 2, t * t / 2, t};
   const auto n = static_cast<double>(*steps);
   const double tau = t / n;
-  // b_j = (tau i, 1), i = 0..N-1 for Stormer and 1/2..N-1/2 for midpoint.
+  // The effects b_j are (tau i, 1), i = 0..N-1 for Stormer and 1/2..N-1/2 for midpoint.
   const bool is_stormer = discretization == Discretization::stormer;
   const double sum = is_stormer ? n * (n - 1) / 2 : n * n / 2;
   const double squares = is_stormer ? (n - 1) * n * (2 * n - 1) / 6 : n * (4 * n * n - 1) / 12;

@@ -119,7 +119,7 @@ class AugmentedCost {
   Eigen::Index stride() const { return 2 * n_ + m_; }
   Eigen::Index place(Eigen::Index k) const { return initial_count() + k * stride(); }
 
-  /// <lambda, phi(x)> with x and lambda at these places.
+  /// Adds <lambda, phi(x)>, with x and lambda at these places of s.
   void add_end(const Eigen::VectorXd& s, EndConditions& end, Eigen::Index x, Eigen::Index lambda,
                Eigen::VectorXd& r, std::vector<Eigen::Triplet<double>>* hessian) const {
     const auto count = static_cast<Eigen::Index>(end.count());
@@ -140,8 +140,8 @@ class AugmentedCost {
     }
   }
 
-  /// <direction, -D phi_0^T lambda_0> - value = 0, and the border that makes the equations square:
-  /// a further multiplier of each condition, which enters the equations of phi_0.
+  /// Adds <direction, -D phi_0^T lambda_0> - value = 0, and the border that makes the equations
+  /// square: a further multiplier of each condition, which enters the equations of phi_0.
   void add_conditions(const Eigen::VectorXd& s, Eigen::VectorXd& r,
                       std::vector<Eigen::Triplet<double>>* derivatives) {
     const CostateConditions& given = **conditions_;

@@ -61,8 +61,8 @@ class ShootingEquations {
     return settings_->conditions ? settings_->conditions->values.size() : 0;
   }
 
-  /// The points of the trajectory that the first state and costate lead to, and the multipliers
-  /// nearest to its ends.
+  /// The start of the iteration: the points of the trajectory that the first state and costate lead
+  /// to, and the multipliers nearest to its ends.
   Eigen::VectorXd start() {
     Eigen::VectorXd point(2 * n_);
     point << settings_->state_guess, settings_->costate_guess;
@@ -80,7 +80,7 @@ class ShootingEquations {
     return s;
   }
 
-  /// Factors from the typical sizes: of the equations, and of the unknowns. Set by start().
+  /// Scale factors of the equations and the unknowns, from the typical sizes; set by start().
   const Equilibration& scale() const { return scale_; }
 
   Eigen::VectorXd residual(const Eigen::VectorXd& s) {
@@ -128,7 +128,7 @@ class ShootingEquations {
     return a;
   }
 
-  /// All arcs joined; the multipliers from `s`.
+  /// The solution from all arcs joined and the multipliers in `s`.
   ShootingSolution solution(const Eigen::VectorXd& s) const {
     Arc whole;
     for (const Arc& arc : arcs_) {
@@ -228,7 +228,7 @@ ShootingSolution solve_by_shooting(AdvanceMap& map, const OptimalControlProblem&
       s, "shooting", settings.newton,
       [&](const Eigen::VectorXd& place) { return equations.residual(place); },
       [&](const Eigen::VectorXd& place) {
-        // A step that was tried and refused has moved the equations elsewhere.
+        // A step that was tried and refused has left the equations evaluated elsewhere.
         const Eigen::VectorXd r = equations.residual(place);
         const Eigen::MatrixXd matrix = equations.matrix();
         const Equilibration& scale = equations.scale();

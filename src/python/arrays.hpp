@@ -12,7 +12,7 @@ namespace hamjet::python {
 
 namespace py = pybind11;
 
-/// What arrays of numbers have where there is none.
+/// What arrays of numbers hold where there is no number.
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// A read-only array over numbers that `owner` keeps alive; no copy.
@@ -36,7 +36,7 @@ py::array_t<Number> array_of(std::vector<Number> numbers, std::vector<py::ssize_
   return view(data, std::move(shape), owner);
 }
 
-/// The same of truth values, which std::vector does not keep as such.
+/// A read-only array of truth values; a copy, because std::vector<bool> keeps single bits.
 inline py::object flags(const std::vector<bool>& values, std::vector<py::ssize_t> shape = {}) {
   std::vector<unsigned char> bytes(values.begin(), values.end());
   return array_of(std::move(bytes), std::move(shape)).attr("view")("bool");

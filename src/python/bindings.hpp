@@ -7,7 +7,7 @@
 namespace hamjet::python {
 
 void bind_errors();
-/// What pickle calls.
+/// Binds the functions that pickle calls.
 void bind_pickling(pybind11::module_& module);
 void bind_jets(pybind11::module_& module);
 void bind_generating_functions(pybind11::module_& module);

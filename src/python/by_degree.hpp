@@ -14,7 +14,8 @@ struct DegreeRow {
   double scaled;
 };
 
-/// Of entries with these three members. As an array of no type, for the help would show C++'s.
+/// An array of DegreeRow from entries with these members; its type is left open, for the help would
+/// show that of C++.
 template <class Entry>
 py::array by_degree(const std::vector<Entry>& entries) {
   std::vector<DegreeRow> rows;

@@ -47,8 +47,8 @@ bool has_masked(const py::handle& points) {
 }
 
 /// The labels by which the numbers of a row are told apart: a data frame's names of columns, or the
-/// index of one row of it. Nothing of what goes by position; a method of this name, as a list's
-/// index, is no label.
+/// index of one row of it. No value for what goes by position: a method of this name, such as a
+/// list's index, is no label.
 std::optional<py::list> labels_of(const py::handle& points) {
   if (Py_TYPE(points.ptr()) == py::detail::npy_api::get().PyArray_Type_ ||
       PyList_Check(points.ptr()) != 0 || PyTuple_Check(points.ptr()) != 0) {
@@ -134,7 +134,7 @@ py::array_t<double> rows_of(const py::object& points, std::size_t columns, const
     refuse(fmt::format("{}: must have the shape (N, {}) or ({},), got {}", what, columns, columns,
                        shape_text(given)));
   }
-  // After the shape, for a list within itself has none.
+  // Labels come after the shape, for a list within itself has no shape.
   if (has_labelled_rows(points)) {
     refuse(fmt::format("{}: a list of rows with labels, must be a data frame or an array", what));
   }

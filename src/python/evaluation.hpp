@@ -20,12 +20,13 @@ py::array_t<double> rows_of(const py::object& points, std::size_t columns, const
                             const std::string& what);
 
 /// Values of a map at an array of points (N, variables) or (variables,), in a new array (N,
-/// components) or (components,), or in `out` if that is not None. Points as of rows_of. Without the
-/// GIL; warns if values are not finite. Throws Error(usage).
+/// components) or (components,), or in `out` if that is not None. Points are taken as by rows_of.
+/// Works without the GIL; warns if values are not finite. Throws Error(usage).
 py::object evaluate_array(const MapEvaluator& map, const py::object& points,
                           const ColumnNames& names, const py::object& out, const std::string& what);
 
-/// RuntimeWarning of numbers that are not finite, as NumPy gives one where it overflows.
+/// Gives a RuntimeWarning about `count` numbers that are not finite, as NumPy gives one where it
+/// overflows.
 void warn_if_not_finite(std::size_t count, const std::string& what);
 
 }  // namespace hamjet::python

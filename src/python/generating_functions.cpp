@@ -84,7 +84,7 @@ void bind_generating_functions(py::module_& module) {
           "evaluate",
           [](const InvertedJet& f, const py::object& w) {
             const py::object values = values_at(f, f.value(), w, py::none());
-            // One component: (N, 1) is (N,), and (1,) is a number.
+            // With one component, (N, 1) becomes (N,), and (1,) a number.
             return values.attr("__getitem__")(py::make_tuple(py::ellipsis(), 0));
           },
           py::arg("w"),

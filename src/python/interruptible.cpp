@@ -54,7 +54,7 @@ void work_in_thread(LongWork work, const std::shared_ptr<Shared>& shared) {
   shared->ended.notify_all();
 }
 
-/// Called with the lock, which is released meanwhile.
+/// Looks for signals and reports progress. Called with the lock, which is released meanwhile.
 void look(Shared& shared, std::unique_lock<std::mutex>& lock, const py::object& progress) {
   const bool has_news = std::exchange(shared.has_news, false);
   const std::string task = shared.task;

@@ -23,7 +23,7 @@ using LongWork = std::function<void(const ProgressCallback&)>;
 /// itself. Throws what the work, `progress` or a signal's handler throw.
 void do_interruptibly(LongWork work, const pybind11::object& progress);
 
-/// The same for work with a result.
+/// do_interruptibly for work with a result.
 template <class Work>
 auto interruptibly(const pybind11::object& progress, Work work) {
   using Result = decltype(work(ProgressCallback()));

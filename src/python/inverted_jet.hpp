@@ -30,7 +30,7 @@ class InvertedJet {
   /// `kind` as in scenes: F1..F4, letters, or auto. Computed in extended precision, as the command
   /// does. Throws as parse_kind and invert_partially do.
   InvertedJet(const Jet& jet, std::string_view kind);
-  /// The one that these are the parts of.
+  /// The inverted jet that has these parts.
   explicit InvertedJet(Parts parts);
 
   const Parts& parts() const noexcept { return parts_; }
@@ -41,7 +41,7 @@ class InvertedJet {
   const std::vector<std::string>& remaining_variables() const noexcept {
     return parts_.remaining_variables;
   }
-  /// Of the generating function, whose order is one more than the jet's.
+  /// The space of the generating function, whose order is one more than the jet's.
   const SpacePointer& space() const noexcept { return parts_.function[0].space_pointer(); }
   std::span<const double> coefficients() const noexcept {
     return parts_.function[0].coefficients();

@@ -17,12 +17,13 @@ class Jet {
 
   const io::StoredJet& stored() const noexcept { return stored_; }
   const SpacePointer& space() const noexcept { return stored_.jet.at(0).space_pointer(); }
-  /// In double precision, component by component; the first of each is the nominal's final state.
+  /// The coefficients in double precision, component by component; the first of each is the
+  /// nominal's final state.
   std::span<const double> coefficients() const noexcept { return coefficients_; }
-  /// Of the final deviation: without the nominal's final state.
+  /// The map of the final deviation: the jet without the nominal's final state.
   const MapEvaluator& deviation() const noexcept { return deviation_; }
-  /// The same without the terms above `degree`. Throws Error(usage) for one that is not 1 to the
-  /// order.
+  /// The map of the final deviation without the terms above `degree`. Throws Error(usage) unless
+  /// that is from 1 to the order.
   MapEvaluator deviation_to(int degree) const;
 
   /// The jet of this flow and then `after`'s, of the lower of the two orders. Throws Error(usage)
@@ -31,7 +32,7 @@ class Jet {
   Jet composed_with(const Jet& after) const;
   /// The jet of the flow back. Throws Error(usage) unless it is expanded in all its components.
   Jet inverse() const;
-  /// Formed in extended precision, as the command does.
+  /// Symplecticity defects by degree, formed in extended precision as by the command.
   std::vector<SymplecticityDefect> symplecticity() const;
 
  private:

@@ -22,13 +22,14 @@ using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
 [[noreturn]] void refuse_state() { refuse("pickle: this is no state of such an object"); }
 
-/// By way of a function of Python, for those of pybind11 have no name by which pickle finds them.
+/// A call of a C++ function by way of one of Python, for those of pybind11 have no name by which
+/// pickle finds them.
 py::tuple call_of(const char* function, const py::tuple& arguments) {
   return py::make_tuple(py::module_::import("hamjet.immutable").attr("_restored"),
                         py::make_tuple(function) + arguments);
 }
 
-/// (components, count), component by component.
+/// The coefficients of a map as an array (components, count).
 Numbers numbers_of(std::span<const Series<double>> map) {
   std::vector<double> numbers;
   for (const Series<double>& component : map) {
@@ -53,7 +54,7 @@ std::vector<Series<double>> map_of(const Numbers& numbers, const SpacePointer& s
 
 using Ephemeris = std::vector<std::string>;
 
-/// All members by name: one that is added does not compile unless it takes part.
+/// All members as texts by name: one that is added does not compile unless it takes part.
 Ephemeris texts_of(const EphemerisSettings& settings) {
   const auto& [epoch, time_system, reference_frame, center_name, reference_frame_epoch, object_name,
                object_id, deputy_name, deputy_id, originator, oem_version] = settings;
@@ -92,7 +93,7 @@ JetState state_of(const io::StoredJet& stored) {
           jet.at(0).order()};
 }
 
-/// Without its series.
+/// The stored jet of a state, without its series.
 io::StoredJet stored_jet_of(const JetState& state) {
   io::StoredJet jet;
   std::size_t model = 0;

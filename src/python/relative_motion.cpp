@@ -166,7 +166,7 @@ py::dict transfer_arrays(const TransferResult& result) {
   return arrays;
 }
 
-/// (times in s, states (count + 1, 6) along R, T, N in m and m/s) of one point's best answer.
+/// One point's best answer, flown: (times in s, states (count + 1, 6) along R, T, N in m and m/s).
 py::tuple fly(const Studied<TransferResult>& studied, std::size_t point, int count) {
   const TransferResult& result = *studied.result();
   if (point >= result.points.size() || io::shown_answer(result.points[point]) == nullptr) {
@@ -209,7 +209,7 @@ py::dict validity_arrays(const ValidityResult& result) {
   return arrays;
 }
 
-/// What both studies have in common.
+/// Binds what both studies have in common.
 template <class Result>
 py::class_<Studied<Result>> bind_study(py::module_& module, const char* name) {
   return py::class_<Studied<Result>>(module, name)

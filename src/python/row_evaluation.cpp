@@ -7,8 +7,8 @@
 namespace hamjet::python {
 namespace {
 
-/// So many points at once: their numbers stay in the cache, and it is a multiple of the points that
-/// MapEvaluator takes together on any machine.
+/// Points that are evaluated at once: their numbers stay in the cache, and this is a multiple of
+/// the points that MapEvaluator takes together on any machine.
 constexpr std::size_t block = 960;
 
 /// Columns of a state in space, known to the compiler.
@@ -19,7 +19,7 @@ using Vector = std::experimental::native_simd<double>;
 void split(const double* rows, std::size_t count, std::size_t columns, double* result) {
   std::size_t first = 0;
   if (columns == usual_columns) {
-    // One store a vector takes half the time of one a number.
+    // One store for a vector takes half the time of one for each number.
     for (; first + Vector::size() <= count; first += Vector::size()) {
       for (std::size_t i = 0; i < usual_columns; ++i) {
         const Vector column(

@@ -63,7 +63,7 @@ py::object jet_of_run(const Propagation& propagation, std::size_t index) {
   return py::cast(jet_of(*propagation.result, run));
 }
 
-/// (times, states, energy errors), canonical.
+/// The nominal as (times, states, energy errors), canonical.
 py::tuple nominal(const Propagation& propagation, std::size_t index) {
   const RunResult& run = propagation.run(index);
   std::vector<double> times;
@@ -81,7 +81,8 @@ py::tuple nominal(const Propagation& propagation, std::size_t index) {
       array_of(std::move(energy_errors)));
 }
 
-/// (times, exactness, conditions, energy errors, singular times), or None without a figure.
+/// The figure's record as (times, exactness, conditions, energy errors, singular times), canonical;
+/// None without a figure.
 py::object along_time(const Propagation& propagation, std::size_t index) {
   const RunResult& run = propagation.run(index);
   if (!run.along_time) return py::none();
@@ -121,7 +122,7 @@ py::dict files_of(const io::StudyReport& report) {
 
 /// Texts of results by name, summary.json among them.
 py::dict read_files(const std::filesystem::path& directory, const std::vector<std::string>& names) {
-  // The command evaluates a jet from such a file; the results are more than its jets.
+  // The command takes a jet from a file too, but results are more than their jets.
   std::error_code none;
   if (std::filesystem::is_regular_file(directory, none)) {
     throw Error(ErrorKind::input_output,

@@ -42,7 +42,7 @@ std::string text_of(const py::handle& value) {
   return io::printable(py::str(value).cast<std::string>());
 }
 
-/// Strings of Python can hold what is no text.
+/// The text in UTF-8; throws for a string that holds what is no text.
 std::string utf8(const py::handle& text, const Place& place) {
   Py_ssize_t size = 0;
   const char* bytes = PyUnicode_AsUTF8AndSize(text.ptr(), &size);

@@ -11,7 +11,7 @@
 namespace hamjet::io {
 namespace {
 
-/// A figure cannot show more apart.
+/// More step sizes could not be told apart in a figure.
 constexpr std::size_t most_step_sizes = 8;
 
 const std::vector<std::string_view> forms = {"rotation_cosine", "rotation_angle_rad", "matrix"};
@@ -30,8 +30,8 @@ AffineSymplecticMap<Extended> read_rotation(const TableReader& table, std::strin
   return phase_plane_rotation<Extended>(Extended(acos(cosine)));
 }
 
-/// Refuses a matrix that is not symplectic to the rounding of the decimals; what it lacks in
-/// extended precision, in which its powers are formed, is made up for.
+/// Refuses a matrix that is not symplectic to the rounding of its decimals. The nearest symplectic
+/// one in extended precision, in which its powers are formed, takes its place.
 AffineSymplecticMap<Extended> read_matrix(const TableReader& table, std::size_t size) {
   const std::vector<double> entries = table.square_matrix("matrix", size);
   const auto rows = static_cast<Eigen::Index>(size);

@@ -5,6 +5,7 @@
 
 #include "../text/scene_message.hpp"
 #include "hamjet/integrators/flow_problem.hpp"
+#include "hamjet/studies/method_description.hpp"
 #include "scene_sections.hpp"
 
 namespace hamjet::io {

@@ -106,9 +106,9 @@ std::optional<std::size_t> element_named(const toml::array& array, std::string_v
 /// An override on its way down the tables to what it changes.
 struct Assignment {
   const Override& change;
-  toml::node* value;      ///< nothing: what is there is removed
+  toml::node* value;      ///< null: what is there is removed
   std::string path = "";  ///< so far, with indices in place of labels
-  /// What was to be removed and is not there.
+  /// The key that was to be removed and is not there.
   std::optional<SceneSource::AbsentKey> absent = {};
 
   void descend(const std::string& name) { path += path.empty() ? name : '.' + name; }
@@ -140,7 +140,7 @@ void assign_in_table(toml::table& table, std::string_view path, Assignment& assi
   }
 }
 
-/// "gauss8, midpoint or an index below 2"
+/// The elements in words: "gauss8, midpoint or an index below 2".
 std::string elements_of(const toml::array& array) {
   std::vector<std::string> labels;
   for (const toml::node& element : array) {

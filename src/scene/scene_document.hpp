@@ -30,7 +30,7 @@ struct SceneDocument {
 SceneDocument parse_document(std::string_view text, const std::string& name,
                              const std::vector<Override>& overrides);
 
-/// The same of tables that a program has made, which have no lines.
+/// parse_document for tables that a program has made, which have no lines.
 SceneDocument make_document(toml::table tables, const std::string& name,
                             const std::vector<Override>& overrides);
 

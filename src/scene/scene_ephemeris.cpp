@@ -12,7 +12,7 @@ namespace {
 using std::chrono::sys_days;
 using std::chrono::year;
 
-/// Before, the second of UTC had other lengths.
+/// Before this day the second of UTC had other lengths.
 constexpr sys_days first_day_of_utc = sys_days(year(1972) / 1 / 1);
 
 /// A text that an orbit message can hold.
@@ -48,7 +48,7 @@ std::string read_frame(const TableReader& ephemeris) {
   return frame;
 }
 
-/// What the nominal's file says holds; the scene may say it again, but nothing else.
+/// Refuses a value other than that of the nominal's file, which the scene may only repeat.
 void require_same(const TableReader& ephemeris, std::string_view key, const std::string& given,
                   const std::string& of_file) {
   if (given == of_file) return;

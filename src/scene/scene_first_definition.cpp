@@ -52,7 +52,7 @@ const toml::table* table_of(const toml::node& node) {
   return node.as_table();
 }
 
-/// Where the table already has what `statement`, a single dotted key, leads to.
+/// The place where the table already has what `statement`, a single dotted key, leads to.
 std::optional<toml::source_position> find_in(const toml::table* table,
                                              const toml::table& statement) {
   const toml::table* path = &statement;

@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <hamjet/error.hpp>
 #include <hamjet/integrators/flow_problem.hpp>
+#include <hamjet/studies/method_description.hpp>
 #include <iterator>
 #include <map>
+#include <type_traits>
+#include <variant>
 
 #include "../text/scene_message.hpp"
 #include "scene_sections.hpp"
@@ -15,7 +19,7 @@ namespace {
 
 constexpr std::size_t longest_label = 100;
 
-/// The jets of all are held until the end.
+/// Most integrators of a scene: their jets are all held until the end.
 constexpr std::size_t most_integrators = 1000;
 
 /// The files that stand beside the integrators' directories in the output.
@@ -31,23 +35,23 @@ bool is_reserved(std::string_view label) {
   return std::find(std::begin(names), std::end(names), label) != std::end(names);
 }
 
-bool has_fixed_steps_only(IntegrationMethod method) {
-  return method == IntegrationMethod::stormer || method == IntegrationMethod::velocity_verlet ||
-         method == IntegrationMethod::newmark;
+/// The keys of methods, of all or of one, in the order in which they are listed.
+std::vector<std::string_view> keys_of(const std::vector<MethodDescription>& methods) {
+  std::vector<std::string_view> keys = {"label", "method", "require_relative_error",
+                                        "require_symplecticity"};
+  const auto add = [&](std::string_view key) {
+    if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
+  };
+  for (const MethodDescription& method : methods) {
+    for (const MethodSetting& setting : method.settings) add(setting.key);
+  }
+  for (const MethodDescription& method : methods) {
+    if (method.has_fixed_steps) add("step_canonical");
+    if (method.has_fixed_steps) add("step_s");
+    if (method.has_tolerance) add("tolerance");
+  }
+  return keys;
 }
-
-/// The keys of any method.
-const std::vector<std::string_view> all_keys = {"label",
-                                                "method",
-                                                "stages",
-                                                "order",
-                                                "beta",
-                                                "compensated_summation",
-                                                "step_canonical",
-                                                "step_s",
-                                                "tolerance",
-                                                "require_relative_error",
-                                                "require_symplecticity"};
 
 /// A label becomes the name of a directory, so that it must neither lead out of the output
 /// directory nor need quotes in a shell.
@@ -76,7 +80,7 @@ double read_step(const TableReader& integrator, std::string_view key, double dur
                                      "be within binary64 there",
                                      integrator.found(key), step));
   }
-  // In the unit of the key, so that the user can copy the figure.
+  // The span is in the unit of the key, so that the user can copy a step that is named.
   const double span = std::abs(duration) * (given / step);
   const double smallest_step = span * 0x1p-52;
   if (given < smallest_step) {
@@ -101,19 +105,35 @@ double read_tolerance(const TableReader& integrator, Precision precision) {
   return integrator.number_between("tolerance", least, greatest_tolerance);
 }
 
-/// Of velocity Verlet and its compositions.
-int read_order(const TableReader& integrator) {
-  const auto order = integrator.integer_between("order", 2, 8);
-  if (order % 2 != 0) {
-    integrator.fail("order", fmt::format("out of range, got {}, must be 2, 4, 6 or 8", order));
-  }
-  return static_cast<int>(order);
+void read_setting(const TableReader& integrator, const MethodSetting& setting,
+                  IntegratorSettings& settings) {
+  if (!integrator.has(setting.key)) return;
+  const auto read = [&](auto member) {
+    using Value = std::remove_reference_t<decltype(settings.*member)>;
+    if constexpr (std::is_same_v<Value, bool>) {
+      return integrator.boolean(setting.key);
+    } else if constexpr (std::is_same_v<Value, double>) {
+      return integrator.number_between(setting.key, setting.least, setting.most);
+    } else {
+      const auto least = static_cast<std::int64_t>(setting.least);
+      const auto most = static_cast<std::int64_t>(setting.most);
+      const auto value = static_cast<int>(integrator.integer_between(setting.key, least, most));
+      const auto& choices = setting.choices;
+      if (choices.empty() || std::find(choices.begin(), choices.end(), value) != choices.end()) {
+        return value;
+      }
+      const std::vector<int> all_but_last(choices.begin(), choices.end() - 1);
+      integrator.fail(setting.key, fmt::format("out of range, got {}, must be {} or {}", value,
+                                               fmt::join(all_but_last, ", "), choices.back()));
+    }
+  };
+  std::visit([&](auto member) { settings.*member = read(member); }, setting.member);
 }
 
 /// The key that says how long the steps are.
-std::string_view read_size_key(const TableReader& integrator, IntegrationMethod method) {
-  if (is_cvode(method)) return "tolerance";
-  if (has_fixed_steps_only(method)) return integrator.exactly_one_of({"step_canonical", "step_s"});
+std::string_view read_size_key(const TableReader& integrator, const MethodDescription& method) {
+  if (!method.has_fixed_steps) return "tolerance";
+  if (!method.has_tolerance) return integrator.exactly_one_of({"step_canonical", "step_s"});
   return integrator.exactly_one_of({"step_canonical", "step_s", "tolerance"});
 }
 
@@ -129,29 +149,23 @@ void refuse_energy_conserving(const TableReader& integrator) {
 
 IntegratorSettings read_integrator(const TableReader& integrator, Precision precision,
                                    double duration, const CanonicalScale& scale) {
+  const std::vector<std::string_view> all_keys = keys_of(all_methods());
   if (!integrator.has("method")) integrator.check_keys({all_keys});  // a misspelt `method` is named
   if (integrator.has("method")) refuse_energy_conserving(integrator);
   IntegratorSettings settings;
   settings.method = static_cast<IntegrationMethod>(integrator.choice("method", method_names()));
-  const std::string_view method = method_names()[static_cast<std::size_t>(settings.method)];
+  const MethodDescription& method = description_of(settings.method);
   integrator.check_keys(
-      {integrator_keys(settings.method), all_keys, "the method " + std::string(method)});
-  if (is_cvode(settings.method) && precision == Precision::extended) {
+      {integrator_keys(settings.method), all_keys, "the method " + std::string(method.name)});
+  if (method.integrate.in_extended == nullptr && precision == Precision::extended) {
     integrator.fail("method", fmt::format("not available in extended precision, got {}, must be "
-                                          "another method, or precision = \"double\": CVODE "
+                                          "another method, or precision = \"double\": {} "
                                           "computes in double precision only",
-                                          in_quotes(method)));
+                                          in_quotes(method.name), method.library));
   }
   settings.label = read_label(integrator);
-  if (integrator.has("stages")) {
-    settings.stages = static_cast<int>(integrator.integer_between("stages", 1, most_gauss_stages));
-  }
-  if (integrator.has("order")) settings.order = read_order(integrator);
-  if (integrator.has("beta")) settings.beta = integrator.number_between("beta", 0, 0.5);
-  if (integrator.has("compensated_summation")) {
-    settings.compensated_summation = integrator.boolean("compensated_summation");
-  }
-  const std::string_view size_key = read_size_key(integrator, settings.method);
+  for (const MethodSetting& setting : method.settings) read_setting(integrator, setting, settings);
+  const std::string_view size_key = read_size_key(integrator, method);
   if (size_key == "tolerance") {
     settings.tolerance = read_tolerance(integrator, precision);
   } else {
@@ -169,16 +183,7 @@ IntegratorSettings read_integrator(const TableReader& integrator, Precision prec
 }  // namespace
 
 std::vector<std::string_view> integrator_keys(IntegrationMethod method) {
-  std::vector<std::string_view> keys = {"label", "method", "require_relative_error",
-                                        "require_symplecticity"};
-  if (method == IntegrationMethod::gauss) {
-    keys.insert(keys.end(), {"stages", "compensated_summation"});
-  }
-  if (method == IntegrationMethod::velocity_verlet) keys.push_back("order");
-  if (method == IntegrationMethod::newmark) keys.push_back("beta");
-  if (!is_cvode(method)) keys.insert(keys.end(), {"step_canonical", "step_s"});
-  if (!has_fixed_steps_only(method)) keys.push_back("tolerance");
-  return keys;
+  return keys_of({description_of(method)});
 }
 
 std::vector<IntegratorSettings> read_integrators(const std::vector<TableReader>& integrators,

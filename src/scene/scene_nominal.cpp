@@ -6,6 +6,7 @@
 #include <hamjet/dynamics/osculating_elements.hpp>
 
 #include "../text/scene_message.hpp"
+#include "hamjet/studies/system_description.hpp"
 #include "scene_nominal_file.hpp"
 #include "scene_sections.hpp"
 
@@ -18,8 +19,9 @@ const std::vector<std::string_view> element_keys = {"a_km",     "e",        "i_d
 const std::vector<std::string_view> file_keys = {"oem_file", "opm_file", "epoch", "object"};
 const std::vector<std::string_view> particle_keys = {"position_m", "momentum_kg_m_s"};
 
-/// Of the nominal's distance in units that the scene chooses, and of its inverse. Coefficients of
-/// degree d go as the distance to the power -(d + 2), and must not underflow to a wrong zero.
+/// Largest distance of the nominal in units that the scene chooses, and largest inverse of it.
+/// Coefficients of degree d go as the distance to the power -(d + 2), and must not underflow to a
+/// wrong zero.
 constexpr double greatest_distance = 1e9;
 
 double rounded(const Extended& value) { return convert<double>(value); }
@@ -34,7 +36,7 @@ CartesianState read_elements(const TableReader& nominal, double mu_km3_s2) {
                                   nominal.found("e")));
   }
   elements.inclination_deg = nominal.number_between("i_deg", 0, 180);
-  // Once around in either sense; what is beyond is no angle in degrees.
+  // Angles go once around in either sense; what is beyond is no angle in degrees.
   const auto angle = [&](std::string_view key) { return nominal.number_between(key, -360, 360); };
   elements.ascending_node_deg = angle("raan_deg");
   elements.argument_of_perigee_deg = angle("argp_deg");
@@ -155,11 +157,10 @@ Nominal read_nominal(const TableReader& nominal, const SystemSettings& system,
   const std::size_t n = degrees_of_freedom_of(system);
   result.state = nominal.numbers("position_m", n);
   const auto is_zero = [](double x) { return x == 0; };
-  if (system.model == SystemModel::spring_pendulum &&
-      std::all_of(result.state.begin(), result.state.end(), is_zero)) {
-    nominal.fail("position_m",
-                 "at the point of suspension, where the spring has no direction, got [0, 0], must "
-                 "be any other point");
+  const std::string_view refusal = description_of(system.model).no_start_at_origin;
+  if (!refusal.empty() && std::all_of(result.state.begin(), result.state.end(), is_zero)) {
+    nominal.fail("position_m", fmt::format("{}, got {}, must be any other point", refusal,
+                                           nominal.found("position_m")));
   }
   const std::vector<double> momenta = nominal.numbers("momentum_kg_m_s", n);
   result.state.insert(result.state.end(), momenta.begin(), momenta.end());

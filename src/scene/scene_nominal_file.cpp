@@ -15,7 +15,7 @@
 namespace hamjet::io {
 namespace {
 
-/// What stands in a message about the state that is taken.
+/// The state that is taken from a message, and what the message says of it.
 struct ChosenState {
   OrbitMetadata metadata;
   OrbitState state;
@@ -131,7 +131,7 @@ ChosenState choose_state(const TableReader& nominal, const std::vector<Ephemeris
   return found[0];
 }
 
-/// `file` is the message's, printable.
+/// Refuses a message about another centre than the scene's. `file` is its name, printable.
 void require_same_centre(const TableReader& nominal, std::string_view key,
                          const SceneCentre& centre, const OrbitMetadata& metadata,
                          const std::string& file) {
@@ -167,7 +167,7 @@ void require_same_centre(const TableReader& nominal, std::string_view key,
   }
 }
 
-/// The same of the mu that an OPM may name.
+/// Refuses an OPM that names another mu than the scene's.
 void require_same_mu(const TableReader& nominal, std::string_view key, double mu,
                      const OrbitParameterMessage& message, const std::string& file) {
   if (!message.gm_km3_s2 || std::abs(*message.gm_km3_s2 / mu - 1) <= gm_tolerance) return;

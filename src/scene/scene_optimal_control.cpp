@@ -9,7 +9,7 @@
 namespace hamjet::io {
 namespace {
 
-/// As many steps as a study may take is far below this; more is refused by the study itself.
+/// Far above the steps that a study may take: the study itself refuses too many.
 constexpr std::int64_t most_steps = 1'000'000'000;
 
 /// The components that `free_end` leaves free.

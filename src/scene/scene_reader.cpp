@@ -41,7 +41,7 @@ void read_output_and_ephemeris(const TableReader& root, Scene& scene) {
   }
 }
 
-/// What cannot be split is refused where the scene asks for a number of arcs.
+/// Refuses an integrator that cannot be split where the scene asks for a number of arcs.
 void require_splittable(const TableReader& jet, const Scene& scene) {
   if (scene.arcs.value_or(1) == 1) return;
   for (const IntegratorSettings& settings : scene.integrators) {

@@ -124,7 +124,7 @@ std::vector<double> read_transfer_times(const TableReader& table, const Scene& s
 
 namespace {
 
-/// The tables that have the keys `frame` and `derivatives`.
+/// The frame from the tables that have the keys `frame` and `derivatives`.
 RelativeFrame read_frame(const TableReader& of_frame, const TableReader& of_derivatives,
                          bool is_rtn_by_default) {
   if (of_frame.has("frame") && lower_case(of_frame.text("frame")) == "lvlh") {

@@ -30,11 +30,11 @@ std::vector<double> read_transfer_times(const TableReader& table, const Scene& s
                                         const Nominal& nominal,
                                         std::optional<int> default_count = std::nullopt);
 
-/// The keys `frame` and `derivatives`, each of `fallback` where the table does not have it.
-/// Derivatives are rotating ones unless the key says otherwise.
+/// The frame of the keys `frame` and `derivatives`, each from `fallback` where the table does not
+/// have it. Derivatives are rotating ones unless the key says otherwise.
 RelativeFrame read_relative_frame(const TableReader& table, const TableReader& fallback);
 
-/// The same of one table, which may lack `frame` too: it is RTN then.
+/// The frame of one table; RTN if it has no key `frame`.
 RelativeFrame read_relative_frame_or_rtn(const TableReader& table);
 
 /// The keys `position_m` and, optional, `velocity_m_s`.

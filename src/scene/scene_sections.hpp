@@ -17,13 +17,6 @@
 
 namespace hamjet::io {
 
-/// The model's name in scenes.
-inline std::string_view model_name(SystemModel model) {
-  return model_names()[static_cast<std::size_t>(model)];
-}
-
-/// Most stages of a Gauss method.
-inline constexpr int most_gauss_stages = 12;
 /// The range of tolerances in double precision.
 inline constexpr double least_tolerance = 1e-15;
 inline constexpr double greatest_tolerance = 1e-1;
@@ -60,7 +53,7 @@ struct Nominal {
   CanonicalScale scale;
   std::vector<double> state;         ///< (q, p), canonical, 2n numbers
   std::optional<Extended> period_s;  ///< of the osculating Kepler ellipse, if there is one
-  std::optional<NominalFile> file;   ///< that it was read from
+  std::optional<NominalFile> file;   ///< the file that it was read from
 };
 
 /// Table `[units]`: the canonical unit of length, `length_km`. Throws Error(scene) for a model that
@@ -75,15 +68,15 @@ Nominal read_nominal(const TableReader& nominal, const SystemSettings& system,
                      const std::optional<double>& length_km,
                      const std::optional<std::string>& center_name);
 
-/// The nearest binary64 numbers.
+/// The units as the nearest binary64 numbers.
 CanonicalUnits canonical_units(const CanonicalScale& scale);
 
 /// The key `radius_km` of the table `[system]` in canonical units.
 double read_canonical_radius(const TableReader& system, const SystemSettings& settings,
                              const CanonicalScale& scale);
 
-/// The tables `[system]`, `[units]` and `[nominal]` into the members that every scene of a model
-/// has.
+/// Reads the tables `[system]`, `[units]` and `[nominal]` into the members that every scene of a
+/// model has.
 template <class ModelScene>
 Nominal read_start(const TableReader& root, ModelScene& scene) {
   const TableReader system = root.table("system");
@@ -164,9 +157,8 @@ void require_calendar(const TableReader& table, std::string_view key, const Scen
 /// Table `[figure]`, checked against what `scene` already holds.
 FigureSettings read_figure(const TableReader& figure, const Scene& scene);
 
-/// Table `[transfer]`, checked against what `scene` already holds. Its tables `[transfer.start]`
-/// and
-/// `[transfer.end]` may be left out together where `needs_ends` is false.
+/// Table `[transfer]`, checked against what `scene` already holds. The tables `[transfer.start]`
+/// and `[transfer.end]` may be left out together where `needs_ends` is false.
 TransferSettings read_transfer(const TableReader& transfer, const Scene& scene,
                                const Nominal& nominal, bool needs_ends);
 
@@ -186,9 +178,9 @@ inline constexpr std::string_view no_energy_conserving_jet =
 /// All tables of the study "energy-conservation". Throws Error(too_large) for too many steps.
 EnergyConservationStudy read_energy_conservation(const TableReader& root);
 
-/// What of an orbit is almost surely a slip, though it can be computed: a mu in m^3/s^2, a radius
-/// in metres or of another body than the mu, a negative J2 of a body's size, a start in metres. One
-/// line each for the user, with place, key and what would be right.
+/// What about an orbit is almost surely a slip, though it can be computed: a mu in m^3/s^2, a
+/// radius in metres or of another body than the mu, a negative J2 of a body's size, a start in
+/// metres. One line each for the user, with place, key and what would be right.
 std::vector<std::string> likely_slips(const TableReader& root, const Scene& scene);
 
 /// Table `[relative_hamiltonian]`: canonical times from the start to the duration.

@@ -1,7 +1,10 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <hamjet/formats/gravity_field_file.hpp>
+#include <hamjet/studies/system_description.hpp>
+#include <variant>
 
 #include "../store/text_file.hpp"
 #include "scene_sections.hpp"
@@ -9,10 +12,7 @@
 namespace hamjet::io {
 namespace {
 
-/// Of the chain fermi-pasta-ulam.
-constexpr int most_pairs = 4;
-
-/// By n from ZonalCoefficients::lowest on.
+/// The keys J_n by n, from ZonalCoefficients::lowest on.
 constexpr std::array<std::string_view, 19> zonal_keys = {
     "J2",  "J3",  "J4",  "J5",  "J6",  "J7",  "J8",  "J9",  "J10", "J11",
     "J12", "J13", "J14", "J15", "J16", "J17", "J18", "J19", "J20"};
@@ -21,13 +21,24 @@ std::string_view zonal_key(int n) {
   return zonal_keys.at(static_cast<std::size_t>(n - ZonalCoefficients::lowest));
 }
 
-const std::vector<std::string_view> zonal_gravity_keys =
-    joined({"model", "mu_km3_s2", "radius_km", "gravity_file", "highest_zonal", "zonals"},
-           std::vector<std::string_view>(zonal_keys.begin(), zonal_keys.end()));
-
-const std::vector<std::string_view> all_keys = joined(
-    zonal_gravity_keys,
-    {"mass_kg", "stiffness_N_per_m", "length_m", "gravity_m_s2", "omega_rad_per_s", "pairs"});
+/// The keys of systems, of all or of one, each once.
+std::vector<std::string_view> keys_of_systems(const std::vector<SystemDescription>& systems) {
+  std::vector<std::string_view> keys = {"model"};
+  const auto add = [&](std::string_view key) {
+    if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
+  };
+  for (const SystemDescription& system : systems) {
+    if (system.model == SystemModel::zonal_gravity) {
+      for (const char* key :
+           {"mu_km3_s2", "radius_km", "gravity_file", "highest_zonal", "zonals"}) {
+        add(key);
+      }
+      for (const std::string_view key : zonal_keys) add(key);
+    }
+    for (const SystemParameter& parameter : system.parameters) add(parameter.key);
+  }
+  return keys;
+}
 
 /// J1 and J21 look like keys; the nearest that there is would not be what was meant.
 void refuse_other_zonals(const TableReader& system) {
@@ -80,7 +91,7 @@ ZonalChoice read_zonal_choice(const TableReader& system) {
   return choice;
 }
 
-/// The same from a file, which has all: a key beside it would contradict it.
+/// Reads the gravity field from a file, which has all of it: a key beside it would contradict it.
 void read_gravity_file(const TableReader& system, SystemSettings& settings) {
   std::vector<std::string_view> keys = {"mu_km3_s2", "radius_km"};
   keys.insert(keys.end(), zonal_keys.begin(), zonal_keys.end());
@@ -102,79 +113,53 @@ void read_gravity_file(const TableReader& system, SystemSettings& settings) {
       GravityFile{system.text("gravity_file"), field.model_name, field.tide_system};
 }
 
-/// The keys of the models that are no orbits.
-void read_mechanics(const TableReader& system, SystemSettings& settings) {
-  if (system.has("mass_kg")) settings.mass_kg = system.positive_number("mass_kg");
-  switch (settings.model) {
-    case SystemModel::harmonic_oscillator:
-      if (system.has("stiffness_N_per_m")) {
-        settings.stiffness_N_per_m = system.positive_number("stiffness_N_per_m");
-      }
-      break;
-    case SystemModel::oscillator_pair: {
-      const std::vector<double> stiffnesses = system.numbers("stiffness_N_per_m", 2);
-      for (std::size_t i = 0; i < 2; ++i) {
-        if (stiffnesses[i] > 0) continue;
-        system.fail_element(
-            "stiffness_N_per_m", i,
-            fmt::format("not positive, got {}, must be a number above 0", stiffnesses[i]));
-      }
-      settings.stiffness_N_per_m = stiffnesses[0];
-      settings.second_stiffness_N_per_m = stiffnesses[1];
-      break;
-    }
-    case SystemModel::spring_pendulum:
-      settings.stiffness_N_per_m = system.positive_number("stiffness_N_per_m");
-      settings.length_m = system.positive_number("length_m");
-      settings.gravity_m_s2 = system.number("gravity_m_s2");
-      break;
-    case SystemModel::fermi_pasta_ulam:
-      settings.omega_rad_per_s = system.positive_number("omega_rad_per_s");
-      settings.pairs = static_cast<std::size_t>(system.integer_between("pairs", 1, most_pairs));
-      break;
-    default:
-      break;
+void read_pair(const TableReader& system, const SystemParameter& parameter,
+               SystemSettings& settings) {
+  const std::vector<double> values = system.numbers(parameter.key, 2);
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (values[i] > 0) continue;
+    system.fail_element(parameter.key, i,
+                        fmt::format("not positive, got {}, must be a number above 0", values[i]));
   }
+  settings.*std::get<double SystemSettings::*>(parameter.member) = values[0];
+  settings.*parameter.second_member = values[1];
+}
+
+void read_parameter(const TableReader& system, const SystemParameter& parameter,
+                    SystemSettings& settings) {
+  if (!parameter.is_required && !system.has(parameter.key)) return;
+  if (parameter.second_member != nullptr) return read_pair(system, parameter, settings);
+  if (const auto* number = std::get_if<double SystemSettings::*>(&parameter.member)) {
+    settings.** number = parameter.is_positive ? system.positive_number(parameter.key)
+                                               : system.number(parameter.key);
+    return;
+  }
+  settings.*std::get<std::size_t SystemSettings::*>(parameter.member) = static_cast<std::size_t>(
+      system.integer_between(parameter.key, parameter.least, parameter.most));
 }
 
 }  // namespace
 
 std::vector<std::string_view> system_keys(SystemModel model) {
-  switch (model) {
-    case SystemModel::zonal_gravity:
-      return zonal_gravity_keys;
-    case SystemModel::kepler:
-      return {"model", "mu_km3_s2"};
-    case SystemModel::harmonic_oscillator:
-    case SystemModel::oscillator_pair:
-      return {"model", "mass_kg", "stiffness_N_per_m"};
-    case SystemModel::spring_pendulum:
-      return {"model", "mass_kg", "stiffness_N_per_m", "length_m", "gravity_m_s2"};
-    case SystemModel::fermi_pasta_ulam:
-      return {"model", "omega_rad_per_s", "pairs"};
-    case SystemModel::double_well:
-      break;
-  }
-  return {"model"};
+  return keys_of_systems({description_of(model)});
 }
 
 SystemSettings read_system(const TableReader& system) {
+  const std::vector<std::string_view> all_keys = keys_of_systems(all_systems());
   if (!system.has("model")) system.check_keys({all_keys});  // a misspelt `model` is named
   SystemSettings settings;
   settings.model = static_cast<SystemModel>(system.choice("model", model_names()));
-  if (settings.model == SystemModel::zonal_gravity) refuse_other_zonals(system);
+  const bool has_zonals = settings.model == SystemModel::zonal_gravity;
+  if (has_zonals) refuse_other_zonals(system);
   system.check_keys({system_keys(settings.model), all_keys,
                      "the model " + std::string(model_name(settings.model))});
-  if (!is_orbit(settings.model)) {
-    read_mechanics(system, settings);
-    return settings;
-  }
-  if (settings.model == SystemModel::kepler) {
-    settings.mu_km3_s2 = system.positive_number("mu_km3_s2");
-  } else if (system.has("gravity_file")) {
+  if (has_zonals && system.has("gravity_file")) {
     read_gravity_file(system, settings);
-  } else {
+  } else if (has_zonals) {
     read_zonals(system, settings);
+  }
+  for (const SystemParameter& parameter : description_of(settings.model).parameters) {
+    read_parameter(system, parameter, settings);
   }
   return settings;
 }

@@ -75,8 +75,8 @@ class TableReader {
   std::string text(std::string_view key) const;
   /// Required: the path of a file, relative to the folder of the scene.
   std::filesystem::path path_beside_scene(std::string_view key) const;
-  /// Required: the same; returns the file's content. Throws Error(input_output) if it cannot be
-  /// read, Error(too_large) if it has more than so many bytes.
+  /// Required: the path of a file as in path_beside_scene; returns the file's content. Throws
+  /// Error(input_output) if it cannot be read, Error(too_large) if it has more than so many bytes.
   std::string content_beside_scene(std::string_view key, std::size_t most_bytes) const;
   /// Required: an array of strings, not empty.
   std::vector<std::string> texts(std::string_view key) const;
@@ -92,7 +92,7 @@ class TableReader {
 
   /// Throws Error(scene) with the message `head: problem`.
   [[noreturn]] void fail(std::string_view key, const std::string& problem) const;
-  /// The same about the element of an array, or about the key where it has no array.
+  /// Throws Error(scene) about an element of an array, or about the key where it has no array.
   [[noreturn]] void fail_element(std::string_view key, std::size_t index,
                                  const std::string& problem) const;
 

@@ -83,8 +83,9 @@ class TokenScanner {
                                           character()));
   }
 
-  /// Elsewhere than after these no string begins, nor within a value that is no string: what then
-  /// looks like one to this scanner is not one to the parser, which goes on as if outside quotes.
+  /// A string begins only after these characters, and not within a value that is no string: what
+  /// else looks like one to this scanner is not one to the parser, which goes on as if outside
+  /// quotes.
   void check_start_of_string() const {
     constexpr std::string_view right = "\n\r\t =[{,.";
     const bool is_at_start = position_ == 0 || right.find(text_[position_ - 1]) != right.npos;
@@ -118,8 +119,8 @@ class TokenScanner {
     }
   }
 
-  /// A backslash with what it escapes. At the end of a line it joins the next one, and toml++ looks
-  /// for blanks there as it does outside strings.
+  /// Skips a backslash with what it escapes. At the end of a line it joins the next one, and toml++
+  /// looks for blanks there as it does outside strings.
   void skip_escape(bool several_lines) {
     advance(1);
     constexpr std::string_view blanks = " \t\r\n";
@@ -251,7 +252,8 @@ class TokenScanner {
   /// Whether the parser still takes what comes for a part of a value that is no string.
   bool is_within_value() const { return levels_.back().in_value && !run_is_fresh_; }
 
-  /// What is in an array is a value; a table, and the header of one, begins with a key.
+  /// Enters a bracket. What is in an array is a value; a table, and the header of one, begins with
+  /// a key.
   void open(char bracket) {
     const bool is_array = bracket == '[' && level().in_value;
     levels_.push_back({is_array, is_array, level().is_within_value || is_within_value()});

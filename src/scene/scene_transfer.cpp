@@ -17,7 +17,7 @@ constexpr std::size_t degrees_of_freedom = 3;
 struct FramedTable {
   TableReader table;
   RelativeFrame frame;
-  std::string head;  ///< of the key that says so
+  std::string head;  ///< of the key that names the frame
 };
 
 /// The frame of a further table, which must be that of the first.
@@ -29,7 +29,7 @@ void require_one_frame(const FramedTable& first, const FramedTable& other) {
                                     frame_text(other.frame), first.head, frame_text(first.frame)));
 }
 
-/// One end; `fallback` is the table [transfer].
+/// Reads one end of the transfer; `fallback` is the table [transfer].
 FramedTable read_end(const TableReader& fallback, std::string_view key, const Nominal& nominal,
                      RelativeState& state) {
   const TableReader end = fallback.table(key);
@@ -52,7 +52,7 @@ std::string read_kind(const TableReader& transfer) {
   return kind;
 }
 
-/// Canonical.
+/// The margin about singular times, canonical.
 double read_singular_margin(const TableReader& transfer, const Nominal& nominal) {
   // At this distance from a half revolution the normal velocity on a circular orbit is
   // 1 / sin(2 pi 0.01) = 16 times what a quarter revolution takes.

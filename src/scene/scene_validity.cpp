@@ -11,7 +11,7 @@ constexpr int default_times = 12;
 constexpr int fewest_samples = 10;
 constexpr int most_samples = 10000;
 
-/// Relative to the largest.
+/// The semi-axes, relative to the largest.
 std::vector<double> read_semi_axes(const TableReader& validity) {
   std::vector<double> axes = validity.numbers("semi_axes", 3);
   for (std::size_t i = 0; i < axes.size(); ++i) {

@@ -7,7 +7,7 @@
 
 namespace hamjet::io {
 
-/// Of every case, of one that is refused, of one that is marked, and of what is measured.
+/// The keys of every case, of one that is refused, of one that is marked, and of what is measured.
 inline const std::vector<std::string_view> common_case_keys = {"group", "why", "outcome"};
 inline const std::vector<std::string_view> refusal_case_keys = {"exit_code", "message"};
 inline const std::vector<std::string_view> mark_case_keys = {"mark"};

@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <type_traits>
+#include <variant>
 
 #include "../store/json_values.hpp"
+#include "hamjet/studies/system_description.hpp"
 #include "scene_sections.hpp"
 
 namespace hamjet::io {
@@ -15,17 +16,13 @@ using Json = nlohmann::ordered_json;
 
 /// The parameters that the model has, by the keys of scenes.
 Json mechanics_json(const SystemSettings& system) {
-  const std::vector<std::string_view> keys = system_keys(system.model);
   Json json = Json::object();
-  for_each_field(system, [&](std::string_view name, const auto& member) {
-    if constexpr (std::is_arithmetic_v<std::decay_t<decltype(member)>>) {
-      const bool is_of_model = std::find(keys.begin(), keys.end(), name) != keys.end();
-      if (is_of_model) json[std::string(name)] = json_value(member);
+  for (const SystemParameter& parameter : description_of(system.model).parameters) {
+    Json& value = json[std::string(parameter.key)];
+    std::visit([&](auto member) { value = json_value(system.*member); }, parameter.member);
+    if (parameter.second_member != nullptr) {
+      value = {value, json_value(system.*parameter.second_member)};
     }
-  });
-  if (system.model == SystemModel::oscillator_pair) {
-    json["stiffness_N_per_m"] = {json_value(system.stiffness_N_per_m),
-                                 json_value(system.second_stiffness_N_per_m)};
   }
   return json;
 }

@@ -5,9 +5,9 @@
 
 namespace hamjet::io {
 
-/// The parameters of a model. Of an orbit what its gravity field is made of: mu, the radius, each
-/// J_n that is present, and the file that they come from, if they do; of another model the keys of
-/// its table `[system]` with their values, defaults included.
+/// The parameters of a model. An orbit has what its gravity field is made of: mu, the radius, each
+/// J_n that is present, and the file that they come from, if any; another model has the keys of its
+/// table `[system]` with their values, defaults included.
 nlohmann::ordered_json system_json(const SystemSettings& system);
 
 /// All members of the settings by their names; parameters of other methods than theirs are null.

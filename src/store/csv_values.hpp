@@ -19,7 +19,7 @@ inline std::string csv_field(std::string_view text) {
   return field + "\"";
 }
 
-/// 17 digits, from which the same number is read back; what was not computed is empty.
+/// A number with 17 digits, from which the same number is read back; empty without a value.
 inline std::string csv_number(double value) { return fmt::format("{:.17g}", value); }
 inline std::string csv_number(const std::optional<double>& value) {
   return value ? csv_number(*value) : "";

@@ -27,7 +27,7 @@ bool leads_to(const fs::path& path, int descriptor) {
          open_file.st_dev == named_file.st_dev && open_file.st_ino == named_file.st_ino;
 }
 
-/// "process 1234", as the holder wrote it.
+/// The holder as "process 1234", from what it wrote into the lock file.
 std::string holder(int descriptor) {
   std::array<char, 32> text;
   const ssize_t length = ::pread(descriptor, text.data(), text.size(), 0);
@@ -37,13 +37,13 @@ std::string holder(int descriptor) {
 }
 
 void write_holder(int descriptor) {
-  // It is there for a message only: a full disk must not matter.
+  // The number serves a message only: a full disk must not matter.
   const std::string text = fmt::format("{}\n", ::getpid());
   [[maybe_unused]] const bool is_written =
       ::ftruncate(descriptor, 0) == 0 && ::pwrite(descriptor, text.data(), text.size(), 0) > 0;
 }
 
-/// False if another process has the lock.
+/// Takes the lock; false if another process has it.
 bool try_to_lock(int descriptor) {
   while (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
     if (errno == EWOULDBLOCK) return false;
@@ -69,14 +69,14 @@ DirectoryLock::DirectoryLock(const fs::path& directory) : file_(directory / ".ha
       throw_file_error(directory, "the output directory is in use by another hamjet",
                        holder(descriptor_.value()) + "; wait for its end or choose another -o");
     }
-    // The one who had it may have removed the file just before.
+    // The last holder may have removed the file just before.
     if (leads_to(file_, descriptor_.value()) || attempt >= most_attempts) break;
   }
   write_holder(descriptor_.value());
 }
 
 DirectoryLock::~DirectoryLock() {
-  // Removed while it is locked, so that nobody else's is: whoever opens it now finds it gone.
+  // The file is removed while locked, so that it is nobody else's: whoever opened it finds it gone.
   if (is_in_place()) ::unlink(file_.c_str());
   remove_empty(created_);
 }

@@ -28,7 +28,7 @@ std::string host_name() {
   return host.data();
 }
 
-/// Whether to wait until the disk has it.
+/// Whether to wait until the disk has what was written.
 enum class Flush { no, yes };
 
 void write_file(const fs::path& path, std::string_view content, const fs::path& shown,
@@ -50,7 +50,7 @@ void write_file(const fs::path& path, std::string_view content, const fs::path& 
   if (!file.close()) throw_file_error(shown, "cannot be closed", errno_text());
 }
 
-/// Writes beside the file and takes its place.
+/// Writes a file beside `path`, then renames it to `path`.
 void replace_file(const fs::path& path, std::string_view content, Flush flush) {
   const fs::path folder = folder_of(path);
   const auto created = create_folders(folder, "the directory cannot be created");
@@ -105,7 +105,7 @@ std::vector<fs::path> create_folders(const fs::path& folder, std::string_view pr
 }
 
 void remove_empty(const std::vector<fs::path>& folders) {
-  // Not fs::remove, which would remove a file that has taken the folder's place.
+  // rmdir is used, not fs::remove, which would remove a file that has taken the folder's place.
   for (auto p = folders.rbegin(); p != folders.rend(); ++p) ::rmdir(p->c_str());
 }
 

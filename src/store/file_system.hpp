@@ -12,12 +12,12 @@
 
 namespace hamjet::io {
 
-/// A file descriptor that is closed when it goes.
+/// A file descriptor that is closed when the object goes.
 class Descriptor {
  public:
   Descriptor() = default;
-  /// -1, with errno set, if the file cannot be opened. New files may be read by all, as far as the
-  /// umask allows. Children do not inherit it.
+  /// Opens a file; the descriptor is -1, with errno set, if that fails. New files may be read by
+  /// all, as far as the umask allows. Children do not inherit it.
   Descriptor(const std::filesystem::path& path, int flags);
   ~Descriptor() { close(); }
   Descriptor(const Descriptor&) = delete;
@@ -61,23 +61,24 @@ void remove_empty(const std::vector<std::filesystem::path>& folders);
 /// Throws if no file can be created in the folder, which need not exist. Leaves nothing behind.
 void require_writable(const std::filesystem::path& folder);
 
-/// The file beside it in which write_whole_file() writes.
+/// The file beside `path` that write_whole_file() writes, and then renames to `path`.
 std::filesystem::path temporary_beside(const std::filesystem::path& path);
 
-/// Who writes such a file.
+/// The process that writes a temporary file.
 struct TemporaryWriter {
   bool is_of_this_machine = false;
   bool is_running = false;  ///< known of this machine's processes only
 };
 
-/// By the name of the file; nothing if it is none of these.
+/// The writer of a temporary file, by its name; no value if the name is not one.
 std::optional<TemporaryWriter> temporary_writer(const std::filesystem::path& temporary);
 
 /// Writes one file in full, or leaves what was there untouched; its folder is created. Does not
 /// wait for the disk: after a power failure the file may be cut or missing, so it must have a seal.
 void replace_sealed_file(const std::filesystem::path& path, std::string_view content);
 
-/// The same for any file, and to stay: after a power failure it is there, whole.
+/// Writes one file in full, or leaves what was there untouched, and waits for the disk: after a
+/// power failure it is there, whole.
 void write_whole_file(const std::filesystem::path& path, std::string_view content);
 
 }  // namespace hamjet::io

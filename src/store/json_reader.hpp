@@ -25,7 +25,7 @@ class JsonReader {
   JsonReader(const nlohmann::json& json, std::string file, std::string path = {})
       : json_(&json), file_(std::move(file)), path_(std::move(path)) {}
 
-  /// Parses a whole file, which must hold an object. `text` without a byte order mark.
+  /// Parses a whole file, which must hold an object; `text` has no byte order mark.
   static nlohmann::json parse(std::string_view text, const std::string& file);
 
   [[noreturn]] void fail(const std::string& what) const {
@@ -112,7 +112,7 @@ class JsonReader {
     value = one_of<Enumeration>(names_of(value));
   }
 
-  /// Reads what fields_json or integrator_json has written: null has no say.
+  /// Reads what fields_json or integrator_json has written; null leaves the default.
   template <HasFields Settings>
   Settings fields() const {
     Settings settings;
@@ -122,7 +122,7 @@ class JsonReader {
     return settings;
   }
 
-  /// Which of the names it is.
+  /// The index of this text in `names`.
   std::size_t index_in(const std::vector<std::string_view>& names) const {
     const auto found = std::find(names.begin(), names.end(), text());
     if (found == names.end()) fail("must be one of the known names");

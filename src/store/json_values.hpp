@@ -10,7 +10,7 @@
 
 namespace hamjet::io {
 
-/// JSON has no infinite numbers: they are the strings "inf", "-inf" and "nan".
+/// A number; JSON has no infinite ones, which become the strings "inf", "-inf" and "nan".
 inline nlohmann::ordered_json json_number(double value) {
   if (std::isfinite(value)) return value;
   if (std::isnan(value)) return "nan";
@@ -20,13 +20,13 @@ inline nlohmann::ordered_json json_number(const std::optional<double>& value) {
   return value ? json_number(*value) : nlohmann::ordered_json(nullptr);
 }
 
-/// What was not computed is null.
+/// A value, or null where none was computed.
 template <class T>
 nlohmann::ordered_json or_null(const std::optional<T>& value) {
   return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
 }
 
-/// An empty text, of a reason that there is none of, is null.
+/// A reason; an empty one becomes null.
 inline nlohmann::ordered_json text_or_null(const std::string& text) {
   return text.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(text);
 }

@@ -19,7 +19,7 @@ OutputDirectory::~OutputDirectory() = default;
 
 void OutputDirectory::write(const std::filesystem::path& relative, std::string_view content) {
   if (set_ == nullptr) {
-    // If the directory was removed during the computation, it is made anew.
+    // If the directory was removed during the computation, it is created again.
     if (!lock_->is_in_place()) lock_ = std::make_unique<DirectoryLock>(path_);
     set_ = std::make_unique<PreparedSet>(path_);
   }

@@ -48,7 +48,7 @@ void flush_folders_below(const fs::path& folder) {
 }
 
 /// The first folder from the directory down to a file that is a symbolic link; empty if none is.
-/// Behind it are files that are not the directory's. (The directory itself may be a link.)
+/// Files behind it are not the directory's. (The directory itself may be a link.)
 fs::path link_on_the_way(const fs::path& directory, const fs::path& relative) {
   std::error_code ignored;
   fs::path folder = directory;
@@ -59,7 +59,8 @@ fs::path link_on_the_way(const fs::path& directory, const fs::path& relative) {
   return {};
 }
 
-/// Renames would fail over a directory or below a file, after others have been done.
+/// Throws where a rename would fail, over a directory or below a file, after other files were
+/// renamed.
 void require_place(const fs::path& directory, const fs::path& relative) {
   const fs::path target = directory / relative;
   const fs::path link = link_on_the_way(directory, relative);
@@ -92,7 +93,7 @@ void move_file(const fs::path& from, const fs::path& to) {
                    errno_text() + "; the next hamjet in this directory tries again");
 }
 
-/// The text of a regular file of at most so many bytes; empty if it cannot be read.
+/// The text of a regular file of at most `most_bytes`; empty if it cannot be read.
 std::string text_if_any(const fs::path& file, std::size_t most_bytes) {
   std::error_code ignored;
   if (!fs::is_regular_file(fs::symlink_status(file, ignored))) return "";
@@ -109,7 +110,7 @@ void remove_earlier(const fs::path& directory, const fs::path& name,
     if (has_successor || !link_on_the_way(directory, file.path).empty()) continue;
     const fs::path path = directory / file.path;
     const FileRecord found = record_of(file.path, text_if_any(path, file.bytes));
-    // What somebody has changed since is theirs.
+    // A file that somebody has changed since is theirs to keep.
     if (found.bytes != file.bytes || found.crc32 != file.crc32) continue;
     ::unlink(path.c_str());
     if (path.parent_path() != directory) remove_empty({path.parent_path()});
@@ -143,7 +144,7 @@ std::string PreparedSet::commit(const fs::path& name, std::string_view summary) 
   const fs::path file = unfinished(directory_) / "summary" / name;
   create_folders(file.parent_path(), "the directory cannot be created");
   write_and_flush(file, sealed, directory_ / name);
-  // Before the decision, because it needs space on the disk.
+  // Folders are made before the decision, because they need space on the disk.
   for (const FileRecord& record : files_) {
     const auto folders =
         create_folders((directory_ / record.path).parent_path(), "the directory cannot be created");

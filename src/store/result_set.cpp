@@ -30,7 +30,7 @@ ResultSet::ResultSet(std::filesystem::path directory, std::string name)
     const DirectoryLock lock(directory_);
     put_in_place(directory_);
   }
-  // A pipe in the place of a result would be waited for.
+  // Reading a pipe in the place of a result would wait for its writer.
   summary_ = require_regular_file(path(), largest_summary_bytes);
 }
 
@@ -41,7 +41,7 @@ std::string ResultSet::read(const std::string& relative) {
   const std::filesystem::path file = directory_ / relative;
   std::error_code none;
   const auto size = std::filesystem::file_size(file, none);
-  // One that was changed a little is read, so that its reader can say what is wrong in it.
+  // A file that was changed a little is read, so that its reader can say what is wrong in it.
   if (!none && entry != files.end() && size > 2 * entry->bytes + small_change) {
     throw_file_error(
         file,

@@ -22,14 +22,14 @@ struct FileRecord {
 
 FileRecord record_of(const std::filesystem::path& relative, std::string_view content);
 
-/// The JSON object `summary` with the two keys.
+/// The JSON object `summary` with the keys "files" and "crc32" added.
 std::string seal(std::string_view summary, const std::vector<FileRecord>& files);
 
 /// Whether the text is, byte by byte, what `seal` returned.
 bool is_sealed(std::string_view text);
 
-/// The records in a sealed text; empty for another text. Only those with a path that leads nowhere
-/// but below the directory.
+/// The records in a sealed text; empty for another text. Records whose path leads out of the
+/// directory are left out.
 std::vector<FileRecord> sealed_files(std::string_view text);
 
 }  // namespace hamjet::io

@@ -19,7 +19,7 @@
 namespace hamjet::io {
 namespace {
 
-/// Why a call of the system failed.
+/// Why the last call of the system failed, from errno.
 FileContent failed_content() {
   const bool is_missing = errno == ENOENT;
   return {{}, errno_text(), false, is_missing};
@@ -68,7 +68,7 @@ FileContent read_regular_file(const std::filesystem::path& file, std::size_t mos
     // The file may have grown since its size was asked for.
     if (text.size() > most_bytes) return too_large(text.size(), most_bytes);
   }
-  // Half of an old file and half of a new one can be a good one.
+  // Half of an old file and half of a new one can look like a good file.
   struct stat now {};
   if (::fstat(descriptor.value(), &now) != 0) return failed_content();
   const bool is_as_before = now.st_size == status.st_size &&

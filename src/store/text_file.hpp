@@ -32,24 +32,25 @@ inline constexpr std::size_t largest_manifest_bytes = std::size_t{1} << 30;
 inline constexpr std::size_t largest_sweep_row_bytes = std::size_t{16} << 20;
 inline constexpr std::size_t largest_reference_bytes = std::size_t{1} << 30;
 
-/// All bytes of a file of at most so many, which may be a pipe. Throws Error(input_output) with
-/// path and reason, MissingFile where it is not there, Error(too_large) before reading where the
-/// size is known.
+/// All bytes of a file of at most `most_bytes`, which may be a pipe. Throws Error(input_output)
+/// with path and reason, MissingFile where it is not there, Error(too_large) before reading where
+/// the size is known.
 std::string read_text_file(const std::filesystem::path& file, std::size_t most_bytes);
 
 /// The bytes of a file, or why there are none.
 struct FileContent {
   std::string text;
   std::string problem;        ///< not empty: it could not be read, and why
-  bool is_too_large = false;  ///< that is why
-  bool is_missing = false;    ///< or that it is not there
+  bool is_too_large = false;  ///< it has more than the bytes allowed
+  bool is_missing = false;    ///< it is not there
 };
 
-/// Reads a regular file of at most so many bytes: not a directory, a pipe or a device, and not one
+/// Reads a regular file of at most `most_bytes`: not a directory, a pipe or a device, and not one
 /// that is written to meanwhile.
 FileContent read_regular_file(const std::filesystem::path& file, std::size_t most_bytes);
 
-/// The same; throws Error(input_output), MissingFile or Error(too_large), with path and reason.
+/// The text that read_regular_file gives; without one, throws Error(input_output), MissingFile or
+/// Error(too_large), with path and reason.
 std::string require_regular_file(const std::filesystem::path& file, std::size_t most_bytes);
 
 /// Throws that a file has no content: MissingFile where it is not there, else Error of this kind.

@@ -24,7 +24,7 @@ class AlongTimeRecorder {
     result_.label = std::move(label);
   }
 
-  /// To be called after every step.
+  /// Records the state after a step; to be called after every one.
   template <class Real>
   void record(double time, const FlowJet<Real>& jet, double energy_error) {
     if (std::abs(time) < next_ && time != duration_) return;
@@ -36,8 +36,8 @@ class AlongTimeRecorder {
     result_.points.push_back(point);
   }
 
-  /// `singular` are those of the flow, see times_without_kind. Of a failed integration only those
-  /// before its end are shown.
+  /// The record. `singular` are the flow's singular times, see times_without_kind; of a failed
+  /// integration only those before its end are kept.
   RunAlongTime take(const TimesWithoutKind& singular) {
     const double reached = result_.points.empty() ? 0 : std::abs(result_.points.back().time);
     for (const double time : singular.times) {

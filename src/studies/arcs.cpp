@@ -2,21 +2,15 @@
 
 #include <fmt/format.h>
 
+#include "hamjet/studies/method_description.hpp"
 #include "integration.hpp"
 
 namespace hamjet {
 
-bool can_be_split(IntegrationMethod method) {
-  return method == IntegrationMethod::gauss || method == IntegrationMethod::stormer ||
-         method == IntegrationMethod::velocity_verlet;
-}
-
 std::optional<std::string> reason_not_to_split(const Scene& scene,
                                                const IntegratorSettings& settings) {
-  if (!can_be_split(settings.method)) {
-    return fmt::format("{} is not available in arcs",
-                       method_names()[static_cast<std::size_t>(settings.method)]);
-  }
+  const MethodDescription& method = description_of(settings.method);
+  if (!method.splittable(settings)) return fmt::format("{} is not available in arcs", method.name);
   if (scene.figure && scene.figure->quantity == FigureQuantity::exactness) {
     return "the figure takes the jet after every step";
   }
@@ -24,26 +18,7 @@ std::optional<std::string> reason_not_to_split(const Scene& scene,
 }
 
 SplittableMethod splittable_method(const IntegratorSettings& settings) {
-  switch (settings.method) {
-    case IntegrationMethod::gauss: {
-      GaussSettings gauss;
-      gauss.stages = settings.stages;
-      gauss.step = settings.step_canonical;
-      gauss.tolerance = settings.tolerance;
-      gauss.compensated_summation = settings.compensated_summation;
-      return gauss;
-    }
-    case IntegrationMethod::stormer:
-      return StormerSettings{*settings.step_canonical};
-    case IntegrationMethod::velocity_verlet:
-      if (settings.order == 2) return VelocityVerletSettings{*settings.step_canonical};
-      return SymmetricCompositionSettings{settings.order, *settings.step_canonical};
-    case IntegrationMethod::newmark:
-    case IntegrationMethod::fehlberg78:
-    case IntegrationMethod::cvode_adams:
-    case IntegrationMethod::cvode_bdf:
-      break;
-  }
+  if (const auto method = description_of(settings.method).splittable(settings)) return *method;
   throw Error(ErrorKind::usage,
               fmt::format("integrator {}: this method cannot be split into arcs", settings.label));
 }

@@ -34,8 +34,8 @@ std::optional<double> entry_of(const std::filesystem::path& file, const std::str
   return std::nullopt;
 }
 
-/// What a control group leaves: its limit less what is in use, of which the pages of files that
-/// were read do not count, for they are dropped when memory is short.
+/// What a control group leaves: its limit less what is in use, without the pages of files that were
+/// read, which are dropped when memory is short.
 double free_in_group(const std::filesystem::path& group, const char* limit, const char* usage,
                      const char* droppable) {
   const auto most = number_in(group / limit);

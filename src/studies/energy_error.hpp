@@ -20,7 +20,7 @@ class EnergyError {
   double relative(const Extended& difference) const;
   double error(const std::vector<Extended>& state);
   const Extended& initial() const { return initial_; }
-  /// |H| + sum |z_i dH/dz_i| at the state z, of which `value` was asked last: the size of the terms
+  /// |H| + sum |z_i dH/dz_i| at the state z, the last one given to `value`: the size of the terms
   /// that H is made of.
   double terms(const std::vector<Extended>& state) const;
 

@@ -6,7 +6,7 @@
 
 namespace hamjet {
 
-/// The nominal's state, the constant terms of a jet.
+/// The nominal's final state: the constant terms of a jet.
 std::vector<double> nominal_of(const FlowJet<double>& jet);
 
 /// A flow problem for the trajectory alone: series of order 0.

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "hamjet/studies/system_description.hpp"
 #include "nominal_period.hpp"
 #include "random_direction.hpp"
 
@@ -16,11 +17,8 @@ constexpr int random_points = 100;
 }  // namespace
 
 double momentum_per_length(const Scene& scene) {
-  if (scene.system.model == SystemModel::harmonic_oscillator) {
-    return std::sqrt(scene.system.mass_kg * scene.system.stiffness_N_per_m);
-  }
   const auto period = nominal_period(scene);
-  if (scene.system.model == SystemModel::oscillator_pair) {
+  if (description_of(scene.system.model).period_s != nullptr) {
     return scene.system.mass_kg * 2 * std::numbers::pi / *period;
   }
   return period ? 2 * std::numbers::pi / *period : 1;

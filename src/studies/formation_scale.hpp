@@ -12,8 +12,8 @@ namespace hamjet {
 /// (1 in canonical units), sqrt(k m) for the oscillator (momentum per length).
 double momentum_per_length(const Scene& scene);
 
-/// Deviations at a scene's separation, at which jets are compared: along each axis of position, and
-/// random ones of a fixed seed, every second one with a random momentum of the same size (see
+/// Deviations of the scene's separation, at which jets are compared: along each axis of position,
+/// and random ones of a fixed seed, every second one with a random momentum of the same size (see
 /// momentum_per_length).
 class FormationPoints {
  public:
@@ -27,7 +27,7 @@ class FormationPoints {
  private:
   std::vector<std::vector<double>> points_;  ///< canonical, an entry for each variable
   std::size_t positions_ = 0;                ///< components that are positions
-  double metres_ = 0;                        ///< in one canonical unit of length
+  double metres_ = 0;                        ///< metres in one canonical unit of length
 };
 
 }  // namespace hamjet

@@ -1,5 +1,7 @@
 #include "integration.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,29 +11,13 @@
 
 #include "../integrators/momentum_unit.hpp"
 #include "hamjet/algebra/composition.hpp"
-#include "hamjet/integrators/cvode.hpp"
 #include "hamjet/integrators/error_estimate.hpp"
-#include "hamjet/integrators/explicit_runge_kutta.hpp"
-#include "hamjet/integrators/gauss_collocation.hpp"
-#include "hamjet/integrators/newmark.hpp"
-#include "hamjet/integrators/stormer_verlet.hpp"
-#include "hamjet/integrators/symmetric_composition.hpp"
 #include "hamjet/studies/arcs.hpp"
+#include "hamjet/studies/method_description.hpp"
 #include "stability_limit.hpp"
 #include "stopwatch.hpp"
 
 namespace hamjet {
-namespace {
-
-/// Lanes of the pack that holds this many stages.
-int lanes_for(int stages) {
-  int lanes = 1;
-  while (lanes < stages) lanes *= 2;
-  return lanes;
-}
-
-}  // namespace
-
 template <class Real>
 FlowProblem<Real> flow_problem(const ComputedProblem& problem, double duration) {
   FlowProblem<Real> flow{&problem.system, problem.space, problem.variables, {}, Real(duration)};
@@ -45,47 +31,24 @@ template <class Real>
 FlowJet<Real> integrate_unchecked(const FlowProblem<Real>& flow, const IntegratorSettings& settings,
                                   IntegrationStatistics& statistics,
                                   const StepObserver<Real>& observer, bool records_step_error) {
-  switch (settings.method) {
-    case IntegrationMethod::gauss: {
-      auto gauss = std::get<GaussSettings>(splittable_method(settings));
-      gauss.estimates_step_error = records_step_error;
-      return integrate_gauss<Real>(flow, gauss, statistics, observer);
-    }
-    case IntegrationMethod::stormer:
-      return integrate_stormer<Real>(flow, {*settings.step_canonical}, statistics, observer);
-    case IntegrationMethod::velocity_verlet:
-      if (settings.order == 2) {
-        return integrate_velocity_verlet<Real>(flow, {*settings.step_canonical}, statistics,
-                                               observer);
-      }
-      return integrate_symmetric_composition<Real>(flow, {settings.order, *settings.step_canonical},
-                                                   statistics, observer);
-    case IntegrationMethod::newmark:
-      return integrate_newmark<Real>(flow, {settings.beta, *settings.step_canonical}, statistics,
-                                     observer);
-    case IntegrationMethod::fehlberg78:
-      return integrate_fehlberg78<Real>(flow, {settings.step_canonical, settings.tolerance},
-                                        statistics, observer);
-    case IntegrationMethod::cvode_adams:
-    case IntegrationMethod::cvode_bdf:
-      break;
-  }
+  const MethodDescription& method = description_of(settings.method);
+  MethodIntegration::Function<Real> integrate = nullptr;
   if constexpr (std::is_same_v<Real, double>) {
-    CvodeSettings cvode;
-    cvode.method =
-        settings.method == IntegrationMethod::cvode_adams ? CvodeMethod::adams : CvodeMethod::bdf;
-    cvode.tolerance = *settings.tolerance;
-    cvode.records_step_error = records_step_error;
-    return integrate_cvode(flow, cvode, statistics, observer);
+    integrate = method.integrate.in_double;
   } else {
-    throw Error(ErrorKind::usage, "CVODE computes in double precision only");
+    integrate = method.integrate.in_extended;
   }
+  if (integrate == nullptr) {
+    throw Error(ErrorKind::usage,
+                fmt::format("{} computes in double precision only", method.library));
+  }
+  return integrate(flow, settings, statistics, observer, records_step_error);
 }
 
-/// Whether the method has fixed steps that can be too long for a linear system. Gauss methods are
-/// stable for every step.
+/// Whether the method has fixed steps that can be too long for a linear system.
 bool has_stability_limit(const IntegratorSettings& settings) {
-  return settings.method != IntegrationMethod::gauss && settings.step_canonical.has_value();
+  return !description_of(settings.method).is_stable_for_every_step &&
+         settings.step_canonical.has_value();
 }
 
 /// The matrix of one step on a linear system.
@@ -106,10 +69,10 @@ void require_stable_steps(const DynamicalSystem& system, const IntegratorSetting
                           double duration) {
   const double count = std::ceil(std::abs(duration) / *settings.step_canonical * (1 - 1e-12));
   if (!(count >= 1)) return;
-  const std::string method(method_names()[static_cast<std::size_t>(settings.method)]);
-  require_stable_steps(
-      system, {method, [&](double step) { return step_matrix(system, settings, step); },
-               duration / count, duration, settings.method != IntegrationMethod::fehlberg78});
+  const MethodDescription& method = description_of(settings.method);
+  require_stable_steps(system, {std::string(method.name),
+                                [&](double step) { return step_matrix(system, settings, step); },
+                                duration / count, duration, method.preserves_a_two_form});
 }
 
 }  // namespace
@@ -165,11 +128,9 @@ double integration_memory(const IntegratorSettings& settings, const DynamicalSys
                           double coefficients, double real_bytes) {
   const OperationList& list = system.evaluated_list();
   const double values = static_cast<double>(list.operations().size()) + 2;
-  if (settings.method == IntegrationMethod::gauss) {
-    return values * lanes_for(settings.stages) * real_bytes * coefficients;
-  }
-  // The states that odeint's 13 stages, or CVODE's Nordsieck array, hold, and one lane of series.
-  return (values + 20 * static_cast<double>(system.dimension())) * real_bytes * coefficients;
+  return description_of(settings.method)
+             .numbers_held(settings, values, static_cast<double>(system.dimension())) *
+         real_bytes * coefficients;
 }
 
 template FlowProblem<double> flow_problem(const ComputedProblem&, double);

@@ -19,7 +19,8 @@ FlowJet<Real> integrate(const FlowProblem<Real>& flow, const IntegratorSettings&
                         IntegrationStatistics& statistics, const StepObserver<Real>& observer,
                         bool records_step_error = false);
 
-/// The same in arcs, for a method that can be split; see integrate_in_arcs.
+/// Integrates in arcs, with a method that can be split; otherwise as integrate. See
+/// integrate_in_arcs.
 template <class Real>
 FlowJet<Real> integrate_split(const FlowProblem<Real>& flow, const IntegratorSettings& settings,
                               const ArcSettings& arcs, IntegrationStatistics& statistics,

@@ -12,8 +12,8 @@ namespace hamjet {
 /// that the kind does not change to and fro where several are nearly alike.
 class KindChoice {
  public:
-  /// Index of the chosen kind from a figure of each kind, the smaller the better; none if no figure
-  /// is finite. The first kind, F1, is the last choice before there is one.
+  /// Index of the kind chosen by a figure of each kind, the smaller the better; none if no figure
+  /// is finite. Before the first choice F1, the first kind, counts as the last one.
   std::optional<std::size_t> choose(const std::vector<double>& figures) {
     const auto best =
         static_cast<std::size_t>(std::min_element(figures.begin(), figures.end(),

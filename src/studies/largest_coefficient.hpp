@@ -6,8 +6,7 @@
 
 namespace hamjet {
 
-/// The largest magnitude of a jet's coefficients of one degree; not a number if one of them is
-/// none.
+/// The largest magnitude of a jet's coefficients of one degree; NaN if one of them is NaN.
 template <class Real>
 double largest_coefficient(const FlowJet<Real>& jet, int degree) {
   double largest = 0;

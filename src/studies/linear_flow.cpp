@@ -26,8 +26,8 @@ struct LinearArc {
   StateTransition matrix;
 };
 
-/// To a relative local error of 1e-14. Most arcs are so short that one step is good for them, which
-/// spares what choosing steps takes, several times the step itself.
+/// The jet to a relative local error of 1e-14. Most arcs are so short that one step does, which
+/// saves the choice of steps, several times the step's own cost.
 FlowJet<double> precise_jet(const FlowProblem<double>& flow) {
   constexpr double local_error = 1e-14;
   IntegrationStatistics statistics;
@@ -38,7 +38,7 @@ FlowJet<double> precise_jet(const FlowProblem<double>& flow) {
     FlowJet<double> jet = integrate_gauss<double>(flow, one_step, statistics);
     if (statistics.largest_step_error && *statistics.largest_step_error <= local_error) return jet;
   } catch (const Error& error) {
-    // A step too long has no solution.
+    // A step that is too long may have no solution.
     if (error.kind() != ErrorKind::numerical) throw;
   }
   GaussSettings adaptive;

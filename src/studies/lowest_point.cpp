@@ -17,8 +17,8 @@ namespace {
 constexpr std::size_t most_passages = 64;
 constexpr double refinement_tolerance = 1e-12;
 
-/// The smallest value on [0, h] of the cubic with these values and derivatives at the ends, of
-/// which the first falls and the second rises.
+/// The smallest value on [0, h] of the cubic with these values and slopes at its ends; it falls at
+/// the start and rises at the end.
 double smallest_of_cubic(double h, double start, double start_slope, double end, double end_slope) {
   double smallest = std::min(start, end);
   constexpr int parts = 32;

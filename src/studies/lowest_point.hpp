@@ -6,17 +6,18 @@
 
 namespace hamjet {
 
-/// Looks along a nominal for its smallest distance from the centre, between its points too. For
-/// orbits, whose momentum is the velocity.
+/// Looks along an orbit's nominal for its smallest distance from the centre, between its points
+/// too. Momenta are taken as velocities.
 class LowestPointSearch {
  public:
   explicit LowestPointSearch(const ComputedProblem& problem) : problem_(problem) {}
 
-  /// To be called with every point in turn, the start first: time and components, canonical.
+  /// Adds a point, the start first and every one in turn: time and components, canonical.
   void record(double time, const std::vector<double>& state);
 
   /// Follows the nominal down to where r.v changes sign from falling to rising, by integration from
-  /// the last point before; of more than 64 such passages those that are lowest by interpolation.
+  /// the last point before. If there are more than 64 such passages, only those that are lowest by
+  /// interpolation are followed.
   LowestPoint take();
 
  private:

@@ -14,7 +14,8 @@ namespace {
 
 using JetSpan = std::span<const Series<Extended>>;
 
-/// Between the final positions of two nominals, which are the first components; canonical.
+/// The distance between the final positions of two nominals, which are the first components;
+/// canonical.
 double position_distance(const FlowJet<Extended>& a, const FlowJet<Extended>& b,
                          std::size_t degrees_of_freedom) {
   Extended square = 0;
@@ -58,14 +59,14 @@ const std::vector<ExactnessResidual>* MapAnalysis::floor(const GeneratingFunctio
       place->second = exactness_residual(one_form(inversion), scales(kind));
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::numerical) throw;
-      // The kind does not exist for the true map: there is no floor to state.
+      // The kind does not exist for the true map: there is no rounding floor to state.
       place->second.clear();
     }
   }
   return place->second.empty() ? nullptr : &place->second;
 }
 
-/// Keeps the worst of all kinds for the self-check.
+/// Composes the inverted map with the map; keeps the worst of all kinds for the self-check.
 void MapAnalysis::compose(RunResult& run, const PartialInversion<Extended>& inversion,
                           const std::string& requested) const {
   if (!run.inversion) run.inversion.emplace();

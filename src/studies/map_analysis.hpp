@@ -8,8 +8,8 @@
 namespace hamjet {
 
 /// Judges the jets of a scene's runs: symplecticity, error against the reference, and the
-/// generating functions that the scene asks for with their exactness. The floors, which depend on
-/// the kind and not on the run, are computed once a kind.
+/// generating functions that the scene asks for with their exactness. The rounding floors of
+/// exactness, which do not depend on the run, are computed once a kind.
 class MapAnalysis {
  public:
   MapAnalysis(const Scene& scene, const ComputedProblem& problem,
@@ -19,7 +19,7 @@ class MapAnalysis {
   /// Fills in all that the scene asks for; a kind that does not exist is marked in its result.
   void analyse(RunResult& run);
 
-  /// Inversions of the reference's map so far.
+  /// Number of inversions of the reference's map so far.
   long floor_inversions() const { return floor_inversions_; }
 
  private:

@@ -1,20 +1,15 @@
 #include "nominal_period.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "hamjet/studies/system_description.hpp"
 
 namespace hamjet {
 
 std::optional<double> nominal_period(const Scene& scene) {
-  if (scene.system.model == SystemModel::harmonic_oscillator) {
-    return 2 * std::numbers::pi * std::sqrt(scene.system.mass_kg / scene.system.stiffness_N_per_m);
-  }
-  if (scene.system.model == SystemModel::oscillator_pair) {
-    const double softer =
-        std::min(scene.system.stiffness_N_per_m, scene.system.second_stiffness_N_per_m);
-    return 2 * std::numbers::pi * std::sqrt(scene.system.mass_kg / softer);
-  }
+  const auto period_s = description_of(scene.system.model).period_s;
+  if (period_s != nullptr) return period_s(scene.system);
   if (!is_orbit(scene.system.model)) return std::nullopt;
   const std::vector<double>& z = scene.nominal;
   // The vis-viva equation with mu = 1.

@@ -44,7 +44,7 @@ class NominalRecorder {
   double last_energy_error() const { return last_energy_error_; }
   const EnergyAlongNominal& energy() const { return result_; }
 
-  /// The points, the last one always among them.
+  /// The points recorded; the last one is always among them.
   std::vector<NominalPoint> take() { return points_.take(); }
   std::optional<LowestPoint> lowest_point() {
     return lowest_point_ ? std::optional(lowest_point_->take()) : std::nullopt;
@@ -60,7 +60,7 @@ class NominalRecorder {
     keep_largest(result_.largest_terms, energy_.terms(state));
   }
 
-  /// What is not a number counts as infinite: it must not be lost in a maximum.
+  /// Raises a maximum; NaN counts as infinite, for it must not be lost.
   static void keep_largest(double& largest, double value) {
     largest = std::isnan(value) ? std::numeric_limits<double>::infinity()
                                 : std::max(largest, std::abs(value));

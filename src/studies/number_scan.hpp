@@ -6,12 +6,12 @@
 
 namespace hamjet {
 
-/// How many numbers a run's result has, and how many of them are infinite or none in the precision
-/// in which they are stored.
+/// How many numbers a run's result has, and how many of them are not finite in the precision in
+/// which they are stored.
 struct NumberScan {
   long numbers = 0;
   long not_finite = 0;
-  std::string first;  ///< where the first one stands that is not finite
+  std::string first;  ///< where the first number that is not finite stands
 };
 
 /// Looks at all numbers that are printed or stored of a run.

@@ -4,15 +4,10 @@
 #include <numeric>
 
 #include "../integrators/arc_plan.hpp"
-#include "hamjet/dynamics/double_well.hpp"
-#include "hamjet/dynamics/fermi_pasta_ulam.hpp"
-#include "hamjet/dynamics/harmonic_oscillator.hpp"
-#include "hamjet/dynamics/oscillator_pair.hpp"
-#include "hamjet/dynamics/spring_pendulum.hpp"
-#include "hamjet/dynamics/zonal_gravity.hpp"
-#include "hamjet/integrators/cvode.hpp"
 #include "hamjet/studies/arcs.hpp"
+#include "hamjet/studies/method_description.hpp"
 #include "hamjet/studies/propagation.hpp"
+#include "hamjet/studies/system_description.hpp"
 #include "integration.hpp"
 
 namespace hamjet {
@@ -38,25 +33,7 @@ double schedule_bytes(std::size_t variables, int order) {
 }  // namespace
 
 DynamicalSystem make_system(const SystemSettings& settings, double canonical_radius) {
-  switch (settings.model) {
-    case SystemModel::zonal_gravity:
-      return zonal_gravity({1.0, canonical_radius, settings.J});
-    case SystemModel::kepler:
-      return kepler();
-    case SystemModel::double_well:
-      return double_well();
-    case SystemModel::oscillator_pair:
-      return oscillator_pair(settings.mass_kg, settings.stiffness_N_per_m,
-                             settings.second_stiffness_N_per_m);
-    case SystemModel::spring_pendulum:
-      return spring_pendulum(settings.mass_kg, settings.stiffness_N_per_m, settings.length_m,
-                             settings.gravity_m_s2);
-    case SystemModel::fermi_pasta_ulam:
-      return fermi_pasta_ulam(settings.omega_rad_per_s, settings.pairs);
-    case SystemModel::harmonic_oscillator:
-      break;
-  }
-  return harmonic_oscillator(settings.mass_kg, settings.stiffness_N_per_m);
+  return description_of(settings.model).make(settings, canonical_radius);
 }
 
 DynamicalSystem make_system(const Scene& scene) {
@@ -65,7 +42,8 @@ DynamicalSystem make_system(const Scene& scene) {
 
 namespace {
 
-/// Bytes of one integration; in arcs those of every thread, and the maps and starts of all arcs.
+/// Bytes of one integration; in arcs the bytes of every thread, and the maps and starts of all
+/// arcs.
 double run_memory(const Scene& scene, const IntegratorSettings& settings,
                   const DynamicalSystem& system, std::size_t variables, std::size_t threads) {
   const double real = scene.precision == Precision::extended ? sizeof(Extended) : sizeof(double);
@@ -104,11 +82,12 @@ double estimate_memory(const Scene& scene, const DynamicalSystem& system, std::s
   total += stored_jets * components * coefficients * sizeof(Extended);
   if (scene.reference) total += 2 * values * 16 * sizeof(Extended) * working;
   if (variables == system.dimension()) {
-    // Derivatives of all components by all variables, for the Poisson brackets.
+    // Poisson brackets need the derivatives of all components by all variables.
     total += (components * components + 4) * coefficients * (sizeof(Extended) + sizeof(double));
   }
   if (scene.kinds) {
-    // Series of the inversion, and a generating function of order N + 1 for every kind and run.
+    // Inversions need their series, and a generating function of order N + 1 for every kind and
+    // run.
     total += (10 * components + scene.order) * coefficients * sizeof(Extended);
     total += static_cast<double>(scene.kinds->size() * scene.integrators.size() + 1) *
              SeriesSpace::monomial_count(variables, scene.order + 1) *
@@ -121,12 +100,11 @@ namespace {
 
 void require_built(const Scene& scene) {
   for (const IntegratorSettings& settings : scene.integrators) {
-    if (is_cvode(settings.method) && !cvode_available()) {
-      throw Error(ErrorKind::usage,
-                  fmt::format("integrator {}: this build has no CVODE; configure with "
-                              "-DHAMJET_CVODE=ON",
-                              settings.label));
-    }
+    const MethodDescription& method = description_of(settings.method);
+    if (method.is_built()) continue;
+    throw Error(ErrorKind::usage,
+                fmt::format("integrator {}: this build has no {}; configure with {}",
+                            settings.label, method.library, method.build_option));
   }
 }
 

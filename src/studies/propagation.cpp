@@ -76,7 +76,7 @@ void run_integrator(const Scene& scene, const ComputedProblem& problem, std::siz
   if (along_time) run.along_time = along_time->take(singular);
 }
 
-/// One check of the scene: a value that was not computed has not passed.
+/// Judges one check of the scene; a value that was not computed has not passed.
 void check(RunResult& run, const char* key, std::optional<double> limit,
            std::optional<double> value) {
   if (!limit) return;
@@ -94,7 +94,7 @@ void check(RunResult& run, const std::optional<ReferenceResult>& reference) {
   std::optional<double> error;
   if (run.error_by_degree) {
     error = *std::max_element(run.error_by_degree->begin(), run.error_by_degree->end());
-    // What the reference itself does not know is not passed.
+    // An error counts as no smaller than the reference can vouch for.
     error = std::max(*error, reference->smallest_claimed_error());
   }
   std::optional<double> symplecticity;

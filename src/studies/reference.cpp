@@ -47,7 +47,7 @@ ReferenceResult compute_reference(const ComputedProblem& problem, double duratio
   try {
     coarse = std::async(std::launch::async, run_coarse);
   } catch (const std::system_error&) {
-    // No thread to be had: it runs afterwards and not meanwhile.
+    // No thread can be had: the coarse run follows the fine one.
     coarse = std::async(std::launch::deferred, run_coarse);
   }
   try {

@@ -33,7 +33,7 @@ class KeyText {
   void write(Integer value) {
     text_ += fmt::format("{}", value);
   }
-  /// With its length, for it may hold anything.
+  /// A text is written with its length, for it may hold anything.
   void write(const std::string& value) { text_ += fmt::format("{}:{}", value.size(), value); }
   template <NamedEnumeration Enumeration>
   void write(Enumeration value) {
@@ -80,7 +80,7 @@ std::string scene_key(const Scene& scene, int jet_order, KeyOf whose) {
                relative_hamiltonian_times, checks, comparison, figure, transfer, validity,
                assignment, output, ephemeris, nominal_file, warnings] = scene;
   KeyText key;
-  key.add("key", 3);  // of this form of the text
+  key.add("key", 3);  // version of this form of the text
   key.add("reference stages", reference_stages);
   key.add("compared stages", compared_stages);
   key.add("looser by", looser_tolerance);

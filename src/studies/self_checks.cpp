@@ -9,6 +9,7 @@
 #include "../integrators/momentum_unit.hpp"
 #include "../integrators/phase_space_scale.hpp"
 #include "hamjet/integrators/error_estimate.hpp"
+#include "hamjet/studies/method_description.hpp"
 #include "hamjet/studies/propagation.hpp"
 #include "largest_coefficient.hpp"
 #include "number_scan.hpp"
@@ -18,18 +19,17 @@ namespace hamjet {
 namespace {
 
 constexpr double largest_fixed_step_error = 5;
-constexpr double gauss_excess = 10;  ///< up to which a Gauss method accepts a step
+constexpr double gauss_excess = 10;  ///< error over tolerance that Gauss accepts in a step
 constexpr double largest_energy_change = 0.1;
 constexpr double largest_symplecticity_defect = 1e-6;
-constexpr double largest_rounding = 1e-3;         ///< of a degree that is delivered
-constexpr double largest_inversion_miss = 1e-20;  ///< or epsilon, where that is larger
+constexpr double largest_rounding = 1e-3;         ///< relative rounding of a usable degree
+constexpr double largest_inversion_miss = 1e-20;  ///< or epsilon if larger
 constexpr double largest_amplified_rounding = 1e-4;
 
-std::string method_name(const RunResult& run) {
-  return std::string(method_names()[static_cast<std::size_t>(run.settings.method)]);
+/// Whether the tolerance bounds the error of every degree after one period, not a local error.
+bool is_tolerance_of_jet(const RunResult& run) {
+  return description_of(run.settings.method).tolerance_is_of_the_jet;
 }
-
-bool is_gauss(const RunResult& run) { return run.settings.method == IntegrationMethod::gauss; }
 
 void not_applicable(SelfCheck& check, std::string why) {
   check.state = SelfCheckState::not_applicable;
@@ -57,20 +57,9 @@ void check_finite(SelfCheck& check, const Scene& scene, const RunResult& run) {
 }
 
 void check_convergence(SelfCheck& check, const RunResult& run) {
-  switch (run.settings.method) {
-    case IntegrationMethod::cvode_adams:
-    case IntegrationMethod::cvode_bdf:
-      return not_applicable(check,
-                            "CVODE iterates as far as its tolerance asks, and repeats a step whose "
-                            "iteration does not come to that");
-    case IntegrationMethod::gauss:
-      break;
-    case IntegrationMethod::newmark:
-      if (run.settings.beta > 0) break;
-      [[fallthrough]];
-    default:
-      return not_applicable(check, "an explicit method solves no equations");
-  }
+  const auto& method = description_of(run.settings.method);
+  const std::string_view no_equations = method.solves_no_equations(run.settings);
+  if (!no_equations.empty()) return not_applicable(check, std::string(no_equations));
   if (run.statistics.steps == 0) return not_applicable(check, "no step was taken");
   const int iterations = run.statistics.most_newton_iterations;
   check.value = iterations;
@@ -90,14 +79,14 @@ void check_step_error(SelfCheck& check, const RunResult& run) {
   const auto& tolerance = run.settings.tolerance;
   if (run.statistics.steps == 0) return not_applicable(check, "no step was taken");
   if (!run.statistics.largest_step_error) {
-    return not_applicable(check, method_name(run) +
+    return not_applicable(check, std::string(method_name(run.settings.method)) +
                                      " with fixed steps estimates no local error; the "
                                      "energy shows steps that are far too large");
   }
   check.seconds += run.statistics.step_error_seconds;
   const double value = *run.statistics.largest_step_error;
-  const double limit =
-      tolerance ? (is_gauss(run) ? gauss_excess : 1) * *tolerance : largest_fixed_step_error;
+  const double limit = tolerance ? (is_tolerance_of_jet(run) ? gauss_excess : 1) * *tolerance
+                                 : largest_fixed_step_error;
   const bool is_good = judge(check, value, limit);
   if (tolerance) {
     check.text =
@@ -158,15 +147,9 @@ FlowJet<Extended> comparable_jet(const Scene& scene, const RunResult& run) {
 }
 
 void check_symplecticity(SelfCheck& check, const Scene& scene, const RunResult& run) {
-  switch (run.settings.method) {
-    case IntegrationMethod::gauss:
-    case IntegrationMethod::stormer:
-    case IntegrationMethod::velocity_verlet:
-      break;
-    case IntegrationMethod::newmark:
-      return not_applicable(check, "newmark is symplectic in other variables than (q, p)");
-    default:
-      return not_applicable(check, method_name(run) + " is not symplectic");
+  const auto& method = description_of(run.settings.method);
+  if (!method.not_symplectic.empty()) {
+    return not_applicable(check, std::string(method.not_symplectic));
   }
   if (run.symplecticity.empty()) {
     return not_applicable(check, "the jet is not expanded in all variables");
@@ -262,13 +245,13 @@ void check_surface(SelfCheck& check, const Scene& scene, const RunResult& run) {
 /// tolerance is that of the error after one; once a step for the others, whose tolerance is that of
 /// a step.
 double tolerance_count(const RunResult& run) {
-  return std::max(
-      1.0, is_gauss(run) ? run.statistics.periods : static_cast<double>(run.statistics.steps));
+  return std::max(1.0, is_tolerance_of_jet(run) ? run.statistics.periods
+                                                : static_cast<double>(run.statistics.steps));
 }
 
 /// By degree, by how much half-ulp changes of the start alone change the coefficients, relative to
-/// the largest: those of degree d by the derivatives of the flow of one degree more. The last
-/// degree is taken to grow as the one before.
+/// the largest. Degree d changes by the coefficients of degree d + 1; the last degree is taken to
+/// grow as the one before.
 std::vector<double> half_ulp_changes(const Scene& scene, const RunResult& run) {
   const int exponent = natural_momentum_exponent(is_orbit(scene.system.model), scene.nominal);
   const FlowJet<Extended> jet = comparable_jet(scene, run);
@@ -296,7 +279,7 @@ std::vector<double> promised_errors(const Scene& scene, const RunResult& run) {
   for (std::size_t d = 0; d < promised.size(); ++d) {
     double floor = std::sqrt(1 + steps) * promised[d];
     if (d < measured.size()) floor = std::max(floor, measured[d]);
-    // A degree without three digits is none, even where rounding is the reason.
+    // A degree with fewer than three digits is not delivered, even where rounding is the reason.
     const double error = std::min(10 * floor, largest_rounding) +
                          100 * *run.settings.tolerance * tolerance_count(run);
     promised[d] = error_estimate_safety * error;

@@ -35,7 +35,7 @@ double signed_smallest(const Matrix<double>& block) {
   return std::copysign(decomposition.singularValues()[block.rows() - 1], sign);
 }
 
-/// See find_singular_times.
+/// The function whose zeros are the singular times, see find_singular_times.
 double watched_value(const StateTransition& flow, const GeneratingFunctionKind& kind) {
   const Matrix<double> block = inverted_block(flow, kind);
   const double value =
@@ -43,8 +43,8 @@ double watched_value(const StateTransition& flow, const GeneratingFunctionKind& 
   return value / flow.norm();
 }
 
-/// What rounding leaves of a zero of watched_value at a time, where the flow's matrix is `flow`: an
-/// ulp in each checkpoint's matrix M_s, carried on to that time by M M_s^-1, adds up to
+/// Size of watched_value that rounding leaves at a zero, at a time where the flow's matrix is
+/// `flow`: an ulp in each checkpoint's matrix M_s, carried on to that time by M M_s^-1, adds up to
 ///
 ///   u sqrt( sum over s of |M M_s^-1|^2 |M_s|^2 ) / |M| ,
 ///
@@ -63,7 +63,7 @@ double rounding_of_zero(const LinearFlow& whole, double time, const StateTransit
   return std::numeric_limits<double>::epsilon() * std::sqrt(sum) / flow.norm();
 }
 
-/// Looks for the zeros of one kind's signed ratio.
+/// Looks for the zeros of one kind's watched_value.
 class ZeroSearch {
  public:
   ZeroSearch(const LinearFlow& flow, const GeneratingFunctionKind& kind)
@@ -94,7 +94,7 @@ class ZeroSearch {
  private:
   double time(std::size_t i) const { return times_[i]; }
 
-  /// Whether the line through a point and the next one is beyond zero at the one after.
+  /// Whether the line through the points `from` and `to` has passed zero one step further on.
   bool leads_to_zero(std::size_t from, std::size_t to) const {
     return (2 * ratios_[to] - ratios_[from]) * ratios_[to] < 0;
   }
@@ -103,7 +103,7 @@ class ZeroSearch {
   void divide(std::size_t parts) {
     std::vector<bool> is_divided(ratios_.size(), false);  // the interval behind each point
     for (std::size_t i = 0; i + 1 < ratios_.size(); ++i) {
-      // Or where the trend of either side leads to zero before the next point.
+      // A zero may also lie where the trend of either side leads to zero before the next point.
       const bool has_zero = ratios_[i] * ratios_[i + 1] < 0 || (i > 0 && leads_to_zero(i - 1, i)) ||
                             (i + 2 < ratios_.size() && leads_to_zero(i + 2, i + 1));
       if (!has_zero && !(i > 0 && is_minimum(i))) continue;
@@ -144,7 +144,7 @@ class ZeroSearch {
 
   double ratio_at(double t) const { return watched_value(flow_.at(t), kind_); }
 
-  /// See SingularTime. Doubled until both sides differ from zero.
+  /// SingularTime::resolution: doubled until both sides differ from zero.
   double resolution_at(double t, double rounding) const {
     const double longest = std::abs(times_.back()) / static_cast<double>(times_.size());
     double half_width = 16 * std::numeric_limits<double>::epsilon() * std::abs(t);
@@ -240,7 +240,7 @@ class ZeroSearch {
     constexpr double roundings = 4;
     zero.directions_lost = std::max(
         1, static_cast<int>((values.array() <= roundings * rounding * matrix.norm()).count()));
-    // With one degree of freedom the block's own size says nothing: the flow's stands for it.
+    // With one degree of freedom the block's own size says nothing: the flow's size stands for it.
     const double largest = last > 0 ? values[0] : matrix.norm();
     zero.smallest_ratio = values[last] / largest;
     zero.second_ratio = last > 0 ? values[last - 1] / largest : 0;
@@ -252,8 +252,8 @@ class ZeroSearch {
 
   const LinearFlow& flow_;
   const GeneratingFunctionKind& kind_;
-  std::vector<double> times_;   ///< of the checkpoints, the start left out, and between
-  std::vector<double> ratios_;  ///< then
+  std::vector<double> times_;   ///< checkpoints after the start, and points between
+  std::vector<double> ratios_;  ///< watched_value at these times
   std::vector<SingularTime> found_;
 };
 

@@ -9,7 +9,7 @@
 namespace hamjet {
 namespace {
 
-/// The names of the model's variables of which `is_left_out(index)`, each with its own reason.
+/// The names of the model's variables for which `is_left_out(index)` holds.
 template <class IsLeftOut>
 std::vector<std::string_view> names_of(const Scene& scene, const IsLeftOut& is_left_out) {
   std::vector<std::string_view> result;

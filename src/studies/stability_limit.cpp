@@ -45,7 +45,7 @@ class StabilityLimit {
 
   double frequency() const { return frequency_; }
 
-  /// Growth of an amplitude in one step, as a factor of the flow's own.
+  /// Growth of an amplitude in one step, relative to that of the flow.
   double growth(double step) const {
     const auto eigenvalues = scaled(steps_.matrix(step)).eigenvalues().eval();
     double radius = 0;

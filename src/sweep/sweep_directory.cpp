@@ -23,7 +23,7 @@ constexpr const char* manifest_name = "manifest.json";
 /// File systems slow down where a folder holds very many.
 constexpr std::size_t items_in_a_folder = 1000;
 
-/// The text of a file of at most so many bytes, nothing if there is none.
+/// The text of a file of at most `most_bytes`; no value if there is no file.
 std::optional<std::string> text_of(const fs::path& file, std::size_t most_bytes) {
   struct stat status {};
   if (::stat(file.c_str(), &status) != 0) {
@@ -33,8 +33,8 @@ std::optional<std::string> text_of(const fs::path& file, std::size_t most_bytes)
   return read_text_file(file, most_bytes);
 }
 
-/// Whether a file is one that a process has left behind while it wrote. One that another machine
-/// may still be writing is taken for that after an hour.
+/// Whether a process has left a file behind while it wrote. A file that another machine may still
+/// be writing counts as left behind after an hour.
 bool is_leftover(const fs::path& file) {
   if (file.extension() != ".tmp") return false;
   const auto writer = temporary_writer(file);
@@ -44,7 +44,7 @@ bool is_leftover(const fs::path& file) {
   return !error && fs::file_time_type::clock::now() - written > std::chrono::hours(1);
 }
 
-/// What of two studies differs, for a message.
+/// What differs between two studies, for a message.
 std::string difference(const SweepStudy& there, const SweepStudy& here) {
   if (there.version != here.version) {
     return fmt::format("it was made by hamjet {}, this is {}", there.version, here.version);
@@ -84,7 +84,7 @@ SweepDirectory::SweepDirectory(fs::path path, const SweepStudy& study)
   checksum_ = fmt::format("{:08x}", record_of("", manifest).crc32);
   const fs::path file = path_ / manifest_name;
   if (!text_of(file, largest_manifest_bytes)) write_whole_file(file, manifest);
-  // Read again: another process may have been faster, with another study.
+  // The manifest is read again: another process may have been faster, with another study.
   const std::string there = text_of(file, largest_manifest_bytes).value_or("");
   if (there == manifest) return;
   throw Error(ErrorKind::usage,

@@ -13,7 +13,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// One value or null a line would be easier on the eye, and ten times as long.
+/// A list of values or nulls on one line; one a line would be easier to read, and ten times as
+/// long.
 std::string compact_list(const std::vector<std::string>& values) {
   Json json = Json::array();
   for (const std::string& value : values) json.push_back(text_or_null(value));

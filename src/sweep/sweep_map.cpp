@@ -15,7 +15,7 @@ namespace {
 
 using Place = std::pair<double, double>;
 
-/// The study has made sure that it is a number.
+/// The value of an item's key; the study has made sure that it is a number.
 double key_value(const SweepStudy& study, std::size_t item, std::size_t key) {
   const std::string& text = study.items[item][key];
   double value = 0;
@@ -110,7 +110,7 @@ Chart sweep_map(const SweepStudy& study, const SweepRows& rows) {
   for (const auto& [place, value] : least) {
     const std::size_t i = index(xs, place.first);
     const std::size_t j = index(ys, place.second);
-    // The places of a list lie anywhere: points.
+    // The places of a list lie anywhere, and are drawn as points.
     chart.map->cells.push_back(
         study.is_grid ? ChartCell{x_edges[i], x_edges[i + 1], y_edges[j], y_edges[j + 1], value}
                       : ChartCell{place.first, place.first, place.second, place.second, value});

@@ -44,7 +44,7 @@ void require_count(const TableReader& root, std::string_view key, double count) 
                           count, most_sweep_items));
 }
 
-/// All combinations, the last axis changing fastest.
+/// Makes all combinations of the axes' values, the last axis changing fastest.
 void read_grid(const TableReader& root, const toml::table& tables, SweepStudy& study) {
   study.is_grid = true;
   study.items = {{}};
@@ -95,18 +95,18 @@ void read_list(const TableReader& root, const toml::table& tables, SweepStudy& s
       item[k] = override_text(*node);
     }
   }
-  // Items before the one that brought a key along.
+  // Items before the one that brought a key along lack its value.
   for (auto& item : study.items) item.resize(study.keys.size());
 }
 
-/// What must be right of a pointer before it is followed.
+/// A column's JSON pointer, checked as far as it can be before it is followed.
 std::string read_pointer(const TableReader& column) {
   std::string pointer = column.text("value");
   try {
     const nlohmann::json::json_pointer parsed(pointer);
     if (!parsed.empty()) return pointer;
   } catch (const nlohmann::json::exception&) {
-    // Said below.
+    // The error is thrown below.
   }
   column.fail("value",
               fmt::format("not a JSON pointer, got {}, must be one into summary.json, such "
@@ -204,7 +204,7 @@ SweepStudy parse_sweep_study(
   SweepStudy study;
   study.name = scene_name(file.string());
   study.version = version;
-  // First, so that a scene in its place is told by what it has not.
+  // The table is read first, so that a scene in place of a study is told that it has none.
   const TableReader sweep = root.table("sweep");
   root.integer_between("schema", 1, 1);
   root.check_keys({{"schema", "title", "sweep", "axis", "item", "column", "map"}});

@@ -15,8 +15,8 @@
 namespace hamjet::io {
 namespace {
 
-/// Thrown through the work of an item that is given up. No std::exception, so that nothing on the
-/// way takes it for a failure.
+/// Thrown through the work of an item that is given up. It is no std::exception, so that nothing on
+/// the way takes it for a failure.
 struct GivenUp {};
 
 /// While it lives, threads that are started have signals of the user blocked: those go to the
@@ -79,7 +79,7 @@ SweepProgress run_sweep_items(const SweepStudy& study, const SweepDirectory& dir
                               const std::function<void(const SweepProgress&)>& watch) {
   constexpr std::chrono::milliseconds interval(100);
   SharedState shared;
-  std::vector<std::jthread> workers;  // the last: joined before what it uses goes
+  std::vector<std::jthread> workers;  // declared last: joined before what they use goes
   {
     const SignalsBlocked blocked;
     const std::size_t count = std::min(threads, items.size());
@@ -90,7 +90,7 @@ SweepProgress run_sweep_items(const SweepStudy& study, const SweepDirectory& dir
             [&](const std::stop_token& stop) { work(study, directory, items, shared, stop); });
       }
     } catch (const std::system_error&) {
-      // No more threads to be had: those that run do it.
+      // If no more threads can be had, those that run do the work.
       if (workers.empty()) throw;
       const std::lock_guard lock(shared.mutex);
       shared.threads_at_work -= count - workers.size();

@@ -8,7 +8,7 @@
 namespace hamjet {
 namespace {
 
-/// Three digits and the prefix that leaves one to three of them before the point.
+/// A value as three digits and the prefix that leaves one to three of them before the point.
 std::string prefixed(double value, std::string_view unit) {
   static constexpr const char* prefixes[] = {"f", "p", "n", "μ", "m", "", "k", "M", "G", "T"};
   if (value == 0 || !std::isfinite(value)) return fmt::format("{:g} {}", value, unit);

@@ -4,7 +4,7 @@
 
 namespace hamjet {
 
-/// "12.3 ms", "4.56 km", "1.2 MB": three digits and a prefix, for people.
+/// A value for people, with three digits and a prefix: "12.3 ms", "4.56 km", "1.2 MB".
 std::string duration_text(double seconds);
 std::string length_text(double metres);
 std::string memory_text(double bytes);

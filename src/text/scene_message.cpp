@@ -59,7 +59,7 @@ std::vector<std::string_view> name_parts(std::string_view name) {
   return words;
 }
 
-/// Whether half of the letters are right.
+/// Whether at least half of the letters of a name are those of the candidate.
 bool is_half_right(std::string_view name, std::string_view candidate) {
   return 2 * edit_distance(name, candidate) <= std::max(name.size(), candidate.size());
 }
@@ -117,7 +117,7 @@ const std::vector<ForeignKeys>& foreign_keys() {
   return keys;
 }
 
-/// Whether one dotted path leads to the other, or is it.
+/// Whether the dotted path `outer` leads to `inner`, or is the same.
 bool is_path_to(std::string_view outer, std::string_view inner) {
   return inner.starts_with(outer) && (inner.size() == outer.size() || inner[outer.size()] == '.');
 }

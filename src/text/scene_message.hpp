@@ -14,7 +14,7 @@ namespace hamjet::io {
 /// not UTF-8 are escaped, and what goes beyond `most_characters` as shown is cut off with "...".
 std::string printable(std::string_view text, std::size_t most_characters = 80);
 
-/// The printable form in double quotes.
+/// A text in printable form, in double quotes.
 std::string in_quotes(std::string_view text);
 
 /// The candidate nearest to a misspelt `name` (an edit distance that counts a swap of neighbours as
@@ -23,19 +23,19 @@ std::string in_quotes(std::string_view text);
 std::optional<std::string_view> nearest(std::string_view name,
                                         const std::vector<std::string_view>& candidates);
 
-/// "a, b, c"
+/// Names in one text: "a, b, c".
 std::string listed(const std::vector<std::string_view>& names);
 
 /// Says what was meant: the nearest of `candidates`, or the list of all.
 std::string suggestion(std::string_view name, const std::vector<std::string_view>& candidates);
 
-/// What is to be given in place of a key that is known not to exist in a table of a scene, because
-/// other programs have it: what is not read, and what must be; nothing for any other key.
+/// What to give in place of a key that scenes do not have in this table, but those of other
+/// programs do; no value for any other key.
 std::optional<std::string_view> remedy_for_foreign_key(std::string_view table,
                                                        std::string_view name);
 
-/// Where a value stands: `source:line:column`, or `source` alone for a command-line override,
-/// which has no lines (see `override_source`), and for line 0, of tables that no text was.
+/// Where a value stands: `source:line:column`, or `source` alone for a command-line override, which
+/// has no lines (see `override_source`), and for line 0, which stands for tables without a text.
 std::string location(std::string_view source, std::size_t line, std::size_t column);
 
 /// The source name of values that come from `--set key=value`: the option with the key as written.
@@ -48,7 +48,7 @@ struct SceneSource {
   /// What each override changed: its source name, and the path with indices in place of labels.
   std::map<std::string, std::string, std::less<>> override_paths;
   std::filesystem::path folder = {};  ///< what files that the scene names are relative to
-  /// A key that an override removes and that is not there: no mistake if the table may have it.
+  /// A key that an override removes though it is not there: no mistake if the table may have it.
   struct AbsentKey {
     std::string override_name;  ///< see `override_source`
     std::string table;          ///< path, with indices in place of labels

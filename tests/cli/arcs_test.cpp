@@ -8,21 +8,14 @@
 namespace hamjet::test {
 namespace {
 
-const char* const long_scene = R"(schema = 1
+const std::string long_scene = R"(schema = 1
 title = "five revolutions"
 [system]
 model = "zonal-gravity"
 mu_km3_s2 = 398600.4415
 radius_km = 6378
 J2 = 1e-3
-[nominal]
-a_km = 10000
-e = 0.1
-i_deg = 30
-raan_deg = 10
-argp_deg = 20
-ta_deg = 30
-[jet]
+)" + orbit_elements + R"([jet]
 order = 4
 duration_orbits = 5
 [[integrator]]
@@ -131,7 +124,7 @@ TEST_F(Arcs, AreRefusedWhereTheyAreNotPossible) {
                 "integrator.gauss8.method=\"fehlberg78\"", "--set",
                 "integrator.gauss8.require_symplecticity=null"},
                3, {"jet.arcs", "the integrator gauss8", "fehlberg78 is not available in arcs"});
-  write("figure.toml", std::string(long_scene) + "[figure]\nquantity = \"exactness\"\n");
+  write("figure.toml", long_scene + "[figure]\nquantity = \"exactness\"\n");
   expect_error({"run", "figure.toml", "--set", "jet.arcs=2"}, 3,
                {"jet.arcs", "the figure takes the jet after every step"});
   // What auto cannot split it leaves whole, and says why.

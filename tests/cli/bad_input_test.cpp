@@ -182,13 +182,8 @@ TEST_F(BadInput, NewmarkBetaOutsideItsRange) {
 TEST_F(BadInput, MassThatIsNotPositive) {
   const std::string scene = R"(schema = 1
 title = "mass"
-[system]
-model = "harmonic-oscillator"
-mass_kg = 1
-[nominal]
-position_m = [1]
-momentum_kg_m_s = [0]
-[jet]
+)" + changed(oscillator_tables, "[nominal]", "mass_kg = 1\n[nominal]") +
+                            R"([jet]
 order = 1
 duration_canonical = 1
 [[integrator]]

@@ -10,15 +10,10 @@
 namespace hamjet::test {
 namespace {
 
-constexpr const char* transformed_scene = R"(schema = 1
+const std::string transformed_scene = R"(schema = 1
 study = "canonical-transformation"
 title = "double well"
-[system]
-model = "double-well"
-[nominal]
-position_m = [1]
-momentum_kg_m_s = [0.05]
-[canonical_transformation]
+)" + double_well_tables + R"([canonical_transformation]
 steps_canonical = [0.1, 0.2]
 duration_canonical = 20
 rotation_cosine = 0.99

@@ -6,42 +6,23 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "command.hpp"
+#include "support/scenes.hpp"
+#include "support/table.hpp"
 #include "support/temporary_directory.hpp"
+#include "support/text.hpp"
 
 namespace hamjet::test {
 
 using Json = nlohmann::json;
 
-/// A small scene that takes milliseconds: Kepler's problem, order 2, a seventh of a revolution.
-inline constexpr const char* small_scene = R"(schema = 1
-title = "small"
-[system]
-model = "kepler"
-mu_km3_s2 = 398600.4415
-[nominal]
-a_km = 10000
-e = 0.1
-i_deg = 30
-raan_deg = 10
-argp_deg = 20
-ta_deg = 30
-[jet]
-order = 2
-duration_canonical = 1
-[[integrator]]
-label = "gauss8"
-method = "gauss"
-stages = 8
-tolerance = 1e-13
-[[integrator]]
+/// A small scene with two integrators; lines 6 to 12 are its orbit, 13 to 15 its jet.
+inline const std::string small_scene = short_kepler_scene("small") + R"([[integrator]]
 label = "midpoint"
 method = "gauss"
 stages = 1
@@ -53,34 +34,20 @@ kinds = ["F1", "F2"]
 [reference]
 )";
 
-/// A text in place of another one, which must be there.
-inline std::string changed(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t position = text.find(from);
-  if (position == std::string::npos) throw std::logic_error("not in the scene: " + from);
-  return text.replace(position, from.size(), to);
-}
-
 /// The small scene without the reference, which takes most of its time.
 inline std::string quick_scene() { return changed(small_scene, "[reference]\n", ""); }
 
 inline Json read_json(const std::filesystem::path& file) { return Json::parse(content(file)); }
 
-/// A CSV file: the names of its columns, and its rows.
-struct Table {
-  std::string header;
-  std::vector<std::vector<std::string>> rows;
-};
+inline Table read_table(const std::filesystem::path& file) { return parse_table(content(file)); }
 
-inline Table read_table(const std::filesystem::path& file) {
-  std::istringstream text(content(file));
-  Table table;
-  std::getline(text, table.header);
-  for (std::string line; std::getline(text, line);) {
-    std::istringstream fields(line);
-    std::vector<std::string>& row = table.rows.emplace_back();
-    for (std::string field; std::getline(fields, field, ',');) row.push_back(field);
+/// The arguments, and behind them each of the overrides after `--set`.
+inline std::vector<std::string> with_overrides(std::vector<std::string> arguments,
+                                               const std::vector<std::string>& overrides) {
+  for (const std::string& text : overrides) {
+    arguments.insert(arguments.end(), {"--set", text});
   }
-  return table;
+  return arguments;
 }
 
 /// Sum of the exponents of a row whose first field is a name and whose last is a coefficient.

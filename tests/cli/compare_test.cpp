@@ -41,22 +41,6 @@ class Compare : public CommandTest {
   }
 };
 
-/// The fields of a CSV line, quotes removed.
-std::vector<std::string> fields(const std::string& line) {
-  std::vector<std::string> result(1);
-  bool quoted = false;
-  for (const char c : line) {
-    if (c == '"') {
-      quoted = !quoted;
-    } else if (c == ',' && !quoted) {
-      result.emplace_back();
-    } else {
-      result.back() += c;
-    }
-  }
-  return result;
-}
-
 TEST_F(Compare, WritesTheSameFiguresEverywhere) {
   const CommandResult printed = hamjet({"compare", "scene.toml", "--json"});
   ASSERT_EQ(printed.exit_code, 0) << printed.err;
@@ -67,23 +51,13 @@ TEST_F(Compare, WritesTheSameFiguresEverywhere) {
   // 2 steps and 2 tolerances for each of midpoint, Gauss with 4 stages, and Fehlberg.
   ASSERT_EQ(json["runs"].size(), 12U);
 
-  std::istringstream csv(content(out("compare.csv")));
-  std::string line;
-  std::getline(csv, line);
-  const auto names = fields(line);
-  const auto column = [&](const std::string& name) {
-    const auto place = std::find(names.begin(), names.end(), name);
-    EXPECT_NE(place, names.end()) << name;
-    return static_cast<std::size_t>(place - names.begin());
-  };
-  const std::size_t label = column("label");
-  const std::size_t error = column("error_at_formation_m");
+  const Table table = read_table(out("compare.csv"));
+  ASSERT_GE(table.rows.size(), json["runs"].size());
   const std::string page = content(out("report.html"));
-  for (const Json& run : json["runs"]) {
-    ASSERT_TRUE(std::getline(csv, line));
-    const auto row = fields(line);
-    EXPECT_EQ(row[label], run["settings"]["label"]);
-    EXPECT_EQ(std::stod(row[error]), run["error_at_formation_m"].get<double>());
+  for (std::size_t i = 0; i < json["runs"].size(); ++i) {
+    const Json& run = json["runs"][i];
+    EXPECT_EQ(table.at(i, "label"), run["settings"]["label"]);
+    EXPECT_EQ(table.number(i, "error_at_formation_m"), run["error_at_formation_m"].get<double>());
     EXPECT_NE(page.find(run["settings"]["label"].get<std::string>()), std::string::npos);
   }
   EXPECT_NE(page.find(json["reference"]["cached"].get<bool>() ? "taken from" : "omputed"),

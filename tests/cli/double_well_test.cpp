@@ -5,14 +5,9 @@
 namespace hamjet::test {
 namespace {
 
-constexpr const char* well_scene = R"(schema = 1
+const std::string well_scene = R"(schema = 1
 title = "double well"
-[system]
-model = "double-well"
-[nominal]
-position_m = [1]
-momentum_kg_m_s = [0.05]
-[jet]
+)" + double_well_tables + R"([jet]
 order = 3
 duration_canonical = 3
 [[integrator]]

@@ -30,13 +30,8 @@ class EnergyConservation : public CommandTest {
  protected:
   EnergyConservation() { write("ellipse.toml", kepler_scene); }
 
-  CommandResult run(std::vector<std::string> overrides, int exit_code) {
-    std::vector<std::string> arguments = {"run", "ellipse.toml", "-o", "out"};
-    for (std::string& text : overrides) {
-      arguments.emplace_back("--set");
-      arguments.push_back(std::move(text));
-    }
-    CommandResult result = hamjet(arguments);
+  CommandResult run(const std::vector<std::string>& overrides, int exit_code) {
+    CommandResult result = hamjet(with_overrides({"run", "ellipse.toml", "-o", "out"}, overrides));
     EXPECT_EQ(result.exit_code, exit_code) << result.err;
     summary_ = read_json(directory_ / "out/summary.json");
     EXPECT_EQ(summary_["exit_code"], exit_code);

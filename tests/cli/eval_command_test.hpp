@@ -32,13 +32,8 @@ class EvalTest : public CommandTest {
                                std::vector<std::string> more = {}) const {
     std::vector<std::string> arguments = {"eval", directory, "--deviation", deviation, "-q"};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    std::istringstream text(succeed(arguments).out);
-    std::string line;
-    std::getline(text, line);
-    std::getline(text, line);
-    std::istringstream fields(line);
     std::vector<double> numbers;
-    for (std::string field; std::getline(fields, field, ',');) {
+    for (const std::string& field : parse_table(succeed(arguments).out).rows.at(0)) {
       if (field != "inside" && field != "outside" && field != "unknown" && !field.empty()) {
         numbers.push_back(std::stod(field));
       }

@@ -18,7 +18,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 /// A circular orbit of radius 7000 km about a full turn: canonically mu = 1, (1, 0), (0, 1), 2 pi.
-constexpr const char* circular_scene = R"(schema = 1
+const std::string circular_scene = R"(schema = 1
 title = "circular"
 [system]
 model = "kepler"
@@ -29,32 +29,17 @@ velocity_km_s = [0, 7, 0]
 [jet]
 order = 5
 duration_canonical = 6.283185307179586
-[[integrator]]
-label = "gauss8"
-method = "gauss"
-stages = 8
-tolerance = 1e-15
-)";
+)" + gauss8("tolerance = 1e-15");
 // mu = 7 km x (7 km/s)^2 x 1000: length 7000 km and time 1000 s, so that 1 m/s is 1 / 7000.
 constexpr double length_m = 7e6;
 constexpr double speed_m_s = 7000;
 
-constexpr const char* oscillator_scene = R"(schema = 1
+const std::string oscillator_scene = R"(schema = 1
 title = "oscillator"
-[system]
-model = "harmonic-oscillator"
-[nominal]
-position_m = [1]
-momentum_kg_m_s = [0]
-[jet]
+)" + oscillator_tables + R"([jet]
 order = 2
 duration_canonical = 1
-[[integrator]]
-label = "gauss8"
-method = "gauss"
-stages = 8
-tolerance = 1e-15
-)";
+)" + gauss8("tolerance = 1e-15");
 
 using Eval = EvalTest;
 

@@ -73,6 +73,10 @@ class Faults : public CommandTest {
 const std::vector<std::string> endless = {"run", "quick.toml", "--set",
                                           "integrator.midpoint.step_canonical=1e-8"};
 
+/// A run of a second or so.
+const std::vector<std::string> second_or_so = {"run", "quick.toml", "--set",
+                                               "integrator.midpoint.step_canonical=1e-5"};
+
 TEST_F(Faults, ASecondRunInTheSameDirectoryIsRefusedAtOnce) {
   start(endless);
   const std::string process = holder(directory_ / "out/quick");
@@ -115,8 +119,6 @@ TEST_F(Faults, OneOfManyRunsAtTheSameMomentWins) {
 }
 
 TEST_F(Faults, ADirectoryThatVanishesDuringTheRunIsMadeAnew) {
-  std::vector<std::string> second_or_so = endless;
-  second_or_so.back() = "integrator.midpoint.step_canonical=1e-5";
   start(second_or_so);
   holder(directory_ / "out/quick");
   fs::remove_all(directory_ / "out");
@@ -125,8 +127,6 @@ TEST_F(Faults, ADirectoryThatVanishesDuringTheRunIsMadeAnew) {
 }
 
 TEST_F(Faults, ADirectoryThatBecomesAFileDuringTheRun) {
-  std::vector<std::string> second_or_so = endless;
-  second_or_so.back() = "integrator.midpoint.step_canonical=1e-5";
   start(second_or_so);
   holder(directory_ / "out/quick");
   fs::remove_all(directory_ / "out/quick");

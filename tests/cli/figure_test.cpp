@@ -10,14 +10,9 @@
 namespace hamjet::test {
 namespace {
 
-constexpr const char* oscillator = R"(schema = 1
+const std::string figure_scene = R"(schema = 1
 title = "oscillator"
-[system]
-model = "harmonic-oscillator"
-[nominal]
-position_m = [1]
-momentum_kg_m_s = [0]
-[jet]
+)" + oscillator_tables + R"([jet]
 order = 1
 duration_canonical = 20
 [[integrator]]
@@ -37,7 +32,7 @@ quantity = "exactness"
 
 class Figure : public CommandTest {
  protected:
-  Figure() { write("oscillator.toml", oscillator); }
+  Figure() { write("oscillator.toml", figure_scene); }
 
   static bool has_gnuplot() { return std::system("command -v gnuplot >/dev/null 2>&1") == 0; }
   std::filesystem::path out(const std::string& file) const { return directory_ / "o" / file; }

@@ -98,16 +98,9 @@ TEST_F(KillRun, LeavesTheOldOrTheNewResultsWhole) {
 }
 
 /// One degree of freedom, so that a comparison takes a fraction of a second.
-constexpr const char* oscillator = R"(schema = 1
+const std::string compared_oscillator = R"(schema = 1
 title = "oscillator"
-[system]
-model = "harmonic-oscillator"
-mass_kg = 1
-stiffness_N_per_m = 1
-[nominal]
-position_m = [1]
-momentum_kg_m_s = [0]
-[jet]
+)" + oscillator_tables + R"([jet]
 order = 1
 duration_canonical = 1
 [[integrator]]
@@ -132,7 +125,7 @@ time_budget_s = 1000
 class KillComparison : public KillTest {
  protected:
   KillComparison() {
-    write("oscillator.toml", oscillator);
+    write("oscillator.toml", compared_oscillator);
     // Without gnuplot, which would take most of the time.
     options_.environment = {{"XDG_CACHE_HOME", (directory_ / "cache").string()},
                             {"PATH", "/nowhere"}};

@@ -20,7 +20,7 @@ namespace {
 
 /// An orbit with everything that `hamjet run` writes: inversion, reference, relative Hamiltonian, a
 /// figure (which gnuplot draws), integrators that choose their steps and others.
-constexpr const char* reproduced_scene = R"(schema = 1
+const std::string reproduced_scene = R"(schema = 1
 title = "Erdnähe"
 [system]
 model = "zonal-gravity"
@@ -28,22 +28,10 @@ mu_km3_s2 = 398600.4415
 radius_km = 6378.1363
 J2 = 1.0826e-3
 J3 = -2.5327e-6
-[nominal]
-a_km = 10000
-e = 0.1
-i_deg = 30
-raan_deg = 10
-argp_deg = 20
-ta_deg = 30
-[jet]
+)" + orbit_elements + R"([jet]
 order = 2
 duration_canonical = 2.5
-[[integrator]]
-label = "gauss8"
-method = "gauss"
-stages = 8
-tolerance = 1e-13
-[[integrator]]
+)" + gauss8("tolerance = 1e-13") + R"([[integrator]]
 label = "verlet"
 method = "velocity-verlet"
 order = 4

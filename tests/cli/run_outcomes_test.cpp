@@ -12,12 +12,7 @@ class Outcomes : public CommandTest {
  protected:
   /// Runs the scene with these overrides into `results`; returns the summary.
   Json run(const std::string& scene, const std::vector<std::string>& overrides, int exit_code = 0) {
-    std::vector<std::string> arguments = {"run", scene, "-o", "results"};
-    for (const std::string& text : overrides) {
-      arguments.emplace_back("--set");
-      arguments.push_back(text);
-    }
-    result_ = hamjet(arguments);
+    result_ = hamjet(with_overrides({"run", scene, "-o", "results"}, overrides));
     EXPECT_EQ(result_.exit_code, exit_code) << result_.err;
     EXPECT_EQ(result_.err.empty(), exit_code == 0) << result_.err;
     return read_json(directory_ / "results/summary.json");

@@ -8,7 +8,7 @@
 namespace hamjet::test {
 namespace {
 
-const char* const oblate_scene = R"(schema = 1
+const std::string oblate_scene = R"(schema = 1
 title = "oblate"
 [system]
 model = "zonal-gravity"
@@ -16,14 +16,7 @@ mu_km3_s2 = 398600.4415
 radius_km = 6378
 J2 = 1e-3
 J3 = -2.5e-6
-[nominal]
-a_km = 10000
-e = 0.1
-i_deg = 30
-raan_deg = 10
-argp_deg = 20
-ta_deg = 30
-[jet]
+)" + orbit_elements + R"([jet]
 order = 3
 duration_canonical = 1
 [[integrator]]
@@ -38,12 +31,7 @@ class Savings : public CommandTest {
   Savings() { write("scene.toml", oblate_scene); }
 
   Json run(const std::vector<std::string>& overrides, const std::string& scene = "scene.toml") {
-    std::vector<std::string> arguments = {"run", scene, "-q", "-o", "results"};
-    for (const std::string& text : overrides) {
-      arguments.emplace_back("--set");
-      arguments.push_back(text);
-    }
-    succeed(arguments);
+    succeed(with_overrides({"run", scene, "-q", "-o", "results"}, overrides));
     return read_json(directory_ / "results/summary.json");
   }
 
@@ -114,12 +102,7 @@ TEST_F(Savings, VariablesNotExpandedIn) {
 TEST_F(Savings, DegreesOfALinearSystem) {
   write("spring.toml", R"(schema = 1
 title = "spring"
-[system]
-model = "harmonic-oscillator"
-[nominal]
-position_m = [1]
-momentum_kg_m_s = [0]
-[jet]
+)" + oscillator_tables + R"([jet]
 order = 4
 duration_canonical = 1
 [[integrator]]

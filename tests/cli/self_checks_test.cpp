@@ -10,12 +10,7 @@ namespace {
 class SelfChecks : public CommandTest {
  protected:
   Json run(const std::string& scene, const std::vector<std::string>& overrides, int exit_code) {
-    std::vector<std::string> arguments = {"run", scene, "-o", "results"};
-    for (const std::string& text : overrides) {
-      arguments.emplace_back("--set");
-      arguments.push_back(text);
-    }
-    result_ = hamjet(arguments);
+    result_ = hamjet(with_overrides({"run", scene, "-o", "results"}, overrides));
     EXPECT_EQ(result_.exit_code, exit_code) << result_.err << result_.out;
     return read_json(directory_ / "results/summary.json");
   }
@@ -39,8 +34,9 @@ const std::string fixed_midpoint = "integrator=[{label=\"a\", method=\"gauss\", 
 
 TEST_F(SelfChecks, StandInTheSummary) {
   const Json summary = run("quick.toml", {}, 0);
-  const std::vector<std::string> names = {"finite",        "convergence", "step-error", "energy",
-                                          "symplecticity", "inversion",   "surface",    "error-estimate"};
+  const std::vector<std::string> names = {"finite",  "convergence",   "step-error",
+                                          "energy",  "symplecticity", "inversion",
+                                          "surface", "error-estimate"};
   for (const Json& entry : summary["runs"]) {
     ASSERT_EQ(entry["checks"].size(), names.size());
     EXPECT_TRUE(entry["failed_checks"].empty());
@@ -112,15 +108,7 @@ TEST_F(SelfChecks, CoarseStepsAreMarked) {
 TEST_F(SelfChecks, UnstableVerletIsMarked) {
   write("perigee.toml", R"(schema = 1
 title = "Verlet beyond its limit at perigee"
-[system]
-model = "kepler"
-mu_km3_s2 = 1
-[units]
-length_km = 1
-[nominal]
-position_km = [0.1, 0, 0]
-velocity_km_s = [0, 4.358898943540674, 0]
-[jet]
+)" + perigee_tables + R"([jet]
 order = 1
 duration_canonical = 12
 [[integrator]]

@@ -6,7 +6,7 @@ namespace hamjet::test {
 namespace {
 
 /// cos 1 and -sin 1.
-constexpr const char* right_case = R"(schema = 1
+const std::string right_case = R"(schema = 1
 title = "Oscillator"
 [case]
 group = "Oscillators"
@@ -14,12 +14,7 @@ why = "the least that there is"
 outcome = "right"
 source = "closed form"
 state = ["0.540302305868139717400936607442976603733", "-0.841470984807896506652502321630298999623"]
-[system]
-model = "harmonic-oscillator"
-[nominal]
-position_m = [1]
-momentum_kg_m_s = [0]
-[jet]
+)" + oscillator_tables + R"([jet]
 order = 1
 duration_canonical = 1
 [[integrator]]

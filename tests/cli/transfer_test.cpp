@@ -10,27 +10,16 @@ namespace hamjet::test {
 namespace {
 
 /// A circular Kepler orbit, on which the linear answer is that of Clohessy and Wiltshire.
-constexpr const char* circle = R"(schema = 1
+const std::string circle = R"(schema = 1
 title = "circle"
 [system]
 model = "kepler"
 mu_km3_s2 = 398600.4415
-[nominal]
-a_km = 10000
-e = 0
-i_deg = 30
-raan_deg = 10
-argp_deg = 20
-ta_deg = 30
-[jet]
+)" + changed(orbit_elements, "e = 0.1", "e = 0") +
+                           R"([jet]
 order = 3
 duration_orbits = 0.9
-[[integrator]]
-label = "gauss8"
-method = "gauss"
-stages = 8
-tolerance = 1e-13
-)";
+)" + gauss8("tolerance = 1e-13");
 
 constexpr const char* transfer = R"([transfer]
 frame = "RTN"
@@ -59,9 +48,9 @@ class TransferCommand : public CommandTest {
  protected:
   TransferCommand() {
     write("circle.toml", circle);
-    write("transfer.toml", std::string(circle) + transfer);
-    write("assignment.toml", std::string(circle) + assignment);
-    write("validity.toml", std::string(circle) + "[validity]\ntimes_orbits = [0.3, 0.9]\n");
+    write("transfer.toml", circle + transfer);
+    write("assignment.toml", circle + assignment);
+    write("validity.toml", circle + "[validity]\ntimes_orbits = [0.3, 0.9]\n");
   }
 
   /// The transfer scene with a text in place of another one.

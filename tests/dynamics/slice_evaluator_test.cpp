@@ -46,11 +46,15 @@ std::vector<Series<T>> sample_inputs(const SpacePointer& space) {
   return inputs;
 }
 
-template <class T, class Real>
-void load(SliceEvaluator<T, Real>& evaluator, const std::vector<Series<T>>& inputs) {
+template <class T>
+SliceEvaluator<T, double> evaluated(const OperationList& list,
+                                    const std::vector<Series<T>>& inputs) {
+  SliceEvaluator<T, double> evaluator(list, inputs[0].space_pointer(), order);
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     std::copy(inputs[i].coefficients().begin(), inputs[i].coefficients().end(), evaluator.input(i));
   }
+  evaluator.evaluate_all();
+  return evaluator;
 }
 
 TEST(SliceEvaluator, EqualsTheOperatorsOfSeries) {
@@ -58,9 +62,7 @@ TEST(SliceEvaluator, EqualsTheOperatorsOfSeries) {
   const auto inputs = sample_inputs<double>(space);
   const auto expected = every_operation(inputs, [](double c) { return c; });
   const OperationList list = recorded();
-  SliceEvaluator<double, double> evaluator(list, space, order);
-  load(evaluator, inputs);
-  evaluator.evaluate_all();
+  const auto evaluator = evaluated(list, inputs);
   for (std::size_t o = 0; o < expected.size(); ++o) {
     const Series<double> value(
         space, std::vector<double>(evaluator.output(o), evaluator.output(o) + space->size()));
@@ -79,18 +81,14 @@ TEST(SliceEvaluator, RunsEveryLaneAlike) {
   const auto space = SeriesSpace::create(2, order);
   const auto packs = sample_inputs<P>(space);
   const OperationList list = recorded();
-  SliceEvaluator<P, double> together(list, space, order);
-  load(together, packs);
-  together.evaluate_all();
+  const auto together = evaluated(list, packs);
   for (int lane = 0; lane < 4; ++lane) {
     std::vector<Series<double>> inputs;
     for (const auto& u : packs) {
       inputs.emplace_back(space);
       for (std::size_t k = 0; k < space->size(); ++k) inputs.back()[k] = u[k].lane(lane);
     }
-    SliceEvaluator<double, double> alone(list, space, order);
-    load(alone, inputs);
-    alone.evaluate_all();
+    const auto alone = evaluated(list, inputs);
     for (std::size_t o = 0; o < list.outputs().size(); ++o) {
       for (std::size_t k = 0; k < space->size(); ++k) {
         const double value = alone.output(o)[k];
@@ -104,9 +102,7 @@ TEST(SliceEvaluator, SplitsEachSliceIntoRemainderAndLinearPart) {
   const auto space = SeriesSpace::create(3, order);
   const auto inputs = sample_inputs<double>(space);
   const OperationList list = recorded();
-  SliceEvaluator<double, double> whole(list, space, order);
-  load(whole, inputs);
-  whole.evaluate_all();
+  const auto whole = evaluated(list, inputs);
   SliceEvaluator<double, double> split(list, space, order);
   for (std::size_t i = 0; i < 3; ++i) *split.input(i) = inputs[i][0];
   split.evaluate_constant_terms();
@@ -152,9 +148,7 @@ TEST(SliceEvaluator, ALowerWorkingOrderGivesTheBeginning) {
   const auto space = SeriesSpace::create(3, order);
   const auto inputs = sample_inputs<double>(space);
   const OperationList list = recorded();
-  SliceEvaluator<double, double> whole(list, space, order);
-  load(whole, inputs);
-  whole.evaluate_all();
+  const auto whole = evaluated(list, inputs);
   for (int highest = 0; highest < order; ++highest) {
     SliceEvaluator<double, double> part(list, space, highest);
     for (std::size_t i = 0; i < 3; ++i) {

@@ -253,17 +253,7 @@ class SceneWithGravityFile : public testing::Test {
 
   void expect_error(const std::string& lines, const std::vector<std::string>& words,
                     ErrorKind kind = ErrorKind::scene) const {
-    SCOPED_TRACE(lines);
-    try {
-      read(lines);
-      ADD_FAILURE() << "not refused";
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), kind) << error.what();
-      for (const std::string& word : words) {
-        EXPECT_NE(std::string(error.what()).find(word), std::string::npos)
-            << error.what() << "\nlacks: " << word;
-      }
-    }
+    test::expect_error([&] { read(lines); }, kind, words, lines);
   }
 
   test::TemporaryDirectory directory_;

@@ -12,6 +12,7 @@
 #include "../scene/scene_samples.hpp"
 #include "hamjet/formats/hdf5_jets.hpp"
 #include "hamjet/report/results.hpp"
+#include "jet_samples.hpp"
 #include "support/temporary_directory.hpp"
 
 // A jet comes back bit by bit from HDF5, DACE's text and CSV; damaged files are refused. What h5py
@@ -20,30 +21,8 @@
 namespace hamjet::io {
 namespace {
 
-constexpr const char* small_kepler = R"(schema = 1
-title = "kepler"
-[system]
-model = "kepler"
-mu_km3_s2 = 398600.4415
-[nominal]
-position_km = [7000, 0, 0]
-velocity_km_s = [0.5, 7.5, 0]
-[jet]
-order = 3
-duration_canonical = 0.7
-[[integrator]]
-label = "gauss8"
-method = "gauss"
-stages = 8
-tolerance = 1e-14
-[[integrator]]
-label = "midpoint"
-method = "gauss"
-stages = 1
-step_canonical = 0.1
-[generating_function]
-kinds = ["F1"]
-)";
+const std::string cubic_kepler =
+    changed(planar_kepler, "order = 2", "order = 3") + "[generating_function]\nkinds = [\"F1\"]\n";
 
 /// The same number with the same sign, zero included.
 bool same(const Extended& a, const Extended& b) { return a == b && signbit(a) == signbit(b); }
@@ -51,7 +30,7 @@ bool same(const Extended& a, const Extended& b) { return a == b && signbit(a) ==
 class JetFileTest : public ::testing::Test {
  protected:
   PropagationResult store(const std::vector<Override>& overrides = {}) {
-    Scene scene = parse_scene(small_kepler, "scene.toml", overrides);
+    Scene scene = parse_scene(cubic_kepler, "scene.toml", overrides);
     scene.output = {.hdf5 = hdf5_available(), .dace = true};
     PropagationResult result = propagate(scene);
     // The kinds of zero are told apart.

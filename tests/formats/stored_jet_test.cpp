@@ -13,35 +13,13 @@
 #include "hamjet/formats/jet_file.hpp"
 #include "hamjet/report/results.hpp"
 #include "hamjet/version.hpp"
+#include "jet_samples.hpp"
 #include "support/temporary_directory.hpp"
 
 // What the writer wrote comes back bit by bit; what is damaged is refused.
 
 namespace hamjet::io {
 namespace {
-
-constexpr const char* kepler = R"(schema = 1
-title = "kepler"
-[system]
-model = "kepler"
-mu_km3_s2 = 398600.4415
-[nominal]
-position_km = [7000, 0, 0]
-velocity_km_s = [0.5, 7.5, 0]
-[jet]
-order = 2
-duration_canonical = 0.7
-[[integrator]]
-label = "gauss8"
-method = "gauss"
-stages = 8
-tolerance = 1e-14
-[[integrator]]
-label = "midpoint"
-method = "gauss"
-stages = 1
-step_canonical = 0.1
-)";
 
 class StoredJetTest : public ::testing::Test {
  protected:
@@ -100,18 +78,18 @@ class StoredJetTest : public ::testing::Test {
 };
 
 TEST_F(StoredJetTest, DoublePrecisionComesBackBitByBit) {
-  expect_round_trip(kepler);
+  expect_round_trip(planar_kepler);
   expect_round_trip(orbit, {{"reference", "null"}, {"generating_function", "null"}});
   expect_round_trip(oscillator);
 }
 
 TEST_F(StoredJetTest, ExtendedPrecisionComesBackBitByBit) {
-  expect_round_trip(kepler, {{"precision", "\"extended\""}});
+  expect_round_trip(planar_kepler, {{"precision", "\"extended\""}});
 }
 
 TEST_F(StoredJetTest, APlaneHasFewerComponents) {
   // Exactly equatorial and not expanded in z, pz: the files hold x, y, px, py alone.
-  expect_round_trip(kepler, {{"jet.variables", "[\"x\", \"y\", \"px\", \"py\"]"}});
+  expect_round_trip(planar_kepler, {{"jet.variables", "[\"x\", \"y\", \"px\", \"py\"]"}});
   const StoredJet stored = read_stored_jet(directory_);
   EXPECT_EQ(stored.components, (std::vector<std::size_t>{0, 1, 3, 4}));
   EXPECT_EQ(stored.variables, stored.components);
@@ -119,21 +97,21 @@ TEST_F(StoredJetTest, APlaneHasFewerComponents) {
 }
 
 TEST_F(StoredJetTest, FewVariables) {
-  expect_round_trip(kepler, {{"jet.variables", "[\"x\", \"pz\"]"}});
+  expect_round_trip(planar_kepler, {{"jet.variables", "[\"x\", \"pz\"]"}});
   EXPECT_EQ(read_stored_jet(directory_).components.size(), 6U);
   EXPECT_EQ(read_stored_jet(directory_).variables, (std::vector<std::size_t>{0, 5}));
 }
 
 TEST_F(StoredJetTest, OrdersOneToSeven) {
   for (const char* order : {"1", "3", "5", "6", "7"}) {
-    expect_round_trip(kepler, {{"jet.order", order}, {"jet.duration_canonical", "0.2"}});
+    expect_round_trip(planar_kepler, {{"jet.order", order}, {"jet.duration_canonical", "0.2"}});
   }
 }
 
 // The same coefficients in another order: nothing is wrong with such a file but that it is not the
 // one that was written.
 TEST_F(StoredJetTest, ChangesThatMakeSenseAreRefusedAllTheSame) {
-  store(kepler);
+  store(planar_kepler);
   const auto swap_halves = [](const std::string& text) {
     const std::size_t header = text.find('\n') + 1;
     const std::size_t middle = text.find('\n', text.size() / 2) + 1;
@@ -150,7 +128,7 @@ TEST_F(StoredJetTest, ChangesThatMakeSenseAreRefusedAllTheSame) {
 }
 
 TEST_F(StoredJetTest, ChoosesTheRun) {
-  store(kepler);
+  store(planar_kepler);
   EXPECT_EQ(read_stored_jet(directory_).label, "gauss8");
   EXPECT_EQ(read_stored_jet(directory_, "midpoint").label, "midpoint");
   expect_refused({"no run has the label midpiont", "did you mean midpoint?"}, ErrorKind::usage,
@@ -159,7 +137,7 @@ TEST_F(StoredJetTest, ChoosesTheRun) {
 
 TEST_F(StoredJetTest, ARunThatFailedHasNoJet) {
   // A fall into the centre, which no integrator can follow to its end.
-  store(kepler, {{"nominal.velocity_km_s", "[0, 0, 0]"}, {"jet.duration_canonical", "3"}});
+  store(planar_kepler, {{"nominal.velocity_km_s", "[0, 0, 0]"}, {"jet.duration_canonical", "3"}});
   expect_refused({"gauss8 has no result"}, ErrorKind::input_output, "gauss8");
   const auto json = nlohmann::json::parse(test::content(directory_ / "summary.json"));
   if (json["runs"][1]["error"].is_null()) {
@@ -170,7 +148,7 @@ TEST_F(StoredJetTest, ARunThatFailedHasNoJet) {
 }
 
 TEST_F(StoredJetTest, DamagedCoefficients) {
-  store(kepler);
+  store(planar_kepler);
   using Text = std::string;
   const Text csv = "gauss8/jet.csv";
   const auto line = [](const Text& text, int number) {
@@ -227,7 +205,7 @@ TEST_F(StoredJetTest, DamagedCoefficients) {
 }
 
 TEST_F(StoredJetTest, DamagedExtendedCoefficients) {
-  store(kepler, {{"precision", "\"extended\""}});
+  store(planar_kepler, {{"precision", "\"extended\""}});
   for (const char* bad :
        {"nan", "inf", "1e999999999999", "1e6000", "", "-", "1e", "1.5.5", " 1", "1e+-5", "+1"}) {
     expect_damage("gauss8/jet.csv",
@@ -240,14 +218,14 @@ TEST_F(StoredJetTest, DamagedExtendedCoefficients) {
 }
 
 TEST_F(StoredJetTest, ExponentsOfWhatTheJetIsNotExpandedIn) {
-  store(kepler, {{"jet.variables", "[\"x\", \"y\", \"px\", \"py\"]"}});
+  store(planar_kepler, {{"jet.variables", "[\"x\", \"y\", \"px\", \"py\"]"}});
   expect_damage("gauss8/jet.csv",
                 [](const std::string& text) { return changed(text, "x,0,1,0,", "x,0,0,1,"); },
                 {"e_z: must be 0, for the jet is not expanded in z"});
 }
 
 TEST_F(StoredJetTest, DamagedSummary) {
-  store(kepler);
+  store(planar_kepler);
   using nlohmann::json;
   const std::string file = "summary.json";
   expect_damage(file, [](const std::string&) { return ""; }, {"line 1: is not valid JSON"});
@@ -300,7 +278,7 @@ TEST_F(StoredJetTest, DamagedSummary) {
 // their size.
 TEST_F(StoredJetTest, TheSizeIsLookedAtBeforeTheFileIsRead) {
   constexpr std::uintmax_t two_gigabytes = std::uintmax_t{2} << 30;
-  store(kepler);
+  store(planar_kepler);
   const auto file = directory_ / "gauss8/jet.csv";
   const std::string good = test::content(file);
   std::filesystem::resize_file(file, two_gigabytes);
@@ -320,7 +298,7 @@ TEST_F(StoredJetTest, TheSizeIsLookedAtBeforeTheFileIsRead) {
 }
 
 TEST_F(StoredJetTest, ADamagedOrderTakesNoMemory) {
-  store(kepler);
+  store(planar_kepler);
   auto json = nlohmann::json::parse(test::content(directory_ / "summary.json"));
   json["order"] = 60;
   json["coefficients_per_component"] = 90858768;

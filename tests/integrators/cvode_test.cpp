@@ -13,6 +13,7 @@
 
 #include "../../src/integrators/cvode_block_solver.hpp"
 #include "../../src/integrators/series_vector_field.hpp"
+#include "integrator_checks.hpp"
 
 namespace hamjet {
 namespace {
@@ -26,20 +27,6 @@ class Cvode : public testing::Test {
     if (!cvode_available()) GTEST_SKIP() << "this build has no CVODE";
   }
 };
-
-/// The paper's orbit; inputs from reference_cases.json, case SEED-10PI.
-DynamicalSystem paper_field() {
-  return zonal_gravity(
-      {1.0, 0x1.d283e1c01dcf3p-1, {{2, 0x1.1bcdd8a6cfd70p-10}, {3, 0x1.53e5d6a0f845cp-19}}});
-}
-
-FlowProblem<double> orbit(const DynamicalSystem& system, int order, double duration) {
-  return {&system,
-          SeriesSpace::create(6, order),
-          {0, 1, 2, 3, 4, 5},
-          {1, 0, 0, 0, 0x1.23e2896280f23p-1, 0x1.f98f3adef13f2p-1},
-          duration};
-}
 
 FlowJet<double> run(const FlowProblem<double>& problem, CvodeMethod method, double tolerance) {
   IntegrationStatistics statistics;
@@ -68,27 +55,12 @@ TEST(CvodeAbsent, SaysHowToBuildIt) {
   EXPECT_NE(text.find("-DHAMJET_CVODE=ON"), std::string::npos) << text;
 }
 
-// Expected: q = q0 cos wt + p0 sin wt, p = p0 cos wt - q0 sin wt for mass 2, stiffness 0.5 (w =
-// 1/2, m w = 1), and the same rotation at degree 1; a linear flow has nothing above.
 TEST_F(Cvode, IntegratesTheOscillatorForwardsAndBackwards) {
   const DynamicalSystem system = harmonic_oscillator(2, 0.5);
   for (const CvodeMethod method : both_methods) {
     for (const double duration : {7.3, -7.3}) {
-      const FlowProblem<double> problem{
-          &system, SeriesSpace::create(2, 3), {0, 1}, {0.3, -0.7}, duration};
-      const FlowJet<double> jet = run(problem, method, 1e-10);
-      const double c = std::cos(duration / 2);
-      const double s = std::sin(duration / 2);
-      const double expected_q[] = {0.3 * c - 0.7 * s, c, s};
-      const double expected_p[] = {-0.7 * c - 0.3 * s, -s, c};
-      for (std::size_t k = 0; k < 3; ++k) {
-        EXPECT_NEAR(jet[0][k], expected_q[k], 2e-8);
-        EXPECT_NEAR(jet[1][k], expected_p[k], 2e-8);
-      }
-      for (std::size_t k = 3; k < jet[0].size(); ++k) {
-        EXPECT_EQ(jet[0][k], 0);
-        EXPECT_EQ(jet[1][k], 0);
-      }
+      const auto problem = test::oscillator_problem(system, duration);
+      test::expect_rotation(run(problem, method, 1e-10), duration, 2e-8);
     }
   }
 }
@@ -96,21 +68,12 @@ TEST_F(Cvode, IntegratesTheOscillatorForwardsAndBackwards) {
 // Expected: state and first column of the matrix of case SEED-10PI in reference_cases.json.
 // Multistep errors add up over the steps: two or three digits above the tolerance.
 TEST_F(Cvode, ErrorFallsWithTheToleranceOnThePapersOrbit) {
-  const double state[] = {0.766193477722799312, -0.377383325619903653, -0.643494936008871042,
-                          0.612704207756633850, 0.442268657796718223,  0.773489074513720723};
-  const double column[] = {-82.9039186170813560, -60.9735264196907293, -106.657871345703589,
-                           85.0485072235083642,  -42.0503868872173724, -71.9061898804517261};
-  const DynamicalSystem system = paper_field();
-  const auto problem = orbit(system, 2, 0x1.f6a7a2955385ep+4);
+  const DynamicalSystem system = zonal_gravity(test::paper_orbit().field);
+  const auto problem = test::orbit_problem(system, 2, test::paper_orbit().duration);
   for (const CvodeMethod method : both_methods) {
     double previous = 1;
     for (const double tolerance : {1e-6, 1e-8, 1e-10}) {
-      const FlowJet<double> jet = run(problem, method, tolerance);
-      double error = 0;
-      for (std::size_t c = 0; c < 6; ++c) {
-        error = std::max(error, std::abs(jet[c][0] - state[c]));
-        error = std::max(error, std::abs(jet[c][1] - column[c]) / 106.7);
-      }
+      const double error = test::paper_orbit_error(run(problem, method, tolerance));
       EXPECT_LE(error, 1e3 * tolerance);
       EXPECT_LE(error, previous / 10) << tolerance;
       previous = error;
@@ -120,34 +83,22 @@ TEST_F(Cvode, ErrorFallsWithTheToleranceOnThePapersOrbit) {
 
 // Expected: the flow back over the same time undoes the flow.
 TEST_F(Cvode, ForwardThenBackwardReturns) {
-  const DynamicalSystem system = paper_field();
+  const DynamicalSystem system = zonal_gravity(test::paper_orbit().field);
   for (const CvodeMethod method : both_methods) {
-    const FlowJet<double> out = run(orbit(system, 1, 5), method, 1e-11);
-    FlowProblem<double> back = orbit(system, 1, -5);
+    const FlowJet<double> out = run(test::orbit_problem(system, 1, 5), method, 1e-11);
+    FlowProblem<double> back = test::orbit_problem(system, 1, -5);
     for (std::size_t c = 0; c < 6; ++c) back.initial_state[c] = out[c][0];
     const FlowJet<double> home = run(back, method, 1e-11);
-    for (std::size_t i = 0; i < 6; ++i) {
-      EXPECT_NEAR(home[i][0], orbit(system, 1, 5).initial_state[i], 1e-7);
-      for (std::size_t j = 0; j < 6; ++j) {
-        double sum = 0;
-        for (std::size_t k = 0; k < 6; ++k) sum += home[i][1 + k] * out[k][1 + j];
-        EXPECT_NEAR(sum, i == j ? 1 : 0, 1e-6);
-      }
-    }
+    test::expect_return(out, home, test::orbit_problem(system, 1, 5).initial_state, 1e-7, 1e-6);
   }
 }
 
 // Expected: by definition of the flow at time zero (CVODE itself would refuse: CV_TOO_CLOSE).
 TEST_F(Cvode, ZeroDurationIsTheIdentityExactly) {
   const DynamicalSystem system = kepler();
-  const auto problem = orbit(system, 2, 0);
+  const auto problem = test::orbit_problem(system, 2, 0);
   for (const CvodeMethod method : both_methods) {
-    const FlowJet<double> jet = run(problem, method, 1e-6);
-    for (std::size_t c = 0; c < 6; ++c) {
-      for (std::size_t k = 0; k < jet[c].size(); ++k) {
-        EXPECT_EQ(jet[c][k], k == 0 ? problem.initial_state[c] : k == 1 + c ? 1 : 0);
-      }
-    }
+    test::expect_identity(run(problem, method, 1e-6), problem.initial_state);
   }
 }
 
@@ -155,7 +106,7 @@ TEST_F(Cvode, ZeroDurationIsTheIdentityExactly) {
 // of zero would be refused there (CV_ILL_INPUT).
 TEST_F(Cvode, TheObserverSeesEveryStepAndZerosStayZero) {
   const DynamicalSystem system = kepler();
-  FlowProblem<double> problem = orbit(system, 2, 3);
+  FlowProblem<double> problem = test::orbit_problem(system, 2, 3);
   problem.initial_state = {1, 0, 0, 0, 1.1, 0};
   for (const CvodeMethod method : both_methods) {
     IntegrationStatistics statistics;
@@ -179,8 +130,8 @@ TEST_F(Cvode, TheObserverSeesEveryStepAndZerosStayZero) {
 TEST_F(Cvode, TheObserverMayStop) {
   const DynamicalSystem system = kepler();
   IntegrationStatistics statistics;
-  EXPECT_THROW(integrate_cvode(orbit(system, 1, 3), {CvodeMethod::bdf, 1e-8}, statistics,
-                               [](double, const FlowJet<double>&) { throw 7; }),
+  EXPECT_THROW(integrate_cvode(test::orbit_problem(system, 1, 3), {CvodeMethod::bdf, 1e-8},
+                               statistics, [](double, const FlowJet<double>&) { throw 7; }),
                int);
 }
 
@@ -189,7 +140,7 @@ TEST_F(Cvode, TheObserverMayStop) {
 TEST_F(Cvode, ACollisionIsAnError) {
   const DynamicalSystem system = kepler();
   for (const int order : {0, 2}) {
-    FlowProblem<double> problem = orbit(system, order, 2);
+    FlowProblem<double> problem = test::orbit_problem(system, order, 2);
     problem.initial_state = {1, 0, 0, 0, 0, 0};
     for (const CvodeMethod method : both_methods) {
       for (const double tolerance : {1e-4, 1e-6, 1e-9, 1e-12}) {
@@ -206,7 +157,7 @@ TEST_F(Cvode, ACollisionIsAnError) {
 
 TEST_F(Cvode, RefusesWrongInput) {
   const DynamicalSystem system = kepler();
-  const auto problem = orbit(system, 1, 1);
+  const auto problem = test::orbit_problem(system, 1, 1);
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   for (const double tolerance : {0.0, -1e-6, 1.0, nan, 1e-18}) {
     EXPECT_NE(error_text(problem, CvodeMethod::adams, tolerance, ErrorKind::usage), "no error");
@@ -226,10 +177,11 @@ TEST_F(Cvode, RefusesWrongInput) {
 // Expected: with the exact linear solver Newton's iteration converges at once: hardly any failure,
 // and about one iteration a step (measured: none, 1.3). J is then evaluated now and then only.
 TEST_F(Cvode, NewtonConvergesWithTheBlockSolver) {
-  const DynamicalSystem system = paper_field();
+  const DynamicalSystem system = zonal_gravity(test::paper_orbit().field);
   IntegrationStatistics statistics;
   CvodeCounts counts;
-  integrate_cvode(orbit(system, 4, 10), {CvodeMethod::bdf, 1e-7, &counts}, statistics);
+  integrate_cvode(test::orbit_problem(system, 4, 10), {CvodeMethod::bdf, 1e-7, &counts},
+                  statistics);
   EXPECT_LE(counts.nonlinear_failures, statistics.steps / 100);
   EXPECT_LE(counts.nonlinear_iterations, 2 * statistics.steps);
   EXPECT_EQ(counts.linear_solves, counts.nonlinear_iterations);
@@ -308,7 +260,7 @@ TEST(CoefficientBlockSolver, ReportsSingularAndNotFiniteMatrices) {
   EXPECT_FALSE(solver.factorise(std::numeric_limits<double>::infinity()));
 
   const DynamicalSystem gravity = kepler();
-  CoefficientBlockSolver at_centre(orbit(gravity, 1, 1));
+  CoefficientBlockSolver at_centre(test::orbit_problem(gravity, 1, 1));
   EXPECT_FALSE(at_centre.evaluate(std::vector<double>(42, 0.0).data()));
 }
 

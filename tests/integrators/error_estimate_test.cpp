@@ -12,6 +12,7 @@
 #include "hamjet/integrators/gauss_collocation.hpp"
 #include "hamjet/integrators/stormer_verlet.hpp"
 #include "support/errors.hpp"
+#include "support/random_series.hpp"
 
 // Estimates are compared with errors that are put into a jet, or known from extended precision.
 
@@ -31,14 +32,6 @@ struct Orbit {
   }
 };
 
-double largest(const FlowJet<double>& jet, int degree) {
-  double result = 0;
-  for (const auto& component : jet) {
-    for (const double c : component.slice(degree)) result = std::max(result, std::abs(c));
-  }
-  return result;
-}
-
 TEST(ErrorEstimate, IsSmallForAGoodJet) {
   const Orbit orbit;
   const auto estimate = estimate_error<double>(orbit.problem, orbit.jet());
@@ -56,7 +49,7 @@ TEST(ErrorEstimate, SeesOneWrongCoefficientOfAnyMonomial) {
   for (std::size_t k = 0; k < space.size(); ++k) {
     const int degree = space.degree(k);
     FlowJet<double> wrong = good;
-    wrong[k % 6][k] += 1e-6 * largest(good, degree);
+    wrong[k % 6][k] += 1e-6 * largest_of_degree(good, degree);
     const auto estimate = estimate_error<double>(orbit.problem, wrong);
     const double seen = estimate[static_cast<std::size_t>(degree)];
     EXPECT_GT(seen, 1e-7) << k;
@@ -92,7 +85,7 @@ TEST(ErrorEstimate, HoldsForOtherMethodsSubsetsAndBackwards) {
         error = std::max(error, std::abs(verlet[i][k] - exact[i][k]));
       }
     }
-    error /= largest(exact, d);
+    error /= largest_of_degree(exact, d);
     EXPECT_LT(error, 10 * estimate[static_cast<std::size_t>(d)]) << d;
     EXPECT_GT(error, 0.01 * estimate[static_cast<std::size_t>(d)]) << d;
   }

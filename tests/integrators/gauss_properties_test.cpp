@@ -2,39 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 #include <vector>
 
-#include "hamjet/algebra/composition.hpp"
 #include "hamjet/dynamics/harmonic_oscillator.hpp"
-#include "support/flow.hpp"
+#include "integrator_checks.hpp"
+#include "support/map.hpp"
 #include "support/random_series.hpp"
 
 // Identities that the jet of a flow, or of a symmetric one-step method, obeys.
 
 namespace hamjet {
 namespace {
-
-FlowJet<double> paper_jet(double duration, int order, const GaussSettings& settings) {
-  auto flow = test::flow_of(test::paper_orbit(), order);
-  flow.duration = duration;
-  return test::run_gauss(flow, settings);
-}
-
-/// second after first: the deviations of the first are inserted into the second.
-FlowJet<double> chained(const FlowJet<double>& second, const FlowJet<double>& first) {
-  const auto inner = without_constants(first);
-  return compose(std::span<const Series<double>>(second), std::span<const Series<double>>(inner));
-}
-
-/// The largest coefficient of each degree over all components.
-double scale_of(const FlowJet<double>& jet, int degree) {
-  double result = 0;
-  for (const auto& u : jet) {
-    for (const double c : u.slice(degree)) result = std::max(result, std::abs(c));
-  }
-  return result;
-}
 
 TEST(Gauss, ZeroDurationIsTheIdentityExactly) {
   for (const auto& settings : {test::adaptive(), test::fixed_step(2, 0.1)}) {
@@ -43,10 +21,7 @@ TEST(Gauss, ZeroDurationIsTheIdentityExactly) {
     flow.duration = 0;
     const auto jet = test::run_gauss(flow, settings, &statistics);
     EXPECT_EQ(statistics.steps, 0);
-    for (std::size_t i = 0; i < 6; ++i) {
-      EXPECT_EQ(jet[i][0], flow.start[i]);
-      for (std::size_t k = 1; k < jet[i].size(); ++k) EXPECT_EQ(jet[i][k], k == i + 1 ? 1 : 0);
-    }
+    test::expect_identity(jet, flow.start);
   }
 }
 
@@ -91,7 +66,7 @@ double term_scale(FlowJet<double> second, FlowJet<double> first, int degree) {
       for (auto& c : u.coefficients()) c = std::abs(c);
     }
   }
-  return scale_of(chained(second, first), degree);
+  return test::largest_of_degree(test::chained(second, first), degree);
 }
 
 TEST(Gauss, OutAndBackIsTheIdentity) {
@@ -101,7 +76,7 @@ TEST(Gauss, OutAndBackIsTheIdentity) {
   back.start = test::final_state(there);
   back.duration = -out.duration;
   const auto returned = test::run_gauss(back);
-  const auto both = chained(returned, there);
+  const auto both = test::chained(returned, there);
   for (int d = 0; d <= 3; ++d) {
     // 1e-13 is the error of either way; at degree 0 the norm of the way back amplifies it.
     const double scale = d == 0 ? test::paper_orbit().matrix_norm : term_scale(returned, there, d);
@@ -114,15 +89,15 @@ TEST(Gauss, OutAndBackIsTheIdentity) {
 
 TEST(Gauss, HalvesComposeToTheWhole) {
   const double t = test::paper_orbit().duration;
-  const auto whole = paper_jet(t, 4, test::adaptive(8, 1e-16));
-  const auto first = paper_jet(t / 2, 4, test::adaptive(8, 1e-16));
+  const auto whole = test::paper_jet<double>(t, 4, test::adaptive(8, 1e-16));
+  const auto first = test::paper_jet<double>(t / 2, 4, test::adaptive(8, 1e-16));
   auto rest = test::flow_of(test::paper_orbit(), 4);
   rest.start = test::final_state(first);
   rest.duration = t / 2;
   const auto second = test::run_gauss(rest, test::adaptive(8, 1e-16));
-  const auto both = chained(second, first);
+  const auto both = test::chained(second, first);
   for (int d = 0; d <= 4; ++d) {
-    const double condition = term_scale(second, first, d) / scale_of(whole, d);
+    const double condition = term_scale(second, first, d) / test::largest_of_degree(whole, d);
     EXPECT_LE(test::relative_error(both, whole, d), 1e-13 * (1 + condition)) << "degree " << d;
   }
 }
@@ -130,7 +105,7 @@ TEST(Gauss, HalvesComposeToTheWhole) {
 TEST(Gauss, MirrorOfTheMotionRunsBackwards) {
   // H is even in p: with R (q, p) = (q, -p), Phi_-t R = R Phi_t. The method is symmetric, so fixed
   // steps obey this to round-off even where they are far from the flow.
-  const auto forwards = paper_jet(3, 2, test::fixed_step(2, 0.5));
+  const auto forwards = test::paper_jet<double>(3, 2, test::fixed_step(2, 0.5));
   auto flow = test::flow_of(test::paper_orbit(), 2);
   for (std::size_t i = 3; i < 6; ++i) flow.start[i] = -flow.start[i];
   flow.duration = -3;
@@ -139,7 +114,7 @@ TEST(Gauss, MirrorOfTheMotionRunsBackwards) {
     for (std::size_t k = 0; k < forwards[i].size(); ++k) {
       const auto e = forwards[i].space().exponents(k);
       const int sign = ((e[3] + e[4] + e[5]) % 2 == 0) == (i < 3) ? 1 : -1;
-      const double scale = scale_of(forwards, forwards[i].space().degree(k));
+      const double scale = test::largest_of_degree(forwards, forwards[i].space().degree(k));
       EXPECT_NEAR(backwards[i][k], sign * forwards[i][k], 1e-14 * scale);
     }
   }
@@ -182,9 +157,9 @@ TEST(Gauss, CoupledMassesAgreeInBothForms) {
 }
 
 TEST(Gauss, LowOrderIsTheBeginningOfHighOrder) {
-  const auto high = paper_jet(10, 4, test::adaptive());
+  const auto high = test::paper_jet<double>(10, 4, test::adaptive());
   for (const int order : {1, 2, 3}) {
-    const auto low = paper_jet(10, order, test::adaptive());
+    const auto low = test::paper_jet<double>(10, order, test::adaptive());
     for (std::size_t i = 0; i < 6; ++i) {
       // The same operations in the same order: no rounding apart.
       for (std::size_t k = 0; k < low[i].size(); ++k) EXPECT_EQ(low[i][k], high[i][k]);
@@ -206,7 +181,8 @@ TEST(Gauss, FewerVariablesGiveTheSliceOfTheFullJet) {
     const std::size_t same = full[0].space().index(exponents);
     for (std::size_t i = 0; i < 6; ++i) {
       // Sums of the same terms, in another order.
-      EXPECT_NEAR(part[i][k], full[i][same], 1e-13 * scale_of(full, space.degree(k)));
+      EXPECT_NEAR(part[i][k], full[i][same],
+                  1e-13 * test::largest_of_degree(full, space.degree(k)));
     }
   }
 }
@@ -230,7 +206,7 @@ TEST(Gauss, PlanarSystemEqualsThePlanarPartOfTheFullOne) {
     const std::size_t same = full[0].space().index(exponents);
     for (std::size_t i = 0; i < 4; ++i) {
       EXPECT_NEAR(planar[i][k], full[same_component[i]][same],
-                  1e-12 * scale_of(full, space.degree(k)));
+                  1e-12 * test::largest_of_degree(full, space.degree(k)));
     }
   }
 }

@@ -10,6 +10,7 @@
 #include "hamjet/algebra/composition.hpp"
 #include "hamjet/dynamics/harmonic_oscillator.hpp"
 #include "hamjet/integrators/stormer_verlet.hpp"
+#include "integrator_checks.hpp"
 #include "integrators/small_systems.hpp"
 #include "support/convergence.hpp"
 #include "support/errors.hpp"
@@ -48,8 +49,6 @@ template <class Real>
 std::vector<Series<Real>> positions(const FlowJet<Real>& jet) {
   return {jet.begin(), jet.begin() + static_cast<std::ptrdiff_t>(jet.size() / 2)};
 }
-
-/// H = p^T W p / 2 + V(q) with a full matrix W.
 
 // Expected: with w = k/m, q_+ (1 + beta h^2 w) = q (1 - (1/2 - beta) h^2 w) + h p/m and
 // p_+ = p - h k (q + q_+)/2, in extended precision; the last case is stiff, h^2 w = 1e6.
@@ -208,15 +207,9 @@ TEST(Newmark, OrderOfConvergenceIsTwo) {
   flow.duration = 2;
   const auto expected = test::run_gauss(flow, test::adaptive(8, 1e-18));
   for (const double beta : {0.25, 0.5}) {
-    std::vector<double> steps;
-    std::vector<std::vector<double>> errors(3);
-    for (const int n : {200, 400, 800, 1600}) {
-      steps.push_back(2.0 / n);
-      const auto jet = newmark(test::problem_of(flow), beta, 2.0 / n);
-      for (int d = 0; d <= 2; ++d) {
-        errors[static_cast<std::size_t>(d)].push_back(test::relative_error(jet, expected, d));
-      }
-    }
+    const auto [steps, errors] = test::convergence(
+        flow, expected, {200, 400, 800, 1600},
+        [&](const auto& problem, double step) { return newmark(problem, beta, step); });
     for (const auto& error : errors) {
       EXPECT_NEAR(test::fitted_order(steps, error), 2, 0.03) << beta;
       EXPECT_GT(error.back(), 1e-9);
@@ -277,9 +270,7 @@ TEST(Newmark, OutAndBackIsTheIdentity) {
     back.start = test::final_state(there);
     back.duration = -8;
     const auto returned = newmark(test::problem_of(back), beta, 0.25);
-    const auto inner = without_constants(there);
-    const auto both =
-        compose(std::span<const Series<double>>(returned), std::span<const Series<double>>(inner));
+    const auto both = test::chained(returned, there);
     const auto identity = starting_jet(test::problem_of(out));
     const double size = test::largest_coefficient(there[0]) + test::largest_coefficient(there[1]);
     for (std::size_t i = 0; i < 2; ++i) {
@@ -338,11 +329,7 @@ TEST(Newmark, ZeroDurationIsTheIdentityExactly) {
   auto flow = test::flow_of(test::paper_orbit(), 3);
   flow.duration = 0;
   const auto problem = test::problem_of(flow);
-  const auto identity = starting_jet(problem);
-  const auto jet = newmark(problem, 0.25, 0.1);
-  for (std::size_t i = 0; i < 6; ++i) {
-    for (std::size_t k = 0; k < jet[i].size(); ++k) EXPECT_EQ(jet[i][k], identity[i][k]);
-  }
+  test::expect_identity(newmark(problem, 0.25, 0.1), flow.start);
 }
 
 TEST(Newmark, BadSettingsAndSystemsAreUsageErrors) {

@@ -2,14 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "hamjet/algebra/composition.hpp"
 #include "hamjet/dynamics/harmonic_oscillator.hpp"
+#include "integrator_checks.hpp"
 #include "integrators/small_systems.hpp"
 #include "support/convergence.hpp"
 #include "support/errors.hpp"
@@ -133,16 +132,10 @@ TEST(VelocityVerlet, OrdersOfConvergenceAreOneAndTwo) {
   flow.duration = 2;
   const auto expected = test::run_gauss(flow, test::adaptive(8, 1e-18));
   for (const bool is_verlet : {false, true}) {
-    std::vector<double> steps;
-    std::vector<std::vector<double>> errors(3);
-    for (const int n : {200, 400, 800, 1600}) {
-      steps.push_back(2.0 / n);
-      const auto problem = test::problem_of(flow);
-      const auto jet = is_verlet ? verlet(problem, 2.0 / n) : stormer(problem, 2.0 / n);
-      for (int d = 0; d <= 2; ++d) {
-        errors[static_cast<std::size_t>(d)].push_back(test::relative_error(jet, expected, d));
-      }
-    }
+    const auto [steps, errors] = test::convergence(
+        flow, expected, {200, 400, 800, 1600}, [&](const auto& problem, double step) {
+          return is_verlet ? verlet(problem, step) : stormer(problem, step);
+        });
     for (const auto& error : errors) {
       EXPECT_NEAR(test::fitted_order(steps, error), is_verlet ? 2 : 1, 0.03);
       EXPECT_GT(error.back(), 1e-9);  // above the rounding floor
@@ -151,43 +144,11 @@ TEST(VelocityVerlet, OrdersOfConvergenceAreOneAndTwo) {
   }
 }
 
-/// The method forwards and then backwards from where it ended, minus the identity; largest
-/// coefficient, relative to the terms that are summed.
-template <class Run>
-double return_error(const Run& run, double duration, double step) {
-  auto flow = test::flow_of(test::paper_orbit(), 3);
-  flow.duration = duration;
-  const auto there = run(test::problem_of(flow), step);
-  const auto identity = starting_jet(test::problem_of(flow));
-  flow.start = test::final_state(there);
-  flow.duration = -duration;
-  const auto back = run(test::problem_of(flow), step);
-  const auto inner = without_constants(there);
-  const auto both =
-      compose(std::span<const Series<double>>(back), std::span<const Series<double>>(inner));
-  auto sizes = back;
-  auto inner_sizes = inner;
-  for (auto* jet : {&sizes, &inner_sizes}) {
-    for (auto& u : *jet) {
-      for (auto& c : u.coefficients()) c = std::abs(c);
-    }
-  }
-  const auto terms =
-      compose(std::span<const Series<double>>(sizes), std::span<const Series<double>>(inner_sizes));
-  double result = 0;
-  for (std::size_t i = 0; i < 6; ++i) {
-    for (int d = 0; d <= 3; ++d) {
-      double scale = 0;
-      for (const auto& u : terms) scale = std::max(scale, test::largest_of_degree(u, d));
-      result = std::max(result, test::largest_of_degree(both[i] - identity[i], d) / scale);
-    }
-  }
-  return result;
-}
-
 TEST(VelocityVerlet, IsReversibleAndStormersRuleIsNot) {
-  EXPECT_LE(return_error([](const auto& p, double h) { return verlet(p, h); }, 6, 0.2), 1e-14);
-  EXPECT_GE(return_error([](const auto& p, double h) { return stormer(p, h); }, 6, 0.2), 1e-4);
+  EXPECT_LE(test::return_error([](const auto& p, double h) { return verlet(p, h); }, 6, 0.2),
+            1e-14);
+  EXPECT_GE(test::return_error([](const auto& p, double h) { return stormer(p, h); }, 6, 0.2),
+            1e-4);
 }
 
 // Expected: a symplectic map at every degree, however coarse the step.
@@ -209,11 +170,8 @@ TEST(VelocityVerlet, ZeroDurationIsTheIdentityExactly) {
   auto flow = test::flow_of(test::paper_orbit(), 3);
   flow.duration = 0;
   const auto problem = test::problem_of(flow);
-  const auto identity = starting_jet(problem);
   for (const auto& jet : {stormer(problem, 0.1), verlet(problem, 0.1)}) {
-    for (std::size_t i = 0; i < 6; ++i) {
-      for (std::size_t k = 0; k < jet[i].size(); ++k) EXPECT_EQ(jet[i][k], identity[i][k]);
-    }
+    test::expect_identity(jet, flow.start);
   }
 }
 

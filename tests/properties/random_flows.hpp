@@ -5,6 +5,7 @@
 
 #include "properties/property.hpp"
 #include "support/flow.hpp"
+#include "support/magnitude.hpp"
 #include "support/symplectic.hpp"
 
 // Random flows, drawn within a property.
@@ -84,7 +85,7 @@ double largest_ratio(const std::vector<Series<Real>>& a, const std::vector<Serie
     for (std::size_t k = 0; k < a[i].size(); ++k) {
       const double difference = std::abs(static_cast<double>(Real(a[i][k] - b[i][k])));
       const double ratio = difference == 0 ? 0 : difference / static_cast<double>(bound[i][k]);
-      if (!(ratio <= largest)) largest = ratio;
+      largest = larger(largest, ratio);
     }
   }
   return largest;

@@ -80,13 +80,17 @@ def test_frames_that_do_not_fit_are_refused(jet):
             call()
 
 
-def test_transfers_are_those_of_the_command(tmp_path):
-    options = [word for text in FEW_TIMES for word in ("--set", text)]
-    printed = command("transfer", TRANSFER_SCENE, "-o", tmp_path / "out", "-q", *options,
-                      directory=tmp_path)
+def table_of_command(directory, study, scene, overrides, table):
+    """The columns of a table that the command writes into the folder `out` of a directory."""
+    options = [word for text in overrides for word in ("--set", text)]
+    printed = command(study, scene, "-o", directory / "out", "-q", *options, directory=directory)
     assert printed.returncode == 0, printed.stderr
+    return columns((directory / "out" / table).read_text(encoding="utf-8"))
+
+
+def test_transfers_are_those_of_the_command(tmp_path):
+    expected = table_of_command(tmp_path, "transfer", TRANSFER_SCENE, FEW_TIMES, "transfers.csv")
     transfers = hamjet.transfer(TRANSFER_SCENE, overrides=FEW_TIMES)
-    expected = columns((tmp_path / "out" / "transfers.csv").read_text(encoding="utf-8"))
     assert transfers.times_s.shape == (6,)
     assert list(transfers.kinds) == expected["kind"]
     for name, column in (("times_s", "time_s"), ("conditions", "condition"),
@@ -164,12 +168,8 @@ def test_scenes_without_the_table_are_refused_as_by_the_command(tmp_path):
 def test_validity_is_that_of_the_command(tmp_path):
     change = ["jet.order=2", "validity={tolerance_m=1, count=2, samples=10}"]
     scene_file = SOURCE / "data" / "scenes" / "sun-synchronous-formation.toml"
-    options = [word for text in change for word in ("--set", text)]
-    printed = command("validity", scene_file, "-o", tmp_path / "out", "-q", *options,
-                      directory=tmp_path)
-    assert printed.returncode == 0, printed.stderr
+    expected = table_of_command(tmp_path, "validity", scene_file, change, "validity.csv")
     validity = hamjet.validity(scene_file, overrides=change)
-    expected = columns((tmp_path / "out" / "validity.csv").read_text(encoding="utf-8"))
     for name in ("predicted_m", "proved_m", "miss_m"):
         assert getattr(validity, name).shape == (2, 2)
         assert (getattr(validity, name).ravel() == numbers(expected[name])).all(), name

@@ -13,9 +13,10 @@
 
 #include "../../src/report/comparison/comparison_charts.hpp"
 #include "../../src/report/comparison/comparison_view.hpp"
-#include "../../src/report/drawing/gnuplot.hpp"
 #include "comparison_samples.hpp"
+#include "plot_program.hpp"
 #include "support/temporary_directory.hpp"
+#include "support/text.hpp"
 
 // report.html, and the child process that draws its plots.
 
@@ -31,14 +32,6 @@ std::string write_program(const test::TemporaryDirectory& directory, const std::
   std::ofstream(file) << "#!/bin/sh\n" << text << "\n";
   fs::permissions(file, fs::perms::owner_all);
   return file.string();
-}
-
-bool has_gnuplot() { return run_gnuplot("gnuplot", "print 1\n").is_installed; }
-
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t found = 0;
-  for (std::size_t i = text.find(part); i != std::string::npos; i = text.find(part, i + 1)) ++found;
-  return found;
 }
 
 /// All values that stand behind `before` up to the next `end`.
@@ -82,10 +75,10 @@ TEST(ComparisonPage, HoldsTheVerdictAndEscapesTheScene) {
   std::optional<std::string> problem;
   const std::string page = comparison_html(result, sample_origin(), problem);
   EXPECT_NE(page.find(escape_html(verdict(result))), std::string::npos);
-  EXPECT_EQ(count(page, "<script"), 0U);
-  EXPECT_EQ(count(page, "<img"), 0U);
-  EXPECT_EQ(count(page, "<b>"), 0U);
-  EXPECT_EQ(count(page, "<i>"), 0U);
+  EXPECT_EQ(test::occurrences(page, "<script"), 0U);
+  EXPECT_EQ(test::occurrences(page, "<img"), 0U);
+  EXPECT_EQ(test::occurrences(page, "<b>"), 0U);
+  EXPECT_EQ(test::occurrences(page, "<i>"), 0U);
   EXPECT_NE(page.find("&lt;script&gt;alert(&#39;x&#39;)&lt;/script&gt; &amp; more"),
             std::string::npos);
   EXPECT_NE(page.find(escape_html(sample_origin().command)), std::string::npos);
@@ -110,7 +103,7 @@ TEST(ComparisonPage, AnEmptyPartialResultIsAPageToo) {
   std::optional<std::string> problem;
   const std::string page = comparison_html(result, sample_origin(), problem);
   EXPECT_NE(page.find("Partial result"), std::string::npos);
-  EXPECT_EQ(count(page, "<svg"), 0U);
+  EXPECT_EQ(test::occurrences(page, "<svg"), 0U);
   EXPECT_FALSE(problem);
   EXPECT_TRUE(read_comparison_runs(comparison_json(result, sample_origin())).runs.empty());
   EXPECT_FALSE(comparison_table(result).empty());
@@ -128,9 +121,9 @@ TEST(ComparisonPage, WithoutGnuplotTheTablesAreThereAndOneLineSaysWhy) {
   EXPECT_NE(line->find("/nonexistent/gnuplot is not installed"), std::string::npos);
   EXPECT_EQ(line->find('\n'), std::string::npos);
   const std::string page = test::content(folder.path() / "out" / "report.html");
-  EXPECT_EQ(count(page, "is not installed"), 1U);
+  EXPECT_EQ(test::occurrences(page, "is not installed"), 1U);
   EXPECT_NE(page.find("gauss4-0.05"), std::string::npos);
-  EXPECT_EQ(count(page, "<svg"), 0U);
+  EXPECT_EQ(test::occurrences(page, "<svg"), 0U);
   EXPECT_EQ(test::content(folder.path() / "out" / "compare.csv"),
             comparison_csv(sample_comparison()));
   EXPECT_EQ(test::content(folder.path() / "out" / "compare.json"), written);
@@ -160,7 +153,7 @@ TEST(ComparisonPage, PlotsAreWellFormedAndTheirIdsUnique) {
   std::optional<std::string> problem;
   const std::string page = comparison_html(sample_comparison(), sample_origin(), problem);
   EXPECT_FALSE(problem) << *problem;
-  EXPECT_EQ(count(page, "<svg"), 2 * comparison_charts(sample_comparison()).size());
+  EXPECT_EQ(test::occurrences(page, "<svg"), 2 * comparison_charts(sample_comparison()).size());
   const auto plots = values(page, "<svg", '\f');
   for (std::string plot : plots) {
     plot = "<svg" + plot.substr(0, plot.find("</svg>") + 6);

@@ -4,6 +4,8 @@
 #include <limits>
 #include <string>
 
+#include "sample_scene.hpp"
+
 // A small comparison with every case in it that a report must show, of made-up numbers.
 
 namespace hamjet::io {
@@ -39,13 +41,7 @@ inline ComparisonResult sample_comparison() {
   ComparisonResult result;
   result.is_complete = true;
   Scene& scene = result.scene;
-  scene.name = "sample";
-  scene.title = "A sample & its <title>";
-  scene.units = {7000, 927.6};
-  scene.nominal = {1, 0, 0, 0, 0.5, 1};
-  scene.duration = 31.4;
-  scene.order = 2;
-  scene.variables = {0, 1, 2, 3, 4, 5};
+  scene = sample_scene(31.4);
   scene.separation = 10.0 / 7000;
   scene.comparison.wanted_error_m = 1;
   result.separation_points = 27;

@@ -98,7 +98,7 @@ TEST(SettingsJson, EveryMemberOfAComparisonComesFromTheScene) {
     ASSERT_TRUE(fields.contains(name));
     const Written& field = fields.at(name);
     const OrderedJson json =
-        comparison_of(parse_scene(std::string(oscillator) + "[compare]\n" + field.lines, "a"));
+        comparison_of(parse_scene(oscillator + "[compare]\n" + field.lines, "a"));
     EXPECT_EQ(json["scene"]["compare"][std::string(name)], field.value);
     EXPECT_NE(plain["scene"]["compare"][std::string(name)], field.value);
   }

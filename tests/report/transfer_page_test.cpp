@@ -3,11 +3,12 @@
 #include <set>
 #include <string>
 
-#include "../../src/report/drawing/gnuplot.hpp"
 #include "../../src/report/formation/transfer_charts.hpp"
 #include "../../src/report/formation/transfer_view.hpp"
 #include "../../src/report/formation/validity_view.hpp"
 #include "../../src/text/html_text.hpp"
+#include "plot_program.hpp"
+#include "support/text.hpp"
 #include "transfer_samples.hpp"
 
 // report.html of the studies of relative motion, and its charts.
@@ -22,14 +23,6 @@ std::string page_of(const StudyReport& report) {
   ADD_FAILURE() << "no page";
   return "";
 }
-
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t found = 0;
-  for (std::size_t i = text.find(part); i != std::string::npos; i = text.find(part, i + 1)) ++found;
-  return found;
-}
-
-bool has_gnuplot() { return run_gnuplot("gnuplot", "print 1\n").is_installed; }
 
 const ChartCurve* curve_named(const Chart& chart, const std::string& title) {
   for (const ChartCurve& curve : chart.curves) {
@@ -57,9 +50,9 @@ TEST(TransferPage, BeginsWithTheLeastVelocityChangeItsTimeAndTheMisses) {
   ASSERT_NE(place, std::string::npos);
   EXPECT_LT(place, page.find("<main>"));
   EXPECT_NE(page.find("A sample &amp; its &lt;title&gt;"), std::string::npos);
-  EXPECT_EQ(count(page, "<script"), 0U);
-  EXPECT_EQ(count(page, "<b>"), 0U);
-  EXPECT_EQ(count(page, "http"), 0U);
+  EXPECT_EQ(test::occurrences(page, "<script"), 0U);
+  EXPECT_EQ(test::occurrences(page, "<b>"), 0U);
+  EXPECT_EQ(test::occurrences(page, "http"), 0U);
   EXPECT_NE(page.find("(+0.000000, +0.600000, -0.800000)"), std::string::npos);
   EXPECT_NE(page.find("no kind of generating function exists"), std::string::npos);
 }
@@ -69,8 +62,8 @@ TEST(TransferPage, WithoutGnuplotTheTablesAreThere) {
       transfer_report(sample_transfer(), sample_trajectory(), {}, sample_transfer_origin());
   ASSERT_TRUE(report.drawing_problem);
   const std::string page = page_of(report);
-  EXPECT_EQ(count(page, "is not installed"), 1U);
-  EXPECT_EQ(count(page, "<svg"), 0U);
+  EXPECT_EQ(test::occurrences(page, "is not installed"), 1U);
+  EXPECT_EQ(test::occurrences(page, "<svg"), 0U);
   EXPECT_NE(page.find("Velocity changes for the transfer in 5565.6 s"), std::string::npos);
 }
 
@@ -81,7 +74,7 @@ TEST(TransferPage, HasEveryPlotInTwoWidthsWithUniqueIds) {
   EXPECT_FALSE(report.drawing_problem) << *report.drawing_problem;
   const std::string page = page_of(report);
   // Velocity change, three projections, misses, conditions, validity along time and order.
-  EXPECT_EQ(count(page, "<svg"), 2 * 8U);
+  EXPECT_EQ(test::occurrences(page, "<svg"), 2 * 8U);
   for (const char* name : {"velocity-change", "relative-tr", "relative-tn", "relative-rn",
                            "miss-time", "kind-conditions", "validity-time", "validity-order"}) {
     EXPECT_NE(page.find("id=\"figure-" + std::string(name) + "\""), std::string::npos) << name;
@@ -95,7 +88,8 @@ TEST(TransferPage, HasEveryPlotInTwoWidthsWithUniqueIds) {
   }
   EXPECT_EQ(ids.size(), given);
   EXPECT_EQ(
-      count(page_of(validity_report(sample_validity(), sample_transfer_origin("gnuplot"))), "<svg"),
+      test::occurrences(
+          page_of(validity_report(sample_validity(), sample_transfer_origin("gnuplot"))), "<svg"),
       4U);
 }
 
@@ -131,7 +125,7 @@ TEST(TransferCharts, ShadeTheMarginsAndMarkWhatIsDoubtful) {
   EXPECT_DOUBLE_EQ(chart.rules[0].place, 6 * minutes);
   EXPECT_NE(chart.reading.find("Shaded"), std::string::npos);
   const std::string script = gnuplot_script(chart, Drawing::wide_svg);
-  EXPECT_EQ(count(script, "set object rectangle"), 1U);
+  EXPECT_EQ(test::occurrences(script, "set object rectangle"), 1U);
   EXPECT_NE(script.find("behind"), std::string::npos);
 }
 

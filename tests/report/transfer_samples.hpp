@@ -4,20 +4,15 @@
 #include <limits>
 #include <string>
 
+#include "sample_scene.hpp"
+
 // Small results of the studies of relative motion with every case in them that a report must show,
 // of made-up numbers.
 
 namespace hamjet::io {
 
 inline Scene sample_relative_scene() {
-  Scene scene;
-  scene.name = "sample";
-  scene.title = "A sample & its <title>";
-  scene.units = {7000, 927.6};
-  scene.nominal = {1, 0, 0, 0, 0.5, 1};
-  scene.duration = 7;
-  scene.order = 2;
-  scene.variables = {0, 1, 2, 3, 4, 5};
+  Scene scene = sample_scene(7);
   scene.transfer = TransferSettings{};
   TransferSettings& settings = *scene.transfer;
   settings.start.position_m = {0, -8000, 6000};

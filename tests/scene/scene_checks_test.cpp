@@ -9,8 +9,8 @@
 namespace hamjet::io {
 namespace {
 
-SelfCheckSettings checks(const std::string& lines, const char* scene = orbit) {
-  return parse_scene(std::string(scene) + "[checks]\n" + lines, "file.toml").checks;
+SelfCheckSettings checks(const std::string& lines, const std::string& scene = orbit) {
+  return parse_scene(scene + "[checks]\n" + lines, "file.toml").checks;
 }
 
 TEST(SceneChecks, AreOnByDefaultWithoutLimits) {
@@ -38,7 +38,7 @@ TEST(SceneChecks, AreReadOneByOne) {
 
 TEST(SceneChecks, MistakesAreNamed) {
   const auto expect = [](const std::string& line, const std::vector<std::string>& words,
-                         const char* scene = orbit) {
+                         const std::string& scene = orbit) {
     expect_scene_error(std::string(scene) + "[checks]\n" + line, words);
   };
   expect("enrgy = 1e-3", {"checks.enrgy: unknown key", "did you mean energy?"});

@@ -18,7 +18,7 @@ struct Change {
   ErrorKind kind = ErrorKind::scene;
 };
 
-void expect_errors(const char* scene, const std::vector<Change>& changes) {
+void expect_errors(const std::string& scene, const std::vector<Change>& changes) {
   ASSERT_NO_THROW(parse_scene(scene, "file.toml"));
   for (const Change& change : changes) {
     SCOPED_TRACE(std::string(change.to).substr(0, 200));
@@ -379,9 +379,9 @@ TEST(SceneErrors, OtherTables) {
   ASSERT_NO_THROW(parse_scene(changed(plane, "J2 = 1e-3", "J2 = 1e-3\nJ20 = 1e-9"), "x"));
   expect_scene_error(changed(plane, "[7000, 0, 0]", "[7000, 0, 1e-300]"), {"kinds: not defined"});
   expect_scene_error(changed(plane, kinds, "[\"qqq-ppp\"]"), {"unknown kind", "2 letters"});
-  expect_scene_error(std::string(oscillator) + "[generating_function]\nkinds = [\"qq\"]\n",
+  expect_scene_error(oscillator + "[generating_function]\nkinds = [\"qq\"]\n",
                      {"unknown kind", "1 letter q or p", "q-p"});
-  expect_scene_error(std::string(oscillator) + "[formation]\nseparation_km = 1\n",
+  expect_scene_error(oscillator + "[formation]\nseparation_km = 1\n",
                      {"the model harmonic-oscillator has no key separation_km", "separation_m"});
 }
 

@@ -244,7 +244,7 @@ TEST(SceneTransfer, NeedsAPeriodForOrbitsOnly) {
 }
 
 TEST(SceneTransfer, ScenesThatHaveNoRelativeMotion) {
-  expect_scene_error(std::string(oscillator) + transfer,
+  expect_scene_error(oscillator + transfer,
                      {"transfer: not available for this model, got harmonic-oscillator"});
   expect_scene_error(
       changed(circle, "order = 3", "order = 3\nvariables = [\"x\", \"px\"]") + transfer,

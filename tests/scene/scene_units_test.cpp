@@ -67,7 +67,7 @@ TEST(SceneUnits, BadInput) {
   refuse("length_km = 1", "length_km = 1e-250", {"nominal: out of range", "1e-250 km"});
   refuse("[0.1, -0.0, 5e-324]", "[0, -0.0, 5e-324]",
          {"nominal: out of range", "a distance of 4.94e-324", "between 1e-09 and 1e+09"});
-  expect_scene_error(std::string(oscillator) + "[units]\nlength_km = 1\n",
+  expect_scene_error(oscillator + "[units]\nlength_km = 1\n",
                      {"units: not available for the model harmonic-oscillator"});
 }
 

@@ -5,14 +5,15 @@
 
 #include <cstdint>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "../../src/store/sealed_summary.hpp"
-#include "../scene/scene_samples.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/store/result_set.hpp"
+#include "support/errors.hpp"
 #include "support/temporary_directory.hpp"
 
 // Sets of results are there whole or not at all, and are noticed when they are no longer what was
@@ -52,7 +53,24 @@ class ResultSets : public ::testing::Test {
   }
 
   void expect_refused(const Files& files, const std::vector<std::string>& words) const {
-    expect_error([&] { verify(files); }, ErrorKind::input_output, words, words[0]);
+    test::expect_error([&] { verify(files); }, ErrorKind::input_output, words, words[0]);
+  }
+
+  /// A committed set is refused with each of the damaged texts in place of a file's own.
+  void expect_noticed(const std::function<std::vector<std::string>(const std::string&)>& damaged) {
+    commit(new_);
+    for (const char* name : {"summary.json", "a/x.csv"}) {
+      const std::string good = test::content(directory_ / name);
+      const std::vector<std::string> bad = damaged(good);
+      for (std::size_t i = 0; i < bad.size(); ++i) {
+        test::put(directory_ / name, bad[i]);
+        ResultSet set(directory_, "summary.json");
+        set.read("a/x.csv");
+        EXPECT_THROW(set.verify(), Error) << name << " " << i;
+      }
+      test::put(directory_ / name, good);
+    }
+    verify(new_);
   }
 
   const test::TemporaryDirectory temporary_;
@@ -107,8 +125,8 @@ TEST_F(ResultSets, ALinkInPlaceOfAFolderIsNotFollowed) {
   test::put(elsewhere / "x.csv", "mine");
   fs::create_directories(directory_);
   fs::create_directory_symlink(elsewhere, directory_ / "a");
-  expect_error([&] { commit(new_); }, ErrorKind::input_output,
-               {"a/x.csv: cannot be written", "/a is a symbolic link", "remove it"}, "link");
+  test::expect_error([&] { commit(new_); }, ErrorKind::input_output,
+                     {"a/x.csv: cannot be written", "/a is a symbolic link", "remove it"}, "link");
   EXPECT_EQ(test::content(elsewhere / "x.csv"), "mine");
   EXPECT_FALSE(fs::exists(directory_ / "summary.json"));
   // Nor are files removed there that an earlier set had under this name.
@@ -146,35 +164,24 @@ TEST_F(ResultSets, LeaveNothingWhereTheyAreNotCommitted) {
 }
 
 TEST_F(ResultSets, EveryBitThatIsFlippedIsNoticed) {
-  commit(new_);
-  for (const char* name : {"summary.json", "a/x.csv"}) {
-    const std::string good = test::content(directory_ / name);
-    for (std::size_t bit = 0; bit < 8 * good.size(); ++bit) {
-      std::string bad = good;
-      bad[bit / 8] = static_cast<char>(bad[bit / 8] ^ (1 << (bit % 8)));
-      test::put(directory_ / name, bad);
-      ResultSet set(directory_, "summary.json");
-      set.read("a/x.csv");
-      EXPECT_THROW(set.verify(), Error) << name << " bit " << bit;
+  expect_noticed([](const std::string& good) {
+    std::vector<std::string> flipped(8 * good.size(), good);
+    for (std::size_t bit = 0; bit < flipped.size(); ++bit) {
+      char& byte = flipped[bit][bit / 8];
+      byte = static_cast<char>(byte ^ (1 << (bit % 8)));
     }
-    test::put(directory_ / name, good);
-  }
-  verify(new_);
+    return flipped;
+  });
 }
 
 TEST_F(ResultSets, WhatIsCutOffAtAnyByteIsNoticed) {
-  commit(new_);
-  for (const char* name : {"summary.json", "a/x.csv"}) {
-    const std::string good = test::content(directory_ / name);
+  expect_noticed([](const std::string& good) {
+    std::vector<std::string> cut;
     for (std::size_t length = 0; length < good.size(); ++length) {
-      test::put(directory_ / name, good.substr(0, length));
-      ResultSet set(directory_, "summary.json");
-      set.read("a/x.csv");
-      EXPECT_THROW(set.verify(), Error) << name << " length " << length;
+      cut.push_back(good.substr(0, length));
     }
-    test::put(directory_ / name, good);
-  }
-  verify(new_);
+    return cut;
+  });
 }
 
 TEST_F(ResultSets, WhatIsMissingOrForeignIsNoticed) {
@@ -231,12 +238,12 @@ TEST_F(ResultSets, WhatWasNotCompletelyWrittenIsForgotten) {
 TEST_F(ResultSets, AreRefusedBeforeAnythingIsReplacedWhereAFileCannotGo) {
   commit(old_);
   test::put(directory_ / "c", "a file where a folder should be");
-  expect_error([&] { commit(new_); }, ErrorKind::input_output,
-               {"c/d/w.csv: cannot be written", "c is not a directory"}, "a file");
+  test::expect_error([&] { commit(new_); }, ErrorKind::input_output,
+                     {"c/d/w.csv: cannot be written", "c is not a directory"}, "a file");
   fs::remove(directory_ / "c");
   fs::create_directories(directory_ / "c/d/w.csv");
-  expect_error([&] { commit(new_); }, ErrorKind::input_output,
-               {"c/d/w.csv: cannot be written", "is a directory"}, "a directory");
+  test::expect_error([&] { commit(new_); }, ErrorKind::input_output,
+                     {"c/d/w.csv: cannot be written", "is a directory"}, "a directory");
   EXPECT_EQ(found(), old_);
   verify(old_);
 }
@@ -245,8 +252,9 @@ TEST_F(ResultSets, OneProcessAtATime) {
   const std::string own_number = "process " + std::to_string(::getpid());
   {
     const OutputDirectory output(directory_);
-    expect_error([&] { OutputDirectory second(directory_); }, ErrorKind::input_output,
-                 {directory_.string() + ": the output directory is in use", own_number}, "second");
+    test::expect_error([&] { OutputDirectory second(directory_); }, ErrorKind::input_output,
+                       {directory_.string() + ": the output directory is in use", own_number},
+                       "second");
     EXPECT_EQ(output.leftovers().front(), directory_ / ".hamjet-lock");
   }
   EXPECT_FALSE(fs::exists(directory_));
@@ -263,7 +271,8 @@ TEST_F(ResultSets, ADirectoryThatWasRemovedMeanwhileIsMadeAnew) {
   // And another that has its name by now, in use by somebody else, is not written to.
   fs::remove_all(directory_);
   const OutputDirectory other(directory_);
-  expect_error([&] { output.write("a/x.csv", "x"); }, ErrorKind::input_output, {"in use"}, "other");
+  test::expect_error([&] { output.write("a/x.csv", "x"); }, ErrorKind::input_output, {"in use"},
+                     "other");
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "hamjet/studies/scene.hpp"
@@ -37,6 +38,9 @@ inline Scene kepler_chief(double eccentricity, double length_km, double time_s, 
   scene.integrators = {precise_gauss()};
   return scene;
 }
+
+/// A revolution of the orbit with e = 0.3, the paper's without its zonal harmonics.
+inline const double paper_period = 2 * std::numbers::pi * std::pow(0.7, -1.5);
 
 /// The paper's orbit with J2 and J3 (case SEED-* of reference_cases.json).
 inline Scene paper_chief(int order) {

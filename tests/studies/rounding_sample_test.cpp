@@ -12,6 +12,7 @@
 #include "hamjet/integrators/gauss_collocation.hpp"
 #include "hamjet/scene/scene_reader.hpp"
 #include "hamjet/studies/stability.hpp"
+#include "support/scenes.hpp"
 
 // What rounding does is bounded on the oscillator, whose flow is a rotation and amplifies
 // nothing, and compared with half-ulp starts integrated in extended precision on Kepler's problem.
@@ -21,44 +22,21 @@ namespace {
 
 constexpr double u = 0x1p-53;
 
-constexpr const char* oscillator_case = R"(schema = 1
+const std::string oscillator_case = R"(schema = 1
 title = "oscillator"
-[system]
-model = "harmonic-oscillator"
-[nominal]
-position_m = [1]
-momentum_kg_m_s = [0]
-[jet]
+)" + test::oscillator_tables + R"([jet]
 order = 1
 duration_canonical = 10
-[[integrator]]
-label = "gauss8"
-method = "gauss"
-stages = 8
-step_canonical = 0.1
-)";
+)" + test::gauss8("step_canonical = 0.1");
 
-constexpr const char* eccentric_orbit = R"(schema = 1
+const std::string eccentric_orbit = R"(schema = 1
 title = "Kepler from perigee, e = 0.9"
-[system]
-model = "kepler"
-mu_km3_s2 = 1
-[units]
-length_km = 1
-[nominal]
-position_km = [0.1, 0, 0]
-velocity_km_s = [0, 4.358898943540674, 0]
-[jet]
+)" + test::perigee_tables + R"([jet]
 order = 1
 duration_canonical = 6.5
-[[integrator]]
-label = "gauss8"
-method = "gauss"
-stages = 8
-tolerance = 1e-15
-)";
+)" + test::gauss8("tolerance = 1e-15");
 
-Scene scene_of(const char* text, const std::vector<io::Override>& changes = {}) {
+Scene scene_of(const std::string& text, const std::vector<io::Override>& changes = {}) {
   return io::parse_scene(text, "case.toml", changes);
 }
 

@@ -7,6 +7,8 @@
 
 #include "hamjet/scene/scene_reader.hpp"
 #include "hamjet/studies/propagation.hpp"
+#include "support/scenes.hpp"
+#include "support/text.hpp"
 
 // How a case comes out is decided on the harmonic oscillator, whose flow is the rotation (q, p) ->
 // (c q + s p, c p - s q), and on Kepler's problem, whose coefficients of degree k grow as t^k.
@@ -14,24 +16,15 @@
 namespace hamjet {
 namespace {
 
-constexpr const char* oscillator = R"(schema = 1
+const std::string oscillator = R"(schema = 1
 title = "oscillator"
-[system]
-model = "harmonic-oscillator"
-[nominal]
-position_m = [1]
-momentum_kg_m_s = [0.5]
-[jet]
+)" + test::changed(test::oscillator_tables, "[0]", "[0.5]") +
+                               R"([jet]
 order = 2
 duration_canonical = 2
-[[integrator]]
-label = "gauss8"
-method = "gauss"
-stages = 8
-tolerance = 1e-15
-)";
+)" + test::gauss8("tolerance = 1e-15");
 
-constexpr const char* kepler_orbit = R"(schema = 1
+const std::string kepler_orbit = R"(schema = 1
 title = "Kepler"
 [system]
 model = "kepler"
@@ -42,12 +35,7 @@ velocity_km_s = [0, 1.1, 0.2]
 [jet]
 order = 3
 duration_canonical = 400
-[[integrator]]
-label = "gauss8"
-method = "gauss"
-stages = 8
-step_canonical = 0.5
-)";
+)" + test::gauss8("step_canonical = 0.5");
 
 StabilityCase case_of(const std::string& text, const std::vector<io::Override>& changes = {}) {
   StabilityCase subject{"case", "title", "group", "why", {}, Scene{}};
@@ -170,7 +158,7 @@ TEST(Stability, OutAndBackEndsAtTheStart) {
 
 TEST(Stability, TheConditionIsThatOfTheInvertedBlock) {
   // F1 of the oscillator inverts dq/dp0 = sin t alone, whose condition is 1.
-  StabilityCase subject = case_of(std::string(oscillator) +
+  StabilityCase subject = case_of(oscillator +
                                   "[generating_function]\nkinds = "
                                   "[\"F1\"]\n");
   subject.expected.condition = {"F1", 1};

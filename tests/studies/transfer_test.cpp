@@ -75,9 +75,8 @@ TEST(Transfer, MissFallsAsAPowerOfTheSeparation) {
 
 TEST(Transfer, TenKilometresOnThePapersOrbit) {
   Scene scene = paper_chief(4);
-  const double period = 2 * std::numbers::pi * std::pow(0.7, -1.5);
-  scene.transfer = short_hop(10e3, equal_times(2 * period, 40));
-  scene.transfer->singular_margin = 0.05 * period;
+  scene.transfer = short_hop(10e3, equal_times(2 * paper_period, 40));
+  scene.transfer->singular_margin = 0.05 * paper_period;
   const TransferResult result = study_transfer(scene);
   int far = 0;
   double largest = 0;
@@ -100,9 +99,8 @@ TEST(Transfer, TenKilometresOnThePapersOrbit) {
 // refined.
 TEST(Transfer, TheLeastIsOverAnswersBeyondTheToleranceToo) {
   Scene scene = paper_chief(2);
-  const double period = 2 * std::numbers::pi * std::pow(0.7, -1.5);
-  scene.transfer = short_hop(100e3, equal_times(period, 20));
-  scene.transfer->singular_margin = 0.01 * period;
+  scene.transfer = short_hop(100e3, equal_times(paper_period, 20));
+  scene.transfer->singular_margin = 0.01 * paper_period;
   const TransferResult result = study_transfer(scene);
   scene.transfer->refine = true;
   const TransferResult refined = study_transfer(scene);
@@ -119,11 +117,10 @@ TEST(Transfer, TheLeastIsOverAnswersBeyondTheToleranceToo) {
 // Against a list sixteen times as fine.
 TEST(Transfer, TheLeastBetweenTheListedTimesIsThatOfAFinerList) {
   Scene scene = paper_chief(3);
-  const double period = 2 * std::numbers::pi * std::pow(0.7, -1.5);
-  scene.transfer = short_hop(5e3, equal_times(2 * period, 16));
-  scene.transfer->singular_margin = 0.01 * period;
+  scene.transfer = short_hop(5e3, equal_times(2 * paper_period, 16));
+  scene.transfer->singular_margin = 0.01 * paper_period;
   const TransferResult coarse = study_transfer(scene);
-  scene.transfer->times = equal_times(2 * period, 256);
+  scene.transfer->times = equal_times(2 * paper_period, 256);
   const TransferResult fine = study_transfer(scene);
   ASSERT_TRUE(coarse.best_point() && coarse.least_between && fine.best_point());
   const double listed = coarse.points[*coarse.best_point()].best().total_change_m_s();

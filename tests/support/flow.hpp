@@ -10,6 +10,7 @@
 #include "hamjet/dynamics/dynamical_system.hpp"
 #include "hamjet/dynamics/relative_hamiltonian.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
+#include "support/magnitude.hpp"
 #include "support/reference_data.hpp"
 
 namespace hamjet::test {
@@ -88,7 +89,7 @@ double relative_error(const FlowJet<Real>& jet, const FlowJet<Reference>& refere
     for (std::size_t k = space.first(degree); k < space.first(degree + 1); ++k) {
       const double value =
           std::abs(static_cast<double>(Extended(Extended(jet[i][k]) - Extended(reference[i][k]))));
-      if (!(value <= error)) error = value;
+      error = larger(error, value);
       scale = std::max(scale, std::abs(static_cast<double>(reference[i][k])));
     }
   }

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <span>
 #include <vector>
 
+#include "hamjet/algebra/composition.hpp"
 #include "hamjet/maps/exactness.hpp"
 #include "hamjet/maps/symplecticity.hpp"
 #include "support/flow.hpp"
@@ -19,6 +19,13 @@ template <class T>
 PartialInversion<T> inverted_jet(const FlowJet<T>& jet, const char* kind) {
   return inverted_jet(jet, parse_kind(kind, jet.size() / 2));
 }
+/// The second after the first: the deviations of the first are inserted into the second.
+template <class T>
+FlowJet<T> chained(const FlowJet<T>& second, const FlowJet<T>& first) {
+  const auto inner = without_constants(first);
+  return compose(std::span<const Series<T>>(second), std::span<const Series<T>>(inner));
+}
+
 template <class T>
 std::vector<SymplecticityDefect> symplecticity(const FlowJet<T>& jet) {
   return symplecticity_by_degree(std::span<const Series<T>>(jet));
@@ -28,7 +35,7 @@ std::vector<SymplecticityDefect> symplecticity(const FlowJet<T>& jet) {
 template <class T>
 double worst_symplecticity(const FlowJet<T>& jet) {
   double worst = 0;
-  for (const auto& defect : symplecticity(jet)) worst = std::max(worst, defect.scaled);
+  for (const auto& defect : symplecticity(jet)) worst = larger(worst, defect.scaled);
   return worst;
 }
 

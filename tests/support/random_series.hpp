@@ -10,6 +10,7 @@
 #include "hamjet/algebra/extended.hpp"
 #include "hamjet/algebra/pack.hpp"
 #include "hamjet/algebra/truncated_power_series.hpp"
+#include "support/magnitude.hpp"
 
 namespace hamjet::test {
 
@@ -89,10 +90,17 @@ double largest_of_degree(const Series<T>& u, int degree) {
   double result = 0;
   for (const T& c : u.slice(degree)) {
     for (int lane = 0; lane < C::lanes; ++lane) {
-      const double value = std::abs(static_cast<double>(C::get(c, lane)));
-      if (!(value <= result)) result = value;  // a NaN is the largest of all
+      result = larger(result, std::abs(static_cast<double>(C::get(c, lane))));
     }
   }
+  return result;
+}
+
+/// The same over all components of a map.
+template <class T>
+double largest_of_degree(const std::vector<Series<T>>& map, int degree) {
+  double result = 0;
+  for (const auto& u : map) result = larger(result, largest_of_degree(u, degree));
   return result;
 }
 
@@ -100,10 +108,7 @@ double largest_of_degree(const Series<T>& u, int degree) {
 template <class T>
 double largest_coefficient(const Series<T>& u, int highest) {
   double result = 0;
-  for (int d = 0; d <= highest; ++d) {
-    const double value = largest_of_degree(u, d);
-    if (!(value <= result)) result = value;
-  }
+  for (int d = 0; d <= highest; ++d) result = larger(result, largest_of_degree(u, d));
   return result;
 }
 template <class T>
@@ -126,8 +131,7 @@ template <class T>
 double largest_difference(const std::vector<Series<T>>& a, const std::vector<Series<T>>& b) {
   double result = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {
-    const double value = largest_coefficient(a[i] - b[i]);
-    if (!(value <= result)) result = value;
+    result = larger(result, largest_coefficient(a[i] - b[i]));
   }
   return result;
 }

@@ -137,7 +137,7 @@ TEST_F(SweepItems, ARowIsReadAsItWasWritten) {
   EXPECT_EQ(row_state, SweepDirectory::RowState::missing);
   // Cut at any byte, or with any byte changed, it is none.
   const std::filesystem::path file = rows() / "rows/000/000007.json";
-  const std::string text = text_in(file);
+  const std::string text = content(file);
   for (std::size_t i = 0; i < text.size(); ++i) {
     std::string flipped = text;
     flipped[i] = static_cast<char>(flipped[i] ^ 1);

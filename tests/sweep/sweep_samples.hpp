@@ -1,39 +1,17 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 
+#include "support/scenes.hpp"
 #include "support/temporary_directory.hpp"
 
 // A study of 12 items on a scene that takes milliseconds.
 
 namespace hamjet::test {
 
-inline constexpr const char* sweep_scene = R"(schema = 1
-title = "base"
-[system]
-model = "kepler"
-mu_km3_s2 = 398600.4415
-[nominal]
-a_km = 10000
-e = 0.1
-i_deg = 30
-raan_deg = 10
-argp_deg = 20
-ta_deg = 30
-[jet]
-order = 2
-duration_canonical = 1
-[[integrator]]
-label = "gauss8"
-method = "gauss"
-stages = 8
-tolerance = 1e-13
-[generating_function]
-kinds = ["F1"]
-)";
+inline const std::string sweep_scene =
+    short_kepler_scene("base") + "[generating_function]\nkinds = [\"F1\"]\n";
 
 inline constexpr const char* sweep_study = R"(schema = 1
 title = "twelve orbits"
@@ -67,13 +45,8 @@ scale = "logarithmic"
 /// Writes a text file and returns its path.
 inline std::filesystem::path write_text(const std::filesystem::path& file,
                                         const std::string& text) {
-  std::ofstream(file, std::ios::binary) << text;
+  put(file, text);
   return file;
-}
-
-inline std::string text_in(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 }  // namespace hamjet::test

@@ -2,6 +2,8 @@
 
 #include "hamjet/error.hpp"
 #include "hamjet/sweep/sweep_items.hpp"
+#include "support/errors.hpp"
+#include "support/text.hpp"
 #include "sweep_samples.hpp"
 
 namespace hamjet::io {
@@ -17,29 +19,15 @@ class SweepStudies : public ::testing::Test {
     return read_sweep_study(write_text(directory_.path() / "study.toml", text));
   }
 
-  /// The study with one text in place of another one, which must be there.
+  /// The study with one text in place of another one.
   static std::string with(const std::string& from, const std::string& to) {
-    std::string text = sweep_study;
-    const std::size_t at = text.find(from);
-    EXPECT_NE(at, std::string::npos) << from;
-    return text.replace(at, from.size(), to);
+    return changed(sweep_study, from, to);
   }
 
   /// The study must be refused with one line that holds the words.
   void expect_refused(const std::string& text, ErrorKind kind,
                       const std::vector<std::string>& words) const {
-    SCOPED_TRACE(words.front());
-    try {
-      check_sweep_items(study(text));
-      FAIL() << "not refused";
-    } catch (const Error& error) {
-      const std::string message = error.what();
-      EXPECT_EQ(error.kind(), kind) << message;
-      EXPECT_EQ(message.find('\n'), std::string::npos) << message;
-      for (const std::string& word : words) {
-        EXPECT_NE(message.find(word), std::string::npos) << message << " lacks " << word;
-      }
-    }
+    expect_error([&] { check_sweep_items(study(text)); }, kind, words, words.front());
   }
 
   TemporaryDirectory directory_;
@@ -127,7 +115,7 @@ TEST_F(SweepStudies, AManifestHoldsTheWholeStudy) {
                                  {"order = 1", "order = 2"}}) {
     EXPECT_NE(sweep_manifest(study(with(from, to))), manifest) << to;
   }
-  write_text(directory_.path() / "base.toml", std::string(sweep_scene) + "\n");
+  write_text(directory_.path() / "base.toml", sweep_scene + "\n");
   EXPECT_NE(sweep_manifest(study(sweep_study)), manifest);
 }
 

@@ -10,8 +10,8 @@
 
 namespace hamjet {
 
-/// The same polynomial in the space of another order and as many variables: without its terms of
-/// higher degree, or with zeros there. Monomials are graded, so that both number them alike.
+/// The polynomial `u` in a space of another order and as many variables: terms above that order are
+/// dropped, terms that `u` lacks are zero. Throws Error(usage) for another number of variables.
 template <class T>
 Series<T> in_space(const Series<T>& u, const SpacePointer& space) {
   if (u.space().variables() != space->variables()) {
@@ -57,7 +57,8 @@ Series<T> integral(const Series<T>& u, std::size_t i) {
 }
 
 /// Poisson bracket {f, g} = sum over i of df/dq_i dg/dp_i - df/dp_i dg/dq_i, the space's variables
-/// being (q_1..q_n, p_1..p_n). Exact up to degree N-1.
+/// being (q_1..q_n, p_1..p_n). Exact up to degree N-1; degree N is left zero. Throws Error(usage)
+/// for two spaces or an odd number of variables.
 template <class T>
 Series<T> poisson_bracket(const Series<T>& f, const Series<T>& g) {
   require_same_space(f.space(), g.space());
@@ -75,8 +76,9 @@ Series<T> poisson_bracket(const Series<T>& f, const Series<T>& g) {
   return result;
 }
 
-/// The value at a point, one number per variable: sum over monomials of coefficient times powers.
-/// Slices are summed from the highest degree down, so that small terms are not lost.
+/// The value of a series at a point: sum over monomials of coefficient times powers, from the
+/// highest degree down, so that small terms are not lost. Throws Error(usage) unless the point has
+/// one number per variable.
 template <class T>
 T evaluate(const Series<T>& u, std::span<const T> point) {
   const SeriesSpace& space = u.space();

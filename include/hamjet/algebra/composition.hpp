@@ -12,7 +12,8 @@
 
 namespace hamjet {
 
-/// The linear part: row i holds the coefficients of degree 1 of component i.
+/// The linear part of a map, components x variables: row i holds the coefficients of degree 1 of
+/// component i.
 template <class T>
 Matrix<T> linear_part(std::span<const Series<T>> map) {
   const std::size_t variables = map.front().space().variables();
@@ -48,8 +49,8 @@ void require_composable(std::span<const Series<T>> outer, std::span<const Series
 
 }  // namespace detail
 
-/// outer(inner(x)), truncated at the order of the inner map's space. The inner map must have no
-/// constant terms; throws Error(usage) otherwise or if the sizes do not fit.
+/// Composes outer(inner(x)), truncated at the order of the inner map's space. The inner map must
+/// have no constant terms; throws Error(usage) otherwise or if the sizes do not fit.
 template <class T>
 std::vector<Series<T>> compose(std::span<const Series<T>> outer, std::span<const Series<T>> inner);
 
@@ -63,7 +64,7 @@ std::vector<Series<T>> compose(std::span<const Series<T>> outer, std::span<const
 template <class T>
 std::vector<Series<T>> inverse(std::span<const Series<T>> map);
 
-/// The same series with coefficients of another precision.
+/// A series with its coefficients rounded to another precision.
 template <class To, class From>
 Series<To> convert_series(const Series<From>& series) {
   std::vector<To> coefficients;
@@ -72,6 +73,7 @@ Series<To> convert_series(const Series<From>& series) {
   return {series.space_pointer(), std::move(coefficients)};
 }
 
+/// A map with the coefficients of all components rounded to another precision.
 template <class To, class From>
 std::vector<Series<To>> convert_map(const std::vector<Series<From>>& map) {
   std::vector<Series<To>> result;

@@ -12,7 +12,7 @@ using Matrix = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>;
 template <class T>
 using Vector = Eigen::Matrix<T, Eigen::Dynamic, 1>;
 
-/// J m of a vector, or of a matrix, of 2n rows, J = [[0, I], [-I, 0]].
+/// The product J m for a vector or matrix m of 2n rows, J = [[0, I], [-I, 0]].
 template <class Derived>
 typename Derived::PlainObject symplectic_unit_times(const Eigen::MatrixBase<Derived>& m) {
   const Eigen::Index n = m.rows() / 2;

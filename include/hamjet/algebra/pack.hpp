@@ -34,10 +34,10 @@ requires(Lanes > 1) struct VectorFor<double, Lanes> {
 
 }  // namespace detail
 
-/// A fixed number of reals that go through the same arithmetic together: the stages of an implicit
-/// Runge-Kutta method. An array of vectors of the machine's width; for extended precision the same
-/// class over an array of scalars. Forms a commutative ring componentwise (a field where no
-/// component is zero).
+/// A fixed number of reals that go through the same arithmetic together, such as the stages of an
+/// implicit Runge-Kutta method. An array of vectors of the machine's width; for extended precision
+/// the same class over an array of scalars. Forms a commutative ring componentwise (a field where
+/// no component is zero).
 template <class Real, int Lanes>
 struct Pack {
   using real_type = Real;
@@ -49,7 +49,7 @@ struct Pack {
   std::array<Vector, parts> part;
 
   Pack() : part{} {}
-  /// All lanes equal.
+  /// Sets all lanes to `value`.
   Pack(const Real& value) {  // NOLINT(google-explicit-constructor): reals embed in packs
     for (auto& v : part) v = Vector(value);
   }
@@ -109,7 +109,7 @@ Pack<Real, Lanes> map_lanes(const Pack<Real, Lanes>& x, Function function) {
   return result;
 }
 
-/// Sum over the lanes of the products.
+/// Sum over the lanes of the products a_i b_i.
 template <class Real, int Lanes>
 Real dot(const Pack<Real, Lanes>& a, const Pack<Real, Lanes>& b) {
   auto sum = a.part[0] * b.part[0];
@@ -136,7 +136,7 @@ Pack<Real, Lanes> larger_magnitude(const Pack<Real, Lanes>& a, const Pack<Real, 
   return result;
 }
 
-/// The largest magnitude of the lanes; not a number if one of them is none.
+/// The largest magnitude of the lanes; NaN if one of them is NaN.
 template <class Real, int Lanes>
 Real largest_magnitude(const Pack<Real, Lanes>& x) {
   if constexpr (Pack<Real, Lanes>::width > 1) {
@@ -144,7 +144,7 @@ Real largest_magnitude(const Pack<Real, Lanes>& x) {
     auto largest = simd::abs(x.part[0]);
     for (std::size_t i = 1; i < x.parts; ++i) largest = simd::max(largest, simd::abs(x.part[i]));
     const Real result = simd::hmax(largest);
-    // The machine's maximum of a number and of none is the number.
+    // The machine's maximum of a number and a NaN is the number, which hides the NaN.
     for (std::size_t i = 0; i < x.parts; ++i) {
       if (!simd::all_of(simd::abs(x.part[i]) <= result)) {
         return std::numeric_limits<Real>::quiet_NaN();

@@ -38,7 +38,7 @@ class SeriesSpace {
   }
   /// Index of the monomial with these exponents, whose sum must not exceed the order.
   std::size_t index(std::span<const std::uint8_t> exponents) const;
-  /// Index of x_i.
+  /// Index of the monomial x_i, i = `variable`.
   std::size_t linear_index(std::size_t variable) const { return 1 + variable; }
 
   /// The products that make up the slice of one degree; see ProductSchedule.

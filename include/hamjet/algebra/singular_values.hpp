@@ -8,8 +8,8 @@ namespace hamjet {
 template <class T>
 Vector<T> singular_values(const Matrix<T>& matrix);
 
-/// A = left diag(values) right^T, with square orthogonal `left` and `right`, the largest value
-/// first.
+/// The decomposition A = left diag(values) right^T with square orthogonal `left` and `right`, the
+/// largest value first.
 struct SingularValueDecomposition {
   Matrix<double> left;
   Vector<double> values;

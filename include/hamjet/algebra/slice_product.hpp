@@ -69,7 +69,8 @@ template <std::size_t MA, std::size_t MB, class T, class Sums>
   (std::make_index_sequence<na>{});
 }
 
-/// The same for block degrees known at run time only (blocks too large for the registers).
+/// sums[i * j] += a[i] * b[j] for block degrees known at run time only, of blocks too large for the
+/// registers.
 template <class T, class Vector>
 void multiply_blocks(Vector* sums, const T* a, const T* b, std::size_t m_a, std::size_t m_b,
                      std::size_t part) {
@@ -91,10 +92,10 @@ template <class Vector>
 inline constexpr bool is_machine_vector =
     std::is_arithmetic_v<Vector> || std::experimental::is_simd_v<Vector>;
 
-/// Largest block degree whose sums are kept in registers: 28 of the 32 of AVX-512.
+/// Largest block degree whose sums are kept in registers: they take 28 of the 32 of AVX-512.
 inline constexpr std::size_t largest_unrolled_block = 6;
 
-/// One block of a product, or of a square (where a and b are the same).
+/// Forms one block of a product, or of a square (where a and b are the same).
 template <std::size_t M, bool Square, class T>
 void form_block(const ProductSchedule::Output& output, const ProductSchedule::Pair* pairs,
                 const std::uint32_t* run_ends, const T* a, const T* b, T* c) {
@@ -128,8 +129,8 @@ void form_block(const ProductSchedule::Output& output, const ProductSchedule::Pa
   }
 }
 
-/// The same for block degrees too large for the registers. Only pairs whose factor from `a` lies at
-/// or behind `first` count.
+/// Forms one block of a product or square whose degree is too large for the registers. Only pairs
+/// whose factor from `a` lies at or behind `first` count.
 template <bool Square, class T>
 void form_large_block(const ProductSchedule::Output& output, const ProductSchedule::Pair* pairs,
                       const std::uint32_t* run_ends, std::size_t first, const T* a, const T* b,
@@ -232,7 +233,8 @@ void interior_product(const SeriesSpace& space, int d, const T* a, const T* b, T
   detail::form_slice<false>(space.products(d), a, b, c);
 }
 
-/// The same for a square, at about half the cost.
+/// c_d = sum over 1 <= i <= d-1 of a_i a_(d-i): the interior product of a series with itself, at
+/// about half the cost.
 template <class T>
 void interior_square(const SeriesSpace& space, int d, const T* a, T* c) {
   if (space.variables() == 1 && d >= 2) return detail::form_univariate(d, a, a, c);

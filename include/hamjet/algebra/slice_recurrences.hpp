@@ -33,27 +33,27 @@ void scale_slice(const SeriesSpace& space, int d, T* w, const T& factor) {
   for (std::size_t k = space.first(d); k < space.first(d + 1); ++k) w[k] *= factor;
 }
 
-/// w = u / v: w v = u, so v_0 w_d = u_d - w_0 v_d - sum_(i=1)^(d-1) w_i v_(d-i).
+/// Interior of w = u / v: w v = u, so v_0 w_d = u_d - w_0 v_d - sum_(i=1)^(d-1) w_i v_(d-i).
 template <class T>
 void quotient_interior(const SeriesSpace& space, int d, const T* v, T* w) {
   interior_product(space, d, w, v, w);
   scale_slice(space, d, w, T(-1) / v[0]);
 }
 
-/// w = 1 / u.
+/// Interior of w = 1 / u, see quotient_interior.
 template <class T>
 void reciprocal_interior(const SeriesSpace& space, int d, const T* u, T* w) {
   quotient_interior(space, d, u, w);
 }
 
-/// w = sqrt(u): w^2 = u, so 2 w_0 w_d = u_d - sum_(i=1)^(d-1) w_i w_(d-i).
+/// Interior of w = sqrt(u): w^2 = u, so 2 w_0 w_d = u_d - sum_(i=1)^(d-1) w_i w_(d-i).
 template <class T>
 void square_root_interior(const SeriesSpace& space, int d, T* w) {
   interior_square(space, d, w, w);
   scale_slice(space, d, w, T(-1) / (T(2) * w[0]));
 }
 
-/// w = u^a: u E w = a w E u, so
+/// Interior of w = u^a: u E w = a w E u, so
 /// d u_0 w_d = d a w_0 u_d + sum_(i=1)^(d-1) (a i - (d - i)) u_i w_(d-i).
 template <class T, class Real>
 void power_interior(const SeriesSpace& space, int d, const Real& exponent, const T* u, T* w,
@@ -63,14 +63,14 @@ void power_interior(const SeriesSpace& space, int d, const Real& exponent, const
   scale_slice(space, d, w, T(1) / (T(Real(d)) * u[0]));
 }
 
-/// w = exp(u): E w = w E u, so d w_d = d w_0 u_d + sum_(i=1)^(d-1) i u_i w_(d-i).
+/// Interior of w = exp(u): E w = w E u, so d w_d = d w_0 u_d + sum_(i=1)^(d-1) i u_i w_(d-i).
 template <class Real, class T>
 void exponential_interior(const SeriesSpace& space, int d, const T* u, T* w, T* scratch) {
   scale_slices(space, d, u, scratch, [&](int i) { return Real(Real(i) / Real(d)); });
   interior_product(space, d, scratch, w, w);
 }
 
-/// w = log(u): u E w = E u, so d u_0 w_d = d u_d - sum_(i=1)^(d-1) i w_i u_(d-i).
+/// Interior of w = log(u): u E w = E u, so d u_0 w_d = d u_d - sum_(i=1)^(d-1) i w_i u_(d-i).
 template <class Real, class T>
 void logarithm_interior(const SeriesSpace& space, int d, const T* u, T* w, T* scratch) {
   scale_slices(space, d, w, scratch, [&](int i) { return Real(Real(i) / Real(d)); });
@@ -78,7 +78,7 @@ void logarithm_interior(const SeriesSpace& space, int d, const T* u, T* w, T* sc
   scale_slice(space, d, w, T(-1) / u[0]);
 }
 
-/// s = sin(u), c = cos(u): E s = c E u and E c = -s E u, so
+/// Interiors of s = sin(u), c = cos(u): E s = c E u and E c = -s E u, so
 /// d s_d = d c_0 u_d + sum_(i=1)^(d-1) i u_i c_(d-i),  d c_d = -d s_0 u_d - sum i u_i s_(d-i).
 template <class Real, class T>
 void sine_cosine_interior(const SeriesSpace& space, int d, const T* u, T* s, T* c, T* scratch) {
@@ -88,8 +88,8 @@ void sine_cosine_interior(const SeriesSpace& space, int d, const T* u, T* s, T* 
   scale_slice(space, d, c, T(-1));
 }
 
-/// x^exponent; exact multiplications and one square root where twice the exponent is a small
-/// integer (every power of gravity), the library's pow elsewhere.
+/// x^exponent: by multiplications and one square root where twice the exponent is a small integer
+/// (every power of gravity), by the standard pow elsewhere.
 template <class T, class Real>
 T power(const T& x, const Real& exponent) {
   const double twice = 2 * static_cast<double>(exponent);

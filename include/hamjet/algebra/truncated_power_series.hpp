@@ -28,6 +28,8 @@ class TruncatedPowerSeries {
       : space_(std::move(space)), coefficients_(space_->size(), T(0)) {
     coefficients_[0] = constant;
   }
+  /// One coefficient per monomial of the space, in its order; throws Error(usage) for another
+  /// count.
   TruncatedPowerSeries(SpacePointer space, std::vector<T> coefficients)
       : space_(std::move(space)), coefficients_(std::move(coefficients)) {
     if (coefficients_.size() != space_->size()) {
@@ -35,7 +37,7 @@ class TruncatedPowerSeries {
     }
   }
 
-  /// x_i, shifted: constant + x_i.
+  /// The series constant + x_i. Throws Error(usage) unless i < variables.
   static TruncatedPowerSeries variable(SpacePointer space, std::size_t i,
                                        const T& constant = T(0)) {
     if (i >= space->variables()) throw Error(ErrorKind::usage, "series: no such variable");

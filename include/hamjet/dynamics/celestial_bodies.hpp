@@ -7,8 +7,8 @@ namespace hamjet {
 
 /// A body that orbits are flown about.
 struct CelestialBody {
-  std::string_view name;  ///< in capitals, as CENTER_NAME of an orbit message
-  double mu_km3_s2;       ///< gravitational parameter, of planets with moons that of both together
+  std::string_view name;  ///< in capitals, as in CENTER_NAME of an orbit message
+  double mu_km3_s2;       ///< gravitational parameter, with moons except for the Earth
   double equator_radius_km;
 };
 
@@ -22,8 +22,8 @@ std::span<const CelestialBody> celestial_bodies();
 /// published values, and those with and without its moons, differ by less (Saturn's by 2.5e-4).
 inline constexpr double body_mu_tolerance = 1e-3;
 
-/// The body with this name in capitals or not, or the planet whose name with "BARYCENTER" it is;
-/// null for any other. The barycentre of Earth and Moon is not the Earth.
+/// The body with this name, in capitals or not, or with this name less "BARYCENTER"; null for any
+/// other name, and for the barycentre of Earth and Moon, which is not the Earth.
 const CelestialBody* body_named(std::string_view name);
 
 /// The body that has this gravitational parameter; null if none has.

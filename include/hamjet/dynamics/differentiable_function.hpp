@@ -17,7 +17,7 @@ namespace hamjet {
 template <class Real>
 class DifferentiableFunction {
  public:
-  /// Throws Error(usage) for no inputs or more than 64.
+  /// Throws Error(usage) for a list of no inputs or more than 64.
   explicit DifferentiableFunction(OperationList list)
       : list_(std::make_unique<OperationList>(std::move(list))),
         evaluator_(*list_, SeriesSpace::create(list_->inputs(), 0), 0) {}
@@ -34,12 +34,13 @@ class DifferentiableFunction {
     evaluator_.evaluate_constant_terms();
   }
 
+  /// The value of an output at the point last evaluated.
   const Real& value(std::size_t output) const { return *evaluator_.output(output); }
-  /// d output / d input.
+  /// The derivative d output / d input at the point last evaluated.
   const Real& derivative(std::size_t output, std::size_t input) const {
     return evaluator_.output_gradient(output, input);
   }
-  /// Whether all values are.
+  /// Whether all values are finite.
   bool is_finite() const {
     using std::isfinite;
     bool result = true;
@@ -52,7 +53,7 @@ class DifferentiableFunction {
     for (std::size_t i = 0; i < outputs(); ++i) result(static_cast<Eigen::Index>(i)) = value(i);
     return result;
   }
-  /// outputs x inputs.
+  /// The Jacobian at the point last evaluated, outputs x inputs.
   Matrix<Real> jacobian() const {
     Matrix<Real> result(static_cast<Eigen::Index>(outputs()), static_cast<Eigen::Index>(inputs()));
     for (std::size_t i = 0; i < outputs(); ++i) {

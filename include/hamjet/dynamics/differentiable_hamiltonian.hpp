@@ -25,16 +25,16 @@ class DifferentiableHamiltonian {
   DifferentiableHamiltonian& operator=(const DifferentiableHamiltonian&) = delete;
   virtual ~DifferentiableHamiltonian() = default;
 
-  /// 2n.
+  /// The dimension 2n of phase space.
   virtual Eigen::Index dimension() const = 0;
-  /// H(z). Not finite outside the domain of H.
+  /// The value H(z); not finite outside the domain of H.
   virtual Real value(const Vector<Real>& z) = 0;
-  /// Valid until the next call.
+  /// The derivatives of H at z; the reference is valid until the next call.
   virtual const HamiltonianDerivatives<Real>& derivatives(const Vector<Real>& z) = 0;
 };
 
-/// The Hamiltonian of a system: its gradient is the one that is derived from the recorded list, the
-/// Hessian the Jacobian of that.
+/// The Hamiltonian of a system; its gradient is derived from the recorded list, its Hessian is the
+/// gradient's Jacobian.
 template <class Real>
 class RecordedHamiltonian final : public DifferentiableHamiltonian<Real> {
  public:

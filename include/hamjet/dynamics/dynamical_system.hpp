@@ -77,13 +77,14 @@ DynamicalSystem make_system(std::string name, std::size_t degrees_of_freedom, co
                      }));
 }
 
-/// The degrees of freedom that a scene needs: those of the variables to expand in, those in which
-/// the nominal is not exactly at rest in the origin, and all that these drive. Ascending.
+/// The degrees of freedom that a scene needs, ascending: those of the variables to expand in, those
+/// in which the nominal is not exactly at rest in the origin, and all that these drive.
 std::vector<std::size_t> needed_degrees_of_freedom(const DynamicalSystem& system,
                                                    std::span<const double> nominal,
                                                    std::span<const std::size_t> variables);
 
-/// The system on the subspace where the other degrees of freedom vanish, which must be invariant.
+/// The system with the `kept` degrees of freedom alone; the subspace where the others vanish must
+/// be invariant.
 DynamicalSystem restrict_system(const DynamicalSystem& system, std::span<const std::size_t> kept);
 
 }  // namespace hamjet

@@ -70,11 +70,11 @@ class Recorder {
   Expression input(std::size_t i) { return {this, i}; }
   std::vector<Expression> inputs();
 
-  /// constant + sum of the terms; sums of sums are flattened.
+  /// Records constant + sum of the terms; sums of sums are flattened.
   Expression linear(const Extended& constant, const std::vector<LinearTerm>& terms);
   Expression operation(OperationCode code, std::size_t u, std::size_t v = 0,
                        const Extended& constant = 0);
-  /// Sine and cosine are recorded as a pair.
+  /// Records sine and cosine as a pair, because their series need each other.
   std::pair<Expression, Expression> sine_cosine(std::size_t u);
 
   /// The list that computes these outputs, without operations that none of them needs.
@@ -99,10 +99,11 @@ OperationList record(std::size_t inputs, const Function& function) {
   return recorder.finish(outputs);
 }
 
-/// Runs a list on expressions: the values of all its operations, re-recorded (and so simplified).
+/// Runs a list on expressions; returns the values of all its operations, re-recorded (and so
+/// simplified).
 std::vector<Expression> replay(const OperationList& list, std::span<const Expression> inputs);
 
-/// The outputs of a list on these expressions: a recorded function called inside the recording of
+/// The outputs of a list run on expressions: a recorded function called inside the recording of
 /// another one.
 std::vector<Expression> recorded_outputs(const OperationList& list,
                                          std::span<const Expression> inputs);

@@ -32,7 +32,7 @@ struct FermiPastaUlamHamiltonian {
   }
 };
 
-/// `omega` in rad/s; `pairs` is the number m of stiff springs, at least 1.
+/// The chain as a system; `omega` in rad/s, `pairs` the number m of stiff springs, at least 1.
 inline DynamicalSystem fermi_pasta_ulam(double omega, std::size_t pairs) {
   return make_system("fermi-pasta-ulam", 2 * pairs, FermiPastaUlamHamiltonian{omega});
 }

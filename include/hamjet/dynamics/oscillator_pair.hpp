@@ -21,7 +21,7 @@ struct OscillatorPairHamiltonian {
   }
 };
 
-/// Mass in kg, stiffnesses in N/m.
+/// The oscillator pair as a system; mass in kg, stiffnesses in N/m.
 inline DynamicalSystem oscillator_pair(double mass, double first_stiffness,
                                        double second_stiffness) {
   return make_system("oscillator-pair", 2,

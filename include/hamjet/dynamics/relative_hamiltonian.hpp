@@ -8,7 +8,7 @@
 
 namespace hamjet {
 
-/// Runs a list on full series: its outputs as series in the space of the inputs.
+/// Runs a list on full series; returns its outputs as series in the space of the inputs.
 template <class Real>
 std::vector<Series<Real>> evaluate_on_series(const OperationList& list,
                                              std::span<const Series<Real>> inputs);
@@ -22,7 +22,8 @@ template <class Real>
 Series<Real> relative_hamiltonian(const DynamicalSystem& system, std::span<const Real> nominal,
                                   int flow_order);
 
-/// The canonical vector field J grad H^h, up to degree N, in the space of H^h.
+/// The canonical vector field J grad H^h of a relative Hamiltonian, up to degree N, in the space of
+/// H^h.
 template <class Real>
 std::vector<Series<Real>> canonical_vector_field(const Series<Real>& hamiltonian);
 

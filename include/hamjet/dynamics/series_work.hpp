@@ -2,8 +2,8 @@
 
 namespace hamjet {
 
-/// Products of series, counted where they are formed. One that is formed up to degree N is N - 1
-/// products of slices (of degree 2 to N): at degree 1 everything is linear.
+/// Products of series, counted where they are formed. A product up to degree N is N - 1 products of
+/// slices (of degree 2 to N): at degree 1 everything is linear.
 struct SeriesWork {
   long slice_products = 0;
   double multiply_adds = 0;  ///< of numbers, or of packs where the series hold packs
@@ -15,7 +15,7 @@ struct SeriesWork {
   }
 };
 
-/// The same for each of several lanes of a pack.
+/// The work on packs of `lanes` lanes, counted in numbers.
 inline SeriesWork operator*(int lanes, SeriesWork work) {
   work.slice_products *= lanes;
   work.multiply_adds *= lanes;

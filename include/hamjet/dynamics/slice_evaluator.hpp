@@ -27,7 +27,8 @@ namespace hamjet {
 template <class T, class Real>
 class SliceEvaluator {
  public:
-  /// `working_order` is the highest degree that will be evaluated, at most the space's order.
+  /// `working_order` is the highest degree that will be evaluated, at most the space's order. The
+  /// list must outlive the evaluator.
   SliceEvaluator(const OperationList& list, SpacePointer space, int working_order)
       : list_(&list), space_(std::move(space)), working_order_(working_order) {
     const std::size_t values = list.operations().size();
@@ -52,12 +53,13 @@ class SliceEvaluator {
   T* input(std::size_t i) { return value(i); }
   /// The coefficients of the i-th output.
   const T* output(std::size_t i) const { return value(list_->outputs()[i]); }
-  /// The same to be overwritten, or null where the output is one of the inputs.
+  /// The coefficients of the i-th output, to be overwritten; null where the output is one of the
+  /// inputs.
   T* mutable_output(std::size_t i) {
     const std::size_t place = list_->outputs()[i];
     return place < list_->inputs() ? nullptr : value(place);
   }
-  /// d output_i / d input_j at the inputs' constant terms.
+  /// The derivative d output_i / d input_j at the inputs' constant terms.
   const T& output_gradient(std::size_t i, std::size_t j) const {
     return gradients_[list_->outputs()[i] * list_->inputs() + j];
   }
@@ -69,7 +71,7 @@ class SliceEvaluator {
       evaluate_gradient(i, list_->operations()[i]);
     }
   }
-  /// The constant terms alone.
+  /// Evaluates the constant terms of all values, without their gradients.
   void evaluate_constant_values() {
     for (std::size_t i = list_->inputs(); i < list_->operations().size(); ++i) {
       evaluate_constant_term(i, list_->operations()[i]);
@@ -103,10 +105,10 @@ class SliceEvaluator {
     }
   }
 
-  /// The products of series formed so far.
+  /// The work of the products of series formed so far.
   const SeriesWork& work() const noexcept { return work_; }
 
-  /// Everything at once, the inputs being known in full: for explicit methods.
+  /// Evaluates all degrees at once, for explicit methods, which know the inputs in full.
   void evaluate_all() {
     evaluate_constant_terms();
     for (int d = 1; d <= working_order_; ++d) {
@@ -195,9 +197,9 @@ class SliceEvaluator {
     }
   }
 
-  /// sum + a b. Which of these the compiler fuses may differ from one inlined copy to the next, and
-  /// a nominal alone would have other last bits than the same nominal with its jet; so it is said
-  /// here.
+  /// sum + a b, fused wherever that is fast: left to the compiler, fusing may differ from one
+  /// inlined copy to the next, and a nominal alone would have other last bits than the same nominal
+  /// with its jet.
   static T add_product(const T& sum, const T& a, const T& b) {
 #ifdef __FP_FAST_FMA
     if constexpr (std::is_same_v<T, double>) return std::fma(a, b, sum);
@@ -289,7 +291,7 @@ class SliceEvaluator {
     }
   };
 
-  /// w_d = (keep ? w_d : 0) + sum of the terms' slices.
+  /// Sets w_d = (keep ? w_d : 0) + sum of the terms' slices.
   void add_terms(const Terms& terms, int d, T* w, bool keep) {
     switch (terms.count) {
       case 1:

@@ -29,7 +29,7 @@ struct SpringPendulumHamiltonian {
   }
 };
 
-/// Mass in kg, stiffness in N/m, length in m, acceleration in m/s^2.
+/// The pendulum as a system; mass in kg, stiffness in N/m, length in m, gravity in m/s^2.
 inline DynamicalSystem spring_pendulum(double mass, double stiffness, double length,
                                        double gravity) {
   return make_system("spring-pendulum", 2,

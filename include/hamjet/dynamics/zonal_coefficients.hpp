@@ -14,9 +14,9 @@ class ZonalCoefficients {
   static constexpr int lowest = 2;
   static constexpr int highest = 20;
 
-  /// None is present.
+  /// No coefficient is present.
   ZonalCoefficients() = default;
-  /// Pairs of n and J_n.
+  /// Takes pairs of n and J_n; throws std::out_of_range unless lowest <= n <= highest.
   ZonalCoefficients(std::initializer_list<std::pair<int, double>> given) {
     for (const auto& [n, value] : given) (*this)[n] = value;
   }
@@ -25,7 +25,7 @@ class ZonalCoefficients {
   double operator[](int n) const { return values_.at(static_cast<std::size_t>(n - lowest)); }
   double& operator[](int n) { return values_.at(static_cast<std::size_t>(n - lowest)); }
 
-  /// The largest n with a J_n that is not 0; 0 if all are.
+  /// The largest n with a J_n that is not 0; 0 if no coefficient is present.
   int highest_present() const {
     for (int n = highest; n >= lowest; --n) {
       if ((*this)[n] != 0) return n;
@@ -33,7 +33,7 @@ class ZonalCoefficients {
     return 0;
   }
   bool any() const { return highest_present() != 0; }
-  /// Whether no odd one is present: then the field is symmetric about the equator.
+  /// Whether no odd J_n is present: then the field is symmetric about the equator.
   bool is_even() const {
     for (int n = lowest + 1; n <= highest; n += 2) {
       if ((*this)[n] != 0) return false;

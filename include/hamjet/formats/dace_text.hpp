@@ -48,9 +48,9 @@ std::string dace_text(const std::vector<Series<Extended>>& polynomials,
 std::vector<Series<double>> read_dace_text(const std::string& name, std::string_view text,
                                            const SpacePointer& space);
 
-/// The same in as many variables as the rows have, up to the highest degree in the text (at least
-/// 1). Throws Error(input_output) too if no row tells the number of variables, and Error(too_large)
-/// for more than 1e5 coefficients.
+/// Reads the text of polynomials in as many variables as its rows have, up to the highest degree in
+/// it (at least 1); otherwise as with `space`. Throws Error(input_output) too if no row tells the
+/// number of variables, and Error(too_large) for more than 1e5 coefficients.
 std::vector<Series<double>> read_dace_text(const std::string& name, std::string_view text);
 
 }  // namespace hamjet::io

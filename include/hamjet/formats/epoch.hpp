@@ -15,7 +15,7 @@ namespace hamjet::io {
 /// The time systems of orbit messages in which states can be dated by adding seconds.
 enum class TimeSystem { utc, tai, tt, gps, tdb };
 
-/// Their names (CCSDS 502.0-B-3, annex B3), in the order of the enumeration.
+/// The time systems' names (CCSDS 502.0-B-3, annex B3), in the order of the enumeration.
 const std::vector<std::string_view>& time_system_names();
 
 /// A moment on the calendar of some time system, to the picosecond, in which a satellite moves by 8
@@ -29,23 +29,23 @@ struct Epoch {
 
 /// Reads YYYY-MM-DDThh:mm:ss or YYYY-DDDThh:mm:ss, each with an optional fraction of a second
 /// (digits below a picosecond are cut off) and an optional Z (CCSDS 502.0-B-3, 7.5.10; CCSDS
-/// 301.0-B-4, ASCII time codes A and B). The second 60 is read only where UTC had one. Nothing for
-/// any other text, or a day that the calendar has not.
+/// 301.0-B-4, ASCII time codes A and B). The second 60 is read only where UTC had one. No value for
+/// any other text, or a day that the calendar does not have.
 std::optional<Epoch> parse_epoch(std::string_view text);
 
-/// In the first of the two forms, with 12 digits after the point.
+/// An epoch as YYYY-MM-DDThh:mm:ss with 12 digits after the point.
 std::string format_epoch(const Epoch& epoch);
 
-/// The moment so many seconds later (earlier, if negative), rounded to a picosecond, every day with
-/// 86 400 s. Nothing outside of the years 1 to 9999. `epoch` must not be within a leap second.
+/// The moment `seconds` later (earlier, if negative), rounded to a picosecond, every day with 86
+/// 400 s. No value outside of the years 1 to 9999. `epoch` must not be within a leap second.
 std::optional<Epoch> later(const Epoch& epoch, const Extended& seconds);
 
 /// Days of UTC that ended with a leap second, ascending: all from the introduction of leap seconds
 /// in 1972 to the last one known here, at the end of 2016. Source: IERS Bulletin C.
 const std::vector<std::chrono::sys_days>& days_with_leap_second();
 
-/// The first such day of which the leap second lies between two moments of UTC, in which time does
-/// therefore not go on by days of 86 400 s.
+/// The first day whose leap second lies between two moments of UTC, so that days of 86 400 s do not
+/// lead from one to the other. No value if there is none.
 std::optional<std::chrono::sys_days> leap_second_between(const Epoch& first, const Epoch& last);
 
 }  // namespace hamjet::io

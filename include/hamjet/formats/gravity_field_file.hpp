@@ -31,22 +31,23 @@ struct ZonalChoice {
   std::vector<int> degrees = {};
 };
 
-/// Reads the text of such a file; `name` is the file's, for messages. Coefficients with the norm
-/// `fully_normalized`, the default, are multiplied by sqrt(2n + 1), in extended precision, and
-/// every number is rounded once. Exponents may be Fortran's (D). Tesseral coefficients are passed
-/// over: a scene's field has none. Throws Error(input_output), one line `name:line: ...`, for
+/// Reads the text of a gravity field file (ICGEM); `name` is the file's, for messages. Coefficients
+/// with the norm `fully_normalized`, the default, are multiplied by sqrt(2n + 1), in extended
+/// precision, and every number is rounded once. Exponents may be Fortran's (D). Tesseral
+/// coefficients are passed over: a scene's field has none. Throws Error(input_output), one line
+/// `name:line: ...`, for
 ///  - a header without end_of_head, a gravity constant, a radius or max_degree, a keyword that is
 ///    there twice, a product_type other than gravity_field, another norm;
 ///  - a record with an unknown key, another number of columns than 5, 7 or 9, or degree and order
-///    that are none;
+///    that are not valid numbers;
 ///  - a coefficient that is asked for and is missing, there twice, no finite number, beyond 1 in
 ///    magnitude, or time-variable (gfct, trnd, dot, asin, acos): a scene's field is constant;
 ///  - C(0,0) that is not 1, or C(1,0) that is not 0: the origin is not the centre of mass.
 GravityField parse_gravity_field(const std::string& name, std::string_view text,
                                  const ZonalChoice& choice);
 
-/// The same from a file. Throws Error(input_output) too if it cannot be read or is no regular file,
-/// Error(too_large) if it is larger than largest_gravity_field_bytes.
+/// parse_gravity_field from a file. Throws Error(input_output) too if it cannot be read or is no
+/// regular file, Error(too_large) if it is larger than largest_gravity_field_bytes.
 GravityField read_gravity_field(const std::filesystem::path& file, const ZonalChoice& choice);
 
 }  // namespace hamjet::io

@@ -35,18 +35,19 @@ namespace hamjet::io {
 /// Whether this build has HDF5.
 bool hdf5_available() noexcept;
 
-/// The bytes of `jets.h5`, the same for the same result. Throws Error(input_output).
+/// The bytes of `jets.h5`; equal results give equal bytes. Throws Error(input_output).
 std::string jets_hdf5(const PropagationResult& result);
 
-/// The same of one jet, without nominal trajectory and generating functions.
+/// The bytes of a `jets.h5` that holds one jet, without nominal trajectory and generating
+/// functions.
 std::string jets_hdf5(const StoredJet& stored);
 
 /// Reads the run with this label, or else the first that has a result. A file that something else
 /// than hamjet has written, without the 512 bytes, is read all the same if it has what the jet
-/// needs in the layout above, contiguous and not compressed; if it is damaged, that is found out by
-/// HDF5, which some damage crashes. `name` is the file's, for messages. Throws Error(input_output),
-/// one line with the file and the dataset or attribute, for what is damaged, missing, of another
-/// shape, type or format version; Error(usage) if no run has this label.
+/// needs in the layout above, contiguous and not compressed; its damage is left for HDF5 to find,
+/// which some damage crashes. `name` is the file's, for messages. Throws Error(input_output), one
+/// line with the file and the dataset or attribute, for what is damaged, missing, of another shape,
+/// type or format version; Error(usage) if no run has this label.
 StoredJet read_jets_hdf5(const std::string& name, std::string_view bytes,
                          const std::optional<std::string>& label = {});
 

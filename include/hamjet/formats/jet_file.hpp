@@ -10,13 +10,14 @@
 //   .h5    HDF5 (hdf5_jets.hpp), which holds everything;
 //   .dace  DACE's text (dace_text.hpp), the polynomials alone, in double precision;
 //   .csv   as `jet.csv` of a run: the coefficients alone.
-// Of the last two the rest stands in the `summary.json` of the results.
+// What the last two leave out stands in the `summary.json` of the results.
 
 namespace hamjet::io {
 
 enum class JetFormat { hdf5, dace, csv };
 
-/// By the ending. Throws Error(usage) that names the endings for any other.
+/// The format of a file by the ending of its name. Throws Error(usage), naming the endings, for any
+/// other.
 JetFormat jet_format(const std::filesystem::path& file);
 
 /// Reads the run with this label, or else the first that has a result, from a results directory, an

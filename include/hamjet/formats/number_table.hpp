@@ -28,19 +28,19 @@ struct NumberTable {
 /// Reads CSV text whose first line names the columns: exactly `columns`, in any order; the table
 /// has them in the order given. `name` is the file's, for messages; `pause` is called every few
 /// thousand rows. Throws Error(input_output), one line with file, line and column, for a header
-/// with other names, no rows, another number of columns, and what is no finite number. Independent
-/// of the locale.
+/// with other names, no rows, another number of columns, and what is no finite number. The locale
+/// has no influence.
 NumberTable read_number_table(const std::string& name, std::string_view text,
                               const std::vector<std::string_view>& columns,
                               const std::function<void()>& pause = {});
 
-/// A number between blanks, finite and within double precision; nothing if it is anything else.
+/// A number between blanks, finite and within double precision; no value for any other text.
 std::optional<double> finite_number(std::string_view text);
 
 /// A decimal number with 113 significant bits: digits with a point among or behind them, a minus
-/// sign, an exponent behind an e. Nothing if it is anything else, not finite, longer than 100
-/// characters, or has an exponent beyond 5000, which binary128 has not and at which Boost's reader
-/// would overflow.
+/// sign, an exponent behind an e. No value if it is anything else, not finite, longer than 100
+/// characters, or has an exponent beyond 5000, which binary128 does not have and at which Boost's
+/// reader would overflow.
 std::optional<Extended> finite_extended_number(std::string_view text);
 
 }  // namespace hamjet::io

@@ -27,7 +27,7 @@ struct OrbitState {
   std::array<double, 3> velocity_km_s = {};
 };
 
-/// Whose states, and in what they are measured.
+/// The object of the states, and the centre, frame and time system in which they are given.
 struct OrbitMetadata {
   std::string object_name;      ///< OBJECT_NAME
   std::string object_id;        ///< OBJECT_ID
@@ -46,8 +46,8 @@ struct EphemerisSegment {
   /// USEABLE_START_TIME and USEABLE_STOP_TIME: states outside only help to interpolate.
   std::optional<Epoch> useable_start;
   std::optional<Epoch> useable_stop;
-  bool has_acceleration = false;  ///< behind the states, which is not kept
-  bool has_covariance = false;    ///< a covariance block followed, which is not kept
+  bool has_acceleration = false;  ///< it stood behind the states; not kept
+  bool has_covariance = false;    ///< a covariance block followed; not kept
   std::size_t line = 0;           ///< of META_START
 
   bool is_useable(const Epoch& epoch) const {
@@ -58,7 +58,7 @@ struct EphemerisSegment {
 /// An Orbit Ephemeris Message (OEM): states of one object along time. What it cannot hold: Taylor
 /// coefficients, generating functions, checks.
 struct OrbitEphemerisMessage {
-  std::string version = "2.0";        ///< or "3.0"; "1.0" of what was read
+  std::string version = "2.0";        ///< or "3.0"; on reading also "1.0"
   std::vector<std::string> comments;  ///< of the header; written, not read
   Epoch creation_date;                ///< UTC
   std::string originator;
@@ -80,13 +80,13 @@ struct OrbitParameterMessage {
 /// Reads an OEM. `name` is the file's, printable, for messages. Accelerations and covariances are
 /// checked and left out. Throws Error(input_output), one line `name:line: keyword: what is wrong,
 /// got, must be`, for whatever is not such a message, among others: other versions, XML, a missing
-/// or doubled keyword, a keyword that there is not, blocks that do not end, epochs out of order or
-/// outside of the span, what is no finite number, a frame that rotates with its body or is not
-/// known, a time system in which a second is not a second of the model.
+/// or doubled keyword, a keyword that the standard does not have, blocks that do not end, epochs
+/// out of order or outside of the span, what is no finite number, a frame that rotates with its
+/// body or is not known, a time system in which a second is not a second of the model.
 OrbitEphemerisMessage read_oem(const std::string& name, std::string_view text);
 
-/// Reads an OPM likewise. Units, where they are written, must be those of the standard. Throws too
-/// for a manoeuvre, which the state says nothing about.
+/// Reads an OPM; otherwise as read_oem. Units, where they are written, must be those of the
+/// standard. Throws too for a manoeuvre, which the state says nothing about.
 OrbitParameterMessage read_opm(const std::string& name, std::string_view text);
 
 /// An OEM as text. Numbers have 16 digits, as many as the standard allows (7.5.6, 7.5.7): what is
@@ -97,7 +97,7 @@ std::string oem_text(const OrbitEphemerisMessage& message);
 /// Whether a reference frame is one whose axes do not rotate, as far as it is known here.
 bool is_inertial_frame(std::string_view reference_frame);
 
-/// What is wrong with a frame that is not, and what would be right: for messages.
+/// Why a frame that is not inertial is refused, and what would be right: for messages.
 std::string frame_problem(std::string_view reference_frame);
 
 }  // namespace hamjet::io

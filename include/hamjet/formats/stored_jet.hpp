@@ -46,7 +46,7 @@ struct StoredJet {
   FlowJet<Extended> jet;
 
   int order() const { return jet.at(0).order(); }
-  /// Of the model's state.
+  /// Names of the model's state (q, p), to which `components` and `variables` are indices.
   std::vector<std::string_view> variable_names() const {
     return hamjet::variable_names(model, nominal_initial.size() / 2);
   }
@@ -71,7 +71,7 @@ std::vector<Series<double>> evaluation_error(const StoredJet& stored,
 /// The bytes of a file; throws Error(input_output) if it cannot be read.
 using FileReader = std::function<std::string(const std::filesystem::path& file)>;
 
-/// The same of files that `read` brings, for example from memory.
+/// read_stored_jet with files that `read` brings, for example from memory.
 StoredJet read_stored_jet(const std::filesystem::path& directory,
                           const std::optional<std::string>& label, const FileReader& read);
 

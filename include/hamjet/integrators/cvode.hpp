@@ -23,7 +23,7 @@ struct CvodeCounts {
 /// How CVODE integrates.
 struct CvodeSettings {
   CvodeMethod method = CvodeMethod::adams;
-  double tolerance = 1e-6;        ///< relative and absolute, see below
+  double tolerance = 1e-6;        ///< relative and absolute, see integrate_cvode
   CvodeCounts* counts = nullptr;  ///< filled where given
   /// Also record the error estimates of the accepted steps; one pass over the coefficients a step.
   bool records_step_error = false;
@@ -48,7 +48,7 @@ bool cvode_available() noexcept;
 /// below 1 in a step, so that a single coefficient's error can exceed the tolerance by the square
 /// root of their number. The absolute part is needed: the coefficients of degree 2 and more start
 /// from zero, where a relative tolerance alone is refused, and where they grow large the relative
-/// part takes over. It is in the system's own units.
+/// part takes over. The tolerance is in the system's own units.
 ///
 /// The time runs to `duration` exactly, backwards too; duration 0 gives the identity exactly. The
 /// observer sees every step. In `statistics`, rejected steps are those repeated because the error

@@ -22,19 +22,21 @@ enum class EnergyConservingMethod {
   midpoint,  ///< eqs. `m_l_midpoint`, `m_h_midpoint`, corrected: H at the mean of z_k and z_(k+1)
 };
 
-/// The methods' names in scenes, in the order of the enumeration.
+/// The names of EnergyConservingMethod in scenes, in the order of the enumeration.
 const std::vector<std::string_view>& energy_conserving_method_names();
 
-/// What is to be integrated; all numbers in the system's own units. Real is double or Extended.
+/// What integrate_energy_conserving is asked for; all numbers are in the system's own units. Real
+/// is double or Extended.
 template <class Real>
 struct EnergyConservingProblem {
   const DynamicalSystem* system = nullptr;
   EnergyConservingMethod method = EnergyConservingMethod::midpoint;
   std::vector<Real> initial_state;  ///< (q, p), 2n numbers
-  /// Of the first step, positive. Its discrete energy E is the one that all other steps conserve.
-  /// E is not H(z_0), for which the step size would be 0.
+  /// Size of the first step, positive. Its discrete energy E is the one that all other steps
+  /// conserve. E is not H(z_0), for which the step size would be 0.
   Real first_step = 0;
-  /// Negative: backwards. The last step ends at this time or beyond it: no step is cut short.
+  /// The time to cover; negative is backwards. The last step ends there or beyond: no step is cut
+  /// short.
   Real duration = 0;
 };
 
@@ -58,22 +60,22 @@ using EnergyConservingObserver = std::function<void(const EnergyConservingStep<R
 enum class EnergyConservingStopCause {
   no_root,            ///< the step equation has no real root near the last step size
   reversed_root,      ///< the root that continues the last step size points backwards in time
-  step_change,        ///< that root is not within a factor of largest_step_change
+  step_change,        ///< the continuing root is not within a factor of largest_step_change
   undetermined_step,  ///< round-off leaves the step size undetermined
   no_midpoint,        ///< the midpoint equation has no solution for the first step
   not_finite,         ///< a collision, or a point outside the domain of the Hamiltonian
 };
 
-/// A step size that is more than this times the last one, or less than the inverse, is refused: it
+/// Largest ratio of a step size to the last one, or the inverse; a step beyond it is refused: it
 /// belongs to another root of the step equation, or the steps are too large for their equation. To
 /// leading order a step of the midpoint form can at most double before the root is lost, see
 /// EnergyConservingStop.
 inline constexpr double largest_step_change = 2;
 
-/// More steps than this are refused with Error(too_large).
+/// An integration of more steps than this is refused with Error(too_large).
 inline constexpr double largest_energy_conserving_step_count = 1e7;
 
-/// Where an integration ended before its time, a numerical failure (ErrorKind::numerical).
+/// Where an integration ended before its time; this is a numerical failure (ErrorKind::numerical).
 ///
 /// With x = steps_to_sign_change the step equations have no root, to leading order in the step
 /// size, for midpoint where 4 x^3 - 3 x - 1 < 0, so x < 1; and for Störmer before a maximum of V
@@ -85,9 +87,10 @@ struct EnergyConservingStop {
   double time = 0;       ///< at its start
   double condition = 0;  ///< StepCondition at its start
   /// Where StepCondition changes sign, by the line through its values at the start of the step and
-  /// a last step size later, in steps of the last size; negative: behind. None if it is constant.
+  /// a last step size later, in steps of the last size; negative: behind. None if StepCondition is
+  /// constant.
   std::optional<double> steps_to_sign_change;
-  std::string message;  ///< one line with step, time and condition
+  std::string message;  ///< one line that names step, time and condition
 };
 
 /// How an integration went.
@@ -119,12 +122,12 @@ struct EnergyConservingResult {
 /// rises as in the first step. Where Newton's method does not find it, all step sizes within a
 /// factor of largest_step_change of the last are searched before the integration stops.
 ///
-/// Order 2 and symmetric for midpoint, order 1 for Störmer. Sources: Guibout and Bloch, section
-/// "Energy conservation"; Shibberu, "Time-discretization of Hamiltonian dynamical systems" (1994);
-/// Kane, Marsden and Ortiz, "Symplectic-energy-momentum preserving variational integrators" (1999).
-/// Throws Error(usage) if sizes do not fit, the first step is not positive, or Störmer meets a
-/// system without second-order form; Error(too_large) for too many steps. What ends an integration
-/// early is no exception but EnergyConservingResult::stop.
+/// The midpoint form has order 2 and is symmetric, the Störmer form has order 1. Sources: Guibout
+/// and Bloch, section "Energy conservation"; Shibberu, "Time-discretization of Hamiltonian
+/// dynamical systems" (1994); Kane, Marsden and Ortiz, "Symplectic-energy-momentum preserving
+/// variational integrators" (1999). Throws Error(usage) if sizes do not fit, the first step is not
+/// positive, or Störmer meets a system without second-order form; Error(too_large) for too many
+/// steps. What ends an integration early is no exception but EnergyConservingResult::stop.
 template <class Real>
 EnergyConservingResult<Real> integrate_energy_conserving(
     const EnergyConservingProblem<Real>& problem,
@@ -143,7 +146,7 @@ std::vector<Real> discrete_energy_point(EnergyConservingMethod method,
 ///   Störmer:   g^T M^-1 p = dV/dt ,
 ///   midpoint:  G = f^T H'' f = p^T M^-1 V'' M^-1 p + g^T M^-1 g ,
 ///
-/// the second form of G being that of H = p^T M^-1 p / 2 + V(q).
+/// the second form of G being that for H = p^T M^-1 p / 2 + V(q).
 template <class Real>
 class StepCondition {
  public:

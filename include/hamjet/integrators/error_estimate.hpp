@@ -13,9 +13,10 @@ inline constexpr double error_estimate_safety = 2;
 
 /// How the error of a jet is estimated.
 struct ErrorEstimateSettings {
-  /// Of the independent runs, for every degree; by default four times the rounding of the numbers.
+  /// Tolerance of the independent runs, for every degree; by default four times the rounding of the
+  /// numbers.
   std::optional<double> tolerance = {};
-  /// Of one independent run; one that would need more is given up.
+  /// Most steps of an independent run; more are refused with Error(too_large).
   long most_steps = 5000;
   /// Momenta are compared with positions, and directions drawn, in units of two to this power.
   int momentum_exponent = 0;
@@ -25,7 +26,7 @@ struct ErrorEstimateSettings {
 
 /// Estimates the error of every degree of a delivered jet without a reference: entry d is about the
 /// largest error of a coefficient of degree d, relative to the largest coefficient of that degree,
-/// truncation and rounding together. What made the jet is of no account.
+/// truncation and rounding together. How the jet was made does not matter.
 ///
 /// Along two directions the univariate series of the same flow is integrated independently, with
 /// N + 1 coefficients a component: Gauss with 16 and with 15 stages, whose steps are chosen for all
@@ -40,13 +41,13 @@ struct ErrorEstimateSettings {
 /// monomials do not cancel.
 ///
 /// How far it can be below the error: a direction sees less than a tenth of an error by chance
-/// alone. Where rounding dominates, the run's own error is a sample of the same distribution as
-/// the jet's; for normal ones P(|e| > x |e - e'|) is about 0.32 / x, so that with the factor 2 one
+/// alone. Where rounding dominates, the run's own error is a sample of the same distribution as the
+/// jet's; for normal ones P(|e| > x |e - e'|) is about 0.32 / x, so that with the factor 2 one
 /// direction misses by ten times in 1.6 % of cases and both in fewer than 0.1 % (their difference
 /// at degree 0 is judged too). Where truncation dominates, the error of degree d at a random
 /// direction is a polynomial of degree d that is small near its zeros only: less than a tenth of
-/// its typical size, over 2, in about 5 % of directions for low degrees, 0.25 % for two.
-/// Measured over hundreds of random scenes, see the tests.
+/// its typical size, over 2, in about 5 % of directions for low degrees, 0.25 % for two. The tests
+/// measure this over hundreds of random scenes.
 ///
 /// Returns zeros for a duration of zero, where the jet is exact. Throws Error(usage) if the jet
 /// does not fit the problem, Error(numerical) if the independent run fails, Error(too_large) if it

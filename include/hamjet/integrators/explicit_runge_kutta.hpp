@@ -8,9 +8,10 @@ namespace hamjet {
 
 /// How an explicit Runge-Kutta method integrates; exactly one of the two is given.
 struct ExplicitRungeKuttaSettings {
-  std::optional<double> step =
-      {};  ///< fixed: the span is cut into equal steps not longer than this
-  std::optional<double> tolerance = {};  ///< controlled: absolute and relative, see below
+  /// For fixed steps: the span is cut into equal steps not longer than this.
+  std::optional<double> step = {};
+  /// For controlled steps: absolute and relative, see integrate_fehlberg78.
+  std::optional<double> tolerance = {};
 };
 
 /// Integrates the flow's jet with Boost.odeint's Runge-Kutta-Fehlberg 7(8): 13 evaluations on

@@ -36,24 +36,25 @@ struct FlowProblem {
 /// round-off alone would leave little of a result.
 inline constexpr double largest_step_count = 1e8;
 
-/// What an integration took; each fills it anew. Evaluations are counted on series: one stage of
-/// one step.
+/// What an integration took; every integration fills it anew. Evaluations are counted on series:
+/// one stage of one step.
 struct IntegrationStatistics {
   long steps = 0;
   long rejected_steps = 0;
-  /// Gauss tries a step on the nominal first, so that rejected steps cost it none of these.
+  /// Evaluations on series. Rejected steps cost a Gauss method none: it tries steps on the nominal
+  /// first.
   long vector_field_evaluations = 0;
   long nominal_evaluations = 0;  ///< on plain numbers, of all stages at once for implicit methods
   double wall_seconds = 0;       ///< of the integration alone
   SeriesWork series_work;        ///< products of series, of all evaluations and stages
-  /// Of Newton's method on the nominal, the most that one solution took; 0 where fixed-point
+  /// Most iterations of Newton's method that one solution on the nominal took; 0 where fixed-point
   /// iteration contracted in every step, for explicit methods, and for CVODE, which has an
   /// iteration of its own.
   int most_newton_iterations = 0;
   /// The largest estimate of the relative local error of an accepted step, in the sense in which
   /// the method compares it with its tolerance; none where the method makes none.
   std::optional<double> largest_step_error;
-  double step_error_seconds = 0;  ///< of estimates made for this alone; not in wall_seconds
+  double step_error_seconds = 0;  ///< taken by largest_step_error alone; not in wall_seconds
   /// Periods of the linearised motion in the duration, for Gauss methods: the integral of the
   /// largest frequency along the nominal, divided by 2 pi. On a circular orbit 1.2 to 1.4 times the
   /// revolutions.

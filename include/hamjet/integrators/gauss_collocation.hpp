@@ -22,13 +22,13 @@ struct GaussSettings {
   /// Adaptive: the relative error of every degree of the jet, for each period of the motion.
   std::optional<double> tolerance;
   bool compensated_summation = true;  ///< of the steps; without it round-off grows faster
-  /// Also estimate the error of fixed steps (adaptive ones are always estimated); some hundred
+  /// Also estimate the error of fixed steps (adaptive ones are always estimated), at some hundred
   /// operations a step on plain numbers.
   bool estimates_step_error = false;
   /// Each adaptive step is judged by every degree of its own series, in place of a local tolerance
   /// chosen beforehand along two lines. A step is repeated with all its series if its estimate
-  /// exceeds the tolerance a thousand times: cheap with few variables, for tolerances far below
-  /// what is wanted.
+  /// exceeds the tolerance a thousand times. Cheap with few variables; meant for tolerances far
+  /// below what is wanted.
   bool controls_all_degrees = false;
   GaussProfile* profile = nullptr;  ///< filled where given; costs a few clock readings a step
 };
@@ -50,8 +50,8 @@ struct GaussSettings {
 /// has the order 2s of the method. The factor is empirical: the error of the coefficients of degree
 /// 0..4 of a nearly circular orbit, relative to the largest of their degree, then comes out near
 /// the local tolerance after a few revolutions (that of the nominal some 50 times below). A step is
-/// also short enough for the linearised equations (h times their frequency), for a nominal at rest,
-/// or one that does not move where the deviations do, shows nothing of them; for modes that decay
+/// also short enough for the linearised equations (h times their frequency), of which a nominal at
+/// rest, or one that does not move where the deviations do, shows nothing; for modes that decay
 /// more slowly than those of a field of one scale do; and for two stages on the field's shortest
 /// wave (DynamicalSystem::waves_on_a_circle).
 ///

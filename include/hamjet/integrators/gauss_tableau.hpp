@@ -16,13 +16,13 @@ struct GaussTableau {
   std::vector<Extended> weights;
   std::vector<Extended> matrix;   ///< s x s by rows, a_ij = integral of l_j from 0 to c_i
   std::vector<Extended> squared;  ///< A^2, by rows: couples the stages of a second-order system
-  /// s x s: row k has the weights that give, from values at the nodes, their Legendre mode of
-  /// degree k on [0, 1].
+  /// The s x s matrix whose row k has the weights that give, from values at the nodes, their
+  /// Legendre mode of degree k on [0, 1].
   std::vector<Extended> modes;
-  /// Of Lagrange's polynomials at the nodes, l_j(x) = lagrange_j times the product over k != j of
-  /// x - c_k: these factors, and the values l_j(0).
+  /// Factors of Lagrange's polynomials at the nodes: l_j(x) = lagrange_j times the product over
+  /// k != j of x - c_k.
   std::vector<Extended> lagrange;
-  std::vector<Extended> start;
+  std::vector<Extended> start;  ///< values at 0 of Lagrange's polynomials at the nodes
 
   const Extended& a(std::size_t i, std::size_t j) const { return matrix[i * stages + j]; }
   const Extended& mode(std::size_t degree, std::size_t i) const {

@@ -7,7 +7,7 @@ namespace hamjet {
 /// How Newmark's method integrates; its gamma is 1/2.
 struct NewmarkSettings {
   double beta = 0.25;  ///< 0 to 1/2; 0 is velocity Verlet, 1/4 the average acceleration method
-  /// In the system's unit of time, positive; the span is cut into equal steps not longer than this.
+  /// Longest step, in the system's unit of time, positive; the span is cut into equal steps.
   double step = 0;
 };
 
@@ -16,8 +16,9 @@ struct NewmarkSettings {
 ///   q_(k+1) = q_k + h v_k + h^2 ((1/2 - beta) a_k + beta a_(k+1)),
 ///   v_(k+1) = v_k + (h/2) (a_k + a_(k+1)) .
 ///
-/// Order 2, symmetric, exactly as the method acts on series; implicit for beta > 0. It needs a
-/// system with a second-order form q' = M^-1 p, p' = F(q) (DynamicalSystem::second_order).
+/// The method has order 2, is symmetric, and implicit for beta > 0; the jet is exactly the method
+/// acting on series. It needs a system with a second-order form q' = M^-1 p, p' = F(q)
+/// (DynamicalSystem::second_order).
 ///
 /// For beta > 0 the map is *not* symplectic in (q, M v), so that its generating functions do not
 /// exist there: dp ^ dq^d is preserved, where q^d = q - beta h^2 a(q) and p = M v. In these

@@ -11,13 +11,13 @@ namespace hamjet {
 
 /// How Störmer's rule integrates.
 struct StormerSettings {
-  /// In the system's unit of time, positive; the span is cut into equal steps not longer than this.
+  /// Longest step, in the system's unit of time, positive; the span is cut into equal steps.
   double step = 0;
 };
 
 /// How velocity Verlet integrates.
 struct VelocityVerletSettings {
-  /// In the system's unit of time, positive; the span is cut into equal steps not longer than this.
+  /// Longest step, in the system's unit of time, positive; the span is cut into equal steps.
   double step = 0;
 };
 
@@ -27,7 +27,7 @@ struct VelocityVerletSettings {
 ///   p_(k+1) = p_k + h F(q_k),   q_(k+1) = q_k + h M^-1 p_(k+1) .
 ///
 /// That is the symplectic Euler method: order 1, not symmetric, so that a run forwards and one
-/// backwards differ. One evaluation on series a step.
+/// backwards differ. It takes one evaluation on series a step.
 ///
 /// The time runs to `duration` exactly, backwards too; duration 0 gives the identity exactly. The
 /// update is summed with compensation. A nominal that steps over a collision is not noticed.
@@ -45,9 +45,9 @@ FlowJet<Real> integrate_stormer(const FlowProblem<Real>& problem, const StormerS
 ///
 ///   q_(k+1) = q_k + h M^-1 p_k + (h^2/2) a_k,   p_(k+1) = p_k + (h/2) (F(q_k) + F(q_(k+1))) .
 ///
-/// Order 2, symmetric. One evaluation on series a step, and one at the start: the force at the end
-/// of a step is that at the start of the next. Limits, errors and summation are as for Störmer's
-/// rule.
+/// It has order 2, is symmetric and takes one evaluation on series a step, and one at the start:
+/// the force at the end of a step is that at the start of the next. Limits, errors and summation
+/// are those of integrate_stormer.
 ///
 /// Source: Guibout and Bloch, eq. `legendre_vv`, corrected; Hairer, Lubich and Wanner, section
 /// I.1.4.

@@ -9,9 +9,9 @@ namespace hamjet {
 
 /// How a symmetric composition of velocity Verlet integrates.
 struct SymmetricCompositionSettings {
-  int order = 4;  ///< 4, 6 or 8, of 5, 9 or 17 substeps
-  /// Of the whole composition, in the system's unit of time, positive; the span is cut into equal
-  /// steps not longer than this.
+  int order = 4;  ///< 4, 6 or 8, with 5, 9 or 17 substeps
+  /// Longest step of the whole composition, in the system's unit of time, positive; the span is cut
+  /// into equal steps.
   double step = 0;
 };
 
@@ -26,8 +26,8 @@ std::vector<Extended> composition_substeps(int order);
 
 /// Integrates the flow's jet with a symmetric composition of velocity Verlet, exactly as the method
 /// acts on series: explicit, symmetric and symplectic. It needs a system with a second-order form
-/// q' = M^-1 p, p' = F(q) (DynamicalSystem::second_order). One evaluation on series a substep, and
-/// one at the start. Some substeps go backwards, and reach up to 0.8 of a step.
+/// q' = M^-1 p, p' = F(q) (DynamicalSystem::second_order). It takes one evaluation on series a
+/// substep, and one at the start. Some substeps go backwards, and reach up to 0.8 of a step.
 ///
 /// The time runs to `duration` exactly, backwards too; duration 0 gives the identity exactly. The
 /// update is summed with compensation. A nominal that steps over a collision is not noticed.

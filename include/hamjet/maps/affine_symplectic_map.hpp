@@ -12,7 +12,7 @@ struct MatrixSymplecticityDefect {
   double relative = 0;  ///< divided by the largest entry of |A| |J| |A|^T: of the terms that cancel
 };
 
-/// Throws Error(usage) unless the matrix is 2n x 2n, n > 0.
+/// The symplecticity defect of a matrix. Throws Error(usage) unless it is 2n x 2n, n > 0.
 template <class Real>
 MatrixSymplecticityDefect symplecticity_defect(const Matrix<Real>& matrix);
 
@@ -33,17 +33,19 @@ class AffineSymplecticMap {
   /// `matrix` is 2n x 2n, `shift` has 2n entries. Throws Error(usage) for other sizes, entries that
   /// are not finite, or a matrix that is not symplectic; the message states the defect.
   AffineSymplecticMap(Matrix<Real> matrix, Vector<Real> shift);
+  /// The linear map without shift, B = 0; throws like the constructor with a shift.
   explicit AffineSymplecticMap(const Matrix<Real>& matrix);
 
+  /// The identity of 2n variables, n = `degrees_of_freedom`.
   static AffineSymplecticMap identity(Eigen::Index degrees_of_freedom);
 
   const Matrix<Real>& matrix() const { return matrix_; }  ///< A
   const Vector<Real>& shift() const { return shift_; }    ///< B
   Eigen::Index dimension() const { return shift_.size(); }
 
-  /// A^-1 = -J A^T J, without rounding.
+  /// The matrix A^-1 = -J A^T J, formed without rounding.
   Matrix<Real> inverse_matrix() const;
-  /// z = A^-1 (Z - B).
+  /// The inverse map, z = A^-1 (Z - B).
   AffineSymplecticMap inverse() const;
   /// This map after another one: z -> this(first(z)).
   AffineSymplecticMap after(const AffineSymplecticMap& first) const;
@@ -64,9 +66,9 @@ class AffineSymplecticMap {
   Vector<Real> shift_;
 };
 
-/// The matrix of the nearest symplectic map to first order, by Newton's iteration: with
-/// E = A J A^T - J, which is skew, A + E J A / 2 has a defect of the order E^2. For a matrix that
-/// is symplectic to the precision that it was written in, and is wanted in a higher one.
+/// The matrix of the nearest symplectic map to first order, by Newton's iteration: with E = A J
+/// A^T - J, which is skew, A + E J A / 2 has a defect of the order E^2. It serves for a matrix
+/// that is symplectic to the precision that it was written in, and is wanted in a higher one.
 template <class Real>
 Matrix<Real> nearest_symplectic(Matrix<Real> matrix);
 

@@ -4,12 +4,12 @@
 
 namespace hamjet {
 
-/// First kind: S(q, Q). Second kind: S(q, P).
+/// The kind of a discrete generating function: S(q, Q) is the first, S(q, P) the second.
 enum class DiscreteGeneratingFunctionKind { first, second };
 
-/// The smallest singular value of the block that a kind inverts (dQ/dp or dP/dp), beside the norm
-/// of the whole matrix: round-off is divided by it, and where that leaves nothing the kind does not
-/// exist.
+/// The smallest singular value of the block that a kind inverts (dQ/dp or dP/dp), relative to the
+/// norm of the whole matrix: round-off is divided by it, and where that leaves nothing the kind
+/// does not exist.
 template <class Real>
 double existence_measure(const AffineSymplecticMap<Real>& map, DiscreteGeneratingFunctionKind kind);
 
@@ -47,13 +47,14 @@ class DiscreteGeneratingFunction {
   const Matrix<Real>& quadratic_part() const { return quadratic_; }  ///< T, symmetric
   const Vector<Real>& linear_part() const { return linear_; }        ///< U
 
-  /// w has 2n entries.
+  /// The value S(w); w has 2n entries.
   Real value(const Vector<Real>& w) const;
-  /// (D1 S, D2 S).
+  /// The gradient (D1 S, D2 S) at w, 2n entries.
   Vector<Real> gradient(const Vector<Real>& w) const { return quadratic_ * w + linear_; }
 
-  /// The points z = (q, p) and Z = (Q, P) that S relates at w.
+  /// The point z = (q, p) that S relates to transformed_point(w).
   Vector<Real> original_point(const Vector<Real>& w) const;
+  /// The point Z = (Q, P) that S relates to original_point(w).
   Vector<Real> transformed_point(const Vector<Real>& w) const;
 
  private:

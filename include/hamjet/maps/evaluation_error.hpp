@@ -18,10 +18,11 @@ namespace hamjet {
 /// J. Sci. Comput. 41 (2019) A2815); and of the deviations, given in other units and axes, there
 /// and back. The second is the error of the coefficients themselves, where `error_by_degree` has
 /// it: e_d of degree d relative to A_d, the largest coefficient of the degree in any component,
-/// 0..N. That of degree 0 turns the axes in which the result is given, and counts as rounding does.
+/// 0..N. The error of degree 0 turns the axes in which the result is given, and counts as rounding
+/// does.
 ///
-/// An estimate and no bound. `map` has no constant terms. Throws Error(usage) for a degree outside
-/// 1 to the map's order.
+/// This is an estimate, not a bound. `map` has no constant terms. Throws Error(usage) for a degree
+/// outside 1 to the map's order.
 std::vector<Series<double>> evaluation_error(std::span<const Series<double>> map, int degree,
                                              std::span<const double> error_by_degree = {});
 

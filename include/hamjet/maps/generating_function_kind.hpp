@@ -17,16 +17,18 @@ struct GeneratingFunctionKind {
   std::vector<bool> initial_is_momentum;  ///< n entries: whether p0_i is chosen
 
   std::size_t degrees_of_freedom() const noexcept { return final_is_momentum.size(); }
-  /// `qqq-qqq` and so on.
+  /// The kind in explicit notation, such as `qqq-qqq`.
   std::string name() const;
   /// Index in z = (q, p) of the chosen (or the remaining) variable of the i-th final pair.
   std::size_t final_variable(std::size_t i, bool chosen = true) const;
+  /// Index in (q0, p0) of the chosen (or the remaining) variable of the i-th initial pair.
   std::size_t initial_variable(std::size_t i, bool chosen = true) const;
 
   bool operator==(const GeneratingFunctionKind&) const = default;
 };
 
-/// Reads `F1`..`F4` or the explicit notation for n degrees of freedom. Throws Error(usage).
+/// Reads `F1`..`F4` or the explicit notation for n degrees of freedom. Throws Error(usage) for any
+/// other text.
 GeneratingFunctionKind parse_kind(std::string_view text, std::size_t degrees_of_freedom);
 
 /// All 2^n x 2^n kinds, F1 first.

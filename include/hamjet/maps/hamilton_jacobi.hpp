@@ -21,10 +21,10 @@
 
 namespace hamjet {
 
-/// d/dt|_w of the remaining variables of an inverted jet: `kind` and `condition` are copied,
-/// `remaining_final` is dR/dt and `remaining_initial` dD/dt, of degree N in w per unit of time.
-/// From the differential equations, not from differences: along a trajectory D and w_c are
-/// constants, and so
+/// The derivatives d/dt|_w of the remaining variables of an inverted jet: `kind` and `condition`
+/// are copied, `remaining_final` is dR/dt and `remaining_initial` dD/dt, of degree N in w per unit
+/// of time. They come from the differential equations, not from differences: along a trajectory D
+/// and w_c are constants, and so
 ///
 ///   w_f' = X_f(z(w)),   R(w, t)' = X_R(z(w)),   D(w, t)' = 0   give
 ///   dR/dt|_w = X_R(z(w)) - (dR/dw_f) X_f(z(w)),   dD/dt|_w = -(dD/dw_f) X_f(z(w)) .
@@ -37,8 +37,8 @@ template <class T>
 PartialInversion<T> time_derivative(const DynamicalSystem& system, std::span<const T> nominal,
                                     const PartialInversion<T>& inversion);
 
-/// H^h(z(w)), of degree 2..N+1 in w: z(w) is known to degree N, which suffices because H^h begins
-/// at degree 2. Throws as time_derivative.
+/// The relative Hamiltonian in the variables w, H^h(z(w)), of degree 2..N+1: z(w) is known to
+/// degree N, which suffices because H^h begins at degree 2. Throws what time_derivative throws.
 template <class T>
 Series<T> hamiltonian_in_variables(const DynamicalSystem& system, std::span<const T> nominal,
                                    const PartialInversion<T>& inversion);
@@ -48,13 +48,13 @@ Series<T> hamiltonian_in_variables(const DynamicalSystem& system, std::span<cons
 struct HamiltonJacobiResidual {
   int degree = 0;
   double absolute = 0;
-  /// Divided by the largest coefficient of H^h(z(w)) of this degree, of which dS/dt is the
-  /// negative: stricter than division by the sum of the absolute values of all terms, which is
-  /// larger by a factor of 2 to 10 on the paper's orbit.
+  /// The absolute residual divided by the largest coefficient of H^h(z(w)) of this degree, of which
+  /// dS/dt is the negative: stricter than division by the sum of the absolute values of all terms,
+  /// which is larger by a factor of 2 to 10 on the paper's orbit.
   double scaled = 0;
 };
 
-/// The two sides of the equation at one point w, by degree 2..N+1.
+/// Residual and Hamiltonian of the Hamilton-Jacobi equation at one point w, by degree 2..N+1.
 struct HamiltonJacobiTerms {
   std::vector<double> residual;     ///< what dS/dt|_w + H^h(z(w)) adds
   std::vector<double> hamiltonian;  ///< what H^h(z(w)) adds
@@ -66,8 +66,8 @@ struct HamiltonJacobiTerms {
   double scaled() const;
 };
 
-/// `w` holds the kind's chosen final deviations, then the chosen initial ones. Throws as
-/// time_derivative.
+/// Evaluates the Hamilton-Jacobi equation at `w`, the kind's chosen final deviations, then the
+/// chosen initial ones. Throws what time_derivative throws.
 template <class T>
 HamiltonJacobiTerms hamilton_jacobi_terms(const DynamicalSystem& system, std::span<const T> nominal,
                                           const PartialInversion<T>& inversion,
@@ -76,7 +76,8 @@ HamiltonJacobiTerms hamilton_jacobi_terms(const DynamicalSystem& system, std::sp
 /// Residuals of the degrees 2..N+1 for an inverted jet of any kind; dS/dt is the homotopy integral,
 /// by which S is formed, of the one-form of time_derivative.
 ///
-/// What it sees: with c_ij = d sigma_i / d w_j - d sigma_j / d w_i, j over the final pairs,
+/// What the residual sees: with c_ij = d sigma_i / d w_j - d sigma_j / d w_i, j over the final
+/// pairs,
 ///
 ///   (dS/dt + H^h)_(d+1) = (1/(d+1)) sum over i and j of w_i (c_ji X_j)_d ,
 ///
@@ -84,7 +85,7 @@ HamiltonJacobiTerms hamilton_jacobi_terms(const DynamicalSystem& system, std::sp
 /// jet, however inaccurate: it checks the signs of the one-form, the Hamiltonian against the
 /// equations of motion, and that the one-form is closed except in pairs of two initial variables;
 /// it says nothing about the jet's accuracy. As with exactness_residual, the inversion's
-/// conditioning amplifies round-off. Throws as time_derivative.
+/// conditioning amplifies round-off. Throws what time_derivative throws.
 template <class T>
 std::vector<HamiltonJacobiResidual> hamilton_jacobi_by_degree(const DynamicalSystem& system,
                                                               std::span<const T> nominal,

@@ -22,14 +22,14 @@ namespace hamjet {
 template <class T>
 PartialInversion<T> remaining_variables(const Series<T>& S, const GeneratingFunctionKind& kind);
 
-/// The same map solved for the remaining variables of another kind: the variables of `to` are n + n
-/// of the 4n variables that are known as series in those of `from`; that map is inverted, and the
-/// others are composed with its inverse. It inverts only the pairs in which the kinds differ, in a
-/// block of second derivatives of S. Throws Error(numerical), naming both kinds, smallest singular
-/// value and condition, where that singular value falls below the norm of all second derivatives
-/// over largest_condition(precision), as it does where the block's condition exceeds the latter,
-/// and where the block vanishes beside the whole: the other kind does not exist
-/// there, or not to any useful accuracy. Throws Error(usage) for kinds of different n.
+/// Solves the map of `from` for the remaining variables of the kind `to`: the variables of `to` are
+/// n + n of the 4n variables that are known as series in those of `from`; that map is inverted, and
+/// the others are composed with its inverse. It inverts only the pairs in which the kinds differ,
+/// in a block of second derivatives of S. Throws Error(numerical), naming both kinds, smallest
+/// singular value and condition, where that singular value falls below the norm of all second
+/// derivatives over largest_condition(precision), as it does where the block's condition exceeds
+/// the latter, and where the block vanishes beside the whole: the other kind does not exist there,
+/// or not to any useful accuracy. Throws Error(usage) for kinds of different n.
 template <class T>
 PartialInversion<T> change_of_kind(
     const PartialInversion<T>& from, const GeneratingFunctionKind& to,
@@ -41,7 +41,8 @@ PartialInversion<T> change_of_kind(
 ///   S'(w') = S(w) - sum over these of w_i sigma_i ,
 ///
 /// formed by change_of_kind and the homotopy integral. Both S and S' are of degree 2..N+1. Throws
-/// as the two functions above. Source: Goldstein, Classical Mechanics (1980), section 9-1.
+/// what remaining_variables and change_of_kind throw. Source: Goldstein, Classical Mechanics
+/// (1980), section 9-1.
 template <class T>
 Series<T> legendre_transformation(
     const Series<T>& S, const GeneratingFunctionKind& from, const GeneratingFunctionKind& to,

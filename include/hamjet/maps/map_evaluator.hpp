@@ -13,8 +13,8 @@ namespace hamjet {
 /// none where a result is not wanted; laid out as MapEvaluator says.
 struct MapValues {
   std::span<double> values;        ///< sum over all degrees 0..N
-  std::span<double> last;          ///< the share of degree N, which `values` contains
-  std::span<double> last_but_one;  ///< the share of degree N-1 (0 for N = 0), likewise
+  std::span<double> last;          ///< the share of degree N, part of `values`
+  std::span<double> last_but_one;  ///< the share of degree N-1 (0 for N = 0), part of `values`
 };
 
 /// A polynomial map in double precision, prepared for the evaluation at many points.
@@ -29,7 +29,7 @@ struct MapValues {
 ///
 /// one multiplication a monomial, and one multiply-add a monomial and component; those of degree N
 /// are used at once and not stored. The degrees are summed separately, the highest first, so that
-/// small terms are not lost and the last two are had for nothing. Points are taken a block at a
+/// small terms are not lost and the last two come at no extra cost. Points are taken a block at a
 /// time, one to a lane of a Pack; a lane never sees another's numbers, so that a NaN stays with its
 /// point.
 ///
@@ -37,22 +37,23 @@ struct MapValues {
 /// kilobytes, whatever the number of points.
 class MapEvaluator {
  public:
-  /// The components must have one space in common; terms above `degree` are left out (absent: none
-  /// are). Throws Error(usage) for no components, and for a degree outside 0 to the order.
+  /// The components must have one space in common; terms above `degree`, if given, are left out.
+  /// Throws Error(usage) for no components, and for a degree outside 0 to the order.
   explicit MapEvaluator(std::span<const Series<double>> map, std::optional<int> degree = {});
 
   std::size_t variables() const noexcept { return variables_; }
   std::size_t components() const noexcept { return components_; }
-  /// N: that at which the map is truncated.
+  /// The degree N at which the map is truncated.
   int degree() const noexcept { return degree_; }
 
-  /// Throws Error(usage) if a size is not that of `points`.
+  /// Evaluates the map at the points. Throws Error(usage) if the sizes of points and results do not
+  /// fit.
   void evaluate(std::span<const double> points, const MapValues& results) const;
 
-  /// Multiply-adds by coefficients: components times monomials of degree 1 to N. The products that
-  /// form the monomials are not among them.
+  /// Multiply-adds by coefficients for one point: components times monomials of degree 1 to N,
+  /// without the products that form the monomials.
   std::size_t multiply_adds_per_point() const noexcept;
-  /// Products that form the monomials of degree 2 to N.
+  /// Products that form the monomials of degree 2 to N for one point.
   std::size_t products_per_point() const noexcept;
 
  private:
@@ -60,8 +61,8 @@ class MapEvaluator {
   std::size_t components_;
   int degree_;
   std::size_t monomials_;  ///< of degree 0..N
-  /// For every group of components that are evaluated together, monomial by monomial, those of the
-  /// group next to each other.
+  /// Coefficients by group of components that are evaluated together, then by monomial: those of
+  /// the group stand next to each other.
   std::vector<double> coefficients_;
 };
 

@@ -18,9 +18,9 @@ template <class T>
 struct PartialInversion {
   GeneratingFunctionKind kind;
   double condition = 0;  ///< of the matrix inverted, in the 2-norm
-  /// By how much more than themselves relative errors of the map's linear part may show in the
-  /// inverse's: the condition, or the ratio of the whole linear part's norm to the smallest
-  /// singular value of the matrix inverted, whichever is larger.
+  /// Factor by which relative errors of the map's linear part may grow in the inverse's: the larger
+  /// of the condition and the ratio of the whole linear part's norm to the smallest singular value
+  /// of the matrix inverted.
   double amplification = 0;
   std::vector<Series<T>> remaining_final;    ///< n series in w
   std::vector<Series<T>> remaining_initial;  ///< n series in w

@@ -18,8 +18,8 @@ struct BoundaryMomenta {
 
 /// Solves the two-point boundary-value problem "position to position" with a generating function of
 /// any kind. F1 takes both positions and answers by evaluation alone. Another kind takes a momentum
-/// u_k in place of some positions; these are found by Newton's method on the polynomials that give
-/// the positions,
+/// u_k in place of some positions; these momenta are found by Newton's method on the polynomials
+/// that give the positions,
 ///
 ///   q_i(w) = q_i  for a final pair that is represented by its momentum, q0_j(w) = q0_j for an
 ///   initial one, w = the known positions and the unknown momenta u.
@@ -31,7 +31,8 @@ class PositionBoundaryValues {
   /// The inversion must outlive this object.
   explicit PositionBoundaryValues(const PartialInversion<double>& inversion);
 
-  /// With the polynomials up to `degree`. Deviations of n numbers each. Throws Error(numerical) if
+  /// The momenta for two positions, deviations of n numbers each, by the polynomials up to
+  /// `degree`. Throws Error(usage) for sizes or a degree that do not fit, Error(numerical) if
   /// Newton's iteration does not come to rest: the positions are farther apart than the polynomials
   /// reach, or cannot be commanded at this time.
   BoundaryMomenta solve(std::span<const double> initial_position,

@@ -13,8 +13,8 @@ class SymplecticPowers {
  public:
   explicit SymplecticPowers(const AffineSymplecticMap<Extended>& map);
 
-  /// f_k, k = 0, 1, 2, ... in turn; any k >= 0 may follow any other, one that is not the next is
-  /// counted up from 0. Throws Error(usage) for k < 0, Error(numerical) if the power overflows
+  /// The power f_k. Any k >= 0 may follow any other; a smaller one is counted up from 0, a larger
+  /// one from the last. Throws Error(usage) for k < 0, Error(numerical) if the power overflows
   /// double precision.
   AffineSymplecticMap<double> operator()(long k);
 

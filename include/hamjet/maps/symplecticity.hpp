@@ -12,9 +12,9 @@ namespace hamjet {
 struct SymplecticityDefect {
   int degree = 0;
   double absolute = 0;
-  /// Divided by the largest sum of absolute values of the terms of a coefficient of this degree.
-  /// Not coefficient by coefficient: where symmetry makes coefficients vanish, nothing but
-  /// round-off would stand in both.
+  /// The absolute defect divided by the largest sum of absolute values of the terms of a
+  /// coefficient of this degree; not coefficient by coefficient, for where symmetry makes
+  /// coefficients vanish both would be round-off alone.
   double scaled = 0;
 };
 

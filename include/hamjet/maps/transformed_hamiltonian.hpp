@@ -20,7 +20,7 @@ class TransformedHamiltonian final : public DifferentiableHamiltonian<Real> {
   TransformedHamiltonian(DifferentiableHamiltonian<Real>& original,
                          const AffineSymplecticMap<Real>& map);
 
-  /// Another transformation of the same Hamiltonian.
+  /// Changes to another transformation of the same Hamiltonian.
   void set_map(const AffineSymplecticMap<Real>& map);
 
   Eigen::Index dimension() const override { return original_->dimension(); }
@@ -34,8 +34,8 @@ class TransformedHamiltonian final : public DifferentiableHamiltonian<Real> {
   HamiltonianDerivatives<Real> derivatives_;
 };
 
-/// The same K as a system of its own, recorded: for integrators that take a DynamicalSystem. Throws
-/// Error(usage) if the dimensions differ.
+/// The transformed Hamiltonian K as a recorded system, for integrators that take a DynamicalSystem.
+/// Throws Error(usage) if the dimensions differ.
 DynamicalSystem transformed_system(const DynamicalSystem& system,
                                    const AffineSymplecticMap<Extended>& map);
 

@@ -33,14 +33,14 @@ class TransformedMidpoint {
                       CanonicalTransformationSequence<Real> transformation,
                       const Vector<Real>& initial, const Real& tau);
 
-  /// Goes on from step k to k + 1. Throws as midpoint_step.
+  /// Goes on from step k to k + 1. Throws what midpoint_step throws.
   void advance();
 
   long step() const { return step_; }                            ///< k
   const Vector<Real>& state() const { return state_; }           ///< Z_k
   const AffineSymplecticMap<Real>& map() const { return map_; }  ///< f_k
   Real energy() { return hamiltonian_.value(state_); }           ///< K_k(Z_k)
-  /// K_k, at this step.
+  /// The transformed Hamiltonian K_k of this step.
   DifferentiableHamiltonian<Real>& hamiltonian() { return hamiltonian_; }
 
  private:

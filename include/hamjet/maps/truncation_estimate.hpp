@@ -19,7 +19,7 @@ struct DegreeShares {
 struct TruncationEstimate {
   enum class Support {
     inside,   ///< the degrees decay: `miss` is the estimate
-    outside,  ///< they do not, and the series says nothing there
+    outside,  ///< the degrees do not decay, and the series says nothing there
     unknown   ///< a number is not finite, or there is but one degree to judge by
   };
   Support support = Support::unknown;
@@ -41,8 +41,8 @@ struct TruncationEstimate {
 /// where d_(N-1) <= d_N q even so, for with regular decay it is d_N / q. The support is `outside`
 /// where q >= 1, and where the missing degrees would add as much as the lower ones.
 ///
-/// An estimate and no bound, and of the truncation alone: the integrator's error and round-off are
-/// no part of it. `degree` is 1 or more.
+/// This is an estimate, not a bound, and of the truncation alone: the integrator's error and
+/// round-off are no part of it. `degree` is 1 or more.
 TruncationEstimate estimate_truncation(int degree, const DegreeShares& shares);
 
 }  // namespace hamjet

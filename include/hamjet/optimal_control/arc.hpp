@@ -8,12 +8,12 @@
 
 namespace hamjet {
 
-/// A run of an advance map over several steps, and the Jacobian of all of them.
+/// A run of an advance map over several steps, with its Jacobians.
 struct Arc {
   std::vector<Eigen::VectorXd> points;     ///< (x, p) at the start and after each step
   std::vector<Eigen::VectorXd> controls;   ///< of each step
   std::vector<Eigen::MatrixXd> jacobians;  ///< of each step
-  Eigen::MatrixXd jacobian;                ///< of all, 2n x 2n
+  Eigen::MatrixXd jacobian;                ///< of the whole arc, 2n x 2n
 };
 
 /// Advances (x, p) by `steps` steps; `control_guess`, m numbers, is for the first one. Throws
@@ -21,7 +21,7 @@ struct Arc {
 Arc propagate_arc(AdvanceMap& map, const Eigen::VectorXd& point,
                   const Eigen::VectorXd& control_guess, std::size_t steps);
 
-/// Splits the arc's points; the multipliers are left empty.
+/// Splits the arc's points (x, p) into states and costates; the multipliers are left empty.
 DiscreteTrajectory trajectory_of(const Arc& arc);
 
 }  // namespace hamjet

@@ -2,7 +2,7 @@
 
 namespace hamjet {
 
-/// Least costs of a problem with these end conditions.
+/// Least costs of an optimal-control problem, where a closed form is known.
 struct ClosedFormCost {
   double continuous = 0;  ///< the integral of g
   double discrete = 0;    ///< the sum of tau g over the steps

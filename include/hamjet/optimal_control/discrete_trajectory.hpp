@@ -14,12 +14,13 @@ struct DiscreteTrajectory {
   std::vector<Eigen::VectorXd> costates;  ///< p_0..p_N
   std::vector<Eigen::VectorXd> controls;  ///< u^d of the steps 0..N-1, m numbers each
   Eigen::VectorXd initial_multipliers;    ///< lambda_0, one for each initial condition
-  Eigen::VectorXd final_multipliers;      ///< lambda_n
+  Eigen::VectorXd final_multipliers;      ///< lambda_n, one for each final condition
 
   std::size_t steps() const noexcept { return controls.size(); }
 };
 
-/// The sum of tau g(x^d, u^d). Source: Guibout and Bloch, "Discrete maximum principle".
+/// The discrete cost, the sum of tau g(x^d, u^d) over the steps. Source: Guibout and Bloch,
+/// "Discrete maximum principle".
 double discrete_cost(const OptimalControlProblem& problem, Discretization discretization,
                      double step, const DiscreteTrajectory& trajectory);
 
@@ -32,6 +33,7 @@ struct TrajectoryDifference {
 
   double largest() const;
 };
+/// Compares two trajectories; throws Error(usage) if their numbers of steps differ.
 TrajectoryDifference difference(const DiscreteTrajectory& a, const DiscreteTrajectory& b);
 
 }  // namespace hamjet

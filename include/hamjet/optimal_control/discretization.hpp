@@ -12,12 +12,12 @@ enum class Discretization {
   midpoint,  ///< the means of both ends; u^d is the unknown, for u_k and u_(k+1) do not occur alone
 };
 
-/// The names in scenes, in the order of the enumeration.
+/// The names of Discretization in scenes, in the order of the enumeration.
 const std::vector<std::string_view>& discretization_names();
 
-/// What x^d is made of: x^d = x_k + weight (x_(k+1) - x_k), weight 0 or 1/2.
+/// The weight, 0 or 1/2, in the state x^d = x_k + weight (x_(k+1) - x_k).
 double state_weight(Discretization discretization);
-/// The same for the costate, weight 1 or 1/2.
+/// The weight, 1 or 1/2, in the costate p^d = p_k + weight (p_(k+1) - p_k).
 double costate_weight(Discretization discretization);
 
 }  // namespace hamjet

@@ -37,7 +37,7 @@ std::array<double, 4> double_integrator_gramian(Discretization discretization, d
 /// The least cost from `start` to an end with these fixed components: delta^T W^-1 delta / 2, delta
 /// being what the end lacks without control and W the rows and columns of the Gramian that belong
 /// to the fixed components; so that a free component has the costate 0 at the end. None if no
-/// component is fixed, or if a single step is to reach both.
+/// component is fixed, or if a single step is to reach both, or the position by the Stormer form.
 std::optional<ClosedFormCost> double_integrator_cost(
     Discretization discretization, std::span<const double> start,
     const std::array<std::optional<double>, 2>& end, double duration, std::size_t steps);

@@ -24,12 +24,12 @@ class EndConditions {
 
   std::size_t count() const noexcept { return count_; }
 
-  /// Evaluates at n states and r multipliers.
+  /// Evaluates conditions and derivatives at n states and r multipliers.
   void evaluate(std::span<const double> x, std::span<const double> multipliers);
   Eigen::VectorXd conditions() const;      ///< phi(x), r
   Eigen::MatrixXd jacobian() const;        ///< D phi(x), r x n
   Eigen::VectorXd covector() const;        ///< D phi(x)^T lambda, n
-  Eigen::MatrixXd covector_slope() const;  ///< its derivative by x, n x n
+  Eigen::MatrixXd covector_slope() const;  ///< derivative of the covector by x, n x n
 
   /// The multipliers whose D phi(x)^T lambda comes nearest to a covector of n numbers.
   Eigen::VectorXd nearest_multipliers(std::span<const double> x, const Eigen::VectorXd& covector);

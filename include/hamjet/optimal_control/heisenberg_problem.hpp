@@ -36,9 +36,10 @@ struct HeisenbergFunctions {
 struct HeisenbergChange {
   double dx = 0;
   double dy = 0;
-  /// Of Z = z - z_0 - y_0 X + x_0 Y, which obeys the same equations from the origin.
+  /// Change of Z = z - z_0 - y_0 X + x_0 Y, which obeys the same equations from the origin.
   double a = 0;
 };
+/// The change that an end with these fixed components asks for from `start`.
 HeisenbergChange heisenberg_change(std::span<const double> start,
                                    std::span<const std::optional<double>> end);
 

@@ -6,16 +6,17 @@
 
 namespace hamjet {
 
-/// Of a damped Newton iteration on equations whose derivative may be rank-deficient.
+/// Settings of a damped Newton iteration on equations whose derivative may be rank-deficient.
 struct NewtonSettings {
   int most_iterations = 100;
   /// Largest residual, relative to the largest unknown, at which the equations count as solved; the
   /// iteration then goes on for as long as the residual falls.
   double tolerance = 1e-11;
-  /// Singular directions: those whose pivot is below this fraction of the largest. Far above
-  /// round-off, for a direction that is singular at the solution is nearly so on the way to it.
+  /// A direction counts as singular if its pivot is below this fraction of the largest. This is far
+  /// above round-off, for a direction that is singular at the solution is nearly so on the way to
+  /// it.
   double rank_threshold = 1e-8;
-  /// Told the iteration and the largest residual; may throw to stop.
+  /// Called with the iteration and the largest residual; may throw to stop.
   std::function<void(int iteration, double residual)> watch = {};
 };
 

@@ -39,12 +39,12 @@ concept OptimalControlFunctions = requires(const Functions& functions,
   { functions.dynamics(x, x) } -> std::convertible_to<std::vector<Expression>>;
 };
 
-/// Returns the problem if its sizes fit. Throws Error(usage) that names the function, its size and
-/// the right one; for no states, no controls, or more than 60 numbers in 4 n + m, too.
+/// Returns the problem if its sizes fit. Throws Error(usage) otherwise, naming the function, its
+/// size and the right one, and for no states, no controls or 4 n + m > 60.
 OptimalControlProblem checked(OptimalControlProblem problem);
 
 /// Records a problem. `functions` gives g and f, the lists are phi_0 and phi_n; see fixed_state and
-/// fixed_components. Throws as `checked`.
+/// fixed_components. Throws what `checked` throws.
 template <OptimalControlFunctions Functions>
 OptimalControlProblem make_optimal_control_problem(std::string name, std::size_t states,
                                                    std::size_t controls, const Functions& functions,

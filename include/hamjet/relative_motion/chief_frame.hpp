@@ -34,8 +34,8 @@ struct MetricUnits {
   double velocity_m_s() const { return length_m / time_s; }
 };
 
-/// A frame at one instant: between relative states and the canonical deviations (dq, dp) from the
-/// chief, dp being the difference of the inertial velocities.
+/// A frame at one instant: it converts between relative states and the canonical deviations (dq,
+/// dp) from the chief, dp being the difference of the inertial velocities.
 ///
 /// The rotating axes turn at the rate of the chief's osculating Kepler orbit,
 ///
@@ -52,19 +52,20 @@ class ChiefFrame {
   /// Error(usage) for other sizes.
   ChiefFrame(std::span<const double> chief, const MetricUnits& units, RelativeFrame frame);
 
-  /// Canonical (dq, dp).
+  /// The canonical deviation (dq, dp) of a relative state, 6 numbers.
   std::vector<double> deviation(const RelativeState& state) const;
+  /// The relative state of a canonical deviation (dq, dp), 6 numbers.
   RelativeState relative(std::span<const double> deviation) const;
 
   /// A velocity change, m/s along the frame's axes, from its canonical inertial components. It is
   /// the same for rotating and inertial derivatives.
   Eigen::Vector3d velocity_change_m_s(const Eigen::Vector3d& canonical) const;
-  /// A direction in space along the frame's axes.
+  /// The components along the frame's axes of a vector given in inertial axes.
   Eigen::Vector3d along_axes(const Eigen::Vector3d& inertial) const { return axes_ * inertial; }
 
  private:
   Eigen::Matrix3d axes_ = Eigen::Matrix3d::Identity();          ///< rows: the frame's axes
-  Eigen::Vector3d angular_velocity_ = Eigen::Vector3d::Zero();  ///< along them, canonical
+  Eigen::Vector3d angular_velocity_ = Eigen::Vector3d::Zero();  ///< along the axes, canonical
   MetricUnits units_;
 };
 

@@ -20,7 +20,8 @@ enum class PlotFormat { none, pdf, png };
 struct EarlierRuns {
   std::string determinants;  ///< ReportOrigin::determinants of the earlier comparison
   bool is_complete = false;
-  /// As they were written, with those that failed or were left out: see ComparedRun::is_finished.
+  /// The runs as they were written, with those that failed or were left out: see
+  /// ComparedRun::is_finished.
   std::vector<ComparedRun> runs;
   std::vector<ComparedRun> cost_runs;
   std::vector<RunAlongTime> along_time;

@@ -9,8 +9,8 @@ struct ReportOrigin {
   std::string command;    ///< as it was typed
   std::string date;       ///< of the run, with time and zone
   std::string processor;  ///< that the times were taken on
-  /// Of a comparison: all that determines the runs, as the caller writes it; a resumption compares
-  /// it with its own.
+  /// Used by comparisons only: all that determines the runs, as the caller writes it; a resumption
+  /// compares it with its own.
   std::string determinants;
   std::string gnuplot = "gnuplot";  ///< program that draws the plots: a name on the path, or a path
 };

@@ -10,7 +10,7 @@
 namespace hamjet::io {
 
 /// `summary.json`: scene, units, reference, and for every run its statistics, checks, residuals
-/// with their floors, symplecticity and errors. What was not computed is null.
+/// with their rounding floors, symplecticity and errors. What was not computed is null.
 std::string summary_json(const PropagationResult& result);
 
 /// `<label>/jet.csv`: one row a coefficient, the row with exponents 0 being the nominal's final
@@ -37,15 +37,15 @@ std::string along_time_csv(const PropagationResult& result, const RunResult& run
 /// `problem`, one line, if it cannot be drawn.
 std::string figure_svg(const PropagationResult& result, std::optional<std::string>& problem);
 
-/// All of the above into a directory. Returns the summary as it is there, with the checksums of the
-/// files. Throws Error(input_output).
+/// Writes all files above to a directory. Returns the summary as it is there, with the checksums of
+/// the files. Throws Error(input_output).
 std::string write_results(const PropagationResult& result, const std::string& figure,
                           OutputDirectory& output);
 
 /// The table for the terminal: residual and error of every integrator side by side.
 std::string summary_table(const PropagationResult& result);
 
-/// Into how many arcs a run is split, why, and what that is expected to bring; in one line.
+/// One line that says into how many arcs a run is split, why, and what that is expected to bring.
 std::string arcs_text(const Scene& scene, const ArcPlan& plan);
 
 }  // namespace hamjet::io

@@ -14,8 +14,8 @@ namespace hamjet::io {
 /// Reads the cases of a folder, every file `*.toml` in the order of their names, or the one case of
 /// a file. A case is a scene with a table `[case]`; see data/scenes/extreme/README.md. A scene that
 /// is refused is kept as its error, for a refusal may be what is right; a mistake in `[case]`
-/// itself is none of those: throws Error(scene) for it, and Error(input_output) if nothing can be
-/// read.
+/// itself is not kept. Throws Error(scene) for such a mistake, and Error(input_output) if nothing
+/// can be read.
 std::vector<StabilityCase> read_stability_suite(const std::filesystem::path& suite);
 
 /// How a case came out, in one line for the terminal.

@@ -11,7 +11,7 @@
 
 namespace hamjet::io {
 
-/// What a study that has no flow jet leaves.
+/// The files and texts that a study leaves.
 struct StudyReport {
   /// CSV files, `figure.svg` where it could be drawn, `summary.json` last.
   std::vector<ReportFile> files;
@@ -25,7 +25,7 @@ struct StudyReport {
   const std::string& summary() const { return files.back().content; }
 };
 
-/// Whether a report has its figure, which takes most of its time.
+/// Whether a report has its figure, whose drawing takes most of the time.
 enum class Figure { drawn, left_out };
 
 /// The report of a study's result; each study has its own. The figure is drawn by gnuplot; without

@@ -48,7 +48,7 @@ using Study =
 /// "flow-jet".
 Study read_study(const std::filesystem::path& file, const std::vector<Override>& overrides = {});
 
-/// The same from text.
+/// read_study from text; `file_name` is used in messages and for the study's name.
 Study parse_study(std::string_view text, const std::string& file_name,
                   const std::vector<Override>& overrides = {});
 

@@ -15,7 +15,7 @@ class ResultSet {
   /// is about to do so.
   ResultSet(std::filesystem::path directory, std::string name);
 
-  /// The path of the summary, and its text.
+  /// The path of the summary; summary() has its text.
   std::filesystem::path path() const { return directory_ / name_; }
   const std::string& summary() const noexcept { return summary_; }
   /// The text of another file of the set.

@@ -8,18 +8,17 @@
 
 namespace hamjet {
 
-/// Whether a method's flow can be split into arcs: its steps follow from the nominal alone.
-bool can_be_split(IntegrationMethod method);
-
 /// Why the scene's key jet.arcs = "auto" leaves a run in one piece whatever the counts; none where
 /// the counts decide.
 std::optional<std::string> reason_not_to_split(const Scene& scene,
                                                const IntegratorSettings& settings);
 
-/// The method of an integrator that can be split.
+/// The method of an integrator in the form that arcs take. Throws Error(usage) if it cannot be
+/// split.
 SplittableMethod splittable_method(const IntegratorSettings& settings);
 
-/// Into how many arcs a run will be split. Integrates its nominal; throws as that does.
+/// Decides into how many arcs a run is split, for which its nominal is integrated. Throws as that
+/// integration does.
 ArcPlan plan_arcs(const Scene& scene, const ComputedProblem& problem,
                   const IntegratorSettings& settings, const ProgressCallback& progress = {});
 

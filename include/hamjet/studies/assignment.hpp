@@ -22,6 +22,7 @@ struct AssignedTransfer {
   TransferPoint transfer;  ///< proved by flying
 };
 
+/// All results of the study of table `[assignment]`.
 struct AssignmentResult {
   Scene scene;  ///< with `transfer` and `assignment`
   std::string integrator;
@@ -42,8 +43,8 @@ struct AssignmentResult {
 /// study_transfer.
 AssignmentResult study_assignment(const Scene& scene, const ProgressCallback& progress = {});
 
-/// 0; 1 if the scene is strict and a chosen transfer is beyond its tolerance or could not be
-/// refined; 4 if there is no assignment, or a chosen transfer has no answer.
+/// Exit code: 0; 1 if the scene is strict and a chosen transfer is beyond its tolerance or could
+/// not be refined; 4 if there is no assignment, or a chosen transfer has no answer.
 int exit_code(const AssignmentResult& result);
 
 }  // namespace hamjet

@@ -14,8 +14,8 @@ namespace hamjet {
 /// More midpoint steps than this, over all step sizes, are refused.
 inline constexpr double largest_transformed_step_count = 1e7;
 
-/// A_k of a condition above this leaves nothing of the energy error, which is what is compared: the
-/// run stops there.
+/// A run stops where the condition of A_k, the matrix of f_k, exceeds this: rounding then leaves
+/// nothing of the energy errors that are compared.
 inline constexpr double largest_transformation_condition = 1e12;
 
 /// The midpoint scheme in the original coordinates z and in those of a discrete canonical
@@ -30,9 +30,9 @@ struct CanonicalTransformationStudy {
   std::vector<double> nominal;  ///< initial state (q, p), canonical
   double duration = 0;          ///< canonical, above 0
   std::vector<double> steps;    ///< canonical step sizes, each a run of its own; all different
-  /// f.
+  /// The affine symplectic map f.
   AffineSymplecticMap<Extended> transformation = AffineSymplecticMap<Extended>::identity(1);
-  /// Check: the largest difference of the two energy errors, canonical.
+  /// Check: the largest difference of the two energy errors that passes, canonical.
   std::optional<double> require_invariance;
 };
 
@@ -68,15 +68,17 @@ struct CanonicalTransformationRun {
   double largest_symplecticity_defect = 0;      ///< of A_k, relative
   HamiltonJacobiCheck first_kind;
   HamiltonJacobiCheck second_kind;
-  /// At every step with the kind that is the better conditioned there.
+  /// The largest residual of the discrete Hamilton-Jacobi equation, at each step with the kind that
+  /// is better conditioned there; absolute. None if no kind exists anywhere.
   std::optional<double> hamilton_jacobi_residual;
-  /// Whether q takes both signs: the barrier of the double well is at q = 0. Other models have
-  /// none.
+  /// Whether q takes both signs and so crosses the barrier of the double well, at q = 0. No value
+  /// for other models.
   std::optional<bool> crosses_barrier;
-  long stored_interval = 1;  ///< every so many steps a point is stored, and the last
+  long stored_interval = 1;  ///< steps between stored points; the last point is stored too
   std::vector<CanonicalTransformationPoint> trajectory;
 };
 
+/// All results of the study.
 struct CanonicalTransformationResult {
   CanonicalTransformationStudy study;
   double energy = 0;  ///< H(z_0)
@@ -90,7 +92,7 @@ struct CanonicalTransformationResult {
 CanonicalTransformationResult run_study(const CanonicalTransformationStudy& study,
                                         const ProgressCallback& progress = {});
 
-/// 0, 1 (the check failed) or 4 (a run stopped).
+/// Exit code: 0, 1 (the check failed) or 4 (a run stopped).
 int exit_code(const CanonicalTransformationResult& result);
 
 }  // namespace hamjet

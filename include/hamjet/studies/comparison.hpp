@@ -10,7 +10,8 @@
 
 namespace hamjet {
 
-/// Where a run stands between the two questions that a comparison asks of it.
+/// What a comparison finds of a run: whether its map is exact (symplectic), and whether its
+/// coefficients are accurate.
 enum class Corner {
   exact_and_accurate,
   exact_but_wrong,
@@ -22,8 +23,8 @@ enum class Corner {
 const std::vector<std::string_view>& corner_names();
 
 /// A run is called exact if its scaled symplecticity defect, over all degrees, is at most this. A
-/// method that is not symplectic comes below it too where its error is at round-off: nothing that
-/// is measured then tells them apart.
+/// method that is not symplectic comes below it too where its error is at round-off: no measurement
+/// can then tell the two apart.
 inline constexpr double largest_exact_defect = 1e-13;
 
 /// One integrator with one step or tolerance at one order, and all that was measured of it.
@@ -38,19 +39,20 @@ struct ComparedRun {
   double memory_bytes = 0;              ///< of the integrator's series, estimated
   std::vector<double> seconds;          ///< of the integration alone, one entry a repeat
   std::vector<double> error_by_degree;  ///< see relative_error_by_degree
-  /// Without the reference, see estimate_error; empty where the independent run failed.
+  /// Errors estimated without the reference, see estimate_error; empty where the independent run
+  /// failed.
   std::vector<double> error_estimate_by_degree;
   double error_at_formation_m = 0;        ///< see ComparisonResult::separation_points
   std::vector<ExactnessEntry> exactness;  ///< of ComparisonResult::kind; empty if there is none
   std::string exactness_failure;          ///< not empty: the kind does not exist for this run's map
-  std::vector<SymplecticityDefect> symplecticity;  ///< by degree; that of degree 0: the linear part
+  std::vector<SymplecticityDefect> symplecticity;  ///< by degree; degree 0 is the linear part
   double energy_error = 0;                         ///< largest magnitude along the nominal
   std::optional<Corner> corner;  ///< none where the jet is not a full map of phase space
 
   bool is_finished() const { return failure.empty() && left_out.empty(); }
   double median_seconds() const;          ///< 0 before the first timing
   double largest_error() const;           ///< of all degrees
-  double largest_error_estimate() const;  ///< the same; infinite if there is none
+  double largest_error_estimate() const;  ///< of all degrees; infinite without estimate
   double largest_symplecticity() const;   ///< scaled, of all degrees
 };
 
@@ -59,18 +61,18 @@ struct ConvergenceFit {
   std::string series;
   int degree = 0;
   double slope = 0;
-  double expected = 0;              ///< of the theory
+  double expected = 0;              ///< what theory predicts
   std::vector<std::string> labels;  ///< of the runs used: those above the rounding floor
   /// Step (canonical) and relative error of the runs used, the finest first.
   std::vector<std::pair<double, double>> points = {};
-  /// Made for the fit in extended precision, with smaller steps than double precision resolves, and
-  /// with the next term of the error's expansion fitted too.
+  /// Whether the runs were made for the fit in extended precision, with smaller steps than double
+  /// precision resolves, and the next term of the error's expansion is fitted too.
   bool is_extended = false;
-  /// The part of the duration, from its start, over which those runs went.
+  /// The fraction of the duration, from its start, over which the fitted runs went.
   double arc = 1;
 
-  /// Within 0.3. Where it does not, the leading term does not yet dominate at the steps that could
-  /// be run.
+  /// Whether the slope is within 0.3 of theory. Where it is not, the leading term does not yet
+  /// dominate at the steps that could be run.
   bool agrees() const { return std::abs(slope - expected) <= 0.3; }
 };
 
@@ -84,16 +86,17 @@ struct ComparisonResult {
                                                ///< the best conditioned; none without a full jet
   double kind_condition = 0;
   std::size_t separation_points =
-      0;                          ///< deviations at which error_at_formation_m is the largest of
+      0;                          ///< deviations over which error_at_formation_m is the greatest
   std::vector<ComparedRun> runs;  ///< at the scene's order
   std::vector<ComparedRun> cost_runs;    ///< one configuration a method over the orders
   std::vector<RunAlongTime> along_time;  ///< the scene's own integrators
   std::vector<ConvergenceFit> fits;
 
   /// Relative errors below this are the reference's own as well: ten times its uncertainty. 0 for a
-  /// degree that the reference does not have, as before it is computed.
+  /// degree that the reference does not have.
   double smallest_claimed_error(int degree) const;
-  /// The same for error_at_formation_m: what those uncertainties add up to at most.
+  /// Values of error_at_formation_m below this, in metres, are not claimed: it is the most that
+  /// smallest_claimed_error adds up to at that separation. 0 before there is a reference.
   double smallest_claimed_error_m() const;
 };
 
@@ -121,10 +124,11 @@ std::vector<CandidateSeries> candidate_series(const Scene& scene);
 class ReferenceStore {
  public:
   virtual ~ReferenceStore() = default;
-  /// None if there is none, or if it cannot be read.
+  /// The reference stored under a key, in the series of `space`; none if there is none that can be
+  /// read.
   virtual std::optional<ReferenceResult> load(const std::string& key,
                                               const SpacePointer& space) = 0;
-  /// Whether that worked is of no account.
+  /// Stores a reference. Best effort: a failure is ignored.
   virtual void save(const std::string& key, const ReferenceResult& reference) = 0;
 };
 
@@ -135,6 +139,7 @@ std::string reference_key(const Scene& scene, int order);
 /// be merged only if theirs agree.
 std::string comparison_key(const Scene& scene);
 
+/// What a comparison is given beside its scene.
 struct ComparisonOptions {
   ProgressCallback progress = {};
   ReferenceStore* references = nullptr;
@@ -153,8 +158,8 @@ struct ComparisonOptions {
 /// itself to 1e-13. Failures of candidates are recorded in their runs.
 void compare(const Scene& scene, const ComparisonOptions& options, ComparisonResult& result);
 
-/// The cheapest run that reaches an error at formation scale, the next of another series, and so
-/// on: one run a series, the fastest first.
+/// For each series the fastest run whose error at formation scale is at most `error_m` metres; the
+/// fastest series first.
 std::vector<const ComparedRun*> cheapest_runs(const ComparisonResult& result, double error_m);
 
 /// What the comparison says in one sentence, with numbers.

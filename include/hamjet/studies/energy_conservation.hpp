@@ -53,8 +53,8 @@ struct FixedStepTrajectory {
   std::string method;
   double step = 0;  ///< the mean step of the energy-conserving trajectory
   long steps = 0;   ///< taken
-  /// Times and energy errors as above. It goes on to the end of the duration, or to a million
-  /// steps, where the energy-conserving trajectory stops.
+  /// Canonical times, and energy errors as in EnergyConservationPoint. The trajectory goes on to
+  /// the end of the duration, or to a million steps, even if the energy-conserving one stops.
   std::vector<std::pair<double, double>> energy_errors;
   double largest_energy_error = 0;
   std::string failure;  ///< not empty: it ended early, and why
@@ -64,20 +64,20 @@ struct FixedStepTrajectory {
 struct EnergyConservationResult {
   EnergyConservationStudy study;
   EnergyConservingResult<double> run;
-  /// At most 20001, evenly thinned, first and last among them.
+  /// At most 20001 points, evenly thinned; the first and the last are kept.
   std::vector<EnergyConservationPoint> points;
   double largest_discrete_error = 0;  ///< over all steps, as EnergyConservationPoint::discrete
   double largest_energy_error = 0;    ///< over all points
   double smallest_step = 0;           ///< magnitudes; 0 where no step was taken
   double largest_step = 0;
   FixedStepTrajectory fixed_step;
-  /// Where it stopped: the time nearest to the stop at which StepCondition changes sign along the
-  /// exact flow, where the method is predicted to stop in the limit of small steps. None if there
-  /// is none near.
+  /// If the trajectory stopped: the time nearest to the stop at which StepCondition changes sign
+  /// along the exact flow, where the method is predicted to stop in the limit of small steps. No
+  /// value if no such time is near.
   std::optional<double> predicted_time;
   std::vector<std::string> failed_checks;  ///< one line each
 
-  /// 0; 1 (a check failed, or another outcome than expected); 4 (an unexpected stop).
+  /// Exit code: 0; 1 (a check failed, or another outcome than expected); 4 (an unexpected stop).
   int exit_code() const;
   /// One line that says why the exit code is not 0; else empty.
   std::string failure() const;

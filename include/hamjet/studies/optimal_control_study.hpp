@@ -17,7 +17,7 @@ namespace hamjet {
 /// The optimal-control problems that scenes can name.
 enum class ControlModel { heisenberg, double_integrator };
 
-/// Their names in scenes, in the order of the enumeration.
+/// The models' names in scenes, in the order of the enumeration.
 const std::vector<std::string_view>& control_model_names();
 /// Names of a model's states, in order.
 const std::vector<std::string_view>& state_names(ControlModel model);
@@ -37,11 +37,11 @@ struct OptimalControlStudy {
   ControlModel model = ControlModel::heisenberg;
   Discretization discretization = Discretization::stormer;
   double duration = 1;                     ///< positive
-  std::size_t steps = 64;                  ///< equal ones
-  std::vector<std::size_t> refinements;    ///< numbers of steps of the convergence; may be empty
-  std::vector<double> start;               ///< n
-  std::vector<std::optional<double>> end;  ///< n; a component without a value is free
-  std::vector<double> costate_guess;       ///< n; empty: guessed_costate
+  std::size_t steps = 64;                  ///< number of equal steps
+  std::vector<std::size_t> refinements;    ///< numbers of steps for the convergence; may be empty
+  std::vector<double> start;               ///< n numbers
+  std::vector<std::optional<double>> end;  ///< n components; one without a value is free
+  std::vector<double> costate_guess;       ///< n numbers; empty: guessed_costate
   std::size_t shooting_intervals = 1;
   std::optional<double> require_cost_error;   ///< check: against the discrete closed form, relative
   std::optional<double> require_equivalence;  ///< check: difference of the two routes, relative
@@ -53,13 +53,13 @@ OptimalControlProblem make_problem(const OptimalControlStudy& study);
 /// The least cost over this number of steps; none where it is not elementary.
 std::optional<ClosedFormCost> closed_form_cost(const OptimalControlStudy& study, std::size_t steps);
 
-/// A first costate of the right order of magnitude: for the Heisenberg problem, of an arc that
-/// turns by 6 radians where nothing but z is to change, and by less where (x, y) is; zero for the
-/// double integrator, which is linear.
+/// A first costate of the right order of magnitude: for the Heisenberg problem that of an arc that
+/// turns by 6 radians where only z is to change, and by less where (x, y) is to change too; zero
+/// for the double integrator, which is linear.
 std::vector<double> guessed_costate(const OptimalControlStudy& study);
 
-/// Typical sizes of states and costates, 2n, from what start, end and duration ask for: all that is
-/// computed is then the same in other units.
+/// Typical sizes of states and costates, 2n numbers, from start, end and duration. Scaled by them,
+/// the computation is the same in all units.
 std::vector<double> typical_sizes(const OptimalControlStudy& study);
 
 /// The cost at one number of steps.
@@ -67,7 +67,7 @@ struct ControlConvergencePoint {
   std::size_t steps = 0;
   double cost = 0;
   std::optional<double> continuous_error;  ///< relative, against the continuous closed form
-  std::optional<double> discrete_error;    ///< relative, against the discrete one
+  std::optional<double> discrete_error;    ///< relative, against the discrete closed form
   std::string failure;                     ///< not empty: not solved, and why
 };
 
@@ -88,6 +88,7 @@ struct RouteComparison {
   double largest() const;
 };
 
+/// All results of the study.
 struct OptimalControlResult {
   OptimalControlStudy study;
   ShootingSolution solution;  ///< of the discrete maximum principle
@@ -107,11 +108,11 @@ struct OptimalControlResult {
   std::vector<std::string> failed_checks;
 
   /// Whether the solution costs less than all near it between the same ends, by Jacobi's condition:
-  /// false where it has a conjugate time; none where that is not decided, because the steps are too
-  /// long, an end is free, or the end itself is conjugate.
+  /// false where it has a conjugate time; no value where this cannot be decided, because the steps
+  /// are too long, an end is free, or the end itself is conjugate.
   std::optional<bool> is_local_least() const;
 
-  /// 0, 1 (a check failed) or 4 (a numerical failure left something out).
+  /// Exit code: 0, 1 (a check failed) or 4 (a numerical failure left something out).
   int exit_code() const;
 };
 

@@ -26,8 +26,8 @@ struct NominalPoint {
   double energy_error = 0;    ///< (H - H(0)) / |H(0)|; H - H(0) where H(0) = 0
 };
 
-/// One degree of the exactness residual with the floor below which it says nothing: the same
-/// computation on the reference rounded to the precision of the run. No value without a reference.
+/// One degree of the exactness residual, and the rounding floor below which it says nothing: the
+/// residual of the reference rounded to the run's precision. No floor without a reference.
 struct ExactnessEntry {
   ExactnessResidual residual;
   std::optional<ExactnessResidual> floor;
@@ -86,7 +86,7 @@ struct ReferenceResult {
   int stages = 0;
   double tolerance = 0;
 
-  /// Over all degrees.
+  /// The largest uncertainty over all degrees.
   double largest_uncertainty() const {
     return *std::max_element(uncertainty_by_degree.begin(), uncertainty_by_degree.end());
   }
@@ -119,12 +119,12 @@ struct PropagationResult {
   std::string
       reference_failure;  ///< not empty: the scene asks for a reference that failed, and why
   std::vector<RunResult> runs;
-  long floor_inversions = 0;  ///< of the reference's map, for the floors of exactness residuals
+  long floor_inversions = 0;  ///< of the reference's map, for rounding floors of exactness
   std::vector<RelativeHamiltonianResult> relative_hamiltonians;
   std::string relative_hamiltonian_failure;  ///< not empty: times are missing above, and why
 };
 
-/// A system in canonical units.
+/// A system in canonical units; `canonical_radius` is its gravity field's radius in them.
 DynamicalSystem make_system(const SystemSettings& settings, double canonical_radius);
 /// The system of a scene in canonical units.
 DynamicalSystem make_system(const Scene& scene);
@@ -132,7 +132,7 @@ DynamicalSystem make_system(const Scene& scene);
 /// What has to be computed for a scene: degrees of freedom that stay exactly zero and that the
 /// scene does not expand in are left out. Throws Error(too_large), naming the estimate, if the
 /// series would not fit `memory_limit` bytes, Error(usage) if an integrator is not in this build.
-/// Arcs are on `threads` threads.
+/// Arcs are integrated on `threads` threads.
 ComputedProblem make_problem(const Scene& scene, double memory_limit, std::size_t threads = 1);
 
 /// Bytes that the scene's runs need at most, from the counts of series and coefficients.
@@ -154,8 +154,8 @@ std::optional<GeneratingFunctionKind> figure_kind(const Scene& scene,
                                                   const ComputedProblem& problem);
 
 /// For each degree the largest difference of a coefficient from the reference's, relative to the
-/// reference's largest coefficient of that degree (over all components); 0 where both vanish. Up to
-/// the lower of the two orders.
+/// reference's largest coefficient of that degree (over all components); 0 where both vanish.
+/// Degrees go up to the lower of the two orders.
 std::vector<double> relative_error_by_degree(const FlowJet<Extended>& jet,
                                              const FlowJet<Extended>& reference);
 

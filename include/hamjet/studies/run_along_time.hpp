@@ -21,7 +21,7 @@ struct RunAlongTime {
   /// Canonical times, up to the last point, at which the kind that is watched does not exist: those
   /// of the flow itself, found by find_singular_times, whatever the integrator makes of it.
   std::vector<double> singular_times = {};
-  std::string not_searched = {};  ///< not empty: such times were not looked for, and why
+  std::string not_searched = {};  ///< not empty: singular times were not searched, and why
 };
 
 }  // namespace hamjet

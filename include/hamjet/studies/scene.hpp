@@ -6,8 +6,9 @@
 #include <string_view>
 #include <vector>
 
-#include "hamjet/dynamics/zonal_coefficients.hpp"
+#include "hamjet/studies/integration_method.hpp"
 #include "hamjet/studies/self_check_settings.hpp"
+#include "hamjet/studies/system_settings.hpp"
 #include "hamjet/studies/transfer_settings.hpp"
 
 namespace hamjet {
@@ -15,64 +16,8 @@ namespace hamjet {
 /// Arithmetic of the whole chain: binary64, or 113 significant bits (Boost.Multiprecision).
 enum class Precision { double_precision, extended };
 
-/// To which a number is rounded: the machine epsilon of that arithmetic.
+/// The machine epsilon of an arithmetic, to which its numbers are rounded.
 double rounding_of(Precision precision);
-
-/// The dynamics. Which of the numbers below count depends on the model.
-enum class SystemModel {
-  zonal_gravity,
-  kepler,
-  harmonic_oscillator,
-  double_well,
-  oscillator_pair,
-  spring_pendulum,
-  fermi_pasta_ulam,
-};
-
-/// The models' names in scenes, in the order of the enumeration.
-const std::vector<std::string_view>& model_names();
-
-/// Whether a model is an orbit in space: three degrees of freedom, kilometres. The others have one
-/// or more degrees of freedom and metres.
-bool is_orbit(SystemModel model);
-
-/// The numbers of degrees of freedom that a model can have, ascending: a single one, but for the
-/// chain fermi-pasta-ulam, whose length the scene chooses.
-std::vector<std::size_t> possible_degrees_of_freedom(SystemModel model);
-
-/// Names of the variables (q, p), in the order of the state: x, y, z, px, py, pz for an orbit; q, p
-/// for one degree of freedom; else q1, q2, ..., p1, p2, .... `degrees_of_freedom` must be possible.
-std::vector<std::string_view> variable_names(SystemModel model, std::size_t degrees_of_freedom);
-
-/// Where the gravity field of a scene comes from, if it is a file.
-struct GravityFile {
-  std::string file;         ///< as the scene names it
-  std::string model_name;   ///< from the file's header; empty where it has none
-  std::string tide_system;  ///< the same; "unknown" where it has none
-};
-
-/// Table `[system]`.
-struct SystemSettings {
-  SystemModel model = SystemModel::zonal_gravity;
-  double mu_km3_s2 = 0;  ///< zonal-gravity, kepler: gravitational parameter
-  double radius_km = 0;  ///< zonal-gravity: the radius that the J_n refer to; 0 if without them
-  ZonalCoefficients J;   ///< zonal-gravity: 0 where the scene has none
-  double mass_kg = 1;    ///< harmonic-oscillator, oscillator-pair, spring-pendulum
-  double stiffness_N_per_m = 1;         ///< the same; of a pair that of the first oscillator
-  double second_stiffness_N_per_m = 1;  ///< oscillator-pair: of the second oscillator
-  double length_m = 1;                  ///< spring-pendulum: of the spring at rest
-  double gravity_m_s2 = 0;              ///< spring-pendulum: toward negative q2
-  double omega_rad_per_s = 0;           ///< fermi-pasta-ulam: frequency of the stiff springs
-  std::size_t pairs = 1;                ///< fermi-pasta-ulam: number of stiff springs
-  /// zonal-gravity: what mu, radius and J were read from.
-  std::optional<GravityFile> gravity_file;
-};
-
-/// The number of degrees of freedom of a system.
-std::size_t degrees_of_freedom_of(const SystemSettings& settings);
-
-/// Names of a system's variables, see above.
-std::vector<std::string_view> variable_names(const SystemSettings& settings);
 
 /// Canonical units: SI value = canonical value times these. For an orbit the length is the
 /// nominal's initial radius, or what the scene chooses, and mu = 1; for the other models metre and
@@ -80,36 +25,6 @@ std::vector<std::string_view> variable_names(const SystemSettings& settings);
 struct CanonicalUnits {
   double length_km = 1;
   double time_s = 1;
-};
-
-enum class IntegrationMethod {
-  gauss,
-  stormer,
-  velocity_verlet,
-  newmark,
-  fehlberg78,
-  cvode_adams,
-  cvode_bdf,
-};
-
-/// The methods' names in scenes, in the order of the enumeration.
-const std::vector<std::string_view>& method_names();
-
-/// Whether a method is one of SUNDIALS CVODE, which a build may lack.
-bool is_cvode(IntegrationMethod method);
-
-/// One table `[[integrator]]`.
-struct IntegratorSettings {
-  std::string label;
-  IntegrationMethod method = IntegrationMethod::gauss;
-  int stages = 8;                        ///< Gauss only
-  int order = 2;                         ///< velocity Verlet only; 4, 6, 8: symmetric compositions
-  double beta = 0.25;                    ///< Newmark only
-  bool compensated_summation = true;     ///< Gauss only
-  std::optional<double> step_canonical;  ///< fixed steps (positive; the sign follows the duration)
-  std::optional<double> tolerance;       ///< adaptive steps; exactly one of the two is set
-  std::optional<double> require_relative_error;  ///< check: largest relative error over all degrees
-  std::optional<double> require_symplecticity;   ///< check: largest scaled symplecticity defect
 };
 
 /// Table `[reference]`.
@@ -126,7 +41,7 @@ struct ComparisonSettings {
   std::vector<int> orders;                 ///< of the cost against order; empty: 1 to jet.order
   int repeats = 5;                         ///< timings of each run
   double time_budget_s = 150;  ///< of all integrations; what would exceed it is left out
-  double wanted_error_m = 1;   ///< at formation scale: of the verdict and the advice
+  double wanted_error_m = 1;   ///< at formation scale; for verdict and advice
 };
 
 /// What `hamjet run` draws along time.
@@ -157,7 +72,7 @@ struct EphemerisSettings {
   std::string deputy_name = "DEPUTY";  ///< of the spacecraft that flies relative to the nominal
   std::string deputy_id = "UNKNOWN";
   std::string originator = "HAMJET";  ///< who made the message
-  std::string oem_version = "2.0";    ///< of what is written, or "3.0"
+  std::string oem_version = "2.0";    ///< version that is written; or "3.0"
 };
 
 /// The message that the nominal's start was read from.

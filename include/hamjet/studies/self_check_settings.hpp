@@ -10,7 +10,7 @@ namespace hamjet {
 
 /// What a run checks of its own result; see self_checks.
 enum class SelfCheckName {
-  finite,          ///< no number of the result is infinite or none
+  finite,          ///< every number of the result is finite
   convergence,     ///< the equations of implicit methods were solved to round-off in every step
   step_error,      ///< the method's own estimate of its local error
   energy,          ///< the energy along the nominal

@@ -32,7 +32,7 @@ struct EnergyAlongNominal {
   double initial = 0;
   double largest_change = 0;  ///< of H, since the start
   double initial_terms = 0;   ///< size of the terms that cancel in H: |H| + sum |z_i dH/dz_i|
-  double largest_terms = 0;   ///< the same, its largest along the nominal
+  double largest_terms = 0;   ///< largest |H| + sum |z_i dH/dz_i| along the nominal
   double seconds = 0;         ///< that the evaluation took
 };
 
@@ -52,7 +52,7 @@ struct JetErrorEstimate {
   std::string failure;                           ///< not empty: there is none, and why
   double seconds = 0;                            ///< that it took
 
-  /// Over all degrees; there must be an estimate.
+  /// The largest error over all degrees; `by_degree` must have a value.
   double largest() const { return *std::max_element(by_degree->begin(), by_degree->end()); }
 };
 
@@ -100,10 +100,10 @@ struct InversionQuality {
 /// error-estimate: the estimated error of the degree that exceeds its limit most, see
 /// estimate_error. Limit with a tolerance: error_estimate_safety times the sum of 100 tolerance n,
 /// n being the periods of the linearised motion (IntegrationStatistics::periods) for Gauss and the
-/// steps for other methods, at least 1; and of ten floors for rounding, at most 1e-3, a floor being
-/// the larger of what shorter steps did not take away (rounding_by_degree) and sqrt(1 + steps)
-/// times what half-ulp changes of the start change in the degree. Fixed steps promise nothing, and
-/// have a limit only where the scene sets one, for all degrees.
+/// steps for other methods, at least 1; and of ten rounding floors, at most 1e-3, a rounding floor
+/// being the larger of what shorter steps did not take away (rounding_by_degree) and sqrt(1 +
+/// steps) times what half-ulp changes of the start change in the degree. Fixed steps promise
+/// nothing, and have a limit only where the scene sets one, for all degrees.
 std::vector<SelfCheck> self_checks(const Scene& scene, const RunResult& run);
 
 }  // namespace hamjet

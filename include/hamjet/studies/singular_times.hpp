@@ -21,15 +21,16 @@ class LinearFlow {
 
   /// Checkpoints follow the largest rate |lambda| of the linearised equations: they are 2 sqrt(2)
   /// pi / (|lambda| `per_revolution`) apart, which on an orbit is `per_revolution` in a revolution
-  /// of a circular one and elsewhere proportional to r^(3/2); never farther than that part of the
-  /// span, or than twice the last distance. The problem must outlive this object. Throws
-  /// Error(usage) unless it is expanded in all variables, Error(too_large) beyond 100 000
+  /// of a circular one and elsewhere proportional to r^(3/2); never farther than the span over
+  /// `per_revolution`, or than twice the last distance. The problem must outlive this object.
+  /// Throws Error(usage) unless it is expanded in all variables, Error(too_large) beyond 100 000
   /// checkpoints, Error(numerical) as integrate_gauss.
   LinearFlow(const ComputedProblem& problem, double duration, double per_revolution,
              const std::function<void(double)>& progress = {});
 
+  /// The matrix from time 0 to a canonical time.
   StateTransition at(double time) const;
-  /// The nominal's state (q, p) then.
+  /// The nominal's state (q, p) at a canonical time.
   std::vector<double> nominal(double time) const;
   const std::vector<double>& times() const noexcept { return times_; }  ///< of the checkpoints
   const StateTransition& checkpoint(std::size_t i) const { return matrices_[i]; }
@@ -46,7 +47,7 @@ class LinearFlow {
   std::vector<StateTransition> matrices_;
 };
 
-/// The block that a kind inverts, see inverted_block.
+/// The block of a linear flow that a kind inverts, n x n.
 Matrix<double> inverted_block(const LinearFlow::StateTransition& flow,
                               const GeneratingFunctionKind& kind);
 
@@ -55,8 +56,8 @@ struct SingularTime {
   GeneratingFunctionKind kind;
   double time = 0;  ///< canonical
   /// Half the span of time about it, canonical, within which the block cannot be told from a
-  /// singular one, for the flow's matrix is known to rounding alone: the time is known so well, and
-  /// zeros closer than that are one. Of the order of the rounding at a zero that is passed with a
+  /// singular one, for the flow's matrix is known to rounding alone: the time is known no better,
+  /// and closer zeros count as one. Of the order of the rounding at a zero that is passed with a
   /// slope, of its square root at one that is touched.
   double resolution = 0;
   /// How many singular values rounding cannot tell from zero: 2 at a double zero, as at the full
@@ -71,8 +72,8 @@ struct SingularTime {
   /// Unit vector in the space of the chosen final variables (inertial, for an orbit): for F1 the
   /// direction of the final position that no initial velocity commands.
   Vector<double> direction = {};
-  /// The same along R, T, N of the chief at that time; absent where the chief has no orbital plane,
-  /// and where nobody asked.
+  /// `direction` along R, T, N of the chief at that time; absent where the chief has no orbital
+  /// plane, or nobody asked for it.
   std::optional<Eigen::Vector3d> direction_rtn = std::nullopt;
 };
 
@@ -83,9 +84,9 @@ struct SingularTime {
 /// double zeros of Kepler's full periods into pairs some thousandths of a time unit apart).
 /// Intervals about either are divided twice more, into eight and into four. A minimum that rounding
 /// cannot tell from zero counts as one without a change of sign. Each time comes with its
-/// resolution; two zeros that are nearer than theirs are one. Missed are zeros that come in pairs
-/// between two points so divided, without a minimum there, or where none of the checkpoints showed
-/// anything.
+/// resolution; two zeros that are nearer than that count as one. Missed are zeros that come in
+/// pairs between two points so divided, without a minimum there, or where none of the checkpoints
+/// showed anything.
 ///
 /// The determinant's sign is that of the singular vectors' determinants: its value, summed from
 /// products, has no sign left where two singular values are below the square root of rounding.
@@ -95,13 +96,14 @@ std::vector<SingularTime> find_singular_times(const LinearFlow& flow,
 /// Checkpoints in a revolution, unless a caller knows better.
 inline constexpr double checkpoints_per_revolution = 240;
 
-/// The times at which a kind does not exist, for those who want no more of them.
+/// The times at which a kind does not exist, without the details of SingularTime.
 struct TimesWithoutKind {
   std::vector<double> times;  ///< canonical
   std::string not_searched;   ///< not empty: the span was too long, or the flow ends, and why
 };
 
-/// Of a flow over a duration.
+/// Finds the times at which a kind does not exist, over a canonical duration of a problem's flow. A
+/// numerical failure, or too long a span, is recorded in the result.
 TimesWithoutKind times_without_kind(const ComputedProblem& problem, double duration,
                                     const GeneratingFunctionKind& kind,
                                     const std::function<void(double)>& progress = {});

@@ -27,15 +27,15 @@ const char* outcome_name(CaseOutcome outcome);
 /// How a quantity is expected to grow along a case's duration: exponents of time that a fit through
 /// its values at some times must not exceed, or must meet.
 struct GrowthExpectation {
-  /// That many values, at 1, 1/2, 1/4, ... of the duration, where no times are given.
+  /// Number of values, at 1, 1/2, 1/4, ... of the duration; used where no times are given.
   int checkpoints = 8;
   std::vector<double> times;     ///< canonical, away from 0; each must be the end of a step
   std::vector<Extended> states;  ///< true nominal at these times, 2n numbers each; empty: computed
-  /// Errors are the root mean square over that many starts, each an ulp further from the scene's in
-  /// every component: round-off is random, and a fit to one sample of it would be too.
+  /// Number of starts, each an ulp further from the scene's in every component. Errors are the root
+  /// mean square over them: a fit to one sample would be as random as its round-off.
   int samples = 1;
-  std::optional<double> error_exponent;       ///< of the nominal's error: not above
-  std::optional<double> energy_exponent;      ///< of the energy error: not above
+  std::optional<double> error_exponent;       ///< upper bound for the nominal's error
+  std::optional<double> energy_exponent;      ///< upper bound for the energy error
   std::vector<double> coefficient_exponents;  ///< of the largest coefficient of degree 1, 2, ...
   double exponent_tolerance = 0.1;            ///< of the coefficients' exponents
 };
@@ -54,16 +54,16 @@ struct StabilityExpectation {
   std::vector<Extended> state;
   /// First derivatives of the final by the initial state, by rows, 2n x 2n; empty: not compared.
   std::vector<Extended> matrix;
-  /// What the method may miss besides rounding: a result passes within
-  /// tolerance + rounding_factor * floor, see MeasuredError.
+  /// What the method may miss besides rounding: a result passes within tolerance + rounding_factor
+  /// * MeasuredError::floor.
   double tolerance = 0;
-  /// The same jet another way, compared coefficient by coefficient up to the lower order, relative
-  /// to the largest of the degree.
+  /// A scene that gives the same jet in another way: compared coefficient by coefficient up to the
+  /// lower order, relative to the largest of the degree.
   std::optional<Scene> twin;
   bool round_trip = false;  ///< out and back: the start is compared
   std::optional<ConditionExpectation> condition;
   std::optional<GrowthExpectation> growth;
-  int exit_code = 0;    ///< refused
+  int exit_code = 0;    ///< refused: the one expected
   std::string message;  ///< refused: a part of the error
   std::string mark;     ///< marked: the self-check that must fail
 };
@@ -75,29 +75,29 @@ struct StabilityCase {
   std::string group;
   std::string why;  ///< what is hard about it
   StabilityExpectation expected;
-  std::variant<Scene, Error> scene;  ///< or why it was refused as it was read
+  std::variant<Scene, Error> scene;  ///< or the error that refused it on reading
 };
 
 /// How far a result may be from the largest of a sample of 32 in which everything is rounded once.
 /// A step rounds a number not once but, say, 16 times, one after another (powers of the distance,
-/// sums of the stages): that is 4 times as much where each rounding is independent of the others.
-/// And a single draw of a normal distribution exceeds the largest of 32 others 2.5-fold once in
-/// 100 000 times.
+/// sums of the stages): that is 4 times as much where each rounding is independent of the others. A
+/// single draw of a normal distribution exceeds the largest of 32 others 2.5-fold once in 100 000
+/// times.
 inline constexpr double rounding_factor = 4 * 2.5;
 
-/// An error against what it may be.
+/// An error, and how large it may be.
 struct MeasuredError {
   std::string quantity;
   double error = 0;
-  /// What rounding alone does: the largest in a sample of random roundings at the start, in every
-  /// step and at the end, carried along the flow; 0 where the error is not one of a state or a
-  /// matrix.
+  /// The rounding floor, what rounding alone does: the largest in a sample of random roundings at
+  /// the start, in every step and at the end, carried along the flow; 0 where the error is not that
+  /// of a state or a matrix.
   double floor = 0;
   double tolerance = 0;
 
   double allowed() const { return tolerance + rounding_factor * floor; }
-  /// At most 1 where the error is allowed; infinite where none is and there is one, or where it is
-  /// not a number.
+  /// The error over the allowed one: at most 1 if it passes; infinite if no error is allowed and
+  /// there is one, or if it is not a number.
   double ratio() const;
 };
 

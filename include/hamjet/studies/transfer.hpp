@@ -20,8 +20,8 @@ struct TransferAnswer {
   Eigen::Vector3d end_change_m_s = Eigen::Vector3d::Zero();
   /// Sum of the two magnitudes.
   double total_change_m_s() const { return start_change_m_s.norm() + end_change_m_s.norm(); }
-  /// Distance, in metres, of the flown deputy from the wanted end position. Flown with the full
-  /// equations of motion.
+  /// Distance, in metres, of the deputy, flown with the full equations of motion, from the wanted
+  /// end position.
   double miss_m = 0;
   std::string failure;  ///< not empty: no answer of this order, and why; the numbers are 0
 };
@@ -39,15 +39,15 @@ struct TransferPoint {
   std::vector<TransferAnswer> answers;  ///< orders 1..N
   std::optional<TransferAnswer> refined;
   int refinement_flights = 0;
-  bool is_beyond_tolerance = false;  ///< the miss of order N exceeds the scene's
-  /// Of the Hamilton-Jacobi equation of the kind used, at the transfer's own boundary values: see
-  /// HamiltonJacobiTerms::scaled.
+  bool is_beyond_tolerance = false;  ///< the miss of order N exceeds the scene's tolerance
+  /// Scaled residual of the Hamilton-Jacobi equation of the kind used, at the transfer's own
+  /// boundary values, see HamiltonJacobiTerms::scaled.
   std::optional<double> hamilton_jacobi_residual;
   std::string failure;  ///< not empty: no kind exists, and why; `answers` is empty
 
   bool has_answer() const { return !answers.empty() && answers.back().failure.empty(); }
   bool is_refined() const { return refined && refined->failure.empty(); }
-  /// Proved to come within the tolerance, and away from singularities.
+  /// Whether it is proved to come within the tolerance, and is away from singularities.
   bool is_candidate() const {
     return has_answer() && !is_near_singular && (!is_beyond_tolerance || is_refined());
   }
@@ -71,10 +71,11 @@ struct TransferSeconds {
   double proof = 0;          ///< deputies flown, and the refinement
   double residual = 0;       ///< Hamilton-Jacobi residuals
 
-  /// What the answers themselves cost.
+  /// Seconds that the answers took, without their proof and residuals.
   double study() const { return propagation + singularities + inversion + solution; }
 };
 
+/// All results of the study of table `[transfer]`.
 struct TransferResult {
   Scene scene;  ///< with `transfer`
   std::string integrator;
@@ -82,25 +83,25 @@ struct TransferResult {
   std::vector<TransferPoint> points;         ///< one a transfer time
   std::vector<SingularTime> singular_times;  ///< of all 64 kinds, in order of kind and time
   KindConditions conditions;
-  /// Rounding of the flights' positions, grown with the linear flow to the last time; metres.
+  /// Rounding floor of the flown positions, grown with the linear flow to the last time; metres.
   /// Misses below this say nothing.
   double flight_floor_m = 0;
   /// Distance, at the last time, of the jet's nominal from the chief as it was flown, metres. Ends
   /// are relative to the flown chief, so that an inaccurate integrator shows in the misses.
   double chief_error_m = 0;
-  /// By how much changes of an ulp in the jet's coefficients change the largest Hamilton-Jacobi
-  /// residual: the most in a sample of sixteen.
+  /// Rounding floor of the largest Hamilton-Jacobi residual: the most that changes of an ulp in the
+  /// jet's coefficients change it, in a sample of sixteen.
   std::optional<double> hamilton_jacobi_floor;
   /// The least answer between the listed times, looked for about the lowest of them, where it is
   /// lower than at any listed time.
   std::optional<TransferPoint> least_between;
-  std::size_t times_between = 0;  ///< so many further times were answered for it
+  std::size_t times_between = 0;  ///< number of further times answered for it
   TransferSeconds seconds;
 
   /// Index of the point with the least total velocity change among answers that are within the
   /// tolerance, by themselves or refined, and not near a singularity; absent if there is none.
   std::optional<std::size_t> best_point() const;
-  /// Those of position to position (F1).
+  /// The singular times of F1, from position to position.
   std::vector<SingularTime> position_singularities() const;
 };
 
@@ -123,8 +124,8 @@ struct EarlierJet {
 TransferResult study_transfer(const Scene& scene, const ProgressCallback& progress = {},
                               const EarlierJet* earlier = nullptr);
 
-/// 0; 1 if the scene is strict and an answer away from singularities is missing, beyond its
-/// tolerance or could not be refined; 4 if no transfer time has an answer.
+/// Exit code: 0; 1 if the scene is strict and an answer away from singularities is missing, beyond
+/// its tolerance or could not be refined; 4 if no transfer time has an answer.
 int exit_code(const TransferResult& result);
 
 /// A flown deputy relative to its chief, along R, T, N whatever the scene's frame (along the

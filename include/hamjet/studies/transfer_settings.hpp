@@ -49,7 +49,7 @@ enum class AssignmentTime {
 /// Table `[assignment]`: deputies and the slots that they may fill, in the frame of `[transfer]`.
 struct AssignmentSettings {
   std::vector<RelativeState> deputies;
-  std::vector<RelativeState> slots;  ///< as many
+  std::vector<RelativeState> slots;  ///< as many as deputies
   AssignmentTime time = AssignmentTime::per_pair;
 };
 

@@ -18,12 +18,13 @@ struct ValidityEntry {
   bool is_at_limit = false;  ///< still right at the largest separation tried: a lower bound
 };
 
-/// Of one time.
+/// The validity of all orders at one time.
 struct ValidityPoint {
   double time = 0;                     ///< canonical
   std::vector<ValidityEntry> entries;  ///< orders 1..N
 };
 
+/// All results of the study of table `[validity]`.
 struct ValidityResult {
   Scene scene;  ///< with `validity`
   std::string integrator;
@@ -40,9 +41,9 @@ struct ValidityResult {
 /// random ones and, for each order, those at which its error is largest by the next degree's part
 /// (found by gradient ascent from the largest samples). The miss is the distance between the final
 /// position that the jet's polynomial gives and that of the flown deputy. The prediction takes the
-/// error of order k for the part of degree k
-/// + 1, whose largest value over the samples grows as the separation to the power k + 1; that of
-/// the highest order is extrapolated from the ratio of the last two. Throws as study_transfer.
+/// part of degree k + 1, whose largest value over the samples grows as the separation to the power
+/// k + 1, for the error of order k; that of the highest order is extrapolated from the ratio of the
+/// last two. Throws as study_transfer.
 ValidityResult study_validity(const Scene& scene, const ProgressCallback& progress = {});
 
 }  // namespace hamjet

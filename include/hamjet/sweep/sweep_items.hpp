@@ -20,18 +20,18 @@ using SweepValue = std::variant<std::monostate, bool, double, std::string>;
 /// What became of one item.
 struct SweepRow {
   std::size_t item = 0;
-  int exit_code = 0;  ///< as of the item's command; with 1 (a check failed) there are values too
+  int exit_code = 0;  ///< of the item's command; with 1 (a check failed) there are values too
   std::string error;  ///< one line, if the exit code is not 0
   std::vector<SweepValue> values;  ///< one a column
-  /// A column that leads nowhere in the summary of the item, and its place in the study; not
-  /// stored.
+  /// Not empty: a column leads nowhere in the item's summary; the message names it and its place in
+  /// the study. Not stored.
   std::string astray = {};
 
   bool operator==(const SweepRow&) const = default;
 };
 
-/// Computes one item. What fails is in its row, with exit code 3 a column that leads nowhere in the
-/// summary; thrown is what `progress` throws. Items share nothing but the study.
+/// Computes one item. A failure is recorded in the row, with exit code 3 if a column leads nowhere
+/// in the summary; only what `progress` throws is thrown. Items share nothing but the study.
 SweepRow run_sweep_item(const SweepStudy& study, std::size_t item,
                         const ProgressCallback& progress = {});
 
@@ -49,17 +49,18 @@ class SweepDirectory {
   /// Writes the manifest, or compares with the one that is there. Throws Error(usage) if that is
   /// another study's, Error(input_output).
   SweepDirectory(std::filesystem::path path, const SweepStudy& study);
-  /// One that is there, with the study in it. Throws Error(input_output).
+  /// The study of a sweep whose folder exists, from its manifest. Throws Error(input_output).
   static SweepStudy study_in(const std::filesystem::path& path);
 
   const std::filesystem::path& path() const noexcept { return path_; }
 
-  /// Throws Error(input_output).
+  /// Stores a row as the file of its item. Throws Error(input_output).
   void write(const SweepRow& row) const;
-  /// The row of an item, checked: of this manifest, with its own checksum. Nothing if it is not
+  /// The row of an item, checked: of this manifest, with its own checksum. No value if it is not
   /// whole. Throws Error(input_output) if it is there and cannot be read.
   std::optional<SweepRow> read(std::size_t item, RowState* state = nullptr) const;
-  /// Removes what processes that were killed have left. Only when no other is at work.
+  /// Removes what processes that were killed have left. To be called only when no other process is
+  /// at work.
   void remove_leftovers() const;
 
  private:

@@ -9,11 +9,11 @@
 
 namespace hamjet::io {
 
-/// The rows of a sweep as they are in its folder, and what is wrong with those that are not.
+/// The rows of a sweep that its folder has, and why others cannot be read.
 struct SweepRows {
   std::vector<std::optional<SweepRow>> rows;  ///< one an item
-  std::size_t damaged = 0;                    ///< of those without a row: a file that is not whole
-  std::size_t foreign = 0;                    ///< the same: a row of another study
+  std::size_t damaged = 0;                    ///< items whose file is not whole
+  std::size_t foreign = 0;                    ///< items whose file has a row of another study
 };
 SweepRows read_sweep_rows(const SweepStudy& study, const SweepDirectory& directory);
 

@@ -15,6 +15,7 @@ namespace hamjet::io {
 /// Which command the items of a sweep are: what `hamjet run`, `transfer`, `validity` or `assign`
 /// computes, without files and plots.
 enum class SweepCommand { run, transfer, validity, assign };
+/// The commands' names, in the order of the enumeration.
 const std::vector<std::string_view>& sweep_command_names();
 
 /// A key of the scene that differs from item to item.
@@ -50,7 +51,7 @@ struct SweepStudy {
   std::string scene;                 ///< the base scene's file, as the study names it
   std::string scene_text;            ///< its content
   std::filesystem::path scene_path;  ///< where it is; empty in a study that a manifest gave
-  std::vector<Override> constants;   ///< the same for all items
+  std::vector<Override> constants;   ///< changes that all items share
   std::vector<std::string> constant_places;
   bool is_grid = false;  ///< the items are all combinations of the keys' values
   std::vector<SweepKey> keys;
@@ -60,7 +61,7 @@ struct SweepStudy {
   std::optional<SweepMap> map;
 };
 
-/// Most items of a sweep.
+/// The most items that a sweep may have.
 inline constexpr std::size_t most_sweep_items = 1'000'000;
 
 /// Reads a study and its base scene. Throws Error(input_output) if one of them cannot be read,
@@ -68,7 +69,7 @@ inline constexpr std::size_t most_sweep_items = 1'000'000;
 /// `most_sweep_items`. The scenes of the items are not read (see `check_sweep_items`).
 SweepStudy read_sweep_study(const std::filesystem::path& file);
 
-/// The same from text, of a study with this file name; `read_scene` brings the text of the base
+/// read_sweep_study from text; `file` names the study, and `read_scene` brings the text of the base
 /// scene, for example from memory.
 SweepStudy parse_sweep_study(
     std::string_view text, const std::filesystem::path& file,
@@ -80,7 +81,7 @@ std::vector<Override> sweep_overrides(const SweepStudy& study, std::size_t item)
 /// A value as a table shows it: a string without its quotes.
 std::string shown_sweep_value(const std::string& value);
 
-/// "nominal.e = 0.1, nominal.i_deg = 30"
+/// The keys of one item with their values: "nominal.e = 0.1, nominal.i_deg = 30".
 std::string sweep_item_text(const SweepStudy& study, std::size_t item);
 
 /// The study as one JSON object that ends with the CRC-32 of itself: equal texts mean equal sweeps.

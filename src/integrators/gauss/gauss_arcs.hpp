@@ -63,8 +63,9 @@ class GaussArcs : public ArcIntegrator<Real> {
     const double coefficients = static_cast<double>(space.first(order + 1));
     // Linear solves and linear parts of all values, a coefficient and stage.
     const double linear = components * (components * stages + dimension) + components * values;
-    // Once a step: the elimination of a matrix of `unknowns` rows with as many and 2n right-hand
-    // sides; evaluations in Newton's iteration, its responses, extrapolation. All on packs.
+    // Costs once a step: the elimination of a matrix of `unknowns` rows with as many and 2n
+    // right-hand sides; evaluations in Newton's iteration, its responses, extrapolation. All on
+    // packs.
     const double unknowns = components * stages;
     const double elimination =
         elimination_weight * unknowns * (1.5 * unknowns + dimension) * components;

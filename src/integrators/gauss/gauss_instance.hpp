@@ -6,7 +6,7 @@
 #include "gauss_integrator.hpp"
 #include "gauss_lanes.hpp"
 
-// What gauss_lanes.cpp.in makes instances of.
+// The functions that gauss_lanes.cpp.in instantiates.
 
 namespace hamjet {
 

@@ -56,7 +56,7 @@ class GaussIntegrator {
     return finish();
   }
 
-  /// As `run`, telling `keep` where the nominal stands at the start and after every step, if
+  /// Runs like `run`, telling `keep` where the nominal stands at the start and after every step, if
   /// `is_kept(taken)`.
   template <class IsKept, class Keep>
   FlowJet<Real> run_nominal(const StepObserver<Real>& observer, const IsKept& is_kept,
@@ -71,9 +71,9 @@ class GaussIntegrator {
     return finish();
   }
 
-  /// The steps of an earlier run of the same nominal from a checkpoint on, to the `last`-th. What
-  /// that run found is taken over where `after(taken)` has the checkpoint of so many steps, and
-  /// found again, with the same result, where it is null.
+  /// Takes the steps of an earlier run of the same nominal from a checkpoint on, to the `last`-th.
+  /// What that run found is taken over where `after(taken)` has the checkpoint of so many steps,
+  /// and found again, with the same result, where it is null.
   template <class After>
   FlowJet<Real> run_from(const GaussCheckpoint<Real, Lanes>& start, long last, const After& after,
                          const StepObserver<Real>& observer) {
@@ -106,9 +106,9 @@ class GaussIntegrator {
     return {jet_.constants(), jet_.lost_constants(), at_, stages_.slopes(), end_slope_};
   }
 
-  /// A step is repeated if its error estimate exceeds the tolerance more than this: the estimate
-  /// goes as h^(2s), so that a step hardly too long is not worth repeating.
-  /// Where every degree counts the tolerance is far below what is wanted.
+  /// A step is repeated if its error estimate exceeds the tolerance by more than this factor: the
+  /// estimate goes as h^(2s), so that a step hardly too long is not worth repeating. Where every
+  /// degree counts, the tolerance is far below what is wanted.
   double largest_excess() const { return settings_.controls_all_degrees ? 1000 : 10; }
 
   /// Adds the time since `mark` to one entry of the profile and moves the mark.
@@ -131,7 +131,7 @@ class GaussIntegrator {
     }
   }
 
-  /// The slopes g at the state's constant terms.
+  /// Evaluates the slopes g at the state's constant terms.
   void evaluate_end_slope(std::vector<Real>& slope) {
     const std::size_t m = stages_.system().components();
     for (std::size_t c = 0; c < m; ++c) *point_.input(c) = jet_.value()[c][0];
@@ -215,7 +215,7 @@ class GaussIntegrator {
                      ? problem_.duration
                      : problem_.duration - at_.proposed * Real(at_.remaining_steps);
     } else {
-      // Thousands of steps would else end beside the duration, by what each addition rounds off.
+      // Without compensation the rounding of thousands of steps would miss the duration.
       add_compensated(at_.time, at_.lost_time, h);
       if (h == remaining) at_.time = problem_.duration;
       at_.proposed = h * Real(std::clamp(growth, 0.1, 4.0));
@@ -225,14 +225,14 @@ class GaussIntegrator {
     account(&GaussProfile::update, mark);
   }
 
-  /// A step, shortened to what samples the field's shortest wave.
+  /// The step h, shortened to what samples the field's shortest wave.
   Real sampling_step(const Real& h) const {
     const double longest = control_.longest_sampling_step(*problem_.system, start());
     if (!(static_cast<double>(magnitude(h)) > longest)) return h;
     return h < 0 ? Real(-longest) : Real(longest);
   }
 
-  /// A step that an earlier run of the same nominal took.
+  /// Repeats a step that an earlier run of the same nominal took.
   void repeat_step(const GaussCheckpoint<Real, Lanes>& end) {
     auto mark = Clock::now();
     step_ = end.at.previous_step;
@@ -257,9 +257,9 @@ class GaussIntegrator {
                     settings_.stages, static_cast<double>(h), static_cast<double>(at_.time)));
   }
 
-  /// Degree 0 of a step: Newton from the extrapolated slopes, from constant slopes if that fails,
-  /// and along growing step sizes where the solution found might not be the one connected to the
-  /// start.
+  /// Solves degree 0 of a step by Newton's method: from the extrapolated slopes, from constant
+  /// slopes if that fails, and along growing step sizes where the solution found might not be the
+  /// one connected to the start.
   bool solve_nominal(const Real& h) {
     if (guess_ != Guess::none) {
       if (guess_ == Guess::last_step) {
@@ -366,7 +366,7 @@ class GaussIntegrator {
     return result;
   }
 
-  /// The degrees 1..N of the stages; false if their equations cannot be solved.
+  /// Solves the degrees 1..N of the stages; false if their equations cannot be solved.
   bool solve_degrees(Clock::time_point& mark) {
     // Univariate series are too few for a factorisation. Others are all solved by one, so that the
     // first degrees do not depend on the order.
@@ -390,7 +390,7 @@ class GaussIntegrator {
     return true;
   }
 
-  /// The new state from the stages.
+  /// Advances the jet to the new state, from the stages.
   void advance_jet(const Real& h) {
     jet_.advance(stages_, h, order_);
     evaluate_end_slope(end_slope_);
@@ -408,8 +408,8 @@ class GaussIntegrator {
   GaussStepControl<Real, Lanes> control_;
   std::vector<const Real*> state_;
   GaussStepping<Real> at_;
-  Real step_ = 0;  ///< being tried
-  /// What the slopes are of, from which those of the next try are guessed.
+  Real step_ = 0;  ///< the step that is being tried
+  /// The step whose slopes the next try's are guessed from.
   enum class Guess { none, last_step, repeated_step };
   Guess guess_ = Guess::none;
   Real repeated_step_ = 0;       ///< the size that was refused

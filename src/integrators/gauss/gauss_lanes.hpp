@@ -14,13 +14,13 @@ template <int Lanes, class Real>
 FlowJet<Real> run_gauss(const FlowProblem<Real>& problem, const GaussSettings& settings,
                         IntegrationStatistics& statistics, const StepObserver<Real>& observer);
 
-/// The same in arcs.
+/// The arc integrator of a Gauss method, for one number of lanes.
 template <int Lanes, class Real>
 std::unique_ptr<ArcIntegrator<Real>> make_gauss_arcs(const FlowProblem<Real>& problem,
                                                      const GaussSettings& settings);
 
-/// Calls with the number of lanes, an integral constant: the stages fill the lanes of a pack, and
-/// the smallest of five widths that holds them is taken.
+/// Calls `call` with the number of lanes, an integral constant: the stages fill the lanes of a
+/// pack, and the smallest of five widths that holds them is taken.
 template <class Call>
 auto with_lanes(int stages, const Call& call) {
   if (stages == 1) return call(std::integral_constant<int, 1>{});

@@ -19,7 +19,7 @@ class GaussStepControl {
  public:
   using P = Pack<Real, Lanes>;
 
-  /// Looks at what the integrator that it serves has in these objects.
+  /// Looks at the objects of the integrator that it serves, which must outlive it.
   GaussStepControl(const GaussSettings& settings, StageSlopes<Real, Lanes>& stages,
                    SummedJet<Real, Lanes>& jet, int order)
       : settings_(settings), stages_(stages), jet_(jet), order_(order) {
@@ -59,10 +59,11 @@ class GaussStepControl {
     return result;
   }
 
-  /// From the Legendre mode of degree 2s of the slopes, the first that the method does not
-  /// integrate, relative to the slopes: the square of the mode of degree s, which shows as the
-  /// defect at the start of the step (where that happens to vanish, the last mode kept, which has
-  /// the other parity, does not), or what the decay of the last modes lets expect, if that is more.
+  /// The error of a step, from the Legendre mode of degree 2s of the slopes, the first that the
+  /// method does not integrate, relative to the slopes: the square of the mode of degree s, which
+  /// shows as the defect at the start of the step (where that happens to vanish, the last mode
+  /// kept, which has the other parity, does not), or what the decay of the last modes lets expect,
+  /// if that is more.
   double error_estimate(const Real& h, const std::vector<Real>& start_slope) {
     const double slope = slope_scale();
     if (slope == 0) return linearised_error(h);
@@ -84,7 +85,7 @@ class GaussStepControl {
     const int s = settings_.stages;
     if (s < 4) return 0;
     const int gap = s < 6 ? 2 : 3;
-    // Of two neighbours one may vanish by symmetry.
+    // One of two neighbouring modes may vanish by symmetry.
     const double near = std::max(mode(s - 1), mode(s - 2)) / slope;
     if (near <= 8 * std::max(epsilon, slope_noise() / slope)) return 0;
     const double far = std::max(mode(s - 1 - gap), mode(s - 2 - gap)) / slope;
@@ -96,7 +97,7 @@ class GaussStepControl {
   /// field of n waves on a circle about the origin passes at n |v| / |q| at most, and a Legendre
   /// expansion begins to converge at pi points a wave (Gottlieb and Orszag, Numerical Analysis of
   /// Spectral Methods, 1977, section 3). The end of the step, whose error goes as the Bessel
-  /// function J_2s(s) then, has it to four digits with 8 stages. Infinite where the system has no
+  /// function J_2s(s) then, is good to four digits with 8 stages. Infinite where the system has no
   /// such field.
   template <class State>
   double longest_sampling_step(const DynamicalSystem& system, const State& state) const {
@@ -130,7 +131,7 @@ class GaussStepControl {
     return stages_.system().second_order() ? std::sqrt(gradient) : gradient;
   }
 
-  /// Of the linearised motion, in a step.
+  /// Periods of the linearised motion in a step.
   double periods(const Real& h) {
     return static_cast<double>(magnitude(h)) * frequency() / (2 * std::numbers::pi);
   }
@@ -166,7 +167,7 @@ class GaussStepControl {
   }
 
  private:
-  /// Measured: with this factor the global error of all coefficients of degree 0..4 over a few
+  /// A measured factor: with it the global error of all coefficients of degree 0..4 over a few
   /// revolutions comes out near the tolerance, for 4 to 16 stages.
   static constexpr double error_constant = 100;
 

@@ -12,7 +12,7 @@
 namespace hamjet {
 namespace {
 
-/// Of the tolerance and the number of periods, what the error of a degree may come to.
+/// The largest error of a degree, in units of the tolerance times the number of periods.
 constexpr double allowed_excess = 3;
 /// A trial aims this far below what is allowed, for the error falls only about as expected.
 constexpr double aim = 0.1;
@@ -28,7 +28,7 @@ constexpr long most_steps_of_more_trials = 10000;
 /// From this degree on the zonal harmonics are weak and short enough to hide from the step control.
 constexpr int least_short_waves = 5;
 
-/// Below this the step control, which squares a defect of slopes, sees rounding alone.
+/// Below this tolerance the step control, which squares a defect of slopes, sees rounding alone.
 template <class Real>
 double smallest_step_tolerance() {
   const double noise = 64 * static_cast<double>(std::numeric_limits<Real>::epsilon());
@@ -85,8 +85,8 @@ double convergence(const Trial& before, const Trial& after) {
   return std::isfinite(power) ? std::clamp(power, 0.4, 1.0) : 1;
 }
 
-/// The tolerance at which truncation has fallen to what `last`, the errors of which shorter steps
-/// do not take away, shows to be rounding.
+/// The tolerance at which truncation has fallen to the errors of `last`, which are rounding:
+/// shorter steps do not take them away.
 double where_rounding_begins(const Trial& before, const Trial& last) {
   double ratio = 1;
   for (std::size_t d = 0; d < before.error_by_degree.size(); ++d) {
@@ -113,7 +113,7 @@ StepTolerance choose_step_tolerance(const FlowProblem<Real>& problem,
                                     const GaussSettings& settings) {
   const double asked = settings.tolerance.value_or(0);
   const bool is_chosen_in_steps = !settings.tolerance || settings.controls_all_degrees;
-  // Of the nominal alone the step control knows enough, unless the field has waves that are much
+  // For the nominal alone the step control suffices, unless the field has waves that are much
   // shorter than the rest of it.
   const bool is_known =
       problem.space->order() == 0 && problem.system->waves_on_a_circle < least_short_waves;
@@ -134,7 +134,7 @@ StepTolerance choose_step_tolerance(const FlowProblem<Real>& problem,
     Trial trial = try_tolerance(flow, settings, next);
     if (!(trial.largest_excess() > 1)) return {next, {}};
     const bool is_shorter = trial.steps > before.steps;
-    // Steps that are shorter by so much would take away far more of a truncation error.
+    // Steps that much shorter would take away far more of a truncation error.
     const bool is_rounding = is_shorter && trial.largest_excess() > 0.5 * excess;
     const bool is_long = before.steps > most_steps_of_more_trials;
     if (is_rounding || is_long || next == smallest) {

@@ -26,9 +26,9 @@ struct StepTolerance {
 ///
 /// The flow is integrated along two lines (DirectionalFlow) with the settings' steps and with finer
 /// ones of another order; their difference is the error of each degree, which falls with the local
-/// tolerance until it meets rounding: what steps that are shorter by at least a tenth of the
-/// tolerance do not halve. Source of the order: Hairer, Lubich and Wanner,
-/// Geometric Numerical Integration, section II.1; of the restriction to lines, see DirectionalFlow.
+/// tolerance until it meets rounding, which is what a tolerance at least ten times smaller does not
+/// halve. Source of the order: Hairer, Lubich and Wanner, Geometric Numerical Integration, section
+/// II.1; of the restriction to lines, see DirectionalFlow.
 ///
 /// Settings of fixed steps, and jets of order 0 in a field without short waves, need none: the
 /// settings' tolerance is returned, or 0. Throws what integrate_gauss throws.

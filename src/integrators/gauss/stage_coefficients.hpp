@@ -12,13 +12,13 @@
 namespace hamjet {
 
 /// The coefficients of a Gauss method as packs over the stages, in the numbers of an integration,
-/// and what rounding to these has taken from them. Lanes beyond the last stage repeat the first
-/// stage where they hold places of stages, so that these are finite, and are zero in weights.
+/// with the residues of rounding to these. Lanes beyond the last stage repeat the first stage where
+/// they hold places of stages, so that these are finite, and are zero in weights.
 template <class Real, int Lanes>
 struct StageCoefficients {
   using P = Pack<Real, Lanes>;
 
-  /// A coefficient and what its rounding has lost.
+  /// A coefficient and its rounding residue.
   struct Rounded {
     P value{Real(0)};
     P lost{Real(0)};

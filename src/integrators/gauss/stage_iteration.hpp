@@ -28,14 +28,14 @@ class StageIteration {
         slopes_(system.components()),
         inverse_scale_(system.components()) {}
 
-  /// Degree 0: `evaluate(stages, slopes)` gives g at stages. From a guess of the slopes to slopes
-  /// whose stages differ from the last ones by rounding alone.
+  /// Solves degree 0, from a guess of the slopes to slopes whose stages differ from the last ones
+  /// by rounding alone. `evaluate(stages, slopes)` gives g at stages.
   template <class State, class Evaluate>
   bool solve_constant_terms(const State& state, std::vector<P>& slopes, const Evaluate& evaluate) {
     const std::size_t m = system_.components();
     for (std::size_t c = 0; c < m; ++c) {
       base_[c] = system_.base(c, state);
-      // What rounding takes from the coefficients hardly changes with the iteration.
+      // What the coefficients' rounding residues add hardly changes with the iteration.
       lost_[c] = system_.lost(c, state, slopes[c]);
       stages_[c] = base_[c] + (system_.couple(slopes[c]) + lost_[c]);
     }
@@ -51,7 +51,7 @@ class StageIteration {
         continue;
       }
       if (outcome == Outcome::fails || !is_finite_number(stages_)) return false;
-      // Once more, with what rounding takes from the coefficients at these slopes.
+      // Iterates once more, with what the coefficients' rounding residues add at these slopes.
       for (std::size_t c = 0; c < m; ++c) lost_[c] = system_.lost(c, state, slopes_[c]);
       replace_stages(base_, &lost_);
       evaluate(stages_, slopes);
@@ -59,8 +59,8 @@ class StageIteration {
     }
   }
 
-  /// One monomial above degree 0, whose equations Y = base + W (R + Dg Y) are linear. `known` is
-  /// base + W R, `gradient(c, k)` is Dg.
+  /// Solves one monomial above degree 0, whose equations Y = base + W (R + Dg Y) are linear.
+  /// `known` is base + W R, `gradient(c, k)` is Dg.
   template <class Gradient>
   bool solve_linear(const std::vector<P>& known, const Gradient& gradient, std::vector<P>& stages) {
     stages_ = known;
@@ -101,8 +101,9 @@ class StageIteration {
 
    private:
     static constexpr double slowest = 0.5;
-    /// Of a rounding, what may be left: it has the same sign in every step, so that half a rounding
-    /// would make the energy drift (Hairer, McLachlan and Razakarivony, BIT 48 (2008) 231).
+    /// The part of a rounding that may be left: it has the same sign in every step, so that half a
+    /// rounding would make the energy drift (Hairer, McLachlan and Razakarivony, BIT 48 (2008)
+    /// 231).
     static constexpr double remainder = 0x1p-12;
     static constexpr int most_stalls = 1;  ///< the first changes may grow
     static constexpr int largest_count = 40;
@@ -123,7 +124,7 @@ class StageIteration {
     }
   }
 
-  /// Y = terms + (W slopes_ + lost); returns the largest change. The lost part is below the
+  /// Sets Y = terms + (W slopes_ + lost); returns the largest change. The lost part is below the
   /// rounding of the terms, and would always vanish if it were added to them.
   Real replace_stages(const std::vector<P>& terms, const std::vector<P>* lost = nullptr) {
     P largest(Real(0));
@@ -137,7 +138,7 @@ class StageIteration {
     return largest_magnitude(largest);
   }
 
-  /// slopes_ = Dg Y.
+  /// Sets slopes_ = Dg Y.
   template <class Gradient>
   void apply(const Gradient& gradient) {
     const std::size_t m = stages_.size();
@@ -148,7 +149,8 @@ class StageIteration {
     }
   }
 
-  /// The machine's maximum of a number and of none is the number: the changes do not show it.
+  /// Whether all stages are finite; the changes do not show a NaN, which the machine's maximum
+  /// skips.
   static bool is_finite_number(const std::vector<P>& stages) {
     for (const P& stage : stages) {
       if (!is_finite(largest_magnitude(stage))) return false;
@@ -158,7 +160,7 @@ class StageIteration {
 
   const StageSystem<Real, Lanes>& system_;
   std::vector<P> base_;
-  std::vector<P> lost_;  ///< of base + W g, by the rounding of the coefficients
+  std::vector<P> lost_;  ///< of base + W g, the coefficients' rounding residues
   std::vector<P> stages_;
   std::vector<P> slopes_;
   std::vector<P> inverse_scale_;

@@ -93,7 +93,7 @@ class StageSlopes {
     return result;
   }
 
-  /// The same over all stages.
+  /// The largest entry of Dg over all stages.
   double largest_gradient() const {
     double result = 0;
     for (std::size_t c = 0; c < system_.components(); ++c) {
@@ -115,7 +115,7 @@ class StageSlopes {
     return result;
   }
 
-  /// d g_c / d Y_from at the stages.
+  /// The derivative d g_c / d Y_from at the stages.
   P slope_gradient(std::size_t c, std::size_t from) const {
     if (!system_.second_order() || system_.unit_mass()) return evaluator_.output_gradient(c, from);
     P sum(Real(0));
@@ -150,7 +150,8 @@ class StageSlopes {
     return solve_by_newton(state, statistics);
   }
 
-  /// Newton's method. With rho = g(Y) - G and Y = base + W G:  dY = K rho,  dG = rho + Dg dY.
+  /// Solves degree 0 by Newton's method, with rho = g(Y) - G and Y = base + W G:
+  /// dY = K rho, dG = rho + Dg dY.
   template <class State>
   bool solve_by_newton(const State& state, IntegrationStatistics& statistics) {
     const std::size_t m = system_.components();
@@ -193,7 +194,7 @@ class StageSlopes {
     return false;
   }
 
-  /// The stages and all values there from the slopes of an earlier solution.
+  /// Evaluates the stages and all values there from the slopes of an earlier solution.
   template <class State>
   void evaluate_at_slopes(const State& state, IntegrationStatistics& statistics) {
     place_stages(state);
@@ -201,14 +202,14 @@ class StageSlopes {
     ++statistics.nominal_evaluations;
   }
 
-  /// K and B at the stages as they stand.
+  /// Forms K and B at the stages as they stand; false if the matrix is singular.
   bool factorise() {
     return system_.factorise(
         [&](std::size_t c, std::size_t from) { return slope_gradient(c, from); });
   }
 
-  /// As solve_degree, by fixed-point iteration and without a factorisation. False where it does not
-  /// contract.
+  /// Does what solve_degree does, by fixed-point iteration without a factorisation. False where it
+  /// does not contract.
   bool iterate_degree(int d, const std::vector<const Real*>& state) {
     const std::size_t m = system_.components();
     if (system_.second_order() && !system_.unit_mass() && d >= 2) apply_inverse_mass(d);
@@ -226,8 +227,8 @@ class StageSlopes {
     return true;
   }
 
-  /// The degree-d slices of the stages from those of the outputs' remainders and of the state:
-  /// Y_d = K R_d + B z_d. `state[k]` points to the coefficients of the k-th component.
+  /// Forms the degree-d slices of the stages from those of the outputs' remainders and of the
+  /// state: Y_d = K R_d + B z_d. `state[k]` points to the coefficients of the k-th component.
   void solve_degree(int d, const std::vector<const Real*>& state) {
     const std::size_t first = space_->first(d);
     const std::size_t last = space_->first(d + 1);
@@ -307,7 +308,7 @@ class StageSlopes {
     return result;
   }
 
-  /// The remainders of M^-1 F. An affine force has none: its slice is not yet meaningful.
+  /// Forms the remainders of M^-1 F. An affine force has none: its slice is not yet meaningful.
   void apply_inverse_mass(int d) {
     mapped_.resize(system_.components());
     for (std::size_t c = 0; c < system_.components(); ++c) {
@@ -336,7 +337,7 @@ class StageSlopes {
     return is_mapped ? mapped_[c].data() : evaluator_.output(c);
   }
 
-  /// Y_c for `Width` monomials at once: each entry of K is loaded once for all of them.
+  /// Forms Y_c for `Width` monomials at once: each entry of K is loaded once for all of them.
   template <std::size_t Width>
   void solve_tile(std::size_t c, int d, std::size_t monomial,
                   const std::vector<const Real*>& state) {

@@ -78,7 +78,7 @@ class StageSystem {
   }
   const Real& step() const { return step_; }
 
-  /// sum over j of W_ij G_j, for one component.
+  /// The sum over j of W_ij G_j, for one component.
   P couple(const P& slopes) const {
     // Four sums, for each addition waits for the one before.
     std::array<P, 4> sums;
@@ -93,9 +93,9 @@ class StageSystem {
     return ((sums[0] + sums[1]) + (sums[2] + sums[3])) * P(scale_);
   }
 
-  /// What the rounding of the coefficients has taken from base + couple. The rounded coefficients
-  /// alone are those of a method that is neither symplectic nor symmetric to the last digit: its
-  /// energy drifts with time, where that of random rounding only wanders (Hairer, McLachlan and
+  /// What the coefficients' rounding residues add to base + couple. The rounded coefficients alone
+  /// are those of a method that is neither symplectic nor symmetric to the last digit: its energy
+  /// drifts with time, where that of random rounding only wanders (Hairer, McLachlan and
   /// Razakarivony, Achieving Brouwer's law with implicit Runge-Kutta methods, BIT 48 (2008) 231).
   template <class State>
   P lost(std::size_t c, const State& state, const P& slopes) const {
@@ -108,18 +108,18 @@ class StageSystem {
     return sum;
   }
 
-  /// base for one component, from the state's coefficients of one monomial.
+  /// The term base for one component, from the state's coefficients of one monomial.
   template <class State>
   P base(std::size_t c, const State& state) const {
     if (!second_order_) return P(state(c));
     return P(state(c)) + P(Real(step_ * velocity(c, state))) * nodes();
   }
 
-  /// K_(c, (from, stage)) as a pack over the stages of component c.
+  /// The block K_(c, (from, stage)) as a pack over the stages of component c.
   const P& response(std::size_t from, std::size_t stage, std::size_t c) const {
     return response_[(from * stages_ + stage) * components_ + c];
   }
-  /// B_(c, k), k an index into the state.
+  /// The block B_(c, k), k an index into the state.
   const P& base_response(std::size_t k, std::size_t c) const { return base_[k * components_ + c]; }
 
   /// Forms K and B from the slopes' gradients Dg_(c, from), packs over the stages. False if the
@@ -134,7 +134,7 @@ class StageSystem {
   }
 
  private:
-  /// (M^-1 p)_c of a second-order system.
+  /// The velocity (M^-1 p)_c of a second-order system.
   template <class State>
   Real velocity(std::size_t c, const State& state) const {
     if (unit_mass_) return state(components_ + c);

@@ -45,7 +45,7 @@ def integer(value: Any, place: str, least: int, most: int) -> int:
     return number
 
 
-#: As of the command's option.
+#: The most that the command's option --threads takes.
 _MOST_THREADS = 1024
 
 

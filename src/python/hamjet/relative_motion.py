@@ -16,7 +16,7 @@ from .results import Floats, Progress
 
 Flags = npt.NDArray[np.bool_]
 
-#: Of one trajectory: more would be gigabytes of a smooth curve.
+#: Most intervals of one trajectory: more would be gigabytes of a smooth curve.
 _MOST_INTERVALS = 1_000_000
 
 
@@ -50,7 +50,8 @@ class Transfers(Immutable):
     #: Index of the least total change among answers within the tolerance and away from
     #: singularities; None if there is none.
     best: int | None
-    #: As of the command: 0, 1 (strict, and an answer is missing or too far off) or 4 (no answers).
+    #: The command's exit code: 0; 1, if strict and an answer is missing or too far off; 4, without
+    #: answers.
     exit_code: int
     _study: _hamjet.TransferStudy = field(repr=False)
 

@@ -13,7 +13,7 @@ class RelativeStates(NamedTuple):
 
     #: (N, 6) float64: positions in m, velocities in m/s, along the axes of the frame.
     states: npt.NDArray[np.float64]
-    #: (N,) float64: by how much the position may be wrong, in m: what the missing degrees would add,
+    #: (N,) float64: by how much the position may be wrong, in m: what the missing degrees add,
     #: rounding of coefficients and evaluation, and the errors of the coefficients where the run has
     #: measured or estimated them. An estimate and no bound; NaN where ``support`` is not "inside".
     miss_m: npt.NDArray[np.float64]

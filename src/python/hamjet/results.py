@@ -104,7 +104,7 @@ class Result(Immutable):
 
     #: Runs by label, in the order of the scene.
     runs: Mapping[str, Run]
-    #: As of the command: 0, 1 (a check failed) or 4 (a numerical failure left something out).
+    #: The command's exit code: 0, 1 (a check failed) or 4 (a numerical failure left a part out).
     exit_code: int
     _summary: str = field(repr=False)
     _propagation: _hamjet.Propagation | None = field(repr=False)
@@ -121,7 +121,7 @@ class Result(Immutable):
         self._propagation.write(arguments.path(directory, "directory"))
 
     def __getstate__(self) -> dict[str, Any]:
-        # What all files are written of is many times what is shown.
+        # The propagation, which files are written from, is many times larger than what is shown.
         return {**super().__getstate__(), "_propagation": None}
 
 
@@ -129,7 +129,7 @@ class Result(Immutable):
 class StudyResult(Immutable):
     """Results of a study without a flow jet, of relative motion or a sweep as stored; immutable."""
 
-    #: As of the command: 0, 1 (a check failed) or 4 (a numerical failure).
+    #: The command's exit code: 0, 1 (a check failed) or 4 (a numerical failure).
     exit_code: int
     #: Why the exit code is not 0, one line; empty if it is or if that is not stored.
     failure: str
@@ -206,7 +206,7 @@ def run(scene: scenes.Scene, *, overrides: scenes.Overrides | None = None,
 def _stored_along_time(text: str, time_s: float) -> AlongTime:
     table = read_table(text)
     exactness = np.asarray(table["exactness_degree_0_scaled"])
-    # All numbers if the kind exists throughout.
+    # The column is all numbers if the kind exists throughout.
     is_singular = (exactness == "singular" if exactness.dtype.kind == "U"
                    else np.zeros(exactness.shape, dtype=np.bool_))
     times = np.asarray(table["time_canonical"], dtype=np.float64)

@@ -36,7 +36,8 @@ void note_below(const ComparisonResult& result, double smallest, std::size_t bel
       below));
 }
 
-/// One point a run: its error across, and upwards what `measure` gives, coloured by corner.
+/// A chart of one point a run: its error across, and upwards what `measure` gives, coloured by
+/// corner.
 template <class Measure>
 Chart corner_chart(const ComparisonResult& result, std::string label, Measure measure) {
   Chart chart;
@@ -94,7 +95,7 @@ Chart work_precision_chart(const ComparisonResult& result) {
   chart.x = error_axis(result);
   chart.x.is_reversed = true;
   chart.y = time_axis();
-  // No marker on the very edge.
+  // The margins keep markers off the very edge.
   chart.x.margin = chart.y.margin = 0.05;
   const double smallest = smallest_shown_error(result);
   std::size_t below = 0;

@@ -5,11 +5,13 @@
 
 #include "../../store/csv_values.hpp"
 #include "hamjet/report/comparison_report.hpp"
+#include "hamjet/studies/method_description.hpp"
 
 namespace hamjet::io {
 namespace {
 
-/// Numbers of columns that a comparison needs: runs of different order have different many degrees.
+/// Numbers of columns that a comparison needs: runs of different order differ in their number of
+/// degrees.
 struct Columns {
   std::size_t errors = 0;
   std::size_t symplecticity = 0;
@@ -29,10 +31,13 @@ Columns count_columns(const ComparisonResult& result) {
 }
 
 std::string header(const Columns& columns) {
-  std::string line =
-      "part,series,label,method,stages,method_order,beta,step_canonical,tolerance,order,status,"
-      "reason,steps,"
-      "rejected_steps,vector_field_evaluations,nominal_evaluations,multiply_adds,memory_bytes,"
+  std::string line = "part,series,label,method";
+  for (const MethodSetting& setting : compared_settings()) {
+    line += fmt::format(",{}", setting.column);
+  }
+  line +=
+      ",step_canonical,tolerance,order,status,reason,steps,rejected_steps,"
+      "vector_field_evaluations,nominal_evaluations,multiply_adds,memory_bytes,"
       "repeats,median_seconds,least_seconds,most_seconds,error_at_formation_m,largest_error";
   for (std::size_t d = 0; d < columns.errors; ++d) line += fmt::format(",error_degree_{}", d);
   line += ",largest_error_estimate";
@@ -66,17 +71,17 @@ std::string status(const ComparedRun& run) {
 
 std::string settings_fields(const ComparedRun& run, std::string_view part) {
   const IntegratorSettings& settings = run.settings;
-  const auto of = [&](IntegrationMethod method, const auto& value) {
-    return settings.method == method ? fmt::format("{}", value) : std::string();
-  };
-  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}", part, csv_field(run.series),
-                     csv_field(settings.label),
-                     method_names()[static_cast<std::size_t>(settings.method)],
-                     of(IntegrationMethod::gauss, settings.stages),
-                     of(IntegrationMethod::velocity_verlet, settings.order),
-                     of(IntegrationMethod::newmark, settings.beta),
-                     csv_number(settings.step_canonical), csv_number(settings.tolerance), run.order,
-                     status(run), csv_field(run.failure.empty() ? run.left_out : run.failure));
+  std::string fields = fmt::format("{},{},{},{}", part, csv_field(run.series),
+                                   csv_field(settings.label), method_name(settings.method));
+  const auto values = compared_values(settings);
+  for (const MethodSetting& setting : compared_settings()) {
+    const auto place = std::find_if(values.begin(), values.end(),
+                                    [&](const auto& value) { return value.first == setting.key; });
+    fields += "," + (place == values.end() ? std::string() : place->second);
+  }
+  return fields + fmt::format(",{},{},{},{},{}", csv_number(settings.step_canonical),
+                              csv_number(settings.tolerance), run.order, status(run),
+                              csv_field(run.failure.empty() ? run.left_out : run.failure));
 }
 
 std::string cost_fields(const ComparedRun& run) {

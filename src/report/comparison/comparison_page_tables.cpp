@@ -56,7 +56,7 @@ std::string residual_cell(const ComparedRun& run, std::size_t degree) {
   return cell(small_number(entry.residual.scaled) + (is_at_floor(entry) ? " *" : ""));
 }
 
-/// Where a fit was made, if not from the comparison's own runs.
+/// Says where a fit was made; empty if from the comparison's own runs.
 std::string extended_text(const ConvergenceFit& fit) {
   if (!fit.is_extended) return "";
   if (fit.arc == 1) return "in extended precision: ";

@@ -27,7 +27,8 @@ double shown_error(const ComparisonResult& result, const ComparedRun& run);
 /// error at most.
 double smallest_shown_error(const ComparisonResult& result);
 
-/// "error at 10 km separation (m)" or "largest relative error".
+/// The name of the error that is shown: "error at 10 km separation (m)" or "largest relative
+/// error".
 std::string shown_error_name(const ComparisonResult& result);
 
 /// The names of all series, in the order in which they first occur.
@@ -37,7 +38,8 @@ std::vector<std::string> series_names(const std::vector<ComparedRun>& runs);
 /// plots.
 std::size_t series_index(const ComparisonResult& result, std::string_view series);
 
-/// "F1 (qqq-qqq)" or the notation alone; empty without a kind.
+/// The kind whose exactness is stated, as "F1 (qqq-qqq)" or the notation alone; empty without a
+/// kind.
 std::string kind_text(const ComparisonResult& result);
 
 /// The corner's name in words.

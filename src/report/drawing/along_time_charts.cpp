@@ -22,7 +22,7 @@ Chart along_time_chart(const Scene& scene, const std::vector<RunAlongTime>& runs
     ChartCurve curve;
     curve.title = run.label;
     curve.style = i;
-    // As long as they can be told apart every point that was computed has its marker.
+    // Every computed point has its marker, as long as markers can be told apart.
     constexpr std::size_t most_markers = 60;
     if (run.points.size() > most_markers) {
       curve.marker_interval = static_cast<int>(run.points.size() / 12);

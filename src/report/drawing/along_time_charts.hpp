@@ -11,7 +11,7 @@
 
 namespace hamjet::io {
 
-/// "F1 (qqq-qqq)", or the notation alone.
+/// A kind in words: "F1 (qqq-qqq)", or the notation alone.
 std::string kind_text(const GeneratingFunctionKind& kind);
 
 /// The axis of time of a scene's model.
@@ -23,12 +23,13 @@ inline constexpr const char* exactness_label = "exactness residual, degree 0, sc
 inline constexpr const char* no_generating_function =
     "The jet is not expanded in all variables of phase space: there is no generating function.";
 
-/// The figure of Guibout and Bloch, with the times at which the kind does not exist. Not fitted.
+/// The figure of Guibout and Bloch, with the times at which the kind does not exist; the chart is
+/// not fitted.
 Chart exactness_along_time_chart(const Scene& scene,
                                  const std::optional<GeneratingFunctionKind>& kind,
                                  const std::vector<RunAlongTime>& runs);
 
-/// The energy error of the nominal along time. Not fitted.
+/// The energy error of the nominal along time; the chart is not fitted.
 Chart energy_along_time_chart(const Scene& scene, const std::vector<RunAlongTime>& runs);
 
 }  // namespace hamjet::io

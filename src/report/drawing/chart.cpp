@@ -108,7 +108,7 @@ void fit_axes(Chart& chart) {
         "axis has no place for, or one below the axis.");
   }
   if (x.is_empty() && !chart.map) return;
-  // All values are zero, or none exists: some decades to draw the marks in.
+  // If all values are zero, or none exists, the marks still need some decades to be drawn in.
   if (y.is_empty() && !chart.map) y = {1e-16, 1};
   if (chart.map) {
     for (const ChartCell& cell : chart.map->cells) {

@@ -96,7 +96,8 @@ void fit(Chart& chart);
 /// What a chart is drawn as.
 enum class Drawing { wide_svg, narrow_svg, pdf, png };
 
-/// Of a map: the commands before `plot`, with the data, and what is plotted.
+/// The parts of a script that draw a map: the commands before `plot`, with the data, and what is
+/// plotted.
 std::string map_commands(const ChartMap& map);
 std::string map_plot(const ChartMap& map);
 

@@ -96,8 +96,8 @@ std::string axis_commands(const char* axis, const ChartAxis& settings, int most_
   return text;
 }
 
-/// The same ticks along both axes, few enough that their numbers find room on the shorter one: 1, 2
-/// or 5 times a power of ten.
+/// Equal ticks along both axes, few enough that their numbers find room on the shorter one: 1, 2 or
+/// 5 times a power of ten.
 std::string isometric_ticks(const Chart& chart) {
   constexpr double most_ticks = 10;
   const double width =

@@ -18,7 +18,7 @@ extern const char* const page_style;
 
 /// A fitted chart with its notes and how to read it, or why it is not there.
 std::string figure_html(const Chart& chart, ChartDrawer& drawer);
-/// The same under its title.
+/// The figure_html of a chart under its title.
 std::string section_html(const Chart& chart, ChartDrawer& drawer);
 
 /// A table in a box of its own, which scrolls where the window is too narrow. What it says stands

@@ -15,7 +15,8 @@ struct Projection {
   Eigen::Index upwards;
 };
 
-/// In RTN: T-R as seen from above the orbit's plane, the motion to the right; T-N and R-N.
+/// The planes drawn, in RTN: T-R as seen from above the orbit's plane, the motion to the right; T-N
+/// and R-N.
 constexpr std::array<Projection, 3> projections = {{{1, 0}, {1, 2}, {0, 2}}};
 
 }  // namespace

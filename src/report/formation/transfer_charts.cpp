@@ -19,7 +19,7 @@ TimeAxis axis_of(const TransferResult& result) {
   return time_axis(result.scene.transfer->times.back() * result.scene.units.time_s);
 }
 
-/// Of a canonical unit of time, in the axis's.
+/// A canonical unit of time in the axis's unit.
 double time_unit(const TransferResult& result) {
   return result.scene.units.time_s / axis_of(result).seconds;
 }

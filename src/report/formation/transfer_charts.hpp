@@ -8,7 +8,7 @@
 
 namespace hamjet::io {
 
-// None of these is fitted.
+// None of these charts is fitted.
 
 /// Velocity changes against transfer time, with the margins around F1's singular times.
 Chart velocity_change_chart(const TransferResult& result);
@@ -23,7 +23,7 @@ std::vector<Chart> relative_trajectory_charts(const RelativeTrajectory& trajecto
 
 /// The largest separation at which each order is right, along time.
 Chart validity_time_chart(const ValidityResult& result);
-/// The same against the order, for some of the times.
+/// The largest separation at which an order is right, against the order, for some of the times.
 Chart validity_order_chart(const ValidityResult& result);
 
 }  // namespace hamjet::io

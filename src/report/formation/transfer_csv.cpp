@@ -11,7 +11,7 @@
 namespace hamjet::io {
 namespace {
 
-/// A condition may be infinite; one that is no number was not found.
+/// A condition, which may be infinite; empty where it was not found, which is NaN.
 std::string condition(double value) { return std::isnan(value) ? "" : csv_number(value); }
 
 std::string transfers_header(const Scene& scene) {

@@ -18,7 +18,7 @@ nlohmann::ordered_json transfer_point_json(const TransferPoint& point, const Can
 
 /// `summary.json` of a transfer study, without its end.
 nlohmann::ordered_json transfer_summary_json(const TransferResult& result);
-/// The whole of it.
+/// The whole `summary.json` of a transfer study.
 nlohmann::ordered_json transfer_report_json(const TransferResult& result,
                                             const std::optional<ValidityResult>& validity);
 

@@ -130,7 +130,7 @@ std::optional<double> largest_hamilton_jacobi_residual(const TransferResult& res
 
 namespace {
 
-/// Whether the least is an end of the times searched, beyond which it may fall.
+/// Says if the least change is at an end of the times searched, beyond which it may fall further.
 std::string edge_text(const TransferResult& result, std::size_t best) {
   const bool is_first = best == 0;
   if (result.points.size() < 2 || (!is_first && best + 1 < result.points.size())) return "";
@@ -139,7 +139,7 @@ std::string edge_text(const TransferResult& result, std::size_t best) {
       is_first ? "first" : "last");
 }
 
-/// Which times the least is not over, and why.
+/// Which times the least change leaves out, and why.
 std::string left_out_text(const TransferResult& result) {
   const TransferCounts counts = count_points(result);
   std::vector<std::string> reasons;

@@ -14,7 +14,7 @@ namespace hamjet::io {
 /// The answer that stands for a point: the refined one, else that of the highest order; none where
 /// there is neither.
 const TransferAnswer* shown_answer(const TransferPoint& point);
-/// "refined" or "order 4".
+/// The name of the answer that shown_answer gives: "refined" or "order 4".
 std::string answer_name(const TransferPoint& point);
 /// The answer of one order, none where it failed.
 const TransferAnswer* answer_of_order(const TransferPoint& point, int order);
@@ -22,14 +22,14 @@ const TransferAnswer* answer_of_order(const TransferPoint& point, int order);
 /// Everything that failed at a point, in one line; empty if nothing did.
 std::string failure_text(const TransferPoint& point);
 
-/// How many points have what.
+/// Counts of a study's points by their outcome.
 struct TransferCounts {
   std::size_t times = 0;
   std::size_t answered = 0;
   std::size_t near_singular = 0;
   std::size_t beyond_tolerance = 0;       ///< among all
   std::size_t beyond_tolerance_away = 0;  ///< among those that are not near a singularity
-  std::size_t corrected_away = 0;         ///< of these, brought to their place by the refinement
+  std::size_t corrected_away = 0;         ///< of beyond_tolerance_away: set right by refinement
   std::size_t unanswered_away = 0;
   std::size_t refined = 0;
   std::size_t refinement_failed = 0;
@@ -44,14 +44,15 @@ struct MissStatistics {
   double median_m = 0;
   double largest_m = 0;
 };
-/// Of each order, then of the refinement if the scene asks for it; those without a miss are left
-/// out.
+/// The misses of each order, then of the refinement if the scene asks for it; those without a miss
+/// are left out.
 std::vector<MissStatistics> miss_statistics(const TransferResult& result);
 
 /// The point with the largest velocity change among answers that are not near a singularity.
 std::optional<std::size_t> costliest_point(const TransferResult& result);
 
-/// The largest Hamilton-Jacobi residual with its floor in words; empty where none was computed.
+/// The largest Hamilton-Jacobi residual with its rounding floor in words; empty where none was
+/// computed.
 std::string hamilton_jacobi_text(const TransferResult& result);
 /// The largest Hamilton-Jacobi residual.
 std::optional<double> largest_hamilton_jacobi_residual(const TransferResult& result);
@@ -62,14 +63,14 @@ std::string transfer_verdict(const TransferResult& result);
 /// Why the exit code is not 0, one line; empty if it is 0.
 std::string transfer_failure(const TransferResult& result);
 
-/// A miss, or "less than" the floor under which flying cannot tell.
+/// A miss, or "less than" the rounding floor under which flying cannot tell.
 std::string miss_text(double miss_m, double flight_floor_m);
 
 /// A singular time in seconds with the digits that its resolution leaves, at most so many decimals;
-/// of a double one that, and how close a pair may be that looks the same.
+/// for a double one also that it is, and how close a pair that looks like it may be.
 std::string singular_time_text(const SingularTime& singular, double unit_s, int most_decimals);
 
-/// "5432 s (90.5 min)"
+/// A time for people: "5432 s (90.5 min)".
 std::string time_text(double seconds);
 
 /// The unit of an axis of time: minutes or hours where seconds would be long numbers.
@@ -78,7 +79,7 @@ struct TimeAxis {
   const char* name;  ///< as in "transfer time (h)"
 };
 TimeAxis time_axis(double longest_s);
-/// "12.3 m/s", to four digits.
+/// A velocity to four digits: "12.34 m/s".
 std::string velocity_text(double metres_per_second);
 
 }  // namespace hamjet::io

@@ -21,7 +21,7 @@ Chart separation_chart(std::string name, std::string title) {
   return chart;
 }
 
-/// Filled markers are proved, hollow ones predicted.
+/// Adds proved separations with filled markers, and predicted ones with hollow markers.
 void add_curves(Chart& chart, const std::string& title, std::size_t style,
                 std::vector<std::pair<double, double>> proved,
                 std::vector<std::pair<double, double>> predicted) {

@@ -20,7 +20,8 @@ std::string trajectory_file(const CanonicalTransformationRun& run) {
   return fmt::format("trajectory_step_{}.csv", run.requested_step);
 }
 
-/// The transformed variables have a prefix, for readers of CSV to which q and Q are the same.
+/// The trajectory as CSV. The transformed variables have a prefix, for readers of CSV to which q
+/// and Q are the same.
 std::string trajectory_csv(const CanonicalTransformationResult& result,
                            const CanonicalTransformationRun& run) {
   const auto names = variable_names(result.study.system);

@@ -48,7 +48,7 @@ Chart along_time(const EnergyConservationResult& result, std::string label) {
   return chart;
 }
 
-/// What the vertical line is.
+/// What the vertical line of the charts means.
 std::string rule_text(const EnergyConservationResult& result) {
   if (!result.predicted_time) return "";
   return fmt::format(

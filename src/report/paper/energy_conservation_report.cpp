@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// What was not computed, or is not finite, is null.
+/// A number, or null if it was not computed or is not finite.
 Json number_or_null(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? Json(*value) : Json(nullptr);
 }
@@ -31,7 +31,7 @@ const char* cause_name(EnergyConservingStopCause cause) {
   return names[static_cast<std::size_t>(cause)];
 }
 
-/// Empty for what is not finite.
+/// A number for CSV; empty if it is not finite.
 std::string number(double value) {
   return std::isfinite(value) ? fmt::format("{:.17g}", value) : "";
 }

@@ -22,7 +22,7 @@ std::string_view method_of(const OptimalControlResult& result) {
   return discretization_names()[static_cast<std::size_t>(result.study.discretization)];
 }
 
-/// One row a node; the controls of a step stand in the row of its start.
+/// The trajectory as CSV, one row a node; the controls of a step stand in the row of its start.
 std::string trajectory_csv(const OptimalControlResult& result) {
   const OptimalControlStudy& study = result.study;
   const DiscreteTrajectory& trajectory = result.solution.trajectory;

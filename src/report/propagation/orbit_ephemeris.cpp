@@ -22,7 +22,7 @@ Epoch now() {
   return {day, (moment - day).count() * std::int64_t{1'000'000'000'000}};
 }
 
-/// Messages are printable ASCII.
+/// A text for messages, which are printable ASCII; other characters become question marks.
 std::string ascii(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](char c) { return c < 0x20 || c >= 0x7f; }, '?');

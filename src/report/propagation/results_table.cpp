@@ -22,7 +22,8 @@ std::string largest(const Values& values, Get get) {
   return fmt::format("{:.1e}", worst);
 }
 
-/// Largest over all degrees; what the reference cannot vouch for is not stated.
+/// A run's largest relative error over all degrees; what the reference cannot vouch for is not
+/// stated.
 std::string relative_error(const PropagationResult& result, const RunResult& run) {
   if (!run.error_by_degree) return not_computed;
   const double error = *std::max_element(run.error_by_degree->begin(), run.error_by_degree->end());
@@ -72,7 +73,7 @@ Row run_row(const PropagationResult& result, const RunResult& run) {
   return row;
 }
 
-/// Characters, not bytes: times and lengths have a micro sign.
+/// The width in characters, not bytes: times and lengths may have a micro sign.
 std::size_t width(const std::string& text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
     return (static_cast<unsigned char>(c) & 0xc0) != 0x80;

@@ -21,7 +21,7 @@ namespace {
 
 constexpr double largest_number = std::numeric_limits<double>::max();
 
-/// Decimal texts of more digits than binary64 has.
+/// Numbers from decimal texts, which may have more digits than binary64.
 std::vector<Extended> decimals(const TableReader& table, std::string_view key) {
   constexpr std::string_view digits = "0123456789";
   const std::vector<std::string> texts = table.texts(key);

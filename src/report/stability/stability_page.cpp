@@ -14,7 +14,7 @@ std::string power_text(const std::optional<double>& value) {
   return value ? fmt::format("{:.1e}", *value) : "-";
 }
 
-/// How close the errors come to the floor, one point a case.
+/// How close the errors come to the rounding floor, one point an error.
 Chart ratio_chart(const std::vector<StabilityResult>& results) {
   Chart chart;
   chart.name = "error-over-floor";

@@ -9,7 +9,7 @@
 
 namespace hamjet::io {
 
-/// "63 cases: 40 right, 15 refused, 8 marked, none wrong."
+/// The outcome of a suite: "63 cases: 40 right, 15 refused, 8 marked, none wrong."
 std::string stability_verdict(const std::vector<StabilityResult>& results);
 
 /// The page `stability.html`.

@@ -25,7 +25,7 @@ class ComparedOrder {
   ComparedRun judge(const Candidate& candidate, const std::string& series,
                     const std::function<void(double)>& keep_going);
 
-  /// Adds one timing to a finished run.
+  /// Integrates once more and adds the timing to a finished run.
   void time(const Candidate& candidate, ComparedRun& run,
             const std::function<void()>& keep_going) const;
 

@@ -27,12 +27,12 @@ constexpr double near_round_off = 1e-11;
 /// Part of the time budget that the fits of one series may take at one degree.
 constexpr double fit_budget = 0.1;
 
-/// An integration takes longer than the time budget leaves it.
+/// Thrown if an integration takes longer than the time budget leaves it.
 struct TooSlow {
   double seconds;
 };
 
-/// Whether a run read from a file can stand for one of this order. What cannot is run again.
+/// Whether a run read from a file can stand for one of this order; one that cannot is run again.
 bool is_sound(const ComparedRun& run) {
   if (!run.left_out.empty()) return false;
   if (!run.failure.empty()) return true;
@@ -64,7 +64,7 @@ class FinishedRuns {
     if (node.empty()) return std::nullopt;
     return std::move(node.mapped());
   }
-  /// The comparison has come to all that it wants: what is left belongs to nothing.
+  /// Forgets the earlier runs that are left, when the comparison has come to all that it wants.
   void drop_the_rest() { finished_.clear(); }
 
  private:
@@ -116,7 +116,7 @@ class Comparison {
     return orders;
   }
 
-  /// From the store, or computed and stored.
+  /// Takes the reference from the store, or computes and stores it.
   void find_reference() {
     Scene scene = scene_;
     scene.order = std::max(scene_.order, cost_orders().back());
@@ -149,7 +149,8 @@ class Comparison {
     if (problem.is_full_jet) choose_kind(problem);
   }
 
-  /// The linear part alone decides, so that the reference's order does not matter.
+  /// Chooses the kind whose exactness is stated. The linear part alone decides, so that the
+  /// reference's order does not matter.
   void choose_kind(const ComputedProblem& problem) {
     const std::span<const Series<Extended>> jet(result_.reference.jet);
     const bool is_named = scene_.kinds && scene_.kinds->front() != "auto";
@@ -178,7 +179,7 @@ class Comparison {
     finished.drop_the_rest();
   }
 
-  /// Coarse to fine, as far as the error falls and the time lasts.
+  /// Judges a series from coarse to fine, as long as the error falls and the time lasts.
   void judge_series(ComparedOrder& order, std::size_t index, FinishedRuns& finished) {
     const CandidateSeries& series = series_[index];
     double left = allowance();
@@ -268,7 +269,8 @@ class Comparison {
     }
   }
 
-  /// The cheapest candidate of each method, by its count of multiply-adds, over the orders.
+  /// Judges, at all orders, the candidate of each method that reaches the wanted error with the
+  /// least work.
   void judge_costs() {
     FinishedRuns finished(result_.cost_runs);
     std::map<IntegrationMethod, const ComparedRun*> cheapest;
@@ -289,8 +291,8 @@ class Comparison {
     finished.drop_the_rest();
   }
 
-  /// On the nominal and on the highest degree that is not zero; in extended precision where double
-  /// precision has no steps at which theory holds.
+  /// Fits orders to the nominal and to the highest degree that is not zero; in extended precision
+  /// where double precision has no steps at which theory holds.
   void fit_orders() {
     result_.fits.clear();
     const std::set<int> degrees = {

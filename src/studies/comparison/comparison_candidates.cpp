@@ -2,23 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "../nominal_period.hpp"
-#include "hamjet/integrators/cvode.hpp"
 #include "hamjet/studies/comparison.hpp"
+#include "hamjet/studies/method_description.hpp"
 
 namespace hamjet {
 namespace {
 
-/// Six digits, so that what is printed in the advice is what was run.
+/// A value with six digits, so that the advice prints what was run.
 double rounded(double value) { return std::stod(fmt::format("{:.6g}", value)); }
 
 /// Shortest text that brings back the number.
 std::string text_of(double value) { return fmt::format("{}", value); }
 
-/// From a few steps a revolution on, refined so that the error falls by 16 a time (by 4 for the
-/// midpoint rule). The comparison stops where it no longer falls, or where the time runs out.
+/// Steps from a few a revolution on, refined so that the error falls by 16 a time (by 4 for the
+/// midpoint rule). The comparison stops where the error no longer falls, or where the time runs
+/// out.
 std::vector<double> default_steps(const Scene& scene, double order) {
   constexpr int count = 32;
   const double span = std::abs(scene.duration);
@@ -49,11 +49,8 @@ class SeriesBuilder {
   std::vector<CandidateSeries> build() {
     std::vector<IntegrationMethod> methods = wanted_.methods;
     if (methods.empty()) {
-      methods = {IntegrationMethod::gauss, IntegrationMethod::velocity_verlet,
-                 IntegrationMethod::fehlberg78};
-      if (cvode_available()) {
-        methods.push_back(IntegrationMethod::cvode_adams);
-        methods.push_back(IntegrationMethod::cvode_bdf);
+      for (const MethodDescription& method : all_methods()) {
+        if (method.is_compared_by_default && method.is_built()) methods.push_back(method.method);
       }
     }
     for (const IntegrationMethod method : methods) add_method(method);
@@ -61,47 +58,19 @@ class SeriesBuilder {
   }
 
  private:
-  void add_method(IntegrationMethod method) {
-    IntegratorSettings settings;
-    settings.method = method;
-    switch (method) {
-      case IntegrationMethod::gauss:
-        for (const int stages : std::set<int>(wanted_.stages.begin(), wanted_.stages.end())) {
-          settings.stages = stages;
-          const std::string name = fmt::format("Gauss {}", stages);
-          const std::string label = fmt::format("gauss{}", stages);
-          add_fixed(settings, name, label, 2.0 * stages);
-          add_adaptive(settings, name + " adaptive", label);
-        }
-        break;
-      case IntegrationMethod::stormer:
-        add_fixed(settings, "Störmer", "stormer", 1);
-        break;
-      case IntegrationMethod::velocity_verlet:
-        for (const int order : {2, 4, 6, 8}) {
-          settings.order = order;
-          add_fixed(settings, fmt::format("Verlet {}", order), fmt::format("verlet{}", order),
-                    order);
-        }
-        break;
-      case IntegrationMethod::newmark:
-        add_fixed(settings, fmt::format("Newmark {}", settings.beta), "newmark", 2);
-        break;
-      case IntegrationMethod::fehlberg78:
-        add_fixed(settings, "Fehlberg 7(8)", "fehlberg78", 8);
-        add_adaptive(settings, "Fehlberg 7(8) adaptive", "fehlberg78");
-        break;
-      case IntegrationMethod::cvode_adams:
-        add_adaptive(settings, "CVODE Adams", "cvode-adams");
-        break;
-      case IntegrationMethod::cvode_bdf:
-        add_adaptive(settings, "CVODE BDF", "cvode-bdf");
-        break;
+  void add_method(IntegrationMethod which) {
+    const MethodDescription& method = description_of(which);
+    for (ComparedForm& form : method.compared_forms(wanted_)) {
+      form.settings.method = which;
+      if (method.has_fixed_steps) add_fixed(form.settings, form.name, form.label, form.order);
+      if (!method.has_tolerance) continue;
+      add_adaptive(form.settings, form.name + (method.has_fixed_steps ? " adaptive" : ""),
+                   form.label);
     }
   }
 
-  /// Whether a list is to be run as it stands: as soon as the scene gives steps or tolerances, the
-  /// other list is no longer filled in by default.
+  /// Whether lists are filled in by default: not if the scene gives steps or tolerances, even if
+  /// only one of the two.
   bool uses_defaults() const {
     return wanted_.steps_canonical.empty() && wanted_.tolerances.empty();
   }

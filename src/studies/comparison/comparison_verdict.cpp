@@ -8,6 +8,7 @@
 #include "../../text/quantity_text.hpp"
 #include "../nominal_period.hpp"
 #include "hamjet/studies/comparison.hpp"
+#include "hamjet/studies/method_description.hpp"
 
 namespace hamjet {
 namespace {
@@ -20,7 +21,7 @@ std::string given_length_text(double metres) {
   return fmt::format("{:.0e} m", metres);
 }
 
-/// "Gauss 8 adaptive (tolerance 1e-07)".
+/// A run in words: "Gauss 8 adaptive (tolerance 1e-07)".
 std::string configuration_text(const ComparedRun& run) {
   if (run.settings.tolerance) {
     return fmt::format("{} (tolerance {:g})", run.series, *run.settings.tolerance);
@@ -47,7 +48,7 @@ double separation_m(const Scene& scene) {
   return scene.separation.value_or(0) * scene.units.length_km * 1000;
 }
 
-/// What is to be said where all timed runs that reach the error are of one family of methods.
+/// What to say where all timed runs that reach the error are of one family of methods.
 std::string rest_text(const ComparisonResult& result, const std::vector<const ComparedRun*>& runs) {
   const ComparedRun& best = *runs[0];
   std::string text;
@@ -64,7 +65,7 @@ std::string rest_text(const ComparisonResult& result, const std::vector<const Co
       });
   if (has_untimed) return text + "; others of other families that reach it were not timed.";
   return text + fmt::format("; no method of another family than {} that was run reaches it.",
-                            method_names()[static_cast<std::size_t>(best.settings.method)]);
+                            method_name(best.settings.method));
 }
 
 }  // namespace
@@ -153,7 +154,7 @@ std::string verdict(const ComparisonResult& result) {
   }
   std::string text = fmt::format("{}: {} needs {}", task, configuration_text(*runs[0]),
                                  duration_text(runs[0]->median_seconds()));
-  // The next of another method says more than the same method with another number of stages.
+  // The next run of another method says more than the same method with other stages.
   const auto other = std::find_if(runs.begin(), runs.end(), [&](const ComparedRun* run) {
     return run->settings.method != runs[0]->settings.method;
   });
@@ -178,15 +179,9 @@ std::string advice(const ComparisonResult& result) {
       run.error_at_formation_m < claimed ? "below " : "",
       std::max(run.error_at_formation_m, claimed), given_length_text(separation_m(result.scene)),
       given_length_text(wanted), duration_text(run.median_seconds()), run.settings.label,
-      method_names()[static_cast<std::size_t>(run.settings.method)]);
-  if (run.settings.method == IntegrationMethod::gauss) {
-    text += fmt::format("stages = {}\n", run.settings.stages);
-  }
-  if (run.settings.method == IntegrationMethod::velocity_verlet) {
-    text += fmt::format("order = {}\n", run.settings.order);
-  }
-  if (run.settings.method == IntegrationMethod::newmark) {
-    text += fmt::format("beta = {}\n", run.settings.beta);
+      method_name(run.settings.method));
+  for (const auto& [key, value] : compared_values(run.settings)) {
+    text += fmt::format("{} = {}\n", key, value);
   }
   if (run.settings.tolerance) text += fmt::format("tolerance = {}\n", *run.settings.tolerance);
   if (run.settings.step_canonical) {

@@ -14,13 +14,13 @@ namespace hamjet {
 std::optional<ConvergenceFit> fit_convergence(const ComparisonResult& result,
                                               const CandidateSeries& series, int degree);
 
-/// The same from runs in extended precision, where many more digits lie between the steps at which
-/// the leading term dominates and the rounding floor: steps that continue those of the series'
-/// finest usable run. Where the whole duration shows no order within 0.3 of theory, or would take
-/// longer than `seconds`, shorter arcs from its start are tried, with references of their own: over
-/// them the leading term dominates at longer steps. `keep_going` is told the fraction done and may
-/// throw. None where a custom integrator has no extended precision, where no run of the series is
-/// usable, or where the shortest arc takes too long too.
+/// Fits the order of convergence from runs in extended precision, where many more digits lie
+/// between the steps at which the leading term dominates and the rounding floor: these steps
+/// continue those of the series' finest usable run. Where the whole duration shows no order within
+/// 0.3 of theory, or would take longer than `seconds`, shorter arcs from its start are tried, with
+/// references of their own: over them the leading term dominates at longer steps. `keep_going` is
+/// told the fraction done and may throw. None where a custom integrator has no extended precision,
+/// where no run of the series is usable, or where even the shortest arc takes too long.
 std::optional<ConvergenceFit> fit_extended_convergence(
     const ComparisonResult& result, const CandidateSeries& series, int degree, double seconds,
     const std::function<void(double)>& keep_going);
@@ -41,13 +41,14 @@ struct LogarithmicFit {
   double scatter = 0;  ///< largest distance of a point, in decades
 };
 
-/// With a term in step^correction beside the slope where that is not 0.
+/// Fits the slope, and a term in step^correction beside it unless `correction` is 0.
 LogarithmicFit fit_logarithms(const std::vector<ConvergencePoint>& points, int correction);
 
-/// The slope of that fit; none if a point is further than a tenth of a decade from it.
+/// The slope that fit_logarithms gives; none if a point is further than a tenth of a decade from
+/// it.
 std::optional<double> fitted_slope(const std::vector<ConvergencePoint>& points, int correction);
 
-/// What a fit through these points says.
+/// The fit of a series at one degree, with this slope through these points.
 ConvergenceFit convergence_fit_of(const CandidateSeries& series, int degree, double slope,
                                   const std::vector<ConvergencePoint>& points);
 

@@ -10,6 +10,7 @@
 #include "../reference.hpp"
 #include "convergence_fit.hpp"
 #include "hamjet/error.hpp"
+#include "hamjet/studies/method_description.hpp"
 
 namespace hamjet {
 namespace {
@@ -17,8 +18,8 @@ namespace {
 constexpr std::size_t runs = 4;
 /// How far the finest run stays above what the reference can vouch for.
 constexpr double above_claimed = 30;
-/// No run over the whole duration needs a smaller error, and none so many more steps than those in
-/// double precision took.
+/// Runs over the whole duration need no smaller error than this rounding floor, and at most
+/// `most_refinement` times the steps of the runs in double precision.
 constexpr double smallest_floor = 1e-20;
 constexpr double most_refinement = 64;
 /// The coarsest error is this many times the finest, unless that takes more than halved steps.
@@ -32,17 +33,10 @@ constexpr long least_steps = 10;
 
 using Clock = std::chrono::steady_clock;
 
-/// The runs would take longer than is allowed.
-struct TooSlow {};
+/// Thrown if the runs would take longer than is allowed.
+struct AllTooSlow {};
 
-/// The exponent of the term that follows the leading one, relative to it: symmetric methods have
-/// an expansion of the error in even powers of the step (Hairer, Nørsett and Wanner, Solving ODEs
-/// I, II.8).
-int correction_of(IntegrationMethod method) {
-  return method == IntegrationMethod::fehlberg78 || method == IntegrationMethod::stormer ? 1 : 2;
-}
-
-/// The numbers of steps, the most first, that continue a usable run down to the floor.
+/// The numbers of steps, the most first, that continue a usable run down to the error `floor`.
 std::vector<long> step_counts(const ConvergencePoint& start, double duration, double order,
                               double floor) {
   const double refinement = std::pow(start.error / floor, 1 / order);
@@ -78,7 +72,7 @@ std::optional<ConvergenceFit> fit_over_arc(const ComparisonResult& result,
   const double floor = std::max(above_claimed * claimed, is_whole ? smallest_floor : 0);
   const double span = std::abs(scene.duration);
   const auto counts = step_counts(finest, span, series.order, floor);
-  // So few steps that rounding their number makes two runs alike tell nothing.
+  // With so few steps, rounding their number makes runs alike, which tell nothing.
   if (counts.back() < static_cast<long>(2 * runs)) return std::nullopt;
   const long total = std::accumulate(counts.begin(), counts.end(), 0L);
 
@@ -86,7 +80,7 @@ std::optional<ConvergenceFit> fit_over_arc(const ComparisonResult& result,
   std::vector<ConvergencePoint> points;
   long done = 0;
   const auto start = Clock::now();
-  // The coarsest first: it tells what the others take.
+  // The coarsest run comes first: it tells what the others take.
   for (std::size_t k = runs; k-- > 0;) {
     settings.step_canonical = span / (static_cast<double>(counts[k]) - 0.5);
     IntegrationStatistics statistics;
@@ -97,7 +91,7 @@ std::optional<ConvergenceFit> fit_over_arc(const ComparisonResult& result,
           const std::chrono::duration<double> spent = Clock::now() - start;
           if (spent.count() * static_cast<double>(total) > seconds * static_cast<double>(done) &&
               done >= least_steps) {
-            throw TooSlow{};
+            throw AllTooSlow{};
           }
         });
     const double error =
@@ -107,7 +101,7 @@ std::optional<ConvergenceFit> fit_over_arc(const ComparisonResult& result,
                       fmt::format("{} steps", statistics.steps)});
   }
   std::reverse(points.begin(), points.end());
-  const auto slope = fitted_slope(points, correction_of(settings.method));
+  const auto slope = fitted_slope(points, description_of(settings.method).error_correction);
   if (!slope) return std::nullopt;
   ConvergenceFit fit = convergence_fit_of(series, degree, *slope, points);
   fit.is_extended = true;
@@ -129,7 +123,7 @@ std::optional<ConvergenceFit> fit_extended_convergence(
       auto fit = fit_over_arc(result, series, degree, arc, seconds, keep_going);
       if (fit && fit->agrees()) return fit;
       if (fit) best = std::move(fit);
-    } catch (const TooSlow&) {
+    } catch (const AllTooSlow&) {
       continue;
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::numerical) throw;

@@ -26,7 +26,7 @@ class AssignmentStudy {
         progress_(progress),
         points_(scene, progress, seconds_) {
     result_.scene = scene;
-    // All pairs of few; of many as many, evenly taken.
+    // All pairs if they are few, else this many of them, evenly taken.
     constexpr std::size_t most_pairs = 64;
     const std::size_t n = settings_.deputies.size();
     const std::size_t stride = std::max<std::size_t>(1, n * n / most_pairs);
@@ -180,7 +180,7 @@ class AssignmentStudy {
   const ProgressCallback& progress_;
   TransferSeconds seconds_;
   TransferPoints points_;
-  std::vector<RelativeTransfer> typical_;                ///< that the kind is chosen for
+  std::vector<RelativeTransfer> typical_;                ///< transfers that the kind is chosen for
   std::vector<std::vector<std::vector<double>>> costs_;  ///< [time][deputy][slot], m/s
   AssignmentResult result_;
 };

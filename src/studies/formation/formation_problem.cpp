@@ -5,28 +5,9 @@
 #include <algorithm>
 
 #include "hamjet/error.hpp"
+#include "hamjet/studies/method_description.hpp"
 
 namespace hamjet {
-namespace {
-
-bool is_symplectic(const IntegratorSettings& settings) {
-  switch (settings.method) {
-    case IntegrationMethod::gauss:
-    case IntegrationMethod::stormer:
-    case IntegrationMethod::velocity_verlet:
-      return true;
-    case IntegrationMethod::newmark:  // for beta > 0 in other variables than (q, p)
-      return settings.beta == 0;
-    case IntegrationMethod::fehlberg78:
-    case IntegrationMethod::cvode_adams:
-    case IntegrationMethod::cvode_bdf:
-      return false;
-  }
-  return false;
-}
-
-}  // namespace
-
 void require_formation_problem(const Scene& scene, bool has_table, std::string_view table) {
   const auto refuse = [&](const std::string& problem) {
     throw Error(ErrorKind::scene, fmt::format("{}: {}", table, problem));
@@ -46,14 +27,22 @@ void require_formation_problem(const Scene& scene, bool has_table, std::string_v
 }
 
 const IntegratorSettings& symplectic_integrator(const Scene& scene) {
-  const auto place =
-      std::find_if(scene.integrators.begin(), scene.integrators.end(), is_symplectic);
+  const auto place = std::find_if(scene.integrators.begin(), scene.integrators.end(),
+                                  [](const IntegratorSettings& settings) {
+                                    return description_of(settings.method).is_symplectic(settings);
+                                  });
   if (place == scene.integrators.end()) {
-    throw Error(
-        ErrorKind::scene,
-        "integrator: only a symplectic map has generating functions, got none that is "
-        "symplectic in (q, p), must be one of gauss, stormer, velocity-verlet, newmark with "
-        "beta = 0");
+    std::vector<std::string> good;
+    for (const MethodDescription& method : all_methods()) {
+      const bool is_always = method.not_symplectic.empty();
+      if (!is_always && method.symplectic_with.empty()) continue;
+      good.push_back(is_always ? std::string(method.name)
+                               : fmt::format("{} with {}", method.name, method.symplectic_with));
+    }
+    throw Error(ErrorKind::scene,
+                fmt::format("integrator: only a symplectic map has generating functions, got none "
+                            "that is symplectic in (q, p), must be one of {}",
+                            fmt::join(good, ", ")));
   }
   return *place;
 }

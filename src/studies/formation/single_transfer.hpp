@@ -39,7 +39,7 @@ class SingleTransfer {
   double miss_m(const std::vector<double>& flown) const;
   /// Newton's method on the flown miss with the derivatives of the jet at this time, from the
   /// momenta of the highest order until the scene's `refined_miss_m` is reached. The failure of an
-  /// answer that does not get there is recorded in it. Counts the flights.
+  /// answer that does not get there is recorded in it. Adds the number of flights to `flights`.
   TransferAnswer refine(const FlowJet<double>& jet, BoundaryMomenta momenta, int& flights) const;
 
   /// The state of the deputy at the start, after the first impulse.
@@ -54,7 +54,7 @@ class SingleTransfer {
   ChiefFrame start_frame_;
   ChiefFrame end_frame_;
   std::vector<double> start_;  ///< canonical (dq, dp) before the first impulse
-  std::vector<double> end_;    ///< after the second
+  std::vector<double> end_;    ///< canonical (dq, dp) after the second impulse
 };
 
 }  // namespace hamjet

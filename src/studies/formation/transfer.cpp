@@ -53,7 +53,7 @@ void require_same_chief(const EarlierJet& earlier, double distance) {
                           earlier.label, distance));
 }
 
-/// The spans between the neighbours of the lowest listed answers, at most so many.
+/// The spans between the neighbours of the lowest listed answers, at most `most_spans` of them.
 std::vector<std::pair<double, double>> lowest_spans(const TransferResult& result) {
   constexpr std::size_t most_spans = 3;
   const std::vector<double>& times = result.scene.transfer->times;
@@ -95,9 +95,9 @@ std::vector<double> times_within(const std::vector<std::pair<double, double>>& s
 
 namespace {
 
-/// Looks for less between the listed times, about the lowest answers: twelve times in the span
-/// between the neighbours of each, then twelve about the least of these, so that the least is known
-/// to a thirtieth of the listed spacing.
+/// Looks for a smaller velocity change between the listed times, about the lowest answers: twelve
+/// times in the span between the neighbours of each, then twelve about the least of these, so that
+/// the least is known to a thirtieth of the listed spacing.
 void search_between(TransferResult& result, TransferPoints& points,
                     const IntegratorSettings& integrator, const RelativeTransfer& ends,
                     const ProgressCallback& progress) {

@@ -16,7 +16,7 @@
 namespace hamjet {
 namespace {
 
-/// Along R, T, N of the chief, if it has an orbital plane.
+/// A direction along R, T, N of the chief, if the chief has an orbital plane.
 std::optional<Eigen::Vector3d> along_rtn(const std::vector<double>& chief,
                                          const Eigen::Vector3d& direction) {
   try {
@@ -58,8 +58,9 @@ TransferPoints::TransferPoints(const Scene& scene, const ProgressCallback& progr
 void TransferPoints::find_singular_times(const ProgressCallback& progress) {
   const Stopwatch watch(seconds_.singularities);
   const double last = settings_.times.back();
-  // A little longer, so that what lies right behind the last time is seen too; no more than a
-  // quarter of a revolution at the initial distance, in which some singularity lies anyway.
+  // The flow goes a little beyond the last time, so that a singularity right behind it is seen too;
+  // no more than a quarter of a revolution at the initial distance, in which some singularity lies
+  // anyway.
   const double margin = std::min(settings_.singular_margin, std::numbers::pi / 2);
   const LinearFlow flow(problem_, last + std::copysign(margin, last), checkpoints_per_revolution,
                         [&](double done) {
@@ -235,7 +236,7 @@ std::optional<double> TransferPoints::hamilton_jacobi_floor() const {
       }
       floor = std::max(floor, terms.scaled());
     } catch (const Error& error) {
-      // Beside a singularity an ulp may be what the kind exists by.
+      // Beside a singularity a kind may exist by an ulp only.
       if (error.kind() != ErrorKind::numerical) throw;
     }
   }

@@ -14,12 +14,12 @@ namespace hamjet {
 /// The kind with which one time's transfers are answered, and its jet solved for it.
 struct ChosenKind {
   double time = 0;
-  std::vector<double> conditions;  ///< of all kinds, F1's first
+  std::vector<double> conditions;  ///< condition numbers of all kinds, F1's first
   std::optional<PartialInversion<double>> inversion;
   std::string failure;  ///< not empty: there is no inversion, and why
 };
 
-/// From one relative state to another.
+/// The two relative states that a transfer leads from and to.
 struct RelativeTransfer {
   RelativeState start;
   RelativeState end;
@@ -40,12 +40,13 @@ class TransferPoints {
   /// The scene's kind, or the best one for these transfers, with hysteresis along the calls.
   ChosenKind choose_kind(double time, const FlowJet<double>& jet,
                          const std::vector<RelativeTransfer>& transfers);
-  /// All orders' answers, proved, and the refinement if the scene asks for it.
+  /// The answers of all orders for one transfer, proved by flying, with the refinement if it is
+  /// needed.
   TransferPoint answer(const ChosenKind& chosen, const FlowJet<double>& jet,
                        const RelativeTransfer& ends);
-  /// The next choice of a kind looks at no earlier one.
+  /// Makes the next choice of a kind independent of earlier ones.
   void forget_last_kind() { choice_ = {}; }
-  /// See TransferResult.
+  /// See TransferResult::flight_floor_m.
   double flight_floor_m(const FlowJet<double>& jet) const;
   double chief_error_m(double time, const FlowJet<double>& jet);
   std::optional<double> hamilton_jacobi_floor() const;
@@ -81,7 +82,7 @@ class TransferPoints {
   std::vector<GeneratingFunctionKind> kinds_;
   KindChoice choice_;
   double chief_time_ = 0;
-  std::vector<double> flown_chief_;  ///< at that time
+  std::vector<double> flown_chief_;  ///< at the time of the last flight
   std::vector<SingularTime> singular_times_;
   std::optional<LargestResidual> largest_residual_;
 };

@@ -18,7 +18,7 @@
 namespace hamjet {
 namespace {
 
-/// Separations tried, in canonical units of length: beyond the first no orbit is near.
+/// The separations tried, in canonical units of length; beyond the largest no orbit is near.
 constexpr double largest_separation = 0.5;
 constexpr double smallest_separation = 1e-12;
 
@@ -51,12 +51,12 @@ class ValidityStudy {
   }
 
  private:
-  /// Deviations of separation 1: on the surface of the ellipsoid in position, and of its like in
-  /// velocity.
+  /// Makes deviations of separation 1: on the surface of the ellipsoid in position, and on that of
+  /// the same ellipsoid in velocity.
   void make_samples() {
     // Columns: the canonical deviations of unit coordinates, three of position and three of
-    // velocity, each triple of length 1 on the surface of the ellipsoid. In a rotating frame those
-    // of position have a velocity too.
+    // velocity, each triple of length 1 on the surface of the ellipsoid. In a rotating frame the
+    // deviations of position have a velocity too.
     const ChiefFrame frame(problem_.nominal, MetricUnits{}, settings_.frame);
     const double velocity = momentum_per_length(scene_);
     for (std::size_t i = 0; i < 6; ++i) {
@@ -87,7 +87,7 @@ class ValidityStudy {
     return {z.begin(), z.end()};
   }
 
-  /// The position's part of one degree at a sample.
+  /// Size of one degree's part of the position at a sample.
   double slice_size(const FlowJet<double>& jet, const Vector6& coordinates, int degree) {
     values_.set_point(deviation(coordinates));
     return std::hypot(values_.slice(jet[0], degree), values_.slice(jet[1], degree),
@@ -137,7 +137,7 @@ class ValidityStudy {
     for (std::size_t k = 0; k < std::min(starts, sizes.size()); ++k) {
       samples.push_back(worst_from(jet, samples_[sizes[k].second], degree));
     }
-    // The worst first: a deputy that misses by far ends the trial.
+    // The worst samples come first: a deputy that misses by far ends the trial.
     std::rotate(samples.begin(), samples.begin() + static_cast<std::ptrdiff_t>(samples_.size()),
                 samples.end());
     return samples;
@@ -161,7 +161,8 @@ class ValidityStudy {
           next > 0 ? std::pow(tolerance_ / next, 1.0 / (order + 1)) : largest_separation;
       entry.predicted_m = std::min(predicted, largest_separation) * metres_;
       const Stopwatch watch(result_.proof_seconds);
-      // The worst deviations of the order's error: of the next degree, or of the last one known.
+      // The worst deviations for an order's error are those of the next degree, or of the last one
+      // known.
       flown_samples_ = samples_with_worst(jet, std::min(order + 1, scene_.order));
       prove(jet, std::min(predicted, largest_separation), entry);
       point.entries.push_back(entry);
@@ -172,7 +173,7 @@ class ValidityStudy {
     result_.points.push_back(std::move(point));
   }
 
-  /// The largest position of each degree's part, degree N + 1 extrapolated.
+  /// The largest size of each degree's part of the position; degree N + 1 is extrapolated.
   std::vector<double> slice_sizes(const FlowJet<double>& jet) {
     std::vector<double> sizes(static_cast<std::size_t>(scene_.order) + 2, 0);
     for (int d = 1; d <= scene_.order; ++d) {
@@ -182,7 +183,7 @@ class ValidityStudy {
       }
     }
     const std::size_t last = sizes.size() - 2;
-    // With the one degree of order 1 there is no ratio: a size per unit of length of 1.
+    // Order 1 has one degree and no ratio; 1 per unit of length is taken for it.
     const double ratio = last >= 2 && sizes[last - 1] > 0 ? sizes[last] / sizes[last - 1] : 1;
     sizes[last + 1] = sizes[last] * ratio;
     return sizes;
@@ -244,7 +245,7 @@ class ValidityStudy {
       if (bad > 0 && good > 0 && bad < close * good) break;
       double factor = found > 0 ? std::pow(tolerance_ / found, 1.0 / (entry.order + 1)) : 2;
       factor = std::clamp(factor, 0.1, 2.0);
-      // A little to the other side, so that the two come together.
+      // The next trial is a little to the other side, so that the two bounds come together.
       trial *= factor * (found <= tolerance_ ? 1.01 : 0.99);
       if (good > 0 && bad > 0 && !(trial > good && trial < bad)) trial = std::sqrt(good * bad);
       trial = std::min(trial, largest_separation);

@@ -19,7 +19,7 @@ namespace {
 constexpr long most_stored_points = 20000;
 
 double step_count(const CanonicalTransformationStudy& study, double step) {
-  // A step that divides the duration up to round-off does.
+  // A step that divides the duration up to round-off counts as dividing it.
   return std::max(1.0, std::ceil(study.duration / step * (1 - 1e-12)));
 }
 
@@ -47,7 +47,7 @@ void raise(std::optional<double>& largest, double value) {
   if (!largest || !(value <= *largest)) largest = value;
 }
 
-/// One step size: the same steps in both coordinates, side by side.
+/// The run of one step size: the same steps in both coordinates, side by side.
 class Run {
  public:
   Run(const CanonicalTransformationStudy& study, const DynamicalSystem& system, double requested)
@@ -63,7 +63,7 @@ class Run {
     result_.stored_interval = (result_.steps + most_stored_points - 1) / most_stored_points;
   }
 
-  /// `progress` is told the number of steps so far.
+  /// Does the steps; `progress` is told their number so far.
   template <class Progress>
   CanonicalTransformationRun run(const Progress& progress) {
     try {
@@ -126,7 +126,7 @@ class Run {
     result_.trajectory.push_back(std::move(point));
   }
 
-  /// At the midpoint of the step in z, whose image under f_k is that in Z.
+  /// Takes the residual at the midpoint of the step in z, whose image under f_k is the one in Z.
   void check_hamilton_jacobi(TransformedMidpoint<double>& transformed,
                              const Vector<double>& middle) {
     using Kind = DiscreteGeneratingFunctionKind;
@@ -157,7 +157,7 @@ class Run {
 
   const CanonicalTransformationStudy& study_;
   RecordedHamiltonian<double> original_;
-  RecordedHamiltonian<double> hamiltonian_;  ///< H below K
+  RecordedHamiltonian<double> hamiltonian_;  ///< the H that K is made of
   Vector<double> state_;
   double energy_ = 0;
   double transformed_energy_ = 0;

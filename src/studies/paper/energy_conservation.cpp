@@ -52,13 +52,13 @@ std::optional<double> predicted_time(const EnergyConservationStudy& study,
   return std::nullopt;
 }
 
-/// Raises a maximum; what is not a number stays.
+/// Raises a maximum; NaN, once there, stays.
 void raise(double& largest, double value) {
   if (!(value <= largest)) largest = value;
 }
 
-/// Whether a stop is what the method's step equation leads to, and not a start or a place that the
-/// scene should not have.
+/// Whether a stop comes from the method's step equation, not from a start or a place that the scene
+/// should not have.
 bool is_of_the_method(const EnergyConservingStop& stop) {
   return stop.cause != EnergyConservingStopCause::not_finite &&
          stop.cause != EnergyConservingStopCause::no_midpoint;

@@ -36,7 +36,7 @@ void require_size_of_work(const OptimalControlStudy& study) {
   }
 }
 
-/// Relative to `exact`; absolute where that is 0.
+/// The error relative to `exact`; absolute where that is 0.
 double relative_error(double value, double exact) {
   return std::abs(value - exact) / (exact != 0 ? std::abs(exact) : 1);
 }
@@ -99,9 +99,9 @@ class StepNumber {
     return sum;
   }
 
-  /// Both routes, each by its own equations, from a costate one per cent off that of the solution.
-  /// Where the solutions form a family both are asked for the member with the solution's costate
-  /// along the family.
+  /// Compares both routes, each by its own equations, from a costate one per cent off that of the
+  /// solution. Where the solutions form a family, both are asked for the member with the solution's
+  /// costate along the family.
   RouteComparison compare_routes(const ShootingSolution& solution) {
     constexpr double displacement = 1.01;
     const Eigen::VectorXd& costate = solution.trajectory.costates.front();

@@ -24,7 +24,8 @@ struct Checkpoint {
   double largest_energy_error = 0;  ///< up to this time
 };
 
-/// 1, 1/2, 1/4, ... of the duration, the smallest first, where no times are given.
+/// The times of the fits; where none are given, 1, 1/2, 1/4, ... of the duration, the smallest
+/// first.
 std::vector<double> wanted_times(const Scene& scene, const GrowthExpectation& expected) {
   if (!expected.times.empty()) return expected.times;
   std::vector<double> times;
@@ -79,8 +80,8 @@ ComputedProblem moved_start(ComputedProblem problem, int ulps) {
 }
 
 /// Largest distance of a component of the nominal from the true one, relative to the largest
-/// component, at each checkpoint. The states are those of the scene's start; `moved` is another
-/// start so near that the linear part of the jet gives the difference.
+/// component, at each checkpoint. The states belong to the scene's start; `moved` is another start
+/// so near that the linear part of the jet gives the difference.
 std::vector<double> nominal_errors(const ComputedProblem& problem, const ComputedProblem& moved,
                                    const std::vector<Checkpoint>& points,
                                    const std::vector<Extended>& states) {
@@ -105,7 +106,7 @@ std::vector<double> nominal_errors(const ComputedProblem& problem, const Compute
 }
 
 /// Throws Error(usage) unless there is a checkpoint at each of the times. Steps that a tolerance
-/// chooses end elsewhere, and elsewhere for every start.
+/// chooses end elsewhere, for every start at other times.
 void require_times(const std::vector<double>& times, bool are_exact,
                    const std::vector<Checkpoint>& points) {
   for (std::size_t k = 0; k < times.size(); ++k) {
@@ -147,7 +148,7 @@ void fit(GrowthCurve& curve, double least, double tolerance) {
   }
   if (usable.size() >= 3) curve.exponent = fit_logarithms(usable, 0).slope;
   if (!curve.exponent) {
-    // What never rises above round-off has not grown.
+    // A quantity that never rises above round-off has not grown.
     curve.is_as_expected = curve.is_upper_bound;
   } else if (curve.is_upper_bound) {
     curve.is_as_expected = *curve.exponent <= curve.expected;
@@ -164,7 +165,7 @@ std::vector<GrowthCurve> growth_curves(const Scene& scene, const ComputedProblem
   constexpr double round_off = 4 * std::numeric_limits<double>::epsilon();
   require_sizes(expected, scene);
   const std::vector<double> times = wanted_times(scene, expected);
-  std::vector<Checkpoint> points;  // of the scene's own start
+  std::vector<Checkpoint> points;  // the scene's own start
   std::vector<Extended> states = expected.states;
   std::vector<double> squared_errors(times.size(), 0);
   std::vector<double> squared_energy_errors(times.size(), 0);

@@ -17,6 +17,7 @@
 #include "hamjet/algebra/composition.hpp"
 #include "hamjet/dynamics/relative_hamiltonian.hpp"
 #include "hamjet/error.hpp"
+#include "hamjet/studies/method_description.hpp"
 
 namespace hamjet {
 namespace {
@@ -36,7 +37,7 @@ VectorXd state_vector(const std::vector<double>& numbers) {
   return Eigen::Map<const VectorXd>(numbers.data(), index(numbers.size()));
 }
 
-/// Where a run stands after so many steps.
+/// Where a run stands after some number of steps.
 struct RunPoint {
   double time = 0;
   long steps = 0;
@@ -82,11 +83,11 @@ struct FieldValue {
   MatrixXd gradient;
 };
 
-/// The method with steps of one length. Gauss with a tolerance in place of CVODE, whose steps
-/// depend on those before, and of very many steps.
+/// The method with steps of one length; Gauss with a tolerance in place of CVODE, whose steps
+/// depend on those before, and in place of very many steps.
 IntegratorSettings settings_of_step(IntegratorSettings settings, const RunPoint& from,
                                     const RunPoint& to) {
-  if (is_cvode(settings.method) || to.steps - from.steps > 1) {
+  if (description_of(settings.method).is_multistep || to.steps - from.steps > 1) {
     settings = IntegratorSettings{};
     settings.tolerance = 1e-12;
     return settings;
@@ -119,8 +120,8 @@ class LocalJets {
     std::iota(variables_.begin(), variables_.end(), std::size_t{0});
   }
 
-  /// Of second order, or of first where the run's own steps must be taken from its matrices; empty
-  /// where neither can be had.
+  /// A step's map of second order, or of first order where the run's own step must be taken from
+  /// its matrices; empty where neither can be had.
   std::optional<StepMap> step_map(const IntegratorSettings& settings, const RunPoint& from,
                                   const RunPoint& to, const ComputedProblem& problem) const {
     IntegrationStatistics statistics;
@@ -181,8 +182,8 @@ class LocalJets {
   std::vector<std::size_t> variables_;
 };
 
-/// What a rounding may change: by magnitude, and of the numbers below the normal ones by the
-/// distance between two of them.
+/// Sizes that a rounding may change: the magnitudes; for numbers below the normal ones the distance
+/// between two of them.
 template <class Magnitudes>
 auto rounding_of(const Magnitudes& magnitudes, double unit) {
   return magnitudes
@@ -275,7 +276,7 @@ void RoundingSample::follow_as(const Scene& scene, const ComputedProblem& proble
     const FieldValue field = jets.field(from.state);
     const MatrixXd moved = (map->linear - identity).cwiseAbs();
     const MatrixXd& matrix = from.matrix;
-    // Roundings of the steps of a group, independent of each other.
+    // The roundings of a group's steps are independent, so that their squares add up.
     const double unit_of_group = unit * std::sqrt(static_cast<double>(to.steps - from.steps));
     const VectorXd state_rounding =
         rounding_of(from.state.cwiseAbs() + moved * from.state.cwiseAbs() +

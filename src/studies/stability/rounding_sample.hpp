@@ -12,8 +12,8 @@ namespace hamjet {
 /// What rounding alone does to a result: the largest deviation in a sample, canonical.
 struct RoundingFloor {
   std::vector<double> state;  ///< of each component of the model
-  /// Of each first derivative of the final by the initial state, by rows, 2n x 2n; 0 where the jet
-  /// is not expanded.
+  /// The deviation of each first derivative of the final by the initial state, by rows, 2n x 2n; 0
+  /// where the jet is not expanded.
   std::vector<double> matrix;
 };
 
@@ -33,8 +33,8 @@ struct RoundingFloor {
 /// Gauss with 8 stages in place of CVODE's, which depend on the steps before). More than 80 000
 /// steps are taken in groups, of whose disturbances the squares add up. Where a step's implicit
 /// equations have several solutions and the step alone would find another one than the run, its
-/// first-order map is taken from the run's matrices. What has no number in it, such as a component
-/// that stays zero, is not disturbed; an integration of no steps rounds nothing.
+/// first-order map is taken from the run's matrices. A component that stays zero is not disturbed;
+/// an integration of no steps rounds nothing.
 class RoundingSample {
  public:
   static constexpr std::size_t size = 32;
@@ -45,7 +45,7 @@ class RoundingSample {
   void follow(const Scene& scene, const ComputedProblem& problem,
               const std::function<void(double)>& progress = {});
 
-  /// After the last call.
+  /// The rounding floor after the last call of `follow`.
   const RoundingFloor& floor() const { return floor_; }
 
  private:
@@ -55,7 +55,7 @@ class RoundingSample {
                  const std::function<void(double)>& progress);
 
   std::mt19937_64 generator_{20};
-  std::vector<std::vector<double>> states_;  ///< of each member, as far as it was followed
+  std::vector<std::vector<double>> states_;  ///< each member's state where it was last followed
   RoundingFloor floor_;
 };
 

@@ -53,7 +53,7 @@ void describe_run(const RunResult& run, StabilityResult& result) {
   if (!run.kinds.empty()) result.condition = run.kinds.front().condition;
 }
 
-/// The measured error or the curve that is not as it should be.
+/// The first measured error or curve that is not as it should be, in words.
 std::string first_excess(const StabilityResult& result) {
   if (result.error && !(result.error->ratio() <= 1)) {
     return fmt::format("{}: error {:.3g} exceeds {:.3g} (tolerance {:.3g} + {:g} x floor {:.3g})",
@@ -107,7 +107,7 @@ bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-/// What is wrong with a finding, or nothing.
+/// What is wrong with a finding; empty if nothing is.
 std::string objection(const StabilityExpectation& expected, const Finding& finding) {
   if (finding.outcome == CaseOutcome::wrong) return finding.text;
   if (finding.outcome != expected.outcome) {

@@ -24,7 +24,7 @@ double distance(const Extended& value, const Extended& reference) {
   return static_cast<double>(Extended(abs(value - reference)));
 }
 
-/// The worse of the two, by how far it exceeds what it may be; of equal ones the greater error.
+/// Keeps the error with the larger ratio to what is allowed; of equal ratios the larger error.
 void keep_worse(std::optional<MeasuredError>& worst, const MeasuredError& error) {
   const bool is_worse = !worst || error.ratio() > worst->ratio() ||
                         (error.ratio() == worst->ratio() && error.error > worst->error);
@@ -55,7 +55,7 @@ MeasuredError worst_of_matrix(const StabilityExpectation& expected, const FlowJe
     for (std::size_t k = 0; k < variables.size(); ++k) {
       const std::size_t entry = i * dimension + variables[k];
       const Extended& value = jet[i][jet[i].space().linear_index(k)];
-      // Symmetry alone makes an entry exactly 0, and it must be kept.
+      // Only symmetry makes an entry exactly 0, and symmetry must be kept exactly.
       const bool is_zero = expected.matrix[entry] == 0;
       keep_worse(worst, {"matrix", distance(value, expected.matrix[entry]),
                          is_zero ? 0 : floor.matrix[entry], is_zero ? 0 : expected.tolerance});
@@ -64,7 +64,7 @@ MeasuredError worst_of_matrix(const StabilityExpectation& expected, const FlowJe
   return *worst;
 }
 
-/// Of the rounding sample, for the user's progress.
+/// Tells the user's progress how far the rounding sample is.
 std::function<void(double)> sampling(const ProgressCallback& progress) {
   return [&progress](double done) {
     if (progress) progress("rounding", done);
@@ -90,7 +90,7 @@ void add_reference_errors(const StabilityExpectation& expected, const Propagatio
   }
 }
 
-/// A run whose failure is the case's.
+/// Runs a scene; a failure of its run is thrown, as a failure of the case.
 PropagationResult propagate_well(const Scene& scene, const ProgressCallback& progress) {
   PropagationResult result = propagate(scene, progress);
   if (!result.runs.front().failure.empty()) {

@@ -1,0 +1,134 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "hamjet/algebra/extended.hpp"
+#include "hamjet/integrators/arc_splitting.hpp"
+#include "hamjet/integrators/flow_problem.hpp"
+#include "hamjet/studies/scene.hpp"
+
+// All that the program knows of an integrator is said here once: scenes, lists, comparisons,
+// self-checks and results read it. A method is added by its integrator, its place in
+// integration_method.hpp and its description in integration_methods.cpp.
+
+namespace hamjet {
+
+/// The most stages of Gauss collocation that a scene can have.
+inline constexpr int most_gauss_stages = 12;
+
+/// A key of `[[integrator]]` that only some methods have.
+struct MethodSetting {
+  std::string_view key;           ///< the name of the member
+  std::string_view column = key;  ///< its name in comparisons
+  std::variant<int IntegratorSettings::*, double IntegratorSettings::*, bool IntegratorSettings::*>
+      member;
+  double least = 0;  ///< least value; the range includes both ends
+  double most = 0;
+  std::vector<int> choices = {};  ///< the only values of a whole number; empty: all in range
+  /// Words for people, such as "8 stages"; empty: there is nothing to say.
+  std::string (*text)(const IntegratorSettings&);
+  /// Whether another value makes another method, so that comparisons have a column for it and name
+  /// it in their advice.
+  bool is_compared = true;
+};
+
+/// A form of a method that a comparison runs with many steps or tolerances.
+struct ComparedForm {
+  IntegratorSettings settings;
+  std::string name;   ///< for people
+  std::string label;  ///< the beginning of its runs' labels
+  double order = 0;   ///< of convergence, with fixed steps
+};
+
+/// How a method integrates in either arithmetic; null for an arithmetic that it does not have.
+/// `records_step_error` asks for the largest local error even where that takes work of its own.
+struct MethodIntegration {
+  template <class Real>
+  using Function = FlowJet<Real> (*)(const FlowProblem<Real>&, const IntegratorSettings&,
+                                     IntegrationStatistics&, const StepObserver<Real>&,
+                                     bool records_step_error);
+  Function<double> in_double = nullptr;
+  Function<Extended> in_extended = nullptr;
+};
+
+/// An integrator, as scenes, lists, comparisons, self-checks and results know it.
+struct MethodDescription {
+  IntegrationMethod method;
+  std::string_view name;  ///< in scenes and results
+  std::string_view help;  ///< for people: what it is, its order, whether it is symplectic, its keys
+  std::vector<MethodSetting> settings = {};
+  bool has_fixed_steps = true;
+  bool has_tolerance = false;
+  /// Whether the tolerance bounds the relative error of every degree after one period, not the
+  /// local error of each step.
+  bool tolerance_is_of_the_jet = false;
+
+  /// The library that a build may lack, the option that brings it, and whether this build has it.
+  std::string_view library = {};
+  std::string_view build_option = {};
+  bool (*is_built)() = [] { return true; };
+
+  MethodIntegration integrate;
+  /// The method in the form that arcs take; none where its steps do not follow from the nominal
+  /// alone, so that a flow cannot be split.
+  std::optional<SplittableMethod> (*splittable)(const IntegratorSettings&) =
+      [](const IntegratorSettings&) { return std::optional<SplittableMethod>(); };
+
+  /// Why its jets are not checked for symplecticity; empty: they are.
+  std::string_view not_symplectic = {};
+  /// Whether a method that is not checked is symplectic in (q, p) with these settings; null: with
+  /// none.
+  bool (*is_symplectic_with)(const IntegratorSettings&) = nullptr;
+  std::string_view symplectic_with = {};  ///< those settings, for people: "beta = 0"
+
+  /// Why there is no iteration to check with these settings; empty: equations are solved.
+  std::string_view (*solves_no_equations)(const IntegratorSettings&) =
+      [](const IntegratorSettings&) {
+        return std::string_view("an explicit method solves no equations");
+      };
+  bool is_stable_for_every_step = false;  ///< on linear systems
+  /// Whether the map of a step preserves a two-form, in whatever variables.
+  bool preserves_a_two_form = true;
+  bool is_multistep = false;  ///< its steps depend on those before
+  /// The exponent of the term that follows the leading one in the error, relative to it: symmetric
+  /// methods have an expansion in even powers of the step (Hairer, Nørsett and Wanner, Solving ODEs
+  /// I, II.8).
+  int error_correction = 2;
+  /// Numbers that the integration holds for each coefficient of a series, if an evaluation of the
+  /// vector field has `values` series and the state `dimension`.
+  double (*numbers_held)(const IntegratorSettings&, double values, double dimension) =
+      [](const IntegratorSettings&, double values, double dimension) {
+        // The states that odeint's 13 stages, or CVODE's Nordsieck array, hold, and one lane.
+        return values + 20 * dimension;
+      };
+
+  /// The forms in which comparisons run the method, as the scene's `[compare]` chooses them.
+  std::vector<ComparedForm> (*compared_forms)(const ComparisonSettings&) =
+      [](const ComparisonSettings&) { return std::vector<ComparedForm>(); };
+  bool is_compared_by_default = false;
+
+  /// Whether the method with these settings is symplectic in (q, p).
+  bool is_symplectic(const IntegratorSettings& given) const {
+    return not_symplectic.empty() || (is_symplectic_with != nullptr && is_symplectic_with(given));
+  }
+};
+
+/// All methods, in the order of the enumeration.
+const std::vector<MethodDescription>& all_methods();
+
+/// The description of one method.
+const MethodDescription& description_of(IntegrationMethod method);
+
+/// The settings that comparisons list, each once, in the order of the methods.
+std::vector<MethodSetting> compared_settings();
+
+/// A method's settings that comparisons list, with the values given: {"stages", "8"}.
+std::vector<std::pair<std::string_view, std::string>> compared_values(
+    const IntegratorSettings& settings);
+
+}  // namespace hamjet
