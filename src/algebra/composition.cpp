@@ -1,138 +1,282 @@
+
 #include "hamjet/algebra/composition.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <utility>
+#include <array>
+#include <type_traits>
+
+#include "hamjet/algebra/pack.hpp"
 
 namespace hamjet {
 namespace {
 
-/// Walks all monomials of the outer space depth first, each made from its parent by one truncated
-/// product, so that no more than one series a degree is alive at a time. A monomial of degree k in
-/// inner series without constant terms has no terms below degree k.
+/// sums[i * j] += a[i] * b[j] for all monomials i of degree MA and j of degree MB of a block (see
+/// ProductSchedule), one vector of each pack, fully unrolled.
+template <std::size_t MA, std::size_t MB, class Sums, class P, class Real>
+[[gnu::always_inline]] inline void multiply_by_numbers(Sums& sums, const P* a, const Real* b,
+                                                       std::size_t part) {
+  using Vector = typename P::Vector;
+  [&]<std::size_t... I>(std::index_sequence<I...>) __attribute__((always_inline)) {
+    (
+        [&]<std::size_t Row, std::size_t... J>(std::integral_constant<std::size_t, Row>,
+                                               std::index_sequence<J...>)
+            __attribute__((always_inline)) {
+              const Vector factor = a[Row].part[part];
+              ((sums[detail::product_position(Row, J)] += factor * Vector(b[J])), ...);
+            }(std::integral_constant<std::size_t, I>{}, std::make_index_sequence<block_size(MB)>{}),
+        ...);
+  }
+  (std::make_index_sequence<block_size(MA)>{});
+}
+
+/// sums[i * j] += a[i] * b[j] for block degrees known at run time only.
+template <class Vector, class P, class Real>
+void multiply_by_numbers(Vector* sums, const P* a, const Real* b, std::size_t m_a, std::size_t m_b,
+                         std::size_t part) {
+  for (std::size_t ra = 0; ra <= m_a; ++ra) {
+    for (std::size_t ka = 0; ka <= ra; ++ka) {
+      const Vector factor = a[ra * (ra + 1) / 2 + ka].part[part];
+      for (std::size_t rb = 0; rb <= m_b; ++rb) {
+        Vector* row = sums + (ra + rb) * (ra + rb + 1) / 2 + ka;
+        const Real* b_row = b + rb * (rb + 1) / 2;
+        for (std::size_t kb = 0; kb <= rb; ++kb) row[kb] += factor * Vector(b_row[kb]);
+      }
+    }
+  }
+}
+
+/// c += one block of the product of packs a and numbers b.
+template <std::size_t M, class P, class Real>
+void add_block(const ProductSchedule& schedule, const ProductSchedule::Output& output, const P* a,
+               const Real* b, P* c) {
+  using Vector = typename P::Vector;
+  for (std::size_t part = 0; part < P::parts; ++part) {
+    std::array<Vector, block_size(M)> sums{};
+    std::size_t pair = output.first_pair;
+    [&]<std::size_t... MX>(std::index_sequence<MX...>) __attribute__((always_inline)) {
+      (
+          [&]<std::size_t Mx>(std::integral_constant<std::size_t, Mx>)
+              __attribute__((always_inline)) {
+                for (const std::size_t end = schedule.run_ends[output.first_run + Mx]; pair < end;
+                     ++pair) {
+                  const auto [x, y] = schedule.pairs[pair];
+                  multiply_by_numbers<Mx, M - Mx>(sums, a + x, b + y, part);
+                  multiply_by_numbers<M - Mx, Mx>(sums, a + y, b + x, part);
+                }
+              }(std::integral_constant<std::size_t, MX>{}),
+          ...);
+    }
+    (std::make_index_sequence<M / 2 + 1>{});
+    if constexpr (M % 2 == 0) {
+      if (output.diagonal != ProductSchedule::no_diagonal) {
+        multiply_by_numbers<M / 2, M / 2>(sums, a + output.diagonal, b + output.diagonal, part);
+      }
+    }
+    for (std::size_t i = 0; i < sums.size(); ++i) c[output.offset + i].part[part] += sums[i];
+  }
+}
+
+/// c += one block, too large for the registers, of the product of packs a and numbers b.
+template <class P, class Real>
+void add_large_block(const ProductSchedule& schedule, const ProductSchedule::Output& output,
+                     const P* a, const Real* b, P* c) {
+  using Vector = typename P::Vector;
+  const std::size_t m = output.block_degree;
+  std::vector<Vector> sums(block_size(m));
+  for (std::size_t part = 0; part < P::parts; ++part) {
+    std::fill(sums.begin(), sums.end(), Vector{});
+    std::size_t pair = output.first_pair;
+    for (std::size_t m_x = 0; 2 * m_x <= m; ++m_x) {
+      for (const std::size_t end = schedule.run_ends[output.first_run + m_x]; pair < end; ++pair) {
+        const auto [x, y] = schedule.pairs[pair];
+        multiply_by_numbers(sums.data(), a + x, b + y, m_x, m - m_x, part);
+        multiply_by_numbers(sums.data(), a + y, b + x, m - m_x, m_x, part);
+      }
+    }
+    if (output.diagonal != ProductSchedule::no_diagonal) {
+      multiply_by_numbers(sums.data(), a + output.diagonal, b + output.diagonal, m / 2, m / 2,
+                          part);
+    }
+    for (std::size_t i = 0; i < sums.size(); ++i) c[output.offset + i].part[part] += sums[i];
+  }
+}
+
+/// c_d += sum over 1 <= i <= d-1 of a_i b_(d-i).
+template <class P, class Real>
+void add_interior_product(const SeriesSpace& space, int d, const P* a, const Real* b, P* c) {
+  const ProductSchedule& schedule = space.products(d);
+  for (const ProductSchedule::Output& output : schedule.outputs) {
+    if constexpr (detail::is_machine_vector<typename P::Vector>) {
+      switch (output.block_degree) {
+        case 0:
+          add_block<0>(schedule, output, a, b, c);
+          continue;
+        case 1:
+          add_block<1>(schedule, output, a, b, c);
+          continue;
+        case 2:
+          add_block<2>(schedule, output, a, b, c);
+          continue;
+        case 3:
+          add_block<3>(schedule, output, a, b, c);
+          continue;
+        case 4:
+          add_block<4>(schedule, output, a, b, c);
+          continue;
+        case 5:
+          add_block<5>(schedule, output, a, b, c);
+          continue;
+        case detail::largest_unrolled_block:
+          add_block<detail::largest_unrolled_block>(schedule, output, a, b, c);
+          continue;
+        default:
+          break;
+      }
+    }
+    add_large_block(schedule, output, a, b, c);
+  }
+}
+
+/// The highest degree at which a coefficient is not zero.
 template <class T>
-class Composition {
+int highest_degree(const std::vector<Series<T>>& map) {
+  const SeriesSpace& space = map[0].space();
+  for (int d = space.order(); d > 0; --d) {
+    for (const Series<T>& component : map) {
+      const auto slice = component.slice(d);
+      if (std::any_of(slice.begin(), slice.end(), [](const T& x) { return x != T(0); })) return d;
+    }
+  }
+  return 0;
+}
+
+/// Composes up to Lanes components of the outer map with the inner one.
+template <class T, int Lanes>
+class HornerScheme {
  public:
-  Composition(std::span<const Series<T>> outer, std::span<const Series<T>> inner, int lowest,
-              int highest)
-      : outer_(outer), inner_(inner), lowest_(lowest), highest_(highest) {
-    for (std::size_t i = 0; i < outer.size(); ++i) result_.emplace_back(inner[0].space_pointer());
-    for (int d = 0; d <= highest; ++d) powers_.emplace_back(inner[0].space_pointer());
-  }
+  using P = Pack<T, Lanes>;
 
-  std::vector<Series<T>> run() {
-    if (lowest_ == 0) {
-      for (std::size_t i = 0; i < outer_.size(); ++i) result_[i][0] = outer_[i][0];
+  HornerScheme(std::span<const Series<T>> outer, std::span<const Series<T>> inner, int degree,
+               int highest)
+      : inner_(inner), space_(inner[0].space()), degree_(degree), highest_(highest) {
+    coefficients_.resize(outer[0].space().first(degree + 1));
+    for (std::size_t k = 0; k < coefficients_.size(); ++k) {
+      for (std::size_t i = 0; i < outer.size(); ++i) {
+        coefficients_[k].set_lane(static_cast<int>(i), outer[i][k]);
+      }
     }
-    std::vector<std::uint8_t> exponents(inner_.size(), 0);
-    descend(exponents, 0, 0);
-    return std::move(result_);
-  }
-
- private:
-  void descend(std::vector<std::uint8_t>& exponents, std::size_t first_variable, int degree) {
-    if (degree == std::min(highest_, outer_[0].order())) return;
-    for (std::size_t v = first_variable; v < inner_.size(); ++v) {
-      ++exponents[v];
-      form_power(v, degree + 1);
-      if (degree + 1 >= lowest_) accumulate(outer_[0].space().index(exponents), degree + 1);
-      descend(exponents, v, degree + 1);
-      --exponents[v];
+    for (int k = 0; k <= degree; ++k) {
+      nodes_.emplace_back(space_.first(highest - k + 1));
+      next_.push_back(outer[0].space().first(k));
     }
   }
 
-  /// powers_[degree] = powers_[degree - 1] * inner_[v], slices degree..highest.
-  void form_power(std::size_t v, int degree) {
-    const SeriesSpace& space = inner_[0].space();
-    T* target = powers_[static_cast<std::size_t>(degree)].coefficients().data();
-    const T* factor = inner_[v].coefficients().data();
-    if (degree == 1) {
-      std::copy_n(factor, space.first(highest_ + 1), target);
-      return;
-    }
-    const T* parent = powers_[static_cast<std::size_t>(degree - 1)].coefficients().data();
-    for (int d = degree; d <= highest_; ++d) {
-      interior_product_from(space, d, degree - 1, parent, factor, target);
-    }
-  }
-
-  void accumulate(std::size_t monomial, int degree) {
-    const SeriesSpace& space = inner_[0].space();
-    const Series<T>& power = powers_[static_cast<std::size_t>(degree)];
-    for (std::size_t i = 0; i < outer_.size(); ++i) {
-      const T& coefficient = outer_[i][monomial];
-      if (coefficient == T(0)) continue;
-      for (std::size_t k = space.first(degree); k < space.first(highest_ + 1); ++k) {
-        result_[i][k] += coefficient * power[k];
+  void run(std::span<Series<T>> result) {
+    form_node(0, 0);
+    for (std::size_t i = 0; i < result.size(); ++i) {
+      for (std::size_t k = 0; k < nodes_[0].size(); ++k) {
+        result[i][k] = nodes_[0][k].lane(static_cast<int>(i));
       }
     }
   }
 
-  std::span<const Series<T>> outer_;
+ private:
+  /// Forms in nodes_[depth] the node of the next monomial of degree `depth`. A node's children are
+  /// the monomials times a variable not before its last one. So the words of variables grow at
+  /// their ends, and a walk depth first meets each degree's monomials in the order of the space.
+  void form_node(int depth, std::size_t last_variable) {
+    auto& node = nodes_[static_cast<std::size_t>(depth)];
+    node[0] = coefficients_[next_[static_cast<std::size_t>(depth)]++];
+    if (depth == degree_) return;
+    std::fill(node.begin() + 1, node.end(), P(T(0)));
+    const int highest = highest_ - depth;  // degree that the node needs
+    for (std::size_t v = last_variable; v < inner_.size(); ++v) {
+      form_node(depth + 1, v);
+      const P* child = nodes_[static_cast<std::size_t>(depth) + 1].data();
+      const T* y = inner_[v].coefficients().data();
+      const P constant = child[0];
+      for (std::size_t k = 1; k < node.size(); ++k) node[k] += constant * P(y[k]);
+      if (depth + 1 == degree_) continue;
+      for (int d = 2; d <= highest; ++d) add_interior_product(space_, d, child, y, node.data());
+    }
+  }
+
   std::span<const Series<T>> inner_;
-  int lowest_;
-  int highest_;
-  std::vector<Series<T>> result_;
-  std::vector<Series<T>> powers_;
+  const SeriesSpace& space_;
+  int degree_;   ///< of the outer map
+  int highest_;  ///< degree of the result that is formed
+  std::vector<P> coefficients_;
+  std::vector<std::vector<P>> nodes_;  ///< by depth, the one that is being formed
+  std::vector<std::size_t> next_;      ///< by degree, the next monomial
 };
 
 }  // namespace
 
-template <class T>
-std::vector<Series<T>> compose(std::span<const Series<T>> outer, std::span<const Series<T>> inner) {
-  detail::require_composable(outer, inner);
-  return Composition<T>(outer, inner, 0, inner[0].order()).run();
-}
+namespace detail {
 
 template <class T>
-std::vector<Series<T>> inverse(std::span<const Series<T>> map) {
-  detail::require_composable(map, map);
-  if (map.size() != map[0].space().variables()) {
-    throw Error(ErrorKind::usage, "inverse: the map must have as many components as variables");
-  }
-  const SpacePointer& space = map[0].space_pointer();
-  const std::size_t n = map.size();
-  const Matrix<T> inverse_linear = linear_part(map).partialPivLu().inverse();
-  for (Eigen::Index i = 0; i < inverse_linear.size(); ++i) {
-    using std::isfinite;
-    if (!isfinite(inverse_linear(i))) {
-      throw Error(ErrorKind::numerical, "inverse: the linear part of the map is singular");
-    }
-  }
-  std::vector<Series<T>> result(n, Series<T>(space));
-  const auto apply_inverse = [&](std::size_t monomial, const std::vector<T>& right) {
-    for (std::size_t i = 0; i < n; ++i) {
-      T sum(0);
-      for (std::size_t j = 0; j < n; ++j) {
-        sum +=
-            inverse_linear(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) * right[j];
-      }
-      result[i][monomial] = sum;
-    }
-  };
-  std::vector<T> right(n, T(0));
-  for (std::size_t v = 0; v < n; ++v) {
-    std::fill(right.begin(), right.end(), T(0));
-    right[v] = T(1);
-    apply_inverse(space->linear_index(v), right);
-  }
-  for (int d = 2; d <= space->order(); ++d) {
-    const auto nonlinear = Composition<T>(map, std::span<const Series<T>>(result), 2, d).run();
-    for (std::size_t k = space->first(d); k < space->first(d + 1); ++k) {
-      for (std::size_t j = 0; j < n; ++j) right[j] = -nonlinear[j][k];
-      apply_inverse(k, right);
+std::vector<Series<T>> compose_up_to(const std::vector<Series<T>>& outer,
+                                     const std::vector<Series<T>>& inner, int highest) {
+  const int degree = std::min(highest_degree(outer), highest);
+  std::vector<Series<T>> result(outer.size(), Series<T>(inner[0].space_pointer()));
+  const std::span<Series<T>> all(result);
+  std::size_t done = 0;
+  while (done < outer.size()) {
+    const std::size_t left = outer.size() - done;
+    const auto take = [&]<int Lanes>(std::integral_constant<int, Lanes>) {
+      const std::size_t count = std::min<std::size_t>(left, Lanes);
+      HornerScheme<T, Lanes>(std::span(outer).subspan(done, count), inner, degree, highest)
+          .run(all.subspan(done, count));
+      done += count;
+    };
+    if constexpr (!std::is_same_v<T, double>) {
+      // Scalars in the place of vectors gain nothing from more lanes.
+      take(std::integral_constant<int, 2>{});
+    } else if (left <= 2) {
+      take(std::integral_constant<int, 2>{});
+    } else if (left <= 4) {
+      take(std::integral_constant<int, 4>{});
+    } else {
+      take(std::integral_constant<int, 8>{});
     }
   }
   return result;
 }
 
-template std::vector<Series<double>> compose(std::span<const Series<double>>,
-                                             std::span<const Series<double>>);
-template std::vector<Series<Extended>> compose(std::span<const Series<Extended>>,
-                                               std::span<const Series<Extended>>);
-template std::vector<Series<double>> inverse(std::span<const Series<double>>);
-template std::vector<Series<Extended>> inverse(std::span<const Series<Extended>>);
+}  // namespace detail
+
+template <class T>
+std::vector<Series<T>> compose(const std::vector<Series<T>>& outer,
+                               const std::vector<Series<T>>& inner) {
+  detail::require_composable(outer, inner);
+  return detail::compose_up_to(outer, inner, inner[0].order());
+}
+
+double composition_multiply_adds(std::size_t variables, int degree, const SeriesSpace& inner) {
+  double total = 0;
+  const int deepest = std::min(degree, inner.order());
+  for (int k = 1; k <= deepest; ++k) {
+    // The cost of one product of a node by a variable's series.
+    const int highest = inner.order() - k + 1;
+    double product = static_cast<double>(inner.first(highest + 1)) - 1;
+    for (int d = 2; d <= highest && k < deepest; ++d) {
+      product += static_cast<double>(inner.products(d).multiply_adds);
+    }
+    const double nodes =
+        SeriesSpace::monomial_count(variables, k) - SeriesSpace::monomial_count(variables, k - 1);
+    total += nodes * product;
+  }
+  return total;
+}
+
+template std::vector<Series<double>> detail::compose_up_to(const std::vector<Series<double>>&,
+                                                           const std::vector<Series<double>>&, int);
+template std::vector<Series<Extended>> detail::compose_up_to(const std::vector<Series<Extended>>&,
+                                                             const std::vector<Series<Extended>>&,
+                                                             int);
+template std::vector<Series<double>> compose(const std::vector<Series<double>>&,
+                                             const std::vector<Series<double>>&);
+template std::vector<Series<Extended>> compose(const std::vector<Series<Extended>>&,
+                                               const std::vector<Series<Extended>>&);
 
 }  // namespace hamjet

@@ -8,7 +8,7 @@ namespace hamjet {
 
 template <class Real>
 std::vector<Series<Real>> evaluate_on_series(const OperationList& list,
-                                             std::span<const Series<Real>> inputs) {
+                                             const std::vector<Series<Real>>& inputs) {
   if (inputs.size() != list.inputs() || inputs.empty()) {
     throw Error(ErrorKind::usage, "operation list: wrong number of inputs");
   }
@@ -38,8 +38,7 @@ Series<Real> relative_hamiltonian(const DynamicalSystem& system, std::span<const
   for (std::size_t i = 0; i < nominal.size(); ++i) {
     inputs.push_back(Series<Real>::variable(space, i, nominal[i]));
   }
-  Series<Real> result =
-      evaluate_on_series<Real>(system.hamiltonian, std::span<const Series<Real>>(inputs))[0];
+  Series<Real> result = evaluate_on_series<Real>(system.hamiltonian, inputs)[0];
   for (std::size_t k = 0; k < space->first(2); ++k) result[k] = Real(0);
   return result;
 }
@@ -54,9 +53,9 @@ std::vector<Series<Real>> canonical_vector_field(const Series<Real>& hamiltonian
 }
 
 template std::vector<Series<double>> evaluate_on_series(const OperationList&,
-                                                        std::span<const Series<double>>);
+                                                        const std::vector<Series<double>>&);
 template std::vector<Series<Extended>> evaluate_on_series(const OperationList&,
-                                                          std::span<const Series<Extended>>);
+                                                          const std::vector<Series<Extended>>&);
 template Series<double> relative_hamiltonian(const DynamicalSystem&, std::span<const double>, int);
 template Series<Extended> relative_hamiltonian(const DynamicalSystem&, std::span<const Extended>,
                                                int);

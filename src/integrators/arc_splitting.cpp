@@ -17,7 +17,7 @@
 #include "directional_flow.hpp"
 #include "gauss/gauss_lanes.hpp"
 #include "gauss/gauss_tolerance.hpp"
-#include "hamjet/algebra/horner_composition.hpp"
+#include "hamjet/algebra/composition.hpp"
 #include "hamjet/dynamics/operation_count.hpp"
 #include "hamjet/error.hpp"
 #include "integration_clock.hpp"
@@ -96,7 +96,7 @@ double composition_cost(const FlowProblem<Real>& problem) {
   for (double left = components; left > 0; left -= 8) {
     lanes += left <= 2 ? 2 : (left <= 4 ? 4 : 8);
   }
-  return lanes * horner_multiply_adds(problem.system->dimension(), order, *problem.space) +
+  return lanes * composition_multiply_adds(problem.system->dimension(), order, *problem.space) +
          series_multiply_adds(problem.system->hamiltonian, *problem.space, order) +
          components * components * static_cast<double>(problem.space->size());
 }
@@ -289,8 +289,7 @@ class ArcSplitting {
             control.advance();
             const auto& coordinates = *coordinates_[starts[2 * i + 1]];
             const std::vector<Series<Real>> inner = coordinates.of(maps[2 * i]);
-            composed[i] = compose_by_horner(std::span<const Series<Real>>(maps[2 * i + 1]),
-                                            std::span<const Series<Real>>(inner));
+            composed[i] = compose(maps[2 * i + 1], inner);
           },
           [&](long) { report(1); });
       if (maps.size() % 2 != 0) composed.back() = std::move(maps.back());

@@ -15,7 +15,7 @@ constexpr double half_ulp = 0.5 * std::numeric_limits<double>::epsilon();
 constexpr double conversion_roundings = 10;
 
 /// The largest coefficient of a degree in any component.
-double largest_coefficient_of(std::span<const Series<double>> map, int degree) {
+double largest_coefficient_of(const std::vector<Series<double>>& map, int degree) {
   double largest = 0;
   for (const Series<double>& component : map) {
     const SeriesSpace& space = component.space();
@@ -28,7 +28,7 @@ double largest_coefficient_of(std::span<const Series<double>> map, int degree) {
 
 }  // namespace
 
-std::vector<Series<double>> evaluation_error(std::span<const Series<double>> map, int degree,
+std::vector<Series<double>> evaluation_error(const std::vector<Series<double>>& map, int degree,
                                              std::span<const double> error_by_degree) {
   if (map.empty() || degree < 1 || degree > map[0].order()) {
     throw Error(ErrorKind::usage, "evaluation error: the degree must be 1 to the order of the map");

@@ -45,8 +45,7 @@ std::vector<Series<T>> relative_vector_field(const DynamicalSystem& system,
                                              const PartialInversion<T>& inversion) {
   std::vector<Series<T>> z = final_deviations(inversion);
   for (std::size_t i = 0; i < z.size(); ++i) z[i] += nominal[i];
-  return without_constants(
-      evaluate_on_series<T>(system.vector_field, std::span<const Series<T>>(z)));
+  return without_constants(evaluate_on_series<T>(system.vector_field, z));
 }
 
 /// Returns start - sum over j of (d u / d w_f,j) X_f,j .
@@ -115,7 +114,7 @@ Series<T> hamiltonian_in_variables(const DynamicalSystem& system, std::span<cons
   const SpacePointer space = SeriesSpace::create(z.size(), order + 1);
   for (auto& component : z) component = in_space(component, space);
   const std::vector<Series<T>> hamiltonian{relative_hamiltonian(system, nominal, order)};
-  return compose(std::span<const Series<T>>(hamiltonian), std::span<const Series<T>>(z))[0];
+  return compose(hamiltonian, z)[0];
 }
 
 double HamiltonJacobiTerms::scaled() const {

@@ -119,7 +119,7 @@ double largest_difference(const Sums<T>& found, const Sums<T>& expected) {
 }  // namespace
 
 template <class T>
-double inversion_miss(std::span<const Series<T>> jet, const PartialInversion<T>& inversion) {
+double inversion_miss(const std::vector<Series<T>>& jet, const PartialInversion<T>& inversion) {
   const GeneratingFunctionKind& kind = inversion.kind;
   const std::size_t n = kind.degrees_of_freedom();
   const int order = jet[0].order();
@@ -155,8 +155,8 @@ double inversion_miss(std::span<const Series<T>> jet, const PartialInversion<T>&
   return result;
 }
 
-template double inversion_miss(std::span<const Series<double>>, const PartialInversion<double>&);
-template double inversion_miss(std::span<const Series<Extended>>,
+template double inversion_miss(const std::vector<Series<double>>&, const PartialInversion<double>&);
+template double inversion_miss(const std::vector<Series<Extended>>&,
                                const PartialInversion<Extended>&);
 
 }  // namespace hamjet

@@ -29,8 +29,7 @@ const Series<T>& remaining(const PartialInversion<T>& inversion, std::size_t pai
 template <class T>
 double condition_of(const std::vector<Series<T>>& remaining_initial) {
   const auto n = static_cast<Eigen::Index>(remaining_initial.size());
-  return condition_number<T>(
-      linear_part(std::span<const Series<T>>(remaining_initial)).leftCols(n));
+  return condition_number<T>(linear_part(remaining_initial).leftCols(n));
 }
 
 /// Refuses a change whose linear part d(chosen by `to`) / d w, over the differing pairs, is
@@ -40,7 +39,7 @@ void require_change(const PartialInversion<T>& from, const GeneratingFunctionKin
                     const std::vector<std::size_t>& differing, double precision) {
   std::vector<Series<T>> all = from.remaining_final;
   all.insert(all.end(), from.remaining_initial.begin(), from.remaining_initial.end());
-  const Matrix<T> whole = linear_part(std::span<const Series<T>>(all));
+  const Matrix<T> whole = linear_part(all);
   const std::vector<Eigen::Index> indices(differing.begin(), differing.end());
   const Matrix<T> block = whole(indices, indices);
   const Vector<T> values = singular_values(block);
@@ -111,7 +110,7 @@ PartialInversion<T> change_of_kind(const PartialInversion<T>& from,
     chosen.push_back(differs ? remaining(from, i) : Series<T>::variable(space, i));
   }
   require_change(from, to, differing, precision);
-  const std::vector<Series<T>> w = inverse(std::span<const Series<T>>(chosen));
+  const std::vector<Series<T>> w = inverse(chosen);
 
   std::vector<Series<T>> kept;  // those that remain under both kinds
   for (std::size_t i = 0; i < 2 * n; ++i) {
@@ -121,7 +120,7 @@ PartialInversion<T> change_of_kind(const PartialInversion<T>& from,
   }
   std::vector<Series<T>> composed;
   if (!kept.empty()) {
-    composed = compose(std::span<const Series<T>>(kept), std::span<const Series<T>>(w));
+    composed = compose(kept, w);
   }
   PartialInversion<T> result;
   result.kind = to;

@@ -162,7 +162,7 @@ std::size_t group_at(std::size_t first, std::size_t components) {
 
 }  // namespace
 
-MapEvaluator::MapEvaluator(std::span<const Series<double>> map, std::optional<int> degree) {
+MapEvaluator::MapEvaluator(const std::vector<Series<double>>& map, std::optional<int> degree) {
   if (map.empty()) throw Error(ErrorKind::usage, "map evaluator: the map has no components");
   const SeriesSpace& space = map[0].space();
   for (const Series<double>& component : map) require_same_space(space, component.space());

@@ -19,7 +19,7 @@ std::vector<double> rounded_singular_values(const Matrix<T>& matrix) {
 }
 
 template <class T>
-void require_full_jet(std::span<const Series<T>> jet, const GeneratingFunctionKind& kind) {
+void require_full_jet(const std::vector<Series<T>>& jet, const GeneratingFunctionKind& kind) {
   const std::size_t n = kind.degrees_of_freedom();
   if (jet.size() != 2 * n || jet[0].space().variables() != 2 * n) {
     throw Error(
@@ -32,7 +32,7 @@ void require_full_jet(std::span<const Series<T>> jet, const GeneratingFunctionKi
 }  // namespace
 
 template <class T>
-Matrix<T> inverted_block(std::span<const Series<T>> jet, const GeneratingFunctionKind& kind) {
+Matrix<T> inverted_block(const std::vector<Series<T>>& jet, const GeneratingFunctionKind& kind) {
   require_full_jet(jet, kind);
   const std::size_t n = kind.degrees_of_freedom();
   Matrix<T> block(n, n);
@@ -54,7 +54,7 @@ double condition_number(const Matrix<T>& matrix) {
 }
 
 template <class T>
-PartialInversion<T> invert_partially(std::span<const Series<T>> jet,
+PartialInversion<T> invert_partially(const std::vector<Series<T>>& jet,
                                      const GeneratingFunctionKind& kind, double precision) {
   const Matrix<T> block = inverted_block(jet, kind);
   PartialInversion<T> result;
@@ -83,20 +83,19 @@ PartialInversion<T> invert_partially(std::span<const Series<T>> jet,
   for (std::size_t i = 0; i < n; ++i) {
     chosen.push_back(Series<T>::variable(space, kind.initial_variable(i)));
   }
-  const std::vector<Series<T>> initial = inverse(std::span<const Series<T>>(chosen));
+  const std::vector<Series<T>> initial = inverse(chosen);
   std::vector<Series<T>> final_rest;
   for (std::size_t i = 0; i < n; ++i) {
     final_rest.push_back(jet[kind.final_variable(i, false)]);
     final_rest.back()[0] = T(0);
     result.remaining_initial.push_back(initial[kind.initial_variable(i, false)]);
   }
-  result.remaining_final =
-      compose(std::span<const Series<T>>(final_rest), std::span<const Series<T>>(initial));
+  result.remaining_final = compose(final_rest, initial);
   return result;
 }
 
 template <class T>
-GeneratingFunctionKind best_conditioned_kind(std::span<const Series<T>> jet) {
+GeneratingFunctionKind best_conditioned_kind(const std::vector<Series<T>>& jet) {
   const auto kinds = all_kinds(jet.size() / 2);
   constexpr double equal = 1 + 1e-6;
   double smallest = std::numeric_limits<double>::infinity();
@@ -116,17 +115,17 @@ GeneratingFunctionKind best_conditioned_kind(std::span<const Series<T>> jet) {
   return best;
 }
 
-template Matrix<double> inverted_block(std::span<const Series<double>>,
+template Matrix<double> inverted_block(const std::vector<Series<double>>&,
                                        const GeneratingFunctionKind&);
-template Matrix<Extended> inverted_block(std::span<const Series<Extended>>,
+template Matrix<Extended> inverted_block(const std::vector<Series<Extended>>&,
                                          const GeneratingFunctionKind&);
 template double condition_number(const Matrix<double>&);
 template double condition_number(const Matrix<Extended>&);
-template PartialInversion<double> invert_partially(std::span<const Series<double>>,
+template PartialInversion<double> invert_partially(const std::vector<Series<double>>&,
                                                    const GeneratingFunctionKind&, double);
-template PartialInversion<Extended> invert_partially(std::span<const Series<Extended>>,
+template PartialInversion<Extended> invert_partially(const std::vector<Series<Extended>>&,
                                                      const GeneratingFunctionKind&, double);
-template GeneratingFunctionKind best_conditioned_kind(std::span<const Series<double>>);
-template GeneratingFunctionKind best_conditioned_kind(std::span<const Series<Extended>>);
+template GeneratingFunctionKind best_conditioned_kind(const std::vector<Series<double>>&);
+template GeneratingFunctionKind best_conditioned_kind(const std::vector<Series<Extended>>&);
 
 }  // namespace hamjet

@@ -34,7 +34,7 @@ Series<double> absolute_values(const Series<Extended>& series) {
 }  // namespace
 
 template <class T>
-std::vector<SymplecticityDefect> symplecticity_by_degree(std::span<const Series<T>> jet) {
+std::vector<SymplecticityDefect> symplecticity_by_degree(const std::vector<Series<T>>& jet) {
   const std::size_t size = jet.size();
   if (size == 0 || size % 2 != 0 || jet[0].space().variables() != size) {
     throw Error(ErrorKind::usage,
@@ -89,8 +89,9 @@ std::vector<SymplecticityDefect> symplecticity_by_degree(std::span<const Series<
   return result;
 }
 
-template std::vector<SymplecticityDefect> symplecticity_by_degree(std::span<const Series<double>>);
 template std::vector<SymplecticityDefect> symplecticity_by_degree(
-    std::span<const Series<Extended>>);
+    const std::vector<Series<double>>&);
+template std::vector<SymplecticityDefect> symplecticity_by_degree(
+    const std::vector<Series<Extended>>&);
 
 }  // namespace hamjet

@@ -10,14 +10,12 @@
 namespace hamjet::python {
 namespace {
 
-using JetSpan = std::span<const Series<Extended>>;
-
 GeneratingFunctionKind chosen_kind(const io::StoredJet& stored, std::string_view kind) {
   if (stored.variables != stored.components) {
     throw Error(ErrorKind::usage,
                 "partial inversion: the jet must be expanded in all of its components");
   }
-  return kind == "auto" ? best_conditioned_kind<Extended>(JetSpan(stored.jet))
+  return kind == "auto" ? best_conditioned_kind<Extended>(stored.jet)
                         : parse_kind(kind, stored.components.size() / 2);
 }
 
@@ -39,7 +37,7 @@ InvertedJet::Parts solve(const Jet& jet, std::string_view requested) {
   const io::StoredJet& stored = jet.stored();
   const GeneratingFunctionKind kind = chosen_kind(stored, requested);
   const auto inversion =
-      invert_partially<Extended>(JetSpan(stored.jet), kind, rounding_of(stored.precision));
+      invert_partially<Extended>(stored.jet, kind, rounding_of(stored.precision));
   const auto sigma = one_form(inversion);
   const Series<Extended> function = generating_function(sigma);
   std::vector<Series<Extended>> gradient;

@@ -125,7 +125,7 @@ Jet Jet::composed_with(const Jet& after) const {
   result.jet = in_precision(result.precision, [&]<class T>(T) {
     const auto inner = cut_off(without_constants(convert_map<T>(stored_.jet)), space);
     const auto outer = convert_map<T>(second.jet);
-    return compose(std::span<const Series<T>>(outer), std::span<const Series<T>>(inner));
+    return compose(outer, inner);
   });
   return Jet(std::move(result));
 }
@@ -142,7 +142,7 @@ Jet Jet::inverse() const {
   result.error_by_degree.clear();
   result.jet = in_precision(stored_.precision, [&]<class T>(T) {
     const auto map = without_constants(convert_map<T>(stored_.jet));
-    return hamjet::inverse(std::span<const Series<T>>(map));
+    return hamjet::inverse(map);
   });
   for (std::size_t c = 0; c < result.jet.size(); ++c) {
     result.jet[c][0] = result.nominal_final[result.components[c]];
@@ -151,7 +151,7 @@ Jet Jet::inverse() const {
 }
 
 std::vector<SymplecticityDefect> Jet::symplecticity() const {
-  return symplecticity_by_degree(std::span<const Series<Extended>>(stored_.jet));
+  return symplecticity_by_degree(stored_.jet);
 }
 
 Jet jet_of(const PropagationResult& result, const RunResult& run) {

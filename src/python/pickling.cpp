@@ -30,7 +30,7 @@ py::tuple call_of(const char* function, const py::tuple& arguments) {
 }
 
 /// The coefficients of a map as an array (components, count).
-Numbers numbers_of(std::span<const Series<double>> map) {
+Numbers numbers_of(const std::vector<Series<double>>& map) {
   std::vector<double> numbers;
   for (const Series<double>& component : map) {
     numbers.insert(numbers.end(), component.coefficients().begin(), component.coefficients().end());

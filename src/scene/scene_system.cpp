@@ -148,7 +148,9 @@ SystemSettings read_system(const TableReader& system) {
   const std::vector<std::string_view> all_keys = keys_of_systems(all_systems());
   if (!system.has("model")) system.check_keys({all_keys});  // a misspelt `model` is named
   SystemSettings settings;
-  settings.model = static_cast<SystemModel>(system.choice("model", model_names()));
+  std::vector<std::string_view> models;
+  for (const SystemDescription& model : all_systems()) models.push_back(model.name);
+  settings.model = static_cast<SystemModel>(system.choice("model", models));
   const bool has_zonals = settings.model == SystemModel::zonal_gravity;
   if (has_zonals) refuse_other_zonals(system);
   system.check_keys({system_keys(settings.model), all_keys,

@@ -59,7 +59,7 @@ class AlongTimeRecorder {
         linear.back()[k] = convert<Extended>(component[k]);
       }
     }
-    const std::span<const Series<Extended>> map(linear);
+    const std::vector<Series<Extended>>& map = linear;
     point.condition = condition_number(inverted_block(map, *kind_));
     if (point.condition < largest_condition(std::numeric_limits<double>::epsilon())) {
       point.exactness =

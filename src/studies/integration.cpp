@@ -62,7 +62,7 @@ Matrix<double> step_matrix(const DynamicalSystem& system, IntegratorSettings set
   settings.step_canonical = std::abs(step);
   IntegrationStatistics statistics;
   const auto jet = integrate_unchecked<double>(problem, settings, statistics, {}, false);
-  return linear_part(std::span<const Series<double>>(jet));
+  return linear_part(jet);
 }
 
 void require_stable_steps(const DynamicalSystem& system, const IntegratorSettings& settings,

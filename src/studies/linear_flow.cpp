@@ -52,7 +52,7 @@ LinearArc linear_arc(const DynamicalSystem& system, const SpacePointer& space,
   std::iota(variables.begin(), variables.end(), std::size_t{0});
   const FlowProblem<double> flow{&system, space, variables, start, duration};
   const FlowJet<double> jet = precise_jet(flow);
-  return {nominal_of(jet), linear_part(std::span<const Series<double>>(jet))};
+  return {nominal_of(jet), linear_part(jet)};
 }
 
 }  // namespace
@@ -98,10 +98,8 @@ double LinearFlow::checkpoint_distance(const std::vector<double>& state,
   for (std::size_t i = 0; i < state.size(); ++i) {
     z.push_back(Series<double>::variable(space_, i, state[i]));
   }
-  const auto slope =
-      evaluate_on_series(problem_->system.vector_field, std::span<const Series<double>>(z));
-  const double rate =
-      linear_part(std::span<const Series<double>>(slope)).eigenvalues().cwiseAbs().maxCoeff();
+  const auto slope = evaluate_on_series(problem_->system.vector_field, z);
+  const double rate = linear_part(slope).eigenvalues().cwiseAbs().maxCoeff();
   return 2 * std::numbers::sqrt2 * std::numbers::pi / (rate * per_revolution);
 }
 

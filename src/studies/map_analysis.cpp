@@ -12,8 +12,6 @@
 namespace hamjet {
 namespace {
 
-using JetSpan = std::span<const Series<Extended>>;
-
 /// The distance between the final positions of two nominals, which are the first components;
 /// canonical.
 double position_distance(const FlowJet<Extended>& a, const FlowJet<Extended>& b,
@@ -55,7 +53,7 @@ const std::vector<ExactnessResidual>* MapAnalysis::floor(const GeneratingFunctio
     try {
       ++floor_inversions_;
       const auto inversion =
-          invert_partially<Extended>(JetSpan(rounded), kind, rounding_of(scene_.precision));
+          invert_partially<Extended>(rounded, kind, rounding_of(scene_.precision));
       place->second = exactness_residual(one_form(inversion), scales(kind));
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::numerical) throw;
@@ -73,7 +71,7 @@ void MapAnalysis::compose(RunResult& run, const PartialInversion<Extended>& inve
   InversionQuality& quality = *run.inversion;
   const Stopwatch stopwatch(quality.seconds);
   ++run.counts.compositions;
-  const double miss = inversion_miss<Extended>(JetSpan(run.jet), inversion);
+  const double miss = inversion_miss<Extended>(run.jet, inversion);
   if (quality.kinds == 0 || miss > quality.miss) {
     quality.miss = miss;
     quality.missing_kind = requested;
@@ -89,13 +87,13 @@ KindResult MapAnalysis::invert(RunResult& run, const std::string& requested) {
   const FlowJet<Extended>& jet = run.jet;
   KindResult result;
   result.requested = requested;
-  result.kind = requested == "auto" ? best_conditioned_kind<Extended>(JetSpan(jet))
+  result.kind = requested == "auto" ? best_conditioned_kind<Extended>(jet)
                                     : parse_kind(requested, problem_.degrees_of_freedom.size());
-  result.condition = condition_number(inverted_block<Extended>(JetSpan(jet), result.kind));
+  result.condition = condition_number(inverted_block<Extended>(jet, result.kind));
   try {
     ++run.counts.inversions;
     const auto inversion =
-        invert_partially<Extended>(JetSpan(jet), result.kind, rounding_of(scene_.precision));
+        invert_partially<Extended>(jet, result.kind, rounding_of(scene_.precision));
     if (scene_.checks[SelfCheckName::inversion].is_on) compose(run, inversion, requested);
     const auto sigma = one_form(inversion);
     ++run.counts.exactness_residuals;
@@ -125,7 +123,7 @@ void MapAnalysis::analyse(RunResult& run) {
         scene_.units.length_km * 1000;
   }
   if (!problem_.is_full_jet) return;
-  run.symplecticity = symplecticity_by_degree<Extended>(JetSpan(run.jet));
+  run.symplecticity = symplecticity_by_degree<Extended>(run.jet);
   const auto components = static_cast<long>(run.jet.size());
   run.counts.poisson_brackets += components * (components - 1) / 2;
   if (!scene_.kinds) return;

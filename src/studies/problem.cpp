@@ -37,6 +37,7 @@ DynamicalSystem make_system(const SystemSettings& settings, double canonical_rad
 }
 
 DynamicalSystem make_system(const Scene& scene) {
+  if (scene.own_system) return *scene.own_system;
   return make_system(scene.system, scene.canonical_radius);
 }
 

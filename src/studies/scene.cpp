@@ -1,8 +1,13 @@
 #include "hamjet/studies/scene.hpp"
 
+#include <fmt/format.h>
+
 #include <limits>
+#include <numeric>
+#include <utility>
 
 #include "hamjet/algebra/extended.hpp"
+#include "hamjet/error.hpp"
 
 namespace hamjet {
 
@@ -10,6 +15,31 @@ double rounding_of(Precision precision) {
   return precision == Precision::double_precision
              ? std::numeric_limits<double>::epsilon()
              : static_cast<double>(std::numeric_limits<Extended>::epsilon());
+}
+
+Scene make_scene(DynamicalSystem system, std::vector<double> nominal, double duration, int order,
+                 const CanonicalUnits& units) {
+  constexpr std::size_t most = 8;  // degrees of freedom that variable_names has names for
+  const std::size_t n = system.degrees_of_freedom;
+  if (n < 1 || n > most || nominal.size() != 2 * n) {
+    throw Error(ErrorKind::usage,
+                fmt::format("scene of an own system: {} degrees of freedom and a nominal of {} "
+                            "numbers, must be 1 to {} and twice as many numbers",
+                            n, nominal.size(), most));
+  }
+  Scene scene;
+  scene.name = system.name;
+  scene.title = system.name;
+  scene.system.model = SystemModel::own;
+  scene.system.own_degrees_of_freedom = n;
+  scene.units = units;
+  scene.nominal = std::move(nominal);
+  scene.duration = duration;
+  scene.order = order;
+  scene.variables.resize(2 * n);
+  std::iota(scene.variables.begin(), scene.variables.end(), std::size_t{0});
+  scene.own_system = std::make_shared<const DynamicalSystem>(std::move(system));
+  return scene;
 }
 
 }  // namespace hamjet

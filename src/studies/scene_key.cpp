@@ -70,6 +70,20 @@ class KeyText {
   std::string text_;
 };
 
+/// A Hamiltonian as the list of its operations.
+std::string operations_text(const OperationList& list) {
+  std::string text;
+  for (const Operation& operation : list.operations()) {
+    text += fmt::format("{} {} {} {}", static_cast<int>(operation.code), operation.u, operation.v,
+                        operation.constant.str());
+    for (const LinearTerm& term : operation.terms) {
+      text += fmt::format(" {} {}", term.value, term.coefficient.str());
+    }
+    text += ", ";
+  }
+  return text;
+}
+
 enum class KeyOf { reference, comparison };
 
 /// A member that is added to Scene does not compile here until it is named, and put into the key of
@@ -78,7 +92,7 @@ std::string scene_key(const Scene& scene, int jet_order, KeyOf whose) {
   const auto& [name, title, precision, system, units, canonical_radius, nominal, duration, order,
                arcs, variables, integrators, separation, kinds, reference,
                relative_hamiltonian_times, checks, comparison, figure, transfer, validity,
-               assignment, output, ephemeris, nominal_file, warnings] = scene;
+               assignment, output, ephemeris, nominal_file, warnings, own_system] = scene;
   KeyText key;
   key.add("key", 3);  // version of this form of the text
   key.add("reference stages", reference_stages);
@@ -86,6 +100,7 @@ std::string scene_key(const Scene& scene, int jet_order, KeyOf whose) {
   key.add("looser by", looser_tolerance);
   key.add("reference", reference.value_or(ReferenceSettings{}));
   key.add("system", system);
+  if (own_system) key.add("own system", operations_text(own_system->hamiltonian));
   key.add("radius", canonical_radius);
   key.add("nominal", nominal);
   key.add("duration", duration);

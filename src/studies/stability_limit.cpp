@@ -25,8 +25,8 @@ Matrix<double> jacobian_matrix(const OperationList& field) {
   const auto space = SeriesSpace::create(size, 1);
   std::vector<Series<double>> z;
   for (std::size_t i = 0; i < size; ++i) z.push_back(Series<double>::variable(space, i, 0.0));
-  const auto values = evaluate_on_series(field, std::span<const Series<double>>(z));
-  return linear_part(std::span<const Series<double>>(values));
+  const auto values = evaluate_on_series(field, z);
+  return linear_part(values);
 }
 
 class StabilityLimit {

@@ -98,6 +98,17 @@ std::vector<SystemDescription> describe_systems() {
                   double) { return fermi_pasta_ulam(s.omega_rad_per_s, s.pairs); }}};
 }
 
+SystemDescription describe_own_system() {
+  SystemDescription own{
+      .model = SystemModel::own,
+      .name = "own",
+      .help = "a Hamiltonian of the C++ user",
+      .degrees_of_freedom = {1, 2, 3, 4, 5, 6, 7, 8},
+      .degrees_of_freedom_of = [](const Settings& s) { return s.own_degrees_of_freedom; },
+      .make = nullptr};
+  return own;
+}
+
 }  // namespace
 
 const std::vector<SystemDescription>& all_systems() {
@@ -106,13 +117,15 @@ const std::vector<SystemDescription>& all_systems() {
 }
 
 const SystemDescription& description_of(SystemModel model) {
-  return all_systems().at(static_cast<std::size_t>(model));
+  static const SystemDescription own = describe_own_system();
+  return model == SystemModel::own ? own : all_systems().at(static_cast<std::size_t>(model));
 }
 
 const std::vector<std::string_view>& model_names() {
   static const std::vector<std::string_view> names = [] {
     std::vector<std::string_view> result;
     for (const SystemDescription& system : all_systems()) result.push_back(system.name);
+    result.push_back(description_of(SystemModel::own).name);
     return result;
   }();
   return names;

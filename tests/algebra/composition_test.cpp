@@ -21,11 +21,11 @@ using Map = std::vector<Series<T>>;
 
 template <class T>
 Map<T> composed(const Map<T>& outer, const Map<T>& inner) {
-  return compose(std::span<const Series<T>>(outer), std::span<const Series<T>>(inner));
+  return compose(outer, inner);
 }
 template <class T>
 Map<T> inverted(const Map<T>& map) {
-  return inverse(std::span<const Series<T>>(map));
+  return inverse(map);
 }
 
 /// Components with whole-number coefficients and no constant term.
@@ -150,8 +150,7 @@ TEST(Inverse, ComposesToTheIdentityBothWays) {
       const auto result = composed(outer, inner);
       const auto scale = bound(outer, inner);
       // The inverse is itself rounded: the condition number of the linear part on top.
-      const Eigen::JacobiSVD<Eigen::MatrixXd> svd(
-          linear_part(std::span<const Series<double>>(map)));
+      const Eigen::JacobiSVD<Eigen::MatrixXd> svd(linear_part(map));
       const auto& values = svd.singularValues();
       const double condition = values(0) / values(values.size() - 1);
       for (std::size_t i = 0; i < n; ++i) {
@@ -200,7 +199,7 @@ TEST(LinearPart, HasARowPerComponent) {
   const auto x = Series<double>::variable(space, 0);
   const auto z = Series<double>::variable(space, 2);
   const Map<double> map{2.0 * x + 3.0 * z + x * z, z};
-  const Matrix<double> a = linear_part(std::span<const Series<double>>(map));
+  const Matrix<double> a = linear_part(map);
   ASSERT_EQ(a.rows(), 2);
   ASSERT_EQ(a.cols(), 3);
   EXPECT_EQ(a, (Matrix<double>(2, 3) << 2, 0, 3, 0, 0, 1).finished());

@@ -39,7 +39,7 @@ TEST(ZonalGravity, HandWrittenVectorFieldIsTheHamiltonians) {
     std::vector<Series<Extended>> z;
     const double point[] = {0.8, -0.5, 0.6, 0.3, 0.7, -0.2};
     for (std::size_t i = 0; i < 6; ++i) z.push_back(Series<Extended>::variable(space, i, point[i]));
-    const std::span<const Series<Extended>> inputs(z);
+    const std::vector<Series<Extended>>& inputs = z;
     const auto a = evaluate_on_series(written.vector_field, inputs);
     const auto b = evaluate_on_series(derived.vector_field, inputs);
     for (std::size_t i = 0; i < 6; ++i) {

@@ -164,7 +164,7 @@ TEST(Gradient, EqualsTheDerivativeOfTheSeries) {
   for (std::size_t i = 0; i < 3; ++i)
     x.push_back(Series<Extended>::variable(space, i, Extended(8 + i) / 8));
   const OperationList list = record(3, [](Inputs z) { return Outputs{every_operation(z)[1]}; });
-  const std::span<const Series<Extended>> inputs(x);
+  const std::vector<Series<Extended>>& inputs = x;
   const auto value = evaluate_on_series(list, inputs)[0];
   const auto slopes = evaluate_on_series(gradient(list), inputs);
   for (std::size_t i = 0; i < 3; ++i) {

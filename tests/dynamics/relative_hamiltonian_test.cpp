@@ -54,10 +54,8 @@ TEST(RelativeHamiltonian, MovesTheJetAsTheVectorFieldDoes) {
   const auto h = relative_hamiltonian(flow.system, std::span<const Extended>(nominal), order);
   ASSERT_EQ(h.order(), order + 1);
   const auto deviations = without_constants(jet);
-  const auto composed = compose(std::span<const Series<Extended>>(canonical_vector_field(h)),
-                                std::span<const Series<Extended>>(deviations));
-  const auto direct = without_constants(
-      evaluate_on_series(flow.system.vector_field, std::span<const Series<Extended>>(jet)));
+  const auto composed = compose(canonical_vector_field(h), deviations);
+  const auto direct = without_constants(evaluate_on_series(flow.system.vector_field, jet));
   for (std::size_t i = 0; i < 6; ++i) {
     for (int d = 0; d <= order; ++d) {
       // Products of up to d coefficients of the linear growth, each rounded to 34 digits.
@@ -78,7 +76,7 @@ TEST(RelativeHamiltonian, RefusesANominalOfAnotherSize) {
 TEST(EvaluateOnSeries, RefusesInputsThatDoNotFit) {
   const auto list = harmonic_oscillator().hamiltonian;
   const auto evaluate = [&](const std::vector<Series<double>>& inputs) {
-    evaluate_on_series(list, std::span<const Series<double>>(inputs));
+    evaluate_on_series(list, inputs);
   };
   const Series<double> a(SeriesSpace::create(2, 2));
   const Series<double> b(SeriesSpace::create(2, 3));

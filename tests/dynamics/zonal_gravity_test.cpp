@@ -209,7 +209,7 @@ TEST(ZonalTerms, ForceIsTheGradientOfTheHamiltonianAsSeries) {
   std::vector<Series<Extended>> z;
   const double point[] = {0.8, -0.5, 0.6, 0.3, 0.7, -0.2};
   for (std::size_t i = 0; i < 6; ++i) z.push_back(Series<Extended>::variable(space, i, point[i]));
-  const std::span<const Series<Extended>> inputs(z);
+  const std::vector<Series<Extended>>& inputs = z;
   for (const std::vector<int>& subset : std::vector<std::vector<int>>{
            {2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20},
            {2, 4, 6},

@@ -32,8 +32,7 @@ FlowJet<Real> newmark(const FlowProblem<Real>& problem, double beta, double step
 template <class Real>
 std::vector<Series<Real>> acceleration(const DynamicalSystem& system,
                                        const std::vector<Series<Real>>& q) {
-  const auto force =
-      evaluate_on_series<Real>(system.second_order->force, std::span<const Series<Real>>(q));
+  const auto force = evaluate_on_series<Real>(system.second_order->force, q);
   std::vector<Series<Real>> result;
   for (std::size_t i = 0; i < q.size(); ++i) {
     Series<Real> sum(q[0].space_pointer());
@@ -234,9 +233,9 @@ FlowJet<Real> jet_in_discrete_variables(const FlowProblem<Real>& problem, const 
                                         const Real& c) {
   const auto start =
       without_constants(discrete_variables(starting_jet(problem), *problem.system, c));
-  const auto back = inverse(std::span<const Series<Real>>(start));
+  const auto back = inverse(start);
   const auto end = discrete_variables(jet, *problem.system, c);
-  return compose(std::span<const Series<Real>>(end), std::span<const Series<Real>>(back));
+  return compose(end, back);
 }
 
 template <class Real>

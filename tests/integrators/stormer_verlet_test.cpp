@@ -32,7 +32,7 @@ FlowJet<Real> verlet(const FlowProblem<Real>& problem, double step) {
 template <class Real>
 std::vector<Series<Real>> force_of(const DynamicalSystem& system,
                                    const std::vector<Series<Real>>& q) {
-  return evaluate_on_series<Real>(system.second_order->force, std::span<const Series<Real>>(q));
+  return evaluate_on_series<Real>(system.second_order->force, q);
 }
 
 // Expected: the n-th power of the matrix of one step, from the recurrence of the method by hand, in

@@ -18,7 +18,7 @@ namespace {
 
 template <class T>
 double miss(const FlowJet<T>& jet, const PartialInversion<T>& inversion) {
-  return inversion_miss(std::span<const Series<T>>(jet), inversion);
+  return inversion_miss(jet, inversion);
 }
 
 const FlowJet<Extended>& jet() {

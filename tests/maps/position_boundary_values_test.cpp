@@ -82,7 +82,7 @@ std::vector<Series<double>> jet_of(const Map& map, std::size_t variables, int or
 
 PartialInversion<double> inverted(const std::vector<Series<double>>& jet,
                                   const GeneratingFunctionKind& kind) {
-  return invert_partially(std::span<const Series<double>>(jet), kind);
+  return invert_partially(jet, kind);
 }
 
 State state_of(const std::vector<double>& z) {
@@ -98,7 +98,7 @@ TEST(PositionBoundaryValues, JoinPositionsAboutACircularOrbitByEveryKind) {
   const auto jet = jet_of(map, 6, 1);
   std::size_t count = 0;
   for (const auto& kind : all_kinds(3)) {
-    const auto block = inverted_block(std::span<const Series<double>>(jet), kind);
+    const auto block = inverted_block(jet, kind);
     if (condition_number(block) > 1e3) continue;
     const auto inversion = inverted(jet, kind);
     // Rounding of the inversion and, where momenta are solved for, of that; both of numbers near 1.

@@ -75,7 +75,7 @@ TEST(Symplecticity, SeesAChangeAtTheDegreeWhereItIs) {
 FlowJet<double> explicit_step(const OperationList& field, const FlowJet<double>& z, double h,
                               bool classical) {
   const auto slope = [&](const FlowJet<double>& at) {
-    return evaluate_on_series<double>(field, std::span<const Series<double>>(at));
+    return evaluate_on_series<double>(field, at);
   };
   const auto moved = [](FlowJet<double> from, const FlowJet<double>& by, double factor) {
     for (std::size_t i = 0; i < from.size(); ++i) {

@@ -62,7 +62,7 @@ FlowJet<Real> jet_from(const Flow<Real>& flow, const std::vector<Real>& start, c
 template <class Real>
 std::vector<Series<Real>> composed(const std::vector<Series<Real>>& outer,
                                    const std::vector<Series<Real>>& inner) {
-  return compose(std::span<const Series<Real>>(outer), std::span<const Series<Real>>(inner));
+  return compose(outer, inner);
 }
 
 /// All coefficients by magnitude: composed with another such map it bounds every sum that the

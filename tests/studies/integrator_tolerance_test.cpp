@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "../../src/studies/integration.hpp"
-#include "hamjet/integrators/cvode.hpp"
+#include "hamjet/studies/method_description.hpp"
 #include "integrator_cases.hpp"
 #include "support/convergence.hpp"
 #include "support/map.hpp"
@@ -73,7 +73,7 @@ class IntegratorTolerance
     : public ::testing::TestWithParam<std::tuple<AdaptiveMethod, test::IntegratorCase>> {
  protected:
   void SetUp() override {
-    if (is_cvode(method()) && !cvode_available()) GTEST_SKIP() << "this build has no CVODE";
+    if (!description_of(method()).is_built()) GTEST_SKIP() << "this build has no CVODE";
   }
   IntegrationMethod method() const { return std::get<0>(GetParam()).method; }
   const test::IntegratorCase& problem() const { return std::get<1>(GetParam()); }

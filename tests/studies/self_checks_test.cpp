@@ -273,16 +273,14 @@ TEST(SelfChecks, Symplecticity) {
   const Scene scene = good_scene();
   RunResult wrong = good_run();
   wrong.jet[0][1] *= 1 + Extended(1e-9);
-  wrong.symplecticity =
-      symplecticity_by_degree<Extended>(std::span<const Series<Extended>>(wrong.jet));
+  wrong.symplecticity = symplecticity_by_degree<Extended>(wrong.jet);
   const SelfCheck failed = check(scene, wrong, SelfCheckName::symplecticity);
   expect_state(failed, SelfCheckState::failed, "more than rounding explains");
   // A coefficient of degree 3 alone, as a composition of arcs that lost its digits leaves them:
   // the linear part stays symplectic, the brackets of degree 2 do not.
   RunResult high = good_run();
   high.jet[0][SeriesSpace::create(6, 2)->size()] *= 1 + Extended(1e-6);
-  high.symplecticity =
-      symplecticity_by_degree<Extended>(std::span<const Series<Extended>>(high.jet));
+  high.symplecticity = symplecticity_by_degree<Extended>(high.jet);
   EXPECT_LE(high.symplecticity[0].scaled, 1e-13);
   expect_state(check(scene, high, SelfCheckName::symplecticity), SelfCheckState::failed,
                "brackets of degree 2");

@@ -111,8 +111,7 @@ std::vector<Real> evaluate_list(const OperationList& list, const std::vector<Rea
   std::vector<Series<Real>> constants;
   for (const Real& x : inputs) constants.emplace_back(space, x);
   std::vector<Real> outputs;
-  for (const auto& value :
-       evaluate_on_series<Real>(list, std::span<const Series<Real>>(constants))) {
+  for (const auto& value : evaluate_on_series<Real>(list, constants)) {
     outputs.push_back(value[0]);
   }
   return outputs;

@@ -13,7 +13,7 @@ namespace hamjet::test {
 
 template <class T>
 PartialInversion<T> inverted_jet(const FlowJet<T>& jet, const GeneratingFunctionKind& kind) {
-  return invert_partially(std::span<const Series<T>>(jet), kind);
+  return invert_partially(jet, kind);
 }
 template <class T>
 PartialInversion<T> inverted_jet(const FlowJet<T>& jet, const char* kind) {
@@ -23,12 +23,12 @@ PartialInversion<T> inverted_jet(const FlowJet<T>& jet, const char* kind) {
 template <class T>
 FlowJet<T> chained(const FlowJet<T>& second, const FlowJet<T>& first) {
   const auto inner = without_constants(first);
-  return compose(std::span<const Series<T>>(second), std::span<const Series<T>>(inner));
+  return compose(second, inner);
 }
 
 template <class T>
 std::vector<SymplecticityDefect> symplecticity(const FlowJet<T>& jet) {
-  return symplecticity_by_degree(std::span<const Series<T>>(jet));
+  return symplecticity_by_degree(jet);
 }
 
 /// The largest scaled symplecticity defect over all degrees.

@@ -15,7 +15,7 @@ namespace hamjet {
 /// The linear part of a map, components x variables: row i holds the coefficients of degree 1 of
 /// component i.
 template <class T>
-Matrix<T> linear_part(std::span<const Series<T>> map) {
+Matrix<T> linear_part(const std::vector<Series<T>>& map) {
   const std::size_t variables = map.front().space().variables();
   Matrix<T> result(map.size(), variables);
   for (std::size_t i = 0; i < map.size(); ++i) {
@@ -30,7 +30,7 @@ Matrix<T> linear_part(std::span<const Series<T>> map) {
 namespace detail {
 
 template <class T>
-void require_composable(std::span<const Series<T>> outer, std::span<const Series<T>> inner) {
+void require_composable(const std::vector<Series<T>>& outer, const std::vector<Series<T>>& inner) {
   if (outer.empty() || inner.empty() || inner.size() != outer[0].space().variables()) {
     throw Error(ErrorKind::usage,
                 "composition: the inner map must have as many components as the "
@@ -49,10 +49,35 @@ void require_composable(std::span<const Series<T>> outer, std::span<const Series
 
 }  // namespace detail
 
-/// Composes outer(inner(x)), truncated at the order of the inner map's space. The inner map must
-/// have no constant terms; throws Error(usage) otherwise or if the sizes do not fit.
+/// Composes outer(inner(x)), truncated at the order of the inner map's space, by Horner's scheme in
+/// several variables:
+///
+///   node(a) = c_a + sum over v >= last variable of a of y_v node(a + e_v) ,   outer(y) = node(0) ,
+///
+/// where y are the inner series. A node at depth k needs degrees up to N - k only, and all
+/// components of the outer map go through it together as the lanes of a pack, so that few
+/// multiply-adds are done, on whole vectors: at order 6 in 6 variables 3 million multiply-adds of
+/// numbers. Terms of the outer map above its highest degree that is not zero cost nothing.
+///
+/// The inner map must have no constant terms; throws Error(usage) otherwise or if the sizes do not
+/// fit. T is double or Extended.
 template <class T>
-std::vector<Series<T>> compose(std::span<const Series<T>> outer, std::span<const Series<T>> inner);
+std::vector<Series<T>> compose(const std::vector<Series<T>>& outer,
+                               const std::vector<Series<T>>& inner);
+
+/// Multiply-adds of numbers that one component takes in compose, for an outer map with terms up to
+/// `degree` in `variables` variables and inner series in the space `inner`.
+double composition_multiply_adds(std::size_t variables, int degree, const SeriesSpace& inner);
+
+namespace detail {
+
+/// The composition up to degree `highest` of the result, whose terms above are zero. The maps must
+/// fit as `compose` demands.
+template <class T>
+std::vector<Series<T>> compose_up_to(const std::vector<Series<T>>& outer,
+                                     const std::vector<Series<T>>& inner, int highest);
+
+}  // namespace detail
 
 /// The inverse of a map of v components in v variables without constant terms:
 /// map(inverse(w)) = w up to the order. With A the linear part and N the rest, the fixed point of
@@ -60,9 +85,9 @@ std::vector<Series<T>> compose(std::span<const Series<T>> outer, std::span<const
 ///   x = A^-1 (w - N(x))
 ///
 /// gains one degree an iteration, since N begins at degree 2. Throws Error(numerical) if A is
-/// singular. Rows of `map` that are single variables (as in a partial inversion) cost nothing.
+/// singular. Linear rows of `map` (as in a partial inversion) cost nothing.
 template <class T>
-std::vector<Series<T>> inverse(std::span<const Series<T>> map);
+std::vector<Series<T>> inverse(const std::vector<Series<T>>& map);
 
 /// A series with its coefficients rounded to another precision.
 template <class To, class From>

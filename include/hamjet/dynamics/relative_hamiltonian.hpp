@@ -11,7 +11,7 @@ namespace hamjet {
 /// Runs a list on full series; returns its outputs as series in the space of the inputs.
 template <class Real>
 std::vector<Series<Real>> evaluate_on_series(const OperationList& list,
-                                             std::span<const Series<Real>> inputs);
+                                             const std::vector<Series<Real>>& inputs);
 
 /// The relative Hamiltonian H^h about a point z of the nominal: the Taylor terms of degree
 /// 2..N+1 of H in the deviation from z. Its canonical equations are those of the relative motion,

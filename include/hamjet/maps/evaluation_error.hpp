@@ -23,7 +23,7 @@ namespace hamjet {
 ///
 /// This is an estimate, not a bound. `map` has no constant terms. Throws Error(usage) for a degree
 /// outside 1 to the map's order.
-std::vector<Series<double>> evaluation_error(std::span<const Series<double>> map, int degree,
+std::vector<Series<double>> evaluation_error(const std::vector<Series<double>>& map, int degree,
                                              std::span<const double> error_by_degree = {});
 
 }  // namespace hamjet

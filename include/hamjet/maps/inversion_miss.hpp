@@ -19,6 +19,6 @@ namespace hamjet {
 /// absolute values of the terms of a coefficient of s^1..s^d of the same component: for a right
 /// inversion a small multiple of T's rounding.
 template <class T>
-double inversion_miss(std::span<const Series<T>> jet, const PartialInversion<T>& inversion);
+double inversion_miss(const std::vector<Series<T>>& jet, const PartialInversion<T>& inversion);
 
 }  // namespace hamjet

@@ -39,7 +39,7 @@ class MapEvaluator {
  public:
   /// The components must have one space in common; terms above `degree`, if given, are left out.
   /// Throws Error(usage) for no components, and for a degree outside 0 to the order.
-  explicit MapEvaluator(std::span<const Series<double>> map, std::optional<int> degree = {});
+  explicit MapEvaluator(const std::vector<Series<double>>& map, std::optional<int> degree = {});
 
   std::size_t variables() const noexcept { return variables_; }
   std::size_t components() const noexcept { return components_; }

@@ -29,7 +29,7 @@ struct PartialInversion {
 /// The linear part that a kind inverts: d(chosen final) / d(remaining initial), n x n. For F1 it is
 /// dq/dp0, for F2 dq/dq0, for F3 dp/dp0, for F4 dp/dq0.
 template <class T>
-Matrix<T> inverted_block(std::span<const Series<T>> jet, const GeneratingFunctionKind& kind);
+Matrix<T> inverted_block(const std::vector<Series<T>>& jet, const GeneratingFunctionKind& kind);
 
 /// Condition number in the 2-norm: ratio of the largest to the smallest singular value; infinite
 /// for a singular matrix.
@@ -49,12 +49,12 @@ constexpr double largest_condition(double precision) { return 1 / (100 * precisi
 /// any useful accuracy. Throws Error(usage) if the jet is not 2n components in 2n variables.
 template <class T>
 PartialInversion<T> invert_partially(
-    std::span<const Series<T>> jet, const GeneratingFunctionKind& kind,
+    const std::vector<Series<T>>& jet, const GeneratingFunctionKind& kind,
     double precision = static_cast<double>(std::numeric_limits<T>::epsilon()));
 
 /// The kind whose linear part has the smallest condition number; among equal ones (to a part in a
 /// million), the one with the largest singular values, for with one degree of freedom all are 1.
 template <class T>
-GeneratingFunctionKind best_conditioned_kind(std::span<const Series<T>> jet);
+GeneratingFunctionKind best_conditioned_kind(const std::vector<Series<T>>& jet);
 
 }  // namespace hamjet

@@ -24,6 +24,6 @@ struct SymplecticityDefect {
 /// extended precision, so that what is seen is the jet's own rounding. Throws Error(usage) for
 /// other sizes.
 template <class T>
-std::vector<SymplecticityDefect> symplecticity_by_degree(std::span<const Series<T>> jet);
+std::vector<SymplecticityDefect> symplecticity_by_degree(const std::vector<Series<T>>& jet);
 
 }  // namespace hamjet

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "hamjet/dynamics/dynamical_system.hpp"
 #include "hamjet/studies/integration_method.hpp"
 #include "hamjet/studies/self_check_settings.hpp"
 #include "hamjet/studies/system_settings.hpp"
@@ -117,6 +119,16 @@ struct Scene {
   std::optional<EphemerisSettings> ephemeris;
   std::optional<NominalFile> nominal_file;  ///< absent: the scene has the numbers itself
   std::vector<std::string> warnings;        ///< what is almost surely a slip, a line each
+  /// The system of a scene that no file describes, in canonical units; see make_scene.
+  std::shared_ptr<const DynamicalSystem> own_system = nullptr;
 };
+
+/// A scene of a Hamiltonian of one's own: its jet in all variables about the trajectory of
+/// `nominal`, 2n numbers (q, p), n at most 8. The integrators, the reference and what else is
+/// wanted are filled in by the caller. Canonical units are the system's own; they count as metre
+/// and second where results have units, unless `units` says otherwise. Throws Error(usage) if the
+/// sizes do not fit.
+Scene make_scene(DynamicalSystem system, std::vector<double> nominal, double duration, int order,
+                 const CanonicalUnits& units = {0.001, 1});
 
 }  // namespace hamjet

@@ -48,7 +48,7 @@ struct SystemDescription {
   std::string_view no_start_at_origin = {};
 };
 
-/// All systems, in the order of the enumeration.
+/// The systems that scenes can name, in the order of the enumeration.
 const std::vector<SystemDescription>& all_systems();
 
 /// The description of one system.

@@ -20,6 +20,7 @@ enum class SystemModel {
   oscillator_pair,
   spring_pendulum,
   fermi_pasta_ulam,
+  own,  ///< a Hamiltonian of the C++ user, Scene::own_system; no scene of a file can name it
 };
 
 /// The models' names in scenes, in the order of the enumeration.
@@ -62,12 +63,13 @@ struct SystemSettings {
   std::size_t pairs = 1;                ///< fermi-pasta-ulam: number of stiff springs
   /// zonal-gravity: what mu, radius and J were read from.
   std::optional<GravityFile> gravity_file;
+  std::size_t own_degrees_of_freedom = 1;  ///< own: 1 to 8
 };
 
 HAMJET_FIELDS(GravityFile, file, model_name, tide_system)
 HAMJET_FIELDS(SystemSettings, model, mu_km3_s2, radius_km, J, mass_kg, stiffness_N_per_m,
               second_stiffness_N_per_m, length_m, gravity_m_s2, omega_rad_per_s, pairs,
-              gravity_file)
+              gravity_file, own_degrees_of_freedom)
 
 /// The number of degrees of freedom of a system.
 std::size_t degrees_of_freedom_of(const SystemSettings& settings);

@@ -17,6 +17,7 @@
 #include "hamjet/error.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
 #include "stage_slopes.hpp"
+#include "step_reach.hpp"
 
 namespace hamjet {
 
@@ -304,25 +305,7 @@ class GaussIntegrator {
   /// displacement. In a stiff system that is almost anything; see reach.
   double expected_change() { return stages_.largest_gradient() * stages_.displacement(start()); }
 
-  /// How far a step goes with the slopes at its start.
-  double reach(const Real& h) {
-    const double size = std::abs(static_cast<double>(h));
-    auto& system = stages_.system();
-    const std::size_t m = system.components();
-    double result = 0;
-    for (std::size_t c = 0; c < m; ++c) {
-      double distance = size * std::abs(static_cast<double>(end_slope_[c]));
-      if (system.second_order()) {
-        Real velocity = system.unit_mass() ? start()(m + c) : Real(0);
-        for (std::size_t i = 0; i < m && !system.unit_mass(); ++i) {
-          velocity += system.inverse_mass(c, i) * start()(m + i);
-        }
-        distance = size * (std::abs(static_cast<double>(velocity)) + distance);
-      }
-      result = std::max(result, distance);
-    }
-    return result;
-  }
+  double reach(const Real& h) { return step_reach(stages_.system(), end_slope_, start(), h); }
 
   /// Follows the solution from a tiny step to the full one. Where neighbouring solutions differ
   /// much the path is refined; a path that ends (a fold) has no continuation, however far it is
@@ -341,7 +324,8 @@ class GaussIntegrator {
       const std::vector<P> before = stages_.slopes();
       const Real next_step = h * Real(next);
       if (try_step(next_step) &&
-          slope_change(before) <= 0.25 * stages_.largest_slope() + expected_change() &&
+          largest_change(before, stages_.slopes(), settings_.stages) <=
+              0.25 * stages_.largest_slope() + expected_change() &&
           stages_.displacement(start()) <= 4 * std::max(distance, reach(next_step))) {
         distance = stages_.displacement(start());
         reached = next;
@@ -353,17 +337,6 @@ class GaussIntegrator {
       if (part < smallest) return false;
     }
     return true;
-  }
-
-  double slope_change(const std::vector<P>& before) {
-    double result = 0;
-    for (std::size_t c = 0; c < before.size(); ++c) {
-      const P difference = stages_.slopes()[c] - before[c];
-      for (int i = 0; i < settings_.stages; ++i) {
-        result = std::max(result, std::abs(static_cast<double>(difference.lane(i))));
-      }
-    }
-    return result;
   }
 
   /// Solves the degrees 1..N of the stages; false if their equations cannot be solved.

@@ -152,7 +152,7 @@ class Comparison {
   /// Chooses the kind whose exactness is stated. The linear part alone decides, so that the
   /// reference's order does not matter.
   void choose_kind(const ComputedProblem& problem) {
-    const std::span<const Series<Extended>> jet(result_.reference.jet);
+    const std::vector<Series<Extended>>& jet = result_.reference.jet;
     const bool is_named = scene_.kinds && scene_.kinds->front() != "auto";
     result_.kind = is_named ? parse_kind(scene_.kinds->front(), problem.degrees_of_freedom.size())
                             : best_conditioned_kind(jet);
@@ -275,7 +275,7 @@ class Comparison {
     FinishedRuns finished(result_.cost_runs);
     std::map<IntegrationMethod, const ComparedRun*> cheapest;
     for (const ComparedRun& run : result_.runs) {
-      if (!run.is_finished() || run.error_at_formation_m > scene_.comparison.wanted_error_m) {
+      if (!run.is_finished() || !(run.error_at_formation_m <= scene_.comparison.wanted_error_m)) {
         continue;
       }
       const ComparedRun*& best = cheapest[run.settings.method];

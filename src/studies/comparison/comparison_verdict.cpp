@@ -129,7 +129,8 @@ double ComparisonResult::smallest_claimed_error_m() const {
 std::vector<const ComparedRun*> cheapest_runs(const ComparisonResult& result, double error_m) {
   std::map<std::string, const ComparedRun*> best;
   for (const ComparedRun& run : result.runs) {
-    if (!run.is_finished() || run.seconds.empty() || run.error_at_formation_m > error_m) continue;
+    if (!run.is_finished() || run.seconds.empty() || !(run.error_at_formation_m <= error_m))
+      continue;
     const ComparedRun*& place = best[run.series];
     if (place == nullptr || run.median_seconds() < place->median_seconds()) place = &run;
   }

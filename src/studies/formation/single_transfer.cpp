@@ -18,7 +18,7 @@ MetricUnits metric_units(const Scene& scene) {
 double rounding_of_flights(const FlowJet<double>& jet) {
   const std::vector<double> state = nominal_of(jet);
   const double position = std::hypot(state[0], state[1], state[2]);
-  const double growth = linear_part(std::span<const Series<double>>(jet)).norm();
+  const double growth = linear_part(jet).norm();
   return std::numeric_limits<double>::epsilon() * (position + growth);
 }
 

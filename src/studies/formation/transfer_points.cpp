@@ -94,7 +94,7 @@ bool TransferPoints::is_near_singular(double time) const {
 
 std::vector<double> TransferPoints::expansion_parameters(
     const FlowJet<double>& jet, const std::vector<RelativeTransfer>& transfers, double time) const {
-  const std::span<const Series<double>> map(jet);
+  const std::vector<Series<double>>& map = jet;
   const FlowMatrix flow = linear_part(map);
   std::vector<Eigen::PartialPivLU<Eigen::Matrix3d>> blocks;
   std::vector<double> parameters;
@@ -127,7 +127,7 @@ std::vector<double> TransferPoints::expansion_parameters(
 ChosenKind TransferPoints::choose_kind(double time, const FlowJet<double>& jet,
                                        const std::vector<RelativeTransfer>& transfers) {
   const Stopwatch watch(seconds_.inversion);
-  const std::span<const Series<double>> map(jet);
+  const std::vector<Series<double>>& map = jet;
   const FlowMatrix flow = linear_part(map);
   ChosenKind chosen;
   chosen.time = time;
@@ -227,8 +227,7 @@ std::optional<double> TransferPoints::hamilton_jacobi_floor() const {
       }
     }
     try {
-      const auto inversion =
-          invert_partially<double>(std::span<const Series<double>>(jet), largest_residual_->kind);
+      const auto inversion = invert_partially<double>(jet, largest_residual_->kind);
       HamiltonJacobiTerms terms = hamilton_jacobi_terms<double>(
           problem_.system, nominal_of(largest_residual_->jet), inversion, largest_residual_->w);
       for (std::size_t i = 0; i < terms.residual.size(); ++i) {

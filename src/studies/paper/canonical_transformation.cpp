@@ -107,7 +107,10 @@ class Run {
       throw Error(ErrorKind::numerical, "the energy is not finite");
     }
     done_ = k;
-    const auto raise_to = [](double& largest, double value) { largest = std::max(largest, value); };
+    // A value that is not a number stays, and shows.
+    const auto raise_to = [](double& largest, double value) {
+      if (!(value <= largest)) largest = value;
+    };
     raise_to(result_.largest_condition, condition);
     raise_to(result_.largest_symplecticity_defect, symplecticity_defect(map.matrix()).relative);
     raise_to(result_.largest_energy_error, std::abs(point.energy_error));

@@ -8,8 +8,8 @@
 
 #include "../energy_error.hpp"
 #include "../exact_flow.hpp"
-#include "../fixed_step_trajectory.hpp"
 #include "../thinned_list.hpp"
+#include "fixed_step_trajectory.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
 #include "hamjet/studies/propagation.hpp"
 

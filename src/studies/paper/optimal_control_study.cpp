@@ -58,8 +58,7 @@ double symplecticity_defect(const std::vector<Eigen::MatrixXd>& jacobians) {
       }
       jet.push_back(std::move(component));
     }
-    const double defect =
-        symplecticity_by_degree(std::span<const Series<double>>(jet)).front().scaled;
+    const double defect = symplecticity_by_degree(jet).front().scaled;
     if (!(defect <= largest)) largest = defect;  // a NaN is the largest of all
   }
   return largest;

@@ -133,7 +133,7 @@ class LocalJets {
       end(index(i)) = jet[i][0];
       map.second.push_back(second_derivatives(jet[i]));
     }
-    map.linear = linear_part(std::span<const Series<double>>(jet));
+    map.linear = linear_part(jet);
     if (meets(end, from, to)) return map;
     if (!problem.is_full_jet) return std::nullopt;
     map.linear = to.matrix * from.matrix.inverse();
@@ -143,10 +143,8 @@ class LocalJets {
 
   FieldValue field(const VectorXd& point) const {
     const auto identity = starting_jet(problem_at(point, linear_space_, 0));
-    const auto jet =
-        evaluate_on_series<double>(system_.vector_field, std::span<const Series<double>>(identity));
-    FieldValue value{VectorXd(index(jet.size())),
-                     linear_part(std::span<const Series<double>>(jet))};
+    const auto jet = evaluate_on_series<double>(system_.vector_field, identity);
+    FieldValue value{VectorXd(index(jet.size())), linear_part(jet)};
     for (std::size_t i = 0; i < jet.size(); ++i) value.slope(index(i)) = jet[i][0];
     return value;
   }

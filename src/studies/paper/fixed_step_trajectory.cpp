@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "energy_error.hpp"
-#include "exact_flow.hpp"
+#include "../energy_error.hpp"
+#include "../exact_flow.hpp"
+#include "../thinned_list.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
 #include "hamjet/integrators/stormer_verlet.hpp"
-#include "thinned_list.hpp"
 
 namespace hamjet {
 

@@ -6,14 +6,14 @@
 #include <cmath>
 #include <span>
 
-#include "../integrators/momentum_unit.hpp"
-#include "../integrators/phase_space_scale.hpp"
+#include "../../integrators/momentum_unit.hpp"
+#include "../../integrators/phase_space_scale.hpp"
+#include "../largest_coefficient.hpp"
+#include "../stopwatch.hpp"
 #include "hamjet/integrators/error_estimate.hpp"
 #include "hamjet/studies/method_description.hpp"
 #include "hamjet/studies/propagation.hpp"
-#include "largest_coefficient.hpp"
 #include "number_scan.hpp"
-#include "stopwatch.hpp"
 
 namespace hamjet {
 namespace {
