@@ -33,7 +33,8 @@ class EvalTest : public CommandTest {
     std::vector<std::string> arguments = {"eval", directory, "--deviation", deviation, "-q"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     std::vector<double> numbers;
-    for (const std::string& field : parse_table(succeed(arguments).out).rows.at(0)) {
+    const Table table = parse_table(succeed(arguments).out);
+    for (const std::string& field : table.rows.at(0)) {
       if (field != "inside" && field != "outside" && field != "unknown" && !field.empty()) {
         numbers.push_back(std::stod(field));
       }

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "command_test.hpp"
+#include "support/magnitude.hpp"
 
 // figure.svg and along_time.csv of `hamjet run`. The times at which F1 of the harmonic oscillator
 // does not exist are those of sin t = 0.
@@ -53,7 +54,7 @@ TEST_F(Figure, ShowsTheResidualAndMarksTheTimesWithoutF1) {
       // The rule is correct to 1e-9 here; the time is interpolated over a step of 0.1.
       EXPECT_NEAR(std::stod(row[0]), ++singular * std::numbers::pi, 1e-3);
     } else if (!row[2].empty()) {
-      largest = std::max(largest, std::stod(row[2]));
+      largest = larger(largest, std::stod(row[2]));
     }
   }
   EXPECT_EQ(singular, 6);  // pi .. 6 pi lie within 20

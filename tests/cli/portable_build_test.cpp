@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "command_test.hpp"
+#include "support/magnitude.hpp"
 
 // On another instruction set a jet differs by round-off alone: contraction of products and sums and
 // the width of vectors change its digits. portable_jet.csv is the jet of this scene by a portable
@@ -77,8 +78,8 @@ TEST_F(CommandTest, PortableBuildAgreesToRoundOff) {
   for (std::size_t i = 0; i < here.rows.size(); ++i) {
     ASSERT_TRUE(std::equal(here.rows[i].begin(), here.rows[i].end() - 1, stored.rows[i].begin()));
     double& worst = difference[static_cast<std::size_t>(degree(stored.rows[i]))];
-    worst = std::max(worst,
-                     std::abs(std::stod(here.rows[i].back()) - std::stod(stored.rows[i].back())));
+    worst =
+        larger(worst, std::abs(std::stod(here.rows[i].back()) - std::stod(stored.rows[i].back())));
   }
   for (std::size_t d = 0; d <= order; ++d) {
     const double bound = 4 * duration * 0x1p-53 * static_cast<double>(d + 1) * largest[d + 1];

@@ -13,6 +13,7 @@
 #include "hamjet/maps/symplecticity.hpp"
 #include "support/errors.hpp"
 #include "support/flow.hpp"
+#include "support/magnitude.hpp"
 
 // Jets of one arc in pieces: the same map as in one piece, to the same error, whatever the number
 // of threads.
@@ -66,7 +67,8 @@ bool is_same(const FlowJet<Real>& a, const FlowJet<Real>& b) {
 template <class Real>
 double worst_difference(const FlowJet<Real>& a, const FlowJet<Real>& b) {
   double worst = 0;
-  for (int d = 0; d <= a[0].order(); ++d) worst = std::max(worst, test::relative_error(a, b, d));
+  for (int d = 0; d <= a[0].order(); ++d)
+    worst = test::larger(worst, test::relative_error(a, b, d));
   return worst;
 }
 

@@ -1,11 +1,11 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "hamjet/dynamics/harmonic_oscillator.hpp"
 #include "support/flow.hpp"
+#include "support/magnitude.hpp"
 
 // What the compensated summation of the steps is for, and that it can be left out.
 
@@ -26,7 +26,7 @@ Run run(const test::Flow<double>& flow, GaussSettings settings, bool is_compensa
       test::problem_of(flow), settings, statistics, [&](double, const FlowJet<double>& jet) {
         const double after = test::energy(flow.system, test::final_state(jet));
         result.largest_energy_error =
-            std::max(result.largest_energy_error, std::abs(after / before - 1));
+            test::larger(result.largest_energy_error, std::abs(after / before - 1));
       });
   return result;
 }

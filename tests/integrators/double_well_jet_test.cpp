@@ -5,6 +5,7 @@
 
 #include "hamjet/dynamics/double_well.hpp"
 #include "hamjet/integrators/midpoint.hpp"
+#include "support/magnitude.hpp"
 #include "support/map.hpp"
 
 // Jets of the double well against an independent route: finite differences of a flow in extended
@@ -84,7 +85,7 @@ void expect_jet(const FlowJet<double>& jet, const Differences& differences, doub
         const std::vector<std::uint8_t> exponents = {static_cast<std::uint8_t>(a),
                                                      static_cast<std::uint8_t>(d - a)};
         const double expected = differences.coefficient(i, a, d - a);
-        error = std::max(error, std::abs(jet[i][jet[i].space().index(exponents)] - expected));
+        error = larger(error, std::abs(jet[i][jet[i].space().index(exponents)] - expected));
         scale = std::max(scale, std::abs(expected));
       }
     }

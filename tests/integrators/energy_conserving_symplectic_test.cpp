@@ -7,6 +7,7 @@
 #include "energy_conserving_runs.hpp"
 #include "hamjet/dynamics/zonal_gravity.hpp"
 #include "integrators/small_systems.hpp"
+#include "support/magnitude.hpp"
 
 // Symplecticity, by differences in extended precision, and the equations as the paper ought
 // to print them.
@@ -89,7 +90,7 @@ double defect(const Tangent& t, bool is_extended) {
         form += t.state[a][i] * t.state[b][n + i] - t.state[a][n + i] * t.state[b][i];
       }
       if (is_extended) form -= t.time[a] * t.energy[b] - t.energy[a] * t.time[b];
-      largest = std::max(largest, std::abs(static_cast<double>(form)));
+      largest = test::larger(largest, std::abs(static_cast<double>(form)));
     }
   }
   return largest;

@@ -7,6 +7,7 @@
 
 #include "energy_conserving_runs.hpp"
 #include "support/errors.hpp"
+#include "support/magnitude.hpp"
 
 namespace hamjet {
 namespace {
@@ -30,7 +31,7 @@ double discrete_error_in_last_places(const DynamicalSystem& kepler_system, Metho
     const double p2 = static_cast<double>(Extended(z[3] * z[3] + z[4] * z[4] + z[5] * z[5]));
     const double r = static_cast<double>(sqrt(Extended(z[0] * z[0] + z[1] * z[1] + z[2] * z[2])));
     const double unit = 0x1p-52 * (p2 + 1 / r);
-    largest = std::max(largest, std::abs(static_cast<double>(Extended(value - first))) / unit);
+    largest = test::larger(largest, std::abs(static_cast<double>(Extended(value - first))) / unit);
   }
   return largest;
 }
@@ -88,7 +89,7 @@ double variation(const test::EnergyConservingRun<double>& run, Quantity quantity
   double most = 0;
   for (const auto& step : run.steps) {
     least = std::min(least, quantity(step));
-    most = std::max(most, quantity(step));
+    most = test::larger(most, quantity(step));
   }
   return most / least - 1;
 }
@@ -162,7 +163,7 @@ double order_of(Method method, const std::vector<double>& start, double duration
     const auto exact = test::final_state(test::run_gauss(flow));
     double error = 0;
     for (std::size_t i = 0; i < 6; ++i) {
-      error = std::max(error, std::abs(run.result.state[i] - exact[i]));
+      error = test::larger(error, std::abs(run.result.state[i] - exact[i]));
     }
     EXPECT_GT(error, 1e-9);  // above the rounding floor
     const double x = std::log(step);

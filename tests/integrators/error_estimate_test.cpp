@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -12,6 +11,7 @@
 #include "hamjet/integrators/gauss_collocation.hpp"
 #include "hamjet/integrators/stormer_verlet.hpp"
 #include "support/errors.hpp"
+#include "support/magnitude.hpp"
 #include "support/random_series.hpp"
 
 // Estimates are compared with errors that are put into a jet, or known from extended precision.
@@ -82,7 +82,7 @@ TEST(ErrorEstimate, HoldsForOtherMethodsSubsetsAndBackwards) {
     for (std::size_t i = 0; i < 6; ++i) {
       for (std::size_t k = orbit.problem.space->first(d); k < orbit.problem.space->first(d + 1);
            ++k) {
-        error = std::max(error, std::abs(verlet[i][k] - exact[i][k]));
+        error = larger(error, std::abs(verlet[i][k] - exact[i][k]));
       }
     }
     error /= largest_of_degree(exact, d);

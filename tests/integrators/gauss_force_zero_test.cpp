@@ -1,12 +1,12 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "hamjet/dynamics/harmonic_oscillator.hpp"
 #include "integrators/small_systems.hpp"
 #include "support/flow.hpp"
+#include "support/magnitude.hpp"
 
 // Few stages where the force passes through zero, the start among these places: a relative measure
 // of the error has nothing to relate to there. The oscillator has a closed form, the pendulum a
@@ -44,7 +44,7 @@ double error_of_rotation(const FlowJet<double>& jet, double angle) {
   double error = 0;
   for (std::size_t i = 0; i < 2; ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
-      error = std::max(error, std::abs(jet[i][k] - expected[i][k]));
+      error = test::larger(error, std::abs(jet[i][k] - expected[i][k]));
     }
   }
   return error;

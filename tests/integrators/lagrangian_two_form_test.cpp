@@ -6,6 +6,7 @@
 #include "hamjet/algebra/elementary_functions.hpp"
 #include "hamjet/algebra/matrix.hpp"
 #include "hamjet/algebra/truncated_power_series.hpp"
+#include "support/magnitude.hpp"
 
 // The Lagrangian two-form of Störmer's rule (Guibout and Bloch, lemma stormer), on a particle in a
 // magnetic field: L = |q'|^2/2 + A(q) q' - V(q), for which d^2 L / dq dq' does not vanish. (For
@@ -111,7 +112,7 @@ TEST(LagrangianTwoForm, IsPreservedWithFirstFactorsOfTheStepBefore) {
       right_start = right;
       printed_start = printed;
     }
-    right_change = std::max(right_change, (right - right_start).cwiseAbs().maxCoeff());
+    right_change = test::larger(right_change, (right - right_start).cwiseAbs().maxCoeff());
     printed_change = std::max(printed_change, (printed - printed_start).cwiseAbs().maxCoeff());
     before = s.point;
     point = s.after;

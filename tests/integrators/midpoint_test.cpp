@@ -10,6 +10,7 @@
 #include "hamjet/dynamics/zonal_gravity.hpp"
 #include "support/errors.hpp"
 #include "support/flow.hpp"
+#include "support/magnitude.hpp"
 #include "support/symplectic.hpp"
 
 // The midpoint scheme on its own. Expected values: the scheme's defining equations, identities
@@ -142,7 +143,7 @@ TEST(Midpoint, PreservesTheEnergyOfLinearSystems) {
     double largest = 0;
     for (long k = 0; k < 10000; ++k) {
       z = midpoint_step<double>(h, z, tau);
-      largest = std::max(largest, std::abs((h.value(z) - energy) / energy));
+      largest = larger(largest, std::abs((h.value(z) - energy) / energy));
     }
     return largest;
   };
@@ -176,7 +177,7 @@ TEST(Midpoint, CrossesTheBarrierOfTheDoubleWellWithShortStepsOnly) {
     for (double t = 0; t < 200; t += tau) {
       z = midpoint_step<double>(h, z, tau);
       least_position = std::min(least_position, z(0));
-      largest_error = std::max(largest_error, std::abs(h.value(z) - energy));
+      largest_error = larger(largest_error, std::abs(h.value(z) - energy));
     }
     if (tau < 0.175) {
       EXPECT_LT(least_position, -0.9) << tau;

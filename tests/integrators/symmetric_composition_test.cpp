@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <vector>
@@ -12,6 +11,7 @@
 #include "integrator_checks.hpp"
 #include "support/convergence.hpp"
 #include "support/errors.hpp"
+#include "support/magnitude.hpp"
 #include "support/map.hpp"
 #include "support/random_series.hpp"
 
@@ -79,7 +79,8 @@ std::vector<double> order_defects(const std::vector<Extended>& gammas, int large
     const bool is_power = static_cast<int>(word.size()) == weight(word);
     const Extended expected = is_power ? exponential(word, 1) : Extended(0);
     double& defect = defects[static_cast<std::size_t>(weight(word))];
-    defect = std::max(defect, std::abs(static_cast<double>(Extended(product[word] - expected))));
+    defect =
+        test::larger(defect, std::abs(static_cast<double>(Extended(product[word] - expected))));
   }
   return defects;
 }

@@ -11,6 +11,7 @@
 #include "hamjet/integrators/explicit_runge_kutta.hpp"
 #include "hamjet/maps/legendre_transformation.hpp"
 #include "support/errors.hpp"
+#include "support/magnitude.hpp"
 #include "support/map.hpp"
 #include "support/random_series.hpp"
 
@@ -25,7 +26,7 @@ std::vector<HamiltonJacobiResidual> residuals(const DynamicalSystem& system, con
 
 double worst(const std::vector<HamiltonJacobiResidual>& entries) {
   double result = 0;
-  for (const auto& entry : entries) result = std::max(result, entry.scaled);
+  for (const auto& entry : entries) result = test::larger(result, entry.scaled);
   return result;
 }
 

@@ -2,13 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <span>
 #include <vector>
 
 #include "support/errors.hpp"
+#include "support/magnitude.hpp"
 
 // The momenta that join two positions, by generating functions of every kind. Expected: the momenta
 // that the positions were made with, by maps in closed form.
@@ -30,8 +30,8 @@ double error_of(const PartialInversion<double>& inversion, const State& initial,
   const BoundaryMomenta found = boundary.solve(initial.position, final.position, degree);
   double error = 0;
   for (std::size_t i = 0; i < initial.momentum.size(); ++i) {
-    error = std::max({error, std::abs(found.initial[i] - initial.momentum[i]),
-                      std::abs(found.final[i] - final.momentum[i])});
+    error = test::larger(error, std::abs(found.initial[i] - initial.momentum[i]));
+    error = test::larger(error, std::abs(found.final[i] - final.momentum[i]));
   }
   return error;
 }

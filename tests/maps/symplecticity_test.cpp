@@ -7,6 +7,7 @@
 
 #include "hamjet/dynamics/harmonic_oscillator.hpp"
 #include "support/errors.hpp"
+#include "support/magnitude.hpp"
 #include "support/map.hpp"
 
 namespace hamjet {
@@ -14,7 +15,7 @@ namespace {
 
 double worst(const std::vector<SymplecticityDefect>& defects) {
   double result = 0;
-  for (const auto& entry : defects) result = std::max(result, entry.scaled);
+  for (const auto& entry : defects) result = test::larger(result, entry.scaled);
   return result;
 }
 

@@ -9,6 +9,7 @@
 #include "hamjet/integrators/midpoint.hpp"
 #include "hamjet/maps/symplectic_powers.hpp"
 #include "support/errors.hpp"
+#include "support/magnitude.hpp"
 #include "support/symplectic.hpp"
 
 // The paper's statement: the energy error of the midpoint scheme is invariant under discrete
@@ -43,10 +44,10 @@ Comparison compare(const DynamicalSystem& system, const CanonicalTransformationS
     const auto magnitude = [](const Real& x) { return std::abs(static_cast<double>(x)); };
     result.energy_error = std::max(result.energy_error, magnitude(error));
     result.energy_difference =
-        std::max(result.energy_difference, magnitude(Real(transformed_error - error)));
+        larger(result.energy_difference, magnitude(Real(transformed_error - error)));
     result.state_difference =
-        std::max(result.state_difference,
-                 largest_entry(transformed.map().inverse()(transformed.state()) - z));
+        larger(result.state_difference,
+               largest_entry(transformed.map().inverse()(transformed.state()) - z));
     result.condition = std::max(result.condition, transformed.map().condition());
   }
   EXPECT_EQ(transformed.step(), steps);
@@ -135,7 +136,7 @@ TEST(TransformedMidpoint, MappingTheEndByTheNextTransformationIsAnotherScheme) {
     z = midpoint_step<double>(h, z, 0.1);
     Z = midpoint_step<double>(k, Z, 0.1);  // its end is taken for Z_(k+1)
     k.set_map(f(step + 1));
-    largest = std::max(largest, std::abs((k.value(Z) - energy) - (h.value(z) - energy)));
+    largest = larger(largest, std::abs((k.value(Z) - energy) - (h.value(z) - energy)));
   }
   EXPECT_NEAR(largest, 0.29, 0.005);
 }

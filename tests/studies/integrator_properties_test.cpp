@@ -10,6 +10,7 @@
 #include "integrator_cases.hpp"
 #include "support/convergence.hpp"
 #include "support/flow.hpp"
+#include "support/magnitude.hpp"
 #include "support/map.hpp"
 
 // Every integrator with fixed steps on every system of the paper: what theory says of its two-form,
@@ -160,7 +161,7 @@ TEST_P(IntegratorProperties, TimeReversibility) {
   const auto back = run<double>(-problem().period, steps, 1, test::final_state(there));
   double distance = 0;
   for (std::size_t i = 0; i < back.size(); ++i) {
-    distance = std::max(distance, std::abs(back[i][0] - problem().start[i]));
+    distance = test::larger(distance, std::abs(back[i][0] - problem().start[i]));
   }
   if (method().is_symmetric) {
     EXPECT_LE(distance, 1e-12);
@@ -184,8 +185,8 @@ TEST_P(IntegratorProperties, EnergyOverFortyPeriods) {
                     [&](const double& time, const FlowJet<double>& jet) {
                       const double error = std::abs(
                           test::energy(problem().system, test::final_state(jet)) - initial);
-                      if (time < 4 * problem().period) early = std::max(early, error);
-                      if (time > 36 * problem().period) late = std::max(late, error);
+                      if (time < 4 * problem().period) early = test::larger(early, error);
+                      if (time > 36 * problem().period) late = test::larger(late, error);
                     });
   if (method().name == "Fehlberg") {
     EXPECT_GE(late, 4 * early);

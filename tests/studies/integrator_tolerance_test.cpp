@@ -12,6 +12,7 @@
 #include "hamjet/studies/method_description.hpp"
 #include "integrator_cases.hpp"
 #include "support/convergence.hpp"
+#include "support/magnitude.hpp"
 #include "support/map.hpp"
 
 // CVODE's multistep formulas and the explicit Runge-Kutta pair with controlled steps: no two-form
@@ -63,7 +64,7 @@ Integration run(IntegrationMethod method, const test::IntegratorCase& one, doubl
         for (const double x : z) result.largest_state = std::max(result.largest_state, std::abs(x));
         result.largest_slope = std::max(result.largest_slope, slope);
         result.energy_error =
-            std::max(result.energy_error, std::abs(test::energy(one.system, z) - initial));
+            test::larger(result.energy_error, std::abs(test::energy(one.system, z) - initial));
       });
   result.steps = statistics.steps;
   return result;
@@ -142,7 +143,7 @@ TEST_P(IntegratorTolerance, TimeReversibility) {
         test::final_state(run(method(), problem(), tolerance, end, -problem().period).jet);
     double distance = 0;
     for (std::size_t i = 0; i < home.size(); ++i) {
-      distance = std::max(distance, std::abs(home[i] - problem().start[i]));
+      distance = test::larger(distance, std::abs(home[i] - problem().start[i]));
     }
     errors.push_back(distance);
   }

@@ -12,6 +12,7 @@
 #include "hamjet/integrators/gauss_collocation.hpp"
 #include "hamjet/scene/scene_reader.hpp"
 #include "hamjet/studies/stability.hpp"
+#include "support/magnitude.hpp"
 #include "support/scenes.hpp"
 
 // What rounding does is bounded on the oscillator, whose flow is a rotation and amplifies
@@ -118,10 +119,10 @@ TEST(RoundingSample, HoldsWhatHalfUlpStartsDo) {
       const auto difference = [&](std::size_t k) {
         return std::abs(static_cast<double>(Extended(other[i][k] - jet[i][k])));
       };
-      state[i] = std::max(state[i], difference(0));
+      state[i] = test::larger(state[i], difference(0));
       for (std::size_t j = 0; j < n; ++j) {
         double& entry = matrix[i * n + j];
-        entry = std::max(entry, difference(problem.space->linear_index(j)));
+        entry = test::larger(entry, difference(problem.space->linear_index(j)));
       }
     }
   }

@@ -9,6 +9,7 @@
 #include "formation_scenes.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
+#include "support/magnitude.hpp"
 
 namespace hamjet {
 namespace {
@@ -55,7 +56,7 @@ TEST(Transfer, MissFallsAsAPowerOfTheSeparation) {
     Scene scene = paper_chief(order);
     scene.transfer = short_hop(separation, {4.0});
     const TransferResult result = study_transfer(scene);
-    floor = std::max(floor, result.flight_floor_m);
+    floor = test::larger(floor, result.flight_floor_m);
     misses.emplace_back();
     for (const TransferAnswer& answer : result.points[0].answers) {
       ASSERT_TRUE(answer.failure.empty()) << answer.failure;
@@ -86,7 +87,7 @@ TEST(Transfer, TenKilometresOnThePapersOrbit) {
     if (point.is_near_singular) continue;
     ASSERT_TRUE(point.has_answer()) << point.failure;
     ++far;
-    largest = std::max(largest, point.answers[3].miss_m);
+    largest = test::larger(largest, point.answers[3].miss_m);
     largest_linear = std::max(largest_linear, point.answers[0].miss_m);
     EXPECT_LT(*point.hamilton_jacobi_residual, 1e-8);
   }
@@ -144,7 +145,7 @@ TEST(Transfer, TheHamiltonJacobiResidualIsThatOfTheTransfer) {
   double largest = 0;
   for (const TransferPoint& point : result.points) {
     ASSERT_TRUE(point.hamilton_jacobi_residual.has_value());
-    largest = std::max(largest, *point.hamilton_jacobi_residual);
+    largest = test::larger(largest, *point.hamilton_jacobi_residual);
   }
   EXPECT_LT(largest, 1e-9);
   EXPECT_LT(largest, 100 * *result.hamilton_jacobi_floor);

@@ -1,0 +1,5 @@
+#!/bin/sh
+# Compares what the command says now with what stands here: compare.sh TOOL PROGRAM FOLDER.
+set -eu
+"$1" words "$2" "$3/words"
+"$1" compare "$(dirname "$0")/words" "$3/words"

@@ -1,0 +1,88 @@
+#include <gtest/gtest.h>
+
+#include "hamjet/dynamics/zonal_gravity.hpp"
+#include "hamjet/studies/comparison.hpp"
+#include "support/errors.hpp"
+
+// A scene of a Hamiltonian of the user's own gets what a scene of a file gets.
+
+namespace hamjet {
+namespace {
+
+/// Two oscillators with a cubic coupling; Hénon and Heiles, Astronomical Journal 69 (1964) 73.
+struct CubicCoupling {
+  double coupling = 1;
+
+  template <class T>
+  T operator()(std::span<const T> q, std::span<const T> p) const {
+    return (p[0] * p[0] + p[1] * p[1] + q[0] * q[0] + q[1] * q[1]) / T(2) +
+           T(coupling) * (q[0] * q[0] * q[1] - q[1] * q[1] * q[1] / T(3));
+  }
+};
+
+Scene coupled_scene(double coupling) {
+  Scene scene =
+      make_scene(make_system("coupled", 2, CubicCoupling{coupling}), {0.1, 0.2, 0.25, 0}, 5, 3);
+  scene.integrators = {{.label = "gauss8", .stages = 8, .tolerance = 1e-12}};
+  scene.kinds = {"F1"};
+  scene.reference = ReferenceSettings{};
+  scene.separation = 1e-3;
+  return scene;
+}
+
+// The same Hamiltonian by its name and as one's own: the same operations, hence the same bits.
+TEST(OwnSystem, GivesTheJetOfTheSameSystemByName) {
+  const std::vector<double> nominal = {1, 0, 0.1, 0, 0.9, 0.2};
+  Scene own = make_scene(kepler(), nominal, 3, 3);
+  own.integrators = {{.label = "gauss8", .stages = 8, .tolerance = 1e-12}};
+  Scene named = own;
+  named.own_system = nullptr;
+  named.system.model = SystemModel::kepler;
+  const FlowJet<Extended> a = propagate(own).runs.at(0).jet;
+  const FlowJet<Extended> b = propagate(named).runs.at(0).jet;
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    for (std::size_t k = 0; k < a[i].size(); ++k) EXPECT_EQ(a[i][k], b[i][k]) << i << " " << k;
+  }
+}
+
+TEST(OwnSystem, HasReferenceChecksAndGeneratingFunction) {
+  const PropagationResult result = propagate(coupled_scene(1));
+  ASSERT_TRUE(result.reference) << result.reference_failure;
+  const RunResult& run = result.runs.at(0);
+  EXPECT_EQ(run.failure, "");
+  EXPECT_TRUE(run.failed_checks.empty());
+  ASSERT_TRUE(run.error_by_degree);
+  // A hundred tolerances a period, which the duration falls short of, are what is promised.
+  for (const double error : *run.error_by_degree) EXPECT_LE(error, 100 * 1e-12);
+  ASSERT_EQ(run.kinds.size(), 1U);
+  EXPECT_TRUE(run.kinds[0].generating_function) << run.kinds[0].failure;
+}
+
+TEST(OwnSystem, IsCompared) {
+  Scene scene = coupled_scene(1);
+  scene.comparison.methods = {IntegrationMethod::gauss, IntegrationMethod::velocity_verlet};
+  scene.comparison.stages = {4};
+  scene.comparison.steps_canonical = {0.5, 0.25};
+  scene.comparison.orders = {1};
+  scene.comparison.repeats = 1;
+  ComparisonResult result;
+  compare(scene, {}, result);
+  ASSERT_FALSE(result.runs.empty());
+  for (const ComparedRun& run : result.runs) EXPECT_TRUE(run.is_finished()) << run.failure;
+}
+
+// References are kept by what determines them: the Hamiltonian itself, not its name.
+TEST(OwnSystem, ReferencesOfOtherHamiltoniansAreOthers) {
+  EXPECT_EQ(reference_key(coupled_scene(1), 3), reference_key(coupled_scene(1), 3));
+  EXPECT_NE(reference_key(coupled_scene(1), 3), reference_key(coupled_scene(2), 3));
+}
+
+TEST(OwnSystem, RefusesANominalOfAnotherSize) {
+  test::expect_error(ErrorKind::usage, "2 degrees of freedom and a nominal of 3 numbers", [] {
+    make_scene(make_system("coupled", 2, CubicCoupling{}), {1, 2, 3}, 1, 2);
+  });
+}
+
+}  // namespace
+}  // namespace hamjet
