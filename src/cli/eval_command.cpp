@@ -30,15 +30,16 @@ using Support = TruncationEstimate::Support;
 /// More rows than this are not printed as JSON, but counted only.
 constexpr std::size_t most_json_rows = 100;
 
-void refuse_empty(const std::optional<std::string>& value, const char* option, const char* what) {
+void refuse_empty_option(const std::optional<std::string>& value, const char* option,
+                         const char* what) {
   if (value && value->empty()) refuse(fmt::format("{}: empty, must name {}", option, what));
 }
 
 void check_options(const EvalOptions& options) {
-  refuse_empty(options.directory, "directory", "the results of hamjet run");
-  refuse_empty(options.deviations, "--deviations", "a file");
-  refuse_empty(options.run, "--run", "a run");
-  refuse_empty(options.output, "--output", "a file");
+  refuse_empty_option(options.directory, "directory", "the results of hamjet run");
+  refuse_empty_option(options.deviations, "--deviations", "a file");
+  refuse_empty_option(options.run, "--run", "a run");
+  refuse_empty_option(options.output, "--output", "a file");
   check_frame(options.frame, options.derivatives);
   if (options.deviation && options.deviations) {
     refuse("--deviation and --deviations: must not both be given");

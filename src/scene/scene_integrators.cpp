@@ -35,21 +35,30 @@ bool is_reserved(std::string_view label) {
   return std::find(std::begin(names), std::end(names), label) != std::end(names);
 }
 
-/// The keys of methods, of all or of one, in the order in which they are listed.
-std::vector<std::string_view> keys_of(const std::vector<MethodDescription>& methods) {
-  std::vector<std::string_view> keys = {"label", "method", "require_relative_error",
-                                        "require_symplecticity"};
+/// The keys of a method but those of every method.
+std::vector<std::string_view> own_keys(const MethodDescription& method) {
+  std::vector<std::string_view> keys;
+  for (const MethodSetting& setting : method.settings) keys.push_back(setting.key);
+  if (method.has_fixed_steps) keys.insert(keys.end(), {"step_canonical", "step_s"});
+  if (method.has_tolerance) keys.push_back("tolerance");
+  return keys;
+}
+
+/// The keys of all methods, each once: those that distinguish methods first, then the others, then
+/// how long the steps are.
+std::vector<std::string_view> keys_of_all() {
+  std::vector<std::string_view> keys = {"label", "method"};
   const auto add = [&](std::string_view key) {
     if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
   };
-  for (const MethodDescription& method : methods) {
+  for (const MethodSetting& setting : compared_settings()) add(setting.key);
+  for (const MethodDescription& method : all_methods()) {
     for (const MethodSetting& setting : method.settings) add(setting.key);
   }
-  for (const MethodDescription& method : methods) {
-    if (method.has_fixed_steps) add("step_canonical");
-    if (method.has_fixed_steps) add("step_s");
-    if (method.has_tolerance) add("tolerance");
+  for (const MethodDescription& method : all_methods()) {
+    for (const std::string_view key : own_keys(method)) add(key);
   }
+  keys.insert(keys.end(), {"require_relative_error", "require_symplecticity"});
   return keys;
 }
 
@@ -149,7 +158,7 @@ void refuse_energy_conserving(const TableReader& integrator) {
 
 IntegratorSettings read_integrator(const TableReader& integrator, Precision precision,
                                    double duration, const CanonicalScale& scale) {
-  const std::vector<std::string_view> all_keys = keys_of(all_methods());
+  const std::vector<std::string_view> all_keys = keys_of_all();
   if (!integrator.has("method")) integrator.check_keys({all_keys});  // a misspelt `method` is named
   if (integrator.has("method")) refuse_energy_conserving(integrator);
   IntegratorSettings settings;
@@ -183,7 +192,11 @@ IntegratorSettings read_integrator(const TableReader& integrator, Precision prec
 }  // namespace
 
 std::vector<std::string_view> integrator_keys(IntegrationMethod method) {
-  return keys_of({description_of(method)});
+  std::vector<std::string_view> keys = {"label", "method", "require_relative_error",
+                                        "require_symplecticity"};
+  const std::vector<std::string_view> own = own_keys(description_of(method));
+  keys.insert(keys.end(), own.begin(), own.end());
+  return keys;
 }
 
 std::vector<IntegratorSettings> read_integrators(const std::vector<TableReader>& integrators,

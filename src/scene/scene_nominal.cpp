@@ -159,8 +159,8 @@ Nominal read_nominal(const TableReader& nominal, const SystemSettings& system,
   const auto is_zero = [](double x) { return x == 0; };
   const std::string_view refusal = description_of(system.model).no_start_at_origin;
   if (!refusal.empty() && std::all_of(result.state.begin(), result.state.end(), is_zero)) {
-    nominal.fail("position_m", fmt::format("{}, got {}, must be any other point", refusal,
-                                           nominal.found("position_m")));
+    nominal.fail("position_m", fmt::format("{}, got [{}], must be any other point", refusal,
+                                           fmt::join(result.state, ", ")));
   }
   const std::vector<double> momenta = nominal.numbers("momentum_kg_m_s", n);
   result.state.insert(result.state.end(), momenta.begin(), momenta.end());

@@ -40,7 +40,8 @@ FlowJet<Real> integrate_unchecked(const FlowProblem<Real>& flow, const Integrato
   }
   if (integrate == nullptr) {
     throw Error(ErrorKind::usage,
-                fmt::format("{} computes in double precision only", method.library));
+                fmt::format("{} computes in double precision only",
+                            method.library.empty() ? method.name : method.library));
   }
   return integrate(flow, settings, statistics, observer, records_step_error);
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <numeric>
+#include <set>
+#include <string>
 
 #include "../integrators/arc_plan.hpp"
 #include "hamjet/studies/arcs.hpp"
@@ -99,20 +101,35 @@ double estimate_memory(const Scene& scene, const DynamicalSystem& system, std::s
 
 namespace {
 
-void require_built(const Scene& scene) {
+/// A scene of a file has been checked when it was read; one made in C++ is checked here.
+void require_good_integrators(const Scene& scene) {
+  std::set<std::string> labels;
   for (const IntegratorSettings& settings : scene.integrators) {
     const MethodDescription& method = description_of(settings.method);
-    if (method.is_built()) continue;
-    throw Error(ErrorKind::usage,
-                fmt::format("integrator {}: this build has no {}; configure with {}",
-                            settings.label, method.library, method.build_option));
+    const auto refuse = [&](const std::string& problem) {
+      throw Error(ErrorKind::usage, fmt::format("integrator {}: {}", settings.label, problem));
+    };
+    if (!method.is_built()) {
+      refuse(fmt::format("this build has no {}; configure with {}", method.library,
+                         method.build_option));
+    }
+    if (scene.own_system == nullptr) continue;
+    if (settings.label.empty() || !labels.insert(settings.label).second) {
+      refuse("the label is empty or stands twice, must be there once");
+    }
+    const bool has_step = method.has_fixed_steps && settings.step_canonical.has_value();
+    const bool has_tolerance = method.has_tolerance && settings.tolerance.has_value();
+    if (has_step == has_tolerance) {
+      refuse(fmt::format("{} needs either a step or a tolerance, of those that it takes",
+                         method.name));
+    }
   }
 }
 
 }  // namespace
 
 ComputedProblem make_problem(const Scene& scene, double memory_limit, std::size_t threads) {
-  require_built(scene);
+  require_good_integrators(scene);
   const DynamicalSystem full = make_system(scene);
   const std::size_t n = full.degrees_of_freedom;
   ComputedProblem problem;

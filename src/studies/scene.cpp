@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -27,8 +30,24 @@ Scene make_scene(DynamicalSystem system, std::vector<double> nominal, double dur
                             "numbers, must be 1 to {} and twice as many numbers",
                             n, nominal.size(), most));
   }
+  const auto is_finite = [](double x) { return std::isfinite(x); };
+  const bool has_numbers =
+      std::all_of(nominal.begin(), nominal.end(), is_finite) && is_finite(duration);
+  const bool has_units = units.length_km > 0 && units.time_s > 0 && is_finite(units.length_km) &&
+                         is_finite(units.time_s);
+  if (order < 1 || !has_numbers || !has_units) {
+    throw Error(ErrorKind::usage,
+                fmt::format("scene of an own system: order {}, units {} km and {} s, must be an "
+                            "order of at least 1, positive units, and a finite nominal and "
+                            "duration",
+                            order, units.length_km, units.time_s));
+  }
   Scene scene;
   scene.name = system.name;
+  for (char& c : scene.name) {
+    const bool is_usual = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_';
+    if (!is_usual) c = '_';
+  }
   scene.title = system.name;
   scene.system.model = SystemModel::own;
   scene.system.own_degrees_of_freedom = n;

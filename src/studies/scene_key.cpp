@@ -70,9 +70,9 @@ class KeyText {
   std::string text_;
 };
 
-/// A Hamiltonian as the list of its operations.
+/// A function as the list of its operations and its outputs.
 std::string operations_text(const OperationList& list) {
-  std::string text;
+  std::string text = fmt::format("outputs {}: ", fmt::join(list.outputs(), " "));
   for (const Operation& operation : list.operations()) {
     text += fmt::format("{} {} {} {}", static_cast<int>(operation.code), operation.u, operation.v,
                         operation.constant.str());
@@ -81,6 +81,18 @@ std::string operations_text(const OperationList& list) {
     }
     text += ", ";
   }
+  return text;
+}
+
+/// A system as all that is integrated of it: a field or force may be written by hand, apart from
+/// the Hamiltonian.
+std::string system_text(const DynamicalSystem& system) {
+  std::string text = operations_text(system.hamiltonian) + "; " +
+                     operations_text(system.vector_field) +
+                     fmt::format("; {} waves", system.waves_on_a_circle);
+  if (!system.second_order) return text;
+  text += "; " + operations_text(system.second_order->force) + "; inverse mass";
+  for (const Extended& entry : system.second_order->inverse_mass) text += " " + entry.str();
   return text;
 }
 
@@ -94,13 +106,13 @@ std::string scene_key(const Scene& scene, int jet_order, KeyOf whose) {
                relative_hamiltonian_times, checks, comparison, figure, transfer, validity,
                assignment, output, ephemeris, nominal_file, warnings, own_system] = scene;
   KeyText key;
-  key.add("key", 3);  // version of this form of the text
+  key.add("key", 4);  // version of this form of the text
   key.add("reference stages", reference_stages);
   key.add("compared stages", compared_stages);
   key.add("looser by", looser_tolerance);
   key.add("reference", reference.value_or(ReferenceSettings{}));
   key.add("system", system);
-  if (own_system) key.add("own system", operations_text(own_system->hamiltonian));
+  if (own_system) key.add("own system", system_text(*own_system));
   key.add("radius", canonical_radius);
   key.add("nominal", nominal);
   key.add("duration", duration);

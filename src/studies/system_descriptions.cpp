@@ -9,6 +9,7 @@
 #include "hamjet/dynamics/oscillator_pair.hpp"
 #include "hamjet/dynamics/spring_pendulum.hpp"
 #include "hamjet/dynamics/zonal_gravity.hpp"
+#include "hamjet/error.hpp"
 #include "hamjet/studies/system_description.hpp"
 
 namespace hamjet {
@@ -99,14 +100,14 @@ std::vector<SystemDescription> describe_systems() {
 }
 
 SystemDescription describe_own_system() {
-  SystemDescription own{
-      .model = SystemModel::own,
-      .name = "own",
-      .help = "a Hamiltonian of the C++ user",
-      .degrees_of_freedom = {1, 2, 3, 4, 5, 6, 7, 8},
-      .degrees_of_freedom_of = [](const Settings& s) { return s.own_degrees_of_freedom; },
-      .make = nullptr};
-  return own;
+  return {.model = SystemModel::own,
+          .name = "own",
+          .help = "a Hamiltonian of the C++ user",
+          .degrees_of_freedom = {1, 2, 3, 4, 5, 6, 7, 8},
+          .degrees_of_freedom_of = [](const Settings& s) { return s.own_degrees_of_freedom; },
+          .make = [](const Settings&, double) -> DynamicalSystem {
+            throw Error(ErrorKind::usage, "an own system is made by its user: Scene::own_system");
+          }};
 }
 
 }  // namespace

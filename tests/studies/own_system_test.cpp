@@ -78,6 +78,44 @@ TEST(OwnSystem, ReferencesOfOtherHamiltoniansAreOthers) {
   EXPECT_NE(reference_key(coupled_scene(1), 3), reference_key(coupled_scene(2), 3));
 }
 
+// A force written by hand is integrated in place of the Hamiltonian's own: the key holds it too,
+// and which of a list's values is the Hamiltonian.
+TEST(OwnSystem, ReferencesOfOtherFieldsAreOthers) {
+  const auto potential = [](std::span<const Expression> q, std::span<const Expression> p) {
+    return p[0] * p[0] / Expression(2) + q[0] * q[0] / Expression(2);
+  };
+  const auto key = [&](double stiffness) {
+    const auto force = [=](std::span<const Expression> q) {
+      return std::vector<Expression>{Expression(-stiffness) * q[0]};
+    };
+    return reference_key(make_scene(make_system("spring", 1, potential, force), {1, 0}, 1, 2), 2);
+  };
+  EXPECT_NE(key(1), key(1.5));
+  const auto key_of = [](bool is_sine) {
+    const auto h = [=](std::span<const Expression> q, std::span<const Expression> p) {
+      const Expression f = q[0] + p[0];
+      return is_sine ? sin(f) : cos(f);
+    };
+    return reference_key(make_scene(make_system("wave", 1, h), {1, 0}, 1, 2), 2);
+  };
+  EXPECT_NE(key_of(true), key_of(false));
+}
+
+TEST(OwnSystem, RefusesWhatCannotBeRun) {
+  const auto make = [](int order, const CanonicalUnits& units) {
+    return make_scene(make_system("coupled", 2, CubicCoupling{}), {0.1, 0, 0, 0}, 1, order, units);
+  };
+  test::expect_error(ErrorKind::usage, "order 0", [&] { make(0, {1, 1}); });
+  test::expect_error(ErrorKind::usage, "positive units", [&] { make(1, {0, 1}); });
+  Scene scene = coupled_scene(1);
+  scene.integrators.push_back(scene.integrators[0]);
+  test::expect_error(ErrorKind::usage, "stands twice", [&] { propagate(scene); });
+  scene = coupled_scene(1);
+  scene.integrators[0].tolerance.reset();
+  test::expect_error(ErrorKind::usage, "either a step or a tolerance", [&] { propagate(scene); });
+  test::expect_error(ErrorKind::usage, "own_system", [&] { make_system(scene.system, 1); });
+}
+
 TEST(OwnSystem, RefusesANominalOfAnotherSize) {
   test::expect_error(ErrorKind::usage, "2 degrees of freedom and a nominal of 3 numbers", [] {
     make_scene(make_system("coupled", 2, CubicCoupling{}), {1, 2, 3}, 1, 2);

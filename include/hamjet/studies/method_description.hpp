@@ -31,7 +31,9 @@ struct MethodSetting {
   double most = 0;
   std::vector<int> choices = {};  ///< the only values of a whole number; empty: all in range
   /// Words for people, such as "8 stages"; empty: there is nothing to say.
-  std::string (*text)(const IntegratorSettings&);
+  std::string (*text)(const IntegratorSettings&) = [](const IntegratorSettings&) {
+    return std::string();
+  };
   /// Whether another value makes another method, so that comparisons have a column for it and name
   /// it in their advice.
   bool is_compared = true;

@@ -59,8 +59,9 @@ Chart along_time_chart(const Scene& scene, const std::vector<RunAlongTime>& runs
 }  // namespace
 
 std::string time_label(SystemModel model, const CanonicalUnits& units) {
-  return is_orbit(model) ? fmt::format("time (canonical; 1 is {:.4g} s)", units.time_s)
-                         : "time (s)";
+  return is_orbit(model) || units.time_s != 1
+             ? fmt::format("time (canonical; 1 is {:.4g} s)", units.time_s)
+             : "time (s)";
 }
 
 std::string kind_text(const GeneratingFunctionKind& kind) {

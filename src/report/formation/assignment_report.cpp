@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
 #include "../../formats/relative_frame_text.hpp"
-#include "../../store/csv_values.hpp"
 #include "../../store/json_values.hpp"
 #include "../../text/html_text.hpp"
+#include "answer_columns.hpp"
 #include "hamjet/report/relative_motion_report.hpp"
 #include "transfer_json.hpp"
 #include "transfer_view.hpp"
@@ -98,33 +98,28 @@ std::string summary(const AssignmentResult& result) {
 }  // namespace
 
 std::string assignment_csv(const AssignmentResult& result) {
-  std::string text =
-      "deputy,slot,time_canonical,time_s,kind,condition,near_singular,beyond_tolerance,answer";
-  for (const char* end : {"start", "end"}) {
-    for (const std::string_view axis : axis_columns(result.scene.transfer->frame)) {
-      text += fmt::format(",{}_change_{}_m_s", end, axis);
-    }
-  }
-  text += ",total_change_m_s,miss_m,failure\n";
-  for (const AssignedTransfer& assigned : result.transfers) {
-    const TransferPoint& point = assigned.transfer;
-    text += fmt::format("{},{},{},{},{},{},{},{},{}", assigned.deputy, assigned.slot,
-                        csv_number(point.time), csv_number(point.time * result.scene.units.time_s),
-                        point.kind ? point.kind->name() : "",
-                        point.kind ? csv_number(point.condition) : "", point.is_near_singular,
-                        point.is_beyond_tolerance, answer_name(point));
-    if (const TransferAnswer* answer = shown_answer(point)) {
-      for (const Eigen::Vector3d* change : {&answer->start_change_m_s, &answer->end_change_m_s}) {
-        for (const double component : *change) text += "," + csv_number(component);
-      }
-      text +=
-          fmt::format(",{},{}", csv_number(answer->total_change_m_s()), csv_number(answer->miss_m));
-    } else {
-      text += ",,,,,,,,";
-    }
-    text += "," + csv_field(failure_text(point)) + "\n";
-  }
-  return text;
+  using Row = const AssignedTransfer&;
+  const double unit = result.scene.units.time_s;
+  const auto has_kind = [](Row row) { return row.transfer.kind.has_value(); };
+  Columns<AssignedTransfer> columns;
+  columns.add("deputy", [](Row row) { return fmt::format("{}", row.deputy); });
+  columns.add("slot", [](Row row) { return fmt::format("{}", row.slot); });
+  columns.add("time_canonical", [](Row row) { return csv_number(row.transfer.time); });
+  columns.add("time_s", [=](Row row) { return csv_number(row.transfer.time * unit); });
+  columns.add_if(has_kind, "kind", [](Row row) { return row.transfer.kind->name(); });
+  columns.add_if(has_kind, "condition", [](Row row) { return csv_number(row.transfer.condition); });
+  columns.add("near_singular",
+              [](Row row) { return fmt::format("{}", row.transfer.is_near_singular); });
+  columns.add("beyond_tolerance",
+              [](Row row) { return fmt::format("{}", row.transfer.is_beyond_tolerance); });
+  columns.add("answer", [](Row row) { return std::string(answer_name(row.transfer)); });
+  add_answer_columns<AssignedTransfer>(
+      columns, result.scene.transfer->frame,
+      [](Row row) -> const TransferPoint& { return row.transfer; });
+  columns.add_if([](Row row) { return shown_answer(row.transfer) != nullptr; }, "miss_m",
+                 [](Row row) { return csv_number(shown_answer(row.transfer)->miss_m); });
+  columns.add("failure", [](Row row) { return std::string(failure_text(row.transfer)); });
+  return columns.csv(result.transfers);
 }
 
 std::string costs_csv(const AssignmentResult& result) {

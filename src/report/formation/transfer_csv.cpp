@@ -1,10 +1,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <iterator>
+#include <utility>
 
-#include "../../formats/relative_frame_text.hpp"
-#include "../../store/csv_values.hpp"
+#include "answer_columns.hpp"
 #include "hamjet/report/relative_motion_report.hpp"
 #include "transfer_view.hpp"
 
@@ -14,62 +13,63 @@ namespace {
 /// A condition, which may be infinite; empty where it was not found, which is NaN.
 std::string condition(double value) { return std::isnan(value) ? "" : csv_number(value); }
 
-std::string transfers_header(const Scene& scene) {
-  std::string line =
-      "time_canonical,time_s,kind,condition,position_condition,singular_distance_s,near_singular,"
-      "beyond_tolerance,answer";
-  for (const char* end : {"start", "end"}) {
-    for (const std::string_view axis : axis_columns(scene.transfer->frame)) {
-      line += fmt::format(",{}_change_{}_m_s", end, axis);
-    }
+using TransferColumns = Columns<TransferPoint>;
+using Point = const TransferPoint&;
+
+void add_orders(TransferColumns& columns, int most) {
+  columns.add("linear_total_change_m_s", [](Point point) {
+    const TransferAnswer* linear = answer_of_order(point, 1);
+    return linear != nullptr ? csv_number(linear->total_change_m_s()) : "";
+  });
+  for (int order = 1; order <= most; ++order) {
+    columns.add(fmt::format("miss_m_order_{}", order), [order](Point point) {
+      const TransferAnswer* answer = answer_of_order(point, order);
+      return answer != nullptr ? csv_number(answer->miss_m) : "";
+    });
   }
-  line += ",total_change_m_s,linear_total_change_m_s";
-  for (int order = 1; order <= scene.order; ++order) line += fmt::format(",miss_m_order_{}", order);
-  return line +
-         ",refined_total_change_m_s,refined_miss_m,refinement_flights,hamilton_jacobi_residual,"
-         "failure\n";
 }
 
-std::string changes(const TransferAnswer* answer) {
-  if (answer == nullptr) return ",,,,,,,";
-  std::string fields;
-  for (const Eigen::Vector3d* change : {&answer->start_change_m_s, &answer->end_change_m_s}) {
-    for (const double component : *change) fields += "," + csv_number(component);
-  }
-  return fields + "," + csv_number(answer->total_change_m_s());
-}
-
-std::string refined_fields(const TransferPoint& point) {
-  if (!point.refined) return ",,,";
-  const bool is_found = point.refined->failure.empty();
-  return fmt::format(",{},{},{}", is_found ? csv_number(point.refined->total_change_m_s()) : "",
-                     is_found ? csv_number(point.refined->miss_m) : "", point.refinement_flights);
+void add_refinement(TransferColumns& columns) {
+  const auto is_refined = [](Point point) { return point.refined.has_value(); };
+  const auto is_found = [](Point point) {
+    return point.refined.has_value() && point.refined->failure.empty();
+  };
+  columns.add_if(is_found, "refined_total_change_m_s",
+                 [](Point point) { return csv_number(point.refined->total_change_m_s()); });
+  columns.add_if(is_found, "refined_miss_m",
+                 [](Point point) { return csv_number(point.refined->miss_m); });
+  columns.add_if(is_refined, "refinement_flights",
+                 [](Point point) { return fmt::format("{}", point.refinement_flights); });
 }
 
 }  // namespace
 
 std::string transfers_csv(const TransferResult& result) {
   const double unit = result.scene.units.time_s;
-  std::string text = transfers_header(result.scene);
-  for (const TransferPoint& point : result.points) {
-    std::optional<double> distance;
-    if (point.singular_distance) distance = *point.singular_distance * unit;
-    text += fmt::format("{},{},{},{},{},{},{},{},{}", csv_number(point.time),
-                        csv_number(point.time * unit), point.kind ? point.kind->name() : "",
-                        point.kind ? condition(point.condition) : "",
-                        condition(point.position_condition), csv_number(distance),
-                        point.is_near_singular, point.is_beyond_tolerance, answer_name(point));
-    text += changes(shown_answer(point));
-    const TransferAnswer* linear = answer_of_order(point, 1);
-    text += "," + (linear != nullptr ? csv_number(linear->total_change_m_s()) : "");
-    for (int order = 1; order <= result.scene.order; ++order) {
-      const TransferAnswer* answer = answer_of_order(point, order);
-      text += "," + (answer != nullptr ? csv_number(answer->miss_m) : "");
-    }
-    text += refined_fields(point) + "," + csv_number(point.hamilton_jacobi_residual) + "," +
-            csv_field(failure_text(point)) + "\n";
-  }
-  return text;
+  const auto has_kind = [](Point point) { return point.kind.has_value(); };
+  TransferColumns columns;
+  columns.add("time_canonical", [](Point point) { return csv_number(point.time); });
+  columns.add("time_s", [=](Point point) { return csv_number(point.time * unit); });
+  columns.add_if(has_kind, "kind", [](Point point) { return point.kind->name(); });
+  columns.add_if(has_kind, "condition", [](Point point) { return condition(point.condition); });
+  columns.add("position_condition",
+              [](Point point) { return condition(point.position_condition); });
+  columns.add_if([](Point point) { return point.singular_distance.has_value(); },
+                 "singular_distance_s",
+                 [=](Point point) { return csv_number(*point.singular_distance * unit); });
+  columns.add("near_singular",
+              [](Point point) { return fmt::format("{}", point.is_near_singular); });
+  columns.add("beyond_tolerance",
+              [](Point point) { return fmt::format("{}", point.is_beyond_tolerance); });
+  columns.add("answer", [](Point point) { return std::string(answer_name(point)); });
+  add_answer_columns<TransferPoint>(columns, result.scene.transfer->frame,
+                                    [](Point point) -> Point { return point; });
+  add_orders(columns, result.scene.order);
+  add_refinement(columns);
+  columns.add("hamilton_jacobi_residual",
+              [](Point point) { return csv_number(point.hamilton_jacobi_residual); });
+  columns.add("failure", [](Point point) { return std::string(failure_text(point)); });
+  return columns.csv(result.points);
 }
 
 std::string singular_times_csv(const TransferResult& result) {
