@@ -3,9 +3,7 @@
 
 #include <cmath>
 #include <cstdio>
-#include <hamjet/report/comparison_report.hpp>
-#include <hamjet/report/results.hpp>
-#include <hamjet/studies/comparison.hpp>
+#include <hamjet/hamjet.hpp>
 #include <span>
 
 namespace {
