@@ -61,7 +61,7 @@ EvalCoordinates::EvalCoordinates(const io::StoredJet& stored, const std::string&
   }
   if (!is_orbit(stored.model)) {
     refuse(fmt::format("--frame {}: the model {} is no orbit; say --frame canonical", frame,
-                       model_names()[static_cast<std::size_t>(stored.model)]));
+                       model_name(stored.model)));
   }
   initial_columns_ = final_columns_ = frame == "RTN" ? rtn_columns : inertial_columns;
   const MetricUnits units{stored.units.length_km * 1000, stored.units.time_s};

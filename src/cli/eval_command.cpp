@@ -30,16 +30,11 @@ using Support = TruncationEstimate::Support;
 /// More rows than this are not printed as JSON, but counted only.
 constexpr std::size_t most_json_rows = 100;
 
-void refuse_empty_option(const std::optional<std::string>& value, const char* option,
-                         const char* what) {
-  if (value && value->empty()) refuse(fmt::format("{}: empty, must name {}", option, what));
-}
-
 void check_options(const EvalOptions& options) {
-  refuse_empty_option(options.directory, "directory", "the results of hamjet run");
-  refuse_empty_option(options.deviations, "--deviations", "a file");
-  refuse_empty_option(options.run, "--run", "a run");
-  refuse_empty_option(options.output, "--output", "a file");
+  refuse_empty(options.directory, "directory", "the results of hamjet run");
+  refuse_empty(options.deviations, "--deviations", "a file");
+  refuse_empty(options.run, "--run", "a run");
+  refuse_empty(options.output, "--output", "a file");
   check_frame(options.frame, options.derivatives);
   if (options.deviation && options.deviations) {
     refuse("--deviation and --deviations: must not both be given");
@@ -167,7 +162,7 @@ std::string summary(const EvalOptions& options, const io::StoredJet& stored,
   const Json json = {
       {"scene", stored.scene},
       {"run", stored.label},
-      {"model", model_names()[static_cast<std::size_t>(stored.model)]},
+      {"model", model_name(stored.model)},
       {"order", stored.order()},
       {"degree", evaluation.evaluator().degree()},
       {"frame", options.frame},

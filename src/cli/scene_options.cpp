@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "../app/processors.hpp"
+#include "../app/refusal.hpp"
 #include "../text/scene_message.hpp"
 #include "demo_scene.hpp"
 #include "hamjet/error.hpp"
@@ -29,13 +30,6 @@ std::vector<io::Override> parse_overrides(const std::vector<std::string>& texts)
     overrides.push_back({text.substr(0, equals), text.substr(equals + 1)});
   }
   return overrides;
-}
-
-/// An empty name comes from an unset variable of a script, and must not mean something else.
-void refuse_empty(const std::optional<std::string>& value, const char* option, const char* what) {
-  if (value && value->empty()) {
-    throw Error(ErrorKind::usage, fmt::format("{}: empty, must name {}", option, what));
-  }
 }
 
 /// The built-in scene names CVODE; a build without it shows the rest. A scene of the user's own is

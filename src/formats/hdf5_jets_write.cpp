@@ -66,7 +66,7 @@ void write_scene(const Writer& file, const StoredJet& jet, int order, const std:
   file.attribute(root, "description", std::string(description));
   file.attribute(root, "scene", jet.scene);
   if (!title.empty()) file.attribute(root, "title", title);
-  file.attribute(root, "model", std::string(model_names()[static_cast<std::size_t>(jet.model)]));
+  file.attribute(root, "model", std::string(model_name(jet.model)));
   file.attribute(root, "precision", hdf5::precision_names[static_cast<std::size_t>(jet.precision)]);
   file.attribute(root, "frame", frame_of(jet.model));
   file.attribute(root, "units", std::string("canonical"));

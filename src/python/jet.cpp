@@ -52,8 +52,7 @@ void require_same_system(const io::StoredJet& first, const io::StoredJet& second
   if (first.model != second.model ||
       first.nominal_initial.size() != second.nominal_initial.size()) {
     refuse(fmt::format("compose: the jets are of different systems, {} and {}",
-                       model_names()[static_cast<std::size_t>(first.model)],
-                       model_names()[static_cast<std::size_t>(second.model)]));
+                       model_name(first.model), model_name(second.model)));
   }
   if (first.units.length_km != second.units.length_km ||
       first.units.time_s != second.units.time_s) {

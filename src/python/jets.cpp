@@ -187,10 +187,7 @@ void bind_description(py::class_<Jet, JetPointer>& jet) {
       .def_property_readonly(
           "run", [](const Jet& j) { return j.stored().label; }, "Label of the run.")
       .def_property_readonly(
-          "model",
-          [](const Jet& j) {
-            return std::string(model_names()[static_cast<std::size_t>(j.stored().model)]);
-          },
+          "model", [](const Jet& j) { return std::string(model_name(j.stored().model)); },
           "The system's model, as in scenes.")
       .def_property_readonly(
           "precision",

@@ -65,7 +65,7 @@ Json study_head_json(const Scene& scene, const std::string& study, const std::st
           {"title", scene.title},
           {"version", version},
           {"study", study},
-          {"model", model_names()[static_cast<std::size_t>(scene.system.model)]},
+          {"model", model_name(scene.system.model)},
           {"system", system_json(scene.system)},
           {"units", {{"length_km", scene.units.length_km}, {"time_s", scene.units.time_s}}},
           {"order", scene.order},

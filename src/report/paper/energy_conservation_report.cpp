@@ -101,7 +101,7 @@ std::string summary_json(const EnergyConservationResult& result) {
       {"title", study.title},
       {"version", version},
       {"study", "energy-conservation"},
-      {"model", model_names()[static_cast<std::size_t>(study.system.model)]},
+      {"model", model_name(study.system.model)},
       {"units", {{"length_km", study.units.length_km}, {"time_s", study.units.time_s}}},
       {"method", method_name(study)},
       {"first_step_canonical", study.first_step},

@@ -31,8 +31,7 @@ std::string ascii(std::string text) {
 
 std::string model_text(const SystemSettings& system) {
   std::string text =
-      fmt::format("Model: {}, GM = {} km**3/s**2",
-                  model_names()[static_cast<std::size_t>(system.model)], system.mu_km3_s2);
+      fmt::format("Model: {}, GM = {} km**3/s**2", model_name(system.model), system.mu_km3_s2);
   if (system.J.any()) text += fmt::format(", radius {} km", system.radius_km);
   for (int n = ZonalCoefficients::lowest; n <= ZonalCoefficients::highest; ++n) {
     if (system.J[n] != 0) text += fmt::format(", J{} = {}", n, system.J[n]);

@@ -139,7 +139,7 @@ std::string summary_json(const PropagationResult& result) {
   Json json = {{"scene", scene.name},
                {"title", scene.title},
                {"version", version},
-               {"model", model_names()[static_cast<std::size_t>(scene.system.model)]},
+               {"model", model_name(scene.system.model)},
                {"system", system_json(scene.system)},
                {"precision", scene.precision == Precision::extended ? "extended" : "double"},
                {"units", {{"length_km", scene.units.length_km}, {"time_s", scene.units.time_s}}},
