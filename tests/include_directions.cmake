@@ -9,7 +9,7 @@ set(wrong 0)
 # The place of a path among the layers: -1 where it belongs to none and all may include it.
 function(layer_of path result)
   set(${result} -1 PARENT_SCOPE)
-  if(path MATCHES "^${SOURCE_DIR}/(include/hamjet|src)/([^/]+)/")
+  if(path MATCHES "^${SOURCE_DIR}/(include/hamjet/detail|include/hamjet|src)/([^/]+)/")
     list(FIND HAMJET_LAYERS ${CMAKE_MATCH_2} place)
     set(${result} ${place} PARENT_SCOPE)
   endif()
@@ -35,11 +35,11 @@ function(included_file file line result)
   endforeach()
 endfunction()
 
-foreach(folder include/hamjet src)
+foreach(folder include/hamjet include/hamjet/detail src)
   file(GLOB entries RELATIVE ${SOURCE_DIR}/${folder} ${SOURCE_DIR}/${folder}/*)
   foreach(entry ${entries})
-    # What is installed with the library, no sources.
-    if(entry STREQUAL "package" OR NOT IS_DIRECTORY ${SOURCE_DIR}/${folder}/${entry})
+    # detail has the layers once more; package is what is installed with the library, no sources.
+    if(entry MATCHES "^(detail|package)$" OR NOT IS_DIRECTORY ${SOURCE_DIR}/${folder}/${entry})
       continue()
     endif()
     if(NOT entry IN_LIST HAMJET_LAYERS)

@@ -5,7 +5,7 @@
 #include <array>
 #include <type_traits>
 
-#include "hamjet/algebra/pack.hpp"
+#include "hamjet/detail/algebra/pack.hpp"
 
 namespace hamjet {
 namespace {

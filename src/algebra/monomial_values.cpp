@@ -1,4 +1,4 @@
-#include "hamjet/algebra/monomial_values.hpp"
+#include "hamjet/detail/algebra/monomial_values.hpp"
 
 #include "hamjet/error.hpp"
 

@@ -1,4 +1,4 @@
-#include "hamjet/algebra/singular_values.hpp"
+#include "singular_values.hpp"
 
 #include <Eigen/SVD>
 

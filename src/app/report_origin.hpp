@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "hamjet/report/report_origin.hpp"
+#include "hamjet/detail/report/report_origin.hpp"
 
 namespace hamjet::cli {
 

@@ -10,10 +10,10 @@
 #include <utility>
 
 #include "../app/report_origin.hpp"
+#include "../formats/reference_cache.hpp"
+#include "../store/result_set.hpp"
 #include "../store/text_file.hpp"
 #include "hamjet/error.hpp"
-#include "hamjet/formats/reference_cache.hpp"
-#include "hamjet/store/result_set.hpp"
 #include "interruption.hpp"
 #include "progress.hpp"
 #include "standard_streams.hpp"

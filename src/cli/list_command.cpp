@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "hamjet/maps/generating_function_kind.hpp"
-#include "hamjet/studies/method_description.hpp"
-#include "hamjet/studies/system_description.hpp"
+#include "../studies/descriptions/method_description.hpp"
+#include "../studies/descriptions/system_description.hpp"
+#include "hamjet/detail/maps/generating_function_kind.hpp"
 #include "standard_streams.hpp"
 
 namespace hamjet::cli {

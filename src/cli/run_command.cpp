@@ -8,12 +8,12 @@
 #include <type_traits>
 #include <variant>
 
+#include "../report/paper/paper_reports.hpp"
+#include "../studies/arcs.hpp"
+#include "../studies/descriptions/method_description.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/report/results.hpp"
-#include "hamjet/report/study_report.hpp"
 #include "hamjet/store/output_directory.hpp"
-#include "hamjet/studies/arcs.hpp"
-#include "hamjet/studies/method_description.hpp"
 #include "hamjet/studies/propagation.hpp"
 #include "interruption.hpp"
 #include "progress.hpp"

@@ -8,11 +8,11 @@
 
 #include "../app/processors.hpp"
 #include "../app/refusal.hpp"
+#include "../studies/arcs.hpp"
+#include "../studies/descriptions/method_description.hpp"
 #include "../text/scene_message.hpp"
 #include "demo_scene.hpp"
 #include "hamjet/error.hpp"
-#include "hamjet/studies/arcs.hpp"
-#include "hamjet/studies/method_description.hpp"
 #include "standard_streams.hpp"
 
 namespace hamjet::cli {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "hamjet/scene/scene_reader.hpp"
+#include "../scene/study_reader.hpp"
 
 namespace hamjet::cli {
 

@@ -6,9 +6,9 @@
 #include <filesystem>
 
 #include "../app/report_origin.hpp"
+#include "../report/stability/stability_report.hpp"
+#include "../studies/descriptions/method_description.hpp"
 #include "hamjet/error.hpp"
-#include "hamjet/report/stability_report.hpp"
-#include "hamjet/studies/method_description.hpp"
 #include "standard_streams.hpp"
 #include "study_command.hpp"
 

@@ -3,8 +3,8 @@
 #include <functional>
 #include <string>
 
-#include "hamjet/report/study_report.hpp"
-#include "hamjet/studies/progress.hpp"
+#include "hamjet/detail/report/study_report.hpp"
+#include "hamjet/detail/studies/progress.hpp"
 #include "scene_options.hpp"
 
 namespace hamjet::cli {

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
+#include "../sweep/sweep_study.hpp"
 #include "../text/scene_message.hpp"
 #include "../text/whole_number.hpp"
 #include "hamjet/error.hpp"
-#include "hamjet/sweep/sweep_study.hpp"
 
 namespace hamjet::cli {
 

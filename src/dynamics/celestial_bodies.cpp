@@ -1,4 +1,4 @@
-#include "hamjet/dynamics/celestial_bodies.hpp"
+#include "celestial_bodies.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "hamjet/dynamics/expression.hpp"
+#include "hamjet/detail/dynamics/expression.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "hamjet/dynamics/expression.hpp"
+#include "hamjet/detail/dynamics/expression.hpp"
 #include "hamjet/error.hpp"
 
 namespace hamjet {

@@ -1,4 +1,4 @@
-#include "hamjet/dynamics/operation_count.hpp"
+#include "operation_count.hpp"
 
 namespace hamjet {
 

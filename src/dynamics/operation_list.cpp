@@ -1,4 +1,4 @@
-#include "hamjet/dynamics/operation_list.hpp"
+#include "hamjet/detail/dynamics/operation_list.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -1,7 +1,9 @@
+#include "hamjet/dynamics/osculating_elements.hpp"
+
 #include <boost/math/constants/constants.hpp>
 #include <cmath>
-#include <hamjet/dynamics/osculating_elements.hpp>
-#include <hamjet/error.hpp>
+
+#include "hamjet/error.hpp"
 
 namespace hamjet {
 namespace {

@@ -2,7 +2,7 @@
 
 #include "hamjet/algebra/calculus.hpp"
 #include "hamjet/algebra/extended.hpp"
-#include "hamjet/dynamics/slice_evaluator.hpp"
+#include "hamjet/detail/dynamics/slice_evaluator.hpp"
 
 namespace hamjet {
 

@@ -1,4 +1,4 @@
-#include "hamjet/formats/dace_text.hpp"
+#include "dace_text.hpp"
 
 #include <fmt/format.h>
 

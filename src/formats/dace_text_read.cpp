@@ -9,8 +9,8 @@
 #include "../store/text_file.hpp"
 #include "../text/scene_message.hpp"
 #include "dace_columns.hpp"
+#include "dace_text.hpp"
 #include "hamjet/error.hpp"
-#include "hamjet/formats/dace_text.hpp"
 
 namespace hamjet::io {
 namespace {

@@ -6,15 +6,15 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <hamjet/algebra/extended.hpp>
-#include <hamjet/error.hpp>
-#include <hamjet/formats/number_table.hpp>
 #include <map>
 #include <optional>
 
 #include "../store/text_file.hpp"
 #include "../text/scene_message.hpp"
 #include "../text/whole_number.hpp"
+#include "hamjet/algebra/extended.hpp"
+#include "hamjet/error.hpp"
+#include "number_table.hpp"
 
 namespace hamjet::io {
 namespace {

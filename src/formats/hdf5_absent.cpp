@@ -1,7 +1,7 @@
 // What stands in for hdf5_jets_*.cpp in a build without HDF5.
 
 #include "hamjet/error.hpp"
-#include "hamjet/formats/hdf5_jets.hpp"
+#include "hdf5_jets.hpp"
 
 namespace hamjet::io {
 namespace {

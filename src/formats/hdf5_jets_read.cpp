@@ -6,7 +6,7 @@
 
 #include "../text/scene_message.hpp"
 #include "hamjet/error.hpp"
-#include "hamjet/formats/hdf5_jets.hpp"
+#include "hdf5_jets.hpp"
 #include "hdf5_jets_format.hpp"
 #include "hdf5_reader.hpp"
 #include "hdf5_seal.hpp"

@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "hamjet/error.hpp"
-#include "hamjet/formats/hdf5_jets.hpp"
 #include "hamjet/version.hpp"
+#include "hdf5_jets.hpp"
 #include "hdf5_jets_format.hpp"
 #include "hdf5_seal.hpp"
 #include "hdf5_writer.hpp"

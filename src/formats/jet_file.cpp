@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <system_error>
 
+#include "../store/result_set.hpp"
 #include "../store/sealed_summary.hpp"
 #include "../store/text_file.hpp"
 #include "../text/scene_message.hpp"
+#include "dace_text.hpp"
 #include "hamjet/error.hpp"
-#include "hamjet/formats/dace_text.hpp"
-#include "hamjet/formats/hdf5_jets.hpp"
-#include "hamjet/store/result_set.hpp"
+#include "hdf5_jets.hpp"
 #include "jet_csv.hpp"
 #include "jet_description.hpp"
 #include "stored_jet_source.hpp"

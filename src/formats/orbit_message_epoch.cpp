@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "hamjet/formats/epoch.hpp"
+#include "hamjet/detail/formats/epoch.hpp"
 
 namespace hamjet::io {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "../text/scene_message.hpp"
 #include "hamjet/error.hpp"
-#include "hamjet/formats/number_table.hpp"
+#include "number_table.hpp"
 
 namespace hamjet::io {
 namespace {

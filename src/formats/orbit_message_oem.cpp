@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "../text/scene_message.hpp"
-#include "hamjet/formats/number_table.hpp"
+#include "number_table.hpp"
 #include "orbit_message_lines.hpp"
 
 namespace hamjet::io {

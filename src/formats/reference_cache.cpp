@@ -1,4 +1,4 @@
-#include "hamjet/formats/reference_cache.hpp"
+#include "reference_cache.hpp"
 
 #include <boost/uuid/name_generator_sha1.hpp>
 #include <boost/uuid/uuid_io.hpp>
@@ -10,7 +10,7 @@
 #include "../store/file_system.hpp"
 #include "../store/text_file.hpp"
 #include "hamjet/error.hpp"
-#include "hamjet/formats/number_table.hpp"
+#include "number_table.hpp"
 
 namespace hamjet::io {
 namespace {

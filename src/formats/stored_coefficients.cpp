@@ -12,7 +12,7 @@
 #include "../text/scene_message.hpp"
 #include "../text/whole_number.hpp"
 #include "hamjet/error.hpp"
-#include "hamjet/formats/number_table.hpp"
+#include "number_table.hpp"
 
 namespace hamjet::io {
 namespace {

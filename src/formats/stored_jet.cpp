@@ -7,12 +7,12 @@
 #include <nlohmann/json.hpp>
 
 #include "../integrators/momentum_unit.hpp"
+#include "../maps/evaluation_error.hpp"
 #include "../store/json_reader.hpp"
+#include "../store/result_set.hpp"
 #include "../store/text_file.hpp"
 #include "../text/scene_message.hpp"
 #include "hamjet/error.hpp"
-#include "hamjet/maps/evaluation_error.hpp"
-#include "hamjet/store/result_set.hpp"
 #include "hamjet/version.hpp"
 #include "stored_jet_source.hpp"
 

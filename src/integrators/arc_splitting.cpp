@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "../dynamics/operation_count.hpp"
 #include "arc_integrator.hpp"
 #include "arc_plan.hpp"
 #include "concurrent_tasks.hpp"
@@ -18,7 +19,6 @@
 #include "gauss/gauss_lanes.hpp"
 #include "gauss/gauss_tolerance.hpp"
 #include "hamjet/algebra/composition.hpp"
-#include "hamjet/dynamics/operation_count.hpp"
 #include "hamjet/error.hpp"
 #include "integration_clock.hpp"
 #include "splitting_integration.hpp"

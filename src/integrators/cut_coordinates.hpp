@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "hamjet/algebra/extended.hpp"
-#include "hamjet/algebra/matrix.hpp"
-#include "hamjet/dynamics/slice_evaluator.hpp"
+#include "hamjet/detail/algebra/matrix.hpp"
+#include "hamjet/detail/dynamics/slice_evaluator.hpp"
 #include "hamjet/integrators/flow_problem.hpp"
 #include "phase_space_scale.hpp"
 

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "hamjet/algebra/slice_product.hpp"
-#include "hamjet/dynamics/expression.hpp"
-#include "hamjet/dynamics/slice_evaluator.hpp"
+#include "hamjet/detail/algebra/slice_product.hpp"
+#include "hamjet/detail/dynamics/expression.hpp"
+#include "hamjet/detail/dynamics/slice_evaluator.hpp"
 #include "hamjet/integrators/flow_problem.hpp"
 
 namespace hamjet {

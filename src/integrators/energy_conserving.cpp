@@ -10,7 +10,7 @@
 #include "compensated_addition.hpp"
 #include "energy_conserving_midpoint.hpp"
 #include "energy_conserving_stormer.hpp"
-#include "hamjet/dynamics/differentiable_function.hpp"
+#include "hamjet/detail/dynamics/differentiable_function.hpp"
 #include "hamjet/error.hpp"
 
 namespace hamjet {

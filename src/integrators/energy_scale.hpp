@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "hamjet/dynamics/differentiable_function.hpp"
+#include "hamjet/detail/dynamics/differentiable_function.hpp"
 #include "real_number.hpp"
 
 namespace hamjet {

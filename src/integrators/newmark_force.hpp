@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "hamjet/algebra/extended.hpp"
-#include "hamjet/dynamics/slice_evaluator.hpp"
+#include "hamjet/detail/dynamics/slice_evaluator.hpp"
 #include "hamjet/integrators/flow_problem.hpp"
 #include "real_number.hpp"
 

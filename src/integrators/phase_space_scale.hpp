@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <span>
 
+#include "hamjet/detail/dynamics/slice_evaluator.hpp"
 #include "hamjet/dynamics/dynamical_system.hpp"
-#include "hamjet/dynamics/slice_evaluator.hpp"
 
 namespace hamjet {
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "hamjet/dynamics/slice_evaluator.hpp"
+#include "hamjet/detail/dynamics/slice_evaluator.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/integrators/flow_problem.hpp"
 

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <utility>
 
-#include "hamjet/dynamics/operation_count.hpp"
-#include "hamjet/dynamics/slice_evaluator.hpp"
+#include "../dynamics/operation_count.hpp"
+#include "hamjet/detail/dynamics/slice_evaluator.hpp"
 #include "splitting_integration.hpp"
 
 namespace hamjet {

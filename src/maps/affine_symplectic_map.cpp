@@ -1,4 +1,4 @@
-#include "hamjet/maps/affine_symplectic_map.hpp"
+#include "affine_symplectic_map.hpp"
 
 #include <fmt/format.h>
 

@@ -1,11 +1,11 @@
-#include "hamjet/maps/discrete_generating_function.hpp"
+#include "discrete_generating_function.hpp"
 
 #include <fmt/format.h>
 
 #include <Eigen/LU>
 
+#include "../algebra/singular_values.hpp"
 #include "hamjet/algebra/extended.hpp"
-#include "hamjet/algebra/singular_values.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/maps/partial_inversion.hpp"
 

@@ -1,4 +1,4 @@
-#include "hamjet/maps/discrete_hamilton_jacobi.hpp"
+#include "discrete_hamilton_jacobi.hpp"
 
 #include "hamjet/algebra/extended.hpp"
 

@@ -1,4 +1,4 @@
-#include "hamjet/maps/evaluation_error.hpp"
+#include "evaluation_error.hpp"
 
 #include <algorithm>
 #include <cmath>

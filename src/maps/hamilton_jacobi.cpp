@@ -1,4 +1,4 @@
-#include "hamjet/maps/hamilton_jacobi.hpp"
+#include "hamilton_jacobi.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include "hamjet/algebra/calculus.hpp"
 #include "hamjet/algebra/composition.hpp"
-#include "hamjet/algebra/monomial_values.hpp"
+#include "hamjet/detail/algebra/monomial_values.hpp"
 #include "hamjet/dynamics/relative_hamiltonian.hpp"
 #include "hamjet/error.hpp"
 

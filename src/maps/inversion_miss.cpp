@@ -1,4 +1,4 @@
-#include "hamjet/maps/inversion_miss.hpp"
+#include "inversion_miss.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,12 +1,12 @@
-#include "hamjet/maps/legendre_transformation.hpp"
+#include "legendre_transformation.hpp"
 
 #include <fmt/format.h>
 
 #include <span>
 #include <vector>
 
+#include "../algebra/singular_values.hpp"
 #include "hamjet/algebra/calculus.hpp"
-#include "hamjet/algebra/singular_values.hpp"
 #include "hamjet/error.hpp"
 
 namespace hamjet {

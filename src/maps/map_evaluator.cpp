@@ -5,7 +5,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "hamjet/algebra/pack.hpp"
+#include "hamjet/detail/algebra/pack.hpp"
 #include "hamjet/error.hpp"
 
 namespace hamjet {

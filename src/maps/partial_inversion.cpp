@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "hamjet/algebra/singular_values.hpp"
+#include "../algebra/singular_values.hpp"
 #include "hamjet/error.hpp"
 
 namespace hamjet {

@@ -1,4 +1,4 @@
-#include "hamjet/maps/symplectic_powers.hpp"
+#include "symplectic_powers.hpp"
 
 #include <fmt/format.h>
 

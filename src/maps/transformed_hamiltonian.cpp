@@ -1,4 +1,4 @@
-#include "hamjet/maps/transformed_hamiltonian.hpp"
+#include "transformed_hamiltonian.hpp"
 
 #include "hamjet/error.hpp"
 

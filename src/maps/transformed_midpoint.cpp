@@ -1,4 +1,4 @@
-#include "hamjet/maps/transformed_midpoint.hpp"
+#include "transformed_midpoint.hpp"
 
 #include <utility>
 

@@ -1,4 +1,5 @@
-#include <hamjet/optimal_control/arc.hpp>
+#include "arc.hpp"
+
 #include <utility>
 
 namespace hamjet {

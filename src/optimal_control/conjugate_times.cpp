@@ -1,4 +1,4 @@
-#include "hamjet/optimal_control/conjugate_times.hpp"
+#include "conjugate_times.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>

@@ -7,7 +7,7 @@
 
 #include "equilibration.hpp"
 #include "hamjet/error.hpp"
-#include "hamjet/optimal_control/newton_settings.hpp"
+#include "newton_settings.hpp"
 
 namespace hamjet {
 

@@ -1,5 +1,6 @@
+#include "discrete_maximum_principle.hpp"
+
 #include <Eigen/LU>
-#include <hamjet/optimal_control/discrete_maximum_principle.hpp>
 
 #include "newton.hpp"
 

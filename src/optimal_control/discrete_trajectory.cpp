@@ -1,7 +1,8 @@
-#include <algorithm>
-#include <hamjet/optimal_control/discrete_trajectory.hpp>
+#include "discrete_trajectory.hpp"
 
-#include "hamjet/dynamics/differentiable_function.hpp"
+#include <algorithm>
+
+#include "hamjet/detail/dynamics/differentiable_function.hpp"
 #include "hamjet/error.hpp"
 
 namespace hamjet {

@@ -1,4 +1,4 @@
-#include <hamjet/optimal_control/discretization.hpp>
+#include "discretization.hpp"
 
 namespace hamjet {
 

@@ -1,4 +1,4 @@
-#include <hamjet/optimal_control/double_integrator.hpp>
+#include "double_integrator.hpp"
 
 namespace hamjet {
 namespace {

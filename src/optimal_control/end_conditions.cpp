@@ -1,5 +1,6 @@
+#include "end_conditions.hpp"
+
 #include <Eigen/QR>
-#include <hamjet/optimal_control/end_conditions.hpp>
 #include <vector>
 
 namespace hamjet {

@@ -1,7 +1,8 @@
-#include <Eigen/LU>
-#include <hamjet/optimal_control/hamiltonian_discretization.hpp>
+#include "hamiltonian_discretization.hpp"
 
-#include "hamjet/algebra/matrix.hpp"
+#include <Eigen/LU>
+
+#include "hamjet/detail/algebra/matrix.hpp"
 #include "newton.hpp"
 
 namespace hamjet {

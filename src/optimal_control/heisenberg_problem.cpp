@@ -1,5 +1,6 @@
+#include "heisenberg_problem.hpp"
+
 #include <cmath>
-#include <hamjet/optimal_control/heisenberg_problem.hpp>
 #include <numbers>
 
 namespace hamjet {

@@ -1,10 +1,11 @@
+#include "karush_kuhn_tucker.hpp"
+
 #include <Eigen/Sparse>
 #include <Eigen/SparseLU>
-#include <hamjet/optimal_control/karush_kuhn_tucker.hpp>
 
 #include "damped_newton.hpp"
-#include "hamjet/dynamics/differentiable_function.hpp"
-#include "hamjet/optimal_control/end_conditions.hpp"
+#include "end_conditions.hpp"
+#include "hamjet/detail/dynamics/differentiable_function.hpp"
 
 namespace hamjet {
 namespace {

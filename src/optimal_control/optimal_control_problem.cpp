@@ -1,9 +1,10 @@
+#include "optimal_control_problem.hpp"
+
 #include <fmt/format.h>
 
-#include <hamjet/optimal_control/optimal_control_problem.hpp>
 #include <numeric>
 
-#include "hamjet/dynamics/differentiable_function.hpp"
+#include "hamjet/detail/dynamics/differentiable_function.hpp"
 #include "hamjet/error.hpp"
 
 namespace hamjet {

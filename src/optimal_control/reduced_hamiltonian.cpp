@@ -1,5 +1,6 @@
+#include "reduced_hamiltonian.hpp"
+
 #include <Eigen/LU>
-#include <hamjet/optimal_control/reduced_hamiltonian.hpp>
 
 #include "newton.hpp"
 

@@ -1,9 +1,10 @@
+#include "two_point_boundary_value.hpp"
+
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
-#include <hamjet/algebra/singular_values.hpp>
-#include <hamjet/optimal_control/two_point_boundary_value.hpp>
 
+#include "../algebra/singular_values.hpp"
 #include "damped_newton.hpp"
 
 namespace hamjet {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "hamjet/scene/scene_reader.hpp"
+#include "../scene/study_reader.hpp"
 
 namespace hamjet::python {
 

@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "hamjet/studies/progress.hpp"
+#include "hamjet/detail/studies/progress.hpp"
 
 namespace hamjet::python {
 

@@ -2,7 +2,7 @@
 
 #include <pybind11/pybind11.h>
 
-#include "hamjet/report/study_report.hpp"
+#include "hamjet/detail/report/study_report.hpp"
 #include "inverted_jet.hpp"
 #include "jet.hpp"
 

@@ -7,12 +7,12 @@
 #include "../app/report_origin.hpp"
 #include "../app/required_tables.hpp"
 #include "../report/formation/transfer_view.hpp"
+#include "../studies/arcs.hpp"
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "given_scene.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/report/relative_motion_report.hpp"
-#include "hamjet/studies/arcs.hpp"
 #include "interruptible.hpp"
 #include "written_set.hpp"
 

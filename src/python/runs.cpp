@@ -8,15 +8,15 @@
 #include <variant>
 
 #include "../app/processors.hpp"
+#include "../report/paper/paper_reports.hpp"
+#include "../store/result_set.hpp"
 #include "../store/text_file.hpp"
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "given_scene.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/report/results.hpp"
-#include "hamjet/report/study_report.hpp"
 #include "hamjet/store/output_directory.hpp"
-#include "hamjet/store/result_set.hpp"
 #include "interruptible.hpp"
 #include "jet.hpp"
 #include "pickling.hpp"

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "hamjet/report/study_report.hpp"
+#include "hamjet/detail/report/study_report.hpp"
 #include "hamjet/store/output_directory.hpp"
 #include "interruptible.hpp"
 

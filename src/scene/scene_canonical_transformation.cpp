@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <hamjet/maps/affine_symplectic_map.hpp>
 
+#include "../maps/affine_symplectic_map.hpp"
 #include "../text/scene_message.hpp"
 #include "hamjet/error.hpp"
 #include "scene_sections.hpp"

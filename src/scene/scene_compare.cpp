@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../studies/descriptions/method_description.hpp"
 #include "../text/scene_message.hpp"
 #include "hamjet/integrators/flow_problem.hpp"
-#include "hamjet/studies/method_description.hpp"
 #include "scene_sections.hpp"
 
 namespace hamjet::io {

@@ -4,12 +4,12 @@
 
 #include <charconv>
 #include <cstddef>
-#include <hamjet/error.hpp>
 #include <memory>
 #include <optional>
 #include <utility>
 
 #include "../text/scene_message.hpp"
+#include "hamjet/error.hpp"
 #include "scene_first_definition.hpp"
 #include "scene_text.hpp"
 

@@ -2,12 +2,12 @@
 
 #include <toml++/toml.h>
 
-#include <hamjet/scene/scene_reader.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "../text/scene_message.hpp"
+#include "study_reader.hpp"
 
 namespace hamjet::io {
 

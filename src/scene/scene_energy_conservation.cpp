@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <hamjet/error.hpp>
 
 #include "../text/scene_message.hpp"
+#include "hamjet/error.hpp"
 #include "scene_sections.hpp"
 
 namespace hamjet::io {

@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <hamjet/error.hpp>
-#include <hamjet/integrators/flow_problem.hpp>
-#include <hamjet/studies/method_description.hpp>
 #include <iterator>
 #include <map>
 #include <type_traits>
 #include <variant>
 
+#include "../studies/descriptions/method_description.hpp"
 #include "../text/scene_message.hpp"
+#include "hamjet/error.hpp"
+#include "hamjet/integrators/flow_problem.hpp"
 #include "scene_sections.hpp"
 
 namespace hamjet::io {

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <hamjet/error.hpp>
 #include <numeric>
 #include <optional>
 
 #include "../text/scene_message.hpp"
+#include "hamjet/error.hpp"
 #include "scene_sections.hpp"
 
 namespace hamjet::io {

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <hamjet/dynamics/celestial_bodies.hpp>
 #include <iterator>
 
+#include "../dynamics/celestial_bodies.hpp"
 #include "scene_sections.hpp"
 
 namespace hamjet::io {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <hamjet/dynamics/osculating_elements.hpp>
 
+#include "../studies/descriptions/system_description.hpp"
 #include "../text/scene_message.hpp"
-#include "hamjet/studies/system_description.hpp"
+#include "hamjet/dynamics/osculating_elements.hpp"
 #include "scene_nominal_file.hpp"
 #include "scene_sections.hpp"
 

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "../dynamics/celestial_bodies.hpp"
 #include "../store/text_file.hpp"
 #include "../text/scene_message.hpp"
-#include "hamjet/dynamics/celestial_bodies.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/formats/orbit_message.hpp"
 

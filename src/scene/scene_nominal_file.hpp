@@ -1,8 +1,7 @@
 #pragma once
 
-#include <hamjet/dynamics/osculating_elements.hpp>
-#include <hamjet/studies/scene.hpp>
-
+#include "hamjet/dynamics/osculating_elements.hpp"
+#include "hamjet/studies/scene.hpp"
 #include "scene_table.hpp"
 
 namespace hamjet::io {

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <hamjet/studies/arcs.hpp>
 
+#include "../studies/arcs.hpp"
 #include "../text/scene_message.hpp"
 #include "scene_sections.hpp"
 #include "stability_case_keys.hpp"

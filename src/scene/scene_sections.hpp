@@ -1,14 +1,14 @@
 #pragma once
 
 #include <cstddef>
-#include <hamjet/algebra/extended.hpp>
-#include <hamjet/scene/scene_reader.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "hamjet/algebra/extended.hpp"
 #include "scene_table.hpp"
+#include "study_reader.hpp"
 
 // One function for each table of a scene, in the order in which they are read: a later one may need
 // what an earlier one found. Each reads, checks and converts all keys of its table, in a file of

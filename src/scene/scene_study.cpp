@@ -1,5 +1,4 @@
 #include <functional>
-#include <hamjet/scene/scene_reader.hpp>
 
 #include "../text/scene_message.hpp"
 #include "hamjet/error.hpp"
@@ -7,6 +6,7 @@
 #include "scene_name.hpp"
 #include "scene_sections.hpp"
 #include "scene_text.hpp"
+#include "study_reader.hpp"
 
 namespace hamjet::io {
 namespace {

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <hamjet/formats/gravity_field_file.hpp>
-#include <hamjet/studies/system_description.hpp>
 #include <variant>
 
 #include "../store/text_file.hpp"
+#include "../studies/descriptions/system_description.hpp"
+#include "hamjet/formats/gravity_field_file.hpp"
 #include "scene_sections.hpp"
 
 namespace hamjet::io {

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <cstdint>
-#include <hamjet/error.hpp>
 #include <utility>
 
 #include "../store/text_file.hpp"
 #include "../text/scene_message.hpp"
+#include "hamjet/error.hpp"
 #include "scene_token_scanner.hpp"
 
 namespace hamjet::io {

@@ -6,7 +6,7 @@
 #include <variant>
 
 #include "../store/json_values.hpp"
-#include "hamjet/studies/system_description.hpp"
+#include "../studies/descriptions/system_description.hpp"
 #include "scene_sections.hpp"
 
 namespace hamjet::io {

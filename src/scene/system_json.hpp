@@ -1,7 +1,8 @@
 #pragma once
 
-#include <hamjet/studies/scene.hpp>
 #include <nlohmann/json.hpp>
+
+#include "hamjet/studies/scene.hpp"
 
 namespace hamjet::io {
 

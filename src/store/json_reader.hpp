@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "../studies/descriptions/settings_fields.hpp"
 #include "hamjet/error.hpp"
-#include "hamjet/studies/settings_fields.hpp"
 
 namespace hamjet::io {
 

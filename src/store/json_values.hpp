@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "hamjet/studies/settings_fields.hpp"
+#include "../studies/descriptions/settings_fields.hpp"
 
 namespace hamjet::io {
 

@@ -1,4 +1,4 @@
-#include "hamjet/store/result_set.hpp"
+#include "result_set.hpp"
 
 #include <fmt/format.h>
 

@@ -7,10 +7,10 @@
 #include <string>
 #include <utility>
 
+#include "hamjet/detail/studies/run_along_time.hpp"
+#include "hamjet/detail/studies/singular_times.hpp"
 #include "hamjet/maps/exactness.hpp"
 #include "hamjet/maps/partial_inversion.hpp"
-#include "hamjet/studies/run_along_time.hpp"
-#include "hamjet/studies/singular_times.hpp"
 
 namespace hamjet {
 

@@ -1,8 +1,8 @@
-#include "hamjet/studies/arcs.hpp"
+#include "arcs.hpp"
 
 #include <fmt/format.h>
 
-#include "hamjet/studies/method_description.hpp"
+#include "descriptions/method_description.hpp"
 #include "integration.hpp"
 
 namespace hamjet {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "hamjet/algebra/extended.hpp"
-#include "hamjet/dynamics/differentiable_function.hpp"
+#include "hamjet/detail/dynamics/differentiable_function.hpp"
 #include "hamjet/dynamics/dynamical_system.hpp"
 
 namespace hamjet {

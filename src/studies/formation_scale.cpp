@@ -5,7 +5,7 @@
 #include <numbers>
 #include <utility>
 
-#include "hamjet/studies/system_description.hpp"
+#include "descriptions/system_description.hpp"
 #include "nominal_period.hpp"
 #include "random_direction.hpp"
 

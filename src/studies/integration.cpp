@@ -10,10 +10,10 @@
 #include <type_traits>
 
 #include "../integrators/momentum_unit.hpp"
+#include "arcs.hpp"
+#include "descriptions/method_description.hpp"
 #include "hamjet/algebra/composition.hpp"
 #include "hamjet/integrators/error_estimate.hpp"
-#include "hamjet/studies/arcs.hpp"
-#include "hamjet/studies/method_description.hpp"
 #include "stability_limit.hpp"
 #include "stopwatch.hpp"
 

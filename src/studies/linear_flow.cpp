@@ -8,10 +8,10 @@
 #include <span>
 
 #include "exact_flow.hpp"
+#include "hamjet/detail/studies/singular_times.hpp"
 #include "hamjet/dynamics/relative_hamiltonian.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
-#include "hamjet/studies/singular_times.hpp"
 
 // The linear flow along a nominal, from checkpoint to checkpoint.
 

@@ -4,9 +4,9 @@
 #include <span>
 
 #include "../integrators/momentum_unit.hpp"
+#include "../maps/inversion_miss.hpp"
 #include "formation_scale.hpp"
 #include "hamjet/error.hpp"
-#include "hamjet/maps/inversion_miss.hpp"
 #include "stopwatch.hpp"
 
 namespace hamjet {

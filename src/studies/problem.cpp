@@ -6,10 +6,10 @@
 #include <string>
 
 #include "../integrators/arc_plan.hpp"
-#include "hamjet/studies/arcs.hpp"
-#include "hamjet/studies/method_description.hpp"
+#include "arcs.hpp"
+#include "descriptions/method_description.hpp"
+#include "descriptions/system_description.hpp"
 #include "hamjet/studies/propagation.hpp"
-#include "hamjet/studies/system_description.hpp"
 #include "integration.hpp"
 
 namespace hamjet {

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "along_time_recorder.hpp"
+#include "arcs.hpp"
 #include "followed_nominal.hpp"
 #include "hamjet/dynamics/relative_hamiltonian.hpp"
-#include "hamjet/studies/arcs.hpp"
 #include "integration.hpp"
 #include "map_analysis.hpp"
 #include "nominal_recorder.hpp"

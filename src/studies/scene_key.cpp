@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "descriptions/settings_fields.hpp"
 #include "hamjet/studies/comparison.hpp"
-#include "hamjet/studies/settings_fields.hpp"
 #include "hamjet/version.hpp"
 #include "reference.hpp"
 

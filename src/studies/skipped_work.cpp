@@ -1,4 +1,4 @@
-#include "hamjet/studies/skipped_work.hpp"
+#include "skipped_work.hpp"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 #include <functional>
 #include <string>
 
-#include "hamjet/algebra/matrix.hpp"
+#include "hamjet/detail/algebra/matrix.hpp"
 #include "hamjet/dynamics/dynamical_system.hpp"
 
 namespace hamjet {

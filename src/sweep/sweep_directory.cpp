@@ -12,7 +12,7 @@
 #include "../store/sealed_summary.hpp"
 #include "../store/text_file.hpp"
 #include "hamjet/error.hpp"
-#include "hamjet/sweep/sweep_items.hpp"
+#include "sweep_items.hpp"
 
 namespace hamjet::io {
 namespace {

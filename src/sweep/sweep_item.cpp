@@ -8,14 +8,15 @@
 #include "../report/formation/transfer_json.hpp"
 #include "../report/formation/transfer_view.hpp"
 #include "../report/formation/validity_json.hpp"
+#include "../report/paper/paper_reports.hpp"
+#include "../scene/study_reader.hpp"
 #include "../store/text_file.hpp"
 #include "../text/scene_message.hpp"
 #include "../text/whole_number.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/report/relative_motion_report.hpp"
 #include "hamjet/report/results.hpp"
-#include "hamjet/report/study_report.hpp"
-#include "hamjet/sweep/sweep_items.hpp"
+#include "sweep_items.hpp"
 
 namespace hamjet::io {
 namespace {

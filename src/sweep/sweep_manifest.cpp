@@ -6,7 +6,7 @@
 #include "../store/json_values.hpp"
 #include "../store/sealed_summary.hpp"
 #include "hamjet/error.hpp"
-#include "hamjet/sweep/sweep_study.hpp"
+#include "sweep_study.hpp"
 
 namespace hamjet::io {
 namespace {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "../report/drawing/chart.hpp"
-#include "hamjet/sweep/sweep_report.hpp"
+#include "sweep_report.hpp"
 
 namespace hamjet::io {
 

@@ -1,4 +1,4 @@
-#include "hamjet/sweep/sweep_report.hpp"
+#include "sweep_report.hpp"
 
 #include <fmt/format.h>
 

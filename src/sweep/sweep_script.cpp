@@ -4,7 +4,7 @@
 
 #include "../text/scene_message.hpp"
 #include "../text/shell_text.hpp"
-#include "hamjet/sweep/sweep_report.hpp"
+#include "sweep_report.hpp"
 
 namespace hamjet::io {
 namespace {

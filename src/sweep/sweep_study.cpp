@@ -1,4 +1,4 @@
-#include "hamjet/sweep/sweep_study.hpp"
+#include "sweep_study.hpp"
 
 #include <fmt/format.h>
 

@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "hamjet/error.hpp"
-#include "hamjet/sweep/sweep_items.hpp"
+#include "sweep_items.hpp"
 
 namespace hamjet::io {
 namespace {

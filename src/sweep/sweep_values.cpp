@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "hamjet/algebra/extended.hpp"
-#include "hamjet/sweep/sweep_study.hpp"
+#include "sweep_study.hpp"
 
 namespace hamjet::io {
 namespace {

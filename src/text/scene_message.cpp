@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <hamjet/error.hpp>
 #include <limits>
+
+#include "hamjet/error.hpp"
 
 namespace hamjet::io {
 namespace {

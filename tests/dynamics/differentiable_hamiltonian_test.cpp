@@ -1,8 +1,8 @@
-#include "hamjet/dynamics/differentiable_hamiltonian.hpp"
+#include "hamjet/detail/dynamics/differentiable_hamiltonian.hpp"
 
 #include <gtest/gtest.h>
 
-#include "hamjet/dynamics/double_well.hpp"
+#include "dynamics/double_well.hpp"
 #include "hamjet/dynamics/zonal_gravity.hpp"
 
 namespace hamjet {

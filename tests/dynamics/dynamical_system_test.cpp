@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "hamjet/dynamics/harmonic_oscillator.hpp"
+#include "dynamics/harmonic_oscillator.hpp"
 #include "support/errors.hpp"
 #include "support/flow.hpp"
 #include "support/magnitude.hpp"

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <vector>
 
-#include "hamjet/dynamics/fermi_pasta_ulam.hpp"
-#include "hamjet/dynamics/oscillator_pair.hpp"
-#include "hamjet/dynamics/spring_pendulum.hpp"
+#include "dynamics/fermi_pasta_ulam.hpp"
+#include "dynamics/oscillator_pair.hpp"
+#include "dynamics/spring_pendulum.hpp"
 #include "support/flow.hpp"
 #include "support/magnitude.hpp"
 #include "support/random_series.hpp"

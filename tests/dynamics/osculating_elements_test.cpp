@@ -1,10 +1,12 @@
+#include "hamjet/dynamics/osculating_elements.hpp"
+
 #include <gtest/gtest.h>
 
 #include <boost/math/constants/constants.hpp>
 #include <cmath>
-#include <hamjet/dynamics/osculating_elements.hpp>
-#include <hamjet/error.hpp>
 #include <limits>
+
+#include "hamjet/error.hpp"
 
 namespace hamjet {
 namespace {

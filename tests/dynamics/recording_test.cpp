@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "hamjet/algebra/calculus.hpp"
-#include "hamjet/dynamics/expression.hpp"
+#include "hamjet/detail/dynamics/expression.hpp"
 #include "support/errors.hpp"
 #include "support/flow.hpp"
 #include "support/random_series.hpp"

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "dynamics/harmonic_oscillator.hpp"
 #include "hamjet/algebra/composition.hpp"
-#include "hamjet/dynamics/harmonic_oscillator.hpp"
 #include "support/errors.hpp"
 #include "support/flow.hpp"
 #include "support/random_series.hpp"

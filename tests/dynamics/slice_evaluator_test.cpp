@@ -1,4 +1,4 @@
-#include "hamjet/dynamics/slice_evaluator.hpp"
+#include "hamjet/detail/dynamics/slice_evaluator.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "hamjet/algebra/elementary_functions.hpp"
-#include "hamjet/dynamics/expression.hpp"
+#include "hamjet/detail/dynamics/expression.hpp"
 #include "support/random_series.hpp"
 
 namespace hamjet {

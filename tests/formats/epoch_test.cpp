@@ -1,8 +1,9 @@
+#include "hamjet/detail/formats/epoch.hpp"
+
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
-#include <hamjet/formats/epoch.hpp>
 #include <limits>
 #include <sstream>
 #include <string>

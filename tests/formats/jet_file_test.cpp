@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "../scene/scene_samples.hpp"
-#include "hamjet/formats/hdf5_jets.hpp"
+#include "formats/hdf5_jets.hpp"
 #include "hamjet/report/results.hpp"
 #include "jet_samples.hpp"
 #include "support/temporary_directory.hpp"

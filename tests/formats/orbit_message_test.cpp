@@ -1,9 +1,10 @@
+#include "hamjet/formats/orbit_message.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstring>
 #include <functional>
-#include <hamjet/formats/orbit_message.hpp>
 #include <random>
 
 #include "../scene/scene_samples.hpp"

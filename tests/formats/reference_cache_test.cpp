@@ -1,4 +1,4 @@
-#include "hamjet/formats/reference_cache.hpp"
+#include "formats/reference_cache.hpp"
 
 #include <gtest/gtest.h>
 

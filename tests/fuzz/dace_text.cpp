@@ -1,4 +1,4 @@
-#include "hamjet/formats/dace_text.hpp"
+#include "formats/dace_text.hpp"
 
 #include <bit>
 #include <cmath>

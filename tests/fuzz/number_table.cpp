@@ -1,4 +1,4 @@
-#include "hamjet/formats/number_table.hpp"
+#include "formats/number_table.hpp"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 #include <set>
 
 #include "fuzz_target.hpp"
-#include "hamjet/scene/scene_reader.hpp"
+#include "scene/study_reader.hpp"
 
 // Target: the text of a scene of any study, and overrides. A line `#--set key=value` is a comment
 // of TOML, and is given as an override too.

@@ -1,4 +1,4 @@
-#include "hamjet/sweep/sweep_study.hpp"
+#include "sweep/sweep_study.hpp"
 
 #include <algorithm>
 #include <cctype>

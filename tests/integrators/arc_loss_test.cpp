@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "hamjet/dynamics/spring_pendulum.hpp"
+#include "dynamics/spring_pendulum.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/integrators/arc_splitting.hpp"
 #include "support/flow.hpp"

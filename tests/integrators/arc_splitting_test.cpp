@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <vector>
 
-#include "hamjet/dynamics/double_well.hpp"
-#include "hamjet/dynamics/fermi_pasta_ulam.hpp"
-#include "hamjet/dynamics/oscillator_pair.hpp"
+#include "dynamics/double_well.hpp"
+#include "dynamics/fermi_pasta_ulam.hpp"
+#include "dynamics/oscillator_pair.hpp"
 #include "hamjet/maps/symplecticity.hpp"
 #include "support/errors.hpp"
 #include "support/flow.hpp"

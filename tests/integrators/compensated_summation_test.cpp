@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "hamjet/dynamics/harmonic_oscillator.hpp"
+#include "dynamics/harmonic_oscillator.hpp"
 #include "support/flow.hpp"
 #include "support/magnitude.hpp"
 

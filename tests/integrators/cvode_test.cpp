@@ -1,18 +1,19 @@
+#include "hamjet/integrators/cvode.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <hamjet/dynamics/harmonic_oscillator.hpp>
-#include <hamjet/dynamics/zonal_gravity.hpp>
-#include <hamjet/error.hpp>
-#include <hamjet/integrators/cvode.hpp>
-#include <hamjet/integrators/explicit_runge_kutta.hpp>
 #include <limits>
 #include <string>
 #include <vector>
 
 #include "../../src/integrators/cvode_block_solver.hpp"
 #include "../../src/integrators/series_vector_field.hpp"
+#include "dynamics/harmonic_oscillator.hpp"
+#include "hamjet/dynamics/zonal_gravity.hpp"
+#include "hamjet/error.hpp"
+#include "hamjet/integrators/explicit_runge_kutta.hpp"
 #include "integrator_checks.hpp"
 #include "support/magnitude.hpp"
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "hamjet/dynamics/double_well.hpp"
+#include "dynamics/double_well.hpp"
 #include "hamjet/integrators/midpoint.hpp"
 #include "support/magnitude.hpp"
 #include "support/map.hpp"

@@ -5,8 +5,8 @@
 #include <limits>
 #include <vector>
 
-#include "hamjet/dynamics/double_well.hpp"
-#include "hamjet/dynamics/harmonic_oscillator.hpp"
+#include "dynamics/double_well.hpp"
+#include "dynamics/harmonic_oscillator.hpp"
 #include "hamjet/integrators/energy_conserving.hpp"
 #include "support/flow.hpp"
 

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "hamjet/dynamics/harmonic_oscillator.hpp"
+#include "dynamics/harmonic_oscillator.hpp"
 #include "hamjet/dynamics/zonal_gravity.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
 #include "hamjet/integrators/stormer_verlet.hpp"

@@ -1,15 +1,16 @@
+#include "hamjet/integrators/explicit_runge_kutta.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <hamjet/algebra/extended.hpp>
-#include <hamjet/dynamics/harmonic_oscillator.hpp>
-#include <hamjet/dynamics/zonal_gravity.hpp>
-#include <hamjet/error.hpp>
-#include <hamjet/integrators/explicit_runge_kutta.hpp>
 #include <limits>
 #include <string>
 #include <vector>
 
+#include "dynamics/harmonic_oscillator.hpp"
+#include "hamjet/algebra/extended.hpp"
+#include "hamjet/dynamics/zonal_gravity.hpp"
+#include "hamjet/error.hpp"
 #include "integrator_checks.hpp"
 #include "support/convergence.hpp"
 

@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "hamjet/dynamics/harmonic_oscillator.hpp"
+#include "dynamics/harmonic_oscillator.hpp"
 #include "support/errors.hpp"
 #include "support/flow.hpp"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "hamjet/dynamics/harmonic_oscillator.hpp"
+#include "dynamics/harmonic_oscillator.hpp"
 #include "support/flow.hpp"
 
 // On the harmonic oscillator a Gauss method is an exact rotation by a known angle a step.

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "hamjet/dynamics/harmonic_oscillator.hpp"
+#include "dynamics/harmonic_oscillator.hpp"
 #include "integrator_checks.hpp"
 #include "support/map.hpp"
 #include "support/random_series.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "hamjet/dynamics/expression.hpp"
+#include "hamjet/detail/dynamics/expression.hpp"
 #include "support/flow.hpp"
 #include "support/magnitude.hpp"
 

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <vector>
 
-#include "hamjet/dynamics/harmonic_oscillator.hpp"
-#include "hamjet/dynamics/spring_pendulum.hpp"
+#include "dynamics/harmonic_oscillator.hpp"
+#include "dynamics/spring_pendulum.hpp"
 #include "support/flow.hpp"
 
 // Gauss methods where the flow has a time scale far below the step.

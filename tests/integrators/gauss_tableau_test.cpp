@@ -1,4 +1,4 @@
-#include "hamjet/integrators/gauss_tableau.hpp"
+#include "integrators/gauss/gauss_tableau.hpp"
 
 #include <gtest/gtest.h>
 

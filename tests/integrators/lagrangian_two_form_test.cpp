@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "hamjet/algebra/elementary_functions.hpp"
-#include "hamjet/algebra/matrix.hpp"
 #include "hamjet/algebra/truncated_power_series.hpp"
+#include "hamjet/detail/algebra/matrix.hpp"
 #include "support/magnitude.hpp"
 
 // The Lagrangian two-form of Störmer's rule (Guibout and Bloch, lemma stormer), on a particle in a

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include "hamjet/dynamics/double_well.hpp"
-#include "hamjet/dynamics/harmonic_oscillator.hpp"
+#include "dynamics/double_well.hpp"
+#include "dynamics/harmonic_oscillator.hpp"
 #include "hamjet/dynamics/zonal_gravity.hpp"
 #include "support/errors.hpp"
 #include "support/flow.hpp"

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "dynamics/harmonic_oscillator.hpp"
 #include "hamjet/algebra/composition.hpp"
-#include "hamjet/dynamics/harmonic_oscillator.hpp"
 #include "hamjet/integrators/stormer_verlet.hpp"
 #include "integrator_checks.hpp"
 #include "integrators/small_systems.hpp"

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <vector>
 
-#include "hamjet/dynamics/harmonic_oscillator.hpp"
+#include "dynamics/harmonic_oscillator.hpp"
 #include "hamjet/integrators/newmark.hpp"
 #include "hamjet/integrators/stormer_verlet.hpp"
 #include "support/errors.hpp"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "hamjet/dynamics/harmonic_oscillator.hpp"
+#include "dynamics/harmonic_oscillator.hpp"
 #include "integrator_checks.hpp"
 #include "integrators/small_systems.hpp"
 #include "support/convergence.hpp"

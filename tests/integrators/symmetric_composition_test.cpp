@@ -6,7 +6,7 @@
 #include <map>
 #include <vector>
 
-#include "hamjet/dynamics/harmonic_oscillator.hpp"
+#include "dynamics/harmonic_oscillator.hpp"
 #include "hamjet/integrators/stormer_verlet.hpp"
 #include "integrator_checks.hpp"
 #include "support/convergence.hpp"

@@ -1,11 +1,11 @@
-#include "hamjet/maps/affine_symplectic_map.hpp"
+#include "maps/affine_symplectic_map.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "hamjet/maps/symplectic_powers.hpp"
+#include "maps/symplectic_powers.hpp"
 #include "support/errors.hpp"
 #include "support/symplectic.hpp"
 

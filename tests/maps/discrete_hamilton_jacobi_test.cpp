@@ -1,11 +1,11 @@
-#include "hamjet/maps/discrete_hamilton_jacobi.hpp"
+#include "maps/discrete_hamilton_jacobi.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "hamjet/dynamics/double_well.hpp"
-#include "hamjet/maps/transformed_hamiltonian.hpp"
+#include "dynamics/double_well.hpp"
+#include "maps/transformed_hamiltonian.hpp"
 #include "support/errors.hpp"
 #include "support/symplectic.hpp"
 

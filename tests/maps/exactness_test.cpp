@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "dynamics/harmonic_oscillator.hpp"
 #include "hamjet/algebra/calculus.hpp"
-#include "hamjet/dynamics/harmonic_oscillator.hpp"
 #include "support/errors.hpp"
 #include "support/magnitude.hpp"
 #include "support/map.hpp"

@@ -1,4 +1,4 @@
-#include "hamjet/maps/generating_function_kind.hpp"
+#include "hamjet/detail/maps/generating_function_kind.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "dynamics/harmonic_oscillator.hpp"
 #include "hamjet/algebra/calculus.hpp"
-#include "hamjet/dynamics/harmonic_oscillator.hpp"
 #include "support/map.hpp"
 
 namespace hamjet {

@@ -1,4 +1,4 @@
-#include "hamjet/maps/hamilton_jacobi.hpp"
+#include "maps/hamilton_jacobi.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <limits>
 #include <vector>
 
-#include "hamjet/dynamics/harmonic_oscillator.hpp"
+#include "dynamics/harmonic_oscillator.hpp"
 #include "hamjet/integrators/explicit_runge_kutta.hpp"
-#include "hamjet/maps/legendre_transformation.hpp"
+#include "maps/legendre_transformation.hpp"
 #include "support/errors.hpp"
 #include "support/magnitude.hpp"
 #include "support/map.hpp"

@@ -1,4 +1,4 @@
-#include "hamjet/maps/inversion_miss.hpp"
+#include "maps/inversion_miss.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "hamjet/dynamics/harmonic_oscillator.hpp"
+#include "dynamics/harmonic_oscillator.hpp"
 #include "support/map.hpp"
 
 // The expected value of a right inversion is 0, up to the rounding of the numbers; that of a wrong

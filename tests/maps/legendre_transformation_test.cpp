@@ -1,4 +1,4 @@
-#include "hamjet/maps/legendre_transformation.hpp"
+#include "maps/legendre_transformation.hpp"
 
 #include <gtest/gtest.h>
 

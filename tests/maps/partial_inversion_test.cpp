@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "hamjet/dynamics/harmonic_oscillator.hpp"
+#include "dynamics/harmonic_oscillator.hpp"
 #include "support/errors.hpp"
 #include "support/map.hpp"
 #include "support/random_series.hpp"

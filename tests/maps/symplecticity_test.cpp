@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "hamjet/dynamics/harmonic_oscillator.hpp"
+#include "dynamics/harmonic_oscillator.hpp"
 #include "support/errors.hpp"
 #include "support/magnitude.hpp"
 #include "support/map.hpp"

@@ -1,13 +1,13 @@
-#include "hamjet/maps/transformed_midpoint.hpp"
+#include "maps/transformed_midpoint.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
-#include "hamjet/dynamics/double_well.hpp"
+#include "dynamics/double_well.hpp"
 #include "hamjet/integrators/midpoint.hpp"
-#include "hamjet/maps/symplectic_powers.hpp"
+#include "maps/symplectic_powers.hpp"
 #include "support/errors.hpp"
 #include "support/magnitude.hpp"
 #include "support/symplectic.hpp"

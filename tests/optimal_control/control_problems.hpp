@@ -3,10 +3,10 @@
 #include <cmath>
 #include <vector>
 
-#include "hamjet/optimal_control/discrete_maximum_principle.hpp"
-#include "hamjet/optimal_control/double_integrator.hpp"
-#include "hamjet/optimal_control/heisenberg_problem.hpp"
-#include "hamjet/optimal_control/two_point_boundary_value.hpp"
+#include "optimal_control/discrete_maximum_principle.hpp"
+#include "optimal_control/double_integrator.hpp"
+#include "optimal_control/heisenberg_problem.hpp"
+#include "optimal_control/two_point_boundary_value.hpp"
 
 namespace hamjet::test {
 

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "control_problems.hpp"
-#include "hamjet/optimal_control/karush_kuhn_tucker.hpp"
-#include "hamjet/optimal_control/reduced_hamiltonian.hpp"
+#include "optimal_control/karush_kuhn_tucker.hpp"
+#include "optimal_control/reduced_hamiltonian.hpp"
 #include "support/errors.hpp"
 
 // Mistakes are named, and what has no solution is an error, never a number.

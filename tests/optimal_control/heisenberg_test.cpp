@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "control_problems.hpp"
-#include "hamjet/optimal_control/reduced_hamiltonian.hpp"
+#include "optimal_control/reduced_hamiltonian.hpp"
 #include "support/random_series.hpp"
 
 // The Heisenberg problem. What is expected is the closed forms: the isoperimetric problem's circle

@@ -2,8 +2,8 @@
 
 #include "control_problems.hpp"
 #include "hamjet/maps/symplecticity.hpp"
-#include "hamjet/optimal_control/hamiltonian_discretization.hpp"
-#include "hamjet/optimal_control/karush_kuhn_tucker.hpp"
+#include "optimal_control/hamiltonian_discretization.hpp"
+#include "optimal_control/karush_kuhn_tucker.hpp"
 
 // The paper's diagram commutes: discretise then optimise, optimise then discretise and the discrete
 // maximum principle are three sets of equations with one solution. And their maps are symplectic.

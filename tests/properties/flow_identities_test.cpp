@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "hamjet/maps/legendre_transformation.hpp"
+#include "maps/legendre_transformation.hpp"
 #include "properties/random_flows.hpp"
 #include "support/map.hpp"
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <hamjet/error.hpp>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -14,6 +13,7 @@
 #include "../../src/report/comparison/comparison_charts.hpp"
 #include "../../src/report/comparison/comparison_view.hpp"
 #include "comparison_samples.hpp"
+#include "hamjet/error.hpp"
 #include "plot_program.hpp"
 #include "support/temporary_directory.hpp"
 #include "support/text.hpp"

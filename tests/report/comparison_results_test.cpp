@@ -4,13 +4,13 @@
 #include <bit>
 #include <cstdint>
 #include <cstdlib>
-#include <hamjet/error.hpp>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "comparison_samples.hpp"
+#include "hamjet/error.hpp"
 
 // compare.json is read back as it was written, and compare.csv says the same numbers.
 

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <hamjet/report/comparison_report.hpp>
 #include <limits>
 #include <string>
 
+#include "hamjet/report/comparison_report.hpp"
 #include "sample_scene.hpp"
 
 // A small comparison with every case in it that a report must show, of made-up numbers.

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "hamjet/report/study_report.hpp"
+#include "hamjet/detail/report/study_report.hpp"
 #include "support/table.hpp"
 
 // The tables and summaries of reports, read back.

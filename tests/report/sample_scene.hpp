@@ -1,6 +1,6 @@
 #pragma once
 
-#include <hamjet/studies/scene.hpp>
+#include "hamjet/studies/scene.hpp"
 
 namespace hamjet::io {
 

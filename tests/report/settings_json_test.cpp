@@ -1,16 +1,16 @@
 #include <gtest/gtest.h>
 
-#include <hamjet/report/comparison_report.hpp>
-#include <hamjet/report/results.hpp>
-#include <hamjet/scene/scene_reader.hpp>
-#include <hamjet/studies/propagation.hpp>
-#include <hamjet/studies/settings_fields.hpp>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "../scene/scene_samples.hpp"
 #include "comparison_samples.hpp"
+#include "hamjet/report/comparison_report.hpp"
+#include "hamjet/report/results.hpp"
+#include "hamjet/scene/scene_reader.hpp"
+#include "hamjet/studies/propagation.hpp"
+#include "studies/descriptions/settings_fields.hpp"
 
 // What a scene says must stand in the results. Every member of the settings is listed here with the
 // lines of a scene that give it a value of its own and with what JSON must then have; a member that

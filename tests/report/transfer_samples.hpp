@@ -1,9 +1,9 @@
 #pragma once
 
-#include <hamjet/report/relative_motion_report.hpp>
 #include <limits>
 #include <string>
 
+#include "hamjet/report/relative_motion_report.hpp"
 #include "sample_scene.hpp"
 
 // Small results of the studies of relative motion with every case in them that a report must show,

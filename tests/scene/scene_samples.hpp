@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <hamjet/error.hpp>
-#include <hamjet/scene/scene_reader.hpp>
 #include <string>
 #include <vector>
 
+#include "hamjet/error.hpp"
+#include "hamjet/scene/scene_reader.hpp"
 #include "support/errors.hpp"
 #include "support/scenes.hpp"
 #include "support/text.hpp"

@@ -2,11 +2,12 @@
 
 #include <cmath>
 #include <filesystem>
-#include <hamjet/error.hpp>
-#include <hamjet/scene/scene_reader.hpp>
 #include <iomanip>
 #include <sstream>
 #include <string>
+
+#include "hamjet/error.hpp"
+#include "scene/study_reader.hpp"
 
 namespace hamjet::io {
 namespace {

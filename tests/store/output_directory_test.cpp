@@ -12,7 +12,7 @@
 
 #include "../../src/store/sealed_summary.hpp"
 #include "hamjet/error.hpp"
-#include "hamjet/store/result_set.hpp"
+#include "store/result_set.hpp"
 #include "support/errors.hpp"
 #include "support/temporary_directory.hpp"
 

@@ -1,4 +1,4 @@
-#include "hamjet/studies/canonical_transformation.hpp"
+#include "studies/paper/canonical_transformation.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "hamjet/dynamics/double_well.hpp"
-#include "hamjet/dynamics/harmonic_oscillator.hpp"
+#include "dynamics/double_well.hpp"
+#include "dynamics/harmonic_oscillator.hpp"
 #include "support/flow.hpp"
 
 // The four systems of the paper that every integrator is tested on.

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "../../src/studies/integration.hpp"
-#include "hamjet/studies/method_description.hpp"
 #include "integrator_cases.hpp"
+#include "studies/descriptions/method_description.hpp"
 #include "support/convergence.hpp"
 #include "support/magnitude.hpp"
 #include "support/map.hpp"

@@ -1,4 +1,4 @@
-#include "hamjet/studies/optimal_control_study.hpp"
+#include "studies/paper/optimal_control_study.hpp"
 
 #include <gtest/gtest.h>
 

@@ -11,7 +11,7 @@
 
 #include "hamjet/integrators/gauss_collocation.hpp"
 #include "hamjet/scene/scene_reader.hpp"
-#include "hamjet/studies/stability.hpp"
+#include "studies/stability/stability.hpp"
 #include "support/magnitude.hpp"
 #include "support/scenes.hpp"
 

@@ -1,4 +1,4 @@
-#include "hamjet/studies/self_checks.hpp"
+#include "hamjet/detail/studies/self_checks.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "hamjet/studies/settings_fields.hpp"
+#include "studies/descriptions/settings_fields.hpp"
 
 #include <gtest/gtest.h>
 

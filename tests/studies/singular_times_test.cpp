@@ -1,4 +1,4 @@
-#include "hamjet/studies/singular_times.hpp"
+#include "hamjet/detail/studies/singular_times.hpp"
 
 #include <gtest/gtest.h>
 

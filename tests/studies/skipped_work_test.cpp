@@ -1,4 +1,4 @@
-#include "hamjet/studies/skipped_work.hpp"
+#include "studies/skipped_work.hpp"
 
 #include <gtest/gtest.h>
 

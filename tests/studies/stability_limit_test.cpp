@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "../../src/studies/integration.hpp"
-#include "hamjet/dynamics/double_well.hpp"
-#include "hamjet/dynamics/harmonic_oscillator.hpp"
-#include "hamjet/dynamics/oscillator_pair.hpp"
+#include "dynamics/double_well.hpp"
+#include "dynamics/harmonic_oscillator.hpp"
+#include "dynamics/oscillator_pair.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/integrators/symmetric_composition.hpp"
 #include "support/flow.hpp"

@@ -1,4 +1,4 @@
-#include "hamjet/studies/stability.hpp"
+#include "studies/stability/stability.hpp"
 
 #include <gtest/gtest.h>
 

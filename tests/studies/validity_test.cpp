@@ -9,7 +9,7 @@
 #include "../../src/studies/formation/single_transfer.hpp"
 #include "../../src/studies/jets_along_time.hpp"
 #include "formation_scenes.hpp"
-#include "hamjet/algebra/monomial_values.hpp"
+#include "hamjet/detail/algebra/monomial_values.hpp"
 
 namespace hamjet {
 namespace {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "hamjet/algebra/extended.hpp"
-#include "hamjet/algebra/pack.hpp"
 #include "hamjet/algebra/truncated_power_series.hpp"
+#include "hamjet/detail/algebra/pack.hpp"
 #include "support/magnitude.hpp"
 
 namespace hamjet::test {

@@ -7,7 +7,7 @@
 
 #include "hamjet/algebra/extended.hpp"
 #include "hamjet/dynamics/dynamical_system.hpp"
-#include "hamjet/maps/affine_symplectic_map.hpp"
+#include "maps/affine_symplectic_map.hpp"
 #include "support/random_series.hpp"
 
 // Random symplectic matrices and Hamiltonians, the same in every run.

@@ -8,7 +8,7 @@
 #include "hamjet/error.hpp"
 #include "hamjet/scene/scene_reader.hpp"
 #include "hamjet/studies/propagation.hpp"
-#include "hamjet/sweep/sweep_report.hpp"
+#include "sweep/sweep_report.hpp"
 #include "sweep_samples.hpp"
 
 namespace hamjet::io {

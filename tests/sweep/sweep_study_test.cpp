@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
 #include "hamjet/error.hpp"
-#include "hamjet/sweep/sweep_items.hpp"
 #include "support/errors.hpp"
 #include "support/text.hpp"
+#include "sweep/sweep_items.hpp"
 #include "sweep_samples.hpp"
 
 namespace hamjet::io {

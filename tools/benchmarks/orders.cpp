@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "cases.hpp"
-#include "hamjet/dynamics/operation_count.hpp"
+#include "dynamics/operation_count.hpp"
 #include "hamjet/integrators/error_estimate.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
 #include "timing.hpp"

@@ -2,7 +2,7 @@
 
 #include <experimental/simd>
 
-#include "hamjet/algebra/pack.hpp"
+#include "hamjet/detail/algebra/pack.hpp"
 #include "timing.hpp"
 
 namespace hamjet::benchmarks {

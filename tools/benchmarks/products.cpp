@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "cases.hpp"
-#include "hamjet/algebra/slice_product.hpp"
+#include "hamjet/detail/algebra/slice_product.hpp"
 #include "peak_rate.hpp"
 #include "timing.hpp"
 

@@ -3,8 +3,8 @@
 #include <string>
 
 #include "cases.hpp"
-#include "hamjet/dynamics/harmonic_oscillator.hpp"
-#include "hamjet/dynamics/operation_count.hpp"
+#include "dynamics/harmonic_oscillator.hpp"
+#include "dynamics/operation_count.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
 #include "hamjet/studies/propagation.hpp"
 #include "timing.hpp"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cases.hpp"
-#include "hamjet/dynamics/operation_count.hpp"
+#include "dynamics/operation_count.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
 #include "timing.hpp"
 

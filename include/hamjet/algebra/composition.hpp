@@ -5,10 +5,10 @@
 #include <utility>
 #include <vector>
 
-#include "hamjet/algebra/eigen.hpp"
 #include "hamjet/algebra/extended.hpp"
-#include "hamjet/algebra/matrix.hpp"
 #include "hamjet/algebra/truncated_power_series.hpp"
+#include "hamjet/detail/algebra/eigen.hpp"
+#include "hamjet/detail/algebra/matrix.hpp"
 
 namespace hamjet {
 

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <utility>
 
-#include "hamjet/algebra/slice_recurrences.hpp"
 #include "hamjet/algebra/truncated_power_series.hpp"
+#include "hamjet/detail/algebra/slice_recurrences.hpp"
 
 // Elementary functions of truncated power series by the recurrences of slice_recurrences.hpp. The
 // constant term must lie where the function is analytic: where it does not (division by a series

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "hamjet/algebra/product_schedule.hpp"
+#include "hamjet/detail/algebra/product_schedule.hpp"
 
 namespace hamjet {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "hamjet/algebra/series_space.hpp"
-#include "hamjet/algebra/slice_product.hpp"
+#include "hamjet/detail/algebra/slice_product.hpp"
 #include "hamjet/error.hpp"
 
 namespace hamjet {

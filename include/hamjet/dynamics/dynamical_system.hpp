@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "hamjet/dynamics/expression.hpp"
-#include "hamjet/dynamics/operation_list.hpp"
+#include "hamjet/detail/dynamics/expression.hpp"
+#include "hamjet/detail/dynamics/operation_list.hpp"
 
 namespace hamjet {
 

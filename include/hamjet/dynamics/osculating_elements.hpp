@@ -1,8 +1,9 @@
 #pragma once
 
 #include <array>
-#include <hamjet/algebra/extended.hpp>
 #include <optional>
+
+#include "hamjet/algebra/extended.hpp"
 
 namespace hamjet {
 

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "hamjet/detail/dynamics/zonal_coefficients.hpp"
 #include "hamjet/dynamics/dynamical_system.hpp"
-#include "hamjet/dynamics/zonal_coefficients.hpp"
 
 namespace hamjet {
 

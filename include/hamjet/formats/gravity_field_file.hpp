@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "hamjet/dynamics/zonal_coefficients.hpp"
+#include "hamjet/detail/dynamics/zonal_coefficients.hpp"
 
 namespace hamjet::io {
 

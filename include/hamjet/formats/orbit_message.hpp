@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "hamjet/formats/epoch.hpp"
+#include "hamjet/detail/formats/epoch.hpp"
 
 // Orbit messages of the Consultative Committee for Space Data Systems, versions 2.0 and 3.0, and
 // ephemerides of version 1.0, in keyword = value notation (KVN); the XML notation is not read.

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "hamjet/algebra/truncated_power_series.hpp"
+#include "hamjet/detail/dynamics/series_work.hpp"
 #include "hamjet/dynamics/dynamical_system.hpp"
-#include "hamjet/dynamics/series_work.hpp"
 
 namespace hamjet {
 

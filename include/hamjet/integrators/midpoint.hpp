@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hamjet/dynamics/differentiable_hamiltonian.hpp"
+#include "hamjet/detail/dynamics/differentiable_hamiltonian.hpp"
 
 namespace hamjet {
 

@@ -6,7 +6,7 @@
 
 #include "hamjet/algebra/composition.hpp"
 #include "hamjet/algebra/truncated_power_series.hpp"
-#include "hamjet/maps/generating_function_kind.hpp"
+#include "hamjet/detail/maps/generating_function_kind.hpp"
 
 namespace hamjet {
 

@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "hamjet/algebra/eigen.hpp"
-#include "hamjet/algebra/monomial_values.hpp"
+#include "hamjet/detail/algebra/eigen.hpp"
+#include "hamjet/detail/algebra/monomial_values.hpp"
 #include "hamjet/maps/partial_inversion.hpp"
 
 namespace hamjet {

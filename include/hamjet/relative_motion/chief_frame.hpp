@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "hamjet/algebra/eigen.hpp"
+#include "hamjet/detail/algebra/eigen.hpp"
 
 namespace hamjet {
 

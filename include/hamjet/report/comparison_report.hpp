@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
-#include "hamjet/report/report_origin.hpp"
+#include "hamjet/detail/report/report_origin.hpp"
+#include "hamjet/detail/store/report_file.hpp"
 #include "hamjet/store/output_directory.hpp"
-#include "hamjet/store/report_file.hpp"
 #include "hamjet/studies/comparison.hpp"
 
 namespace hamjet::io {

@@ -3,8 +3,8 @@
 #include <optional>
 #include <string>
 
-#include "hamjet/report/report_origin.hpp"
-#include "hamjet/report/study_report.hpp"
+#include "hamjet/detail/report/report_origin.hpp"
+#include "hamjet/detail/report/study_report.hpp"
 #include "hamjet/studies/assignment.hpp"
 #include "hamjet/studies/transfer.hpp"
 #include "hamjet/studies/validity.hpp"

@@ -3,12 +3,8 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
-#include "hamjet/studies/canonical_transformation.hpp"
-#include "hamjet/studies/energy_conservation.hpp"
-#include "hamjet/studies/optimal_control_study.hpp"
 #include "hamjet/studies/scene.hpp"
 
 namespace hamjet::io {
@@ -38,22 +34,6 @@ struct Override {
 ///
 /// A fixed step that is longer than the duration means a single step.
 Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides = {});
-
-/// What `hamjet run` is asked for: the key `study` of the scene. "flow-jet", which may be left out,
-/// is a Scene; the others are systems of the paper that have no flow jet.
-using Study =
-    std::variant<Scene, EnergyConservationStudy, CanonicalTransformationStudy, OptimalControlStudy>;
-
-/// Reads a scene of any study; otherwise as read_scene, which throws Error(scene) for any but
-/// "flow-jet".
-Study read_study(const std::filesystem::path& file, const std::vector<Override>& overrides = {});
-
-/// read_study from text; `file_name` is used in messages and for the study's name.
-Study parse_study(std::string_view text, const std::string& file_name,
-                  const std::vector<Override>& overrides = {});
-
-/// The flow jet of a study that must have one. Throws Error(scene) that names the file otherwise.
-Scene require_flow_jet(Study study, const std::string& file_name);
 
 /// read_scene from text; `file_name` is used in messages and for Scene::name. Every number becomes
 /// the nearest binary64; the conversion to canonical units is done in extended precision and

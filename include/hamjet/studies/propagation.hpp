@@ -8,14 +8,14 @@
 #include <vector>
 
 #include "hamjet/algebra/extended.hpp"
+#include "hamjet/detail/studies/progress.hpp"
+#include "hamjet/detail/studies/run_along_time.hpp"
+#include "hamjet/detail/studies/self_checks.hpp"
 #include "hamjet/integrators/arc_splitting.hpp"
 #include "hamjet/integrators/flow_problem.hpp"
 #include "hamjet/maps/exactness.hpp"
 #include "hamjet/maps/symplecticity.hpp"
-#include "hamjet/studies/progress.hpp"
-#include "hamjet/studies/run_along_time.hpp"
 #include "hamjet/studies/scene.hpp"
-#include "hamjet/studies/self_checks.hpp"
 
 namespace hamjet {
 

@@ -7,11 +7,11 @@
 #include <string_view>
 #include <vector>
 
+#include "hamjet/detail/studies/integration_method.hpp"
+#include "hamjet/detail/studies/self_check_settings.hpp"
+#include "hamjet/detail/studies/system_settings.hpp"
+#include "hamjet/detail/studies/transfer_settings.hpp"
 #include "hamjet/dynamics/dynamical_system.hpp"
-#include "hamjet/studies/integration_method.hpp"
-#include "hamjet/studies/self_check_settings.hpp"
-#include "hamjet/studies/system_settings.hpp"
-#include "hamjet/studies/transfer_settings.hpp"
 
 namespace hamjet {
 

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "hamjet/algebra/eigen.hpp"
-#include "hamjet/studies/progress.hpp"
+#include "hamjet/detail/algebra/eigen.hpp"
+#include "hamjet/detail/studies/progress.hpp"
+#include "hamjet/detail/studies/singular_times.hpp"
 #include "hamjet/studies/propagation.hpp"
-#include "hamjet/studies/singular_times.hpp"
 
 namespace hamjet {
 

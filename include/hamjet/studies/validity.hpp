@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "hamjet/studies/progress.hpp"
+#include "hamjet/detail/studies/progress.hpp"
 #include "hamjet/studies/propagation.hpp"
 
 namespace hamjet {

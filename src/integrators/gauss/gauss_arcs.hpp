@@ -4,9 +4,9 @@
 #include <functional>
 #include <vector>
 
+#include "../../dynamics/operation_count.hpp"
 #include "../arc_integrator.hpp"
 #include "gauss_integrator.hpp"
-#include "hamjet/dynamics/operation_count.hpp"
 
 namespace hamjet {
 

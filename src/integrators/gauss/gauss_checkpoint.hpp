@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "hamjet/algebra/pack.hpp"
+#include "hamjet/detail/algebra/pack.hpp"
 
 namespace hamjet {
 

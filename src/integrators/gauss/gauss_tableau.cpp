@@ -1,4 +1,4 @@
-#include "hamjet/integrators/gauss_tableau.hpp"
+#include "gauss_tableau.hpp"
 
 #include <algorithm>
 #include <array>

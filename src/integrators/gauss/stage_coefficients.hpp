@@ -5,9 +5,9 @@
 #include <mutex>
 #include <vector>
 
+#include "gauss_tableau.hpp"
 #include "hamjet/algebra/extended.hpp"
-#include "hamjet/algebra/pack.hpp"
-#include "hamjet/integrators/gauss_tableau.hpp"
+#include "hamjet/detail/algebra/pack.hpp"
 
 namespace hamjet {
 

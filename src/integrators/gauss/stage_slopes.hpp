@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "hamjet/dynamics/slice_evaluator.hpp"
+#include "hamjet/detail/dynamics/slice_evaluator.hpp"
 #include "hamjet/integrators/flow_problem.hpp"
 #include "stage_iteration.hpp"
 #include "stage_system.hpp"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "../real_number.hpp"
-#include "hamjet/algebra/pack.hpp"
+#include "hamjet/detail/algebra/pack.hpp"
 #include "hamjet/dynamics/dynamical_system.hpp"
 #include "stage_coefficients.hpp"
 

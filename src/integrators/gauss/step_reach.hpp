@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "hamjet/algebra/pack.hpp"
+#include "hamjet/detail/algebra/pack.hpp"
 #include "stage_system.hpp"
 
 namespace hamjet {

@@ -4,8 +4,8 @@
 #include <iterator>
 
 #include "../../store/columns.hpp"
+#include "../../studies/descriptions/method_description.hpp"
 #include "hamjet/report/comparison_report.hpp"
-#include "hamjet/studies/method_description.hpp"
 
 namespace hamjet::io {
 namespace {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "chart.hpp"
-#include "hamjet/maps/generating_function_kind.hpp"
-#include "hamjet/studies/run_along_time.hpp"
+#include "hamjet/detail/maps/generating_function_kind.hpp"
+#include "hamjet/detail/studies/run_along_time.hpp"
 #include "hamjet/studies/scene.hpp"
 
 namespace hamjet::io {

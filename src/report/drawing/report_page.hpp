@@ -6,7 +6,7 @@
 
 #include "chart.hpp"
 #include "chart_drawer.hpp"
-#include "hamjet/report/report_origin.hpp"
+#include "hamjet/detail/report/report_origin.hpp"
 
 // What the pages of all reports are made of, in HTML. A page needs no other file, no network and no
 // script.

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "chart.hpp"
-#include "hamjet/report/study_report.hpp"
+#include "hamjet/detail/report/study_report.hpp"
 
 namespace hamjet::io {
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "../drawing/chart_drawer.hpp"
-#include "hamjet/report/report_origin.hpp"
+#include "hamjet/detail/report/report_origin.hpp"
 #include "hamjet/studies/transfer.hpp"
 #include "hamjet/studies/validity.hpp"
 

@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "../../studies/paper/canonical_transformation.hpp"
 #include "../drawing/chart.hpp"
-#include "hamjet/studies/canonical_transformation.hpp"
 
 namespace hamjet::io {
 

@@ -8,8 +8,8 @@
 #include "../drawing/study_figure.hpp"
 #include "canonical_transformation_charts.hpp"
 #include "hamjet/error.hpp"
-#include "hamjet/report/study_report.hpp"
 #include "hamjet/version.hpp"
+#include "paper_reports.hpp"
 
 namespace hamjet::io {
 namespace {

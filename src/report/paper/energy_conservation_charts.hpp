@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "../../studies/paper/energy_conservation.hpp"
 #include "../drawing/chart.hpp"
-#include "hamjet/studies/energy_conservation.hpp"
 
 namespace hamjet::io {
 

@@ -7,8 +7,8 @@
 #include "../../store/json_values.hpp"
 #include "../drawing/study_figure.hpp"
 #include "energy_conservation_charts.hpp"
-#include "hamjet/report/study_report.hpp"
 #include "hamjet/version.hpp"
+#include "paper_reports.hpp"
 
 namespace hamjet::io {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "../../studies/paper/optimal_control_study.hpp"
 #include "../drawing/chart.hpp"
-#include "hamjet/studies/optimal_control_study.hpp"
 
 namespace hamjet::io {
 

@@ -5,9 +5,9 @@
 
 #include "../../store/json_values.hpp"
 #include "../drawing/study_figure.hpp"
-#include "hamjet/report/study_report.hpp"
 #include "hamjet/version.hpp"
 #include "optimal_control_charts.hpp"
+#include "paper_reports.hpp"
 
 namespace hamjet::io {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "hamjet/store/report_file.hpp"
+#include "hamjet/detail/store/report_file.hpp"
 #include "hamjet/studies/transfer.hpp"
 
 // Orbits as Orbit Ephemeris Messages: canonical states in km and km/s, canonical times on the

@@ -1,9 +1,9 @@
 #include "hamjet/report/results.hpp"
 
+#include "../../formats/dace_text.hpp"
+#include "../../formats/hdf5_jets.hpp"
 #include "../../formats/jet_description.hpp"
 #include "../../formats/results_names.hpp"
-#include "hamjet/formats/dace_text.hpp"
-#include "hamjet/formats/hdf5_jets.hpp"
 #include "orbit_ephemeris.hpp"
 
 namespace hamjet::io {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "hamjet/dynamics/operation_count.hpp"
-#include "hamjet/studies/skipped_work.hpp"
+#include "../../dynamics/operation_count.hpp"
+#include "../../studies/skipped_work.hpp"
 
 namespace hamjet::io {
 namespace {

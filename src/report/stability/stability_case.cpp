@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <hamjet/algebra/extended.hpp>
 #include <limits>
 #include <system_error>
 #include <utility>
@@ -12,9 +11,10 @@
 #include "../../scene/stability_case_keys.hpp"
 #include "../../store/text_file.hpp"
 #include "../../text/scene_message.hpp"
+#include "hamjet/algebra/extended.hpp"
+#include "hamjet/detail/studies/self_check_settings.hpp"
 #include "hamjet/error.hpp"
-#include "hamjet/report/stability_report.hpp"
-#include "hamjet/studies/self_check_settings.hpp"
+#include "stability_report.hpp"
 
 namespace hamjet::io {
 namespace {

@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
+#include "../../studies/stability/stability.hpp"
 #include "../drawing/chart_drawer.hpp"
-#include "hamjet/report/report_origin.hpp"
-#include "hamjet/studies/stability.hpp"
+#include "hamjet/detail/report/report_origin.hpp"
 
 namespace hamjet::io {
 

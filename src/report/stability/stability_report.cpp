@@ -1,4 +1,4 @@
-#include "hamjet/report/stability_report.hpp"
+#include "stability_report.hpp"
 
 #include <fmt/format.h>
 

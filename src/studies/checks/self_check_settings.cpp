@@ -1,4 +1,4 @@
-#include "hamjet/studies/self_check_settings.hpp"
+#include "hamjet/detail/studies/self_check_settings.hpp"
 
 namespace hamjet {
 

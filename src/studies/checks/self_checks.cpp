@@ -1,4 +1,4 @@
-#include "hamjet/studies/self_checks.hpp"
+#include "hamjet/detail/studies/self_checks.hpp"
 
 #include <fmt/format.h>
 
@@ -8,10 +8,10 @@
 
 #include "../../integrators/momentum_unit.hpp"
 #include "../../integrators/phase_space_scale.hpp"
+#include "../descriptions/method_description.hpp"
 #include "../largest_coefficient.hpp"
 #include "../stopwatch.hpp"
 #include "hamjet/integrators/error_estimate.hpp"
-#include "hamjet/studies/method_description.hpp"
 #include "hamjet/studies/propagation.hpp"
 #include "number_scan.hpp"
 

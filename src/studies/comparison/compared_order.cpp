@@ -4,11 +4,11 @@
 #include <cmath>
 #include <utility>
 
+#include "../../dynamics/operation_count.hpp"
 #include "../along_time_recorder.hpp"
 #include "../integration.hpp"
 #include "../nominal_recorder.hpp"
 #include "../reference.hpp"
-#include "hamjet/dynamics/operation_count.hpp"
 #include "hamjet/error.hpp"
 
 namespace hamjet {

@@ -2,8 +2,8 @@
 
 #include "../formation_scale.hpp"
 #include "../map_analysis.hpp"
+#include "hamjet/detail/studies/singular_times.hpp"
 #include "hamjet/studies/comparison.hpp"
-#include "hamjet/studies/singular_times.hpp"
 
 namespace hamjet {
 

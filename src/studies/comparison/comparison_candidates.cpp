@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../descriptions/method_description.hpp"
 #include "../nominal_period.hpp"
 #include "hamjet/studies/comparison.hpp"
-#include "hamjet/studies/method_description.hpp"
 
 namespace hamjet {
 namespace {

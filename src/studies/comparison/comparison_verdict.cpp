@@ -6,9 +6,9 @@
 #include <map>
 
 #include "../../text/quantity_text.hpp"
+#include "../descriptions/method_description.hpp"
 #include "../nominal_period.hpp"
 #include "hamjet/studies/comparison.hpp"
-#include "hamjet/studies/method_description.hpp"
 
 namespace hamjet {
 namespace {

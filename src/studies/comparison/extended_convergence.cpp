@@ -6,11 +6,11 @@
 #include <cmath>
 #include <numeric>
 
+#include "../descriptions/method_description.hpp"
 #include "../integration.hpp"
 #include "../reference.hpp"
 #include "convergence_fit.hpp"
 #include "hamjet/error.hpp"
-#include "hamjet/studies/method_description.hpp"
 
 namespace hamjet {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "../descriptions/method_description.hpp"
 #include "hamjet/error.hpp"
-#include "hamjet/studies/method_description.hpp"
 
 namespace hamjet {
 void require_formation_problem(const Scene& scene, bool has_table, std::string_view table) {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "../../maps/hamilton_jacobi.hpp"
 #include "../kind_choice.hpp"
-#include "hamjet/maps/hamilton_jacobi.hpp"
 #include "hamjet/studies/transfer.hpp"
 #include "single_transfer.hpp"
 

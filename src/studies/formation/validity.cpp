@@ -10,7 +10,7 @@
 #include "../random_direction.hpp"
 #include "../stopwatch.hpp"
 #include "formation_problem.hpp"
-#include "hamjet/algebra/monomial_values.hpp"
+#include "hamjet/detail/algebra/monomial_values.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/relative_motion/chief_frame.hpp"
 #include "single_transfer.hpp"

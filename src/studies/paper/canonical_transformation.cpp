@@ -1,4 +1,4 @@
-#include "hamjet/studies/canonical_transformation.hpp"
+#include "canonical_transformation.hpp"
 
 #include <fmt/format.h>
 
@@ -6,11 +6,11 @@
 #include <cmath>
 #include <limits>
 
+#include "../../maps/discrete_hamilton_jacobi.hpp"
+#include "../../maps/symplectic_powers.hpp"
+#include "../../maps/transformed_midpoint.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/integrators/midpoint.hpp"
-#include "hamjet/maps/discrete_hamilton_jacobi.hpp"
-#include "hamjet/maps/symplectic_powers.hpp"
-#include "hamjet/maps/transformed_midpoint.hpp"
 #include "hamjet/studies/propagation.hpp"
 
 namespace hamjet {

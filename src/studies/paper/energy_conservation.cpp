@@ -1,4 +1,4 @@
-#include "hamjet/studies/energy_conservation.hpp"
+#include "energy_conservation.hpp"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "hamjet/studies/energy_conservation.hpp"
+#include "energy_conservation.hpp"
 
 namespace hamjet {
 

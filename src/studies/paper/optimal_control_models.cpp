@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <hamjet/studies/optimal_control_study.hpp>
 
+#include "../../optimal_control/double_integrator.hpp"
+#include "../../optimal_control/heisenberg_problem.hpp"
 #include "hamjet/error.hpp"
-#include "hamjet/optimal_control/double_integrator.hpp"
-#include "hamjet/optimal_control/heisenberg_problem.hpp"
+#include "optimal_control_study.hpp"
 
 namespace hamjet {
 namespace {

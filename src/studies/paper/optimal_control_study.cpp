@@ -1,17 +1,18 @@
+#include "optimal_control_study.hpp"
+
 #include <fmt/format.h>
 
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <hamjet/studies/optimal_control_study.hpp>
 #include <numeric>
 
+#include "../../optimal_control/discrete_maximum_principle.hpp"
+#include "../../optimal_control/hamiltonian_discretization.hpp"
+#include "../../optimal_control/karush_kuhn_tucker.hpp"
 #include "../comparison/convergence_fit.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/maps/symplecticity.hpp"
-#include "hamjet/optimal_control/discrete_maximum_principle.hpp"
-#include "hamjet/optimal_control/hamiltonian_discretization.hpp"
-#include "hamjet/optimal_control/karush_kuhn_tucker.hpp"
 
 namespace hamjet {
 namespace {

@@ -12,12 +12,12 @@
 #include <span>
 #include <utility>
 
+#include "../descriptions/method_description.hpp"
 #include "../integration.hpp"
 #include "../thinned_list.hpp"
 #include "hamjet/algebra/composition.hpp"
 #include "hamjet/dynamics/relative_hamiltonian.hpp"
 #include "hamjet/error.hpp"
-#include "hamjet/studies/method_description.hpp"
 
 namespace hamjet {
 namespace {

@@ -1,4 +1,4 @@
-#include "hamjet/studies/stability.hpp"
+#include "stability.hpp"
 
 #include <fmt/format.h>
 

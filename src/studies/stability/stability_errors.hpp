@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "hamjet/studies/propagation.hpp"
-#include "hamjet/studies/stability.hpp"
+#include "stability.hpp"
 
 namespace hamjet {
 

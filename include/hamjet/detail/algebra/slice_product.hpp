@@ -1,0 +1,256 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "hamjet/algebra/series_space.hpp"
+#include "hamjet/detail/algebra/pack.hpp"
+
+// The inner loop of the library: products of homogeneous slices, as laid out in ProductSchedule.
+// Packs are processed one machine vector at a time ("part"), so that the sums of a whole block stay
+// in registers; a scalar coefficient is its own single part.
+
+namespace hamjet {
+
+namespace detail {
+
+template <class T>
+struct Parts {
+  using Vector = T;
+  static constexpr std::size_t count = 1;
+  static Vector& get(T& x, std::size_t) { return x; }
+  static const Vector& get(const T& x, std::size_t) { return x; }
+};
+
+template <class Real, int Lanes>
+struct Parts<Pack<Real, Lanes>> {
+  using P = Pack<Real, Lanes>;
+  using Vector = typename P::Vector;
+  static constexpr std::size_t count = P::parts;
+  static Vector& get(P& x, std::size_t i) { return x.part[i]; }
+  static const Vector& get(const P& x, std::size_t i) { return x.part[i]; }
+};
+
+/// Row r of the position r(r+1)/2 + k inside a block.
+constexpr std::size_t block_row(std::size_t position) {
+  std::size_t r = 0;
+  while (block_size(r) <= position) ++r;
+  return r;
+}
+
+/// Position of the product of the monomials at two positions: rows and columns add.
+constexpr std::size_t product_position(std::size_t i, std::size_t j) {
+  const std::size_t ri = block_row(i);
+  const std::size_t rj = block_row(j);
+  const std::size_t k = i - ri * (ri + 1) / 2 + j - rj * (rj + 1) / 2;
+  return (ri + rj) * (ri + rj + 1) / 2 + k;
+}
+
+/// sums[i * j] += a[i] * b[j] for all monomials i of degree MA and j of degree MB, fully unrolled.
+template <std::size_t MA, std::size_t MB, class T, class Sums>
+[[gnu::always_inline]] inline void multiply_blocks(Sums& sums, const T* a, const T* b,
+                                                   std::size_t part) {
+  constexpr std::size_t na = block_size(MA);
+  constexpr std::size_t nb = block_size(MB);
+  [&]<std::size_t... I>(std::index_sequence<I...>) __attribute__((always_inline)) {
+    (
+        [&]<std::size_t Row, std::size_t... J>(std::integral_constant<std::size_t, Row>,
+                                               std::index_sequence<J...>)
+            __attribute__((always_inline)) {
+              const auto factor = Parts<T>::get(a[Row], part);
+              ((sums[product_position(Row, J)] += factor * Parts<T>::get(b[J], part)), ...);
+            }(std::integral_constant<std::size_t, I>{}, std::make_index_sequence<nb>{}),
+        ...);
+  }
+  (std::make_index_sequence<na>{});
+}
+
+/// sums[i * j] += a[i] * b[j] for block degrees known at run time only, of blocks too large for the
+/// registers.
+template <class T, class Vector>
+void multiply_blocks(Vector* sums, const T* a, const T* b, std::size_t m_a, std::size_t m_b,
+                     std::size_t part) {
+  for (std::size_t ra = 0; ra <= m_a; ++ra) {
+    for (std::size_t ka = 0; ka <= ra; ++ka) {
+      const Vector factor = Parts<T>::get(a[ra * (ra + 1) / 2 + ka], part);
+      for (std::size_t rb = 0; rb <= m_b; ++rb) {
+        Vector* row = sums + (ra + rb) * (ra + rb + 1) / 2 + ka;
+        const T* b_row = b + rb * (rb + 1) / 2;
+        for (std::size_t kb = 0; kb <= rb; ++kb) row[kb] += factor * Parts<T>::get(b_row[kb], part);
+      }
+    }
+  }
+}
+
+/// Whether the numbers live in machine registers. The others (extended precision) gain nothing from
+/// unrolled blocks, which would cost minutes of compilation.
+template <class Vector>
+inline constexpr bool is_machine_vector =
+    std::is_arithmetic_v<Vector> || std::experimental::is_simd_v<Vector>;
+
+/// Largest block degree whose sums are kept in registers: they take 28 of the 32 of AVX-512.
+inline constexpr std::size_t largest_unrolled_block = 6;
+
+/// Forms one block of a product, or of a square (where a and b are the same).
+template <std::size_t M, bool Square, class T>
+void form_block(const ProductSchedule::Output& output, const ProductSchedule::Pair* pairs,
+                const std::uint32_t* run_ends, const T* a, const T* b, T* c) {
+  using Vector = typename Parts<T>::Vector;
+  for (std::size_t part = 0; part < Parts<T>::count; ++part) {
+    std::array<Vector, block_size(M)> sums{};
+    std::size_t pair = output.first_pair;
+    [&]<std::size_t... MX>(std::index_sequence<MX...>) __attribute__((always_inline)) {
+      (
+          [&]<std::size_t Mx>(std::integral_constant<std::size_t, Mx>)
+              __attribute__((always_inline)) {
+                for (const std::size_t end = run_ends[output.first_run + Mx]; pair < end; ++pair) {
+                  const auto [x, y] = pairs[pair];
+                  multiply_blocks<Mx, M - Mx>(sums, a + x, b + y, part);
+                  if constexpr (!Square) multiply_blocks<Mx, M - Mx>(sums, b + x, a + y, part);
+                }
+              }(std::integral_constant<std::size_t, MX>{}),
+          ...);
+    }
+    (std::make_index_sequence<M / 2 + 1>{});
+    if constexpr (Square) {
+      for (auto& sum : sums) sum += sum;
+    }
+    if constexpr (M % 2 == 0) {
+      if (output.diagonal != ProductSchedule::no_diagonal) {
+        multiply_blocks<M / 2, M / 2>(sums, a + output.diagonal, b + output.diagonal, part);
+      }
+    }
+    for (std::size_t i = 0; i < sums.size(); ++i)
+      Parts<T>::get(c[output.offset + i], part) = sums[i];
+  }
+}
+
+/// Forms one block of a product or square whose degree is too large for the registers. Only pairs
+/// whose factor from `a` lies at or behind `first` count.
+template <bool Square, class T>
+void form_large_block(const ProductSchedule::Output& output, const ProductSchedule::Pair* pairs,
+                      const std::uint32_t* run_ends, std::size_t first, const T* a, const T* b,
+                      T* c) {
+  using Vector = typename Parts<T>::Vector;
+  const std::size_t m = output.block_degree;
+  std::vector<Vector> sums(block_size(m));
+  for (std::size_t part = 0; part < Parts<T>::count; ++part) {
+    std::fill(sums.begin(), sums.end(), Vector{});
+    std::size_t pair = output.first_pair;
+    for (std::size_t m_x = 0; 2 * m_x <= m; ++m_x) {
+      for (const std::size_t end = run_ends[output.first_run + m_x]; pair < end; ++pair) {
+        const auto [x, y] = pairs[pair];
+        if (x >= first) multiply_blocks(sums.data(), a + x, b + y, m_x, m - m_x, part);
+        if (!Square && y >= first) multiply_blocks(sums.data(), b + x, a + y, m_x, m - m_x, part);
+      }
+    }
+    if constexpr (Square) {
+      for (auto& sum : sums) sum += sum;
+    }
+    if (output.diagonal != ProductSchedule::no_diagonal && output.diagonal >= first) {
+      multiply_blocks(sums.data(), a + output.diagonal, b + output.diagonal, m / 2, m / 2, part);
+    }
+    for (std::size_t i = 0; i < sums.size(); ++i)
+      Parts<T>::get(c[output.offset + i], part) = sums[i];
+  }
+}
+
+template <bool Square, class T>
+void form_unrolled_blocks(const ProductSchedule::Output* output, const ProductSchedule::Output* end,
+                          const ProductSchedule::Pair* pairs, const std::uint32_t* run_ends,
+                          const T* a, const T* b, T* c) {
+  // Outputs of equal block degree stand together: one dispatch for all of them.
+  while (output != end) {
+    const auto run = [&]<std::size_t M>(std::integral_constant<std::size_t, M>) {
+      for (; output != end && output->block_degree == M; ++output) {
+        form_block<M, Square>(*output, pairs, run_ends, a, b, c);
+      }
+    };
+    switch (output->block_degree) {
+      case 0:
+        run(std::integral_constant<std::size_t, 0>{});
+        break;
+      case 1:
+        run(std::integral_constant<std::size_t, 1>{});
+        break;
+      case 2:
+        run(std::integral_constant<std::size_t, 2>{});
+        break;
+      case 3:
+        run(std::integral_constant<std::size_t, 3>{});
+        break;
+      case 4:
+        run(std::integral_constant<std::size_t, 4>{});
+        break;
+      case 5:
+        run(std::integral_constant<std::size_t, 5>{});
+        break;
+      case largest_unrolled_block:
+        run(std::integral_constant<std::size_t, largest_unrolled_block>{});
+        break;
+      default:
+        form_large_block<Square>(*output, pairs, run_ends, 0, a, b, c);
+        ++output;
+    }
+  }
+}
+
+/// With one variable a slice is one coefficient, and the schedule would take longer than the sum.
+template <class T>
+void form_univariate(int d, const T* a, const T* b, T* c) {
+  T sum = a[1] * b[d - 1];
+  for (int i = 2; i < d; ++i) sum += a[i] * b[d - i];
+  c[d] = sum;
+}
+
+template <bool Square, class T>
+void form_slice(const ProductSchedule& schedule, const T* a, const T* b, T* c) {
+  const ProductSchedule::Output* output = schedule.outputs.data();
+  const ProductSchedule::Output* const end = output + schedule.outputs.size();
+  const ProductSchedule::Pair* const pairs = schedule.pairs.data();
+  const std::uint32_t* const run_ends = schedule.run_ends.data();
+  if constexpr (!is_machine_vector<typename Parts<T>::Vector>) {
+    for (; output != end; ++output) {
+      form_large_block<Square>(*output, pairs, run_ends, 0, a, b, c);
+    }
+  } else {
+    form_unrolled_blocks<Square>(output, end, pairs, run_ends, a, b, c);
+  }
+}
+
+}  // namespace detail
+
+/// c_d = sum over 1 <= i <= d-1 of a_i b_(d-i): the degree-d slice of the product of two series
+/// without the terms that hold a_0 or b_0. Writes the slice of degree d of `c` alone; `c` may be
+/// `a` or `b`, whose slices of degree d are not read.
+template <class T>
+void interior_product(const SeriesSpace& space, int d, const T* a, const T* b, T* c) {
+  if (space.variables() == 1 && d >= 2) return detail::form_univariate(d, a, b, c);
+  detail::form_slice<false>(space.products(d), a, b, c);
+}
+
+/// c_d = sum over 1 <= i <= d-1 of a_i a_(d-i): the interior product of a series with itself, at
+/// about half the cost.
+template <class T>
+void interior_square(const SeriesSpace& space, int d, const T* a, T* c) {
+  if (space.variables() == 1 && d >= 2) return detail::form_univariate(d, a, a, c);
+  detail::form_slice<true>(space.products(d), a, a, c);
+}
+
+/// c_d = sum over lowest <= i <= d-1 of a_i b_(d-i): the interior product where `a` is known to
+/// have no terms below degree `lowest`, at the cost of the terms that are left.
+template <class T>
+void interior_product_from(const SeriesSpace& space, int d, int lowest, const T* a, const T* b,
+                           T* c) {
+  const ProductSchedule& s = space.products(d);
+  for (const ProductSchedule::Output& output : s.outputs) {
+    detail::form_large_block<false>(output, s.pairs.data(), s.run_ends.data(), space.first(lowest),
+                                    a, b, c);
+  }
+}
+
+}  // namespace hamjet

@@ -1,0 +1,110 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "hamjet/detail/algebra/slice_product.hpp"
+
+// Elementary functions of series, one homogeneous slice at a time. With E the Euler operator
+// (E f)_d = d f_d, a function w = f(u) that satisfies a differential equation gives a recurrence
+// for its slices (Knuth, The Art of Computer Programming 2, section 4.7; Griewank and Walther,
+// Evaluating Derivatives, chapter 13). Each is split as
+//
+//     w_d = interior_d(u_1..u_(d-1), w_1..w_(d-1)) + f'(u_0) u_d ,
+//
+// because an implicit integrator knows the interior part before it knows u_d. The functions below
+// write interior_d into the degree-d slice of w (or of both results) and leave all else alone.
+// `scratch` holds one series.
+
+namespace hamjet {
+
+/// scratch_i = weight(i) u_i for 1 <= i <= d-1.
+template <class T, class Weight>
+void scale_slices(const SeriesSpace& space, int d, const T* u, T* scratch, Weight weight) {
+  for (int i = 1; i < d; ++i) {
+    const T factor(weight(i));
+    for (std::size_t k = space.first(i); k < space.first(i + 1); ++k) scratch[k] = factor * u[k];
+  }
+}
+
+template <class T>
+void scale_slice(const SeriesSpace& space, int d, T* w, const T& factor) {
+  for (std::size_t k = space.first(d); k < space.first(d + 1); ++k) w[k] *= factor;
+}
+
+/// Interior of w = u / v: w v = u, so v_0 w_d = u_d - w_0 v_d - sum_(i=1)^(d-1) w_i v_(d-i).
+template <class T>
+void quotient_interior(const SeriesSpace& space, int d, const T* v, T* w) {
+  interior_product(space, d, w, v, w);
+  scale_slice(space, d, w, T(-1) / v[0]);
+}
+
+/// Interior of w = 1 / u, see quotient_interior.
+template <class T>
+void reciprocal_interior(const SeriesSpace& space, int d, const T* u, T* w) {
+  quotient_interior(space, d, u, w);
+}
+
+/// Interior of w = sqrt(u): w^2 = u, so 2 w_0 w_d = u_d - sum_(i=1)^(d-1) w_i w_(d-i).
+template <class T>
+void square_root_interior(const SeriesSpace& space, int d, T* w) {
+  interior_square(space, d, w, w);
+  scale_slice(space, d, w, T(-1) / (T(2) * w[0]));
+}
+
+/// Interior of w = u^a: u E w = a w E u, so
+/// d u_0 w_d = d a w_0 u_d + sum_(i=1)^(d-1) (a i - (d - i)) u_i w_(d-i).
+template <class T, class Real>
+void power_interior(const SeriesSpace& space, int d, const Real& exponent, const T* u, T* w,
+                    T* scratch) {
+  scale_slices(space, d, u, scratch, [&](int i) { return Real(exponent * Real(i) - Real(d - i)); });
+  interior_product(space, d, scratch, w, w);
+  scale_slice(space, d, w, T(1) / (T(Real(d)) * u[0]));
+}
+
+/// Interior of w = exp(u): E w = w E u, so d w_d = d w_0 u_d + sum_(i=1)^(d-1) i u_i w_(d-i).
+template <class Real, class T>
+void exponential_interior(const SeriesSpace& space, int d, const T* u, T* w, T* scratch) {
+  scale_slices(space, d, u, scratch, [&](int i) { return Real(Real(i) / Real(d)); });
+  interior_product(space, d, scratch, w, w);
+}
+
+/// Interior of w = log(u): u E w = E u, so d u_0 w_d = d u_d - sum_(i=1)^(d-1) i w_i u_(d-i).
+template <class Real, class T>
+void logarithm_interior(const SeriesSpace& space, int d, const T* u, T* w, T* scratch) {
+  scale_slices(space, d, w, scratch, [&](int i) { return Real(Real(i) / Real(d)); });
+  interior_product(space, d, scratch, u, w);
+  scale_slice(space, d, w, T(-1) / u[0]);
+}
+
+/// Interiors of s = sin(u), c = cos(u): E s = c E u and E c = -s E u, so
+/// d s_d = d c_0 u_d + sum_(i=1)^(d-1) i u_i c_(d-i),  d c_d = -d s_0 u_d - sum i u_i s_(d-i).
+template <class Real, class T>
+void sine_cosine_interior(const SeriesSpace& space, int d, const T* u, T* s, T* c, T* scratch) {
+  scale_slices(space, d, u, scratch, [&](int i) { return Real(Real(i) / Real(d)); });
+  interior_product(space, d, scratch, c, s);
+  interior_product(space, d, scratch, s, c);
+  scale_slice(space, d, c, T(-1));
+}
+
+/// x^exponent: by multiplications and one square root where twice the exponent is a small integer
+/// (every power of gravity), by the standard pow elsewhere.
+template <class T, class Real>
+T power(const T& x, const Real& exponent) {
+  const double twice = 2 * static_cast<double>(exponent);
+  if (std::abs(twice) > 40 || twice != std::floor(twice)) {
+    using std::pow;
+    return T(pow(x, exponent));
+  }
+  auto n = static_cast<unsigned>(std::abs(twice));
+  T result(Real(1));
+  if (n % 2 == 1) {
+    using std::sqrt;
+    result = T(sqrt(x));
+  }
+  for (unsigned i = 0; i < n / 2; ++i) result *= x;
+  return twice < 0 ? T(T(Real(1)) / result) : result;
+}
+
+}  // namespace hamjet

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <span>
+
+#include "hamjet/detail/algebra/matrix.hpp"
+#include "hamjet/detail/dynamics/differentiable_function.hpp"
+#include "hamjet/dynamics/dynamical_system.hpp"
+
+namespace hamjet {
+
+/// First and second derivatives of a Hamiltonian at one point, by z = (q, p).
+template <class Real>
+struct HamiltonianDerivatives {
+  Vector<Real> gradient;  ///< 2n
+  Matrix<Real> hessian;   ///< 2n x 2n
+};
+
+/// A Hamiltonian H: R^2n -> R on plain numbers, for methods that need one of its values at a time.
+/// Evaluation reuses storage, so that one object serves one thread.
+template <class Real>
+class DifferentiableHamiltonian {
+ public:
+  DifferentiableHamiltonian() = default;
+  DifferentiableHamiltonian(const DifferentiableHamiltonian&) = delete;
+  DifferentiableHamiltonian& operator=(const DifferentiableHamiltonian&) = delete;
+  virtual ~DifferentiableHamiltonian() = default;
+
+  /// The dimension 2n of phase space.
+  virtual Eigen::Index dimension() const = 0;
+  /// The value H(z); not finite outside the domain of H.
+  virtual Real value(const Vector<Real>& z) = 0;
+  /// The derivatives of H at z; the reference is valid until the next call.
+  virtual const HamiltonianDerivatives<Real>& derivatives(const Vector<Real>& z) = 0;
+};
+
+/// The Hamiltonian of a system; its gradient is derived from the recorded list, its Hessian is the
+/// gradient's Jacobian.
+template <class Real>
+class RecordedHamiltonian final : public DifferentiableHamiltonian<Real> {
+ public:
+  explicit RecordedHamiltonian(const DynamicalSystem& system)
+      : value_(system.hamiltonian), slope_(gradient(system.hamiltonian)) {}
+
+  Eigen::Index dimension() const override { return static_cast<Eigen::Index>(value_.inputs()); }
+
+  Real value(const Vector<Real>& z) override {
+    value_.evaluate(numbers(z));
+    return value_.value(0);
+  }
+
+  const HamiltonianDerivatives<Real>& derivatives(const Vector<Real>& z) override {
+    slope_.evaluate(numbers(z));
+    derivatives_.gradient = slope_.values();
+    derivatives_.hessian = slope_.jacobian();
+    return derivatives_;
+  }
+
+ private:
+  static std::span<const Real> numbers(const Vector<Real>& z) {
+    return {z.data(), static_cast<std::size_t>(z.size())};
+  }
+
+  DifferentiableFunction<Real> value_;
+  DifferentiableFunction<Real> slope_;
+  HamiltonianDerivatives<Real> derivatives_;
+};
+
+}  // namespace hamjet

@@ -1,0 +1,127 @@
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <span>
+#include <tuple>
+#include <vector>
+
+#include "hamjet/detail/dynamics/operation_list.hpp"
+
+namespace hamjet {
+
+class Recorder;
+
+/// A number type that records what is done to it: a system written as a template over its number
+/// type is run once on Expressions, and the list of operations results. A constant is an Expression
+/// without a recorder; constants are folded in extended precision, equal operations are recorded
+/// once, and multiplications by 0 and 1 vanish, so what is absent from a system costs nothing.
+class Expression {
+ public:
+  Expression() = default;
+  template <std::floating_point F>
+  Expression(F value) : constant_(value) {}  // NOLINT: numbers embed in expressions
+  template <std::integral I>
+  Expression(I value) : constant_(value) {}                // NOLINT
+  Expression(const Extended& value) : constant_(value) {}  // NOLINT
+
+  bool is_constant() const noexcept { return recorder_ == nullptr; }
+  const Extended& constant() const noexcept { return constant_; }
+  std::size_t value() const noexcept { return value_; }
+  Recorder* recorder() const noexcept { return recorder_; }
+
+  Expression& operator+=(const Expression& o) { return *this = *this + o; }
+  Expression& operator-=(const Expression& o) { return *this = *this - o; }
+  Expression& operator*=(const Expression& o) { return *this = *this * o; }
+  Expression& operator/=(const Expression& o) { return *this = *this / o; }
+
+  friend Expression operator+(const Expression& a, const Expression& b);
+  friend Expression operator-(const Expression& a, const Expression& b);
+  friend Expression operator*(const Expression& a, const Expression& b);
+  friend Expression operator/(const Expression& a, const Expression& b);
+  friend Expression operator-(const Expression& a);
+  friend Expression square(const Expression& a);
+  /// a^exponent with a constant exponent; throws Error(usage) if the exponent is not constant.
+  friend Expression pow(const Expression& a, const Expression& exponent);
+  friend Expression sqrt(const Expression& a);
+  friend Expression exp(const Expression& a);
+  friend Expression log(const Expression& a);
+  friend Expression sin(const Expression& a);
+  friend Expression cos(const Expression& a);
+
+ private:
+  friend class Recorder;
+  Expression(Recorder* recorder, std::size_t value) : recorder_(recorder), value_(value) {}
+
+  Recorder* recorder_ = nullptr;
+  std::size_t value_ = 0;
+  Extended constant_ = 0;
+};
+
+/// Collects the operations done to Expressions. Not copyable: Expressions point to it.
+class Recorder {
+ public:
+  explicit Recorder(std::size_t inputs);
+  Recorder(const Recorder&) = delete;
+  Recorder& operator=(const Recorder&) = delete;
+
+  Expression input(std::size_t i) { return {this, i}; }
+  std::vector<Expression> inputs();
+
+  /// Records constant + sum of the terms; sums of sums are flattened.
+  Expression linear(const Extended& constant, const std::vector<LinearTerm>& terms);
+  Expression operation(OperationCode code, std::size_t u, std::size_t v = 0,
+                       const Extended& constant = 0);
+  /// Records sine and cosine as a pair, because their series need each other.
+  std::pair<Expression, Expression> sine_cosine(std::size_t u);
+
+  /// The list that computes these outputs, without operations that none of them needs.
+  OperationList finish(std::span<const Expression> outputs) const;
+
+ private:
+  using Key = std::tuple<OperationCode, std::size_t, std::size_t, Extended,
+                         std::vector<std::pair<std::size_t, Extended>>>;
+  std::size_t record(Operation operation);
+
+  std::size_t inputs_;
+  std::vector<Operation> operations_;
+  std::map<Key, std::size_t> known_;
+};
+
+/// Records a function: `function(std::span<const Expression>)` returns the outputs.
+template <class Function>
+OperationList record(std::size_t inputs, const Function& function) {
+  Recorder recorder(inputs);
+  const std::vector<Expression> variables = recorder.inputs();
+  const std::vector<Expression> outputs = function(std::span<const Expression>(variables));
+  return recorder.finish(outputs);
+}
+
+/// Runs a list on expressions; returns the values of all its operations, re-recorded (and so
+/// simplified).
+std::vector<Expression> replay(const OperationList& list, std::span<const Expression> inputs);
+
+/// The outputs of a list run on expressions: a recorded function called inside the recording of
+/// another one.
+std::vector<Expression> recorded_outputs(const OperationList& list,
+                                         std::span<const Expression> inputs);
+
+/// The gradient of a list with one output, by reverse accumulation (Griewank and Walther,
+/// Evaluating Derivatives, chapter 3): a list with one output per input. Throws Error(usage) for
+/// more outputs.
+OperationList gradient(const OperationList& list);
+
+/// The Jacobian of a list, by forward accumulation: output i * inputs + j is d output_i / d
+/// input_j.
+OperationList jacobian(const OperationList& list);
+
+/// The list with some inputs set to zero and removed, and only some outputs kept.
+OperationList restrict_list(const OperationList& list, std::span<const std::size_t> kept_inputs,
+                            std::span<const std::size_t> kept_outputs);
+
+/// Whether an output is the constant zero.
+bool output_vanishes(const OperationList& list, std::size_t output);
+
+}  // namespace hamjet

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "hamjet/detail/algebra/matrix.hpp"
+
+namespace hamjet {
+
+/// Singular values of a matrix, the largest first; T is double or Extended.
+template <class T>
+Vector<T> singular_values(const Matrix<T>& matrix);
+
+/// The decomposition A = left diag(values) right^T with square orthogonal `left` and `right`, the
+/// largest value first.
+struct SingularValueDecomposition {
+  Matrix<double> left;
+  Vector<double> values;
+  Matrix<double> right;
+};
+SingularValueDecomposition decompose_by_singular_values(const Matrix<double>& matrix);
+
+}  // namespace hamjet

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "discrete_generating_function.hpp"
+#include "hamjet/detail/dynamics/differentiable_hamiltonian.hpp"
+
+namespace hamjet {
+
+/// The residual of the discrete Hamilton-Jacobi equation at w, a midpoint's variables:
+///
+///   first kind:   H(q, D1 S(q, Q)) - K(Q, -D2 S(q, Q)),
+///   second kind:  H(q, D1 S(q, P)) - K(D2 S(q, P), P).
+///
+/// It vanishes at every w, for every H and K with K o f = H, exactly when S is a discrete
+/// generating function of f; what is left is round-off, divided by existence_measure. There is no
+/// dS/dt as in the continuous equation: one f_k serves both ends of a step. Source: Guibout and
+/// Bloch, theorem dhj (in print K(Q, D2 S)); the second kind by the same proof.
+template <class Real>
+Real hamilton_jacobi_residual(DifferentiableHamiltonian<Real>& original,
+                              DifferentiableHamiltonian<Real>& transformed,
+                              const DiscreteGeneratingFunction<Real>& generating_function,
+                              const Vector<Real>& w);
+
+}  // namespace hamjet

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "../studies/paper/canonical_transformation.hpp"
+#include "../studies/paper/energy_conservation.hpp"
+#include "../studies/paper/optimal_control_study.hpp"
+#include "hamjet/scene/scene_reader.hpp"
+
+namespace hamjet::io {
+
+/// What `hamjet run` is asked for: the key `study` of the scene. "flow-jet", which may be left out,
+/// is a Scene; the others are systems of the paper that have no flow jet.
+using Study =
+    std::variant<Scene, EnergyConservationStudy, CanonicalTransformationStudy, OptimalControlStudy>;
+
+/// Reads a scene of any study; otherwise as read_scene, which throws Error(scene) for any but
+/// "flow-jet".
+Study read_study(const std::filesystem::path& file, const std::vector<Override>& overrides = {});
+
+/// read_study from text; `file_name` is used in messages and for the study's name.
+Study parse_study(std::string_view text, const std::string& file_name,
+                  const std::vector<Override>& overrides = {});
+
+/// The flow jet of a study that must have one. Throws Error(scene) that names the file otherwise.
+Scene require_flow_jet(Study study, const std::string& file_name);
+
+}  // namespace hamjet::io
