@@ -119,24 +119,32 @@ class TokenScanner {
     }
   }
 
-  /// Skips a backslash with what it escapes. At the end of a line it joins the next one, and toml++
-  /// looks for blanks there as it does outside strings.
+  /// Skips a backslash with what it escapes. At the end of a line of a string of several lines it
+  /// joins the next one; for such strings toml++ asks of the characters behind it whether they are
+  /// blank, as it does outside strings.
   void skip_escape(bool several_lines) {
     advance(1);
     constexpr std::string_view blanks = " \t\r\n";
     const auto is_blank = [&] {
       return position_ < text_.size() && blanks.find(text_[position_]) != blanks.npos;
     };
-    if (!several_lines || !is_blank()) return advance(1);
+    if (!several_lines) return advance(1);
+    const bool joins_lines = is_blank();
     while (is_blank()) advance(1);
-    if (position_ == text_.size() || (static_cast<unsigned char>(text_[position_]) & 0x80U) == 0) {
-      return;
+    if (position_ < text_.size() && (static_cast<unsigned char>(text_[position_]) & 0x80U) != 0) {
+      refuse_behind_backslash(joins_lines);
     }
-    throw_scene_error(
-        here(), fmt::format("cannot be read: got the character {} where a line goes on that a "
-                            "backslash has broken, must be ASCII there, or the line be "
-                            "broken elsewhere",
-                            character()));
+    if (!joins_lines) advance(1);
+  }
+
+  [[noreturn]] void refuse_behind_backslash(bool joins_lines) const {
+    constexpr std::string_view joined =
+        "where a line goes on that a backslash has broken, must be ASCII there, or the line be "
+        "broken elsewhere";
+    constexpr std::string_view escaped =
+        "behind a backslash, must be one of b, t, n, f, r, u, U, \", \\ or the end of the line";
+    throw_scene_error(here(), fmt::format("cannot be read: got the character {} {}", character(),
+                                          joins_lines ? joined : escaped));
   }
 
   void take_bare_token() {

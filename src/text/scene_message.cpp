@@ -166,12 +166,19 @@ std::optional<std::string_view> nearest(std::string_view name,
 }
 
 std::string listed(const std::vector<std::string_view>& names) {
-  return fmt::format("{}", fmt::join(names, ", "));
+  constexpr std::size_t most_shown = 40;
+  std::string result;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i > 0) result += ", ";
+    if (i == most_shown) return fmt::format("{}and {} more", result, names.size() - i);
+    result += printable(names[i]);
+  }
+  return result;
 }
 
 std::string suggestion(std::string_view name, const std::vector<std::string_view>& candidates) {
   const auto near = nearest(name, candidates);
-  if (near) return fmt::format("did you mean {}?", *near);
+  if (near) return fmt::format("did you mean {}?", printable(*near));
   return fmt::format("must be one of: {}", listed(candidates));
 }
 

@@ -23,7 +23,7 @@ std::string in_quotes(std::string_view text);
 std::optional<std::string_view> nearest(std::string_view name,
                                         const std::vector<std::string_view>& candidates);
 
-/// Names in one text: "a, b, c".
+/// Names in one text, each printable: "a, b, c". Of more than 40 it says how many more there are.
 std::string listed(const std::vector<std::string_view>& names);
 
 /// Says what was meant: the nearest of `candidates`, or the list of all.

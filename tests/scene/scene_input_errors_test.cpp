@@ -80,6 +80,8 @@ TEST(SceneInputErrors, NotAsciiOutsideQuotes) {
     expect_scene_error(text + "\n",
                        {"file.toml:", "cannot be read: got the character", "backslash"});
   }
+  expect_scene_error("a = \"\"\"x \\\u00e9\"\"\"\n",
+                     {"file.toml:1:11:", "got the character \"\u00e9\" behind a backslash"});
   const std::string joined =
       changed(oscillator, "\"oscillator\"", "\"\"\"a \u00e9 \\\n  b \u0498\"\"\"");
   EXPECT_EQ(parse_scene(joined, "file.toml").title, "a \u00e9 b \u0498");
