@@ -3,18 +3,18 @@
 set(HAMJET_LAYERS text algebra dynamics integrators maps relative_motion optimal_control studies store
   formats scene report sweep app cli python)
 
-# All sources of the layer whose CMakeLists.txt calls it, but those behind EXCEPT, which it adds itself.
-# With CMAKE_UNITY_BUILD those of a folder are compiled together, so many at a time.
-function(hamjet_layer_sources)
-  cmake_parse_arguments(PARSE_ARGV 0 layer "" "" EXCEPT)
+# Adds to the target all sources of the layer whose CMakeLists.txt calls it, but those behind EXCEPT, which
+# it adds itself. With CMAKE_UNITY_BUILD those of a folder are compiled together, so many at a time.
+function(hamjet_layer_sources target)
+  cmake_parse_arguments(PARSE_ARGV 1 layer "" "" EXCEPT)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}
     ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   if(layer_EXCEPT)
     list(REMOVE_ITEM sources ${layer_EXCEPT})
   endif()
-  target_sources(hamjet PRIVATE ${sources})
+  target_sources(${target} PRIVATE ${sources})
   get_filename_component(name ${CMAKE_CURRENT_SOURCE_DIR} NAME)
-  set(together 14)
+  set(together 24)
   foreach(source ${sources})
     get_filename_component(folder ${name}/${source} DIRECTORY)
     string(MAKE_C_IDENTIFIER ${folder} group)
@@ -23,6 +23,6 @@ function(hamjet_layer_sources)
     endif()
     math(EXPR part "${count_${group}} / ${together}")
     math(EXPR count_${group} "${count_${group}} + 1")
-    set_property(SOURCE ${source} TARGET_DIRECTORY hamjet PROPERTY UNITY_GROUP ${group}_${part})
+    set_property(SOURCE ${source} TARGET_DIRECTORY ${target} PROPERTY UNITY_GROUP ${group}_${part})
   endforeach()
 endfunction()

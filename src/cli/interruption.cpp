@@ -23,7 +23,7 @@ volatile std::sig_atomic_t phase = computing;
 volatile std::sig_atomic_t has_checkpoint = 0;
 
 /// The paths of the RemovedAtSuddenEnd that lives, ended by a null pointer.
-const char* const* volatile leftovers = nullptr;
+const char* const* volatile names_at_sudden_end = nullptr;
 
 /// Time that the work has to stop, short enough that the end comes within a second.
 constexpr suseconds_t microseconds_to_stop = 700'000;
@@ -35,7 +35,7 @@ void set_alarm() {
 }
 
 void remove_leftovers() {
-  const char* const* name = leftovers;
+  const char* const* name = names_at_sudden_end;
   // unlink removes files and rmdir folders; each fails harmlessly on the other.
   for (; name != nullptr && *name != nullptr; ++name) {
     ::unlink(*name);
@@ -101,10 +101,10 @@ RemovedAtSuddenEnd::RemovedAtSuddenEnd(std::vector<std::filesystem::path> paths)
     : paths_(std::move(paths)) {
   for (const auto& path : paths_) names_.push_back(path.c_str());
   names_.push_back(nullptr);
-  leftovers = names_.data();
+  names_at_sudden_end = names_.data();
 }
 
-RemovedAtSuddenEnd::~RemovedAtSuddenEnd() { leftovers = nullptr; }
+RemovedAtSuddenEnd::~RemovedAtSuddenEnd() { names_at_sudden_end = nullptr; }
 
 UninterruptedWriting::UninterruptedWriting(Writing what) : what_(what) {
   phase = writing;

@@ -17,8 +17,10 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/hamjetConfigVersion.cmake
 install(FILES ${PROJECT_BINARY_DIR}/hamjetConfig.cmake
   ${PROJECT_BINARY_DIR}/hamjetConfigVersion.cmake DESTINATION ${package})
 
-install(TARGETS hamjet_command RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-# With the files that scenes name, which lie in the same places relative to them.
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/data/scenes ${PROJECT_SOURCE_DIR}/data/gravity
-  DESTINATION ${CMAKE_INSTALL_DATADIR}/hamjet
-  FILES_MATCHING PATTERN *.toml PATTERN *.opm PATTERN *.oem PATTERN *.gfc)
+if(HAMJET_COMMAND)
+  install(TARGETS hamjet_command RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  # With the files that scenes name, which lie in the same places relative to them.
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/data/scenes ${PROJECT_SOURCE_DIR}/data/gravity
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/hamjet
+    FILES_MATCHING PATTERN *.toml PATTERN *.opm PATTERN *.oem PATTERN *.gfc)
+endif()
