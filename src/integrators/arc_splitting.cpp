@@ -67,7 +67,7 @@ FlowJet<Real> integrate_unsplit(const FlowProblem<Real>& problem, const Splittab
 /// A method with its local tolerance chosen, where it has one.
 template <class Real>
 SplittableMethod with_step_tolerance(const FlowProblem<Real>& problem, SplittableMethod method,
-                                     StepTolerance& choice) {
+                                     StepTolerance<Real>& choice) {
   if (auto* gauss = std::get_if<GaussSettings>(&method)) {
     validate_gauss(*gauss);
     if (gauss->tolerance) {
@@ -117,11 +117,12 @@ template <class Real>
 class ArcSplitting {
  public:
   ArcSplitting(const FlowProblem<Real>& problem, const SplittableMethod& method,
-               ArcIntegrator<Real>& arcs, const ArcSettings& settings,
-               IntegrationStatistics& statistics, ArcStatistics& arc_statistics,
-               const ArcProgress& progress)
+               const StepTolerance<Real>& choice, ArcIntegrator<Real>& arcs,
+               const ArcSettings& settings, IntegrationStatistics& statistics,
+               ArcStatistics& arc_statistics, const ArcProgress& progress)
       : problem_(problem),
         method_(method),
+        choice_(choice),
         arcs_(arcs),
         settings_(settings),
         statistics_(statistics),
@@ -160,13 +161,20 @@ class ArcSplitting {
     const DirectionalFlow<Real> flow(problem_, 2);
     const GaussSettings* gauss = std::get_if<GaussSettings>(&method_);
     const double rounding = static_cast<double>(std::numeric_limits<Real>::epsilon());
-    const GaussSettings finer = finer_gauss<Real>(
-        gauss != nullptr ? *gauss : GaussSettings{},
-        gauss != nullptr && gauss->tolerance ? *gauss->tolerance : 100 * rounding);
-    const auto unsplit = flow.integrate(
-        [&](const FlowProblem<Real>& line) { return integrate_unsplit(line, method_); });
-    const auto exact = flow.integrate(
-        [&](const FlowProblem<Real>& line) { return integrate_unsplit<Real>(line, finer); });
+    typename DirectionalFlow<Real>::Lines unsplit = choice_.lines;
+    typename DirectionalFlow<Real>::Lines exact;
+    if (!unsplit.empty()) {
+      // The choice of the tolerance has integrated the same lines with the same steps.
+      for (const JetAlongLine<Real>& line : choice_.finer_lines) exact.push_back(line.jet);
+    } else {
+      const GaussSettings finer = finer_gauss<Real>(
+          gauss != nullptr ? *gauss : GaussSettings{},
+          gauss != nullptr && gauss->tolerance ? *gauss->tolerance : 100 * rounding);
+      unsplit = flow.integrate(
+          [&](const FlowProblem<Real>& line) { return integrate_unsplit(line, method_); });
+      exact = flow.integrate(
+          [&](const FlowProblem<Real>& line) { return integrate_unsplit<Real>(line, finer); });
+    }
     const std::vector<double> own = flow.relative_difference(unsplit, exact);
     const std::vector<double> composed = flow.relative_difference(flow.restrict(jet), exact);
     // A full jet rounds more than a line does: up to the tolerance that is no loss.
@@ -305,6 +313,7 @@ class ArcSplitting {
 
   const FlowProblem<Real>& problem_;
   const SplittableMethod& method_;
+  const StepTolerance<Real>& choice_;  ///< of the method
   ArcIntegrator<Real>& arcs_;
   const ArcSettings& settings_;
   IntegrationStatistics& statistics_;
@@ -335,14 +344,13 @@ FlowJet<Real> integrate_in_arcs(const FlowProblem<Real>& problem, const Splittab
     arc_statistics.plan.reason = "the duration is zero";
     return starting_jet(problem);
   }
-  StepTolerance choice;
+  StepTolerance<Real> choice;
   const SplittableMethod used = with_step_tolerance(problem, method, choice);
   const auto arcs = make_arcs(problem, used);
-  FlowJet<Real> jet =
-      ArcSplitting<Real>(problem, used, *arcs, settings, statistics, arc_statistics, progress)
-          .run(observer);
-  if (choice.tolerance > 0) statistics.step_tolerance = choice.tolerance;
-  statistics.rounding_by_degree = choice.rounding_by_degree;
+  FlowJet<Real> jet = ArcSplitting<Real>(problem, used, choice, *arcs, settings, statistics,
+                                         arc_statistics, progress)
+                          .run(observer);
+  record_choice(std::move(choice), statistics);
   return jet;
 }
 
@@ -351,7 +359,7 @@ ArcPlan plan_arcs(const FlowProblem<Real>& problem, const SplittableMethod& meth
                   const std::optional<std::size_t>& asked, const ArcProgress& progress) {
   validate(problem);
   validate_arcs(asked, 1);
-  StepTolerance choice;
+  StepTolerance<Real> choice;
   const auto arcs = make_arcs(problem, with_step_tolerance(problem, method, choice));
   IntegrationStatistics statistics;
   if (problem.duration != 0) {

@@ -29,6 +29,8 @@ class DirectionalFlow {
 
   DirectionalFlow(const FlowProblem<Real>& problem, std::size_t count);
 
+  const std::vector<Real>& direction(std::size_t line) const { return directions_[line]; }
+
   Lines integrate(const Integrate& integrate) const;
 
   /// Restricts a jet of the problem's variables to the lines: sum over |a| = k of c_a d^a for each

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <limits>
 #include <random>
+#include <utility>
 
 #include "hamjet/error.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
@@ -20,6 +21,14 @@ namespace {
 constexpr std::size_t candidates = 16;
 /// Stages of the run along each direction; other stages make other steps.
 constexpr std::array<int, 2> stages_of_runs = {16, 15};
+/// A known line is of use if no degree is larger or smaller along it by more than this factor.
+constexpr double largest_distortion = 30;
+/// Known lines that show more than this many times the error of a run of their own are not finer
+/// than the jet, or the run has missed the error.
+constexpr double largest_disagreement = 10;
+
+/// A line's variable has no unit of momentum.
+constexpr std::array<std::size_t, 1> variable_of_line = {0};
 
 template <class Real>
 constexpr double rounding() {
@@ -48,27 +57,37 @@ struct Direction {
   double distortion = 0;  ///< logarithm of the most that a degree is larger or smaller here
 };
 
+/// A direction of entries about `length` in size.
 template <class Real>
-Direction<Real> draw_direction(std::mt19937_64& generator, const FlowJet<Real>& jet,
-                               const SpacePointer& line, const std::vector<double>& largest) {
-  Direction<Real> direction;
-  for (std::size_t v = 0; v < jet[0].space().variables(); ++v) {
-    const std::uint64_t bits = generator();
-    const double fraction = static_cast<double>(bits >> 12) * 0x1p-52;  // in [0, 1)
-    const double size = std::sqrt(0.5) * (1 + fraction);
-    direction.entries.emplace_back((bits & 1) == 0 ? size : -size);
-  }
+Direction<Real> direction_of(std::vector<Real> entries, double length, const FlowJet<Real>& jet,
+                             const SpacePointer& line, const std::vector<double>& largest) {
+  Direction<Real> direction{std::move(entries), {}, 0};
   direction.jet = restrict_to_line(jet, direction.entries, line);
   const std::vector<double> along = largest_by_degree(direction.jet);
+  double weight = 1;  // of a monomial
   for (std::size_t d = 1; d < along.size(); ++d) {
+    weight *= length;
     if (largest[d] == 0) continue;
-    const double distortion = std::abs(std::log(along[d] / largest[d]));
+    const double distortion = std::abs(std::log(along[d] / (weight * largest[d])));
     direction.distortion = std::max(direction.distortion, distortion);
   }
   return direction;
 }
 
-/// The directions along which the jet is judged.
+template <class Real>
+Direction<Real> draw_direction(std::mt19937_64& generator, const FlowJet<Real>& jet,
+                               const SpacePointer& line, const std::vector<double>& largest) {
+  std::vector<Real> entries;
+  for (std::size_t v = 0; v < jet[0].space().variables(); ++v) {
+    const std::uint64_t bits = generator();
+    const double fraction = static_cast<double>(bits >> 12) * 0x1p-52;  // in [0, 1)
+    const double size = std::sqrt(0.5) * (1 + fraction);
+    entries.emplace_back((bits & 1) == 0 ? size : -size);
+  }
+  return direction_of(std::move(entries), 1, jet, line, largest);
+}
+
+/// The directions along which the jet is judged by runs of their own.
 template <class Real>
 std::vector<Direction<Real>> choose_directions(const FlowJet<Real>& jet, const SpacePointer& line,
                                                const std::vector<double>& largest) {
@@ -83,6 +102,30 @@ std::vector<Direction<Real>> choose_directions(const FlowJet<Real>& jet, const S
   return drawn;
 }
 
+/// The directions of known lines, in the estimate's unit of momentum; none unless the degrees of
+/// the jet are about as large along each as their largest coefficients.
+template <class Real>
+std::vector<Direction<Real>> known_directions(const FlowProblem<Real>& problem,
+                                              const std::vector<JetAlongLine<Real>>& known,
+                                              int exponent, const FlowJet<Real>& jet,
+                                              const SpacePointer& line,
+                                              const std::vector<double>& largest) {
+  const std::size_t n = problem.system->degrees_of_freedom;
+  std::vector<Direction<Real>> result;
+  for (const JetAlongLine<Real>& one : known) {
+    std::vector<Real> entries = one.direction;
+    double logarithms = 0;
+    for (std::size_t v = 0; v < entries.size(); ++v) {
+      if (problem.variables[v] >= n) entries[v] *= Real(std::ldexp(1.0, -exponent));
+      logarithms += std::log(std::abs(static_cast<double>(entries[v])));
+    }
+    const double length = std::exp(logarithms / static_cast<double>(entries.size()));
+    result.push_back(direction_of(std::move(entries), length, jet, line, largest));
+    if (!(result.back().distortion <= std::log(largest_distortion))) return {};
+  }
+  return result;
+}
+
 /// By degree, the largest difference of two univariate jets.
 template <class Real>
 std::vector<double> differences(const FlowJet<Real>& a, const FlowJet<Real>& b) {
@@ -94,6 +137,38 @@ std::vector<double> differences(const FlowJet<Real>& a, const FlowJet<Real>& b) 
     }
   }
   return result;
+}
+
+/// By degree, the larger of `result` and the error that a run along a direction shows.
+template <class Real>
+void include_run(std::vector<double>& result, const Direction<Real>& direction,
+                 const FlowJet<Real>& run, bool is_known, const std::vector<double>& largest) {
+  const std::vector<double> differing = differences(direction.jet, run);
+  const std::vector<double> along = largest_by_degree(run);
+  for (std::size_t d = 0; d < result.size(); ++d) {
+    double scale = along[d] > 0 ? std::min(along[d], largest[d]) : largest[d];
+    // The coefficients may add up along a known line, and their errors with them.
+    if (is_known && along[d] > 0) scale = along[d];
+    if (scale == 0) scale = std::max(along[d], largest[d]);
+    if (scale == 0) continue;
+    double estimate = error_estimate_safety * differing[d] / scale;
+    if (estimate < rounding<Real>()) estimate = rounding<Real>();
+    if (!(estimate <= result[d])) result[d] = estimate;
+  }
+}
+
+/// All runs have the same nominal, so that its difference between two of them is error too.
+template <class Real>
+void include_nominals(std::vector<double>& result, const FlowJet<Real>& a, const FlowJet<Real>& b,
+                      double largest) {
+  if (largest == 0) return;
+  result[0] = std::max(result[0], error_estimate_safety * differences(a, b)[0] / largest);
+}
+
+bool is_confirmed(const std::vector<double>& own, const std::vector<double>& known) {
+  return std::equal(own.begin(), own.end(), known.begin(), [](double of_own, double of_known) {
+    return of_known <= largest_disagreement * of_own;
+  });
 }
 
 template <class Real>
@@ -135,50 +210,52 @@ FlowJet<Real> run_along(const FlowProblem<Real>& problem, const std::vector<Real
         settings.progress((static_cast<double>(number) + done) /
                           static_cast<double>(stages_of_runs.size()));
       });
-  constexpr std::size_t position[] = {0};  // the line's variable has no unit of momentum
-  return in_momentum_unit(std::move(end), position, settings.momentum_exponent);
+  return in_momentum_unit(std::move(end), variable_of_line, settings.momentum_exponent);
 }
 
 }  // namespace
 
 template <class Real>
 std::vector<double> estimate_error(const FlowProblem<Real>& problem, const FlowJet<Real>& delivered,
-                                   const ErrorEstimateSettings& settings) {
+                                   const ErrorEstimateSettings& settings,
+                                   const std::vector<JetAlongLine<Real>>& known) {
   validate(problem);
   validate_jet(problem, delivered);
   const auto degrees = static_cast<std::size_t>(problem.space->order()) + 1;
   std::vector<double> result(degrees, 0);
   if (problem.duration == 0) return result;
+  const int exponent = settings.momentum_exponent;
   const SpacePointer line = SeriesSpace::create(1, problem.space->order());
-  const FlowJet<Real> jet =
-      in_momentum_unit(delivered, problem.variables, settings.momentum_exponent);
+  const FlowJet<Real> jet = in_momentum_unit(delivered, problem.variables, exponent);
   const std::vector<double> largest = largest_by_degree(jet);
-  const auto directions = choose_directions(jet, line, largest);
-  std::vector<FlowJet<Real>> runs;
-  for (std::size_t k = 0; k < directions.size(); ++k) {
-    runs.push_back(run_along(problem, directions[k].entries, k, settings));
-    const std::vector<double> differing = differences(directions[k].jet, runs[k]);
-    const std::vector<double> along = largest_by_degree(runs[k]);
-    for (std::size_t d = 0; d < degrees; ++d) {
-      double scale = along[d] > 0 ? std::min(along[d], largest[d]) : largest[d];
-      if (scale == 0) scale = std::max(along[d], largest[d]);
-      if (scale == 0) continue;
-      double estimate = error_estimate_safety * differing[d] / scale;
-      if (estimate < rounding<Real>()) estimate = rounding<Real>();
-      if (!(estimate <= result[d])) result[d] = estimate;
+  const std::vector<Direction<Real>> drawn = choose_directions(jet, line, largest);
+  // Steps that were chosen along the known lines are judged along another one too.
+  const FlowJet<Real> first = run_along(problem, drawn[0].entries, 0, settings);
+  include_run(result, drawn[0], first, false, largest);
+  const auto taken = known_directions(problem, known, exponent, jet, line, largest);
+  if (!taken.empty()) {
+    std::vector<double> shown(degrees, 0);
+    for (std::size_t k = 0; k < taken.size(); ++k) {
+      const FlowJet<Real> run = in_momentum_unit(known[k].jet, variable_of_line, exponent);
+      include_run(shown, taken[k], run, true, largest);
+      include_nominals(shown, first, run, largest[0]);
+    }
+    if (is_confirmed(result, shown)) {
+      for (std::size_t d = 0; d < degrees; ++d) result[d] = std::max(result[d], shown[d]);
+      return result;
     }
   }
-  // Both runs have the same nominal, so that its difference between them is error too.
-  if (largest[0] > 0) {
-    result[0] =
-        std::max(result[0], error_estimate_safety * differences(runs[0], runs[1])[0] / largest[0]);
-  }
+  const FlowJet<Real> second = run_along(problem, drawn[1].entries, 1, settings);
+  include_run(result, drawn[1], second, false, largest);
+  include_nominals(result, first, second, largest[0]);
   return result;
 }
 
 template std::vector<double> estimate_error(const FlowProblem<double>&, const FlowJet<double>&,
-                                            const ErrorEstimateSettings&);
+                                            const ErrorEstimateSettings&,
+                                            const std::vector<JetAlongLine<double>>&);
 template std::vector<double> estimate_error(const FlowProblem<Extended>&, const FlowJet<Extended>&,
-                                            const ErrorEstimateSettings&);
+                                            const ErrorEstimateSettings&,
+                                            const std::vector<JetAlongLine<Extended>>&);
 
 }  // namespace hamjet

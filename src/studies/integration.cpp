@@ -8,6 +8,8 @@
 #include <numeric>
 #include <span>
 #include <type_traits>
+#include <variant>
+#include <vector>
 
 #include "../integrators/momentum_unit.hpp"
 #include "arcs.hpp"
@@ -117,7 +119,10 @@ JetErrorEstimate estimate_jet_error(const Scene& scene, const FlowProblem<Real>&
       natural_momentum_exponent(is_orbit(scene.system.model), scene.nominal);
   estimate.progress = progress;
   try {
-    result.by_degree = estimate_error<Real>(flow, jet, estimate);
+    using Lines = std::vector<JetAlongLine<Real>>;
+    const auto* known = std::get_if<Lines>(&statistics.finer_lines);
+    result.by_degree =
+        estimate_error<Real>(flow, jet, estimate, known != nullptr ? *known : Lines{});
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::numerical && error.kind() != ErrorKind::too_large) throw;
     result.failure = error.what();

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <variant>
 #include <vector>
 
 #include "dynamics/harmonic_oscillator.hpp"
@@ -58,6 +59,61 @@ TEST(ErrorEstimate, SeesOneWrongCoefficientOfAnyMonomial) {
       if (d == degree) continue;
       EXPECT_LT(estimate[static_cast<std::size_t>(d)], 1e-10) << k << ", " << d;
     }
+  }
+}
+
+/// A jet and the lines with which its tolerance was chosen.
+struct KnownLines {
+  FlowJet<double> jet;
+  std::vector<JetAlongLine<double>> lines;
+
+  explicit KnownLines(const Orbit& orbit) {
+    GaussSettings settings;
+    settings.tolerance = 1e-13;
+    IntegrationStatistics statistics;
+    jet = integrate_gauss<double>(orbit.problem, settings, statistics);
+    lines = std::get<std::vector<JetAlongLine<double>>>(statistics.finer_lines);
+  }
+};
+
+TEST(ErrorEstimate, TakesKnownLinesInThePlaceOfTheSecondRun) {
+  const Orbit orbit;
+  const KnownLines known(orbit);
+  ASSERT_EQ(known.lines.size(), 2U);
+  double done = 0;
+  ErrorEstimateSettings settings;
+  settings.progress = [&](double fraction) { done = fraction; };
+  const auto with = estimate_error<double>(orbit.problem, known.jet, settings, known.lines);
+  EXPECT_EQ(done, 0.5);
+  const auto without = estimate_error<double>(orbit.problem, known.jet, settings);
+  EXPECT_EQ(done, 1);
+  for (std::size_t d = 0; d < with.size(); ++d) {
+    EXPECT_GT(with[d], 0.1 * without[d]) << d;
+    EXPECT_LT(with[d], 10 * without[d]) << d;
+  }
+}
+
+TEST(ErrorEstimate, MakesTheSecondRunWhereKnownLinesDisagree) {
+  const Orbit orbit;
+  const KnownLines known(orbit);
+  const auto without = estimate_error<double>(orbit.problem, known.jet);
+  auto wrong = known.lines;
+  wrong[1].jet[0][3] *= 1 + 1e-6;
+  EXPECT_EQ(estimate_error<double>(orbit.problem, known.jet, {}, wrong), without);
+}
+
+TEST(ErrorEstimate, SeesOneWrongCoefficientBesideKnownLines) {
+  const Orbit orbit;
+  const KnownLines known(orbit);
+  const SeriesSpace& space = *orbit.problem.space;
+  for (std::size_t k = 0; k < space.size(); ++k) {
+    const int degree = space.degree(k);
+    FlowJet<double> wrong = known.jet;
+    wrong[k % 6][k] += 1e-6 * largest_of_degree(known.jet, degree);
+    const double seen = estimate_error<double>(orbit.problem, wrong, {},
+                                               known.lines)[static_cast<std::size_t>(degree)];
+    EXPECT_GT(seen, 1e-7) << k;
+    EXPECT_LT(seen, 1e-4) << k;
   }
 }
 

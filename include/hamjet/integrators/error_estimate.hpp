@@ -35,6 +35,12 @@ struct ErrorEstimateSettings {
 /// the larger of the two differences, relative to the smaller of the jet's largest coefficient and
 /// the run's, times error_estimate_safety, and never below the rounding of Real.
 ///
+/// Where `known` has independent jets of this flow along lines, by other stages and finer steps
+/// than the delivered jet's (IntegrationStatistics::finer_lines), they take the place of the second
+/// run, with differences relative to the jet along the line; and the second run is made all the
+/// same if they show ten times the error of the first at some degree, or if a degree of the jet is
+/// thirty times larger or smaller along one of them than its largest coefficients.
+///
 /// Directions are drawn from a generator of constant seed, entries of random sign between
 /// sqrt(1/2) and sqrt(2) in magnitude so that no monomial is lost; of sixteen the two are taken at
 /// which the degrees of the jet are nearest in size to their largest coefficients, so that large
@@ -54,6 +60,7 @@ struct ErrorEstimateSettings {
 /// would take too many steps.
 template <class Real>
 std::vector<double> estimate_error(const FlowProblem<Real>& problem, const FlowJet<Real>& jet,
-                                   const ErrorEstimateSettings& settings = {});
+                                   const ErrorEstimateSettings& settings = {},
+                                   const std::vector<JetAlongLine<Real>>& known = {});
 
 }  // namespace hamjet

@@ -5,8 +5,10 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <variant>
 #include <vector>
 
+#include "hamjet/algebra/extended.hpp"
 #include "hamjet/algebra/truncated_power_series.hpp"
 #include "hamjet/detail/dynamics/series_work.hpp"
 #include "hamjet/dynamics/dynamical_system.hpp"
@@ -30,6 +32,14 @@ struct FlowProblem {
   /// The jet that an earlier integration reached, to go on from; its constant terms are
   /// `initial_state`. Null: the identity.
   const FlowJet<Real>* initial_jet = nullptr;
+};
+
+/// The flow's jet along a straight line of initial deviations, s times `direction`, which has an
+/// entry for each variable of the problem: a series in s alone.
+template <class Real>
+struct JetAlongLine {
+  std::vector<Real> direction;
+  FlowJet<Real> jet;
 };
 
 /// More steps than this are refused with Error(too_large): they would take hours, and their
@@ -64,6 +74,13 @@ struct IntegrationStatistics {
   /// By degree, the relative error that rounding leaves however short the steps of an adaptive
   /// Gauss method are; empty where every degree meets the tolerance.
   std::vector<double> rounding_by_degree;
+  /// By degree, the relative error along two lines where none of the step sizes that an adaptive
+  /// Gauss method tried kept all degrees to the tolerance; empty otherwise.
+  std::vector<double> unmet_by_degree;
+  /// The flow along lines of deviations by other stages and finer steps, where an adaptive Gauss
+  /// method has made sure of its tolerance with them: estimate_error needs no second integration.
+  /// Of the numbers that were integrated in.
+  std::variant<std::vector<JetAlongLine<double>>, std::vector<JetAlongLine<Extended>>> finer_lines;
 
   void record_step_error(double estimate) {
     largest_step_error = std::max(largest_step_error.value_or(estimate), estimate);

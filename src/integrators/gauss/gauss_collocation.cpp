@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "gauss_lanes.hpp"
 #include "gauss_tolerance.hpp"
 #include "hamjet/error.hpp"
@@ -31,14 +33,13 @@ FlowJet<Real> integrate_gauss(const FlowProblem<Real>& problem, const GaussSetti
   statistics = {};
   validate_gauss(settings);
   GaussSettings used = settings;
-  const StepTolerance choice = choose_step_tolerance(problem, settings);
+  StepTolerance<Real> choice = choose_step_tolerance(problem, settings);
   if (settings.tolerance) used.tolerance = choice.tolerance;
   FlowJet<Real> jet =
       with_lanes(settings.stages, [&]<int Lanes>(std::integral_constant<int, Lanes>) {
         return run_gauss<Lanes>(problem, used, statistics, observer);
       });
-  statistics.step_tolerance = used.tolerance;
-  statistics.rounding_by_degree = choice.rounding_by_degree;
+  record_choice(std::move(choice), statistics);
   return jet;
 }
 

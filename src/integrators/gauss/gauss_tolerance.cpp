@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "../directional_flow.hpp"
 #include "gauss_lanes.hpp"
@@ -35,9 +36,12 @@ double smallest_step_tolerance() {
   return 100 * noise * noise;
 }
 
-/// The errors of one trial.
+/// One trial and its errors.
+template <class Real>
 struct Trial {
   double tolerance = 0;
+  std::vector<FlowJet<Real>> lines;
+  std::vector<FlowJet<Real>> finer_lines;
   std::vector<double> error_by_degree;
   double limit = 0;
   long steps = 0;  ///< of each line: the nominal chooses them, and both have one
@@ -58,8 +62,8 @@ FlowJet<Real> integrate_as_given(const FlowProblem<Real>& problem, const GaussSe
 }
 
 template <class Real>
-Trial try_tolerance(const DirectionalFlow<Real>& flow, const GaussSettings& settings,
-                    double tolerance) {
+Trial<Real> try_tolerance(const DirectionalFlow<Real>& flow, const GaussSettings& settings,
+                          double tolerance) {
   GaussSettings coarse = settings;
   coarse.tolerance = tolerance;
   coarse.profile = nullptr;
@@ -69,17 +73,20 @@ Trial try_tolerance(const DirectionalFlow<Real>& flow, const GaussSettings& sett
     return flow.integrate(
         [&](const FlowProblem<Real>& line) { return integrate_as_given(line, used, statistics); });
   };
-  Trial trial{tolerance, {}, 0, 0};
-  const auto lines = with(coarse);
+  Trial<Real> trial;
+  trial.tolerance = tolerance;
+  trial.lines = with(coarse);
   trial.steps = statistics.steps;
-  trial.error_by_degree = flow.relative_difference(lines, with(fine));
+  trial.finer_lines = with(fine);
+  trial.error_by_degree = flow.relative_difference(trial.lines, trial.finer_lines);
   trial.limit = allowed_excess * *settings.tolerance * std::max(1.0, statistics.periods);
   return trial;
 }
 
 /// The power of the tolerance with which the largest error fell from one trial to the next: 1 where
 /// the step control measures what it limits, less for high degrees, which it does not see.
-double convergence(const Trial& before, const Trial& after) {
+template <class Real>
+double convergence(const Trial<Real>& before, const Trial<Real>& after) {
   const double fall = std::log(before.largest_excess() / after.largest_excess());
   const double power = fall / std::log(before.tolerance / after.tolerance);
   return std::isfinite(power) ? std::clamp(power, 0.4, 1.0) : 1;
@@ -87,7 +94,8 @@ double convergence(const Trial& before, const Trial& after) {
 
 /// The tolerance at which truncation has fallen to the errors of `last`, which are rounding:
 /// shorter steps do not take them away.
-double where_rounding_begins(const Trial& before, const Trial& last) {
+template <class Real>
+double where_rounding_begins(const Trial<Real>& before, const Trial<Real>& last) {
   double ratio = 1;
   for (std::size_t d = 0; d < before.error_by_degree.size(); ++d) {
     if (before.excess(d) > 1) {
@@ -95,6 +103,18 @@ double where_rounding_begins(const Trial& before, const Trial& last) {
     }
   }
   return std::max(last.tolerance, ratio * before.tolerance);
+}
+
+/// The choice of a tolerance, after the last trial.
+template <class Real>
+StepTolerance<Real> chosen(double tolerance, const DirectionalFlow<Real>& flow, Trial<Real> last) {
+  StepTolerance<Real> choice;
+  choice.tolerance = tolerance;
+  for (std::size_t j = 0; j < last.finer_lines.size(); ++j) {
+    choice.finer_lines.push_back({flow.direction(j), std::move(last.finer_lines[j])});
+  }
+  if (tolerance == last.tolerance) choice.lines = std::move(last.lines);
+  return choice;
 }
 
 }  // namespace
@@ -109,21 +129,19 @@ GaussSettings finer_gauss(const GaussSettings& settings, double tolerance) {
 }
 
 template <class Real>
-StepTolerance choose_step_tolerance(const FlowProblem<Real>& problem,
-                                    const GaussSettings& settings) {
+StepTolerance<Real> choose_step_tolerance(const FlowProblem<Real>& problem,
+                                          const GaussSettings& settings) {
   const double asked = settings.tolerance.value_or(0);
   const bool is_chosen_in_steps = !settings.tolerance || settings.controls_all_degrees;
   // For the nominal alone the step control suffices, unless the field has waves that are much
   // shorter than the rest of it.
   const bool is_known =
       problem.space->order() == 0 && problem.system->waves_on_a_circle < least_short_waves;
-  if (is_chosen_in_steps || is_known || problem.duration == 0) {
-    return {asked, {}};
-  }
+  if (is_chosen_in_steps || is_known || problem.duration == 0) return {asked, {}, {}, {}, {}};
   const double smallest = smallest_step_tolerance<Real>();
   const DirectionalFlow<Real> flow(problem, 2);
-  Trial before = try_tolerance(flow, settings, asked);
-  if (!(before.largest_excess() > 1)) return {asked, {}};
+  Trial<Real> before = try_tolerance(flow, settings, asked);
+  if (!(before.largest_excess() > 1)) return chosen(asked, flow, std::move(before));
   double power = 1;
   double largest_reduction = 0.1;
   for (int i = 1; i < most_trials; ++i) {
@@ -131,24 +149,43 @@ StepTolerance choose_step_tolerance(const FlowProblem<Real>& problem,
     const double wanted = std::isfinite(excess) ? std::pow(aim / excess, 1 / power) : 0;
     const double next = std::max(
         std::clamp(wanted, least_reduction, largest_reduction) * before.tolerance, smallest);
-    Trial trial = try_tolerance(flow, settings, next);
-    if (!(trial.largest_excess() > 1)) return {next, {}};
+    Trial<Real> trial = try_tolerance(flow, settings, next);
+    if (!(trial.largest_excess() > 1)) return chosen(next, flow, std::move(trial));
     const bool is_shorter = trial.steps > before.steps;
     // Steps that much shorter would take away far more of a truncation error.
     const bool is_rounding = is_shorter && trial.largest_excess() > 0.5 * excess;
     const bool is_long = before.steps > most_steps_of_more_trials;
     if (is_rounding || is_long || next == smallest) {
-      return {where_rounding_begins(before, trial), trial.error_by_degree};
+      const double tolerance = where_rounding_begins(before, trial);
+      std::vector<double> rounding = trial.error_by_degree;
+      StepTolerance<Real> choice = chosen(tolerance, flow, std::move(trial));
+      choice.rounding_by_degree = std::move(rounding);
+      return choice;
     }
     power = is_shorter ? convergence(before, trial) : 1;
     largest_reduction = is_shorter ? 0.1 : next_reduction;
     before = std::move(trial);
   }
-  return {before.tolerance, {}};
+  std::vector<double> unmet = before.error_by_degree;
+  StepTolerance<Real> choice = chosen(before.tolerance, flow, std::move(before));
+  choice.unmet_by_degree = std::move(unmet);
+  return choice;
 }
 
-template StepTolerance choose_step_tolerance(const FlowProblem<double>&, const GaussSettings&);
-template StepTolerance choose_step_tolerance(const FlowProblem<Extended>&, const GaussSettings&);
+template <class Real>
+void record_choice(StepTolerance<Real> choice, IntegrationStatistics& statistics) {
+  if (choice.tolerance > 0) statistics.step_tolerance = choice.tolerance;
+  statistics.rounding_by_degree = std::move(choice.rounding_by_degree);
+  statistics.unmet_by_degree = std::move(choice.unmet_by_degree);
+  statistics.finer_lines = std::move(choice.finer_lines);
+}
+
+template StepTolerance<double> choose_step_tolerance(const FlowProblem<double>&,
+                                                     const GaussSettings&);
+template StepTolerance<Extended> choose_step_tolerance(const FlowProblem<Extended>&,
+                                                       const GaussSettings&);
+template void record_choice(StepTolerance<double>, IntegrationStatistics&);
+template void record_choice(StepTolerance<Extended>, IntegrationStatistics&);
 template GaussSettings finer_gauss<double>(const GaussSettings&, double);
 template GaussSettings finer_gauss<Extended>(const GaussSettings&, double);
 

@@ -7,11 +7,18 @@
 namespace hamjet {
 
 /// The local tolerance of an adaptive Gauss integration.
+template <class Real>
 struct StepTolerance {
   double tolerance = 0;  ///< for GaussStepControl
   /// By degree, the relative error that shorter steps do not take away, for it is rounding; empty
   /// where every degree meets the tolerance asked for.
   std::vector<double> rounding_by_degree;
+  /// By degree, the relative error of the last trial if none met the tolerance; empty otherwise.
+  std::vector<double> unmet_by_degree;
+  /// The lines of the last trial's finer steps; empty where nothing was tried.
+  std::vector<JetAlongLine<Real>> finer_lines;
+  /// The same lines with the steps of `tolerance`; empty where the last trial had another.
+  std::vector<FlowJet<Real>> lines;
 };
 
 /// The largest local tolerance, at most that of the settings, with which the error of every degree
@@ -33,8 +40,12 @@ struct StepTolerance {
 /// Settings of fixed steps, and jets of order 0 in a field without short waves, need none: the
 /// settings' tolerance is returned, or 0. Throws what integrate_gauss throws.
 template <class Real>
-StepTolerance choose_step_tolerance(const FlowProblem<Real>& problem,
-                                    const GaussSettings& settings);
+StepTolerance<Real> choose_step_tolerance(const FlowProblem<Real>& problem,
+                                          const GaussSettings& settings);
+
+/// Adds what the choice has found to the statistics of the integration that it was made for.
+template <class Real>
+void record_choice(StepTolerance<Real> choice, IntegrationStatistics& statistics);
 
 /// Settings for an integration that shares neither order nor steps with one of the given settings,
 /// with a local error a thousand times smaller.
