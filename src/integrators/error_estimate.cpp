@@ -180,6 +180,18 @@ void validate_jet(const FlowProblem<Real>& problem, const FlowJet<Real>& jet) {
 }
 
 template <class Real>
+void validate_lines(const FlowProblem<Real>& problem,
+                    const std::vector<JetAlongLine<Real>>& known) {
+  const auto order = static_cast<std::size_t>(problem.space->order());
+  for (const JetAlongLine<Real>& line : known) {
+    bool fits = line.direction.size() == problem.variables.size() &&
+                line.jet.size() == problem.system->dimension();
+    for (const Series<Real>& component : line.jet) fits = fits && component.size() == order + 1;
+    if (!fits) throw Error(ErrorKind::usage, "error estimate: a known line is of another problem");
+  }
+}
+
+template <class Real>
 FlowJet<Real> run_along(const FlowProblem<Real>& problem, const std::vector<Real>& direction,
                         std::size_t number, const ErrorEstimateSettings& settings) {
   GaussSettings gauss;
@@ -221,6 +233,7 @@ std::vector<double> estimate_error(const FlowProblem<Real>& problem, const FlowJ
                                    const std::vector<JetAlongLine<Real>>& known) {
   validate(problem);
   validate_jet(problem, delivered);
+  validate_lines(problem, known);
   const auto degrees = static_cast<std::size_t>(problem.space->order()) + 1;
   std::vector<double> result(degrees, 0);
   if (problem.duration == 0) return result;

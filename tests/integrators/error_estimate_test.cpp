@@ -176,6 +176,10 @@ TEST(ErrorEstimate, ErrorsAreNamed) {
   other.pop_back();
   expect_error(ErrorKind::usage, "another number of components",
                [&] { estimate_error<double>(orbit.problem, other); });
+  KnownLines known(orbit);
+  known.lines[0].direction.pop_back();
+  expect_error(ErrorKind::usage, "a known line is of another problem",
+               [&] { estimate_error<double>(orbit.problem, known.jet, {}, known.lines); });
 }
 
 }  // namespace

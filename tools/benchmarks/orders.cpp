@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <variant>
+#include <vector>
+
 #include "cases.hpp"
 #include "dynamics/operation_count.hpp"
 #include "hamjet/integrators/error_estimate.hpp"
@@ -21,11 +24,12 @@ void benchmark_orders() {
     settings.tolerance = 1e-12;
     IntegrationStatistics statistics;
     const FlowJet<double> jet = integrate_gauss<double>(problem, settings, statistics);
+    const auto& lines = std::get<std::vector<JetAlongLine<double>>>(statistics.finer_lines);
     const auto times = median_seconds({[&] {
                                          IntegrationStatistics s;
                                          integrate_gauss<double>(problem, settings, s);
                                        },
-                                       [&] { estimate_error<double>(problem, jet); }},
+                                       [&] { estimate_error<double>(problem, jet, {}, lines); }},
                                       order < 6 ? 21 : 5);
     const double time = times[0];
     // Products of series, and the linear solves and linear parts: m (m s + 2n) and, over the list's

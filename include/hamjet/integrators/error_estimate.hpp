@@ -56,8 +56,8 @@ struct ErrorEstimateSettings {
 /// measure this over hundreds of random scenes.
 ///
 /// Returns zeros for a duration of zero, where the jet is exact. Throws Error(usage) if the jet
-/// does not fit the problem, Error(numerical) if the independent run fails, Error(too_large) if it
-/// would take too many steps.
+/// or a known line does not fit the problem, Error(numerical) if the independent run fails,
+/// Error(too_large) if it would take too many steps.
 template <class Real>
 std::vector<double> estimate_error(const FlowProblem<Real>& problem, const FlowJet<Real>& jet,
                                    const ErrorEstimateSettings& settings = {},
