@@ -92,6 +92,14 @@ void check_step_error(SelfCheck& check, const RunResult& run) {
     check.text =
         fmt::format("the largest local error estimate of a step is {:.2g} of the tolerance",
                     value / *tolerance);
+    const std::vector<double>& unmet = run.statistics.unmet_by_degree;
+    if (!unmet.empty()) {
+      const auto worst = std::max_element(unmet.begin(), unmet.end());
+      check.text += fmt::format(
+          "; warning: no step size that was tried kept every degree to the tolerance, the last one "
+          "left an error of {:.2g} at degree {}",
+          *worst, worst - unmet.begin());
+    }
   } else if (is_good) {
     check.text = fmt::format("the largest local error estimate of a step is {:.2g}", value);
   } else {
