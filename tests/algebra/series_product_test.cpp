@@ -19,15 +19,14 @@ using test::Coefficient;
 using test::RandomNumbers;
 
 /// The product by definition: every pair of monomials, added to the monomial of the summed
-/// exponents; `lowest` and `constants` leave terms out.
+/// exponents.
 template <class T>
-Series<T> product_by_definition(const Series<T>& a, const Series<T>& b, int lowest = 0) {
+Series<T> product_by_definition(const Series<T>& a, const Series<T>& b) {
   const SeriesSpace& space = a.space();
   Series<T> c(a.space_pointer());
   std::vector<std::uint8_t> exponents(space.variables());
   for (std::size_t i = 0; i < space.size(); ++i) {
     for (std::size_t j = 0; j < space.first(space.order() - space.degree(i) + 1); ++j) {
-      if (space.degree(i) < lowest) continue;
       for (std::size_t v = 0; v < exponents.size(); ++v) {
         exponents[v] = static_cast<std::uint8_t>(space.exponents(i)[v] + space.exponents(j)[v]);
       }
@@ -121,33 +120,6 @@ TYPED_TEST(SeriesProduct, InteriorProductLeavesConstantTermsAndOtherSlicesAlone)
     interior_square(*space, d, in_place.coefficients().data(), in_place.coefficients().data());
     expect_equal(in_place, expected, "interior square");
   }
-}
-
-template <class T>
-void check_product_from() {
-  RandomNumbers random(4);
-  for (const Shape& shape : {Shape{1, 7}, Shape{2, 6}, Shape{3, 8}, Shape{6, 5}}) {
-    const auto space = SeriesSpace::create(shape.variables, shape.order);
-    auto b = test::random_integer_series<T>(space, random);
-    b[0] = T(0);
-    for (int lowest = 1; lowest <= shape.order; ++lowest) {
-      auto a = test::random_integer_series<T>(space, random);
-      const auto expected = product_by_definition(a, b, lowest);
-      Series<T> c(space);
-      for (int d = 2; d <= shape.order; ++d) {
-        interior_product_from(*space, d, lowest, a.coefficients().data(), b.coefficients().data(),
-                              c.coefficients().data());
-        for (std::size_t k = space->first(d); k < space->first(d + 1); ++k) {
-          ASSERT_EQ(c[k], expected[k]) << "degree " << d << " from " << lowest;
-        }
-      }
-    }
-  }
-}
-
-TEST(InteriorProductFrom, SkipsTheTermsBelowTheLowestDegree) {
-  check_product_from<double>();
-  check_product_from<Extended>();
 }
 
 TEST(SeriesOfTwoSpaces, LiveSideBySideAndRefuseToMix) {

@@ -129,12 +129,10 @@ void form_block(const ProductSchedule::Output& output, const ProductSchedule::Pa
   }
 }
 
-/// Forms one block of a product or square whose degree is too large for the registers. Only pairs
-/// whose factor from `a` lies at or behind `first` count.
+/// Forms one block of a product or square whose degree is too large for the registers.
 template <bool Square, class T>
 void form_large_block(const ProductSchedule::Output& output, const ProductSchedule::Pair* pairs,
-                      const std::uint32_t* run_ends, std::size_t first, const T* a, const T* b,
-                      T* c) {
+                      const std::uint32_t* run_ends, const T* a, const T* b, T* c) {
   using Vector = typename Parts<T>::Vector;
   const std::size_t m = output.block_degree;
   std::vector<Vector> sums(block_size(m));
@@ -144,14 +142,14 @@ void form_large_block(const ProductSchedule::Output& output, const ProductSchedu
     for (std::size_t m_x = 0; 2 * m_x <= m; ++m_x) {
       for (const std::size_t end = run_ends[output.first_run + m_x]; pair < end; ++pair) {
         const auto [x, y] = pairs[pair];
-        if (x >= first) multiply_blocks(sums.data(), a + x, b + y, m_x, m - m_x, part);
-        if (!Square && y >= first) multiply_blocks(sums.data(), b + x, a + y, m_x, m - m_x, part);
+        multiply_blocks(sums.data(), a + x, b + y, m_x, m - m_x, part);
+        if (!Square) multiply_blocks(sums.data(), b + x, a + y, m_x, m - m_x, part);
       }
     }
     if constexpr (Square) {
       for (auto& sum : sums) sum += sum;
     }
-    if (output.diagonal != ProductSchedule::no_diagonal && output.diagonal >= first) {
+    if (output.diagonal != ProductSchedule::no_diagonal) {
       multiply_blocks(sums.data(), a + output.diagonal, b + output.diagonal, m / 2, m / 2, part);
     }
     for (std::size_t i = 0; i < sums.size(); ++i)
@@ -193,7 +191,7 @@ void form_unrolled_blocks(const ProductSchedule::Output* output, const ProductSc
         run(std::integral_constant<std::size_t, largest_unrolled_block>{});
         break;
       default:
-        form_large_block<Square>(*output, pairs, run_ends, 0, a, b, c);
+        form_large_block<Square>(*output, pairs, run_ends, a, b, c);
         ++output;
     }
   }
@@ -215,7 +213,7 @@ void form_slice(const ProductSchedule& schedule, const T* a, const T* b, T* c) {
   const std::uint32_t* const run_ends = schedule.run_ends.data();
   if constexpr (!is_machine_vector<typename Parts<T>::Vector>) {
     for (; output != end; ++output) {
-      form_large_block<Square>(*output, pairs, run_ends, 0, a, b, c);
+      form_large_block<Square>(*output, pairs, run_ends, a, b, c);
     }
   } else {
     form_unrolled_blocks<Square>(output, end, pairs, run_ends, a, b, c);
@@ -239,18 +237,6 @@ template <class T>
 void interior_square(const SeriesSpace& space, int d, const T* a, T* c) {
   if (space.variables() == 1 && d >= 2) return detail::form_univariate(d, a, a, c);
   detail::form_slice<true>(space.products(d), a, a, c);
-}
-
-/// c_d = sum over lowest <= i <= d-1 of a_i b_(d-i): the interior product where `a` is known to
-/// have no terms below degree `lowest`, at the cost of the terms that are left.
-template <class T>
-void interior_product_from(const SeriesSpace& space, int d, int lowest, const T* a, const T* b,
-                           T* c) {
-  const ProductSchedule& s = space.products(d);
-  for (const ProductSchedule::Output& output : s.outputs) {
-    detail::form_large_block<false>(output, s.pairs.data(), s.run_ends.data(), space.first(lowest),
-                                    a, b, c);
-  }
 }
 
 }  // namespace hamjet
