@@ -99,7 +99,7 @@ void check_flow_jet(const RunOptions& options, const std::string& file, const Sc
       "  memory       about {:.0f} MB\n",
       scene.duration, scene.duration * scene.units.time_s, scene.order, scene.variables.size(),
       problem.space->size(), components,
-      estimate_memory(scene, problem.system, scene.variables.size(), threads) / 1e6);
+      estimate_memory(scene, *problem.system, scene.variables.size(), threads) / 1e6);
   for (const IntegratorSettings& settings : scene.integrators) {
     text += fmt::format("  integrator   {}: {}", settings.label, method_name(settings.method));
     for (const MethodSetting& setting : description_of(settings.method).settings) {

@@ -76,7 +76,7 @@ template <class Real>
 FlowProblem<Real> nominal_problem(const FlowProblem<Real>& problem) {
   FlowProblem<Real> result = problem;
   result.space = SeriesSpace::create(problem.space->variables(), 0);
-  result.initial_jet = nullptr;
+  result.initial_jet.reset();
   return result;
 }
 
@@ -85,7 +85,7 @@ template <class Real>
 FlowProblem<Real> arc_problem(const FlowProblem<Real>& whole, const std::vector<Real>& state,
                               const SpacePointer& space, const std::vector<std::size_t>& variables,
                               const FlowJet<Real>& start) {
-  return {whole.system, space, variables, state, whole.duration, &start};
+  return {whole.system, space, variables, state, whole.duration, start};
 }
 
 }  // namespace hamjet

@@ -66,7 +66,7 @@ typename DirectionalFlow<Real>::Lines DirectionalFlow<Real>::integrate(
     FlowProblem<Real> line = problem_;
     line.space = line_space_;
     line.variables = {0};  // stands for s; the initial jet says what s moves
-    line.initial_jet = &start;
+    line.initial_jet = start;
     result.push_back(integrate(line));
   }
   return result;

@@ -85,7 +85,7 @@ void validate(const EnergyConservingProblem<Real>& problem) {
   const auto fail = [](const char* what) {
     throw Error(ErrorKind::usage, fmt::format("energy-conserving integration: {}", what));
   };
-  if (problem.system == nullptr) fail("no system");
+  if (!problem.system) fail("no system");
   if (problem.initial_state.size() != problem.system->dimension()) {
     fail("the initial state has not as many numbers as the system");
   }

@@ -205,8 +205,8 @@ FlowJet<Real> run_along(const FlowProblem<Real>& problem, const std::vector<Real
     if (problem.variables[v] >= n) entries[v] *= Real(std::ldexp(1.0, settings.momentum_exponent));
   }
   const FlowJet<Real> start = restrict_to_line(starting_jet(problem), entries, line);
-  const FlowProblem<Real> along{problem.system,   line,  {0}, problem.initial_state,
-                                problem.duration, &start};
+  const FlowProblem<Real> along{problem.system,   line, {0}, problem.initial_state,
+                                problem.duration, start};
   IntegrationStatistics statistics;
   long steps = 0;
   FlowJet<Real> end =

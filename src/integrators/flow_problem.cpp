@@ -9,7 +9,7 @@ namespace hamjet {
 
 template <class Real>
 void validate(const FlowProblem<Real>& problem) {
-  if (problem.system == nullptr || problem.space == nullptr) {
+  if (!problem.system || problem.space == nullptr) {
     throw Error(ErrorKind::usage, "flow problem: no system or no series space");
   }
   const std::size_t dimension = problem.system->dimension();
@@ -29,7 +29,7 @@ void validate(const FlowProblem<Real>& problem) {
       throw Error(ErrorKind::numerical, "flow problem: the initial state is not finite");
     }
   }
-  if (problem.initial_jet != nullptr) {
+  if (problem.initial_jet) {
     if (problem.initial_jet->size() != dimension) {
       throw Error(ErrorKind::usage,
                   "flow problem: the initial jet has another number of components");

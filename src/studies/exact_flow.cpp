@@ -10,18 +10,12 @@ std::vector<double> nominal_of(const FlowJet<double>& jet) {
   return state;
 }
 
-FlowProblem<double> trajectory_problem(const DynamicalSystem& system,
-                                       const std::vector<double>& start, double duration) {
-  FlowProblem<double> problem;
-  problem.system = &system;
-  problem.space = SeriesSpace::create(1, 0);
-  problem.variables = {0};
-  problem.initial_state = start;
-  problem.duration = duration;
-  return problem;
+FlowProblem<double> trajectory_problem(const SharedSystem& system, const std::vector<double>& start,
+                                       double duration) {
+  return {system, SeriesSpace::create(1, 0), {0}, start, duration};
 }
 
-std::vector<double> exact_flow(const DynamicalSystem& system, const std::vector<double>& start,
+std::vector<double> exact_flow(const SharedSystem& system, const std::vector<double>& start,
                                double duration) {
   GaussSettings settings;
   settings.tolerance = 1e-13;

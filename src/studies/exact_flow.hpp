@@ -10,12 +10,12 @@ namespace hamjet {
 std::vector<double> nominal_of(const FlowJet<double>& jet);
 
 /// A flow problem for the trajectory alone: series of order 0.
-FlowProblem<double> trajectory_problem(const DynamicalSystem& system,
-                                       const std::vector<double>& start, double duration);
+FlowProblem<double> trajectory_problem(const SharedSystem& system, const std::vector<double>& start,
+                                       double duration);
 
 /// The final state of the flow with the full equations of motion, to the precision of double.
 /// Throws as integrate_gauss.
-std::vector<double> exact_flow(const DynamicalSystem& system, const std::vector<double>& start,
+std::vector<double> exact_flow(const SharedSystem& system, const std::vector<double>& start,
                                double duration);
 
 }  // namespace hamjet

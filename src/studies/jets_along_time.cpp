@@ -11,21 +11,20 @@ IntegrationStatistics visit_jets(
     const std::function<void(std::size_t index, const FlowJet<double>& jet)>& visit) {
   IntegrationStatistics total;
   FlowProblem<double> flow = flow_problem<double>(problem, 0);
-  FlowJet<double> jet = starting_jet(flow);
-  flow.initial_jet = &jet;
+  flow.initial_jet = starting_jet(flow);
   double reached = 0;
   for (std::size_t i = 0; i < times.size(); ++i) {
     flow.duration = times[i] - reached;
-    flow.initial_state = nominal_of(jet);
+    flow.initial_state = nominal_of(*flow.initial_jet);
     IntegrationStatistics statistics;
-    jet = integrate<double>(flow, settings, statistics, {});
+    flow.initial_jet = integrate<double>(flow, settings, statistics, {});
     total.steps += statistics.steps;
     total.rejected_steps += statistics.rejected_steps;
     total.vector_field_evaluations += statistics.vector_field_evaluations;
     total.nominal_evaluations += statistics.nominal_evaluations;
     total.wall_seconds += statistics.wall_seconds;
     reached = times[i];
-    visit(i, jet);
+    visit(i, *flow.initial_jet);
   }
   return total;
 }

@@ -46,11 +46,11 @@ FlowJet<double> precise_jet(const FlowProblem<double>& flow) {
   return integrate_gauss<double>(flow, adaptive, statistics);
 }
 
-LinearArc linear_arc(const DynamicalSystem& system, const SpacePointer& space,
+LinearArc linear_arc(const SharedSystem& system, const SpacePointer& space,
                      const std::vector<double>& start, double duration) {
   std::vector<std::size_t> variables(start.size());
   std::iota(variables.begin(), variables.end(), std::size_t{0});
-  const FlowProblem<double> flow{&system, space, variables, start, duration};
+  const FlowProblem<double> flow{system, space, variables, start, duration};
   const FlowJet<double> jet = precise_jet(flow);
   return {nominal_of(jet), linear_part(jet)};
 }
@@ -59,9 +59,9 @@ LinearArc linear_arc(const DynamicalSystem& system, const SpacePointer& space,
 
 LinearFlow::LinearFlow(const ComputedProblem& problem, double duration, double per_revolution,
                        const std::function<void(double)>& progress)
-    : problem_(&problem), space_(SeriesSpace::create(problem.system.dimension(), 1)) {
+    : problem_(&problem), space_(SeriesSpace::create(problem.system->dimension(), 1)) {
   constexpr std::size_t most_checkpoints = 100000;
-  const std::size_t dimension = problem.system.dimension();
+  const std::size_t dimension = problem.system->dimension();
   if (problem.variables.size() != dimension || !(per_revolution > 0)) {
     throw Error(ErrorKind::usage,
                 "linear flow: a map of phase space and a number of checkpoints are needed");
@@ -98,7 +98,7 @@ double LinearFlow::checkpoint_distance(const std::vector<double>& state,
   for (std::size_t i = 0; i < state.size(); ++i) {
     z.push_back(Series<double>::variable(space_, i, state[i]));
   }
-  const auto slope = evaluate_on_series(problem_->system.vector_field, z);
+  const auto slope = evaluate_on_series(problem_->system->vector_field, z);
   const double rate = linear_part(slope).eigenvalues().cwiseAbs().maxCoeff();
   return 2 * std::numbers::sqrt2 * std::numbers::pi / (rate * per_revolution);
 }

@@ -21,7 +21,7 @@ class NominalRecorder {
  public:
   NominalRecorder(const ComputedProblem& problem, std::size_t dimension,
                   bool finds_lowest_point = false)
-      : problem_(problem), dimension_(dimension), energy_(problem.system, problem.nominal) {
+      : problem_(problem), dimension_(dimension), energy_(*problem.system, problem.nominal) {
     if (finds_lowest_point) lowest_point_.emplace(problem);
     result_.initial = static_cast<double>(energy_.initial());
     record(0, extended(problem.nominal));

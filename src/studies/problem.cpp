@@ -144,7 +144,7 @@ ComputedProblem make_problem(const Scene& scene, double memory_limit, std::size_
         static_cast<std::size_t>(std::distance(problem.components.begin(), place)));
   }
   problem.is_full_jet = problem.variables.size() == problem.components.size();
-  const double needed = estimate_memory(scene, problem.system, scene.variables.size(), threads);
+  const double needed = estimate_memory(scene, *problem.system, scene.variables.size(), threads);
   if (needed > memory_limit) {
     throw Error(
         ErrorKind::too_large,

@@ -114,7 +114,7 @@ void add_relative_hamiltonians(PropagationResult& result,
       problem, times, scene.precision == Precision::extended ? 1e-28 : 1e-20,
       [&](std::size_t k, const std::vector<Extended>& state) {
         result.relative_hamiltonians.push_back(
-            {times[k], relative_hamiltonian<Extended>(problem.system, state, scene.order)});
+            {times[k], relative_hamiltonian<Extended>(*problem.system, state, scene.order)});
       },
       [&](double time) { progress(time / scene.duration); });
 }

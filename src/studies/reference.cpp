@@ -22,7 +22,7 @@ ReferenceResult truncated_reference(const ReferenceResult& reference, const Spac
 ReferenceResult compute_reference(const ComputedProblem& problem, double duration,
                                   const ReferenceSettings& settings,
                                   const std::function<void(double)>& keep_going) {
-  FlowProblem<Extended> flow{&problem.system, problem.space, problem.variables, {}, duration};
+  FlowProblem<Extended> flow{problem.system, problem.space, problem.variables, {}, duration};
   for (const double x : problem.nominal) flow.initial_state.emplace_back(x);
   std::atomic<bool> stop = false;
   const auto run = [&](int stages, double tolerance, IntegrationStatistics& statistics,

@@ -60,7 +60,7 @@ void add_dynamics(const PropagationResult& result, std::vector<SkippedWork>& ski
     skipped.push_back(
         {fmt::format("variables {}", fmt::join(fixed, ", ")), "the scene does not expand in them"});
   }
-  const int degrees = working_order(problem.system, scene.order);
+  const int degrees = working_order(*problem.system, scene.order);
   if (degrees < scene.order) {
     skipped.push_back({fmt::format("degrees {} to {}", degrees + 1, scene.order),
                        "the system is linear: its flow has none"});

@@ -272,7 +272,7 @@ TEST(ArcSplitting, GoesOnFromAJet) {
   auto problem = test::problem_of(flow);
   const FlowJet<double> earlier = unsplit(problem, adaptive());
   problem.initial_state = test::final_state(earlier);
-  problem.initial_jet = &earlier;
+  problem.initial_jet = earlier;
   EXPECT_LE(worst_difference(split(problem, adaptive(), 3, 2), unsplit(problem, adaptive())),
             1e-12);
 }

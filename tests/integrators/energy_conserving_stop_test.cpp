@@ -35,7 +35,7 @@ TEST(EnergyConservingStops, MidpointWhereGChangesSign) {
     double distance_before = 1;
     for (const double step : {0.01, 0.001, 0.0001}) {
       const auto run = run_energy_conserving<double>(
-          {&system, Method::midpoint, kepler_state(e, 0), step, kepler_period(e)});
+          {system, Method::midpoint, kepler_state(e, 0), step, kepler_period(e)});
       ASSERT_TRUE(run.result.stop);
       const EnergyConservingStop& stop = *run.result.stop;
       EXPECT_EQ(stop.cause, Cause::no_root);
@@ -63,12 +63,12 @@ TEST(EnergyConservingStops, MidpointRunsBelowTheLimitingEccentricity) {
   const DynamicalSystem system = kepler();
   for (const double e : {0.3, 0.6, 0.75, 0.785}) {
     EXPECT_FALSE(integrate_energy_conserving<double>(
-                     {&system, Method::midpoint, kepler_state(e, 0), 0.01, 3 * kepler_period(e)})
+                     {system, Method::midpoint, kepler_state(e, 0), 0.01, 3 * kepler_period(e)})
                      .stop)
         << e;
   }
   EXPECT_TRUE(integrate_energy_conserving<double>(
-                  {&system, Method::midpoint, kepler_state(0.796, 0), 0.01, kepler_period(0.796)})
+                  {system, Method::midpoint, kepler_state(0.796, 0), 0.01, kepler_period(0.796)})
                   .stop);
 }
 
@@ -79,11 +79,11 @@ TEST(EnergyConservingStops, MidpointCompletesTheOrbitOfThePaper) {
   const auto& orbit = test::paper_orbit();
   const DynamicalSystem system = zonal_gravity(orbit.field);
   const auto run =
-      run_energy_conserving<double>({&system, Method::midpoint, orbit.start, 0.01, orbit.duration});
+      run_energy_conserving<double>({system, Method::midpoint, orbit.start, 0.01, orbit.duration});
   EXPECT_FALSE(run.result.stop);
   for (const auto& step : run.steps) EXPECT_GT(step.condition, 0);
   const auto stormer =
-      run_energy_conserving<double>({&system, Method::stormer, orbit.start, 0.01, orbit.duration});
+      run_energy_conserving<double>({system, Method::stormer, orbit.start, 0.01, orbit.duration});
   ASSERT_TRUE(stormer.result.stop);
   EXPECT_EQ(stormer.result.stop->step, 1);  // it starts at perigee, a minimum of V
   EXPECT_EQ(stormer.result.stop->cause, Cause::reversed_root);
@@ -102,7 +102,7 @@ TEST(EnergyConservingStops, MidpointInTheDoubleWell) {
     const std::vector<double> start =
         is_outside ? std::vector<double>{1, 0.05} : std::vector<double>{0.1, 0.2};
     ASSERT_EQ(G(start[0], start[1]) > 0, is_outside);
-    const auto run = run_energy_conserving<double>({&system, Method::midpoint, start, 0.001, 50});
+    const auto run = run_energy_conserving<double>({system, Method::midpoint, start, 0.001, 50});
     ASSERT_TRUE(run.result.stop);
     EXPECT_EQ(run.result.stop->cause, Cause::no_root);
     EXPECT_GT(run.result.steps, 500);
@@ -115,7 +115,7 @@ TEST(EnergyConservingStops, MidpointInTheDoubleWell) {
   }
   // Below the barrier the oscillation goes on.
   EXPECT_FALSE(
-      integrate_energy_conserving<double>({&system, Method::midpoint, {0.99, 0}, 0.01, 50}).stop);
+      integrate_energy_conserving<double>({system, Method::midpoint, {0.99, 0}, 0.01, 50}).stop);
 }
 
 // Expected: the inequality (p.g)^2 < 2 g^2 (V(q_k) - V(q_(k-1))), evaluated here from the states,
@@ -125,7 +125,7 @@ TEST(EnergyConservingStops, StormerBeforeApogee) {
   const DynamicalSystem system = kepler();
   for (const double e : {0.3, 0.6}) {
     const auto run = run_energy_conserving<double>(
-        {&system, Method::stormer, kepler_state(e, 0.5), 0.0002, kepler_period(e)});
+        {system, Method::stormer, kepler_state(e, 0.5), 0.0002, kepler_period(e)});
     ASSERT_TRUE(run.result.stop);
     const EnergyConservingStop& stop = *run.result.stop;
     EXPECT_EQ(stop.cause, Cause::no_root);
@@ -154,7 +154,7 @@ TEST(EnergyConservingStops, StormerBeforeApogee) {
 TEST(EnergyConservingStops, StormerAtPerigee) {
   const DynamicalSystem system = kepler();
   const auto run =
-      run_energy_conserving<double>({&system, Method::stormer, kepler_state(1.5, -0.5), 0.001, 10});
+      run_energy_conserving<double>({system, Method::stormer, kepler_state(1.5, -0.5), 0.001, 10});
   ASSERT_TRUE(run.result.stop);
   EXPECT_EQ(run.result.stop->cause, Cause::reversed_root);
   EXPECT_GT(run.result.stop->condition, 0);
@@ -175,14 +175,14 @@ TEST(EnergyConservingStops, OtherCauses) {
     expect_message(*result.stop, {});
     return result.stop->cause;
   };
-  EXPECT_EQ(cause_of({&well, Method::stormer, {0, 0.01}, 0.02, 1}), Cause::step_change);
-  EXPECT_EQ(cause_of({&well, Method::midpoint, {0.95, 0.1}, 1e-7, 1}), Cause::undetermined_step);
-  EXPECT_EQ(cause_of({&orbit, Method::midpoint, kepler_state(0.3, 0), 100, 1000}),
+  EXPECT_EQ(cause_of({well, Method::stormer, {0, 0.01}, 0.02, 1}), Cause::step_change);
+  EXPECT_EQ(cause_of({well, Method::midpoint, {0.95, 0.1}, 1e-7, 1}), Cause::undetermined_step);
+  EXPECT_EQ(cause_of({orbit, Method::midpoint, kepler_state(0.3, 0), 100, 1000}),
             Cause::no_midpoint);
-  EXPECT_EQ(cause_of({&orbit, Method::stormer, {0, 0, 0, 0, 1, 0}, 0.1, 1}), Cause::not_finite);
+  EXPECT_EQ(cause_of({orbit, Method::stormer, {0, 0, 0, 0, 1, 0}, 0.1, 1}), Cause::not_finite);
   // A particle at rest in equilibrium has no energy to fix the step size by.
-  EXPECT_EQ(cause_of({&well, Method::stormer, {0, 0}, 0.1, 1}), Cause::undetermined_step);
-  EXPECT_EQ(cause_of({&well, Method::midpoint, {0, 0}, 0.1, 1}), Cause::undetermined_step);
+  EXPECT_EQ(cause_of({well, Method::stormer, {0, 0}, 0.1, 1}), Cause::undetermined_step);
+  EXPECT_EQ(cause_of({well, Method::midpoint, {0, 0}, 0.1, 1}), Cause::undetermined_step);
 }
 
 }  // namespace

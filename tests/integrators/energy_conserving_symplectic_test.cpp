@@ -108,16 +108,15 @@ DynamicalSystem coupled_momenta() {
 // the first steps of the neighbours have the same discrete energy; not where they have the same
 // size, but then dq ^ dp - dt ^ dE is preserved (lemmas after eqs. `m_h_stormer`, `m_h_midpoint`).
 TEST(EnergyConservingSymplectic, AtOneEnergyAndNoOther) {
-  const DynamicalSystem masses = test::coupled_masses();
-  const DynamicalSystem momenta = coupled_momenta();
+  const SharedSystem masses = test::coupled_masses();
   const struct {
-    const DynamicalSystem* system;
+    SharedSystem system;
     Method method;
     Vector start;
   } cases[] = {
-      {&masses, Method::stormer, {0.9, 0.6, 3, 2}},
-      {&masses, Method::midpoint, {0.9, 0.6, 3, 2}},
-      {&momenta, Method::midpoint, {0.4, -0.7, 0.5, 0.3}},
+      {masses, Method::stormer, {0.9, 0.6, 3, 2}},
+      {masses, Method::midpoint, {0.9, 0.6, 3, 2}},
+      {coupled_momenta(), Method::midpoint, {0.4, -0.7, 0.5, 0.3}},
   };
   for (const auto& c : cases) {
     SCOPED_TRACE(c.system->name + " " +
@@ -151,7 +150,7 @@ TEST(EnergyConservingSymplectic, OnTheOscillatorTheDoubleWellKeplerAndTheEarthOr
     for (const Method method : {Method::stormer, Method::midpoint}) {
       SCOPED_TRACE(systems[k].name + " " +
                    std::string(energy_conserving_method_names()[static_cast<std::size_t>(method)]));
-      const EnergyConservingProblem<Extended> problem{&systems[k], method, starts[k],
+      const EnergyConservingProblem<Extended> problem{systems[k], method, starts[k],
                                                       Extended(0.03125), 1};
       const Tangent own_energies = tangent(problem, false);
       EXPECT_LT(defect(tangent(problem, true), false), 1e-15);
@@ -170,7 +169,7 @@ constexpr double stiffness = 0.7;
 
 test::EnergyConservingRun<double> oscillator_run(Method method) {
   static const DynamicalSystem system = harmonic_oscillator(mass, stiffness);
-  return test::take_steps<double>({&system, method, {1.2, -0.9}, 0.02, 0}, 20);
+  return test::take_steps<double>({system, method, {1.2, -0.9}, 0.02, 0}, 20);
 }
 
 /// e_(k+1) = -(M (dq/dt)^2 / 2 + V(q_k)) of a step, from positions and times alone.
@@ -223,7 +222,7 @@ TEST(EnergyConservingErrata, StormerHamiltonianKeepsTheMass) {
 // printed.
 TEST(EnergyConservingErrata, MidpointMomentumHasNoFactor) {
   static const DynamicalSystem system = double_well();
-  const auto run = test::take_steps<double>({&system, Method::midpoint, {0.95, 0.1}, 0.05, 0}, 20);
+  const auto run = test::take_steps<double>({system, Method::midpoint, {0.95, 0.1}, 0.05, 0}, 20);
   ASSERT_EQ(run.steps.size(), 20U);
   const double tau = run.steps.front().size;
   double largest_factor = 1;

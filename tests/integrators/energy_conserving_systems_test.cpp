@@ -94,7 +94,7 @@ class EnergyConservingSystems : public ::testing::TestWithParam<Case> {
  protected:
   EnergyConservingProblem<Extended> extended_problem(double first_step) const {
     const Case& one = GetParam();
-    return {&one.system, one.method, widened(one.start), Extended(first_step), one.duration};
+    return {one.system, one.method, widened(one.start), Extended(first_step), one.duration};
   }
   std::vector<double> first_steps() const {
     const double largest = GetParam().first_step;
@@ -110,7 +110,7 @@ TEST_P(EnergyConservingSystems, Energy) {
   const bool is_endless =
       one.method == Method::midpoint && one.name != "MidpointDoubleWellAboveBarrier";
   const auto run = run_energy_conserving<double>(
-      {&one.system, one.method, one.start, one.first_step, one.duration * (is_endless ? 20 : 1)});
+      {one.system, one.method, one.start, one.first_step, one.duration * (is_endless ? 20 : 1)});
   ASSERT_FALSE(run.result.stop) << run.result.stop->message;
   EXPECT_GT(run.steps.size(), is_endless ? 1500U : 60U);
   Extended first = 0;
@@ -209,7 +209,7 @@ TEST(EnergyConservingOscillator, MidpointTurnsInEqualSteps) {
   const Extended h = Extended(1) / 16;
   const auto epsilon = static_cast<double>(std::numeric_limits<Extended>::epsilon());
   const auto start = widened({0.3, -0.8});
-  const auto run = take_steps<Extended>({&system, Method::midpoint, start, h, 0}, count);
+  const auto run = take_steps<Extended>({system, Method::midpoint, start, h, 0}, count);
   ASSERT_EQ(run.steps.size(), count);
   double size_error = 0;
   double state_error = 0;
@@ -258,7 +258,7 @@ TEST(EnergyConservingRefusals, StormerAtTheEndsOfItsSpans) {
     for (const double first_step : {0.002, 0.001, 0.0005, 0.00025}) {
       SCOPED_TRACE(one.name + fmt::format(" {}", first_step));
       const auto result = integrate_energy_conserving<double>(
-          {&one.system, one.method, one.start, first_step, one.duration});
+          {one.system, one.method, one.start, first_step, one.duration});
       expect_refusal(one, result);
       ASSERT_TRUE(result.stop && result.stop->steps_to_sign_change);
       const double place = *result.stop->steps_to_sign_change;
@@ -284,13 +284,13 @@ TEST(EnergyConservingRefusals, StormerOnTheOrbitOfThePaper) {
   const Case later{"later", earth(), Method::stormer, after_perigee(), 0, 10.7};
   for (const double first_step : {0.002, 0.001, 0.0005}) {
     const auto none = integrate_energy_conserving<double>(
-        {&from_perigee.system, Method::stormer, from_perigee.start, first_step, 10.7});
+        {from_perigee.system, Method::stormer, from_perigee.start, first_step, 10.7});
     expect_refusal(from_perigee, none);
     ASSERT_TRUE(none.stop);
     EXPECT_EQ(none.steps, 1);
     EXPECT_EQ(none.stop->cause, Cause::reversed_root);
     const auto part = integrate_energy_conserving<double>(
-        {&later.system, Method::stormer, later.start, first_step, 10.7});
+        {later.system, Method::stormer, later.start, first_step, 10.7});
     expect_refusal(later, part);
     ASSERT_TRUE(part.stop && part.stop->steps_to_sign_change);
     EXPECT_EQ(part.stop->cause, Cause::no_root);

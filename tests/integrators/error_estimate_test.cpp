@@ -23,7 +23,7 @@ namespace {
 struct Orbit {
   DynamicalSystem system = kepler();
   FlowProblem<double> problem{
-      &system, SeriesSpace::create(6, 3), {0, 1, 2, 3, 4, 5}, {1, 0, 0, 0, 0.9, 0.7}, 7};
+      system, SeriesSpace::create(6, 3), {0, 1, 2, 3, 4, 5}, {1, 0, 0, 0, 0.9, 0.7}, 7};
 
   FlowJet<double> jet(double tolerance = 1e-13) const {
     GaussSettings settings;
@@ -155,7 +155,7 @@ TEST(ErrorEstimate, IsZeroWhereTheJetIsExact) {
   }
   // The slices of a linear system vanish above degree 1.
   const DynamicalSystem oscillator = harmonic_oscillator();
-  const FlowProblem<double> linear{&oscillator, SeriesSpace::create(2, 3), {0, 1}, {1, 0}, 5};
+  const FlowProblem<double> linear{oscillator, SeriesSpace::create(2, 3), {0, 1}, {1, 0}, 5};
   GaussSettings settings;
   settings.tolerance = 1e-12;
   IntegrationStatistics statistics;

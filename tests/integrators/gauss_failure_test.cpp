@@ -143,7 +143,7 @@ TEST(Gauss, RefusesProblemsWhoseSizesDoNotFit) {
     test::expect_error(ErrorKind::usage, "flow problem",
                        [&] { integrate_gauss(problem, test::adaptive(), statistics); });
   };
-  refused([](auto& p) { p.system = nullptr; });
+  refused([](auto& p) { p.system = {}; });
   refused([](auto& p) { p.space = nullptr; });
   refused([](auto& p) { p.initial_state.pop_back(); });
   refused([](auto& p) { p.variables.pop_back(); });

@@ -18,7 +18,7 @@ namespace hamjet::test {
 template <class Real = double>
 FlowProblem<Real> orbit_problem(const DynamicalSystem& system, int order, double duration) {
   const std::vector<double>& start = paper_orbit().start;
-  return {&system,
+  return {system,
           SeriesSpace::create(6, order),
           {0, 1, 2, 3, 4, 5},
           {start.begin(), start.end()},
@@ -118,7 +118,7 @@ Convergence convergence(const Flow<Real>& flow, const FlowJet<Real>& expected,
 /// q and p of an oscillator of mass 2 and stiffness 0.5 (frequency 1/2), from q = 0.3, p = -0.7.
 template <class Real = double>
 FlowProblem<Real> oscillator_problem(const DynamicalSystem& system, double duration) {
-  return {&system, SeriesSpace::create(2, 3), {0, 1}, {Real(0.3), Real(-0.7)}, Real(duration)};
+  return {system, SeriesSpace::create(2, 3), {0, 1}, {Real(0.3), Real(-0.7)}, Real(duration)};
 }
 
 /// Of that oscillator, with m w = 1: q = q0 cos wt + p0 sin wt, p = p0 cos wt - q0 sin wt, and the

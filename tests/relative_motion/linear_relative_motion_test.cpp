@@ -21,7 +21,7 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 Matrix6 relative_flow(const std::vector<double>& start, double duration, const MetricUnits& units) {
   const DynamicalSystem system = kepler();
   FlowProblem<double> problem;
-  problem.system = &system;
+  problem.system = system;
   problem.space = SeriesSpace::create(6, 1);
   problem.variables = {0, 1, 2, 3, 4, 5};
   problem.initial_state = start;

@@ -97,7 +97,7 @@ TEST(RoundingSample, HoldsWhatHalfUlpStartsDo) {
   const ComputedProblem problem = make_problem(scene, available_memory());
   const RoundingFloor floor = floor_of(scene);
   const auto flow_from = [&](const std::vector<Extended>& start) {
-    FlowProblem<Extended> flow{&problem.system, problem.space, problem.variables, start,
+    FlowProblem<Extended> flow{problem.system, problem.space, problem.variables, start,
                                Extended(scene.duration)};
     GaussSettings gauss;
     gauss.stages = 16;

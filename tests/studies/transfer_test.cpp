@@ -281,7 +281,7 @@ TEST(Transfer, AnEarlierJetGivesTheSameAnswer) {
   const TransferResult computed = study_transfer(scene);
   const DynamicalSystem system = make_system(scene);
   const FlowProblem<double> flow{
-      &system, SeriesSpace::create(6, 3), {0, 1, 2, 3, 4, 5}, scene.nominal, 4.0};
+      system, SeriesSpace::create(6, 3), {0, 1, 2, 3, 4, 5}, scene.nominal, 4.0};
   GaussSettings settings;
   settings.tolerance = 1e-14;
   IntegrationStatistics statistics;

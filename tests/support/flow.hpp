@@ -37,7 +37,7 @@ Flow<Real> flow_of(const ReferenceOrbit& orbit, int order) {
 template <class Real>
 FlowProblem<Real> problem_of(const Flow<Real>& flow) {
   FlowProblem<Real> problem;
-  problem.system = &flow.system;
+  problem.system = flow.system;
   problem.variables = flow.variables;
   if (flow.variables.empty()) {
     problem.variables.resize(flow.system.dimension());

@@ -13,7 +13,7 @@ inline const ZonalGravity paper_field{
     1.0, 6378.137 / 7000, {{2, 1.082626675e-3}, {3, 2.532436e-6}}};
 inline constexpr double paper_duration = 31.41592653589793;
 
-/// A problem and the system that it points to.
+/// A problem with its system at hand.
 struct Case {
   DynamicalSystem system;
   SpacePointer space;
@@ -21,7 +21,7 @@ struct Case {
   std::vector<double> nominal;
   double duration = paper_duration;
 
-  FlowProblem<double> problem() const { return {&system, space, variables, nominal, duration}; }
+  FlowProblem<double> problem() const { return {system, space, variables, nominal, duration}; }
 };
 
 /// The paper's orbit with a field, an order, all six variables.

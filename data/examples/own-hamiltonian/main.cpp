@@ -38,12 +38,11 @@ constexpr double duration = 1.37;  // six days, half a revolution about L1
 /// The jet of the flow to an order; order 0 flies one trajectory.
 hamjet::FlowJet<double> fly(const hamjet::DynamicalSystem& system, std::vector<double> start,
                             int order) {
-  hamjet::FlowProblem<double> problem;
-  problem.system = &system;
-  problem.space = hamjet::SeriesSpace::create(6, order);
-  problem.variables = {0, 1, 2, 3, 4, 5};
-  problem.initial_state = std::move(start);
-  problem.duration = duration;
+  const hamjet::FlowProblem<double> problem{system,
+                                            hamjet::SeriesSpace::create(6, order),
+                                            {0, 1, 2, 3, 4, 5},
+                                            std::move(start),
+                                            duration};
   hamjet::IntegrationStatistics statistics;
   return hamjet::integrate_gauss<double>(problem, {.stages = 8, .tolerance = 1e-14}, statistics);
 }

@@ -2,9 +2,11 @@
 
 #include <concepts>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hamjet/detail/dynamics/expression.hpp"
@@ -36,6 +38,26 @@ struct DynamicalSystem {
   const OperationList& evaluated_list() const noexcept {
     return second_order ? second_order->force : vector_field;
   }
+};
+
+/// A system in shared ownership that cannot change: copies are cheap, refer to the same system, and
+/// keep it alive. It is made from a system by value, so that neither a local variable nor a
+/// temporary can be left behind.
+class SharedSystem {
+ public:
+  SharedSystem() = default;  ///< refers to no system
+  /// Implicit, so that a system can be given wherever a shared one is asked for; a copy unless it
+  /// is moved from.
+  // NOLINTNEXTLINE(google-explicit-constructor)
+  SharedSystem(DynamicalSystem system)
+      : system_(std::make_shared<const DynamicalSystem>(std::move(system))) {}
+
+  explicit operator bool() const noexcept { return system_ != nullptr; }
+  const DynamicalSystem& operator*() const noexcept { return *system_; }
+  const DynamicalSystem* operator->() const noexcept { return system_.get(); }
+
+ private:
+  std::shared_ptr<const DynamicalSystem> system_;
 };
 
 /// A Hamiltonian written as a template over its number type: `h(q, p)` with spans of n numbers.

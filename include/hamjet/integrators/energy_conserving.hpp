@@ -29,7 +29,7 @@ const std::vector<std::string_view>& energy_conserving_method_names();
 /// is double or Extended.
 template <class Real>
 struct EnergyConservingProblem {
-  const DynamicalSystem* system = nullptr;
+  SharedSystem system;
   EnergyConservingMethod method = EnergyConservingMethod::midpoint;
   std::vector<Real> initial_state;  ///< (q, p), 2n numbers
   /// Size of the first step, positive. Its discrete energy E is the one that all other steps

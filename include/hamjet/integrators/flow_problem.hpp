@@ -21,17 +21,18 @@ template <class Real>
 using FlowJet = std::vector<Series<Real>>;
 
 /// What every integrator is asked for: the Taylor expansion of the flow over a duration about one
-/// nominal trajectory. Real is double or Extended; all numbers are in the system's own units.
+/// nominal trajectory. Real is double or Extended; all numbers are in the system's own units. It
+/// owns or shares all that it names, so that it may be kept, copied and handed to threads.
 template <class Real>
 struct FlowProblem {
-  const DynamicalSystem* system = nullptr;
+  SharedSystem system;
   SpacePointer space;                  ///< as many variables as are expanded in
   std::vector<std::size_t> variables;  ///< index in z = (q, p) of each variable of the space
   std::vector<Real> initial_state;     ///< 2n numbers
   Real duration = 0;                   ///< negative: backwards; zero: the start, exactly
   /// The jet that an earlier integration reached, to go on from; its constant terms are
-  /// `initial_state`. Null: the identity.
-  const FlowJet<Real>* initial_jet = nullptr;
+  /// `initial_state`. None: the identity.
+  std::optional<FlowJet<Real>> initial_jet = {};
 };
 
 /// The flow's jet along a straight line of initial deviations, s times `direction`, which has an
@@ -95,7 +96,7 @@ using StepObserver = std::function<void(const Real& time, const FlowJet<Real>& j
 /// deviations themselves.
 template <class Real>
 FlowJet<Real> starting_jet(const FlowProblem<Real>& problem) {
-  if (problem.initial_jet != nullptr) return *problem.initial_jet;
+  if (problem.initial_jet) return *problem.initial_jet;
   FlowJet<Real> jet;
   for (const Real& value : problem.initial_state) jet.emplace_back(problem.space, value);
   if (problem.space->order() >= 1) {

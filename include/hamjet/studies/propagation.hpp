@@ -106,7 +106,7 @@ struct ComputedProblem {
   std::vector<std::size_t> components;  ///< index in the model's state of each component computed
   std::vector<std::size_t> variables;   ///< index among the components of each variable
   SpacePointer space;
-  DynamicalSystem system;
+  SharedSystem system;
   std::vector<double> nominal;  ///< of the components
   bool is_full_jet = false;     ///< all components are expanded in: a map of phase space
 };

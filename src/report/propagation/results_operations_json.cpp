@@ -20,8 +20,8 @@ long checks_done(const RunResult& run) {
 }  // namespace
 
 Json operations_json(const PropagationResult& result, const RunResult& run) {
-  const OperationList& list = result.problem.system.evaluated_list();
-  const int order = working_order(result.problem.system, result.scene.order);
+  const OperationList& list = result.problem.system->evaluated_list();
+  const int order = working_order(*result.problem.system, result.scene.order);
   return {
       {"operations_per_evaluation", list.operations().size() - list.inputs()},
       {"nonlinear_operations_per_evaluation", list.nonlinear_operations()},

@@ -90,12 +90,12 @@ void ComparedOrder::judge_jet(ComparedRun& run, RunResult& result) {
     run.exactness = result.kinds[0].by_degree;
     run.exactness_failure = result.kinds[0].failure;
   }
-  const OperationList& list = problem_.system.evaluated_list();
-  const int working = working_order(problem_.system, scene_.order);
+  const OperationList& list = problem_.system->evaluated_list();
+  const int working = working_order(*problem_.system, scene_.order);
   run.multiply_adds = series_multiply_adds(list, *problem_.space, working) *
                       static_cast<double>(run.statistics.vector_field_evaluations);
   run.memory_bytes = integration_memory(
-      run.settings, problem_.system,
+      run.settings, *problem_.system,
       SeriesSpace::monomial_count(problem_.variables.size(), working), sizeof(double));
   if (run.symplecticity.empty()) return;
   const bool is_exact = run.largest_symplecticity() <= largest_exact_defect;

@@ -296,7 +296,7 @@ class Comparison {
   void fit_orders() {
     result_.fits.clear();
     const std::set<int> degrees = {
-        0, working_order(at_order(scene_.order).problem().system, scene_.order)};
+        0, working_order(*at_order(scene_.order).problem().system, scene_.order)};
     for (const CandidateSeries& series : series_) {
       if (series.order == 0) continue;
       for (const int degree : degrees) {

@@ -218,7 +218,7 @@ bool has_orbital_plane(const std::vector<double>& chief) {
 
 RelativeTrajectory fly_relative(const TransferResult& result, std::size_t point, int count) {
   const Scene& scene = result.scene;
-  const DynamicalSystem system = make_system(scene);
+  const SharedSystem system = make_system(scene);
   const TransferPoint& transfer = result.points[point];
   const MetricUnits units = metric_units(scene);
   RelativeState start = scene.transfer->start;

@@ -205,7 +205,7 @@ void TransferPoints::measure_residual(const ChosenKind& chosen, const FlowJet<do
                                       const std::vector<double>& w, TransferPoint& point) {
   const Stopwatch watch(seconds_.residual);
   HamiltonJacobiTerms terms =
-      hamilton_jacobi_terms<double>(problem_.system, nominal_of(jet), *chosen.inversion, w);
+      hamilton_jacobi_terms<double>(*problem_.system, nominal_of(jet), *chosen.inversion, w);
   const double scaled = terms.scaled();
   point.hamilton_jacobi_residual = scaled;
   if (largest_residual_ && !(scaled > largest_residual_->scaled)) return;
@@ -229,7 +229,7 @@ std::optional<double> TransferPoints::hamilton_jacobi_floor() const {
     try {
       const auto inversion = invert_partially<double>(jet, largest_residual_->kind);
       HamiltonJacobiTerms terms = hamilton_jacobi_terms<double>(
-          problem_.system, nominal_of(largest_residual_->jet), inversion, largest_residual_->w);
+          *problem_.system, nominal_of(largest_residual_->jet), inversion, largest_residual_->w);
       for (std::size_t i = 0; i < terms.residual.size(); ++i) {
         terms.residual[i] -= largest_residual_->terms.residual[i];
       }

@@ -75,7 +75,7 @@ class EnergyConservingTrajectory {
         energy_(system, result.study.nominal) {
     const EnergyConservationStudy& study = result.study;
     result.run = integrate_energy_conserving<double>(
-        {&system, study.method, study.nominal, study.first_step, study.duration},
+        {system, study.method, study.nominal, study.first_step, study.duration},
         [this](const EnergyConservingStep<double>& step) { observe(step); });
     EnergyConservationPoint last;
     last.step = result.run.steps;

@@ -38,7 +38,7 @@ std::vector<Checkpoint> checkpoints(const Scene& scene, const ComputedProblem& p
                                     const std::vector<double>& wanted,
                                     const std::function<void(double)>& progress) {
   const FlowProblem<double> flow = flow_problem<double>(problem, scene.duration);
-  EnergyError energy(problem.system, problem.nominal);
+  EnergyError energy(*problem.system, problem.nominal);
   std::vector<Checkpoint> reached;
   double largest = 0;
   IntegrationStatistics statistics;

@@ -112,11 +112,11 @@ bool meets(const VectorXd& end, const RunPoint& from, const RunPoint& to) {
 /// Jets of a system in all its components.
 class LocalJets {
  public:
-  explicit LocalJets(const DynamicalSystem& system)
+  explicit LocalJets(const SharedSystem& system)
       : system_(system),
-        space_(SeriesSpace::create(system.dimension(), 2)),
-        linear_space_(SeriesSpace::create(system.dimension(), 1)),
-        variables_(system.dimension()) {
+        space_(SeriesSpace::create(system->dimension(), 2)),
+        linear_space_(SeriesSpace::create(system->dimension(), 1)),
+        variables_(system->dimension()) {
     std::iota(variables_.begin(), variables_.end(), std::size_t{0});
   }
 
@@ -143,7 +143,7 @@ class LocalJets {
 
   FieldValue field(const VectorXd& point) const {
     const auto identity = starting_jet(problem_at(point, linear_space_, 0));
-    const auto jet = evaluate_on_series<double>(system_.vector_field, identity);
+    const auto jet = evaluate_on_series<double>(system_->vector_field, identity);
     FieldValue value{VectorXd(index(jet.size())), linear_part(jet)};
     for (std::size_t i = 0; i < jet.size(); ++i) value.slope(index(i)) = jet[i][0];
     return value;
@@ -152,7 +152,7 @@ class LocalJets {
  private:
   FlowProblem<double> problem_at(const VectorXd& point, const SpacePointer& space,
                                  double duration) const {
-    FlowProblem<double> problem{&system_, space, variables_, {}, duration};
+    FlowProblem<double> problem{system_, space, variables_, {}, duration};
     problem.initial_state.assign(point.begin(), point.end());
     return problem;
   }
@@ -174,7 +174,7 @@ class LocalJets {
     return result;
   }
 
-  const DynamicalSystem& system_;
+  SharedSystem system_;
   SpacePointer space_;
   SpacePointer linear_space_;
   std::vector<std::size_t> variables_;
