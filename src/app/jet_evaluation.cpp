@@ -4,24 +4,13 @@
 #include <chrono>
 #include <cmath>
 
+#include "hamjet/algebra/composition.hpp"
+
 namespace hamjet::cli {
-namespace {
-
-/// The jet in double precision as a map of deviations: without the nominal's final state.
-std::vector<Series<double>> deviation_map(const FlowJet<Extended>& jet) {
-  std::vector<Series<double>> map;
-  for (const Series<Extended>& component : jet) {
-    Series<double>& rounded = map.emplace_back(component.space_pointer());
-    for (std::size_t k = 1; k < component.size(); ++k)
-      rounded[k] = hamjet::convert<double>(component[k]);
-  }
-  return map;
-}
-
-}  // namespace
 
 JetEvaluation::JetEvaluation(const io::StoredJet& stored, std::optional<int> degree)
-    : JetEvaluation(stored, deviation_map(stored.jet), degree.value_or(stored.order())) {}
+    : JetEvaluation(stored, without_constants(convert_map<double>(stored.jet)),
+                    degree.value_or(stored.order())) {}
 
 JetEvaluation::JetEvaluation(const io::StoredJet& stored, const std::vector<Series<double>>& map,
                              int degree)

@@ -7,7 +7,7 @@
 #include "../algebra/singular_values.hpp"
 #include "hamjet/algebra/extended.hpp"
 #include "hamjet/error.hpp"
-#include "hamjet/maps/partial_inversion.hpp"
+#include "hamjet/maps/generating_function.hpp"
 
 namespace hamjet {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "hamjet/maps/partial_inversion.hpp"
+#include "hamjet/maps/generating_function.hpp"
 
 namespace hamjet {
 

@@ -1,5 +1,3 @@
-#include "hamjet/maps/partial_inversion.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,6 +5,7 @@
 
 #include "../algebra/singular_values.hpp"
 #include "hamjet/error.hpp"
+#include "hamjet/maps/generating_function.hpp"
 
 namespace hamjet {
 namespace {

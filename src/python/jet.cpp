@@ -18,27 +18,18 @@ namespace {
 /// way through a scene's units and digits, no more.
 constexpr double largest_gap = 1e-12;
 
-std::vector<Series<double>> deviation_map(const io::StoredJet& stored) {
-  return without_constants(convert_map<double>(stored.jet));
-}
-
-/// The map cut off at the order of a space in the same variables.
+/// The map of a jet, with coefficients of type T.
 template <class T>
-std::vector<Series<T>> cut_off(const std::vector<Series<T>>& map, const SpacePointer& space) {
-  std::vector<Series<T>> result;
-  for (const Series<T>& component : map) {
-    const auto kept = component.coefficients().first(space->size());
-    result.emplace_back(space, std::vector<T>(kept.begin(), kept.end()));
-  }
-  return result;
+FlowMap<T> map_of(const io::StoredJet& stored) {
+  return FlowMap<T>(convert_map<T>(stored.jet));
 }
 
 /// Works in the arithmetic of the jet: `work` is called with a number of its type, and returns a
 /// map in that type.
 template <class Work>
 FlowJet<Extended> in_precision(Precision precision, const Work& work) {
-  if (precision == Precision::extended) return work(Extended());
-  return convert_map<Extended>(work(double()));
+  if (precision == Precision::extended) return work(Extended()).jet();
+  return convert_map<Extended>(work(double()).jet());
 }
 
 std::string names_of(const io::StoredJet& stored, const std::vector<std::size_t>& indices) {
@@ -80,12 +71,12 @@ void require_meeting(const io::StoredJet& first, const io::StoredJet& second) {
 
 }  // namespace
 
-Jet::Jet(io::StoredJet stored) : stored_(std::move(stored)), deviation_(deviation_map(stored_)) {
-  coefficients_.reserve(stored_.jet.size() * space()->size());
-  for (const Series<Extended>& component : stored_.jet) {
-    for (const Extended& c : component.coefficients()) {
-      coefficients_.push_back(static_cast<double>(c));
-    }
+Jet::Jet(io::StoredJet stored)
+    : stored_(std::move(stored)), map_(map_of<double>(stored_)), deviation_(map_.evaluator()) {
+  coefficients_.reserve(map_.components() * space()->size());
+  for (const Series<double>& component : map_.jet()) {
+    const auto row = component.coefficients();
+    coefficients_.insert(coefficients_.end(), row.begin(), row.end());
   }
 }
 
@@ -94,7 +85,7 @@ MapEvaluator Jet::deviation_to(int degree) const {
     refuse(
         fmt::format("degree {}: must be 1 to the order of the jet, {}", degree, stored_.order()));
   }
-  return MapEvaluator(deviation_map(stored_), degree);
+  return map_.evaluator(degree);
 }
 
 Jet Jet::composed_with(const Jet& after) const {
@@ -119,12 +110,8 @@ Jet Jet::composed_with(const Jet& after) const {
   result.nominal_final = second.nominal_final;
   result.components = second.components;
   result.error_by_degree.clear();
-  const SpacePointer space =
-      SeriesSpace::create(stored_.variables.size(), std::min(stored_.order(), second.order()));
   result.jet = in_precision(result.precision, [&]<class T>(T) {
-    const auto inner = cut_off(without_constants(convert_map<T>(stored_.jet)), space);
-    const auto outer = convert_map<T>(second.jet);
-    return compose(outer, inner);
+    return map_of<T>(stored_).followed_by(map_of<T>(second));
   });
   return Jet(std::move(result));
 }
@@ -140,12 +127,10 @@ Jet Jet::inverse() const {
   std::swap(result.nominal_initial, result.nominal_final);
   result.error_by_degree.clear();
   result.jet = in_precision(stored_.precision, [&]<class T>(T) {
-    const auto map = without_constants(convert_map<T>(stored_.jet));
-    return hamjet::inverse(map);
+    std::vector<T> start;
+    for (const std::size_t c : result.components) start.emplace_back(result.nominal_final[c]);
+    return map_of<T>(stored_).inverse(start);
   });
-  for (std::size_t c = 0; c < result.jet.size(); ++c) {
-    result.jet[c][0] = result.nominal_final[result.components[c]];
-  }
   return Jet(std::move(result));
 }
 

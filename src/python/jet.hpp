@@ -4,8 +4,7 @@
 #include <vector>
 
 #include "hamjet/formats/stored_jet.hpp"
-#include "hamjet/maps/map_evaluator.hpp"
-#include "hamjet/maps/symplecticity.hpp"
+#include "hamjet/maps/flow_map.hpp"
 #include "hamjet/studies/propagation.hpp"
 
 namespace hamjet::python {
@@ -16,7 +15,7 @@ class Jet {
   explicit Jet(io::StoredJet stored);
 
   const io::StoredJet& stored() const noexcept { return stored_; }
-  const SpacePointer& space() const noexcept { return stored_.jet.at(0).space_pointer(); }
+  const SpacePointer& space() const noexcept { return map_.space(); }
   /// The coefficients in double precision, component by component; the first of each is the
   /// nominal's final state.
   std::span<const double> coefficients() const noexcept { return coefficients_; }
@@ -37,6 +36,7 @@ class Jet {
 
  private:
   io::StoredJet stored_;
+  FlowMap<double> map_;
   std::vector<double> coefficients_;
   MapEvaluator deviation_;
 };

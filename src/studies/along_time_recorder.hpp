@@ -10,7 +10,7 @@
 #include "hamjet/detail/studies/run_along_time.hpp"
 #include "hamjet/detail/studies/singular_times.hpp"
 #include "hamjet/maps/exactness.hpp"
-#include "hamjet/maps/partial_inversion.hpp"
+#include "hamjet/maps/generating_function.hpp"
 
 namespace hamjet {
 

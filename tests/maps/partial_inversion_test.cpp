@@ -1,11 +1,10 @@
-#include "hamjet/maps/partial_inversion.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <string>
 
 #include "dynamics/harmonic_oscillator.hpp"
+#include "hamjet/maps/generating_function.hpp"
 #include "support/errors.hpp"
 #include "support/map.hpp"
 #include "support/random_series.hpp"

@@ -5,7 +5,7 @@
 
 #include "hamjet/detail/algebra/eigen.hpp"
 #include "hamjet/detail/algebra/monomial_values.hpp"
-#include "hamjet/maps/partial_inversion.hpp"
+#include "hamjet/maps/generating_function.hpp"
 
 namespace hamjet {
 
