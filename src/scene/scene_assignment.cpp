@@ -5,6 +5,11 @@
 namespace hamjet::io {
 namespace {
 
+const TableDescription& relative_state_table() {
+  static const TableDescription table = {relative_state_keys(), "In the frame of `[transfer]`."};
+  return table;
+}
+
 std::vector<RelativeState> read_states(const TableReader& assignment, std::string_view key,
                                        const Nominal& nominal) {
   const std::vector<TableReader> tables = assignment.tables(key);
@@ -15,7 +20,7 @@ std::vector<RelativeState> read_states(const TableReader& assignment, std::strin
   }
   std::vector<RelativeState> states;
   for (const TableReader& table : tables) {
-    table.check_keys({{"position_m", "velocity_m_s"},
+    table.check_keys({relative_state_table().names(),
                       {"frame", "derivatives"},
                       fmt::format("a {}, which is in the frame of the table [transfer],", key)});
     states.push_back(read_relative_state(table, nominal));
@@ -25,9 +30,22 @@ std::vector<RelativeState> read_states(const TableReader& assignment, std::strin
 
 }  // namespace
 
+const TableDescription& assignment_table() {
+  static const std::string at_most = fmt::format("1 to {} tables", most_deputies);
+  static const ValueForm tables =
+      form::words(at_most, form::array(form::table(relative_state_table())));
+  static const TableDescription table = {
+      {{"time", form::choice({"per-pair", "common"}), absent::value("per-pair"),
+        "each pair its best transfer time, or one time for all"},
+       {"deputy", tables, absent::refused(), "where the deputies start"},
+       {"slot", tables, absent::refused(), "where they may end, as many as deputies"}},
+      "Transfer times and frame are those of `[transfer]`."};
+  return table;
+}
+
 AssignmentSettings read_assignment(const TableReader& assignment, const Scene& scene,
                                    const Nominal& nominal) {
-  assignment.check_keys({{"time", "deputy", "slot"}});
+  assignment.check_keys();
   require_relative_motion(assignment, scene);
   if (!scene.transfer) {
     assignment.fail("",
@@ -35,11 +53,7 @@ AssignmentSettings read_assignment(const TableReader& assignment, const Scene& s
                     "that deputies and slots share");
   }
   AssignmentSettings settings;
-  if (assignment.has("time")) {
-    settings.time = assignment.choice("time", {"per-pair", "common"}) == 0
-                        ? AssignmentTime::per_pair
-                        : AssignmentTime::common;
-  }
+  assignment.read_if_any("time", settings.time);
   settings.deputies = read_states(assignment, "deputy", nominal);
   settings.slots = read_states(assignment, "slot", nominal);
   if (settings.deputies.size() != settings.slots.size()) {

@@ -26,7 +26,7 @@ AffineSymplecticMap<Extended> read_rotation(const TableReader& table, std::strin
   if (key == "rotation_angle_rad") {
     return phase_plane_rotation<Extended>(Extended(table.number(key)));
   }
-  const Extended cosine = table.number_between(key, -1, 1);
+  const Extended cosine = table.number(key);
   return phase_plane_rotation<Extended>(Extended(acos(cosine)));
 }
 
@@ -101,19 +101,37 @@ std::vector<double> read_steps(const TableReader& table, double duration) {
 
 }  // namespace
 
+const TableDescription& canonical_transformation_table() {
+  static const TableDescription table = {
+      {{"steps_canonical",
+        form::words(fmt::format("array of 1 to {} different numbers above 0", most_step_sizes),
+                    form::array(form::positive())),
+        absent::refused(), "step sizes of the midpoint rule, each a run of its own"},
+       {"duration_canonical", form::positive(), absent::refused(), "at most 1e7 steps in all"},
+       {"rotation_cosine", form::between(-1, 1), absent::other("another form"),
+        "cosine of a rotation of the plane (q, p), for one degree of freedom"},
+       {"rotation_angle_rad", form::number(), absent::other("another form"),
+        "its angle, for one degree of freedom"},
+       {"matrix", form::words("array of 2n arrays of 2n numbers", form::array(form::number())),
+        absent::other("another form"), "a symplectic matrix in the variables (q, p)"},
+       {"shift", form::words("array of 2n numbers", form::array(form::number())),
+        absent::other("0"), "added to `matrix` times (q, p)"},
+       {"require_invariance", form::positive(), absent::other("no check"),
+        "largest difference of the energy errors"}},
+      "One of `rotation_cosine`, `rotation_angle_rad` and `matrix` must be there."};
+  return table;
+}
+
 CanonicalTransformationStudy read_canonical_transformation(const TableReader& root) {
   CanonicalTransformationStudy study;
   study.title = root.text("title");
   read_start(root, study);
   const TableReader table = root.table("canonical_transformation");
-  table.check_keys({{"steps_canonical", "duration_canonical", "rotation_cosine",
-                     "rotation_angle_rad", "matrix", "shift", "require_invariance"}});
-  study.duration = table.positive_number("duration_canonical");
+  table.check_keys();
+  study.duration = table.number("duration_canonical");
   study.steps = read_steps(table, study.duration);
   study.transformation = read_transformation(table, study.nominal.size());
-  if (table.has("require_invariance")) {
-    study.require_invariance = table.positive_number("require_invariance");
-  }
+  table.read_if_any("require_invariance", study.require_invariance);
   return study;
 }
 

@@ -20,14 +20,42 @@ SelfCheckSetting read_check(const TableReader& table, SelfCheckName name) {
                                 "false",
                                 table.found(key)));
   }
-  setting.limit = table.positive_number(key);
+  setting.limit = table.number(key);
   return setting;
 }
 
+/// What each check looks at, in the order of the enumeration.
+constexpr std::string_view subjects[self_check_count] = {
+    "every number of the result is finite",
+    "the equations of implicit methods are solved to round-off",
+    "the method's own estimate of its local error",
+    "the energy along the nominal",
+    "Poisson brackets of the linear part, of symplectic methods",
+    "inverted maps composed with the map",
+    "the nominal's smallest distance from the centre; the limit needs `system.radius_km`",
+    "the error of every degree, from independent runs along directions"};
+
 }  // namespace
 
+const TableDescription& checks_table() {
+  static const TableDescription table = [] {
+    TableDescription checks;
+    for (std::size_t i = 0; i < self_check_count; ++i) {
+      const bool has_limit = static_cast<SelfCheckName>(i) != SelfCheckName::finite;
+      checks.keys.push_back(
+          {self_check_names()[i],
+           has_limit
+               ? form::words("`true`, `false`, or the limit: number above 0", form::positive())
+               : form::boolean(),
+           absent::value(true), subjects[i]});
+    }
+    return checks;
+  }();
+  return table;
+}
+
 SelfCheckSettings read_checks(const TableReader& checks, const Scene& scene) {
-  checks.check_keys({self_check_names()});
+  checks.check_keys();
   SelfCheckSettings settings;
   for (std::size_t i = 0; i < self_check_names().size(); ++i) {
     const auto name = static_cast<SelfCheckName>(i);

@@ -13,8 +13,7 @@ namespace {
 
 constexpr int most_repeats = 1000;
 
-std::vector<int> integers(const TableReader& table, std::string_view key, int least, int greatest) {
-  const std::vector<std::int64_t> values = table.integers(key, least, greatest);
+std::vector<int> as_int(const std::vector<std::int64_t>& values) {
   return {values.begin(), values.end()};
 }
 
@@ -55,12 +54,36 @@ std::vector<IntegrationMethod> read_methods(const TableReader& table) {
 
 }  // namespace
 
+const TableDescription& compare_table() {
+  static const ComparisonSettings preset;
+  static const TableDescription table = {
+      {{"methods", form::array(form::choice(method_names())),
+        absent::other("the usual ones of this build"), "each once"},
+       {"stages", form::array(form::integer(1, most_gauss_stages)), absent::value(preset.stages),
+        "of Gauss"},
+       {"steps_canonical", form::array(form::positive()),
+        absent::other("halved from far too coarse to round-off"),
+        "of the methods with fixed steps"},
+       {"tolerances", form::array(form::between(least_tolerance, greatest_tolerance)),
+        absent::other("by powers of ten from 1e-2 to round-off"), "of the adaptive methods"},
+       {"orders",
+        form::words("array of integers from 1 to `jet.order`",
+                    form::array(form::integer(1, largest_order))),
+        absent::other("1 to `jet.order`"), "of the cost against order"},
+       {"repeats", form::integer(1, most_repeats), absent::value(preset.repeats),
+        "timings of each run, in turns"},
+       {"time_budget_s", form::positive(), absent::value(preset.time_budget_s),
+        "of all integrations; what would exceed it is left out, and said"},
+       {"wanted_error_m", form::positive(), absent::value(preset.wanted_error_m),
+        "at the separation of `[formation]`, for the verdict and the advice"}}};
+  return table;
+}
+
 ComparisonSettings read_compare(const TableReader& table, int order, double duration) {
-  table.check_keys({{"methods", "stages", "steps_canonical", "tolerances", "orders", "repeats",
-                     "time_budget_s", "wanted_error_m"}});
+  table.check_keys();
   ComparisonSettings settings;
   if (table.has("methods")) settings.methods = read_methods(table);
-  if (table.has("stages")) settings.stages = integers(table, "stages", 1, most_gauss_stages);
+  if (table.has("stages")) settings.stages = as_int(table.integers("stages"));
   const double span = std::abs(duration);
   if (table.has("steps_canonical")) {
     settings.steps_canonical =
@@ -70,14 +93,10 @@ ComparisonSettings read_compare(const TableReader& table, int order, double dura
     settings.tolerances =
         positive_numbers(table, "tolerances", least_tolerance, greatest_tolerance);
   }
-  if (table.has("orders")) settings.orders = integers(table, "orders", 1, order);
-  if (table.has("repeats")) {
-    settings.repeats = static_cast<int>(table.integer_between("repeats", 1, most_repeats));
-  }
-  if (table.has("time_budget_s")) settings.time_budget_s = table.positive_number("time_budget_s");
-  if (table.has("wanted_error_m")) {
-    settings.wanted_error_m = table.positive_number("wanted_error_m");
-  }
+  if (table.has("orders")) settings.orders = as_int(table.integers("orders", 1, order));
+  table.read_if_any("repeats", settings.repeats);
+  table.read_if_any("time_budget_s", settings.time_budget_s);
+  table.read_if_any("wanted_error_m", settings.wanted_error_m);
   return settings;
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 double read_first_step(const TableReader& table, double duration, const CanonicalScale& scale) {
   const std::string_view key = table.exactly_one_of({"first_step_canonical", "first_step_s"});
-  const double given = table.positive_number(key);
+  const double given = table.number(key);
   const double step = key == "first_step_s" ? scale.time_of_s(given) : given;
   if (!std::isfinite(step) || step == 0) {
     table.fail(key, fmt::format("out of range, got {}, which is {} in canonical units, must be "
@@ -43,6 +43,24 @@ void refuse_jet(const TableReader& root) {
 
 }  // namespace
 
+const TableDescription& energy_conservation_table() {
+  const auto other_duration = absent::other("another duration");
+  static const TableDescription table = {
+      {{"method", form::choice(energy_conserving_method_names()), absent::refused(),
+        "in its energy-conserving form"},
+       {"first_step_canonical", form::positive(), absent::other("`first_step_s`"),
+        "at most the duration; the other steps follow from the energy"},
+       {"first_step_s", form::positive(), absent::other("`first_step_canonical`"), "the same"},
+       {"duration_s", form::number(), other_duration, "not 0; negative is backwards"},
+       {"duration_canonical", form::number(), other_duration, "the same"},
+       {"expect", form::choice(energy_conservation_outcome_names()),
+        absent::value(energy_conservation_outcome_names()[0]), "another outcome is exit code 1"},
+       {"require_energy_error", form::positive(), absent::other("no check"),
+        "largest relative error of the discrete energy"},
+       {"duration_orbits", form::number(), other_duration, "in periods of the nominal", {orbits}}}};
+  return table;
+}
+
 EnergyConservationStudy read_energy_conservation(const TableReader& root) {
   refuse_jet(root);
   EnergyConservationStudy study;
@@ -51,14 +69,8 @@ EnergyConservationStudy read_energy_conservation(const TableReader& root) {
 
   const TableReader table = root.table("energy_conservation");
   const bool has_orbits = is_orbit(study.system.model);
-  KnownKeys known = {{"method", "first_step_canonical", "first_step_s", "duration_s",
-                      "duration_canonical", "expect", "require_energy_error"},
-                     {},
-                     "the model " + std::string(model_name(study.system.model))};
-  (has_orbits ? known.keys : known.keys_elsewhere).push_back("duration_orbits");
-  table.check_keys(known);
-  study.method =
-      static_cast<EnergyConservingMethod>(table.choice("method", energy_conserving_method_names()));
+  check_keys_of_model(table, study.system.model);
+  study.method = static_cast<EnergyConservingMethod>(table.choice("method"));
   study.duration = read_duration(table, has_orbits, nominal);
   if (study.duration == 0) {
     const std::string_view key =
@@ -71,13 +83,8 @@ EnergyConservationStudy read_energy_conservation(const TableReader& root) {
     table.fail(key, fmt::format("out of range, got {}, must not be longer than the duration",
                                 table.found(key)));
   }
-  if (table.has("expect")) {
-    study.expected = static_cast<EnergyConservationOutcome>(
-        table.choice("expect", energy_conservation_outcome_names()));
-  }
-  if (table.has("require_energy_error")) {
-    study.require_energy_error = table.positive_number("require_energy_error");
-  }
+  table.read_if_any("expect", study.expected);
+  table.read_if_any("require_energy_error", study.require_energy_error);
   return study;
 }
 

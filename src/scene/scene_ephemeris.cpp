@@ -58,11 +58,34 @@ void require_same(const TableReader& ephemeris, std::string_view key, const std:
 
 }  // namespace
 
+const TableDescription& ephemeris_table() {
+  static const EphemerisSettings preset;
+  const auto of_file = absent::other("required, or of the nominal's file");
+  const auto epoch = form::words("`\"YYYY-MM-DDThh:mm:ss\"` or `\"YYYY-DDDThh:mm:ss\"`");
+  const auto text = form::words("1 to 80 characters of ASCII");
+  static const TableDescription table = {
+      {{"epoch", epoch, of_file, "of the nominal's start, in the time system"},
+       {"time_system", form::choice(time_system_names()), of_file, "of all epochs"},
+       {"reference_frame", text, of_file,
+        "inertial, with the z axis along the axis of the zonal field"},
+       {"reference_frame_epoch", epoch,
+        absent::other("required by a frame that ends with `OFEPOCH`"), "of the frame"},
+       {"center_name", text, of_file, "the centre of attraction, for example `EARTH`"},
+       {"object_name", text, absent::value(preset.object_name), "of the nominal"},
+       {"object_id", text, absent::value(preset.object_id), "its international designator"},
+       {"deputy_name", text, absent::value(preset.deputy_name),
+        "of the spacecraft that flies relative to the nominal"},
+       {"deputy_id", text, absent::value(preset.deputy_id), "its international designator"},
+       {"originator", text, absent::value(preset.originator), "who made the message"},
+       {"oem_version", form::words("2.0 or 3.0", form::number()), absent::other("2.0"),
+        "of the messages that are written"}},
+      "What the nominal's file says need not be said again, and cannot be changed."};
+  return table;
+}
+
 EphemerisSettings read_ephemeris(const TableReader& ephemeris,
                                  const std::optional<NominalFile>& file) {
-  ephemeris.check_keys(
-      {{"epoch", "time_system", "reference_frame", "reference_frame_epoch", "center_name",
-        "object_name", "object_id", "deputy_name", "deputy_id", "originator", "oem_version"}});
+  ephemeris.check_keys();
   EphemerisSettings settings;
   if (file) settings = file->ephemeris;
   const EphemerisSettings of_file = settings;
@@ -76,10 +99,7 @@ EphemerisSettings read_ephemeris(const TableReader& ephemeris,
       "epoch", settings.epoch, [&] { return read_epoch(ephemeris, "epoch"); }, of_file.epoch);
   read(
       "time_system", settings.time_system,
-      [&] {
-        return std::string(
-            time_system_names()[ephemeris.choice("time_system", time_system_names())]);
-      },
+      [&] { return std::string(time_system_names()[ephemeris.choice("time_system")]); },
       of_file.time_system);
   read(
       "reference_frame", settings.reference_frame, [&] { return read_frame(ephemeris); },

@@ -5,12 +5,23 @@
 
 namespace hamjet::io {
 
+const TableDescription& figure_table() {
+  static const TableDescription table = {{{"quantity", form::choice({"exactness", "energy-error"}),
+                                           absent::refused(), "drawn along time"},
+                                          {"kind",
+                                           form::words("a kind but `\"auto\"`"),
+                                           absent::value("F1"),
+                                           "of which generating function",
+                                           {"exactness"}}}};
+  return table;
+}
+
 FigureSettings read_figure(const TableReader& figure, const Scene& scene) {
-  figure.check_keys({{"quantity", "kind"}});
+  figure.check_keys();
   FigureSettings settings;
-  if (figure.choice("quantity", {"exactness", "energy-error"}) == 1) {
-    figure.check_keys({{"quantity"}, {"quantity", "kind"}, "the quantity energy-error"});
-    settings.quantity = FigureQuantity::energy_error;
+  settings.quantity = static_cast<FigureQuantity>(figure.choice("quantity"));
+  if (settings.quantity == FigureQuantity::energy_error) {
+    figure.check_keys("energy-error", "the quantity energy-error");
     return settings;
   }
   const std::size_t n = degrees_of_freedom_of_kinds(figure, "quantity", scene);

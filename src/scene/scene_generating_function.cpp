@@ -51,9 +51,16 @@ std::string explicit_kind(const std::string& kind, std::size_t degrees_of_freedo
   return kind;
 }
 
+const TableDescription& generating_function_table() {
+  static const TableDescription table = {
+      {{"kinds", form::words("array of kinds", form::array(form::text())), absent::refused(),
+        "each once: `F1` to `F4`, letters such as `qpq-qqp`, or `auto`, the best conditioned"}}};
+  return table;
+}
+
 std::vector<std::string> read_generating_function(const TableReader& generating_function,
                                                   const Scene& scene) {
-  generating_function.check_keys({{"kinds"}});
+  generating_function.check_keys();
   const std::vector<std::string> kinds = generating_function.texts("kinds");
   const std::size_t degrees_of_freedom =
       degrees_of_freedom_of_kinds(generating_function, "kinds", scene);

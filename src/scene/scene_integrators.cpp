@@ -19,8 +19,7 @@ namespace {
 
 constexpr std::size_t longest_label = 100;
 
-/// Most integrators of a scene: their jets are all held until the end.
-constexpr std::size_t most_integrators = 1000;
+constexpr double least_extended_tolerance = 1e-30;
 
 /// The files that stand beside the integrators' directories in the output.
 bool is_reserved(std::string_view label) {
@@ -44,22 +43,67 @@ std::vector<std::string_view> own_keys(const MethodDescription& method) {
   return keys;
 }
 
+template <class Condition>
+std::vector<std::string_view> methods_where(const Condition& condition) {
+  std::vector<std::string_view> names;
+  for (const MethodDescription& method : all_methods()) {
+    if (condition(method)) names.push_back(method.name);
+  }
+  return names;
+}
+
+SceneKey key_of(const MethodSetting& setting) {
+  const auto has_it = [&](const MethodDescription& method) {
+    const std::vector<std::string_view> keys = own_keys(method);
+    return std::find(keys.begin(), keys.end(), setting.key) != keys.end();
+  };
+  const auto describe = [&](auto member) {
+    const auto preset = IntegratorSettings().*member;
+    using Value = std::remove_const_t<decltype(preset)>;
+    SceneKey key = {setting.key, form::boolean(), absent::value(preset), setting.help,
+                    methods_where(has_it)};
+    if (std::is_same_v<Value, double>) key.form = form::between(setting.least, setting.most);
+    if (std::is_same_v<Value, int>) key.form = form::integer(setting.least, setting.most);
+    if (!setting.choices.empty()) {
+      key.form.words = fmt::format("one of {}", fmt::join(setting.choices, ", "));
+    }
+    return key;
+  };
+  return std::visit(describe, setting.member);
+}
+
 /// The keys of all methods, each once: those that distinguish methods first, then the others, then
 /// how long the steps are.
-std::vector<std::string_view> keys_of_all() {
-  std::vector<std::string_view> keys = {"label", "method"};
-  const auto add = [&](std::string_view key) {
-    if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
+TableDescription describe_integrators() {
+  TableDescription table{
+      {{"label",
+        form::words(fmt::format("1 to {} of `A-Z a-z 0-9 . _ -`, no dot first", longest_label)),
+        absent::refused(), "the name of its folder, unlike the others"},
+       {"method", form::choice(method_names()), absent::refused(),
+        "see `hamjet list integrators`"}}};
+  const auto add = [&](const MethodSetting& setting) {
+    if (table.find(setting.key) == nullptr) table.keys.push_back(key_of(setting));
   };
-  for (const MethodSetting& setting : compared_settings()) add(setting.key);
+  for (const MethodSetting& setting : compared_settings()) add(setting);
   for (const MethodDescription& method : all_methods()) {
-    for (const MethodSetting& setting : method.settings) add(setting.key);
+    for (const MethodSetting& setting : method.settings) add(setting);
   }
-  for (const MethodDescription& method : all_methods()) {
-    for (const std::string_view key : own_keys(method)) add(key);
-  }
-  keys.insert(keys.end(), {"require_relative_error", "require_symplecticity"});
-  return keys;
+  const auto steps = methods_where([](const auto& method) { return method.has_fixed_steps; });
+  const auto adaptive = methods_where([](const auto& method) { return method.has_tolerance; });
+  const auto other_size = absent::other("another step or tolerance");
+  return {joined<SceneKey>(
+      {table.keys,
+       {{"step_canonical", form::positive(), other_size, "fixed steps, at most 1e9", steps},
+        {"step_s", form::positive(), other_size, "likewise", steps},
+        {"tolerance",
+         form::words(fmt::format("number from {} (extended: {}) to {}", least_tolerance,
+                                 least_extended_tolerance, greatest_tolerance),
+                     form::between(least_tolerance, greatest_tolerance)),
+         other_size, "adaptive steps", adaptive},
+        {"require_relative_error", form::positive(), absent::other("no check"),
+         "a larger error of any degree is exit code 1"},
+        {"require_symplecticity", form::positive(), absent::other("no check"),
+         "a larger scaled defect is exit code 1"}}})};
 }
 
 /// A label becomes the name of a directory, so that it must neither lead out of the output
@@ -82,7 +126,7 @@ std::string read_label(const TableReader& integrator) {
 
 double read_step(const TableReader& integrator, std::string_view key, double duration,
                  const CanonicalScale& scale) {
-  const double given = integrator.positive_number(key);
+  const double given = integrator.number(key);
   const double step = key == "step_s" ? scale.time_of_s(given) : given;
   if (!std::isfinite(step) || step == 0) {
     integrator.fail(key, fmt::format("out of range, got {}, which is {} in canonical units, must "
@@ -110,7 +154,8 @@ double read_step(const TableReader& integrator, std::string_view key, double dur
 }
 
 double read_tolerance(const TableReader& integrator, Precision precision) {
-  const double least = precision == Precision::double_precision ? least_tolerance : 1e-30;
+  const bool is_double = precision == Precision::double_precision;
+  const double least = is_double ? least_tolerance : least_extended_tolerance;
   return integrator.number_between("tolerance", least, greatest_tolerance);
 }
 
@@ -158,14 +203,13 @@ void refuse_energy_conserving(const TableReader& integrator) {
 
 IntegratorSettings read_integrator(const TableReader& integrator, Precision precision,
                                    double duration, const CanonicalScale& scale) {
-  const std::vector<std::string_view> all_keys = keys_of_all();
-  if (!integrator.has("method")) integrator.check_keys({all_keys});  // a misspelt `method` is named
+  if (!integrator.has("method")) integrator.check_keys();  // a misspelt `method` is named
   if (integrator.has("method")) refuse_energy_conserving(integrator);
   IntegratorSettings settings;
-  settings.method = static_cast<IntegrationMethod>(integrator.choice("method", method_names()));
+  settings.method = static_cast<IntegrationMethod>(integrator.choice("method"));
   const MethodDescription& method = description_of(settings.method);
-  integrator.check_keys(
-      {integrator_keys(settings.method), all_keys, "the method " + std::string(method.name)});
+  integrator.check_keys({integrator_keys(settings.method), integrator_table().names(),
+                         "the method " + std::string(method.name)});
   if (method.integrate.in_extended == nullptr && precision == Precision::extended) {
     integrator.fail("method", fmt::format("not available in extended precision, got {}, must be "
                                           "another method, or precision = \"double\": {} "
@@ -180,16 +224,17 @@ IntegratorSettings read_integrator(const TableReader& integrator, Precision prec
   } else {
     settings.step_canonical = read_step(integrator, size_key, duration, scale);
   }
-  if (integrator.has("require_relative_error")) {
-    settings.require_relative_error = integrator.positive_number("require_relative_error");
-  }
-  if (integrator.has("require_symplecticity")) {
-    settings.require_symplecticity = integrator.positive_number("require_symplecticity");
-  }
+  integrator.read_if_any("require_relative_error", settings.require_relative_error);
+  integrator.read_if_any("require_symplecticity", settings.require_symplecticity);
   return settings;
 }
 
 }  // namespace
+
+const TableDescription& integrator_table() {
+  static const TableDescription table = describe_integrators();
+  return table;
+}
 
 std::vector<std::string_view> integrator_keys(IntegrationMethod method) {
   std::vector<std::string_view> keys = {"label", "method", "require_relative_error",

@@ -12,7 +12,7 @@
 namespace hamjet::io {
 namespace {
 
-constexpr std::int64_t largest_order = 20;
+constexpr std::int64_t most_arcs = 1000;
 
 /// C(variables + order, order), the number of monomials up to the order. Exact below 2^53; beyond,
 /// only its size matters.
@@ -50,7 +50,7 @@ int read_order(const TableReader& jet, std::size_t variables, Precision precisio
   // a machine holds.
   const std::optional<std::int64_t> asked = jet.integer_if_any("order");
   if (asked && *asked > largest_order) throw_order_too_large(jet, *asked, variables, precision);
-  return static_cast<int>(jet.integer_between("order", 1, largest_order));
+  return static_cast<int>(jet.integer("order"));
 }
 
 std::vector<std::size_t> read_variables(const TableReader& jet,
@@ -83,16 +83,33 @@ std::vector<std::size_t> read_variables(const TableReader& jet,
 
 /// jet.arcs: a number, or "auto".
 std::optional<std::size_t> read_arcs(const TableReader& jet) {
-  constexpr std::int64_t most = 1000;
   if (!jet.has("arcs")) return 1;
   const std::optional<std::int64_t> asked = jet.integer_if_any("arcs");
-  if (asked && *asked >= 1 && *asked <= most) return static_cast<std::size_t>(*asked);
+  if (asked && *asked >= 1 && *asked <= most_arcs) return static_cast<std::size_t>(*asked);
   if (jet.found("arcs") == "the string \"auto\"") return std::nullopt;
   jet.fail("arcs", fmt::format("out of range, got {}, must be \"auto\" or an integer from 1 to {}",
-                               jet.found("arcs"), most));
+                               jet.found("arcs"), most_arcs));
 }
 
 }  // namespace
+
+const TableDescription& jet_table() {
+  const auto other_duration = absent::other("another duration");
+  static const TableDescription table = {
+      {{"order", form::integer(1, largest_order), absent::refused(),
+        "degree of the Taylor polynomials in the initial deviations"},
+       {"variables", form::words("array of the model's variables", form::array(form::text())),
+        absent::other("all"),
+        "those to expand in: `x` to `pz`, `q` and `p`, or `q1`, ..., `p1`, ..."},
+       {"duration_s", form::number(), other_duration, "negative is backwards"},
+       {"duration_canonical", form::number(), other_duration, "the same"},
+       {"arcs",
+        form::words(fmt::format("integer from 1 to {}, or `\"auto\"`", most_arcs),
+                    form::integer(1, most_arcs)),
+        absent::value(1), "pieces of the flow, computed on threads; `auto` decides from counts"},
+       {"duration_orbits", form::number(), other_duration, "in periods of the nominal", {orbits}}}};
+  return table;
+}
 
 double read_duration(const TableReader& table, bool has_orbits, const Nominal& nominal) {
   std::vector<std::string_view> keys = {"duration_s", "duration_orbits", "duration_canonical"};
@@ -122,16 +139,12 @@ double read_duration(const TableReader& table, bool has_orbits, const Nominal& n
 
 JetSettings read_jet(const TableReader& jet, const SystemSettings& system, Precision precision,
                      const Nominal& nominal) {
-  const bool has_orbits = is_orbit(system.model);
-  KnownKeys known = {{"order", "variables", "duration_s", "duration_canonical", "arcs"}, {}, {}};
-  (has_orbits ? known.keys : known.keys_elsewhere).push_back("duration_orbits");
-  known.owner = "the model " + std::string(model_name(system.model));
-  jet.check_keys(known);
+  check_keys_of_model(jet, system.model);
   const std::vector<std::string_view> names = variable_names(system);
   JetSettings settings;
   settings.order = read_order(jet, names.size(), precision);
   settings.variables = read_variables(jet, names);
-  settings.duration = read_duration(jet, has_orbits, nominal);
+  settings.duration = read_duration(jet, is_orbit(system.model), nominal);
   settings.arcs = read_arcs(jet);
   return settings;
 }

@@ -17,7 +17,6 @@ const std::vector<std::string_view> cartesian_keys = {"position_km", "velocity_k
 const std::vector<std::string_view> element_keys = {"a_km",     "e",        "i_deg",
                                                     "raan_deg", "argp_deg", "ta_deg"};
 const std::vector<std::string_view> file_keys = {"oem_file", "opm_file", "epoch", "object"};
-const std::vector<std::string_view> particle_keys = {"position_m", "momentum_kg_m_s"};
 
 /// Largest distance of the nominal in units that the scene chooses, and largest inverse of it.
 /// Coefficients of degree d go as the distance to the power -(d + 2), and must not underflow to a
@@ -28,19 +27,17 @@ double rounded(const Extended& value) { return convert<double>(value); }
 
 CartesianState read_elements(const TableReader& nominal, double mu_km3_s2) {
   OsculatingElements elements;
-  elements.semi_major_axis_km = nominal.positive_number("a_km");
+  elements.semi_major_axis_km = nominal.number("a_km");
   elements.eccentricity = nominal.number("e");
   if (elements.eccentricity < 0 || elements.eccentricity >= 1) {
     nominal.fail("e", fmt::format("out of range, got {}, must be at least 0 and below 1 (other "
                                   "orbits are given by position_km and velocity_km_s)",
                                   nominal.found("e")));
   }
-  elements.inclination_deg = nominal.number_between("i_deg", 0, 180);
-  // Angles go once around in either sense; what is beyond is no angle in degrees.
-  const auto angle = [&](std::string_view key) { return nominal.number_between(key, -360, 360); };
-  elements.ascending_node_deg = angle("raan_deg");
-  elements.argument_of_perigee_deg = angle("argp_deg");
-  elements.true_anomaly_deg = angle("ta_deg");
+  elements.inclination_deg = nominal.number("i_deg");
+  elements.ascending_node_deg = nominal.number("raan_deg");
+  elements.argument_of_perigee_deg = nominal.number("argp_deg");
+  elements.true_anomaly_deg = nominal.number("ta_deg");
   return state_from_elements(elements, mu_km3_s2);
 }
 
@@ -127,31 +124,64 @@ double CanonicalScale::time_of_s(double seconds) const {
   return rounded(Extended(seconds) / time_s);
 }
 
+const TableDescription& units_table() {
+  static const TableDescription table = {
+      {{"length_km", form::positive(), absent::refused(), "canonical unit of length"}}};
+  return table;
+}
+
+const TableDescription& nominal_table() {
+  const std::vector<std::string_view> orbit = {orbits}, other = {other_models};
+  const auto other_form = absent::other("another form");
+  // Angles go once around in either sense; what is beyond is no angle in degrees.
+  const auto angle = form::between(-360, 360);
+  const auto of_model = form::words("array of n numbers", form::array(form::number()));
+  static const TableDescription table = {
+      {{"position_km", form::array(form::number(), 3), other_form, "x, y, z from the centre",
+        orbit},
+       {"velocity_km_s", form::array(form::number(), 3), other_form, "their rates", orbit},
+       {"a_km", form::positive(), other_form, "semi-major axis", orbit},
+       {"e", form::words("number from 0, below 1", form::number()), other_form, "eccentricity",
+        orbit},
+       {"i_deg", form::between(0, 180), other_form, "inclination", orbit},
+       {"raan_deg", angle, other_form, "right ascension of the ascending node", orbit},
+       {"argp_deg", angle, other_form, "argument of perigee", orbit},
+       {"ta_deg", angle, other_form, "true anomaly", orbit},
+       {"oem_file", form::text(), other_form, "an orbit ephemeris message of CCSDS", orbit},
+       {"opm_file", form::text(), other_form, "an orbit parameter message of CCSDS", orbit},
+       {"epoch", form::words("`\"YYYY-MM-DDThh:mm:ss\"` or `\"YYYY-DDDThh:mm:ss\"`"),
+        absent::other("the first of the file"), "of the state to take; nothing is interpolated",
+        orbit},
+       {"object", form::text(), absent::other("the only one of the file"),
+        "name or identifier of the object to take", orbit},
+       {"position_m", of_model, absent::refused(), "of each degree of freedom", other},
+       {"momentum_kg_m_s", of_model, absent::refused(), "likewise", other}},
+      "An orbit has one of three forms: position and velocity, all six osculating elements, or the "
+      "file of a message, whose path is relative to the scene's folder."};
+  return table;
+}
+
 double read_unit_of_length(const TableReader& units, SystemModel model) {
   if (!is_orbit(model)) {
     units.fail("", fmt::format("not available for the model {}, got a unit of length, must be left "
                                "out: its units are metre, second and kilogram",
                                model_name(model)));
   }
-  units.check_keys({{"length_km"}});
-  return units.positive_number("length_km");
+  units.check_keys();
+  return units.number("length_km");
 }
 
 Nominal read_nominal(const TableReader& nominal, const SystemSettings& system,
                      const std::optional<double>& length_km,
                      const std::optional<std::string>& center_name) {
-  const std::vector<std::string_view> orbit_keys =
-      joined(joined(cartesian_keys, element_keys), file_keys);
-  const std::string owner = "the model " + std::string(model_name(system.model));
+  check_keys_of_model(nominal, system.model);
   if (is_orbit(system.model)) {
-    nominal.check_keys({orbit_keys, particle_keys, owner});
     std::optional<NominalFile> file;
     const CartesianState orbit = read_orbit(nominal, {system, center_name}, file);
     Nominal result = canonical_orbit(nominal, orbit, system.mu_km3_s2, length_km);
     result.file = std::move(file);
     return result;
   }
-  nominal.check_keys({particle_keys, orbit_keys, owner});
   Nominal result;
   result.scale = {Extended(1) / 1000, Extended(1)};
   const std::size_t n = degrees_of_freedom_of(system);

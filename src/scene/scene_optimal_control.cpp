@@ -75,23 +75,45 @@ std::vector<std::optional<double>> read_end(const TableReader& table,
 
 }  // namespace
 
+const TableDescription& optimal_control_table() {
+  const auto states = form::words("array of a number for each state", form::array(form::number()));
+  static const OptimalControlStudy preset;
+  static const TableDescription table = {
+      {{"problem", form::choice(control_model_names()), absent::refused(), "which one"},
+       {"method", form::choice(discretization_names()), absent::refused(), "the discretisation"},
+       // Costs go as its inverse third power: binary64 must hold them.
+       {"duration", form::between(1e-30, 1e30), absent::refused(), "without unit"},
+       {"steps", form::integer(1, most_steps), absent::refused(), "equal ones"},
+       {"refinements", form::array(form::integer(1, most_steps)), absent::other("none"),
+        "further numbers of steps, for the order of convergence"},
+       {"start", states, absent::refused(), "initial states"},
+       {"end", states, absent::refused(), "final states, but the free ones"},
+       {"free_end", form::words("array of names of states", form::array(form::text())),
+        absent::other("none"), "states that the end leaves free"},
+       {"costate_guess", states, absent::other("of the right size"), "a first initial costate"},
+       {"shooting_intervals",
+        form::words("integer from 1 to `steps`", form::integer(1, most_steps)),
+        absent::value(preset.shooting_intervals), "of multiple shooting"},
+       {"require_cost_error", form::positive(), absent::other("no check"),
+        "largest relative difference from the closed form, where there is one"},
+       {"require_equivalence", form::positive(), absent::other("no check"),
+        "largest relative difference of the two routes"}}};
+  return table;
+}
+
 Study read_optimal_control(const TableReader& root) {
   OptimalControlStudy study;
   study.title = root.text("title");
   const TableReader table = root.table("optimal_control");
-  table.check_keys(
-      {{"problem", "method", "duration", "steps", "refinements", "start", "end", "free_end",
-        "costate_guess", "shooting_intervals", "require_cost_error", "require_equivalence"}});
-  study.model = static_cast<ControlModel>(table.choice("problem", control_model_names()));
-  study.discretization =
-      static_cast<Discretization>(table.choice("method", discretization_names()));
+  table.check_keys();
+  study.model = static_cast<ControlModel>(table.choice("problem"));
+  study.discretization = static_cast<Discretization>(table.choice("method"));
   const auto& names = state_names(study.model);
   const auto model = control_model_names()[static_cast<std::size_t>(study.model)];
-  // Costs go as its inverse third power: binary64 must hold them.
-  study.duration = table.number_between("duration", 1e-30, 1e30);
-  study.steps = static_cast<std::size_t>(table.integer_between("steps", 1, most_steps));
+  study.duration = table.number("duration");
+  study.steps = static_cast<std::size_t>(table.integer("steps"));
   if (table.has("refinements")) {
-    const std::vector<std::int64_t> counts = table.integers("refinements", 1, most_steps);
+    const std::vector<std::int64_t> counts = table.integers("refinements");
     study.refinements.assign(counts.begin(), counts.end());
   }
   study.start = read_components(table, "start", names, model);
@@ -103,18 +125,13 @@ Study read_optimal_control(const TableReader& root) {
     study.shooting_intervals = static_cast<std::size_t>(
         table.integer_between("shooting_intervals", 1, static_cast<std::int64_t>(study.steps)));
   }
-  if (table.has("require_cost_error")) {
-    study.require_cost_error = table.positive_number("require_cost_error");
-    if (!closed_form_cost(study, study.steps)) {
-      table.fail(
-          "require_cost_error",
-          "cannot be checked, for the least cost has no closed form with this start, end and "
-          "number of steps; must be left out");
-    }
+  table.read_if_any("require_cost_error", study.require_cost_error);
+  if (study.require_cost_error && !closed_form_cost(study, study.steps)) {
+    table.fail("require_cost_error",
+               "cannot be checked, for the least cost has no closed form with this start, end and "
+               "number of steps; must be left out");
   }
-  if (table.has("require_equivalence")) {
-    study.require_equivalence = table.positive_number("require_equivalence");
-  }
+  table.read_if_any("require_equivalence", study.require_equivalence);
   return study;
 }
 

@@ -12,8 +12,16 @@ const std::vector<std::string_view> format_names = {"hdf5", "dace", "oem"};
 
 }  // namespace
 
+const TableDescription& output_table() {
+  static const TableDescription table = {
+      {{"formats", form::array(form::choice(format_names)), absent::refused(),
+        "beside CSV and JSON: `jets.h5`, `jet.dace`, `nominal.oem` (of an orbit that "
+        "`[ephemeris]` or its file dates)"}}};
+  return table;
+}
+
 OutputSettings read_output(const TableReader& output, SystemModel model) {
-  output.check_keys({{"formats"}});
+  output.check_keys();
   OutputSettings settings;
   bool* const wanted[] = {&settings.hdf5, &settings.dace, &settings.oem};
   const std::vector<std::string> formats = output.texts("formats");

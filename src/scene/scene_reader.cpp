@@ -5,16 +5,9 @@
 #include "../studies/arcs.hpp"
 #include "../text/scene_message.hpp"
 #include "scene_sections.hpp"
-#include "stability_case_keys.hpp"
 
 namespace hamjet::io {
 namespace {
-
-Precision read_precision(const TableReader& root) {
-  if (!root.has("precision")) return Precision::double_precision;
-  return root.choice("precision", {"double", "extended"}) == 0 ? Precision::double_precision
-                                                               : Precision::extended;
-}
 
 /// The tables `[output]` and `[ephemeris]`; both may be left out.
 void read_output_and_ephemeris(const TableReader& root, Scene& scene) {
@@ -59,7 +52,7 @@ void require_splittable(const TableReader& jet, const Scene& scene) {
 Scene read_flow_jet(const TableReader& root) {
   Scene scene;
   scene.title = root.text("title");
-  scene.precision = read_precision(root);
+  root.read_if_any("precision", scene.precision);
   const Nominal nominal = read_start(root, scene);
   const CanonicalScale& scale = nominal.scale;
   scene.nominal_file = nominal.file;
@@ -101,10 +94,7 @@ Scene read_flow_jet(const TableReader& root) {
     scene.assignment = read_assignment(root.table("assignment"), scene, nominal);
   }
   read_output_and_ephemeris(root, scene);
-  if (root.has("case")) {
-    root.table("case").check_keys({joined(joined(common_case_keys, reference_case_keys),
-                                          joined(refusal_case_keys, mark_case_keys))});
-  }
+  if (root.has("case")) root.table("case").check_keys();
   return scene;
 }
 
@@ -124,13 +114,33 @@ double read_canonical_radius(const TableReader& system, const SystemSettings& se
   return radius;
 }
 
+const TableDescription& formation_table() {
+  static const TableDescription table = {
+      {{"separation_km", form::positive(), absent::refused(), "of the deviations", {orbits}},
+       {"separation_m", form::positive(), absent::refused(), "of the deviations", {other_models}}}};
+  return table;
+}
+
+const TableDescription& reference_table() {
+  static const TableDescription table = {
+      {{"tolerance", form::between(1e-28, 1e-16), absent::value(ReferenceSettings().tolerance),
+        "local tolerance of the finer of two runs in extended precision"}}};
+  return table;
+}
+
+const TableDescription& relative_hamiltonian_table() {
+  static const TableDescription table = {
+      {{"times_canonical", form::array(form::number()), absent::refused(),
+        "from 0 to the duration, moving away from 0"}}};
+  return table;
+}
+
 double read_formation(const TableReader& formation, SystemModel model,
                       const CanonicalScale& scale) {
   const bool orbit = is_orbit(model);
   const std::string_view key = orbit ? "separation_km" : "separation_m";
-  formation.check_keys(
-      {{key}, {"separation_km", "separation_m"}, "the model " + std::string(model_name(model))});
-  const double given = formation.positive_number(key);
+  check_keys_of_model(formation, model);
+  const double given = formation.number(key);
   const double separation = orbit ? scale.length_of_km(given) : given;
   if (!std::isfinite(separation) || separation == 0) {
     formation.fail(key, fmt::format("out of range, got {}, which is {} in canonical units, must be "
@@ -141,16 +151,14 @@ double read_formation(const TableReader& formation, SystemModel model,
 }
 
 ReferenceSettings read_reference(const TableReader& reference) {
-  reference.check_keys({{"tolerance"}});
+  reference.check_keys();
   ReferenceSettings settings;
-  if (reference.has("tolerance")) {
-    settings.tolerance = reference.number_between("tolerance", 1e-28, 1e-16);
-  }
+  reference.read_if_any("tolerance", settings.tolerance);
   return settings;
 }
 
 std::vector<double> read_relative_hamiltonian(const TableReader& table, double duration) {
-  table.check_keys({{"times_canonical"}});
+  table.check_keys();
   const std::vector<double> times = table.numbers("times_canonical");
   for (std::size_t i = 0; i < times.size(); ++i) {
     const bool is_inside = times[i] * duration >= 0 && std::abs(times[i]) <= std::abs(duration);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <string>
 
 #include "../text/scene_message.hpp"
@@ -58,6 +57,34 @@ Eigen::Vector3d read_vector(const TableReader& table, std::string_view key, doub
 
 }  // namespace
 
+std::vector<SceneKey> relative_state_keys() {
+  return {
+      {"position_m", form::array(form::number(), 3), absent::refused(),
+       "relative to the chief, along the axes of the frame; below its distance from the centre"},
+      {"velocity_m_s", form::array(form::number(), 3), absent::other("0, at rest in the frame"),
+       "below the speed of a circular orbit through the chief"}};
+}
+
+std::vector<SceneKey> relative_frame_keys(const Absence& frame) {
+  return {
+      {"frame", form::choice({"RTN", "inertial"}), frame,
+       "radial, transverse, normal of the chief, or inertial; LVLH has two meanings"},
+      {"derivatives", form::choice({"rotating", "inertial"}),
+       absent::other("`\"rotating\"`, of RTN"),
+       "velocities as seen from the turning axes (at the rate of the osculating orbit), or not; "
+       "of RTN alone"}};
+}
+
+std::vector<SceneKey> transfer_time_keys(const Absence& absence) {
+  const auto times = form::words(
+      fmt::format("number, or array of at most {}, not 0", most_transfer_times), form::number());
+  return {{"times_s", times, absence, "moving away from 0"},
+          {"times_orbits", times, absence, "in periods of the nominal"},
+          {"times_canonical", times, absence, "moving away from 0"},
+          {"count", form::integer(1, most_transfer_times), absence,
+           "so many equal parts of the duration"}};
+}
+
 void require_relative_motion(const TableReader& table, const Scene& scene) {
   if (!is_orbit(scene.system.model)) {
     table.fail("", fmt::format("not available for this model, got {}, must be an orbit: "
@@ -81,13 +108,14 @@ void require_relative_motion(const TableReader& table, const Scene& scene) {
 
 std::vector<double> read_transfer_times(const TableReader& table, const Scene& scene,
                                         const Nominal& nominal, std::optional<int> default_count) {
-  const bool has_key = std::any_of(std::begin(transfer_time_keys), std::end(transfer_time_keys),
-                                   [&](std::string_view key) { return table.has(key); });
+  static const std::vector<std::string_view> keys =
+      TableDescription{transfer_time_keys({})}.names();
+  const bool has_key =
+      std::any_of(keys.begin(), keys.end(), [&](std::string_view key) { return table.has(key); });
   if (!has_key && default_count) return equal_parts(table, *default_count, scene.duration);
-  const std::string_view key =
-      table.exactly_one_of({std::begin(transfer_time_keys), std::end(transfer_time_keys)});
+  const std::string_view key = table.exactly_one_of(keys);
   if (key == "count") {
-    const auto count = table.integer_between("count", 1, most_transfer_times);
+    const auto count = table.integer("count");
     return equal_parts(table, static_cast<int>(count), scene.duration);
   }
   const std::vector<double> given = table.number_or_numbers(key);
@@ -137,11 +165,11 @@ RelativeFrame read_frame(const TableReader& of_frame, const TableReader& of_deri
                               in_quotes(of_frame.text("frame"))));
   }
   const bool is_named = of_frame.has("frame") || !is_rtn_by_default;
-  const bool is_inertial = is_named && of_frame.choice("frame", {"RTN", "inertial"}) == 1;
+  const bool is_inertial = is_named && of_frame.choice("frame") == 1;
   if (!of_derivatives.has("derivatives")) {
     return is_inertial ? RelativeFrame::inertial : RelativeFrame::rtn_rotating;
   }
-  const bool are_inertial = of_derivatives.choice("derivatives", {"rotating", "inertial"}) == 1;
+  const bool are_inertial = of_derivatives.choice("derivatives") == 1;
   if (is_inertial) {
     of_derivatives.fail("derivatives",
                         fmt::format("the frame inertial has one kind of derivatives, got {}, must "

@@ -19,9 +19,12 @@ inline constexpr int most_deputies = 200;
 /// six variables, extended precision.
 void require_relative_motion(const TableReader& table, const Scene& scene);
 
-/// The keys of `read_transfer_times`.
-inline constexpr std::string_view transfer_time_keys[] = {"times_s", "times_orbits",
-                                                          "times_canonical", "count"};
+/// The keys of read_relative_state.
+std::vector<SceneKey> relative_state_keys();
+/// The keys of the frame of a table, with what holds where it names none.
+std::vector<SceneKey> relative_frame_keys(const Absence& frame);
+/// The keys of read_transfer_times, with what holds where a table has none of them.
+std::vector<SceneKey> transfer_time_keys(const Absence& absence);
 
 /// The only one of `times_s`, `times_orbits`, `times_canonical` (a number or an array) and `count`
 /// (equal parts of the duration, its end included); with a default count none may be there.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -17,9 +18,20 @@
 
 namespace hamjet::io {
 
+inline constexpr std::int64_t largest_order = 20;
+
+/// Most integrators of a scene: their jets are all held until the end.
+inline constexpr std::size_t most_integrators = 1000;
+
 /// The range of tolerances in double precision.
 inline constexpr double least_tolerance = 1e-15;
 inline constexpr double greatest_tolerance = 1e-1;
+
+/// check_keys of a table some of whose keys belong to orbits, or to the other models.
+inline void check_keys_of_model(const TableReader& table, SystemModel model) {
+  table.check_keys(is_orbit(model) ? orbits : other_models,
+                   "the model " + std::string(model_name(model)));
+}
 
 /// All tables of the study "flow-jet".
 Scene read_flow_jet(const TableReader& root);
@@ -28,9 +40,6 @@ Scene read_flow_jet(const TableReader& root);
 CanonicalTransformationStudy read_canonical_transformation(const TableReader& root);
 /// The study "optimal-control": table `[optimal_control]`.
 Study read_optimal_control(const TableReader& root);
-
-/// The keys that the table `[system]` may have for a model.
-std::vector<std::string_view> system_keys(SystemModel model);
 
 /// The keys that a table `[[integrator]]` may have for a method.
 std::vector<std::string_view> integrator_keys(IntegrationMethod method);

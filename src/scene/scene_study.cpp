@@ -11,53 +11,118 @@
 namespace hamjet::io {
 namespace {
 
-/// A study's name in scenes, its keys at the top level, and what reads them.
-struct StudyReader {
-  std::string_view name;
-  std::vector<std::string_view> keys;
-  std::function<Study(const TableReader&)> read;
-};
+const SceneKey schema_key = {"schema", form::integer(1, 1), absent::refused(),
+                             "version of this format"};
+const SceneKey title_key = {"title", form::text(), absent::refused(), "of the results"};
+const SceneKey study_key = {"study",
+                            form::choice({"flow-jet", "canonical-transformation",
+                                          "energy-conservation", "optimal-control"}),
+                            absent::value("flow-jet"),
+                            "what is computed; the other three are of the paper"};
 
-const std::vector<StudyReader>& studies() {
-  static const std::vector<StudyReader> readers = {
-      {"flow-jet",
-       {"schema",    "title",
-        "precision", "system",
-        "units",     "nominal",
-        "jet",       "integrator",
-        "formation", "generating_function",
-        "reference", "relative_hamiltonian",
-        "checks",    "compare",
-        "figure",    "transfer",
-        "validity",  "assignment",
-        "output",    "ephemeris",
-        "case",      "study"},
-       read_flow_jet},
-      {"canonical-transformation",
-       {"schema", "title", "system", "units", "nominal", "canonical_transformation", "study"},
-       read_canonical_transformation},
-      {"energy-conservation",
-       {"schema", "title", "system", "units", "nominal", "energy_conservation", "study", "jet",
-        "integrator"},
-       read_energy_conservation},
-      {"optimal-control", {"schema", "title", "study", "optimal_control"}, read_optimal_control},
-  };
-  return readers;
+SceneKey required_table(std::string_view name, const TableDescription& table,
+                        std::string_view help) {
+  return {name, form::table(table), absent::refused(), help};
 }
 
-Study read_tables(const TableReader& root) {
-  std::vector<std::string_view> names;
-  for (const StudyReader& study : studies()) names.push_back(study.name);
-  const StudyReader& study = studies()[root.has("study") ? root.choice("study", names) : 0];
+SceneKey optional_table(std::string_view name, const TableDescription& table,
+                        std::string_view absence, std::string_view help) {
+  return {name, form::table(table), absent::other(std::string(absence)), help};
+}
+
+/// The tables of every study that has a model.
+std::vector<SceneKey> start_keys() {
+  return {
+      required_table("system", system_table(), "the dynamics"),
+      optional_table(
+          "units", units_table(), "the nominal's initial distance",
+          "unit of length of an orbit, whose mu is 1; other models have metre, second, kilogram"),
+      required_table("nominal", nominal_table(), "the initial state")};
+}
+
+TableDescription flow_jet_top() {
+  constexpr std::string_view none = "none";
+  return {joined<SceneKey>(
+      {{schema_key,
+        title_key,
+        {"precision", form::choice({"double", "extended"}), absent::value("double"),
+         "extended: the whole chain with 113 significant bits"}},
+       start_keys(),
+       {required_table("jet", jet_table(), "the Taylor polynomials of the flow"),
+        {"integrator",
+         form::words(fmt::format("1 to {} tables", most_integrators),
+                     form::array(form::table(integrator_table()))),
+         absent::refused(), "how the jet is integrated"},
+        optional_table("formation", formation_table(), none,
+                       "residuals are also stated at this deviation"),
+        optional_table("generating_function", generating_function_table(), none,
+                       "the inverted maps"),
+        optional_table("reference", reference_table(), "none, and errors are null",
+                       "what errors refer to"),
+        optional_table("relative_hamiltonian", relative_hamiltonian_table(), none,
+                       "Taylor coefficients of H about the nominal"),
+        optional_table("checks", checks_table(), "all on", "self-checks"),
+        optional_table("compare", compare_table(), "the defaults", "of `hamjet compare`"),
+        optional_table("figure", figure_table(), none, "`figure.svg`, with its numbers in CSV"),
+        optional_table("transfer", transfer_table(), none, "of `hamjet transfer` and `assign`"),
+        optional_table("validity", validity_table(), none, "of `hamjet validity` and `transfer`"),
+        optional_table("assignment", assignment_table(), none, "of `hamjet assign`"),
+        optional_table("output", output_table(), "CSV and JSON", "further files of results"),
+        optional_table("ephemeris", ephemeris_table(), "of the nominal's file",
+                       "what dates an orbit"),
+        optional_table("case", case_table(), none, "of `hamjet stability`"),
+        study_key}})};
+}
+
+/// A study of the paper on a model: its own table beside the model's.
+TableDescription paper_top(std::string_view name, const TableDescription& table) {
+  return {joined<SceneKey>({{schema_key, title_key},
+                            start_keys(),
+                            {required_table(name, table, "the study"), study_key}})};
+}
+
+TableDescription energy_conservation_top() {
+  TableDescription top = paper_top("energy_conservation", energy_conservation_table());
+  // These are refused with the reason, not as unknown keys.
+  for (const std::string_view key : {"jet", "integrator"}) {
+    top.keys.push_back({key, {}, absent::refused(), {}, {"flow-jet"}});
+  }
+  return top;
+}
+
+Study read_tables(const SceneDocument& document) {
+  // In the order of all_studies().
+  static const std::function<Study(const TableReader&)> readers[] = {
+      read_flow_jet, read_canonical_transformation, read_energy_conservation, read_optimal_control};
+  const auto reader_of = [&](std::size_t study) {
+    return TableReader(document.table, "", document.source, &all_studies()[study].top);
+  };
+  std::size_t study = 0;
+  if (document.table.contains("study")) study = reader_of(0).choice("study");
+  const TableReader root = reader_of(study);
   // A newer schema may have other keys, so that its number comes before theirs; but a misspelt
   // `schema` is named.
-  if (!root.has("schema")) root.check_keys({study.keys});
-  root.integer_between("schema", 1, 1);
-  root.check_keys({study.keys});
-  return study.read(root);
+  if (!root.has("schema")) root.check_keys();
+  root.integer("schema");
+  root.check_keys();
+  return readers[study](root);
 }
 
 }  // namespace
+
+const std::vector<StudyDescription>& all_studies() {
+  static const std::vector<StudyDescription> studies = [] {
+    const auto& names = study_key.form.choices;
+    return std::vector<StudyDescription>{
+        {names[0], flow_jet_top()},
+        {names[1], paper_top("canonical_transformation", canonical_transformation_table())},
+        {names[2], energy_conservation_top()},
+        {names[3],
+         {{schema_key, title_key, study_key,
+           required_table("optimal_control", optimal_control_table(), "the study")}}}};
+  }();
+  return studies;
+}
 
 std::string scene_name(const std::string& file_name) {
   std::string name = std::filesystem::path(file_name).stem().string();
@@ -78,7 +143,7 @@ Study parse_study(std::string_view text, const std::string& file_name,
 }
 
 Study read_document(const SceneDocument& document, const std::string& file_name) {
-  Study study = read_tables(TableReader(document.table, "", document.source));
+  Study study = read_tables(document);
   std::visit([&](auto& scene) { scene.name = scene_name(file_name); }, study);
   return study;
 }

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <variant>
 
@@ -21,23 +20,43 @@ std::string_view zonal_key(int n) {
   return zonal_keys.at(static_cast<std::size_t>(n - ZonalCoefficients::lowest));
 }
 
-/// The keys of systems, of all or of one, each once.
-std::vector<std::string_view> keys_of_systems(const std::vector<SystemDescription>& systems) {
-  std::vector<std::string_view> keys = {"model"};
-  const auto add = [&](std::string_view key) {
-    if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
-  };
-  for (const SystemDescription& system : systems) {
-    if (system.model == SystemModel::zonal_gravity) {
-      for (const char* key :
-           {"mu_km3_s2", "radius_km", "gravity_file", "highest_zonal", "zonals"}) {
-        add(key);
-      }
-      for (const std::string_view key : zonal_keys) add(key);
-    }
-    for (const SystemParameter& parameter : system.parameters) add(parameter.key);
+/// The keys of zonal-gravity, which are read here.
+std::vector<SceneKey> zonal_gravity_keys() {
+  constexpr int lowest = ZonalCoefficients::lowest, highest = ZonalCoefficients::highest;
+  const std::vector<std::string_view> owner = {description_of(SystemModel::zonal_gravity).name};
+  std::vector<SceneKey> keys = {
+      {"mu_km3_s2", form::positive(), absent::other("required, or of the file"),
+       "gravitational parameter", owner},
+      {"radius_km", form::positive(), absent::other("required by a `J_n`, or of the file"),
+       "of the `J_n`", owner},
+      {"gravity_file", form::text(), absent::other("the keys that it replaces"),
+       "model of the ICGEM (`.gfc`), relative to the scene's folder", owner},
+      {"highest_zonal", form::integer(lowest, highest), absent::other("`zonals`, beside a file"),
+       "to take from the file", owner},
+      {"zonals", form::array(form::integer(lowest, highest)),
+       absent::other("`highest_zonal`, beside a file"), "to take from the file, ascending", owner}};
+  // |J| <= 1 is far beyond every planet (Saturn, the most oblate, has J2 = 0.016); what is larger
+  // was meant in other units.
+  for (const std::string_view key : zonal_keys) {
+    keys.push_back(
+        {key, form::between(-1, 1), absent::value(0), "not normalised: J_n = -C_n0", owner});
   }
   return keys;
+}
+
+SceneKey key_of(const SystemParameter& parameter, std::string_view system) {
+  const auto* number = std::get_if<double SystemSettings::*>(&parameter.member);
+  const double least = static_cast<double>(parameter.least),
+               most = static_cast<double>(parameter.most);
+  SceneKey key = {parameter.key,
+                  number == nullptr ? form::integer(least, most) : form::number(),
+                  absent::refused(),
+                  parameter.help,
+                  {system}};
+  key.form.is_positive = number != nullptr && parameter.is_positive;
+  if (parameter.second_member != nullptr) key.form = form::array(key.form, 2);
+  if (!parameter.is_required) key.absence = absent::value(SystemSettings().**number);
+  return key;
 }
 
 /// J1 and J21 look like keys; the nearest that there is would not be what was meant.
@@ -52,8 +71,7 @@ void refuse_other_zonals(const TableReader& system) {
   }
 }
 
-/// The zonal coefficients and what they refer to, key by key. |J| <= 1 is far beyond every planet
-/// (Saturn, the most oblate, has J2 = 0.016); what is larger was meant in other units.
+/// The zonal coefficients and what they refer to, key by key.
 void read_zonals(const TableReader& system, SystemSettings& settings) {
   for (const std::string_view key : {"highest_zonal", "zonals"}) {
     if (system.has(key)) {
@@ -61,25 +79,24 @@ void read_zonals(const TableReader& system, SystemSettings& settings) {
                                    system.found(key)));
     }
   }
-  settings.mu_km3_s2 = system.positive_number("mu_km3_s2");
+  settings.mu_km3_s2 = system.number("mu_km3_s2");
   bool needs_radius = system.has("radius_km");
   for (int n = ZonalCoefficients::lowest; n <= ZonalCoefficients::highest; ++n) {
     if (!system.has(zonal_key(n))) continue;
-    settings.J[n] = system.number_between(zonal_key(n), -1, 1);
+    settings.J[n] = system.number(zonal_key(n));
     needs_radius = true;
   }
   // Without zonal coefficients nothing refers to the radius.
-  if (needs_radius) settings.radius_km = system.positive_number("radius_km");
+  if (needs_radius) settings.radius_km = system.number("radius_km");
 }
 
 ZonalChoice read_zonal_choice(const TableReader& system) {
-  constexpr int lowest = ZonalCoefficients::lowest, highest = ZonalCoefficients::highest;
   ZonalChoice choice;
   if (system.exactly_one_of({"highest_zonal", "zonals"}) == "highest_zonal") {
-    choice.highest = static_cast<int>(system.integer_between("highest_zonal", lowest, highest));
+    choice.highest = static_cast<int>(system.integer("highest_zonal"));
     return choice;
   }
-  for (const std::int64_t n : system.integers("zonals", lowest, highest)) {
+  for (const std::int64_t n : system.integers("zonals")) {
     const std::size_t index = choice.degrees.size();
     if (index > 0 && n <= choice.degrees.back()) {
       system.fail_element(
@@ -140,21 +157,33 @@ void read_parameter(const TableReader& system, const SystemParameter& parameter,
 
 }  // namespace
 
-std::vector<std::string_view> system_keys(SystemModel model) {
-  return keys_of_systems({description_of(model)});
+const TableDescription& system_table() {
+  static const TableDescription table = [] {
+    std::vector<std::string_view> models;
+    for (const SystemDescription& system : all_systems()) models.push_back(system.name);
+    TableDescription result{
+        {{"model", form::choice(models), absent::refused(), "see `hamjet list systems`"}}};
+    for (const SystemDescription& system : all_systems()) {
+      if (system.model == SystemModel::zonal_gravity) {
+        result.keys = joined<SceneKey>({result.keys, zonal_gravity_keys()});
+      }
+      for (const SystemParameter& parameter : system.parameters) {
+        result.keys.push_back(key_of(parameter, system.name));
+      }
+    }
+    return result;
+  }();
+  return table;
 }
 
 SystemSettings read_system(const TableReader& system) {
-  const std::vector<std::string_view> all_keys = keys_of_systems(all_systems());
-  if (!system.has("model")) system.check_keys({all_keys});  // a misspelt `model` is named
+  if (!system.has("model")) system.check_keys();  // a misspelt `model` is named
   SystemSettings settings;
-  std::vector<std::string_view> models;
-  for (const SystemDescription& model : all_systems()) models.push_back(model.name);
-  settings.model = static_cast<SystemModel>(system.choice("model", models));
+  settings.model = static_cast<SystemModel>(system.choice("model"));
   const bool has_zonals = settings.model == SystemModel::zonal_gravity;
   if (has_zonals) refuse_other_zonals(system);
-  system.check_keys({system_keys(settings.model), all_keys,
-                     "the model " + std::string(model_name(settings.model))});
+  const std::string_view model = model_name(settings.model);
+  system.check_keys(model, "the model " + std::string(model));
   if (has_zonals && system.has("gravity_file")) {
     read_gravity_file(system, settings);
   } else if (has_zonals) {

@@ -33,12 +33,14 @@ std::string describe(const toml::node& node) {
   }
 }
 
-TableReader::TableReader(const toml::table& table, std::string path, const SceneSource& source)
-    : table_(&table), path_(std::move(path)), source_(&source) {}
+TableReader::TableReader(const toml::table& table, std::string path, const SceneSource& source,
+                         const TableDescription* description)
+    : table_(&table), path_(std::move(path)), source_(&source), description_(description) {}
 
 void TableReader::check_keys(const KnownKeys& known) const {
   for (const SceneSource::AbsentKey& absent : source_->absent_keys) {
-    const std::vector<std::string_view> names = joined(known.keys, known.keys_elsewhere);
+    const std::vector<std::string_view> names =
+        joined<std::string_view>({known.keys, known.keys_elsewhere});
     if (absent.table != path_ ||
         std::find(names.begin(), names.end(), absent.name) != names.end()) {
       continue;
@@ -72,6 +74,11 @@ void TableReader::check_keys(const KnownKeys& known) const {
 }
 
 double TableReader::number(std::string_view key) const {
+  if (description_ != nullptr) {
+    const ValueForm& form = form_of(key);
+    if (form.is_positive) return positive_number(key);
+    if (form.has_range()) return number_between(key, form.least, form.most);
+  }
   constexpr std::string_view right = "a finite number";
   return finite(required(key, right), dotted(key), right);
 }
@@ -278,7 +285,7 @@ TableReader TableReader::table(std::string_view key) const {
   if (!node.is_table()) {
     fail(key, fmt::format("wrong type, got {}, must be a table [{}]", found(key), dotted(key)));
   }
-  return TableReader(*node.as_table(), dotted(key), *source_);
+  return TableReader(*node.as_table(), dotted(key), *source_, description_of(key));
 }
 
 std::vector<TableReader> TableReader::tables(std::string_view key) const {
@@ -290,7 +297,8 @@ std::vector<TableReader> TableReader::tables(std::string_view key) const {
     if (!array[i].is_table()) {
       fail_element(key, i, fmt::format("wrong type, got {}, must be a table", describe(array[i])));
     }
-    readers.emplace_back(*array[i].as_table(), fmt::format("{}.{}", dotted(key), i), *source_);
+    readers.emplace_back(*array[i].as_table(), fmt::format("{}.{}", dotted(key), i), *source_,
+                         description_of(key));
   }
   return readers;
 }

@@ -8,9 +8,11 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "../text/scene_message.hpp"
+#include "table_description.hpp"
 
 namespace hamjet::io {
 
@@ -22,28 +24,28 @@ struct KnownKeys {
   std::string owner = {};  ///< what `keys` belong to, for example "the model kepler"
 };
 
-/// Two lists of keys, one after the other.
-inline std::vector<std::string_view> joined(std::vector<std::string_view> keys,
-                                            const std::vector<std::string_view>& more) {
-  keys.insert(keys.end(), more.begin(), more.end());
-  return keys;
-}
-
 /// Typed reader of one TOML table. Every function that reads throws Error(scene) with location,
 /// dotted key, what is wrong, what was found and what would be right. "Required" functions take a
 /// missing key for an error too; for an optional key ask `has` first.
 class TableReader {
  public:
-  /// `path` is the table's dotted name, empty for the whole scene. Table and source must outlive
-  /// the reader.
-  TableReader(const toml::table& table, std::string path, const SceneSource& source);
+  /// `path` is the table's dotted name, empty for the whole scene; the description is null where
+  /// the keys are not declared. Table, source and description must outlive the reader.
+  TableReader(const toml::table& table, std::string path, const SceneSource& source,
+              const TableDescription* description = nullptr);
 
   /// Throws Error(scene) for the first key, in the order of the text, that is not known.
   void check_keys(const KnownKeys& known) const;
+  /// check_keys for all declared keys.
+  void check_keys() const { check_keys({description_->names()}); }
+  /// check_keys for the declared keys of one owner, which messages call `text`.
+  void check_keys(std::string_view owner, std::string text) const {
+    check_keys({description_->names_of(owner), description_->names_not_of(owner), std::move(text)});
+  }
 
   bool has(std::string_view key) const { return table_->contains(key); }
 
-  /// Required: a finite number; integers are numbers too.
+  /// Required: a finite number, in the range that is declared; integers are numbers too.
   double number(std::string_view key) const;
   /// Required: a finite number above 0.
   double positive_number(std::string_view key) const;
@@ -52,6 +54,8 @@ class TableReader {
   /// Required: an integer (4.0 is none) between the two, both included.
   std::int64_t integer_between(std::string_view key, std::int64_t least,
                                std::int64_t greatest) const;
+  /// Required: an integer in the range that is declared.
+  std::int64_t integer(std::string_view key) const;
   /// The key's value, if it is there and an integer.
   std::optional<std::int64_t> integer_if_any(std::string_view key) const;
   /// Required: an array of `count` finite numbers.
@@ -61,6 +65,8 @@ class TableReader {
   /// Required: an array of integers between the two, both included; not empty.
   std::vector<std::int64_t> integers(std::string_view key, std::int64_t least,
                                      std::int64_t greatest) const;
+  /// Required: an array of integers in the range that is declared; not empty.
+  std::vector<std::int64_t> integers(std::string_view key) const;
   /// Required: an array of `size` arrays (rows) of `size` finite numbers; returned by rows.
   std::vector<double> square_matrix(std::string_view key, std::size_t size) const;
   /// Required: a finite number, or an array of them that is not empty.
@@ -82,6 +88,12 @@ class TableReader {
   std::vector<std::string> texts(std::string_view key) const;
   /// Required: one of `choices`; returns its index.
   std::size_t choice(std::string_view key, const std::vector<std::string_view>& choices) const;
+  /// Required: one of the choices that are declared; returns its index.
+  std::size_t choice(std::string_view key) const;
+  /// Reads a key of one value, as declared, into `value`, which stays as it is where the table does
+  /// not have the key.
+  template <class Value>
+  void read_if_any(std::string_view key, Value& value) const;
   /// Required: the only one of `keys` that the table has.
   std::string_view exactly_one_of(const std::vector<std::string_view>& keys) const;
 
@@ -107,6 +119,9 @@ class TableReader {
  private:
   const toml::node& required(std::string_view key, std::string_view right) const;
   const toml::array& required_array(std::string_view key, std::string_view right) const;
+  /// The form that is declared for the key, which must be.
+  const ValueForm& form_of(std::string_view key) const;
+  const TableDescription* description_of(std::string_view key) const;
   double finite(const toml::node& node, const std::string& dotted_key,
                 std::string_view right) const;
   /// `key` with the table's dotted name before it.
@@ -119,7 +134,24 @@ class TableReader {
   const toml::table* table_;
   std::string path_;
   const SceneSource* source_;
+  const TableDescription* description_;
 };
+
+template <class Value>
+void TableReader::read_if_any(std::string_view key, Value& value) const {
+  if (!has(key)) return;
+  if constexpr (std::is_same_v<Value, bool>) {
+    value = boolean(key);
+  } else if constexpr (std::is_same_v<Value, std::string>) {
+    value = text(key);
+  } else if constexpr (std::is_enum_v<Value>) {
+    value = static_cast<Value>(choice(key));
+  } else if constexpr (std::is_integral_v<Value>) {
+    value = static_cast<Value>(integer(key));
+  } else {
+    value = number(key);
+  }
+}
 
 /// A value as messages quote it.
 std::string describe(const toml::node& node);

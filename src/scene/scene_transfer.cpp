@@ -13,6 +13,10 @@ namespace {
 
 constexpr std::size_t degrees_of_freedom = 3;
 
+/// At this distance from a half revolution the normal velocity on a circular orbit is
+/// 1 / sin(2 pi 0.01) = 16 times what a quarter revolution takes.
+constexpr double default_revolutions = 0.01;
+
 /// A table that said in which frame it is.
 struct FramedTable {
   TableReader table;
@@ -33,15 +37,15 @@ void require_one_frame(const FramedTable& first, const FramedTable& other) {
 FramedTable read_end(const TableReader& fallback, std::string_view key, const Nominal& nominal,
                      RelativeState& state) {
   const TableReader end = fallback.table(key);
-  end.check_keys({{"frame", "derivatives", "position_m", "velocity_m_s"}});
+  end.check_keys();
   const RelativeFrame frame = read_relative_frame(end, fallback);
   state = read_relative_state(end, nominal);
   return {end, frame, (end.has("frame") ? end : fallback).head("frame")};
 }
 
 std::string read_kind(const TableReader& transfer) {
-  if (!transfer.has("kind")) return "auto";
-  const std::string kind = transfer.text("kind");
+  std::string kind = TransferSettings().kind;
+  transfer.read_if_any("kind", kind);
   if (explicit_kind(kind, degrees_of_freedom).empty()) {
     transfer.fail("kind",
                   fmt::format("unknown kind, got {}, must be auto, F1, F2, F3, F4, or 3 letters q "
@@ -54,9 +58,6 @@ std::string read_kind(const TableReader& transfer) {
 
 /// The margin about singular times, canonical.
 double read_singular_margin(const TableReader& transfer, const Nominal& nominal) {
-  // At this distance from a half revolution the normal velocity on a circular orbit is
-  // 1 / sin(2 pi 0.01) = 16 times what a quarter revolution takes.
-  constexpr double default_revolutions = 0.01;
   const double period = nominal.period_s ? convert<double>(*nominal.period_s / nominal.scale.time_s)
                                          : 2 * std::numbers::pi;
   const bool has_seconds = transfer.has("singular_margin_s");
@@ -81,14 +82,43 @@ double read_singular_margin(const TableReader& transfer, const Nominal& nominal)
   return margin;
 }
 
+const TableDescription& end_table() {
+  static const TableDescription table = {joined<SceneKey>(
+      {relative_frame_keys(absent::other("of `[transfer]`")), relative_state_keys()})};
+  return table;
+}
+
 }  // namespace
+
+const TableDescription& transfer_table() {
+  static const TransferSettings preset;
+  const auto end = absent::other("both, only beside `[assignment]`");
+  const auto margin = form::words("number from 0", form::number());
+  static const TableDescription table = {joined<SceneKey>(
+      {relative_frame_keys(absent::other("required, or of `start` and `end`")),
+       {{"start", form::table(end_table()), end, "velocity before the first impulse"},
+        {"end", form::table(end_table()), end, "velocity after the second impulse"}},
+       transfer_time_keys(absent::other("another of these four")),
+       {{"kind", form::words("kind of three degrees of freedom"), absent::value(preset.kind),
+         "`auto` is the one whose inverted block changes least over the transfer"},
+        {"tolerance_m", form::positive(), absent::value(preset.tolerance_m),
+         "a larger miss of the highest order is marked"},
+        {"refine", form::boolean(), absent::value(preset.refine),
+         "correct all by flying, not only those that miss by more than the tolerance"},
+        {"refined_miss_m", form::positive(), absent::value(preset.refined_miss_m),
+         "until the miss is below this"},
+        {"singular_margin_s", margin, absent::other("`singular_margin_orbits`"),
+         "nearer to a singular time is marked"},
+        {"singular_margin_orbits", margin, absent::value(default_revolutions),
+         "likewise, in periods of the nominal"},
+        {"strict", form::boolean(), absent::value(preset.strict),
+         "a miss beyond the tolerance is exit code 1"}}})};
+  return table;
+}
 
 TransferSettings read_transfer(const TableReader& transfer, const Scene& scene,
                                const Nominal& nominal, bool needs_ends) {
-  transfer.check_keys(
-      {{"frame", "derivatives", "start", "end", "times_s", "times_orbits", "times_canonical",
-        "count", "kind", "tolerance_m", "refine", "refined_miss_m", "singular_margin_s",
-        "singular_margin_orbits", "strict"}});
+  transfer.check_keys();
   require_relative_motion(transfer, scene);
   TransferSettings settings;
   std::optional<FramedTable> first;
@@ -102,17 +132,15 @@ TransferSettings read_transfer(const TableReader& transfer, const Scene& scene,
     if (first) require_one_frame(*first, start);
     first = start;
   }
-  if (!first) transfer.choice("frame", {"RTN", "inertial"});  // says what is missing
+  if (!first) transfer.choice("frame");  // says what is missing
   settings.frame = first->frame;
   settings.times = read_transfer_times(transfer, scene, nominal);
   settings.kind = read_kind(transfer);
-  if (transfer.has("tolerance_m")) settings.tolerance_m = transfer.positive_number("tolerance_m");
-  if (transfer.has("refine")) settings.refine = transfer.boolean("refine");
-  if (transfer.has("refined_miss_m")) {
-    settings.refined_miss_m = transfer.positive_number("refined_miss_m");
-  }
+  transfer.read_if_any("tolerance_m", settings.tolerance_m);
+  transfer.read_if_any("refine", settings.refine);
+  transfer.read_if_any("refined_miss_m", settings.refined_miss_m);
   settings.singular_margin = read_singular_margin(transfer, nominal);
-  if (transfer.has("strict")) settings.strict = transfer.boolean("strict");
+  transfer.read_if_any("strict", settings.strict);
   return settings;
 }
 

@@ -27,20 +27,30 @@ std::vector<double> read_semi_axes(const TableReader& validity) {
 
 }  // namespace
 
+const TableDescription& validity_table() {
+  static const ValiditySettings preset;
+  static const TableDescription table = {joined<SceneKey>(
+      {{{"tolerance_m", form::positive(), absent::value(preset.tolerance_m), "the largest miss"}},
+       transfer_time_keys(absent::other(fmt::format("`count = {}`", default_times))),
+       {{"semi_axes", form::array(form::positive(), 3), absent::value(preset.semi_axes),
+         "of the ellipsoid of positions along the axes of the frame; velocities fill the "
+         "same one times the mean motion"},
+        {"samples", form::integer(fewest_samples, most_samples), absent::value(preset.samples),
+         "deputies that are flown"}},
+       relative_frame_keys(absent::value("RTN"))})};
+  return table;
+}
+
 ValiditySettings read_validity(const TableReader& validity, const Scene& scene,
                                const Nominal& nominal) {
-  validity.check_keys({{"tolerance_m", "times_s", "times_orbits", "times_canonical", "count",
-                        "semi_axes", "samples", "frame", "derivatives"}});
+  validity.check_keys();
   require_relative_motion(validity, scene);
   ValiditySettings settings;
-  if (validity.has("tolerance_m")) settings.tolerance_m = validity.positive_number("tolerance_m");
+  validity.read_if_any("tolerance_m", settings.tolerance_m);
   settings.times = read_transfer_times(validity, scene, nominal, default_times);
   settings.frame = read_relative_frame_or_rtn(validity);
   if (validity.has("semi_axes")) settings.semi_axes = read_semi_axes(validity);
-  if (validity.has("samples")) {
-    settings.samples =
-        static_cast<int>(validity.integer_between("samples", fewest_samples, most_samples));
-  }
+  validity.read_if_any("samples", settings.samples);
   return settings;
 }
 

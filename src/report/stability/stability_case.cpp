@@ -1,14 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <system_error>
 #include <utility>
 
 #include "../../scene/scene_document.hpp"
 #include "../../scene/scene_sections.hpp"
 #include "../../scene/scene_text.hpp"
-#include "../../scene/stability_case_keys.hpp"
 #include "../../store/text_file.hpp"
 #include "../../text/scene_message.hpp"
 #include "hamjet/algebra/extended.hpp"
@@ -18,8 +16,6 @@
 
 namespace hamjet::io {
 namespace {
-
-constexpr double largest_number = std::numeric_limits<double>::max();
 
 /// Numbers from decimal texts, which may have more digits than binary64.
 std::vector<Extended> decimals(const TableReader& table, std::string_view key) {
@@ -41,39 +37,32 @@ std::vector<Extended> decimals(const TableReader& table, std::string_view key) {
 }
 
 GrowthExpectation read_growth(const TableReader& growth) {
-  growth.check_keys({{"checkpoints", "times", "states", "samples", "error_exponent",
-                      "energy_exponent", "coefficient_exponents", "exponent_tolerance"}});
+  growth.check_keys();
   GrowthExpectation expected;
-  if (growth.has("checkpoints")) {
-    expected.checkpoints = static_cast<int>(growth.integer_between("checkpoints", 3, 20));
-  }
-  if (growth.has("samples")) {
-    expected.samples = static_cast<int>(growth.integer_between("samples", 1, 64));
-  }
+  growth.read_if_any("checkpoints", expected.checkpoints);
+  growth.read_if_any("samples", expected.samples);
   if (growth.has("times")) expected.times = growth.numbers("times");
   if (growth.has("states")) {
     if (expected.times.empty()) growth.fail("states", "without times, must stand beside times");
     expected.states = decimals(growth, "states");
   }
-  if (growth.has("error_exponent")) expected.error_exponent = growth.number("error_exponent");
-  if (growth.has("energy_exponent")) expected.energy_exponent = growth.number("energy_exponent");
+  growth.read_if_any("error_exponent", expected.error_exponent);
+  growth.read_if_any("energy_exponent", expected.energy_exponent);
   if (growth.has("coefficient_exponents")) {
     expected.coefficient_exponents = growth.numbers("coefficient_exponents");
   }
-  if (growth.has("exponent_tolerance")) {
-    expected.exponent_tolerance = growth.positive_number("exponent_tolerance");
-  }
+  growth.read_if_any("exponent_tolerance", expected.exponent_tolerance);
   return expected;
 }
 
 ConditionExpectation read_condition(const TableReader& condition) {
-  condition.check_keys({{"kind", "value"}});
-  return {condition.text("kind"), condition.positive_number("value")};
+  condition.check_keys();
+  return {condition.text("kind"), condition.number("value")};
 }
 
 /// The scene with the changes of the twin, `key = value` each as with --set.
 Scene read_twin(const TableReader& twin, std::string_view text, const std::string& file) {
-  twin.check_keys({{"set"}});
+  twin.check_keys();
   std::vector<Override> overrides;
   for (const std::string& change : twin.texts("set")) {
     const std::size_t equals = change.find('=');
@@ -90,10 +79,8 @@ void read_right(const TableReader& table, std::string_view text, const std::stri
   expected.source = table.text("source");
   if (table.has("state")) expected.state = decimals(table, "state");
   if (table.has("matrix")) expected.matrix = decimals(table, "matrix");
-  if (table.has("tolerance")) {
-    expected.tolerance = table.number_between("tolerance", 0, largest_number);
-  }
-  if (table.has("round_trip")) expected.round_trip = table.boolean("round_trip");
+  table.read_if_any("tolerance", expected.tolerance);
+  table.read_if_any("round_trip", expected.round_trip);
   if (table.has("condition")) expected.condition = read_condition(table.table("condition"));
   if (table.has("growth")) expected.growth = read_growth(table.table("growth"));
   if (table.has("twin")) expected.twin = read_twin(table.table("twin"), text, file);
@@ -102,25 +89,23 @@ void read_right(const TableReader& table, std::string_view text, const std::stri
 StabilityExpectation read_expectation(const TableReader& table, std::string_view text,
                                       const std::string& file) {
   StabilityExpectation expected;
-  expected.outcome =
-      static_cast<CaseOutcome>(table.choice("outcome", {"right", "refused", "marked"}));
+  expected.outcome = static_cast<CaseOutcome>(table.choice("outcome"));
   const bool is_refused = expected.outcome == CaseOutcome::refused;
   const bool is_marked = expected.outcome == CaseOutcome::marked;
-  std::vector<std::string_view> keys =
-      joined(common_case_keys, is_refused ? refusal_case_keys : reference_case_keys);
-  if (is_marked) keys = joined(std::move(keys), mark_case_keys);
-  table.check_keys({keys});
+  table.check_keys({case_table().names_of(table.text("outcome"))});
   if (is_refused) {
-    expected.exit_code = static_cast<int>(table.integer_between("exit_code", 2, 6));
+    expected.exit_code = static_cast<int>(table.integer("exit_code"));
     expected.message = table.text("message");
     if (expected.message.empty()) table.fail("message", "empty, must be a part of the error");
     return expected;
   }
   if (is_marked) {
-    expected.mark = self_check_names()[table.choice("mark", self_check_names())];
+    expected.mark = self_check_names()[table.choice("mark")];
   }
-  const bool has_reference = std::any_of(reference_case_keys.begin(), reference_case_keys.end(),
-                                         [&](std::string_view key) { return table.has(key); });
+  const std::vector<std::string_view> others = case_table().names_not_of("refused");
+  const bool has_reference = std::any_of(others.begin(), others.end(), [&](std::string_view key) {
+    return key != "mark" && table.has(key);
+  });
   if (!is_marked || has_reference) read_right(table, text, file, expected);
   return expected;
 }
@@ -129,7 +114,7 @@ StabilityCase read_case(const std::filesystem::path& path) {
   const std::string file = path.string();
   const std::string text = read_scene_file(path);
   const SceneDocument document = parse_document(text, printable_path(path), {});
-  const TableReader root(document.table, "", document.source);
+  const TableReader root(document.table, "", document.source, &all_studies().front().top);
   const TableReader table = root.table("case");
   StabilityCase subject{path.stem().string(),
                         root.text("title"),

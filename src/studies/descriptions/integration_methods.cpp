@@ -47,11 +47,13 @@ MethodDescription gauss() {
           "Gauss collocation, 1 (implicit midpoint) to 12 stages, order 2 stages; symplectic; "
           "step_canonical, step_s or tolerance; compensated_summation",
       .settings = {{.key = "stages",
+                    .help = "half the order; 1 is the implicit midpoint rule",
                     .member = &Settings::stages,
                     .least = 1,
                     .most = most_gauss_stages,
                     .text = [](const Settings& s) { return fmt::format("{} stages", s.stages); }},
                    {.key = "compensated_summation",
+                    .help = "what a sum rounds off is added to the next",
                     .member = &Settings::compensated_summation,
                     .text =
                         [](const Settings& s) {
@@ -120,6 +122,7 @@ MethodDescription velocity_verlet() {
           "step_canonical or step_s",
       .settings = {{.key = "order",
                     .column = "method_order",
+                    .help = "of convergence",
                     .member = &Settings::order,
                     .least = 2,
                     .most = 8,
@@ -165,6 +168,7 @@ MethodDescription newmark() {
           "gamma = 1/2, beta from 0 to 1/2, implicit for beta > 0, order 2; not symplectic "
           "in (q, p) for beta > 0; step_canonical or step_s",
       .settings = {{.key = "beta",
+                    .help = "explicit and symplectic at 0",
                     .member = &Settings::beta,
                     .least = 0,
                     .most = 0.5,

@@ -25,6 +25,7 @@ inline constexpr int most_gauss_stages = 12;
 struct MethodSetting {
   std::string_view key;           ///< the name of the member
   std::string_view column = key;  ///< its name in comparisons
+  std::string_view help = {};     ///< for people: what it is
   std::variant<int IntegratorSettings::*, double IntegratorSettings::*, bool IntegratorSettings::*>
       member;
   double least = 0;  ///< least value; the range includes both ends

@@ -18,6 +18,7 @@ namespace hamjet {
 /// A key of `[system]`.
 struct SystemParameter {
   std::string_view key;
+  std::string_view help;  ///< for people: what it is
   std::variant<double SystemSettings::*, std::size_t SystemSettings::*> member;
   /// The member for the second number of a key that takes two positive ones; else null.
   double SystemSettings::*second_member = nullptr;

@@ -16,7 +16,7 @@ namespace hamjet {
 namespace {
 
 const SystemParameter mass = {
-    .key = "mass_kg", .member = &SystemSettings::mass_kg, .is_required = false};
+    .key = "mass_kg", .help = "mass", .member = &SystemSettings::mass_kg, .is_required = false};
 
 double period_of(double mass_kg, double stiffness_N_per_m) {
   return 2 * std::numbers::pi * std::sqrt(mass_kg / stiffness_N_per_m);
@@ -39,13 +39,16 @@ std::vector<SystemDescription> describe_systems() {
        .help = "Kepler's problem: mu_km3_s2",
        .is_orbit = true,
        .degrees_of_freedom = {3},
-       .parameters = {{.key = "mu_km3_s2", .member = &SystemSettings::mu_km3_s2}},
+       .parameters = {{.key = "mu_km3_s2",
+                       .help = "gravitational parameter",
+                       .member = &SystemSettings::mu_km3_s2}},
        .make = [](const SystemSettings&, double) { return kepler(); }},
       {.model = SystemModel::harmonic_oscillator,
        .name = "harmonic-oscillator",
        .help = "one degree of freedom: mass_kg, stiffness_N_per_m",
        .parameters = {mass,
                       {.key = "stiffness_N_per_m",
+                       .help = "of the spring",
                        .member = &SystemSettings::stiffness_N_per_m,
                        .is_required = false}},
        .make = [](const SystemSettings& s,
@@ -62,6 +65,7 @@ std::vector<SystemDescription> describe_systems() {
        .degrees_of_freedom = {2},
        .parameters = {mass,
                       {.key = "stiffness_N_per_m",
+                       .help = "of the two springs",
                        .member = &SystemSettings::stiffness_N_per_m,
                        .second_member = &SystemSettings::second_stiffness_N_per_m}},
        .make =
@@ -78,9 +82,14 @@ std::vector<SystemDescription> describe_systems() {
                "gravity_m_s2",
        .degrees_of_freedom = {2},
        .parameters = {mass,
-                      {.key = "stiffness_N_per_m", .member = &SystemSettings::stiffness_N_per_m},
-                      {.key = "length_m", .member = &SystemSettings::length_m},
+                      {.key = "stiffness_N_per_m",
+                       .help = "of the spring",
+                       .member = &SystemSettings::stiffness_N_per_m},
+                      {.key = "length_m",
+                       .help = "of the spring at rest",
+                       .member = &SystemSettings::length_m},
                       {.key = "gravity_m_s2",
+                       .help = "toward negative q2",
                        .member = &SystemSettings::gravity_m_s2,
                        .is_positive = false}},
        .make =
@@ -93,8 +102,14 @@ std::vector<SystemDescription> describe_systems() {
        .help = "chain of stiff linear and soft quartic springs: omega_rad_per_s, pairs (1 to 4)",
        .degrees_of_freedom = {2, 4, 6, 8},
        .degrees_of_freedom_of = [](const SystemSettings& s) { return 2 * s.pairs; },
-       .parameters = {{.key = "omega_rad_per_s", .member = &SystemSettings::omega_rad_per_s},
-                      {.key = "pairs", .member = &SystemSettings::pairs, .least = 1, .most = 4}},
+       .parameters = {{.key = "omega_rad_per_s",
+                       .help = "frequency of the stiff springs",
+                       .member = &SystemSettings::omega_rad_per_s},
+                      {.key = "pairs",
+                       .help = "number of stiff springs",
+                       .member = &SystemSettings::pairs,
+                       .least = 1,
+                       .most = 4}},
        .make = [](const SystemSettings& s,
                   double) { return fermi_pasta_ulam(s.omega_rad_per_s, s.pairs); }}};
 }
