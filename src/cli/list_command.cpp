@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "../scene/key_reference.hpp"
 #include "../studies/descriptions/method_description.hpp"
 #include "../studies/descriptions/system_description.hpp"
 #include "hamjet/detail/maps/generating_function_kind.hpp"
@@ -49,6 +50,7 @@ int list(const std::string& what) {
   if (what == "systems") print(systems());
   if (what == "integrators") print(integrators());
   if (what == "kinds") print(kinds());
+  if (what == "keys") print(io::key_reference());
   return 0;
 }
 

@@ -240,10 +240,11 @@ int dispatch(int argc, char** argv) {
   const CLI::App* sweep = add_sweep_command(app, options, sweeps);
 
   std::string what;
-  CLI::App* list = app.add_subcommand("list", "list systems, integrators or kinds");
-  list->add_option("what", what, "systems, integrators or kinds")
+  CLI::App* list = app.add_subcommand("list", "list systems, integrators, kinds or keys");
+  list->add_option("what", what,
+                   "systems, integrators, kinds, or the keys of a scene as a page in Markdown")
       ->required()
-      ->check(CLI::IsMember({"systems", "integrators", "kinds"}));
+      ->check(CLI::IsMember({"systems", "integrators", "kinds", "keys"}));
 
   std::string shell;
   CLI::App* completion = app.add_subcommand(

@@ -1,0 +1,162 @@
+#include "key_reference.hpp"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "../text/scene_message.hpp"
+#include "table_description.hpp"
+
+namespace hamjet::io {
+namespace {
+
+constexpr std::string_view introduction =
+    R"(# All keys of a scene
+
+This page is what `hamjet list keys` prints; [the page on scenes](README.md) explains them. Numbers are finite and
+ranges include both ends. Canonical units are those of `[units]`; times in orbits are periods of the nominal. What a
+key belongs to, where not every scene can have it, stands in brackets.
+)";
+
+/// The unit that the end of a key's name stands for; empty: none.
+std::string_view unit_of(std::string_view name) {
+  static constexpr std::pair<std::string_view, std::string_view> units[] = {
+      {"_kg_m_s", "kg m/s"},
+      {"_km3_s2", "km^3/s^2"},
+      {"_km_s", "km/s"},
+      {"_m_s2", "m/s^2"},
+      {"_m_s", "m/s"},
+      {"_N_per_m", "N/m"},
+      {"_rad_per_s", "rad/s"},
+      {"_km", "km"},
+      {"_kg", "kg"},
+      {"_deg", "degrees"},
+      {"_rad", "rad"},
+      {"_m", "m"},
+      {"_s", "s"},
+      {"_canonical", "canonical"},
+      {"_orbits", "orbits"}};
+  const auto* const unit = std::find_if(std::begin(units), std::end(units),
+                                        [&](const auto& u) { return name.ends_with(u.first); });
+  return unit != std::end(units) ? unit->second : std::string_view();
+}
+
+std::string in_code(std::string_view text) { return fmt::format("`{}`", text); }
+
+template <class Texts, class Format>
+std::string listed_as(const Texts& texts, const Format& format) {
+  std::vector<std::string> words;
+  for (const auto& text : texts) words.push_back(format(text));
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+std::string value_text(const SceneKey& key) {
+  using Type = ValueForm::Type;
+  const ValueForm& form = key.form;
+  const bool is_number = form.type == Type::number || form.type == Type::integer;
+  const std::string_view unit = is_number ? unit_of(key.name) : std::string_view();
+  std::string text = form.words;
+  if (text.empty() && form.is_array) text = "array of ";
+  if (text == "array of " && form.count > 0) text += fmt::format("{} ", form.count);
+  if (form.words.empty()) {
+    static constexpr std::string_view nouns[] = {"number", "integer", "`true` or `false`", "string",
+                                                 "table"};
+    if (form.choices.empty()) {
+      text += nouns[static_cast<std::size_t>(form.type)];
+      if (form.is_array) text += 's';
+    }
+    text += listed_as(form.choices, [](std::string_view c) { return fmt::format("`\"{}\"`", c); });
+    if (form.is_positive) text += " above 0";
+    if (form.least == form.most) {
+      text += fmt::format(" {}", form.least);
+    } else if (form.has_range()) {
+      text += fmt::format(" from {} to {}", form.least, form.most);
+    }
+  }
+  return unit.empty() ? text : fmt::format("{}; {}", text, unit);
+}
+
+std::string default_text(const Absence& absence) {
+  if (absence.meaning == Absence::Meaning::refused) return "required";
+  return absence.meaning == Absence::Meaning::value ? in_code(absence.text) : absence.text;
+}
+
+/// A line of a table: keys that differ in their names alone, or in what they belong to.
+struct Row {
+  std::vector<std::string_view> names;
+  std::string texts;
+  std::vector<std::string_view> owners;
+};
+
+std::vector<Row> rows_of(const std::vector<SceneKey>& keys) {
+  std::vector<Row> rows;
+  for (const SceneKey& key : keys) {
+    const Row row = {
+        {key.name},
+        fmt::format("{} | {} | {}", value_text(key), default_text(key.absence), key.help),
+        key.owners};
+    const auto same = std::find_if(rows.begin(), rows.end(), [&](const Row& other) {
+      return other.names == row.names && other.texts == row.texts;
+    });
+    if (same != rows.end()) {
+      same->owners = joined<std::string_view>({same->owners, row.owners});
+    } else if (!rows.empty() && rows.back().texts == row.texts &&
+               rows.back().owners == row.owners) {
+      rows.back().names.push_back(key.name);
+    } else {
+      rows.push_back(row);
+    }
+  }
+  return rows;
+}
+
+std::string table_text(const std::vector<SceneKey>& keys) {
+  std::string text = "| key | value | default | what it is |\n|---|---|---|---|\n";
+  for (const Row& row : rows_of(keys)) {
+    const std::string names =
+        row.names.size() > 3
+            ? fmt::format("{} to {}", in_code(row.names.front()), in_code(row.names.back()))
+            : listed_as(row.names, in_code);
+    const std::string owners = row.owners.empty() ? "" : fmt::format(" ({})", listed(row.owners));
+    text += fmt::format("| {} | {}{} |\n", names, row.texts, owners);
+  }
+  return text;
+}
+
+/// The sections of all tables below `path`, each once: what several keys have is said at the first.
+void add_tables(const std::vector<SceneKey>& keys, const std::string& path,
+                std::set<const TableDescription*>& said, std::string& text) {
+  for (const SceneKey& key : keys) {
+    const TableDescription* const table = key.form.table;
+    if (table == nullptr || !said.insert(table).second) continue;
+    std::vector<std::string> headings;
+    for (const SceneKey& other : keys) {
+      if (other.form.table != table) continue;
+      const std::string name = path + std::string(other.name);
+      headings.push_back(in_code(other.form.is_array ? "[[" + name + "]]" : "[" + name + "]"));
+    }
+    text += fmt::format("\n## {}\n\n", fmt::join(headings, ", "));
+    if (!table->note.empty()) text += fmt::format("{}\n\n", table->note);
+    text += table_text(table->keys);
+    add_tables(table->keys, path + std::string(key.name) + '.', said, text);
+  }
+}
+
+}  // namespace
+
+std::string key_reference() {
+  std::string text(introduction);
+  std::set<const TableDescription*> said;
+  for (const StudyDescription& study : all_studies()) {
+    if (said.empty()) {
+      text += "\n## The top\n\n" + table_text(study.top.keys);
+    } else {
+      text += fmt::format("\n## `study = \"{}\"`\n\nAt the top: {}.\n", study.name,
+                          listed_as(study.top.names_of(study.name), in_code));
+    }
+    add_tables(study.top.keys, "", said, text);
+  }
+  return text;
+}
+
+}  // namespace hamjet::io

@@ -1,0 +1,366 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "scene/key_reference.hpp"
+#include "scene/study_reader.hpp"
+#include "scene/table_description.hpp"
+#include "scene_samples.hpp"
+#include "studies/descriptions/settings_fields.hpp"
+
+// What the tables declare of their keys is what the readers do: every key is taken, a value just
+// outside its range is refused, and leaving it out is its default. The scenes are those that are
+// shipped, changed as with --set.
+
+namespace hamjet::io {
+namespace {
+
+/// A key in a scene that can have it.
+struct Place {
+  std::string file = {};  ///< empty: that of the table
+  std::vector<Override> changes = {};
+  std::string value = {};  ///< empty: made from the key's form
+};
+
+/// Where the keys of a table, or of one owner of its keys, stand.
+Place place_of(const std::string& table, std::string_view owner) {
+  static const std::string orbit_file = "transfer-sun-synchronous";
+  static const std::string oscillator = "paper/harmonic-oscillator";
+  static const Override plane = {"nominal", "{position_m=[1, 1], momentum_kg_m_s=[0, 0]}"};
+  static const std::map<std::string, Place, std::less<>> of_models = {
+      {"kepler", {orbit_file, {{"system", "{model=\"kepler\", mu_km3_s2=4e5}"}}}},
+      {"harmonic-oscillator", {oscillator}},
+      {"oscillator-pair",
+       {oscillator, {plane, {"system", "{model=\"oscillator-pair\", stiffness_N_per_m=[1, 2]}"}}}},
+      {"spring-pendulum",
+       {oscillator,
+        {plane,
+         {"system",
+          "{model=\"spring-pendulum\", stiffness_N_per_m=1, length_m=1, gravity_m_s2=1}"}}}},
+      {"fermi-pasta-ulam",
+       {oscillator,
+        {plane, {"system", "{model=\"fermi-pasta-ulam\", omega_rad_per_s=1, pairs=1}"}}}}};
+  static const std::map<std::string, Place, std::less<>> of_tables = {
+      {"formation", {orbit_file, {{"formation", "{separation_km=1}"}}}},
+      {"figure", {orbit_file, {{"figure", "{quantity=\"exactness\"}"}}}},
+      {"assignment",
+       {orbit_file,
+        {{"assignment", "{deputy=[{position_m=[1, 0, 0]}], slot=[{position_m=[2, 0, 0]}]}"}}}},
+      {"ephemeris",
+       {orbit_file,
+        {{"ephemeris",
+          "{epoch=\"2026-01-01T00:00:00\", time_system=\"TAI\", reference_frame=\"EME2000\", "
+          "center_name=\"EARTH\"}"}}}},
+      {"canonical_transformation", {"paper/double-well"}},
+      {"energy_conservation", {"paper/energy-midpoint-kepler"}},
+      {"optimal_control", {"paper/free-end"}}};
+  if (table == "integrator.0") {
+    const bool is_cvode = owner.starts_with("cvode");
+    return {
+        orbit_file,
+        {{table, fmt::format("{{label=\"a\", method=\"{}\", {}}}", owner.empty() ? "gauss" : owner,
+                             is_cvode ? "tolerance=1e-9" : "step_canonical=0.1")}}};
+  }
+  if (owner == other_models) return {oscillator};
+  if (const auto model = of_models.find(owner); model != of_models.end()) return model->second;
+  static const std::set<std::string> left_out = {
+      "units",  "generating_function", "output", "relative_hamiltonian",
+      "checks", "reference",           "compare"};
+  if (left_out.contains(table)) return {orbit_file, {{table, "{}"}}};
+  const auto own = of_tables.find(table.substr(0, table.find('.')));
+  return own != of_tables.end() ? own->second : Place{orbit_file};
+}
+
+/// What the keys need besides whose values or surroundings do not follow from their forms.
+const std::map<std::string, Place>& special_places() {
+  static const Override no_duration = {"jet.duration_orbits", "null"};
+  static const Override no_count = {"transfer.count", "null"};
+  static const Override no_validity_count = {"validity.count", "null"};
+  static const Override no_rotation = {"canonical_transformation.rotation_cosine", "null"};
+  static const Override matrix = {"canonical_transformation.matrix", "[[1, 0], [0, 1]]"};
+  static const Override no_step = {"integrator.0.step_canonical", "null"};
+  static const Override field = {
+      "system", "{model=\"zonal-gravity\", gravity_file=\"../gravity/EGM96-zonals.gfc\"}"};
+  static const Override highest = {"system.highest_zonal", "6"};
+  static const Override cartesian = {"nominal",
+                                     "{position_km=[7000, 0, 0], velocity_km_s=[0, 7.5, 1]}"};
+  static const Override no_orbits = {"energy_conservation.duration_orbits", "null"};
+  static const std::string message = "orbit-messages";
+  static const std::map<std::string, Place> places = {
+      {"system.gravity_file", {"", {field, highest}, "\"../gravity/EGM96-zonals.gfc\""}},
+      {"system.highest_zonal", {"", {field}}},
+      {"system.zonals", {"", {field}}},
+      {"system.pairs", {"", {}, "1"}},
+      {"nominal.a_km", {"", {}, "10000"}},
+      {"nominal.position_km", {"", {cartesian}, "[7000, 1, 0]"}},
+      {"nominal.velocity_km_s", {"", {cartesian}, "[0, 7, 1]"}},
+      {"nominal.e", {"", {}, "0.5"}},
+      {"nominal.oem_file",
+       {message,
+        {{"nominal.opm_file", "null"},
+         {"jet.duration_orbits", "null"},
+         {"jet.duration_s", "100"},
+         {"system", "{model=\"kepler\", mu_km3_s2=42828.37}"}},
+        "\"../../tests/fuzz/corpus/orbit_message/ephemeris.oem\""}},
+      {"nominal.opm_file", {message, {}, "\"eutelsat-w4.opm\""}},
+      {"nominal.epoch", {message, {}, "\"2021-06-03T00:00:00\""}},
+      {"nominal.object", {message, {}, "\"EUTELSAT W4\""}},
+      {"nominal.position_m", {"", {}, "[2]"}},
+      {"nominal.momentum_kg_m_s", {"", {}, "[2]"}},
+      {"jet.variables", {"", {}, R"(["x", "y", "z", "px", "py", "pz"])"}},
+      {"jet.duration_s", {"", {no_duration}, "100"}},
+      {"jet.duration_canonical", {"", {no_duration}}},
+      {"integrator.0.step_s", {"", {no_step}, "100"}},
+      {"integrator.0.tolerance", {"", {no_step}}},
+      {"generating_function.kinds", {"", {}, R"(["F1", "qpq-qqp", "auto"])"}},
+      {"relative_hamiltonian.times_canonical", {"", {}, "[0, 1]"}},
+      {"output.formats", {"", {}, "[\"dace\"]"}},
+      {"compare.orders", {"", {}, "[4]"}},
+      {"figure.kind", {"", {}, "\"F2\""}},
+      {"transfer.times_s", {"", {no_count}, "[100, 200]"}},
+      {"transfer.times_orbits", {"", {no_count}}},
+      {"transfer.times_canonical", {"", {no_count}}},
+      {"transfer.kind", {"", {}, "\"qpq-qqp\""}},
+      {"validity.times_s", {"", {no_validity_count}, "[100, 200]"}},
+      {"validity.times_orbits", {"", {no_validity_count}}},
+      {"validity.times_canonical", {"", {no_validity_count}}},
+      {"ephemeris.epoch", {"", {}, "\"2003-01-01T00:00:00\""}},
+      {"ephemeris.reference_frame", {"", {}, "\"GCRF\""}},
+      {"ephemeris.reference_frame_epoch", {"", {}, "\"2026-01-01T00:00:00\""}},
+      {"ephemeris.oem_version", {"", {}, "3.0"}},
+      {"canonical_transformation.rotation_angle_rad", {"", {no_rotation}}},
+      {"canonical_transformation.matrix", {"", {no_rotation}, matrix.value}},
+      {"canonical_transformation.shift", {"", {no_rotation, matrix}, "[1, 2]"}},
+      {"energy_conservation.first_step_canonical", {"", {}, "0.03"}},
+      {"energy_conservation.first_step_s",
+       {"", {{"energy_conservation.first_step_canonical", "null"}}, "100"}},
+      {"energy_conservation.duration_s", {"", {no_orbits}, "1e5"}},
+      {"energy_conservation.duration_canonical", {"", {no_orbits}}},
+      {"optimal_control.problem", {"", {}, "\"double-integrator\""}},
+      {"optimal_control.steps", {"", {}, "8"}},
+      {"optimal_control.shooting_intervals", {"", {}, "2"}},
+      {"optimal_control.start", {"", {}, "[0, 1]"}},
+      {"optimal_control.end", {"", {}, "[2]"}},
+      {"optimal_control.free_end", {"", {}, "[\"position\"]"}},
+      {"optimal_control.costate_guess", {"", {}, "[1, 1]"}}};
+  return places;
+}
+
+std::string in_array(const ValueForm& form, const std::string& value) {
+  if (!form.is_array) return value;
+  std::string array = value;
+  for (std::size_t i = 1; i < form.count; ++i) array += ", " + value;
+  return '[' + array + ']';
+}
+
+std::string number_text(const ValueForm& form, double value) {
+  return form.type == ValueForm::Type::integer ? fmt::format("{:.0f}", value)
+                                               : fmt::format("{:e}", value);
+}
+
+/// A value of the form.
+std::string right_value(const ValueForm& form) {
+  if (form.type == ValueForm::Type::boolean) return "true";
+  if (!form.choices.empty()) return in_array(form, fmt::format("\"{}\"", form.choices[0]));
+  if (form.type == ValueForm::Type::text) return in_array(form, "\"text\"");
+  return in_array(form, form.has_range() ? number_text(form, form.most) : "1");
+}
+
+/// Values just outside what the form declares.
+std::vector<std::string> wrong_values(const ValueForm& form) {
+  std::vector<std::string> values;
+  if (form.type == ValueForm::Type::boolean) values = {"1", "\"true\""};
+  if (form.type == ValueForm::Type::text) values = {"1"};
+  if (!form.choices.empty()) values.emplace_back("\"none of them\"");
+  if (form.is_positive) values = {"0", "-1e-300"};
+  if (form.has_range()) {
+    const bool is_integer = form.type == ValueForm::Type::integer;
+    const auto beyond = [&](double bound, double sign) {
+      return is_integer ? number_text(form, bound + sign)
+                        : fmt::format("{:.17g}", std::nextafter(bound, sign * INFINITY));
+    };
+    values.push_back(beyond(form.least, -1));
+    if (form.most < std::numeric_limits<double>::max()) values.push_back(beyond(form.most, 1));
+    if (is_integer) values.emplace_back("1.5");
+  }
+  if (form.type == ValueForm::Type::number) values.emplace_back("inf");
+  for (std::string& value : values) value = in_array(form, value);
+  return values;
+}
+
+/// All that a key can change of a study, in one text.
+class StudyText {
+ public:
+  template <class Value>
+  void add(const Value& value) {
+    if constexpr (HasFields<Value>) {
+      for_each_field(value, [&](std::string_view, const auto& member) { add(member); });
+    } else if constexpr (std::is_enum_v<Value>) {
+      add(static_cast<int>(value));
+    } else if constexpr (std::is_same_v<Value, ZonalCoefficients>) {
+      for (int n = ZonalCoefficients::lowest; n <= ZonalCoefficients::highest; ++n) add(value[n]);
+    } else if constexpr (requires {
+                           *value;
+                           value.has_value();
+                         }) {
+      if (value) add(*value);
+      text_ += "; ";
+    } else if constexpr (std::is_same_v<Value, RelativeState>) {
+      for (int i = 0; i < 3; ++i) add_all(value.position_m[i], value.velocity_m_s[i]);
+    } else if constexpr (std::is_arithmetic_v<Value> ||
+                         std::is_convertible_v<Value, std::string_view>) {
+      text_ += fmt::format("{} ", value);
+    } else {
+      for (const auto& element : value) add(element);
+      text_ += "; ";
+    }
+  }
+  template <class... Values>
+  void add_all(const Values&... values) {
+    (add(values), ...);
+  }
+  void add(const TransferSettings& s) {
+    add_all(s.frame, s.start, s.end, s.times, s.kind, s.tolerance_m, s.refine, s.refined_miss_m,
+            s.singular_margin, s.strict);
+  }
+  void add(const ValiditySettings& s) {
+    add_all(s.tolerance_m, s.times, s.semi_axes, s.samples, s.frame);
+  }
+  void add(const AssignmentSettings& s) { add_all(s.deputies, s.slots, s.time); }
+  void add(const EphemerisSettings& s) {
+    add_all(s.epoch, s.time_system, s.reference_frame, s.center_name, s.reference_frame_epoch,
+            s.object_name, s.object_id, s.deputy_name, s.deputy_id, s.originator, s.oem_version);
+  }
+  void add(const FigureSettings& s) { add_all(s.quantity, s.kind); }
+  void add(const SelfCheckSetting& s) { add_all(s.is_on, s.limit); }
+  void add(const Scene& s) {
+    add_all(s.title, s.precision, s.system, s.units, s.canonical_radius, s.nominal, s.duration,
+            s.order, s.arcs, s.variables, s.integrators, s.separation, s.kinds, s.reference,
+            s.relative_hamiltonian_times, s.comparison, s.figure, s.transfer, s.validity,
+            s.assignment, s.output.hdf5, s.output.dace, s.output.oem, s.ephemeris);
+    for (std::size_t i = 0; i < self_check_count; ++i) add(s.checks[SelfCheckName(i)]);
+  }
+  void add(const EnergyConservationStudy& s) {
+    add_all(s.title, s.system, s.nominal, s.method, s.first_step, s.duration, s.expected,
+            s.require_energy_error);
+  }
+  void add(const CanonicalTransformationStudy& s) {
+    add_all(s.title, s.system, s.nominal, s.duration, s.steps, s.require_invariance);
+  }
+  void add(const OptimalControlStudy& s) {
+    add_all(s.title, s.model, s.discretization, s.duration, s.steps, s.refinements, s.start, s.end,
+            s.costate_guess, s.shooting_intervals, s.require_cost_error, s.require_equivalence);
+  }
+
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+/// The study as a text, or the message where it is refused, behind "refused: ".
+std::string read(const Place& place, const std::string& key, const std::string& value) {
+  std::vector<Override> overrides = place.changes;
+  overrides.push_back({key, value});
+  const std::string file = std::string(HAMJET_SOURCE_DIR) + "/data/scenes/" + place.file + ".toml";
+  try {
+    StudyText text;
+    std::visit([&](const auto& study) { text.add(study); }, read_study(file, overrides));
+    return text.text();
+  } catch (const Error& error) {
+    return std::string("refused: ") + error.what();
+  }
+}
+
+void check_key(const SceneKey& key, const std::string& table, std::string_view owner) {
+  const std::string path =
+      table.empty() ? std::string(key.name) : fmt::format("{}.{}", table, key.name);
+  SCOPED_TRACE(fmt::format("{} ({})", path, owner));
+  Place place = place_of(table, owner);
+  if (const auto special = special_places().find(path); special != special_places().end()) {
+    if (!special->second.file.empty()) place = {special->second.file};
+    place.changes = joined<Override>({place.changes, special->second.changes});
+    place.value = special->second.value;
+  }
+  const std::string value = place.value.empty() ? right_value(key.form) : place.value;
+  EXPECT_FALSE(read(place, path, value).starts_with("refused")) << read(place, path, value);
+  for (const std::string& wrong : wrong_values(key.form)) {
+    const std::string said = read(place, path, wrong);
+    EXPECT_TRUE(said.starts_with("refused: --set " + path)) << wrong << " gives " << said;
+  }
+  const std::string without = read(place, path, "null");
+  if (key.absence.meaning == Absence::Meaning::refused) {
+    EXPECT_TRUE(without.starts_with("refused")) << "it can be left out";
+  } else if (key.absence.meaning == Absence::Meaning::value) {
+    EXPECT_FALSE(without.starts_with("refused")) << without;
+    EXPECT_EQ(read(place, path, key.absence.text), without) << "with the default";
+  }
+}
+
+void check_keys(const TableDescription& table, const std::string& path,
+                std::set<const TableDescription*>& checked) {
+  for (const SceneKey& key : table.keys) {
+    EXPECT_FALSE(key.help.empty() && key.owners.empty()) << path << ": " << key.name;
+    if (key.form.table != nullptr) {
+      // Other commands than `stability` do not look into this one.
+      if (key.name == "case" || !checked.insert(key.form.table).second) continue;
+      const std::string below = path + std::string(path.empty() ? "" : ".") + std::string(key.name);
+      check_keys(*key.form.table, key.form.is_array ? below + ".0" : below, checked);
+    } else if (key.owners.empty()) {
+      check_key(key, path, "");
+    } else {
+      for (const std::string_view owner : key.owners) check_key(key, path, owner);
+    }
+  }
+}
+
+TEST(SceneKeys, TheReadersDoWhatTheTablesDeclare) {
+  std::set<const TableDescription*> checked;
+  for (const StudyDescription& study : all_studies()) {
+    if (!checked.empty()) {
+      for (const SceneKey& key : study.top.keys) {
+        if (key.form.table != nullptr && checked.insert(key.form.table).second) {
+          check_keys(*key.form.table, std::string(key.name), checked);
+        }
+      }
+      continue;
+    }
+    check_keys(study.top, "", checked);
+  }
+}
+
+std::string content_of(const std::string& name) {
+  std::ifstream file(std::string(HAMJET_SOURCE_DIR) + "/" + name);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+TEST(SceneKeys, ThePageHasThem) {
+  EXPECT_TRUE(content_of("data/scenes/keys.md") == key_reference())
+      << "renew it by: hamjet list keys > data/scenes/keys.md";
+}
+
+/// Names of all keys of a table and of those below.
+void add_names(const TableDescription& table, std::set<std::string_view>& names) {
+  for (const SceneKey& key : table.keys) {
+    names.insert(key.name);
+    if (key.form.table != nullptr) add_names(*key.form.table, names);
+  }
+}
+
+TEST(SceneKeys, TheDictionaryOfTheFuzzTargetHasThem) {
+  std::set<std::string_view> names;
+  for (const StudyDescription& study : all_studies()) add_names(study.top, names);
+  const std::string dictionary = content_of("tests/fuzz/scene_text.dict");
+  for (const std::string_view name : names) {
+    EXPECT_NE(dictionary.find(fmt::format("\n\"{}\"\n", name)), std::string::npos) << name;
+  }
+}
+
+}  // namespace
+}  // namespace hamjet::io
