@@ -4,7 +4,8 @@
 
 namespace hamjet::cli {
 
-/// Prints what scenes may name: `what` is systems, integrators, kinds or keys. Returns the exit code.
+/// Prints what scenes may name: `what` is systems, integrators, kinds or keys. Returns the exit
+/// code.
 int list(const std::string& what);
 
 }  // namespace hamjet::cli
