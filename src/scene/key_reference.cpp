@@ -13,7 +13,7 @@ namespace {
 constexpr std::string_view introduction =
     R"(# All keys of a scene
 
-This page is what `hamjet list keys` prints; [the page on scenes](README.md) explains them. Numbers are finite and
+This page is what `hamjet list keys` prints; [the page on scenes](../README.md) explains them. Numbers are finite and
 ranges include both ends. Canonical units are those of `[units]`; times in orbits are periods of the nominal. What a
 key belongs to, where not every scene can have it, stands in brackets.
 )";

@@ -341,8 +341,8 @@ std::string content_of(const std::string& name) {
 }
 
 TEST(SceneKeys, ThePageHasThem) {
-  EXPECT_TRUE(content_of("data/scenes/keys.md") == key_reference())
-      << "renew it by: hamjet list keys > data/scenes/keys.md";
+  EXPECT_TRUE(content_of("data/scenes/keys/README.md") == key_reference())
+      << "renew it by: hamjet list keys > data/scenes/keys/README.md";
 }
 
 /// Names of all keys of a table and of those below.
