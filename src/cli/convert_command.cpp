@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include "../formats/output_formats.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/formats/jet_file.hpp"
 #include "output_file.hpp"
@@ -15,9 +16,8 @@ namespace hamjet::cli {
 
 CLI::App* add_convert_command(CLI::App& app, ConvertOptions& options) {
   CLI::App* command = app.add_subcommand(
-      "convert",
-      "write a stored jet in another format: .h5 (HDF5), .dace (text of DACE) or .csv\n"
-      "Example: hamjet convert out/scene scene.h5");
+      "convert", "write a stored jet in another format: " + io::jet_file_endings(true) +
+                     "\nExample: hamjet convert out/scene scene.h5");
   command
       ->add_option("from", options.from,
                    "results of hamjet run, or a file .h5, or .dace or .csv beside its summary.json")
@@ -38,17 +38,18 @@ int convert(const ConvertOptions& options) {
                             options.from.empty() ? "a stored jet" : "a run"));
   }
   const std::filesystem::path to = options.to;
-  const io::JetFormat format = io::jet_format(to);
+  const io::OutputFormat& format = io::jet_format(to);
   std::error_code none;
   if (std::filesystem::equivalent(options.from, to, none)) {
     throw Error(ErrorKind::usage, "from and to: are the same file");
   }
   const OutputFile file(to);
   const io::StoredJet stored = io::read_jet_file(options.from, options.run);
-  if (format == io::JetFormat::dace && stored.precision == Precision::extended) {
+  if (format.digits > 0 && stored.precision == Precision::extended) {
     print_error(
-        "note: the text of DACE holds 17 digits: the coefficients of extended precision are "
-        "rounded");
+        fmt::format("note: the {} holds {} digits: the coefficients of extended precision "
+                    "are rounded",
+                    format.help, format.digits));
   }
   file.write(io::jet_file_content(stored, format));
   return 0;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "../app/arithmetic.hpp"
+#include "../formats/output_formats.hpp"
 #include "../text/shell_text.hpp"
 #include "bash_completion.hpp"
 #include "compare_command.hpp"
@@ -95,7 +96,7 @@ CLI::App* add_eval_command(CLI::App& app, hamjet::cli::EvalOptions& options) {
       "map relative states at the start through a stored jet to the end of its duration\n"
       "Example: hamjet eval out/scene --deviations start.csv -o end.csv");
   eval->add_option("directory", options.directory,
-                   "results of hamjet run, or one of their files .h5, .dace or .csv")
+                   "results of hamjet run, or one of their files " + hamjet::io::jet_file_endings())
       ->required()
       ->type_name("FILE");
   eval->add_option("--deviation", options.deviation,

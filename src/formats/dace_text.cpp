@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 
 #include "../text/scene_message.hpp"
 #include "dace_columns.hpp"
 #include "hamjet/error.hpp"
+#include "jet_description.hpp"
+#include "output_formats.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -39,6 +42,31 @@ void write_polynomial(fmt::memory_buffer& out, const Series<Extended>& polynomia
   fmt::format_to(write, "{}\n", dace::end);
 }
 
+FlowJet<Extended> read_dace_coefficients(const CoefficientFile& file, std::string_view text) {
+  // Rows of zeros are left out, but a damaged order could ask for gigabytes.
+  constexpr double most_zeros = 1000;
+  const double terms = SeriesSpace::monomial_count(file.variables.size(), file.order);
+  if (terms > most_zeros * static_cast<double>(text.size() + 1)) {
+    throw Error(ErrorKind::input_output,
+                fmt::format("{}: has far fewer coefficients than order {} in {} variables has",
+                            file.name, file.order, file.variables.size()));
+  }
+  const auto space = SeriesSpace::create(file.variables.size(), file.order);
+  const auto polynomials = read_dace_text(file.name, text, space);
+  if (polynomials.size() != file.components.size()) {
+    throw Error(ErrorKind::input_output,
+                fmt::format("{}: has {} polynomials, must have {}", file.name, polynomials.size(),
+                            file.components.size()));
+  }
+  FlowJet<Extended> jet;
+  for (const Series<double>& polynomial : polynomials) {
+    Series<Extended>& series = jet.emplace_back(space);
+    std::copy(polynomial.coefficients().begin(), polynomial.coefficients().end(),
+              series.coefficients().begin());
+  }
+  return jet;
+}
+
 }  // namespace
 
 std::string dace_text(const std::vector<Series<Extended>>& polynomials,
@@ -59,5 +87,18 @@ std::string dace_text(const std::vector<Series<Extended>>& polynomials,
   }
   return fmt::to_string(out);
 }
+
+const OutputFormat dace_format = {
+    .name = "dace",
+    .help = "text of DACE",
+    .file = "jet.dace",
+    .ending = ".dace",
+    .digits = 17,
+    .of_jet =
+        [](const StoredJet& stored) {
+          return dace_text(stored.jet, jet_notes(stored, stored.order()));
+        },
+    .read_coefficients = read_dace_coefficients,
+};
 
 }  // namespace hamjet::io

@@ -33,6 +33,11 @@
 
 namespace hamjet::io {
 
+struct OutputFormat;
+
+/// `jet.dace` of each run; the reader of jets takes its coefficients beside a `summary.json`.
+extern const OutputFormat dace_format;
+
 /// The text of polynomials, each coefficient rounded to double precision; those that are +0 are
 /// left out, as DACE does. The lines of `notes` follow behind the end, a # before each. Throws
 /// Error(input_output) for what the text cannot hold: more than 34 variables, more than 999999

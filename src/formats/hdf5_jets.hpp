@@ -6,6 +6,7 @@
 
 #include "hamjet/formats/stored_jet.hpp"
 #include "hamjet/studies/propagation.hpp"
+#include "output_formats.hpp"
 
 // `jets.h5`: the jets of all runs of a scene in one HDF5 file, which h5py, MATLAB and Julia read.
 // The file says itself what it holds (attribute `description`). Its first 512 bytes, which HDF5
@@ -50,5 +51,16 @@ std::string jets_hdf5(const StoredJet& stored);
 /// type or format version; Error(usage) if no run has this label.
 StoredJet read_jets_hdf5(const std::string& name, std::string_view bytes,
                          const std::optional<std::string>& label = {});
+
+/// Defined here because builds with and without HDF5 have no source in common.
+inline constexpr OutputFormat hdf5_format = {.name = "hdf5",
+                                             .help = "HDF5",
+                                             .file = "jets.h5",
+                                             .ending = ".h5",
+                                             .library = "HDF5",
+                                             .is_built = hdf5_available,
+                                             .of_results = jets_hdf5,
+                                             .of_jet = jets_hdf5,
+                                             .read = read_jets_hdf5};
 
 }  // namespace hamjet::io

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <numeric>
 #include <optional>
 
@@ -13,6 +14,7 @@
 #include "../text/whole_number.hpp"
 #include "hamjet/error.hpp"
 #include "number_table.hpp"
+#include "output_formats.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -136,6 +138,13 @@ std::string extended_digits(const Extended& number) {
   return digits;
 }
 
+std::string coefficient_digits(const Extended& value, Precision precision) {
+  if (precision == Precision::double_precision) {
+    return fmt::format("{:.17g}", static_cast<double>(value));
+  }
+  return extended_digits(value);
+}
+
 std::optional<Extended> parse_coefficient(std::string_view text, Precision precision) {
   if (precision == Precision::extended) return finite_extended_number(text);
   const auto number = whole_number<double>(text);
@@ -146,5 +155,40 @@ std::optional<Extended> parse_coefficient(std::string_view text, Precision preci
 FlowJet<Extended> read_coefficients(const CoefficientFile& file, std::string_view text) {
   return CoefficientReader(file).read(text);
 }
+
+std::string coefficients_csv(const std::vector<std::string_view>& names,
+                             const std::vector<std::size_t>& components,
+                             const std::vector<std::size_t>& variables, Precision precision,
+                             const FlowJet<Extended>& jet) {
+  const SeriesSpace& space = jet.at(0).space();
+  fmt::memory_buffer out;
+  const auto write = std::back_inserter(out);
+  fmt::format_to(write, "component");
+  for (const auto name : names) fmt::format_to(write, ",e_{}", name);
+  fmt::format_to(write, ",coefficient\n");
+  for (std::size_t c = 0; c < jet.size(); ++c) {
+    for (std::size_t k = 0; k < space.size(); ++k) {
+      std::vector<int> exponents(names.size(), 0);
+      for (std::size_t v = 0; v < space.variables(); ++v) {
+        exponents[variables[v]] = space.exponents(k)[v];
+      }
+      fmt::format_to(write, "{}", names[components[c]]);
+      for (const int e : exponents) fmt::format_to(write, ",{}", e);
+      fmt::format_to(write, ",{}\n", coefficient_digits(jet[c][k], precision));
+    }
+  }
+  return fmt::to_string(out);
+}
+
+const OutputFormat csv_format = {
+    .file = "jet.csv",
+    .ending = ".csv",
+    .of_jet =
+        [](const StoredJet& stored) {
+          return coefficients_csv(stored.variable_names(), stored.components, stored.variables,
+                                  stored.precision, stored.jet);
+        },
+    .read_coefficients = read_coefficients,
+};
 
 }  // namespace hamjet::io

@@ -12,8 +12,16 @@
 
 namespace hamjet::io {
 
+struct OutputFormat;
+
+/// `jet.csv`, which each run has without being asked for it.
+extern const OutputFormat csv_format;
+
 /// A number with 36 digits, which bring back the same 113 bits, and with the sign of zero.
 std::string extended_digits(const Extended& number);
+
+/// Digits that bring back the same number: 17 for binary64, 36 for 113 bits.
+std::string coefficient_digits(const Extended& value, Precision precision);
 
 /// A finite number as jet.csv has it; nothing if the text is anything else.
 std::optional<Extended> parse_coefficient(std::string_view text, Precision precision);
@@ -31,5 +39,11 @@ struct CoefficientFile {
 /// Reads the text of a `jet.csv`: one row a component and monomial, in any order. Throws
 /// Error(input_output), one line with file and line, if it holds anything else.
 FlowJet<Extended> read_coefficients(const CoefficientFile& file, std::string_view text);
+
+/// The text of a `jet.csv`; components and variables are indices of the names of the model's state.
+std::string coefficients_csv(const std::vector<std::string_view>& names,
+                             const std::vector<std::size_t>& components,
+                             const std::vector<std::size_t>& variables, Precision precision,
+                             const FlowJet<Extended>& jet);
 
 }  // namespace hamjet::io

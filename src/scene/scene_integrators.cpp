@@ -8,6 +8,7 @@
 #include <type_traits>
 #include <variant>
 
+#include "../formats/output_formats.hpp"
 #include "../studies/descriptions/method_description.hpp"
 #include "../text/scene_message.hpp"
 #include "hamjet/error.hpp"
@@ -30,8 +31,12 @@ bool is_reserved(std::string_view label) {
                                                "singular_times.csv", "conditions.csv",
                                                "validity.csv",       "assignment.csv",
                                                "costs.csv",          "stability.csv",
-                                               "stability.html",     "jets.h5"};
-  return std::find(std::begin(names), std::end(names), label) != std::end(names);
+                                               "stability.html"};
+  const auto& formats = output_formats();
+  return std::find(std::begin(names), std::end(names), label) != std::end(names) ||
+         std::any_of(formats.begin(), formats.end(), [&](const OutputFormat* format) {
+           return format->of_results != nullptr && format->file == label;
+         });
 }
 
 /// The keys of a method but those of every method.

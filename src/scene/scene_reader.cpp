@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "../formats/output_formats.hpp"
 #include "../studies/arcs.hpp"
 #include "../text/scene_message.hpp"
 #include "scene_sections.hpp"
@@ -16,12 +18,16 @@ void read_output_and_ephemeris(const TableReader& root, Scene& scene) {
   if (root.has("ephemeris")) {
     scene.ephemeris = read_ephemeris(root.table("ephemeris"), scene.nominal_file);
   }
-  if (!scene.output.oem) return;
+  const auto wanted = wanted_formats(scene);
+  const auto dated = std::find_if(wanted.begin(), wanted.end(),
+                                  [](const OutputFormat* format) { return format->needs_date; });
+  if (dated == wanted.end()) return;
   if (!scene.ephemeris) {
     root.table("output").fail(
         "formats",
-        "\"oem\" without a date, got no table [ephemeris], must have one with "
-        "epoch, time_system, reference_frame and center_name");
+        fmt::format("\"{}\" without a date, got no table [ephemeris], must have one with "
+                    "epoch, time_system, reference_frame and center_name",
+                    (*dated)->name));
   }
   // The key that says when the nominal starts.
   const TableReader nominal = root.table("nominal");

@@ -57,4 +57,22 @@ Json integrator_json(const IntegratorSettings& settings) {
   return json;
 }
 
+Json ephemeris_json(const Scene& scene) {
+  if (!scene.ephemeris) return nullptr;
+  const EphemerisSettings& settings = *scene.ephemeris;
+  return {{"epoch", settings.epoch},
+          {"time_system", settings.time_system},
+          {"reference_frame", settings.reference_frame},
+          {"reference_frame_epoch", text_or_null(settings.reference_frame_epoch)},
+          {"center_name", settings.center_name},
+          {"object_name", settings.object_name},
+          {"object_id", settings.object_id}};
+}
+
+Json nominal_file_json(const Scene& scene) {
+  if (!scene.nominal_file) return nullptr;
+  const NominalFile& file = *scene.nominal_file;
+  return {{"path", file.path}, {"format", file.format}, {"unused", file.unused}};
+}
+
 }  // namespace hamjet::io

@@ -14,4 +14,8 @@ nlohmann::ordered_json system_json(const SystemSettings& system);
 /// All members of the settings by their names; parameters of other methods than theirs are null.
 nlohmann::ordered_json integrator_json(const IntegratorSettings& settings);
 
+/// `ephemeris` and `nominal_file` of a summary; null where the scene has none.
+nlohmann::ordered_json ephemeris_json(const Scene& scene);
+nlohmann::ordered_json nominal_file_json(const Scene& scene);
+
 }  // namespace hamjet::io

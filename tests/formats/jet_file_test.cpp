@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "../scene/scene_samples.hpp"
+#include "formats/dace_text.hpp"
 #include "formats/hdf5_jets.hpp"
 #include "hamjet/report/results.hpp"
 #include "jet_samples.hpp"
@@ -31,7 +32,8 @@ class JetFileTest : public ::testing::Test {
  protected:
   PropagationResult store(const std::vector<Override>& overrides = {}) {
     Scene scene = parse_scene(cubic_kepler, "scene.toml", overrides);
-    scene.output = {.hdf5 = hdf5_available(), .dace = true};
+    scene.output.formats = {"dace"};
+    if (hdf5_available()) scene.output.formats.emplace_back("hdf5");
     PropagationResult result = propagate(scene);
     // The kinds of zero are told apart.
     for (RunResult& run : result.runs) {
@@ -78,12 +80,11 @@ class JetFileTest : public ::testing::Test {
       expect_same(read_jet_file(directory_ / label / "jet.csv"), right);
       if (with_dace) expect_same(read_jet_file(directory_ / label / "jet.dace"), right);
       if (hdf5_available()) expect_same(read_jet_file(directory_ / "jets.h5", label), right);
-      for (const JetFormat format : {JetFormat::csv, JetFormat::dace, JetFormat::hdf5}) {
-        if (format == JetFormat::hdf5 && !hdf5_available()) continue;
-        if (format == JetFormat::dace && !with_dace) continue;
-        const char* names[] = {"copy.h5", "copy.dace", "copy.csv"};
-        const auto file = directory_ / names[static_cast<int>(format)];
-        test::put(file, jet_file_content(right, format));
+      for (const OutputFormat* format : output_formats()) {
+        if (format->of_jet == nullptr || !format->is_built()) continue;
+        if (format == &dace_format && !with_dace) continue;
+        const auto file = directory_ / ("copy" + std::string(format->ending));
+        test::put(file, jet_file_content(right, *format));
         expect_same(read_jet_file(file, label), right);
       }
     }
@@ -154,7 +155,7 @@ TEST_F(JetFileTest, WithoutHdf5) {
   expect_refused(temporary_.path() / "jets.h5", {"-DHAMJET_HDF5=ON"}, ErrorKind::usage);
   store();
   const StoredJet stored = read_stored_jet(directory_);
-  expect_error([&] { jet_file_content(stored, JetFormat::hdf5); }, ErrorKind::usage,
+  expect_error([&] { jet_file_content(stored, hdf5_format); }, ErrorKind::usage,
                {"-DHAMJET_HDF5=ON"}, "write");
 }
 

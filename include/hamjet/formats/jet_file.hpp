@@ -7,18 +7,19 @@
 #include "hamjet/formats/stored_jet.hpp"
 
 // A jet in the formats that hamjet reads and writes: by the ending of the file's name
-//   .h5    HDF5 (hdf5_jets.hpp), which holds everything;
-//   .dace  DACE's text (dace_text.hpp), the polynomials alone, in double precision;
+//   .h5    HDF5, which holds everything;
+//   .dace  DACE's text, the polynomials alone, in double precision;
 //   .csv   as `jet.csv` of a run: the coefficients alone.
 // What the last two leave out stands in the `summary.json` of the results.
 
 namespace hamjet::io {
 
-enum class JetFormat { hdf5, dace, csv };
+/// What is known of a format; users of the library only pass it on.
+struct OutputFormat;
 
 /// The format of a file by the ending of its name. Throws Error(usage), naming the endings, for any
 /// other.
-JetFormat jet_format(const std::filesystem::path& file);
+const OutputFormat& jet_format(const std::filesystem::path& file);
 
 /// Reads the run with this label, or else the first that has a result, from a results directory, an
 /// HDF5 file, or a file of coefficients beside its `summary.json` or one folder below, which then
@@ -30,6 +31,6 @@ StoredJet read_jet_file(const std::filesystem::path& path,
 
 /// The content of a file of this format. Throws Error(input_output) if the format cannot hold the
 /// jet, Error(usage) for HDF5 in a build without it.
-std::string jet_file_content(const StoredJet& stored, JetFormat format);
+std::string jet_file_content(const StoredJet& stored, const OutputFormat& format);
 
 }  // namespace hamjet::io

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -57,9 +58,11 @@ struct FigureSettings {
 
 /// Table `[output]`: what `hamjet run` writes beside CSV and JSON.
 struct OutputSettings {
-  bool hdf5 = false;  ///< jets.h5
-  bool dace = false;  ///< polynomials in the text format of DACE
-  bool oem = false;   ///< the nominal as CCSDS orbit ephemeris message; needs `[ephemeris]`
+  std::vector<std::string> formats;  ///< their names, such as "hdf5"
+
+  bool has(std::string_view format) const {
+    return std::find(formats.begin(), formats.end(), format) != formats.end();
+  }
 };
 
 /// Table `[ephemeris]`: what a CCSDS message says of an orbit beyond its numbers.

@@ -3,7 +3,6 @@
 #include "../../formats/relative_frame_text.hpp"
 #include "../../scene/system_json.hpp"
 #include "../../store/json_values.hpp"
-#include "../propagation/orbit_ephemeris.hpp"
 #include "hamjet/version.hpp"
 #include "transfer_view.hpp"
 

@@ -1,9 +1,10 @@
 #include <fmt/format.h>
 
+#include "../../formats/orbit_ephemeris.hpp"
+#include "../../formats/output_formats.hpp"
 #include "../../formats/relative_frame_text.hpp"
 #include "../../text/html_text.hpp"
 #include "../drawing/chart_drawer.hpp"
-#include "../propagation/orbit_ephemeris.hpp"
 #include "hamjet/report/relative_motion_report.hpp"
 #include "transfer_json.hpp"
 #include "transfer_page.hpp"
@@ -99,7 +100,7 @@ StudyReport transfer_report(const TransferResult& result,
                   {"singular_times.csv", singular_times_csv(result)},
                   {"conditions.csv", conditions_csv(result)}};
   if (validity) report.files.push_back({"validity.csv", validity_csv(*validity)});
-  if (result.scene.output.oem && trajectory) {
+  if (result.scene.output.has(oem_format.name) && trajectory) {
     for (ReportFile& file : transfer_oems(result, *trajectory)) {
       report.files.push_back(std::move(file));
     }

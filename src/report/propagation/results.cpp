@@ -1,10 +1,7 @@
 #include "hamjet/report/results.hpp"
 
-#include "../../formats/dace_text.hpp"
-#include "../../formats/hdf5_jets.hpp"
-#include "../../formats/jet_description.hpp"
+#include "../../formats/output_formats.hpp"
 #include "../../formats/results_names.hpp"
-#include "orbit_ephemeris.hpp"
 
 namespace hamjet::io {
 
@@ -30,18 +27,37 @@ bool is_at_floor(const ExactnessEntry& entry) {
   return entry.floor && entry.residual.absolute <= 10 * entry.floor->absolute;
 }
 
+namespace {
+
+/// The formats that keep the jet of each run apart.
+void write_jets(const PropagationResult& result, const RunResult& run, OutputDirectory& output) {
+  std::optional<StoredJet> stored;
+  for (const OutputFormat* format : wanted_formats(result.scene)) {
+    if (format->of_results != nullptr || format->of_jet == nullptr) continue;
+    if (!stored) {
+      stored = describe_jet(result, run);
+      stored->jet = run.jet;
+    }
+    output.write(run.settings.label / std::filesystem::path(format->file), format->of_jet(*stored));
+  }
+}
+
+}  // namespace
+
 std::string write_results(const PropagationResult& result, const std::string& figure,
                           OutputDirectory& output) {
+  const std::vector<const OutputFormat*> formats = wanted_formats(result.scene);
   for (const RunResult& run : result.runs) {
     if (!run.failure.empty()) continue;
     const std::filesystem::path folder = run.settings.label;
     output.write(folder / "jet.csv", jet_csv(result, run));
-    if (result.scene.output.dace) {
-      output.write(folder / "jet.dace",
-                   dace_text(run.jet, jet_notes(describe_jet(result, run), result.scene.order)));
-    }
+    write_jets(result, run, output);
     output.write(folder / "nominal.csv", nominal_csv(result, run));
-    if (result.scene.output.oem) output.write(folder / "nominal.oem", nominal_oem(result, run));
+    for (const OutputFormat* format : formats) {
+      if (format->of_nominal != nullptr) {
+        output.write(folder / format->file, format->of_nominal(result, run));
+      }
+    }
     if (run.along_time) output.write(folder / "along_time.csv", along_time_csv(result, run));
     for (const KindResult& kind : run.kinds) {
       if (!kind.generating_function) continue;
@@ -52,7 +68,9 @@ std::string write_results(const PropagationResult& result, const std::string& fi
   if (!result.relative_hamiltonians.empty()) {
     output.write("relative_hamiltonian.csv", relative_hamiltonian_csv(result));
   }
-  if (result.scene.output.hdf5) output.write("jets.h5", jets_hdf5(result));
+  for (const OutputFormat* format : formats) {
+    if (format->of_results != nullptr) output.write(format->file, format->of_results(result));
+  }
   if (!figure.empty()) output.write("figure.svg", figure);
   output.write("summary.json", summary_json(result));
   return output.commit();

@@ -2,48 +2,11 @@
 
 #include <iterator>
 
-#include "../../formats/jet_csv.hpp"
 #include "../../formats/results_names.hpp"
 #include "../../formats/stored_coefficients.hpp"
 #include "hamjet/report/results.hpp"
 
 namespace hamjet::io {
-namespace {
-
-/// Digits that bring back the same number: 17 for binary64, 36 for 113 bits.
-std::string number(const Extended& value, Precision precision) {
-  if (precision == Precision::double_precision) {
-    return fmt::format("{:.17g}", static_cast<double>(value));
-  }
-  return extended_digits(value);
-}
-
-}  // namespace
-
-std::string coefficients_csv(const std::vector<std::string_view>& names,
-                             const std::vector<std::size_t>& components,
-                             const std::vector<std::size_t>& variables, Precision precision,
-                             const FlowJet<Extended>& jet) {
-  const SeriesSpace& space = jet.at(0).space();
-  fmt::memory_buffer out;
-  const auto write = std::back_inserter(out);
-  fmt::format_to(write, "component");
-  for (const auto name : names) fmt::format_to(write, ",e_{}", name);
-  fmt::format_to(write, ",coefficient\n");
-  for (std::size_t c = 0; c < jet.size(); ++c) {
-    for (std::size_t k = 0; k < space.size(); ++k) {
-      std::vector<int> exponents(names.size(), 0);
-      for (std::size_t v = 0; v < space.variables(); ++v) {
-        exponents[variables[v]] = space.exponents(k)[v];
-      }
-      fmt::format_to(write, "{}", names[components[c]]);
-      for (const int e : exponents) fmt::format_to(write, ",{}", e);
-      fmt::format_to(write, ",{}\n", number(jet[c][k], precision));
-    }
-  }
-  return fmt::to_string(out);
-}
-
 std::string jet_csv(const PropagationResult& result, const RunResult& run) {
   return coefficients_csv(variable_names(result.scene.system), result.problem.components,
                           result.scene.variables, result.scene.precision, run.jet);
@@ -59,7 +22,7 @@ std::string generating_function_csv(const PropagationResult& result, const KindR
   const Series<Extended>& s = *kind.generating_function;
   for (std::size_t k = s.space().first(2); k < s.size(); ++k) {
     for (const auto e : s.space().exponents(k)) fmt::format_to(write, "{},", e);
-    fmt::format_to(write, "{}\n", number(s[k], result.scene.precision));
+    fmt::format_to(write, "{}\n", coefficient_digits(s[k], result.scene.precision));
   }
   return fmt::to_string(out);
 }
@@ -114,7 +77,8 @@ std::string relative_hamiltonian_csv(const PropagationResult& result) {
     for (std::size_t k = space.first(2); k < space.size(); ++k) {
       fmt::format_to(write, "{:.17g}", entry.time);
       for (const auto e : space.exponents(k)) fmt::format_to(write, ",{}", e);
-      fmt::format_to(write, ",{}\n", number(entry.hamiltonian[k], result.scene.precision));
+      fmt::format_to(write, ",{}\n",
+                     coefficient_digits(entry.hamiltonian[k], result.scene.precision));
     }
   }
   return fmt::to_string(out);

@@ -5,7 +5,6 @@
 #include "../../store/json_values.hpp"
 #include "hamjet/report/results.hpp"
 #include "hamjet/version.hpp"
-#include "orbit_ephemeris.hpp"
 #include "results_operations_json.hpp"
 
 namespace hamjet::io {

@@ -6,12 +6,11 @@
 #include <chrono>
 #include <span>
 
-#include "../../formats/relative_frame_text.hpp"
-#include "../../store/json_values.hpp"
-#include "../formation/transfer_view.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/formats/orbit_message.hpp"
 #include "hamjet/version.hpp"
+#include "output_formats.hpp"
+#include "relative_frame_text.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -182,22 +181,11 @@ std::vector<ReportFile> transfer_oems(const TransferResult& result,
   return {{"chief.oem", oem_text(chief)}, {"deputy.oem", oem_text(deputy)}};
 }
 
-nlohmann::ordered_json ephemeris_json(const Scene& scene) {
-  if (!scene.ephemeris) return nullptr;
-  const EphemerisSettings& settings = *scene.ephemeris;
-  return {{"epoch", settings.epoch},
-          {"time_system", settings.time_system},
-          {"reference_frame", settings.reference_frame},
-          {"reference_frame_epoch", text_or_null(settings.reference_frame_epoch)},
-          {"center_name", settings.center_name},
-          {"object_name", settings.object_name},
-          {"object_id", settings.object_id}};
-}
-
-nlohmann::ordered_json nominal_file_json(const Scene& scene) {
-  if (!scene.nominal_file) return nullptr;
-  const NominalFile& file = *scene.nominal_file;
-  return {{"path", file.path}, {"format", file.format}, {"unused", file.unused}};
-}
+const OutputFormat oem_format = {.name = "oem",
+                                 .help = "an orbit ephemeris message",
+                                 .file = "nominal.oem",
+                                 .needs_orbit = true,
+                                 .needs_date = true,
+                                 .of_nominal = nominal_oem};
 
 }  // namespace hamjet::io

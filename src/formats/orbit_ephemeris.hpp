@@ -1,6 +1,5 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -13,6 +12,11 @@
 
 namespace hamjet::io {
 
+struct OutputFormat;
+
+/// `nominal.oem` of each run.
+extern const OutputFormat oem_format;
+
 /// `nominal.oem` of a run: the nominal at the steps of the integrator.
 std::string nominal_oem(const PropagationResult& result, const RunResult& run);
 
@@ -20,9 +24,5 @@ std::string nominal_oem(const PropagationResult& result, const RunResult& run);
 /// 5.1.3).
 std::vector<ReportFile> transfer_oems(const TransferResult& result,
                                       const RelativeTrajectory& trajectory);
-
-/// `ephemeris` and `nominal_file` of a summary; null where the scene has none.
-nlohmann::ordered_json ephemeris_json(const Scene& scene);
-nlohmann::ordered_json nominal_file_json(const Scene& scene);
 
 }  // namespace hamjet::io
