@@ -1,8 +1,9 @@
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "../../scene/system_json.hpp"
 #include "../../store/json_values.hpp"
+#include "compared_run_members.hpp"
+#include "comparison_view.hpp"
 #include "hamjet/report/comparison_report.hpp"
 #include "hamjet/version.hpp"
 
@@ -10,6 +11,13 @@ namespace hamjet::io {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+template <class Values, class Convert>
+Json json_list(const Values& values, Convert convert) {
+  Json json = Json::array();
+  for (const auto& value : values) json.push_back(convert(value));
+  return json;
+}
 
 Json statistics_json(const IntegrationStatistics& statistics) {
   return {{"steps", statistics.steps},
@@ -26,54 +34,51 @@ Json residual_json(const ExactnessResidual& residual) {
           {"at_formation_scale", json_number(residual.at_formation_scale)}};
 }
 
+Json member_json(const IntegratorSettings& settings) { return integrator_json(settings); }
+Json member_json(const IntegrationStatistics& statistics) { return statistics_json(statistics); }
+Json member_json(const std::string& text) { return text_or_null(text); }
+Json member_json(const std::optional<Corner>& corner) {
+  return corner ? Json(corner_text(*corner)) : Json(nullptr);
+}
+Json member_json(const ExactnessEntry& entry) {
+  Json json = residual_json(entry.residual);
+  json["floor"] = entry.floor ? residual_json(*entry.floor) : Json(nullptr);
+  return json;
+}
+Json member_json(const SymplecticityDefect& entry) {
+  return {{"degree", entry.degree},
+          {"absolute", json_number(entry.absolute)},
+          {"scaled", json_number(entry.scaled)}};
+}
+template <class Number>
+Json member_json(const Number& number) {
+  return json_value(number);
+}
+template <class Entry>
+Json member_json(const std::vector<Entry>& entries) {
+  return json_list(entries, [](const Entry& entry) { return member_json(entry); });
+}
+
 Json run_json(const ComparedRun& run) {
-  Json json = {{"settings", integrator_json(run.settings)},
-               {"series", run.series},
-               {"order", run.order},
-               {"failure", text_or_null(run.failure)},
-               {"left_out", text_or_null(run.left_out)},
-               {"statistics", statistics_json(run.statistics)},
-               {"multiply_adds", json_number(run.multiply_adds)},
-               {"memory_bytes", json_number(run.memory_bytes)},
-               {"seconds", json_value(run.seconds)},
-               {"median_seconds", nullptr},
-               {"error_by_degree", json_value(run.error_by_degree)},
-               {"largest_error", nullptr},
-               {"error_estimate_by_degree", json_value(run.error_estimate_by_degree)},
-               {"error_at_formation_m", json_number(run.error_at_formation_m)},
-               {"exactness", Json::array()},
-               {"exactness_failure", text_or_null(run.exactness_failure)},
-               {"symplecticity", Json::array()},
-               {"largest_symplecticity", nullptr},
-               {"energy_error", json_number(run.energy_error)},
-               {"corner", nullptr}};
-  if (!run.seconds.empty()) json["median_seconds"] = json_number(run.median_seconds());
-  if (!run.error_by_degree.empty()) json["largest_error"] = json_number(run.largest_error());
-  for (const ExactnessEntry& entry : run.exactness) {
-    Json row = residual_json(entry.residual);
-    row["floor"] = entry.floor ? residual_json(*entry.floor) : Json(nullptr);
-    json["exactness"].push_back(row);
-  }
-  for (const SymplecticityDefect& entry : run.symplecticity) {
-    json["symplecticity"].push_back({{"degree", entry.degree},
-                                     {"absolute", json_number(entry.absolute)},
-                                     {"scaled", json_number(entry.scaled)}});
-  }
-  if (!run.symplecticity.empty()) {
-    json["largest_symplecticity"] = json_number(run.largest_symplecticity());
-  }
-  if (run.corner) json["corner"] = corner_names()[static_cast<std::size_t>(*run.corner)];
+  Json json;
+  for_each_member(run, [&](std::string_view name, const auto& member) {
+    json[std::string(name)] = member_json(member);
+    if (name == "seconds") json["median_seconds"] = json_number(median_seconds(run));
+    if (name == "error_by_degree") json["largest_error"] = json_number(largest_error(run));
+    if (name == "symplecticity") {
+      json["largest_symplecticity"] = json_number(largest_symplecticity(run));
+    }
+  });
   return json;
 }
 
 Json along_time_json(const RunAlongTime& run) {
-  Json points = Json::array();
-  for (const RunAlongTime::Point& point : run.points) {
-    points.push_back({{"time_canonical", json_number(point.time)},
-                      {"exactness", json_number(point.exactness)},
-                      {"condition", json_number(point.condition)},
-                      {"energy_error", json_number(point.energy_error)}});
-  }
+  const Json points = json_list(run.points, [](const RunAlongTime::Point& point) -> Json {
+    return {{"time_canonical", json_number(point.time)},
+            {"exactness", json_number(point.exactness)},
+            {"condition", json_number(point.condition)},
+            {"energy_error", json_number(point.energy_error)}};
+  });
   return {{"label", run.label},
           {"failure", text_or_null(run.failure)},
           {"points", points},
@@ -85,10 +90,6 @@ Json scene_json(const Scene& scene) {
   const auto names = variable_names(scene.system);
   Json variables = Json::array();
   for (const std::size_t v : scene.variables) variables.push_back(names[v]);
-  Json integrators = Json::array();
-  for (const IntegratorSettings& settings : scene.integrators) {
-    integrators.push_back(integrator_json(settings));
-  }
   return {{"name", scene.name},
           {"title", scene.title},
           {"model", json_value(scene.system.model)},
@@ -99,7 +100,7 @@ Json scene_json(const Scene& scene) {
           {"order", scene.order},
           {"variables", variables},
           {"separation_canonical", json_number(scene.separation)},
-          {"integrators", integrators},
+          {"integrators", json_list(scene.integrators, integrator_json)},
           {"compare", fields_json(scene.comparison)}};
 }
 
@@ -125,13 +126,6 @@ Json fit_json(const ConvergenceFit& fit) {
           {"labels", fit.labels}};
 }
 
-template <class Values, class Convert>
-Json list(const Values& values, Convert convert) {
-  Json json = Json::array();
-  for (const auto& value : values) json.push_back(convert(value));
-  return json;
-}
-
 }  // namespace
 
 std::string comparison_json(const ComparisonResult& result, const ReportOrigin& origin) {
@@ -151,10 +145,10 @@ std::string comparison_json(const ComparisonResult& result, const ReportOrigin& 
                      {"largest_exact_defect", json_number(largest_exact_defect)},
                      {"verdict", verdict(result)},
                      {"advice", advice(result)},
-                     {"runs", list(result.runs, run_json)},
-                     {"cost_runs", list(result.cost_runs, run_json)},
-                     {"along_time", list(result.along_time, along_time_json)},
-                     {"fits", list(result.fits, fit_json)}};
+                     {"runs", json_list(result.runs, run_json)},
+                     {"cost_runs", json_list(result.cost_runs, run_json)},
+                     {"along_time", json_list(result.along_time, along_time_json)},
+                     {"fits", json_list(result.fits, fit_json)}};
   // A text that is not UTF-8 (a command line may hold one) must not cost the results.
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }

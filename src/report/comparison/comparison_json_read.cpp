@@ -1,60 +1,64 @@
 #include <nlohmann/json.hpp>
 
 #include "../../store/json_reader.hpp"
+#include "compared_run_members.hpp"
 #include "hamjet/report/comparison_report.hpp"
 
 namespace hamjet::io {
 namespace {
 
-IntegrationStatistics read_statistics(const JsonReader& value) {
-  IntegrationStatistics statistics;
+void read_member(const JsonReader& value, IntegratorSettings& settings) {
+  settings = value.fields<IntegratorSettings>();
+}
+
+void read_member(const JsonReader& value, IntegrationStatistics& statistics) {
   statistics.steps = value.at("steps").integer<long>();
   statistics.rejected_steps = value.at("rejected_steps").integer<long>();
   statistics.vector_field_evaluations = value.at("vector_field_evaluations").integer<long>();
   statistics.nominal_evaluations = value.at("nominal_evaluations").integer<long>();
   statistics.wall_seconds = value.at("wall_seconds").number();
-  return statistics;
 }
+
+void read_member(const JsonReader& value, std::string& text) { text = value.text_or_empty(); }
 
 ExactnessResidual read_residual(const JsonReader& value) {
   return {value.at("degree").integer<int>(), value.at("absolute").number(),
           value.at("scaled").number(), value.at("at_formation_scale").optional_number()};
 }
 
-ExactnessEntry read_exactness(const JsonReader& value) {
-  ExactnessEntry entry{read_residual(value), std::nullopt};
-  const JsonReader floor = value.at("floor");
-  if (!floor.is_null()) entry.floor = read_residual(floor);
-  return entry;
+void read_member(const JsonReader& value, std::vector<ExactnessEntry>& entries) {
+  entries = value.list([](const JsonReader& entry) {
+    ExactnessEntry read{read_residual(entry), std::nullopt};
+    const JsonReader floor = entry.at("floor");
+    if (!floor.is_null()) read.floor = read_residual(floor);
+    return read;
+  });
 }
 
-SymplecticityDefect read_symplecticity(const JsonReader& value) {
-  return {value.at("degree").integer<int>(), value.at("absolute").number(),
-          value.at("scaled").number()};
+void read_member(const JsonReader& value, std::vector<SymplecticityDefect>& entries) {
+  entries = value.list([](const JsonReader& entry) {
+    return SymplecticityDefect{entry.at("degree").integer<int>(), entry.at("absolute").number(),
+                               entry.at("scaled").number()};
+  });
 }
+
+void read_member(const JsonReader& value, std::optional<Corner>& corner) {
+  if (!value.is_null()) corner = value.one_of<Corner>(corner_names());
+}
+
+void read_member(const JsonReader& value, std::vector<double>& numbers) {
+  numbers = value.numbers();
+}
+
+void read_member(const JsonReader& value, auto& number) { value.read_into(number); }
 
 ComparedRun read_run(const JsonReader& value) {
   ComparedRun run;
-  run.settings = value.at("settings").fields<IntegratorSettings>();
-  run.series = value.at("series").text();
-  run.order = value.at("order").integer<int>();
-  run.failure = value.at("failure").text_or_empty();
-  run.left_out = value.at("left_out").text_or_empty();
-  run.statistics = read_statistics(value.at("statistics"));
-  run.multiply_adds = value.at("multiply_adds").number();
-  run.memory_bytes = value.at("memory_bytes").number();
-  run.seconds = value.at("seconds").numbers();
-  run.error_by_degree = value.at("error_by_degree").numbers();
-  if (value.has("error_estimate_by_degree")) {  // absent from older files
-    run.error_estimate_by_degree = value.at("error_estimate_by_degree").numbers();
-  }
-  run.error_at_formation_m = value.at("error_at_formation_m").number();
-  run.exactness = value.at("exactness").list(read_exactness);
-  run.exactness_failure = value.at("exactness_failure").text_or_empty();
-  run.symplecticity = value.at("symplecticity").list(read_symplecticity);
-  run.energy_error = value.at("energy_error").number();
-  const JsonReader corner = value.at("corner");
-  if (!corner.is_null()) run.corner = corner.one_of<Corner>(corner_names());
+  for_each_member(run, [&](const char* name, auto& member) {
+    const bool is_in_older_files = std::string_view(name) != "error_estimate_by_degree";
+    if (is_in_older_files || value.has(name)) read_member(value.at(name), member);
+  });
+  run.series = value.at("series").text();  // every run has one
   return run;
 }
 

@@ -19,7 +19,29 @@ void add_new_names(const std::vector<ComparedRun>& runs, std::vector<std::string
   }
 }
 
+template <class List>
+std::optional<double> unless_empty(const List& list, const ComparedRun& run,
+                                   double (ComparedRun::*value)() const) {
+  return list.empty() ? std::nullopt : std::optional((run.*value)());
+}
+
 }  // namespace
+
+std::optional<double> median_seconds(const ComparedRun& run) {
+  return unless_empty(run.seconds, run, &ComparedRun::median_seconds);
+}
+
+std::optional<double> largest_error(const ComparedRun& run) {
+  return unless_empty(run.error_by_degree, run, &ComparedRun::largest_error);
+}
+
+std::optional<double> largest_error_estimate(const ComparedRun& run) {
+  return unless_empty(run.error_estimate_by_degree, run, &ComparedRun::largest_error_estimate);
+}
+
+std::optional<double> largest_symplecticity(const ComparedRun& run) {
+  return unless_empty(run.symplecticity, run, &ComparedRun::largest_symplecticity);
+}
 
 double largest_claimed_error(const ComparisonResult& result) {
   double largest = 0;

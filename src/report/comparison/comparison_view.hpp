@@ -13,6 +13,12 @@
 
 namespace hamjet::io {
 
+/// What a run shows of its lists; none where they are empty.
+std::optional<double> median_seconds(const ComparedRun& run);
+std::optional<double> largest_error(const ComparedRun& run);
+std::optional<double> largest_error_estimate(const ComparedRun& run);
+std::optional<double> largest_symplecticity(const ComparedRun& run);
+
 /// The largest ComparisonResult::smallest_claimed_error over the degrees of the scene's order.
 double largest_claimed_error(const ComparisonResult& result);
 

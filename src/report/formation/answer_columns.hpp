@@ -26,14 +26,14 @@ void add_answer_columns(Columns<Row>& columns, RelativeFrame frame,
     Eigen::Index i = 0;
     for (const std::string_view axis : axis_columns(frame)) {
       columns.add_if(has_answer, fmt::format("{}_change_{}_m_s", end, axis),
-                     [=](const Row& row) { return csv_number((answer_of(row)->*change)[i]); });
+                     [=](const Row& row) { return (answer_of(row)->*change)[i]; });
       ++i;
     }
   };
   add_change("start", &TransferAnswer::start_change_m_s);
   add_change("end", &TransferAnswer::end_change_m_s);
   columns.add_if(has_answer, "total_change_m_s",
-                 [=](const Row& row) { return csv_number(answer_of(row)->total_change_m_s()); });
+                 [=](const Row& row) { return answer_of(row)->total_change_m_s(); });
 }
 
 }  // namespace hamjet::io

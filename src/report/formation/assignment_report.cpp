@@ -102,23 +102,21 @@ std::string assignment_csv(const AssignmentResult& result) {
   const double unit = result.scene.units.time_s;
   const auto has_kind = [](Row row) { return row.transfer.kind.has_value(); };
   Columns<AssignedTransfer> columns;
-  columns.add("deputy", [](Row row) { return fmt::format("{}", row.deputy); });
-  columns.add("slot", [](Row row) { return fmt::format("{}", row.slot); });
-  columns.add("time_canonical", [](Row row) { return csv_number(row.transfer.time); });
-  columns.add("time_s", [=](Row row) { return csv_number(row.transfer.time * unit); });
+  columns.add("deputy", &AssignedTransfer::deputy);
+  columns.add("slot", &AssignedTransfer::slot);
+  columns.add("time_canonical", [](Row row) { return row.transfer.time; });
+  columns.add("time_s", [=](Row row) { return row.transfer.time * unit; });
   columns.add_if(has_kind, "kind", [](Row row) { return row.transfer.kind->name(); });
-  columns.add_if(has_kind, "condition", [](Row row) { return csv_number(row.transfer.condition); });
-  columns.add("near_singular",
-              [](Row row) { return fmt::format("{}", row.transfer.is_near_singular); });
-  columns.add("beyond_tolerance",
-              [](Row row) { return fmt::format("{}", row.transfer.is_beyond_tolerance); });
-  columns.add("answer", [](Row row) { return std::string(answer_name(row.transfer)); });
+  columns.add_if(has_kind, "condition", [](Row row) { return row.transfer.condition; });
+  columns.add("near_singular", [](Row row) { return row.transfer.is_near_singular; });
+  columns.add("beyond_tolerance", [](Row row) { return row.transfer.is_beyond_tolerance; });
+  columns.add("answer", [](Row row) { return answer_name(row.transfer); });
   add_answer_columns<AssignedTransfer>(
       columns, result.scene.transfer->frame,
       [](Row row) -> const TransferPoint& { return row.transfer; });
   columns.add_if([](Row row) { return shown_answer(row.transfer) != nullptr; }, "miss_m",
-                 [](Row row) { return csv_number(shown_answer(row.transfer)->miss_m); });
-  columns.add("failure", [](Row row) { return std::string(failure_text(row.transfer)); });
+                 [](Row row) { return shown_answer(row.transfer)->miss_m; });
+  columns.add("failure", [](Row row) { return failure_text(row.transfer); });
   return columns.csv(result.transfers);
 }
 

@@ -19,12 +19,12 @@ using Point = const TransferPoint&;
 void add_orders(TransferColumns& columns, int most) {
   columns.add("linear_total_change_m_s", [](Point point) {
     const TransferAnswer* linear = answer_of_order(point, 1);
-    return linear != nullptr ? csv_number(linear->total_change_m_s()) : "";
+    return linear != nullptr ? std::optional(linear->total_change_m_s()) : std::nullopt;
   });
   for (int order = 1; order <= most; ++order) {
     columns.add(fmt::format("miss_m_order_{}", order), [order](Point point) {
       const TransferAnswer* answer = answer_of_order(point, order);
-      return answer != nullptr ? csv_number(answer->miss_m) : "";
+      return answer != nullptr ? std::optional(answer->miss_m) : std::nullopt;
     });
   }
 }
@@ -35,11 +35,9 @@ void add_refinement(TransferColumns& columns) {
     return point.refined.has_value() && point.refined->failure.empty();
   };
   columns.add_if(is_found, "refined_total_change_m_s",
-                 [](Point point) { return csv_number(point.refined->total_change_m_s()); });
-  columns.add_if(is_found, "refined_miss_m",
-                 [](Point point) { return csv_number(point.refined->miss_m); });
-  columns.add_if(is_refined, "refinement_flights",
-                 [](Point point) { return fmt::format("{}", point.refinement_flights); });
+                 [](Point point) { return point.refined->total_change_m_s(); });
+  columns.add_if(is_found, "refined_miss_m", [](Point point) { return point.refined->miss_m; });
+  columns.add_if(is_refined, "refinement_flights", &TransferPoint::refinement_flights);
 }
 
 }  // namespace
@@ -48,48 +46,48 @@ std::string transfers_csv(const TransferResult& result) {
   const double unit = result.scene.units.time_s;
   const auto has_kind = [](Point point) { return point.kind.has_value(); };
   TransferColumns columns;
-  columns.add("time_canonical", [](Point point) { return csv_number(point.time); });
-  columns.add("time_s", [=](Point point) { return csv_number(point.time * unit); });
+  columns.add("time_canonical", &TransferPoint::time);
+  columns.add("time_s", [=](Point point) { return point.time * unit; });
   columns.add_if(has_kind, "kind", [](Point point) { return point.kind->name(); });
   columns.add_if(has_kind, "condition", [](Point point) { return condition(point.condition); });
   columns.add("position_condition",
               [](Point point) { return condition(point.position_condition); });
   columns.add_if([](Point point) { return point.singular_distance.has_value(); },
                  "singular_distance_s",
-                 [=](Point point) { return csv_number(*point.singular_distance * unit); });
-  columns.add("near_singular",
-              [](Point point) { return fmt::format("{}", point.is_near_singular); });
-  columns.add("beyond_tolerance",
-              [](Point point) { return fmt::format("{}", point.is_beyond_tolerance); });
-  columns.add("answer", [](Point point) { return std::string(answer_name(point)); });
+                 [=](Point point) { return *point.singular_distance * unit; });
+  columns.add("near_singular", &TransferPoint::is_near_singular);
+  columns.add("beyond_tolerance", &TransferPoint::is_beyond_tolerance);
+  columns.add("answer", answer_name);
   add_answer_columns<TransferPoint>(columns, result.scene.transfer->frame,
                                     [](Point point) -> Point { return point; });
   add_orders(columns, result.scene.order);
   add_refinement(columns);
-  columns.add("hamilton_jacobi_residual",
-              [](Point point) { return csv_number(point.hamilton_jacobi_residual); });
-  columns.add("failure", [](Point point) { return std::string(failure_text(point)); });
+  columns.add("hamilton_jacobi_residual", &TransferPoint::hamilton_jacobi_residual);
+  columns.add("failure", failure_text);
   return columns.csv(result.points);
 }
 
 std::string singular_times_csv(const TransferResult& result) {
   const double unit = result.scene.units.time_s;
-  std::string text =
-      "kind,time_canonical,time_s,resolution_s,smallest_ratio,second_ratio,directions_lost,"
-      "direction_inertial_x,"
-      "direction_inertial_y,direction_inertial_z,direction_r,direction_t,direction_n\n";
-  for (const SingularTime& singular : result.singular_times) {
-    text += fmt::format("{},{},{},{},{},{},{}", singular.kind.name(), csv_number(singular.time),
-                        csv_number(singular.time * unit), csv_number(singular.resolution * unit),
-                        csv_number(singular.smallest_ratio), csv_number(singular.second_ratio),
-                        singular.directions_lost);
-    for (const double component : singular.direction) text += "," + csv_number(component);
-    for (Eigen::Index i = 0; i < 3; ++i) {
-      text += "," + (singular.direction_rtn ? csv_number((*singular.direction_rtn)[i]) : "");
-    }
-    text += "\n";
+  using Singular = const SingularTime&;
+  Columns<SingularTime> columns;
+  columns.add("kind", [](Singular singular) { return singular.kind.name(); });
+  columns.add("time_canonical", &SingularTime::time);
+  columns.add("time_s", [=](Singular singular) { return singular.time * unit; });
+  columns.add("resolution_s", [=](Singular singular) { return singular.resolution * unit; });
+  columns.add("smallest_ratio", &SingularTime::smallest_ratio);
+  columns.add("second_ratio", &SingularTime::second_ratio);
+  columns.add("directions_lost", &SingularTime::directions_lost);
+  for (const Eigen::Index i : {0, 1, 2}) {
+    columns.add(fmt::format("direction_inertial_{}", "xyz"[i]),
+                [=](Singular singular) { return singular.direction[i]; });
   }
-  return text;
+  for (const Eigen::Index i : {0, 1, 2}) {
+    columns.add_if([](Singular singular) { return singular.direction_rtn.has_value(); },
+                   fmt::format("direction_{}", "rtn"[i]),
+                   [=](Singular singular) { return (*singular.direction_rtn)[i]; });
+  }
+  return columns.csv(result.singular_times);
 }
 
 std::string conditions_csv(const TransferResult& result) {
