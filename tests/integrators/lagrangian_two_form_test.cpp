@@ -112,8 +112,11 @@ TEST(LagrangianTwoForm, IsPreservedWithFirstFactorsOfTheStepBefore) {
       right_start = right;
       printed_start = printed;
     }
-    right_change = test::larger(right_change, (right - right_start).cwiseAbs().maxCoeff());
-    printed_change = std::max(printed_change, (printed - printed_start).cwiseAbs().maxCoeff());
+    const auto largest = [](const Matrix<double>& change) {
+      return change.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+    };
+    right_change = test::larger(right_change, largest(right - right_start));
+    printed_change = test::larger(printed_change, largest(printed - printed_start));
     before = s.point;
     point = s.after;
   }

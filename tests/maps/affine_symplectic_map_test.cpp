@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "maps/symplectic_powers.hpp"
 #include "support/errors.hpp"
@@ -108,6 +109,18 @@ TEST(SymplecticPowers, SaysWhereItOverflows) {
   EXPECT_EQ(powers(10).matrix()(0, 0), 1024);
   expect_error(ErrorKind::numerical, "the one of exponent 600 overflows", [&] { powers(600); });
   expect_error(ErrorKind::usage, "must not be negative", [&] { powers(-1); });
+}
+
+// What the tests measure must not lose what is not a number.
+TEST(LargestEntry, KeepsANaN) {
+  Matrix<double> values = matrix2(1, -3, 2, 0);
+  EXPECT_EQ(largest_entry(values), 3);
+  for (double& x : values.reshaped()) {
+    const double kept = std::exchange(x, std::numeric_limits<double>::quiet_NaN());
+    EXPECT_TRUE(std::isnan(largest_entry(values)));
+    EXPECT_TRUE(std::isnan(largest_entry(values.cast<Extended>())));
+    x = kept;
+  }
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/LU>
+#include <cmath>
 #include <span>
 #include <string>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "hamjet/algebra/extended.hpp"
 #include "hamjet/dynamics/dynamical_system.hpp"
 #include "maps/affine_symplectic_map.hpp"
+#include "support/magnitude.hpp"
 #include "support/random_series.hpp"
 
 // Random symplectic matrices and Hamiltonians, the same in every run.
@@ -122,9 +124,14 @@ inline DynamicalSystem quadratic_system(const Matrix<double>& symmetric) {
                      });
 }
 
+/// The largest magnitude; a NaN is larger than any.
 template <class Derived>
 double largest_entry(const Eigen::MatrixBase<Derived>& values) {
-  return static_cast<double>(values.cwiseAbs().maxCoeff());
+  double largest = 0;
+  for (const auto& x : values.eval().reshaped()) {
+    largest = larger(largest, std::abs(static_cast<double>(x)));
+  }
+  return largest;
 }
 
 }  // namespace hamjet::test
