@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -18,6 +19,20 @@
 namespace hamjet::cli {
 namespace {
 
+/// Refuses a second value of one key, of which the first would be lost without a word; a key that
+/// is removed may be given anew. The last override is the one that is judged.
+void refuse_second_value(const std::vector<io::Override>& overrides) {
+  constexpr std::string_view removal = "null";
+  const io::Override& last = overrides.back();
+  const auto earlier =
+      std::find_if(overrides.rbegin() + 1, overrides.rend(),
+                   [&](const io::Override& other) { return other.key == last.key; });
+  if (earlier == overrides.rend() || earlier->value == removal || last.value == removal) return;
+  refuse(fmt::format("--set {}: given twice, as {} and as {}; must be given once",
+                     io::printable(last.key), io::printable(earlier->value),
+                     io::printable(last.value)));
+}
+
 std::vector<io::Override> parse_overrides(const std::vector<std::string>& texts) {
   std::vector<io::Override> overrides;
   for (const std::string& text : texts) {
@@ -28,6 +43,7 @@ std::vector<io::Override> parse_overrides(const std::vector<std::string>& texts)
           fmt::format("--set {}: must be key=value, for example jet.order=3", io::printable(text)));
     }
     overrides.push_back({text.substr(0, equals), text.substr(equals + 1)});
+    refuse_second_value(overrides);
   }
   return overrides;
 }

@@ -224,6 +224,16 @@ TEST_F(BadInput, OverridesAreNamedInstead) {
                 "--set jet.duration_canonical=null"});
 }
 
+TEST_F(BadInput, AnOverrideHasOneValue) {
+  expect_error(
+      {"check", "small.toml", "--set", "jet.order=1", "--set", "title=a", "--set", "jet.order=3"},
+      2, {"hamjet: --set jet.order: given twice, as 1 and as 3; must be given once\n"});
+  // Other keys, and one that is removed first, keep their order.
+  succeed({"check", "small.toml", "--set", "jet.order=1", "--set", "title=b"});
+  succeed({"check", "small.toml", "--set", "nominal=null", "--set", "nominal={}", "--set",
+           "nominal.position_km=[7000, 0, 0]", "--set", "nominal.velocity_km_s=[0, 7, 0]"});
+}
+
 TEST_F(BadInput, ScenesThatCannotBeRead) {
   expect_error({"run", "missing.toml"}, 5, {"missing.toml: ", "No such file"});
   std::filesystem::create_directory(directory_ / "folder.toml");

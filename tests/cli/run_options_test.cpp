@@ -57,8 +57,9 @@ TEST_F(RunOptions, QuietPrintsNothing) {
 }
 
 TEST_F(RunOptions, SetChangesKeysInTheirOrder) {
-  succeed({"run", "--set", "jet.order=4", "--set", "jet.order=3", "quick.toml", "--set",
-           "integrator.midpoint.step_canonical=0.05", "--set", "title=another", "-q"});
+  succeed({"run", "--set", "jet={order=4, duration_canonical=1}", "--set", "jet.order=3",
+           "quick.toml", "--set", "integrator.midpoint.step_canonical=0.05", "--set",
+           "title=another", "-q"});
   const Json summary = read_json(directory_ / "out/quick/summary.json");
   EXPECT_EQ(summary["order"], 3);
   EXPECT_EQ(summary["title"], "another");
