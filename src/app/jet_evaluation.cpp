@@ -20,6 +20,7 @@ JetEvaluation::JetEvaluation(const io::StoredJet& stored, const std::vector<Seri
                                                            stored.components.end(),
                                                            stored.nominal_initial.size() / 2) -
                                           stored.components.begin())),
+      momentum_unit_(std::ldexp(1.0, stored.momentum_exponent())),
       length_m_(stored.units.length_km * 1000) {
   if (degree < stored.order()) next_.emplace(map, degree + 1);
 }
@@ -36,7 +37,8 @@ DegreeShares JetEvaluation::shares(std::size_t point) const {
     const double lower = next_ ? values_[place] - last_but_one_[place]
                                : values_[place] - last_[place] - last_but_one_[place];
     const double shares[3] = {lower, last_but_one_[place], last_[place]};
-    for (std::size_t i = 0; i < 3; ++i) squares[i] += shares[i] * shares[i];
+    const double unit = c < positions_ ? 1 : momentum_unit_;
+    for (std::size_t i = 0; i < 3; ++i) squares[i] += std::pow(shares[i] / unit, 2);
     if (c + 1 == positions_) {
       result.lower.position = std::sqrt(squares[0]) * length_m_;
       result.last_but_one.position = std::sqrt(squares[1]) * length_m_;

@@ -54,6 +54,7 @@ class JetEvaluation {
   std::optional<MapEvaluator> next_;  ///< one degree more than the first, where the jet has it
   MapEvaluator error_;                ///< see evaluation_error
   std::size_t positions_;             ///< how many components are positions, the first ones
+  double momentum_unit_;              ///< that makes momenta alike to positions, see DegreeShares
   double length_m_;
   std::vector<std::vector<double>> pending_;
   std::size_t points_ = 0;

@@ -120,6 +120,10 @@ std::optional<EphemerisSettings> read_stored_ephemeris(const JsonReader& json) {
 
 }  // namespace
 
+int StoredJet::momentum_exponent() const {
+  return natural_momentum_exponent(is_orbit(model), nominal_initial);
+}
+
 StoredJet read_stored_jet(const std::filesystem::path& directory,
                           const std::optional<std::string>& label) {
   ResultSet set(directory, "summary.json");
@@ -194,7 +198,7 @@ std::vector<Series<double>> evaluation_error(const StoredJet& stored,
                                              const std::vector<Series<double>>& map, int degree) {
   const auto kinds =
       kinds_of_variables(stored.variables, stored.nominal_initial.size(), map.size());
-  const int exponent = natural_momentum_exponent(is_orbit(stored.model), stored.nominal_initial);
+  const int exponent = stored.momentum_exponent();
   const std::vector<Series<double>> comparable = in_momentum_unit(map, kinds, exponent);
   return in_momentum_unit(hamjet::evaluation_error(comparable, degree, stored.error_by_degree),
                           kinds, -exponent);

@@ -10,15 +10,21 @@
 
 namespace hamjet {
 
+/// The distance of an orbit's start from the centre, the length that deviations are compared with;
+/// 1 in the default unit of length.
+inline double initial_distance(std::span<const double> start) {
+  double distance = 0;
+  for (std::size_t i = 0; i < start.size() / 2; ++i) distance = std::hypot(distance, start[i]);
+  return distance;
+}
+
 /// The binary exponent of the unit in which momenta are compared with positions in the canonical
 /// unit of length: for an orbit, whose mu is 1, the speed of a circle through the start over its
 /// radius, r^(-3/2), rounded to a power of two; 0 in the default unit of length, the chief's
-/// distance, and for systems whose units are fixed.
+/// distance, and for systems whose units are fixed. It follows from the start alone, so that a
+/// stored jet has it too; arcs, which have the forces at each cut, take momentum_scale.
 inline int natural_momentum_exponent(bool is_orbit, std::span<const double> start) {
-  if (!is_orbit) return 0;
-  double distance = 0;
-  for (std::size_t i = 0; i < start.size() / 2; ++i) distance = std::hypot(distance, start[i]);
-  return static_cast<int>(std::lround(-1.5 * std::log2(distance)));
+  return is_orbit ? static_cast<int>(std::lround(-1.5 * std::log2(initial_distance(start)))) : 0;
 }
 
 /// The `variables` that in_momentum_unit takes for a jet without some degrees of freedom of its
@@ -52,6 +58,16 @@ FlowJet<Real> in_momentum_unit(FlowJet<Real> jet, std::span<const std::size_t> v
     }
   }
   return jet;
+}
+
+/// A linear map of z = (q, p) likewise, of an even number of rows and columns.
+template <class LinearMap>
+LinearMap in_momentum_unit(LinearMap linear, int exponent) {
+  using Real = typename LinearMap::Scalar;
+  const auto n = linear.rows() / 2;
+  linear.topRightCorner(n, n) *= Real(std::ldexp(1.0, exponent));
+  linear.bottomLeftCorner(n, n) *= Real(std::ldexp(1.0, -exponent));
+  return linear;
 }
 
 }  // namespace hamjet

@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "../algebra/singular_values.hpp"
+#include "../integrators/momentum_unit.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/maps/generating_function.hpp"
 
@@ -31,15 +33,20 @@ void require_full_jet(const std::vector<Series<T>>& jet, const GeneratingFunctio
 }  // namespace
 
 template <class T>
-Matrix<T> inverted_block(const std::vector<Series<T>>& jet, const GeneratingFunctionKind& kind) {
+Matrix<T> inverted_block(const std::vector<Series<T>>& jet, const GeneratingFunctionKind& kind,
+                         int momentum_exponent) {
   require_full_jet(jet, kind);
   const std::size_t n = kind.degrees_of_freedom();
+  const double unit = std::ldexp(1.0, momentum_exponent);
   Matrix<T> block(n, n);
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j < n; ++j) {
       const Series<T>& component = jet[kind.final_variable(i)];
       const std::size_t k = component.space().linear_index(kind.initial_variable(j, false));
-      block(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = component[k];
+      const double row = kind.final_is_momentum[i] ? 1 / unit : 1;
+      const double column = kind.initial_is_momentum[j] ? 1 : unit;  // what is not chosen
+      block(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
+          component[k] * T(row * column);
     }
   }
   return block;
@@ -54,13 +61,15 @@ double condition_number(const Matrix<T>& matrix) {
 
 template <class T>
 PartialInversion<T> invert_partially(const std::vector<Series<T>>& jet,
-                                     const GeneratingFunctionKind& kind, double precision) {
-  const Matrix<T> block = inverted_block(jet, kind);
+                                     const GeneratingFunctionKind& kind, double precision,
+                                     int momentum_exponent) {
+  const Matrix<T> block = inverted_block(jet, kind, momentum_exponent);
   PartialInversion<T> result;
   result.kind = kind;
   result.condition = condition_number(block);
   const std::vector<double> values = rounded_singular_values(block);
-  const double whole = static_cast<double>(linear_part(jet).norm());
+  const Matrix<T> linear = in_momentum_unit<Matrix<T>>(linear_part(jet), momentum_exponent);
+  const double whole = static_cast<double>(linear.norm());
   if (!(result.condition < largest_condition(precision)) ||
       !(values.back() * largest_condition(precision) > whole)) {
     throw Error(ErrorKind::numerical,
@@ -94,14 +103,16 @@ PartialInversion<T> invert_partially(const std::vector<Series<T>>& jet,
 }
 
 template <class T>
-GeneratingFunctionKind best_conditioned_kind(const std::vector<Series<T>>& jet) {
+GeneratingFunctionKind best_conditioned_kind(const std::vector<Series<T>>& jet,
+                                             int momentum_exponent) {
   const auto kinds = all_kinds(jet.size() / 2);
   constexpr double equal = 1 + 1e-6;
   double smallest = std::numeric_limits<double>::infinity();
   double size = 0;
   GeneratingFunctionKind best = kinds.front();
   for (const auto& kind : kinds) {
-    const std::vector<double> values = rounded_singular_values(inverted_block(jet, kind));
+    const std::vector<double> values =
+        rounded_singular_values(inverted_block(jet, kind, momentum_exponent));
     const double condition = values.back() > 0 ? values.front() / values.back()
                                                : std::numeric_limits<double>::infinity();
     const bool is_better = condition * equal < smallest;
@@ -115,16 +126,16 @@ GeneratingFunctionKind best_conditioned_kind(const std::vector<Series<T>>& jet) 
 }
 
 template Matrix<double> inverted_block(const std::vector<Series<double>>&,
-                                       const GeneratingFunctionKind&);
+                                       const GeneratingFunctionKind&, int);
 template Matrix<Extended> inverted_block(const std::vector<Series<Extended>>&,
-                                         const GeneratingFunctionKind&);
+                                         const GeneratingFunctionKind&, int);
 template double condition_number(const Matrix<double>&);
 template double condition_number(const Matrix<Extended>&);
 template PartialInversion<double> invert_partially(const std::vector<Series<double>>&,
-                                                   const GeneratingFunctionKind&, double);
+                                                   const GeneratingFunctionKind&, double, int);
 template PartialInversion<Extended> invert_partially(const std::vector<Series<Extended>>&,
-                                                     const GeneratingFunctionKind&, double);
-template GeneratingFunctionKind best_conditioned_kind(const std::vector<Series<double>>&);
-template GeneratingFunctionKind best_conditioned_kind(const std::vector<Series<Extended>>&);
+                                                     const GeneratingFunctionKind&, double, int);
+template GeneratingFunctionKind best_conditioned_kind(const std::vector<Series<double>>&, int);
+template GeneratingFunctionKind best_conditioned_kind(const std::vector<Series<Extended>>&, int);
 
 }  // namespace hamjet

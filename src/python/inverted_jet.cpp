@@ -15,7 +15,7 @@ GeneratingFunctionKind chosen_kind(const io::StoredJet& stored, std::string_view
     throw Error(ErrorKind::usage,
                 "partial inversion: the jet must be expanded in all of its components");
   }
-  return kind == "auto" ? best_conditioned_kind<Extended>(stored.jet)
+  return kind == "auto" ? best_conditioned_kind<Extended>(stored.jet, stored.momentum_exponent())
                         : parse_kind(kind, stored.components.size() / 2);
 }
 
@@ -36,8 +36,8 @@ std::vector<std::string> names(const io::StoredJet& stored, const GeneratingFunc
 InvertedJet::Parts solve(const Jet& jet, std::string_view requested) {
   const io::StoredJet& stored = jet.stored();
   const GeneratingFunctionKind kind = chosen_kind(stored, requested);
-  const auto inversion =
-      invert_partially<Extended>(stored.jet, kind, rounding_of(stored.precision));
+  const auto inversion = invert_partially<Extended>(stored.jet, kind, rounding_of(stored.precision),
+                                                    stored.momentum_exponent());
   const auto sigma = one_form(inversion);
   const Series<Extended> function = generating_function(sigma);
   std::vector<Series<Extended>> gradient;

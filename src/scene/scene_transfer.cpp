@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "../formats/relative_frame_text.hpp"
+#include "../integrators/momentum_unit.hpp"
 #include "../text/scene_message.hpp"
 #include "scene_relative_motion.hpp"
 
@@ -58,8 +59,10 @@ std::string read_kind(const TableReader& transfer) {
 
 /// The margin about singular times, canonical.
 double read_singular_margin(const TableReader& transfer, const Nominal& nominal) {
+  const double period_of_circle =
+      2 * std::numbers::pi * std::pow(initial_distance(nominal.state), 1.5);
   const double period = nominal.period_s ? convert<double>(*nominal.period_s / nominal.scale.time_s)
-                                         : 2 * std::numbers::pi;
+                                         : period_of_circle;
   const bool has_seconds = transfer.has("singular_margin_s");
   if (!has_seconds && !transfer.has("singular_margin_orbits")) return default_revolutions * period;
   const std::string_view key =

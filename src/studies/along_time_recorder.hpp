@@ -19,8 +19,12 @@ namespace hamjet {
 class AlongTimeRecorder {
  public:
   AlongTimeRecorder(std::string label, double duration,
-                    const std::optional<GeneratingFunctionKind>& kind, std::size_t variables)
-      : duration_(duration), kind_(kind), linear_space_(SeriesSpace::create(variables, 1)) {
+                    const std::optional<GeneratingFunctionKind>& kind,
+                    const ComputedProblem& problem)
+      : duration_(duration),
+        momentum_exponent_(problem.momentum_exponent),
+        kind_(kind),
+        linear_space_(SeriesSpace::create(problem.variables.size(), 1)) {
     result_.label = std::move(label);
   }
 
@@ -60,14 +64,16 @@ class AlongTimeRecorder {
       }
     }
     const std::vector<Series<Extended>>& map = linear;
-    point.condition = condition_number(inverted_block(map, *kind_));
+    point.condition = condition_number(inverted_block(map, *kind_, momentum_exponent_));
     if (point.condition < largest_condition(std::numeric_limits<double>::epsilon())) {
-      point.exactness =
-          exactness_residual(one_form(invert_partially<Extended>(map, *kind_)))[0].scaled;
+      const auto rounding = static_cast<double>(std::numeric_limits<Extended>::epsilon());
+      const auto inversion = invert_partially<Extended>(map, *kind_, rounding, momentum_exponent_);
+      point.exactness = exactness_residual(one_form(inversion))[0].scaled;
     }
   }
 
   double duration_;
+  int momentum_exponent_;
   std::optional<GeneratingFunctionKind> kind_;
   SpacePointer linear_space_;
   RunAlongTime result_;

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "../integrators/momentum_unit.hpp"
 #include "descriptions/system_description.hpp"
 #include "nominal_period.hpp"
 #include "random_direction.hpp"
@@ -21,7 +22,8 @@ double momentum_per_length(const Scene& scene) {
   if (description_of(scene.system.model).period_s != nullptr) {
     return scene.system.mass_kg * 2 * std::numbers::pi / *period;
   }
-  return period ? 2 * std::numbers::pi / *period : 1;
+  if (period) return 2 * std::numbers::pi / *period;
+  return is_orbit(scene.system.model) ? std::pow(initial_distance(scene.nominal), -1.5) : 1;
 }
 
 FormationPoints::FormationPoints(const Scene& scene, const ComputedProblem& problem)

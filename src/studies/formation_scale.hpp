@@ -8,8 +8,8 @@
 namespace hamjet {
 
 /// Angular frequency that makes a position deviation into the momentum deviation of the same size:
-/// the mean motion of an elliptic orbit, that of a circular orbit at the initial radius otherwise
-/// (1 in canonical units), sqrt(k m) for the oscillator (momentum per length).
+/// the mean motion of an elliptic orbit, that of a circular orbit at the initial radius otherwise,
+/// sqrt(k m) for the oscillator (momentum per length).
 double momentum_per_length(const Scene& scene);
 
 /// Deviations of the scene's separation, at which jets are compared: along each axis of position,

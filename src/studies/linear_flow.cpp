@@ -7,6 +7,7 @@
 #include <numeric>
 #include <span>
 
+#include "../integrators/momentum_unit.hpp"
 #include "exact_flow.hpp"
 #include "hamjet/detail/studies/singular_times.hpp"
 #include "hamjet/dynamics/relative_hamiltonian.hpp"
@@ -46,13 +47,14 @@ FlowJet<double> precise_jet(const FlowProblem<double>& flow) {
   return integrate_gauss<double>(flow, adaptive, statistics);
 }
 
-LinearArc linear_arc(const SharedSystem& system, const SpacePointer& space,
+LinearArc linear_arc(const ComputedProblem& problem, const SpacePointer& space,
                      const std::vector<double>& start, double duration) {
   std::vector<std::size_t> variables(start.size());
   std::iota(variables.begin(), variables.end(), std::size_t{0});
-  const FlowProblem<double> flow{system, space, variables, start, duration};
+  const FlowProblem<double> flow{problem.system, space, variables, start, duration};
   const FlowJet<double> jet = precise_jet(flow);
-  return {nominal_of(jet), linear_part(jet)};
+  return {nominal_of(jet),
+          in_momentum_unit<StateTransition>(linear_part(jet), problem.momentum_exponent)};
 }
 
 }  // namespace
@@ -77,7 +79,7 @@ LinearFlow::LinearFlow(const ComputedProblem& problem, double duration, double p
     const double left = std::abs(duration - times_.back());
     const double time =
         left <= 1.01 * step ? duration : times_.back() + std::copysign(step, duration);
-    LinearArc arc = linear_arc(problem.system, space_, states_.back(), time - times_.back());
+    LinearArc arc = linear_arc(problem, space_, states_.back(), time - times_.back());
     matrices_.push_back(arc.matrix * matrices_.back());
     states_.push_back(std::move(arc.state));
     times_.push_back(time);
@@ -118,7 +120,7 @@ std::vector<double> LinearFlow::nominal(double time) const {
 LinearFlow::StateTransition LinearFlow::at(double time) const {
   const std::size_t before = checkpoint_before(time);
   if (time == times_[before]) return matrices_[before];
-  return linear_arc(problem_->system, space_, states_[before], time - times_[before]).matrix *
+  return linear_arc(*problem_, space_, states_[before], time - times_[before]).matrix *
          matrices_[before];
 }
 

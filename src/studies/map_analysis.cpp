@@ -52,8 +52,8 @@ const std::vector<ExactnessResidual>* MapAnalysis::floor(const GeneratingFunctio
     }
     try {
       ++floor_inversions_;
-      const auto inversion =
-          invert_partially<Extended>(rounded, kind, rounding_of(scene_.precision));
+      const auto inversion = invert_partially<Extended>(
+          rounded, kind, rounding_of(scene_.precision), problem_.momentum_exponent);
       place->second = exactness_residual(one_form(inversion), scales(kind));
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::numerical) throw;
@@ -87,13 +87,14 @@ KindResult MapAnalysis::invert(RunResult& run, const std::string& requested) {
   const FlowJet<Extended>& jet = run.jet;
   KindResult result;
   result.requested = requested;
-  result.kind = requested == "auto" ? best_conditioned_kind<Extended>(jet)
+  const int exponent = problem_.momentum_exponent;
+  result.kind = requested == "auto" ? best_conditioned_kind<Extended>(jet, exponent)
                                     : parse_kind(requested, problem_.degrees_of_freedom.size());
-  result.condition = condition_number(inverted_block<Extended>(jet, result.kind));
+  result.condition = condition_number(inverted_block<Extended>(jet, result.kind, exponent));
   try {
     ++run.counts.inversions;
     const auto inversion =
-        invert_partially<Extended>(jet, result.kind, rounding_of(scene_.precision));
+        invert_partially<Extended>(jet, result.kind, rounding_of(scene_.precision), exponent);
     if (scene_.checks[SelfCheckName::inversion].is_on) compose(run, inversion, requested);
     const auto sigma = one_form(inversion);
     ++run.counts.exactness_residuals;
@@ -113,17 +114,18 @@ KindResult MapAnalysis::invert(RunResult& run, const std::string& requested) {
 }
 
 void MapAnalysis::analyse(RunResult& run) {
+  const FlowJet<Extended> comparable =
+      in_momentum_unit(run.jet, problem_.variables, problem_.momentum_exponent);
   if (reference_) {
-    const int exponent = natural_momentum_exponent(is_orbit(scene_.system.model), scene_.nominal);
-    run.error_by_degree =
-        relative_error_by_degree(in_momentum_unit(run.jet, problem_.variables, exponent),
-                                 in_momentum_unit(reference_->jet, problem_.variables, exponent));
+    run.error_by_degree = relative_error_by_degree(
+        comparable,
+        in_momentum_unit(reference_->jet, problem_.variables, problem_.momentum_exponent));
     run.position_error_m =
         position_distance(run.jet, reference_->jet, problem_.degrees_of_freedom.size()) *
         scene_.units.length_km * 1000;
   }
   if (!problem_.is_full_jet) return;
-  run.symplecticity = symplecticity_by_degree<Extended>(run.jet);
+  run.symplecticity = symplecticity_by_degree<Extended>(comparable);
   const auto components = static_cast<long>(run.jet.size());
   run.counts.poisson_brackets += components * (components - 1) / 2;
   if (!scene_.kinds) return;

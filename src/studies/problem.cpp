@@ -6,6 +6,7 @@
 #include <string>
 
 #include "../integrators/arc_plan.hpp"
+#include "../integrators/momentum_unit.hpp"
 #include "arcs.hpp"
 #include "descriptions/method_description.hpp"
 #include "descriptions/system_description.hpp"
@@ -144,6 +145,8 @@ ComputedProblem make_problem(const Scene& scene, double memory_limit, std::size_
         static_cast<std::size_t>(std::distance(problem.components.begin(), place)));
   }
   problem.is_full_jet = problem.variables.size() == problem.components.size();
+  problem.momentum_exponent =
+      natural_momentum_exponent(is_orbit(scene.system.model), scene.nominal);
   const double needed = estimate_memory(scene, *problem.system, scene.variables.size(), threads);
   if (needed > memory_limit) {
     throw Error(

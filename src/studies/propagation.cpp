@@ -37,8 +37,7 @@ void run_integrator(const Scene& scene, const ComputedProblem& problem, std::siz
   NominalRecorder recorder(problem, scene.nominal.size(), finds_lowest_point);
   std::optional<AlongTimeRecorder> along_time;
   if (scene.figure) {
-    along_time.emplace(run.settings.label, scene.duration, figure_kind(scene, problem),
-                       problem.variables.size());
+    along_time.emplace(run.settings.label, scene.duration, figure_kind(scene, problem), problem);
   }
   const FlowProblem<Real> flow = flow_problem<Real>(problem, scene.duration);
   const auto record = [&](const Real& time, const FlowJet<Real>& state) {

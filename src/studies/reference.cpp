@@ -4,6 +4,7 @@
 #include <future>
 #include <system_error>
 
+#include "../integrators/momentum_unit.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
 
 namespace hamjet {
@@ -57,7 +58,11 @@ ReferenceResult compute_reference(const ComputedProblem& problem, double duratio
     coarse.wait();
     throw;
   }
-  result.uncertainty_by_degree = relative_error_by_degree(coarse.get(), result.jet);
+  const auto comparable = [&](const FlowJet<Extended>& jet) {
+    return in_momentum_unit(jet, problem.variables, problem.momentum_exponent);
+  };
+  result.uncertainty_by_degree =
+      relative_error_by_degree(comparable(coarse.get()), comparable(result.jet));
   result.runs = 2;
   return result;
 }

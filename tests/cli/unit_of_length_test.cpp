@@ -69,5 +69,109 @@ TEST_F(UnitOfLength, ChangesNoMissThatEvalEstimates) {
   }
 }
 
+/// A length near the default unit, the kilometre and an astronomical unit.
+const std::vector<std::string> lengths_km = {"7000", "1", "1.5e8"};
+
+TEST_F(UnitOfLength, ChangesNoFloorNoKindAndNoCap) {
+  std::string scene = changed(small_scene, "duration_canonical = 1", "duration_s = 12000");
+  scene = changed(changed(scene, "[reference]\n", ""), "step_canonical = 0.01", "step_s = 15");
+  scene += R"([transfer]
+frame = "RTN"
+times_s = [2000, 4000, 6000, 8000, 10000]
+[transfer.start]
+position_m = [0, -10000, 0]
+[transfer.end]
+position_m = [0, 10000, 3000]
+[validity]
+tolerance_m = 1e9
+count = 1
+samples = 10
+)";
+  const auto results_of = [&](const std::string& command, const std::string& length_km) {
+    const std::string name = command + length_km;
+    write("scene.toml", scene + (length_km.empty() ? "" : "[units]\nlength_km = " + length_km));
+    succeed({command, "scene.toml", "-o", name, "-q"});
+    return read_json(directory_ / name / "summary.json");
+  };
+  const Json usual_transfer = results_of("transfer", "");
+  const Table answers = read_table(directory_ / "transfer/transfers.csv");
+  const Json usual_validity = results_of("validity", "");
+  for (const std::string& length_km : lengths_km) {
+    SCOPED_TRACE(length_km);
+    const Json other = results_of("transfer", length_km);
+    expect_near(other["flight_floor_m"], usual_transfer["flight_floor_m"], 2);
+    EXPECT_EQ(other["counts"], usual_transfer["counts"]);
+    EXPECT_EQ(other["position_singular_times"].size(),
+              usual_transfer["position_singular_times"].size());
+    const Table found = read_table(directory_ / ("transfer" + length_km) / "transfers.csv");
+    ASSERT_EQ(found.rows.size(), answers.rows.size());
+    for (std::size_t i = 0; i < found.rows.size(); ++i) {
+      EXPECT_EQ(found.at(i, "kind"), answers.at(i, "kind"));
+      // The unit of momentum is rounded to a power of two, both ways.
+      expect_near(found.number(i, "condition"), answers.number(i, "condition"), 2.01);
+    }
+    const Json capped = results_of("validity", length_km);
+    expect_near(capped["validity"]["flight_floor_m"], usual_validity["validity"]["flight_floor_m"],
+                2);
+    for (std::size_t k = 0; k < 2; ++k) {
+      const Json& entry = capped["validity"]["times"][0]["orders"][k];
+      const Json& usual = usual_validity["validity"]["times"][0]["orders"][k];
+      EXPECT_EQ(entry["at_limit"], k == 0);  // the cap
+      expect_near(entry["proved_m"], usual["proved_m"], 1 + 1e-6);
+      expect_near(entry["predicted_m"], usual["predicted_m"], 1 + 1e-6);
+    }
+  }
+}
+
+TEST_F(UnitOfLength, ChangesNoInversionAndNoUncertaintyOfTheReference) {
+  std::string scene = changed(small_scene, "duration_canonical = 1", "duration_s = 12000");
+  scene = changed(changed(scene, "step_canonical = 0.01", "step_s = 15"), "[\"F1\", \"F2\"]",
+                  "[\"F1\", \"qqp-ppq\", \"auto\"]");
+  store("usual", scene);
+  const Json usual = read_json(directory_ / "usual/summary.json");
+  for (const std::string& length_km : lengths_km) {
+    SCOPED_TRACE(length_km);
+    store("unit" + length_km, scene + "[units]\nlength_km = " + length_km + "\n");
+    const Json other = read_json(directory_ / ("unit" + length_km) / "summary.json");
+    for (int d = 1; d <= 2; ++d) {
+      const auto i = static_cast<std::size_t>(d);
+      expect_near(other["reference"]["uncertainty_by_degree"][i],
+                  usual["reference"]["uncertainty_by_degree"][i], allowed_factor(d));
+    }
+    const Json& kinds = other["runs"][0]["exactness"];
+    const Json& usual_kinds = usual["runs"][0]["exactness"];
+    ASSERT_EQ(kinds.size(), 3U);
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_EQ(kinds[k]["kind"], usual_kinds[k]["kind"]);
+      expect_near(kinds[k]["condition"], usual_kinds[k]["condition"], 2.01);
+    }
+  }
+}
+
+TEST_F(UnitOfLength, ChangesNoSupportThatEvalMarks) {
+  run_in("usual", "");
+  const std::vector<std::string> deviations = {"10,-2000,30,0.1,-0.2,0.3",
+                                               "0,0,0,0,0,30",
+                                               "300000,0,0,0,0,0",
+                                               "0,0,0,0,300,0",
+                                               "6e6,0,0,0,0,0",
+                                               "0,0,0,0,6000,0"};
+  const auto mark = [&](const std::string& name, const std::string& deviation) {
+    return eval_json({name, "--deviation", deviation})["rows"][0];
+  };
+  for (const std::string& length_km : lengths_km) {
+    const std::string name = "unit" + length_km;
+    run_in(name, "[units]\nlength_km = " + length_km + "\n");
+    for (const std::string& deviation : deviations) {
+      SCOPED_TRACE(name + ": " + deviation);
+      const Json usual = mark("usual", deviation);
+      const Json row = mark(name, deviation);
+      EXPECT_EQ(row["support"], usual["support"]);
+      if (usual["support"] != "inside") continue;
+      expect_near(row["truncation_m"], usual["truncation_m"], 2);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace hamjet::test

@@ -46,6 +46,8 @@ struct StoredJet {
   FlowJet<Extended> jet;
 
   int order() const { return jet.at(0).order(); }
+  /// See ComputedProblem::momentum_exponent.
+  int momentum_exponent() const;
   /// Names of the model's state (q, p), to which `components` and `variables` are indices.
   std::vector<std::string_view> variable_names() const {
     return hamjet::variable_names(model, nominal_initial.size() / 2);

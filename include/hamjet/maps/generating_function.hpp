@@ -27,9 +27,12 @@ struct PartialInversion {
 };
 
 /// The linear part that a kind inverts: d(chosen final) / d(remaining initial), n x n. For F1 it is
-/// dq/dp0, for F2 dq/dq0, for F3 dp/dp0, for F4 dp/dq0.
+/// dq/dp0, for F2 dq/dq0, for F3 dp/dp0, for F4 dp/dq0. Momenta are in units of
+/// 2^momentum_exponent: a mixed kind has rows of positions and of momenta, and its condition number
+/// follows the units.
 template <class T>
-Matrix<T> inverted_block(const std::vector<Series<T>>& jet, const GeneratingFunctionKind& kind);
+Matrix<T> inverted_block(const std::vector<Series<T>>& jet, const GeneratingFunctionKind& kind,
+                         int momentum_exponent = 0);
 
 /// Condition number in the 2-norm: ratio of the largest to the smallest singular value; infinite
 /// for a singular matrix.
@@ -46,16 +49,20 @@ constexpr double largest_condition(double precision) { return 1 / (100 * precisi
 /// Throws Error(numerical), naming kind and smallest singular value, where the condition exceeds
 /// largest_condition(precision), or where the block vanishes beside the whole linear part as much
 /// (one degree of freedom has no other condition): the generating function does not exist there to
-/// any useful accuracy. Throws Error(usage) if the jet is not 2n components in 2n variables.
+/// any useful accuracy. These are judged with momenta in units of 2^momentum_exponent; the series
+/// are in the jet's own units. Throws Error(usage) if the jet is not 2n components in 2n variables.
 template <class T>
 PartialInversion<T> invert_partially(
     const std::vector<Series<T>>& jet, const GeneratingFunctionKind& kind,
-    double precision = static_cast<double>(std::numeric_limits<T>::epsilon()));
+    double precision = static_cast<double>(std::numeric_limits<T>::epsilon()),
+    int momentum_exponent = 0);
 
 /// The kind whose linear part has the smallest condition number; among equal ones (to a part in a
 /// million), the one with the largest singular values, for with one degree of freedom all are 1.
+/// `momentum_exponent` as in inverted_block.
 template <class T>
-GeneratingFunctionKind best_conditioned_kind(const std::vector<Series<T>>& jet);
+GeneratingFunctionKind best_conditioned_kind(const std::vector<Series<T>>& jet,
+                                             int momentum_exponent = 0);
 
 /// The one-form sigma with dS = sum of sigma_i dw_i for a generating function S: n entries for the
 /// final pairs, n for the initial pairs. With F1, S = F1(q, q0): sigma = (p, -p0). In general, for

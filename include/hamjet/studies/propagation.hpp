@@ -109,6 +109,9 @@ struct ComputedProblem {
   SharedSystem system;
   std::vector<double> nominal;  ///< of the components
   bool is_full_jet = false;     ///< all components are expanded in: a map of phase space
+  /// Binary exponent of the unit in which momenta are compared with positions: for an orbit that of
+  /// the chief's own motion, so that no verdict depends on the unit of length.
+  int momentum_exponent = 0;
 };
 
 /// All results of a scene.

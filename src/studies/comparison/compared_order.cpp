@@ -122,7 +122,7 @@ RunAlongTime ComparedOrder::watch(const IntegratorSettings& settings,
                                   const TimesWithoutKind& singular,
                                   const std::function<void(double)>& keep_going) const {
   NominalRecorder nominal(problem_, scene_.nominal.size());
-  AlongTimeRecorder recorder(settings.label, scene_.duration, kind_, problem_.variables.size());
+  AlongTimeRecorder recorder(settings.label, scene_.duration, kind_, problem_);
   std::string failure;
   try {
     IntegrationStatistics statistics;

@@ -155,8 +155,9 @@ class Comparison {
     const std::vector<Series<Extended>>& jet = result_.reference.jet;
     const bool is_named = scene_.kinds && scene_.kinds->front() != "auto";
     result_.kind = is_named ? parse_kind(scene_.kinds->front(), problem.degrees_of_freedom.size())
-                            : best_conditioned_kind(jet);
-    result_.kind_condition = condition_number(inverted_block(jet, *result_.kind));
+                            : best_conditioned_kind(jet, problem.momentum_exponent);
+    result_.kind_condition =
+        condition_number(inverted_block(jet, *result_.kind, problem.momentum_exponent));
   }
 
   ComparedOrder& at_order(int order) {

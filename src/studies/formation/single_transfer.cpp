@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "../../integrators/momentum_unit.hpp"
 #include "../exact_flow.hpp"
 #include "hamjet/error.hpp"
 
@@ -15,10 +16,12 @@ MetricUnits metric_units(const Scene& scene) {
   return {scene.units.length_km * 1000, scene.units.time_s};
 }
 
-double rounding_of_flights(const FlowJet<double>& jet) {
+double rounding_of_flights(const ComputedProblem& problem, const FlowJet<double>& jet) {
   const std::vector<double> state = nominal_of(jet);
   const double position = std::hypot(state[0], state[1], state[2]);
-  const double growth = linear_part(jet).norm();
+  const Matrix<double> flow =
+      in_momentum_unit<Matrix<double>>(linear_part(jet), problem.momentum_exponent);
+  const double growth = flow.norm() * initial_distance(problem.nominal);
   return std::numeric_limits<double>::epsilon() * (position + growth);
 }
 

@@ -11,8 +11,9 @@ namespace hamjet {
 /// SI values of a scene's units.
 MetricUnits metric_units(const Scene& scene);
 
-/// Rounding of the positions of two flights, grown with the jet's linear part; canonical.
-double rounding_of_flights(const FlowJet<double>& jet);
+/// Rounding of the positions of two flights: that of the end, and that of the chief's start grown
+/// with the jet's linear part; canonical.
+double rounding_of_flights(const ComputedProblem& problem, const FlowJet<double>& jet);
 
 /// One transfer of a deputy, from one relative state to another in one time. What it looks at must
 /// outlive it.

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "../../integrators/momentum_unit.hpp"
 #include "../exact_flow.hpp"
 #include "../jets_along_time.hpp"
 #include "formation_problem.hpp"
@@ -42,15 +43,17 @@ std::vector<SingularTime> TransferResult::position_singularities() const {
 
 namespace {
 
-/// The chief of an earlier jet may differ from the scene's by no more than integrators do.
+/// The chief of an earlier jet may differ from the scene's by no more than integrators do, relative
+/// to the distance of its start.
 constexpr double largest_chief_distance = 1e-6;
 
-void require_same_chief(const EarlierJet& earlier, double distance) {
-  if (distance <= largest_chief_distance) return;
+void require_same_chief(const Scene& scene, const EarlierJet& earlier, double distance_m) {
+  const double start_m = initial_distance(scene.nominal) * metric_units(scene).length_m;
+  if (distance_m <= largest_chief_distance * start_m) return;
   throw Error(ErrorKind::scene,
               fmt::format("transfer: the earlier jet {} is not of this scene: its chief comes to a "
-                          "place {:.3g} canonical lengths from where the scene's does",
-                          earlier.label, distance));
+                          "place {:.3g} km from where the scene's does",
+                          earlier.label, distance_m / 1000));
 }
 
 /// The spans between the neighbours of the lowest listed answers, at most `most_spans` of them.
@@ -174,8 +177,7 @@ TransferResult study_transfer(const Scene& asked, const ProgressCallback& progre
   };
   if (earlier != nullptr) {
     result.integrator = earlier->label;
-    require_same_chief(
-        *earlier, points.chief_error_m(earlier->time, earlier->jet) / metric_units(scene).length_m);
+    require_same_chief(scene, *earlier, points.chief_error_m(earlier->time, earlier->jet));
     visit(0, earlier->jet);
   } else {
     const IntegratorSettings& integrator = symplectic_integrator(scene);

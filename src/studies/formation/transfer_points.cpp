@@ -8,6 +8,7 @@
 #include <random>
 #include <utility>
 
+#include "../../integrators/momentum_unit.hpp"
 #include "../exact_flow.hpp"
 #include "../random_direction.hpp"
 #include "../stopwatch.hpp"
@@ -61,7 +62,8 @@ void TransferPoints::find_singular_times(const ProgressCallback& progress) {
   // The flow goes a little beyond the last time, so that a singularity right behind it is seen too;
   // no more than a quarter of a revolution at the initial distance, in which some singularity lies
   // anyway.
-  const double margin = std::min(settings_.singular_margin, std::numbers::pi / 2);
+  const double quarter = std::numbers::pi / 2 * std::pow(initial_distance(problem_.nominal), 1.5);
+  const double margin = std::min(settings_.singular_margin, quarter);
   const LinearFlow flow(problem_, last + std::copysign(margin, last), checkpoints_per_revolution,
                         [&](double done) {
                           if (progress) progress("linear flow", done);
@@ -96,12 +98,14 @@ std::vector<double> TransferPoints::expansion_parameters(
     const FlowJet<double>& jet, const std::vector<RelativeTransfer>& transfers, double time) const {
   const std::vector<Series<double>>& map = jet;
   const FlowMatrix flow = linear_part(map);
+  const int exponent = problem_.momentum_exponent;
+  const FlowMatrix comparable = in_momentum_unit(flow, exponent);
   std::vector<Eigen::PartialPivLU<Eigen::Matrix3d>> blocks;
   std::vector<double> parameters;
   for (const GeneratingFunctionKind& kind : kinds_) {
-    blocks.emplace_back(inverted_block(flow, kind));
+    blocks.emplace_back(inverted_block(comparable, kind));
     // Round-off is amplified too, and decides where nothing else does.
-    parameters.push_back(std::numeric_limits<double>::epsilon() * flow.norm() *
+    parameters.push_back(std::numeric_limits<double>::epsilon() * comparable.norm() *
                          blocks.back().inverse().norm());
   }
   const std::vector<double> chief_end = nominal_of(jet);
@@ -117,7 +121,8 @@ std::vector<double> TransferPoints::expansion_parameters(
       }
     }
     for (std::size_t k = 0; k < kinds_.size(); ++k) {
-      const Eigen::Matrix3d difference = inverted_block(changed - flow, kinds_[k]);
+      const Eigen::Matrix3d difference =
+          inverted_block(in_momentum_unit(changed, exponent) - comparable, kinds_[k]);
       parameters[k] = std::max(parameters[k], blocks[k].solve(difference).norm());
     }
   }
@@ -128,17 +133,20 @@ ChosenKind TransferPoints::choose_kind(double time, const FlowJet<double>& jet,
                                        const std::vector<RelativeTransfer>& transfers) {
   const Stopwatch watch(seconds_.inversion);
   const std::vector<Series<double>>& map = jet;
-  const FlowMatrix flow = linear_part(map);
+  const int exponent = problem_.momentum_exponent;
   ChosenKind chosen;
   chosen.time = time;
   for (const GeneratingFunctionKind& kind : kinds_) {
-    chosen.conditions.push_back(condition_number<double>(inverted_block(flow, kind)));
+    chosen.conditions.push_back(condition_number<double>(inverted_block(map, kind, exponent)));
   }
+  const auto invert = [&](const GeneratingFunctionKind& kind) {
+    return invert_partially<double>(map, kind, std::numeric_limits<double>::epsilon(), exponent);
+  };
   try {
     if (settings_.kind != "auto") {
-      chosen.inversion = invert_partially<double>(map, parse_kind(settings_.kind, 3));
+      chosen.inversion = invert(parse_kind(settings_.kind, 3));
     } else if (const auto index = choice_.choose(expansion_parameters(jet, transfers, time))) {
-      chosen.inversion = invert_partially<double>(map, kinds_[*index]);
+      chosen.inversion = invert(kinds_[*index]);
     } else {
       chosen.failure = "no kind of generating function exists at this time";
     }
@@ -227,7 +235,9 @@ std::optional<double> TransferPoints::hamilton_jacobi_floor() const {
       }
     }
     try {
-      const auto inversion = invert_partially<double>(jet, largest_residual_->kind);
+      const auto inversion = invert_partially<double>(jet, largest_residual_->kind,
+                                                      std::numeric_limits<double>::epsilon(),
+                                                      problem_.momentum_exponent);
       HamiltonJacobiTerms terms = hamilton_jacobi_terms<double>(
           *problem_.system, nominal_of(largest_residual_->jet), inversion, largest_residual_->w);
       for (std::size_t i = 0; i < terms.residual.size(); ++i) {
@@ -243,7 +253,7 @@ std::optional<double> TransferPoints::hamilton_jacobi_floor() const {
 }
 
 double TransferPoints::flight_floor_m(const FlowJet<double>& jet) const {
-  return rounding_of_flights(jet) * metric_units(scene_).length_m;
+  return rounding_of_flights(problem_, jet) * metric_units(scene_).length_m;
 }
 
 double TransferPoints::chief_error_m(double time, const FlowJet<double>& jet) {

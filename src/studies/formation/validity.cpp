@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../../integrators/momentum_unit.hpp"
 #include "../exact_flow.hpp"
 #include "../formation_scale.hpp"
 #include "../jets_along_time.hpp"
@@ -18,7 +19,8 @@
 namespace hamjet {
 namespace {
 
-/// The separations tried, in canonical units of length; beyond the largest no orbit is near.
+/// The separations tried, relative to the chief's distance at the start; beyond the largest no
+/// orbit is near.
 constexpr double largest_separation = 0.5;
 constexpr double smallest_separation = 1e-12;
 
@@ -34,6 +36,8 @@ class ValidityStudy {
         progress_(progress),
         problem_(make_problem(scene, available_memory())),
         metres_(metric_units(scene).length_m),
+        distance_(initial_distance(problem_.nominal)),
+        largest_separation_(largest_separation * distance_),
         tolerance_(settings_.tolerance_m / metres_),
         values_(problem_.space) {
     result_.scene = scene;
@@ -158,17 +162,17 @@ class ValidityStudy {
       entry.order = order;
       const double next = sizes[static_cast<std::size_t>(order + 1)];
       const double predicted =
-          next > 0 ? std::pow(tolerance_ / next, 1.0 / (order + 1)) : largest_separation;
-      entry.predicted_m = std::min(predicted, largest_separation) * metres_;
+          next > 0 ? std::pow(tolerance_ / next, 1.0 / (order + 1)) : largest_separation_;
+      entry.predicted_m = std::min(predicted, largest_separation_) * metres_;
       const Stopwatch watch(result_.proof_seconds);
       // The worst deviations for an order's error are those of the next degree, or of the last one
       // known.
       flown_samples_ = samples_with_worst(jet, std::min(order + 1, scene_.order));
-      prove(jet, std::min(predicted, largest_separation), entry);
+      prove(jet, std::min(predicted, largest_separation_), entry);
       point.entries.push_back(entry);
     }
     if (index + 1 == settings_.times.size()) {
-      result_.flight_floor_m = rounding_of_flights(jet) * metres_;
+      result_.flight_floor_m = rounding_of_flights(problem_, jet) * metres_;
     }
     result_.points.push_back(std::move(point));
   }
@@ -183,8 +187,9 @@ class ValidityStudy {
       }
     }
     const std::size_t last = sizes.size() - 2;
-    // Order 1 has one degree and no ratio; 1 per unit of length is taken for it.
-    const double ratio = last >= 2 && sizes[last - 1] > 0 ? sizes[last] / sizes[last - 1] : 1;
+    // Order 1 has one degree and no ratio; 1 over the chief's distance is taken for it.
+    const double ratio =
+        last >= 2 && sizes[last - 1] > 0 ? sizes[last] / sizes[last - 1] : 1 / distance_;
     sizes[last + 1] = sizes[last] * ratio;
     return sizes;
   }
@@ -235,7 +240,7 @@ class ValidityStudy {
       if (found <= tolerance_) {
         good = trial;
         entry.miss_m = found * metres_;
-        if (trial >= largest_separation) {
+        if (trial >= largest_separation_) {
           entry.is_at_limit = true;
           break;
         }
@@ -248,8 +253,8 @@ class ValidityStudy {
       // The next trial is a little to the other side, so that the two bounds come together.
       trial *= factor * (found <= tolerance_ ? 1.01 : 0.99);
       if (good > 0 && bad > 0 && !(trial > good && trial < bad)) trial = std::sqrt(good * bad);
-      trial = std::min(trial, largest_separation);
-      if (trial < smallest_separation) break;
+      trial = std::min(trial, largest_separation_);
+      if (trial < smallest_separation * distance_) break;
     }
     entry.proved_m = good * metres_;
   }
@@ -262,7 +267,9 @@ class ValidityStudy {
   const ProgressCallback& progress_;
   ComputedProblem problem_;
   double metres_;
-  double tolerance_;  ///< canonical
+  double distance_;            ///< of the chief at the start, canonical
+  double largest_separation_;  ///< canonical
+  double tolerance_;           ///< canonical
   MonomialValues values_;
   Matrix6 axes_;                        ///< see make_samples
   std::vector<Vector6> samples_;        ///< of separation 1

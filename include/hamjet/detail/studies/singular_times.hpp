@@ -14,7 +14,8 @@ namespace hamjet {
 
 /// The linear part of a flow, 2n x 2n, at any time of a span: from checkpoints of one propagation
 /// and a short integration from the nearest one before. It is integrated to a local error of 1e-14,
-/// whatever the integrators of the scene do.
+/// whatever the integrators of the scene do. Momenta are in units of 2^momentum_exponent of the
+/// problem, so that singular values do not follow the unit of length.
 class LinearFlow {
  public:
   using StateTransition = Matrix<double>;
