@@ -22,7 +22,7 @@ JetEvaluation::JetEvaluation(const io::StoredJet& stored, const std::vector<Seri
                                           stored.components.begin())),
       momentum_unit_(std::ldexp(1.0, stored.momentum_exponent())),
       length_m_(stored.units.length_km * 1000) {
-  if (degree < stored.order()) next_.emplace(map, degree + 1);
+  if (degree < stored.order()) whole_.emplace(map);
 }
 
 void JetEvaluation::add(const std::vector<double>& variables) { pending_.push_back(variables); }
@@ -33,9 +33,8 @@ DegreeShares JetEvaluation::shares(std::size_t point) const {
   double squares[3] = {0, 0, 0};
   for (std::size_t c = 0; c < evaluator_.components(); ++c) {
     const std::size_t place = c * count + point;
-    // With the next degree evaluated too, last_but_one_ is the last degree of values_.
-    const double lower = next_ ? values_[place] - last_but_one_[place]
-                               : values_[place] - last_[place] - last_but_one_[place];
+    const double sum = whole_ ? whole_values_[place] : values_[place];
+    const double lower = sum - last_[place] - last_but_one_[place];
     const double shares[3] = {lower, last_but_one_[place], last_[place]};
     const double unit = c < positions_ ? 1 : momentum_unit_;
     for (std::size_t i = 0; i < 3; ++i) squares[i] += std::pow(shares[i] / unit, 2);
@@ -52,15 +51,17 @@ DegreeShares JetEvaluation::shares(std::size_t point) const {
 }
 
 MissEstimate JetEvaluation::estimate(std::size_t point) const {
-  const DegreeShares parts = shares(point);
-  const TruncationEstimate truncation =
-      estimate_truncation(evaluator_.degree() + (next_ ? 1 : 0), parts);
-  double square = 0;
+  const int highest = whole_ ? whole_->degree() : evaluator_.degree();
+  const TruncationEstimate truncation = estimate_truncation(highest, shares(point));
+  double left_out = 0;
+  double error = 0;
   for (std::size_t c = 0; c < positions_; ++c) {
-    square += std::pow(errors_[c * pending_.size() + point], 2);
+    const std::size_t place = c * pending_.size() + point;
+    if (whole_) left_out += std::pow(whole_values_[place] - values_[place], 2);
+    error += std::pow(errors_[place], 2);
   }
-  return {truncation.support, truncation.miss + (next_ ? parts.last.position : 0),
-          std::sqrt(square) * length_m_};
+  return {truncation.support, truncation.miss + std::sqrt(left_out) * length_m_,
+          std::sqrt(error) * length_m_};
 }
 
 void JetEvaluation::run(
@@ -76,14 +77,17 @@ void JetEvaluation::run(
     results->resize(evaluator_.components() * count);
   }
   const auto start = std::chrono::steady_clock::now();
-  if (next_) {
+  if (whole_) {
     evaluator_.evaluate(variables_, {values_, {}, {}});
   } else {
     evaluator_.evaluate(variables_, {values_, last_, last_but_one_});
   }
   seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   points_ += count;
-  if (next_) next_->evaluate(variables_, {{}, last_, last_but_one_});
+  if (whole_) {
+    whole_values_.resize(values_.size());
+    whole_->evaluate(variables_, {whole_values_, last_, last_but_one_});
+  }
   magnitudes_.resize(variables_.size());
   std::transform(variables_.begin(), variables_.end(), magnitudes_.begin(),
                  [](double x) { return std::abs(x); });

@@ -29,8 +29,8 @@ class JetEvaluation {
   /// Points that are evaluated at once, few enough to stay in the cache.
   static constexpr std::size_t most_points = 4096;
 
-  /// Evaluates up to `degree`, or the whole jet without one. Below the jet's order, the next degree
-  /// tells what is left out.
+  /// Evaluates up to `degree`, or the whole jet without one. Below the jet's order, all degrees
+  /// that are stored above tell what is left out, and the last of them how the jet goes on.
   JetEvaluation(const io::StoredJet& stored, std::optional<int> degree);
 
   /// Adds the values of the jet's variables at one point; at most `most_points` before `run`.
@@ -51,10 +51,10 @@ class JetEvaluation {
   MissEstimate estimate(std::size_t point) const;
 
   MapEvaluator evaluator_;
-  std::optional<MapEvaluator> next_;  ///< one degree more than the first, where the jet has it
-  MapEvaluator error_;                ///< see evaluation_error
-  std::size_t positions_;             ///< how many components are positions, the first ones
-  double momentum_unit_;              ///< that makes momenta alike to positions, see DegreeShares
+  std::optional<MapEvaluator> whole_;  ///< up to the jet's order, where the first stops below it
+  MapEvaluator error_;                 ///< see evaluation_error
+  std::size_t positions_;              ///< how many components are positions, the first ones
+  double momentum_unit_;               ///< that makes momenta alike to positions, see DegreeShares
   double length_m_;
   std::vector<std::vector<double>> pending_;
   std::size_t points_ = 0;
@@ -62,7 +62,8 @@ class JetEvaluation {
   // Structures of arrays, see MapEvaluator.
   std::vector<double> variables_;
   std::vector<double> values_;
-  std::vector<double> last_;
+  std::vector<double> whole_values_;
+  std::vector<double> last_;  ///< of the highest degree evaluated by either
   std::vector<double> last_but_one_;
   std::vector<double> magnitudes_;  ///< of the variables
   std::vector<double> errors_;

@@ -99,6 +99,29 @@ TEST_F(Eval, TheDegreesThatAreLeftOutTellTheMiss) {
   }
 }
 
+// Off the radial direction a circular orbit's degrees are even or odd in turn, and the degree after
+// the last one evaluated tells little; those above it are stored too.
+TEST_F(Eval, AllDegreesThatAreLeftOutTellTheMiss) {
+  store("circular", circular_scene);
+  for (const char* deviation : {"0,1e-2,0,0,0,0", "0,0,1e-2,0,0,0", "0,0,0,1e-2,0,0"}) {
+    const std::vector<std::string> whole_arguments = {"circular", "--frame", "canonical",
+                                                      "--deviation", deviation};
+    const Json whole = eval_json(whole_arguments)["rows"][0];
+    for (int degree = 1; degree < 4; ++degree) {
+      std::vector<std::string> arguments = whole_arguments;
+      arguments.insert(arguments.end(), {"--degree", std::to_string(degree)});
+      const Json row = eval_json(arguments)["rows"][0];
+      double square = 0;
+      for (const char* q : {"x", "y", "z"}) {
+        square += std::pow(row[q].get<double>() - whole[q].get<double>(), 2);
+      }
+      const double miss_m = std::sqrt(square) * length_m;
+      EXPECT_GT(row["miss_estimate_m"].get<double>(), 0.99 * miss_m) << deviation << degree;
+      EXPECT_LT(row["miss_estimate_m"].get<double>(), 1.1 * miss_m) << deviation << degree;
+    }
+  }
+}
+
 /// Where a deputy of the circular orbit ends relative to its chief, in the plane, canonical: from
 /// Lagrange's f and g and Kepler's equation for the difference of the eccentric anomalies, in
 /// extended precision.
@@ -300,10 +323,13 @@ TEST_F(Eval, MarksWhatTheSeriesDoesNotSupport) {
   EXPECT_EQ(json["outside"], 1);
   EXPECT_EQ(json["unknown"], 1);
   EXPECT_TRUE(json["rows"][1]["miss_estimate_m"].is_null());
-  // One degree has no decay; of a jet of higher order the next degree is known.
+  // One degree has no decay; of a jet of higher order the other degrees are known.
   store("linear", circular_scene, {"--set", "jet.order=1"});
   EXPECT_EQ(eval_json({"linear", "--deviations", "start.csv"})["unknown"], 3);
-  EXPECT_EQ(eval_json({"circular", "--deviations", "start.csv", "--degree", "1"})["unknown"], 0);
+  const Json beginning = eval_json({"circular", "--deviations", "start.csv", "--degree", "1"});
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(beginning["rows"][i]["support"], json["rows"][i]["support"]);
+  }
 }
 
 TEST_F(Eval, APlaneTakesDeviationsInItAlone) {
