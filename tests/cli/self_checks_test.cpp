@@ -153,5 +153,31 @@ TEST_F(SelfChecks, MistakesInTheTable) {
                {"checks.surface", "system.radius_km"});
 }
 
+// F1 of Kepler's problem does not exist after a whole revolution. Close to it the map is right to
+// its rounding, and F1 is not.
+TEST_F(SelfChecks, AKindNearItsSingularTimeIsSaidToBe) {
+  write("circle.toml", "schema = 1\ntitle = \"circle\"\n" + std::string(R"([system]
+model = "kepler"
+mu_km3_s2 = 1
+[nominal]
+position_km = [1, 0, 0]
+velocity_km_s = [0, 1, 0]
+[jet]
+order = 2
+duration_canonical = 1
+[generating_function]
+kinds = ["F1"]
+)") + gauss8("tolerance = 1e-13"));
+  const std::string words = "F1 is near one of its singular times: it amplifies the error";
+  const Json far = run("circle.toml", {"jet.duration_canonical=5.28"}, 0);
+  expect_printed(words, false);
+  EXPECT_EQ(check(far["runs"][0], "inversion")["text"].get<std::string>().find(words),
+            std::string::npos);
+  const Json near = run("circle.toml", {"jet.duration_canonical=6.2831854"}, 0);
+  expect_printed("WARNING: gauss8: " + words);
+  EXPECT_NE(check(near["runs"][0], "inversion")["text"].get<std::string>().find(words),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace hamjet::test

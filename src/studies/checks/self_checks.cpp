@@ -13,6 +13,7 @@
 #include "../stopwatch.hpp"
 #include "hamjet/integrators/error_estimate.hpp"
 #include "hamjet/studies/propagation.hpp"
+#include "near_singular.hpp"
 #include "number_scan.hpp"
 
 namespace hamjet {
@@ -211,6 +212,8 @@ void check_inversion(SelfCheck& check, const Scene& scene, const RunResult& run)
         "inverted maps composed with the map are the identity to {:.2g} of their terms; rounding "
         "of the map shows as {:.2g} in the linear part of {}",
         inversion.miss, value, inversion.amplified_kind);
+    const std::string warning = near_singular_warning(scene, run);
+    if (!warning.empty()) check.text += "; " + warning;
   } else {
     check.text = fmt::format(
         "{} is ill-conditioned: it amplifies the rounding of the map to {:.2g} in its linear part; "
