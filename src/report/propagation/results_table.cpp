@@ -120,7 +120,7 @@ std::string explanation(const PropagationResult& result) {
       "position error: of the nominal at the end. relative error: largest over all degrees, "
       "relative "
       "to the\nlargest coefficient of the degree. error estimate: the same, from independent runs "
-      "along two directions,\nwithout a reference. symplecticity: largest scaled Poisson-bracket "
+      "along a few directions,\nwithout a reference. symplecticity: largest scaled Poisson-bracket "
       "defect over all degrees.\n";
   if (result.scene.kinds && result.problem.is_full_jet) {
     text += "F1, auto, ... degree d: absolute exactness residual";
