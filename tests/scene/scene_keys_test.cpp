@@ -241,7 +241,7 @@ class StudyText {
     add_all(s.title, s.precision, s.system, s.units, s.canonical_radius, s.nominal, s.duration,
             s.order, s.arcs, s.variables, s.integrators, s.separation, s.kinds, s.reference,
             s.relative_hamiltonian_times, s.comparison, s.figure, s.transfer, s.validity,
-            s.assignment, s.output.hdf5, s.output.dace, s.output.oem, s.ephemeris);
+            s.assignment, s.output.formats, s.ephemeris);
     for (std::size_t i = 0; i < self_check_count; ++i) add(s.checks[SelfCheckName(i)]);
   }
   void add(const EnergyConservationStudy& s) {
