@@ -54,7 +54,7 @@ expect 'pdf png' hamjet compare orbit.toml --plots ''
 expect 'pdf' hamjet compare orbit.toml --plots pd
 expect 'pdf png' hamjet compare orbit.toml --plots =
 expect 'pdf' hamjet compare orbit.toml --plots = pd
-expect 'integrators kinds systems' hamjet list ''
+expect 'integrators keys kinds systems' hamjet list ''
 expect 'RTN canonical inertial' hamjet eval out/scene --frame ''
 # Runs of a folder of results that have a jet.
 expect 'gauss8 midpoint' hamjet eval out/scene --run ''
