@@ -162,7 +162,8 @@ template <class Real>
 void include_nominals(std::vector<double>& result, const FlowJet<Real>& a, const FlowJet<Real>& b,
                       double largest) {
   if (largest == 0) return;
-  result[0] = std::max(result[0], error_estimate_safety * differences(a, b)[0] / largest);
+  const double estimate = error_estimate_safety * differences(a, b)[0] / largest;
+  if (!(estimate <= result[0])) result[0] = estimate;
 }
 
 bool is_confirmed(const std::vector<double>& own, const std::vector<double>& known) {

@@ -106,7 +106,7 @@ std::string scene_key(const Scene& scene, int jet_order, KeyOf whose) {
                relative_hamiltonian_times, checks, comparison, figure, transfer, validity,
                assignment, output, ephemeris, nominal_file, warnings, own_system] = scene;
   KeyText key;
-  key.add("key", 4);  // version of this form of the text
+  key.add("key", 5);  // version of this text, and of what is kept under it
   key.add("reference stages", reference_stages);
   key.add("compared stages", compared_stages);
   key.add("looser by", looser_tolerance);
