@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "../scene/key_reference.hpp"
+#include "../scene/tables/key_reference.hpp"
 #include "../studies/descriptions/method_description.hpp"
 #include "../studies/descriptions/system_description.hpp"
 #include "hamjet/detail/maps/generating_function_kind.hpp"

@@ -6,8 +6,8 @@
 #include <iterator>
 
 #include "dace_text.hpp"
-#include "hdf5_jets.hpp"
-#include "orbit_ephemeris.hpp"
+#include "hdf5/hdf5_jets.hpp"
+#include "orbit_messages/orbit_ephemeris.hpp"
 
 namespace hamjet::io {
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "../scene/scene_document.hpp"
+#include "../scene/document/scene_document.hpp"
 #include "../text/scene_message.hpp"
 #include "bindings.hpp"
 #include "given_scene.hpp"

@@ -2,7 +2,7 @@
 
 #include "hamjet/dynamics/osculating_elements.hpp"
 #include "hamjet/studies/scene.hpp"
-#include "scene_table.hpp"
+#include "tables/scene_table.hpp"
 
 namespace hamjet::io {
 

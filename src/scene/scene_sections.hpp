@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "hamjet/algebra/extended.hpp"
-#include "scene_table.hpp"
 #include "study_reader.hpp"
+#include "tables/scene_table.hpp"
 
 // One function for each table of a scene, in the order in which they are read: a later one may need
 // what an earlier one found. Each reads, checks and converts all keys of its table, in a file of

@@ -1,11 +1,11 @@
 #include <functional>
 
 #include "../text/scene_message.hpp"
+#include "document/scene_document.hpp"
+#include "document/scene_text.hpp"
 #include "hamjet/error.hpp"
-#include "scene_document.hpp"
 #include "scene_name.hpp"
 #include "scene_sections.hpp"
-#include "scene_text.hpp"
 #include "study_reader.hpp"
 
 namespace hamjet::io {

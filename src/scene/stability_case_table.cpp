@@ -1,5 +1,5 @@
 #include "../studies/stability/stability.hpp"
-#include "table_description.hpp"
+#include "tables/table_description.hpp"
 
 // The table `[case]`, which `hamjet stability` reads and other commands only check.
 

@@ -8,10 +8,10 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
-#include "../scene/scene_document.hpp"
+#include "../scene/document/scene_document.hpp"
+#include "../scene/document/scene_text.hpp"
 #include "../scene/scene_name.hpp"
-#include "../scene/scene_table.hpp"
-#include "../scene/scene_text.hpp"
+#include "../scene/tables/scene_table.hpp"
 #include "../text/scene_message.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/version.hpp"

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "../scene/scene_table.hpp"
+#include "../scene/tables/scene_table.hpp"
 
 namespace hamjet::io {
 

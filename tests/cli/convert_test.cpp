@@ -1,7 +1,7 @@
 #include <sys/stat.h>
 
 #include "command_test.hpp"
-#include "formats/hdf5_jets.hpp"
+#include "formats/hdf5/hdf5_jets.hpp"
 
 // `hamjet convert`, and what other commands say of files of jets.
 

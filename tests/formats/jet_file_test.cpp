@@ -11,7 +11,7 @@
 
 #include "../scene/scene_samples.hpp"
 #include "formats/dace_text.hpp"
-#include "formats/hdf5_jets.hpp"
+#include "formats/hdf5/hdf5_jets.hpp"
 #include "hamjet/report/results.hpp"
 #include "jet_samples.hpp"
 #include "support/temporary_directory.hpp"

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "../scene/scene_samples.hpp"
-#include "formats/hdf5_jets.hpp"
+#include "formats/hdf5/hdf5_jets.hpp"
 #include "hamjet/formats/jet_file.hpp"
 #include "hamjet/report/results.hpp"
 #include "hamjet/version.hpp"

@@ -6,9 +6,9 @@
 #include <set>
 #include <sstream>
 
-#include "scene/key_reference.hpp"
 #include "scene/study_reader.hpp"
-#include "scene/table_description.hpp"
+#include "scene/tables/key_reference.hpp"
+#include "scene/tables/table_description.hpp"
 #include "scene_samples.hpp"
 #include "studies/descriptions/settings_fields.hpp"
 

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "../../formats/orbit_ephemeris.hpp"
+#include "../../formats/orbit_messages/orbit_ephemeris.hpp"
 #include "../../formats/output_formats.hpp"
 #include "../../formats/relative_frame_text.hpp"
 #include "../../text/html_text.hpp"

@@ -4,9 +4,9 @@
 #include <system_error>
 #include <utility>
 
-#include "../../scene/scene_document.hpp"
+#include "../../scene/document/scene_document.hpp"
+#include "../../scene/document/scene_text.hpp"
 #include "../../scene/scene_sections.hpp"
-#include "../../scene/scene_text.hpp"
 #include "../../store/text_file.hpp"
 #include "../../text/scene_message.hpp"
 #include "hamjet/algebra/extended.hpp"

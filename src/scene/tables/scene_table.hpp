@@ -11,7 +11,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "../text/scene_message.hpp"
+#include "../../text/scene_message.hpp"
 #include "table_description.hpp"
 
 namespace hamjet::io {

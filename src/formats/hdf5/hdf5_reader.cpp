@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "../text/scene_message.hpp"
+#include "../../text/scene_message.hpp"
 #include "hamjet/error.hpp"
 #include "hdf5_jets_format.hpp"
 

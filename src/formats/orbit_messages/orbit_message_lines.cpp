@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "../text/scene_message.hpp"
+#include "../../text/scene_message.hpp"
+#include "../number_table.hpp"
 #include "hamjet/error.hpp"
-#include "number_table.hpp"
 
 namespace hamjet::io {
 namespace {

@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "../text/scene_message.hpp"
+#include "../../text/scene_message.hpp"
 #include "hamjet/error.hpp"
 #include "scene_first_definition.hpp"
 #include "scene_text.hpp"

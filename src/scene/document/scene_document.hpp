@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "../text/scene_message.hpp"
-#include "study_reader.hpp"
+#include "../../text/scene_message.hpp"
+#include "../study_reader.hpp"
 
 namespace hamjet::io {
 

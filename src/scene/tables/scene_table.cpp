@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "../store/text_file.hpp"
+#include "../../store/text_file.hpp"
 #include "hamjet/error.hpp"
 
 namespace hamjet::io {

@@ -4,7 +4,7 @@
 #include <set>
 #include <utility>
 
-#include "../text/scene_message.hpp"
+#include "../../text/scene_message.hpp"
 #include "table_description.hpp"
 
 namespace hamjet::io {

@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../text/scene_message.hpp"
+#include "../../text/scene_message.hpp"
+#include "../stored_coefficients.hpp"
 #include "hamjet/error.hpp"
 #include "hdf5_jets.hpp"
 #include "hdf5_jets_format.hpp"
 #include "hdf5_reader.hpp"
 #include "hdf5_seal.hpp"
-#include "stored_coefficients.hpp"
 
 namespace hamjet::io {
 namespace {

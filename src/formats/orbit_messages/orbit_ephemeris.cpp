@@ -6,11 +6,11 @@
 #include <chrono>
 #include <span>
 
+#include "../output_formats.hpp"
+#include "../relative_frame_text.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/formats/orbit_message.hpp"
 #include "hamjet/version.hpp"
-#include "output_formats.hpp"
-#include "relative_frame_text.hpp"
 
 namespace hamjet::io {
 namespace {

@@ -4,9 +4,9 @@
 #include <string>
 #include <string_view>
 
+#include "../output_formats.hpp"
 #include "hamjet/formats/stored_jet.hpp"
 #include "hamjet/studies/propagation.hpp"
-#include "output_formats.hpp"
 
 // `jets.h5`: the jets of all runs of a scene in one HDF5 file, which h5py, MATLAB and Julia read.
 // The file says itself what it holds (attribute `description`). Its first 512 bytes, which HDF5

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "../text/scene_message.hpp"
+#include "../../text/scene_message.hpp"
 #include "hamjet/formats/orbit_message.hpp"
 
 namespace hamjet::io {

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <utility>
 
-#include "../store/text_file.hpp"
-#include "../text/scene_message.hpp"
+#include "../../store/text_file.hpp"
+#include "../../text/scene_message.hpp"
 #include "hamjet/error.hpp"
 #include "scene_token_scanner.hpp"
 

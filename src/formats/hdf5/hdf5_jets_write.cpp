@@ -1,15 +1,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../jet_description.hpp"
+#include "../results_names.hpp"
+#include "../stored_coefficients.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/version.hpp"
 #include "hdf5_jets.hpp"
 #include "hdf5_jets_format.hpp"
 #include "hdf5_seal.hpp"
 #include "hdf5_writer.hpp"
-#include "jet_description.hpp"
-#include "results_names.hpp"
-#include "stored_coefficients.hpp"
 
 namespace hamjet::io {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "../text/scene_message.hpp"
-#include "number_table.hpp"
+#include "../../text/scene_message.hpp"
+#include "../number_table.hpp"
 #include "orbit_message_lines.hpp"
 
 namespace hamjet::io {

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "../text/scene_message.hpp"
+#include "../../text/scene_message.hpp"
 
 namespace hamjet::io {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "../store/sealed_summary.hpp"
+#include "../../store/sealed_summary.hpp"
 #include "hamjet/error.hpp"
 
 namespace hamjet::io {
