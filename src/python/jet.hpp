@@ -15,7 +15,7 @@ class Jet {
   explicit Jet(io::StoredJet stored);
 
   const io::StoredJet& stored() const noexcept { return stored_; }
-  const SpacePointer& space() const noexcept { return map_.space(); }
+  SpacePointer space() const noexcept { return map_.space(); }
   /// The coefficients in double precision, component by component; the first of each is the
   /// nominal's final state.
   std::span<const double> coefficients() const noexcept { return coefficients_; }

@@ -30,7 +30,7 @@ constexpr std::string_view subjects[self_check_count] = {
     "the equations of implicit methods are solved to round-off",
     "the method's own estimate of its local error",
     "the energy along the nominal",
-    "Poisson brackets of the linear part, of symplectic methods",
+    "Poisson brackets of every degree, of symplectic methods",
     "inverted maps composed with the map",
     "the nominal's smallest distance from the centre; the limit needs `system.radius_km`",
     "the error of every degree, from independent runs along directions"};

@@ -98,7 +98,7 @@ TableDescription describe_integrators() {
   const auto other_size = absent::other("another step or tolerance");
   return {joined<SceneKey>(
       {table.keys,
-       {{"step_canonical", form::positive(), other_size, "fixed steps, at most 1e9", steps},
+       {{"step_canonical", form::positive(), other_size, "fixed steps, at most 1e8", steps},
         {"step_s", form::positive(), other_size, "likewise", steps},
         {"tolerance",
          form::words(fmt::format("number from {} (extended: {}) to {}", least_tolerance,

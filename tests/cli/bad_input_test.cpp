@@ -228,6 +228,9 @@ TEST_F(BadInput, AnOverrideHasOneValue) {
   expect_error(
       {"check", "small.toml", "--set", "jet.order=1", "--set", "title=a", "--set", "jet.order=3"},
       2, {"hamjet: --set jet.order: given twice, as 1 and as 3; must be given once\n"});
+  expect_error(
+      {"check", "small.toml", "--set", "jet.order=1", "--set", "jet={order=2}"}, 2,
+      {"hamjet: --set jet: replaces what --set jet.order has given; must stand before it\n"});
   // Other keys, and one that is removed first, keep their order.
   succeed({"check", "small.toml", "--set", "jet.order=1", "--set", "title=b"});
   succeed({"check", "small.toml", "--set", "nominal=null", "--set", "nominal={}", "--set",

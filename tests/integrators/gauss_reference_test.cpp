@@ -47,7 +47,7 @@ TEST(GaussReference, PaperOrbitMatchesStateMatrixAndJetOfOrderThree) {
     }
   }
   for (int d = 0; d <= 3; ++d) {
-    // What issue 2 asks of the default integrator.
+    // What the default integrator promises.
     EXPECT_LE(test::relative_error(jet, reference, d), 2e-12) << "degree " << d;
     // 34 digits, less what conditioning costs; 1e-24 is the tolerance of a step.
     EXPECT_LE(test::relative_error(extended, reference, d), 1e-22) << "degree " << d;

@@ -80,7 +80,7 @@ struct IntegrationStatistics {
   std::vector<double> unmet_by_degree;
   /// The flow along lines of deviations by other stages and finer steps, where an adaptive Gauss
   /// method has made sure of its tolerance with them: estimate_error needs no second integration.
-  /// Of the numbers that were integrated in.
+  /// They are in the arithmetic of the integration.
   std::variant<std::vector<JetAlongLine<double>>, std::vector<JetAlongLine<Extended>>> finer_lines;
 
   void record_step_error(double estimate) {

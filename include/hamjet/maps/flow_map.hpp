@@ -38,7 +38,7 @@ class FlowMap {
   const std::vector<Series<T>>& jet() const& noexcept { return jet_; }
   /// The jet itself, taken out of a map that is no longer needed.
   std::vector<Series<T>> jet() && noexcept { return std::move(jet_); }
-  const SpacePointer& space() const noexcept { return jet_.front().space_pointer(); }
+  SpacePointer space() const noexcept { return jet_.front().space_pointer(); }
   int order() const noexcept { return space()->order(); }
   std::size_t components() const noexcept { return jet_.size(); }
   std::size_t variables() const noexcept { return space()->variables(); }

@@ -17,7 +17,7 @@ struct StepTolerance {
   std::vector<double> unmet_by_degree;
   /// The lines of the last trial's finer steps; empty where nothing was tried.
   std::vector<JetAlongLine<Real>> finer_lines;
-  /// The same lines with the steps of `tolerance`; empty where the last trial had another.
+  /// These lines with the steps of `tolerance`; empty where the last trial had another.
   std::vector<FlowJet<Real>> lines;
 };
 

@@ -5,8 +5,8 @@
 namespace hamjet::io {
 
 /// Calls visit(name, member) for every member of a run, const or not, in the order of JSON. A
-/// number that is added to the structure and here is written, read back by `--resume`, and has a
-/// column in CSV.
+/// member that is added to the structure and here is written and read back by `--resume`; one of
+/// type double has a column in CSV as well.
 template <class Run, class Visit>
 void for_each_member(Run& run, const Visit& visit) {
   visit("settings", run.settings);

@@ -2,37 +2,52 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <cstddef>
 #include <vector>
 
 namespace hamjet {
 namespace {
 
-constexpr double largest_quiet_error = 1e-6;
+/// Two digits better than what anybody would miss in the linear part: higher degrees lose some
+/// thousand times more (Kepler's circle just behind a revolution, F1 of degree 5).
+constexpr double largest_quiet_error = 1e-8;
 /// Below this a large error is that of the integrator's steps, not of the kind.
-constexpr double smallest_near_singular_amplification = 1e4;
+constexpr double smallest_near_singular_condition = 1e4;
 
-/// The relative error of the map's linear part.
-double linear_error(const Scene& scene, const RunResult& run) {
+/// The relative error of the map, the largest of its degrees but the nominal's.
+double map_error(const Scene& scene, const RunResult& run) {
   const auto& by_degree = run.error_by_degree ? run.error_by_degree : run.error_estimate.by_degree;
-  const double known = by_degree && by_degree->size() > 1 ? (*by_degree)[1] : 0;
-  return std::max(known, rounding_of(scene.precision));
+  double error = rounding_of(scene.precision);
+  if (!by_degree) return error;
+  for (std::size_t d = 1; d < by_degree->size(); ++d) {
+    if (!((*by_degree)[d] <= error)) error = (*by_degree)[d];
+  }
+  return error;
+}
+
+/// The kind with the largest condition number; null if none exists.
+const KindResult* worst_kind(const std::vector<KindResult>& kinds) {
+  const KindResult* worst = nullptr;
+  for (const KindResult& kind : kinds) {
+    if (kind.failure.empty() && (!worst || kind.condition > worst->condition)) worst = &kind;
+  }
+  return worst;
 }
 
 }  // namespace
 
 std::string near_singular_warning(const Scene& scene, const RunResult& run) {
-  if (!run.inversion || run.inversion->kinds == 0) return "";
-  const double amplification = run.inversion->amplification;
-  const double error = linear_error(scene, run);
-  if (amplification < smallest_near_singular_amplification ||
-      amplification * error <= largest_quiet_error) {
-    return "";
-  }
+  // The condition tells the distance in time; the amplification grows with the duration as well.
+  const KindResult* kind = worst_kind(run.kinds);
+  if (!kind || kind->condition < smallest_near_singular_condition) return "";
+  const double error = map_error(scene, run);
+  if (kind->condition * error <= largest_quiet_error) return "";
+  const std::string name = kind->kind.name();
   return fmt::format(
-      "{} is near one of its singular times: it amplifies the error of the map's linear part, "
-      "{:.2g}, up to {:.2g}-fold, to {:.2g} of its own linear part, and no less at higher degrees",
-      run.inversion->amplified_kind, error, amplification, amplification * error);
+      "{} is near one of its singular times: it amplifies the error of the map, {:.2g}, up to "
+      "{:.2g}-fold in its linear part, to {:.2g}, and more at higher degrees",
+      kind->requested == name ? name : fmt::format("{} ({})", kind->requested, name), error,
+      kind->condition, kind->condition * error);
 }
 
 }  // namespace hamjet
