@@ -42,12 +42,12 @@ std::string near_singular_warning(const Scene& scene, const RunResult& run) {
   if (!kind || kind->condition < smallest_near_singular_condition) return "";
   const double error = map_error(scene, run);
   if (kind->condition * error <= largest_quiet_error) return "";
-  const std::string name = kind->kind.name();
+  const std::string name =
+      kind->requested == "auto" ? fmt::format("auto ({})", kind->kind.name()) : kind->requested;
   return fmt::format(
       "{} is near one of its singular times: it amplifies the error of the map, {:.2g}, up to "
       "{:.2g}-fold in its linear part, to {:.2g}, and more at higher degrees",
-      kind->requested == name ? name : fmt::format("{} ({})", kind->requested, name), error,
-      kind->condition, kind->condition * error);
+      name, error, kind->condition, kind->condition * error);
 }
 
 }  // namespace hamjet
