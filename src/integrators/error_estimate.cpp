@@ -10,6 +10,7 @@
 #include <random>
 #include <utility>
 
+#include "../algebra/raise_to.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
 #include "line_restriction.hpp"
@@ -133,7 +134,7 @@ std::vector<double> differences(const FlowJet<Real>& a, const FlowJet<Real>& b) 
   for (std::size_t i = 0; i < a.size(); ++i) {
     for (std::size_t d = 0; d < result.size(); ++d) {
       const double difference = std::abs(static_cast<double>(Real(a[i][d] - b[i][d])));
-      if (!(difference <= result[d])) result[d] = difference;
+      raise_to(result[d], difference);
     }
   }
   return result;
@@ -153,7 +154,7 @@ void include_run(std::vector<double>& result, const Direction<Real>& direction,
     if (scale == 0) continue;
     double estimate = error_estimate_safety * differing[d] / scale;
     if (estimate < rounding<Real>()) estimate = rounding<Real>();
-    if (!(estimate <= result[d])) result[d] = estimate;
+    raise_to(result[d], estimate);
   }
 }
 
@@ -162,8 +163,7 @@ template <class Real>
 void include_nominals(std::vector<double>& result, const FlowJet<Real>& a, const FlowJet<Real>& b,
                       double largest) {
   if (largest == 0) return;
-  const double estimate = error_estimate_safety * differences(a, b)[0] / largest;
-  if (!(estimate <= result[0])) result[0] = estimate;
+  raise_to(result[0], error_estimate_safety * differences(a, b)[0] / largest);
 }
 
 bool is_confirmed(const std::vector<double>& own, const std::vector<double>& known) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "../algebra/raise_to.hpp"
 #include "hamjet/detail/dynamics/differentiable_function.hpp"
 #include "hamjet/error.hpp"
 
@@ -17,7 +18,7 @@ double largest_difference(const std::vector<Eigen::VectorXd>& a,
   double scale = 0;
   for (std::size_t k = 0; k < a.size(); ++k) {
     const double here = (a[k] - b[k]).lpNorm<Eigen::Infinity>();
-    if (!(here <= largest)) largest = here;  // a NaN is the largest of all
+    raise_to(largest, here);
     scale = std::max(scale, a[k].lpNorm<Eigen::Infinity>());
   }
   return scale > 0 ? largest / scale : largest;
@@ -43,9 +44,7 @@ double discrete_cost(const OptimalControlProblem& problem, Discretization discre
 
 double TrajectoryDifference::largest() const {
   double largest = states;
-  for (const double other : {costates, controls}) {
-    if (!(other <= largest)) largest = other;
-  }
+  for (const double other : {costates, controls}) raise_to(largest, other);
   return largest;
 }
 

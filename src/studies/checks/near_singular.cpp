@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "../../algebra/raise_to.hpp"
+
 namespace hamjet {
 namespace {
 
@@ -20,7 +22,7 @@ double map_error(const Scene& scene, const RunResult& run) {
   double error = rounding_of(scene.precision);
   if (!by_degree) return error;
   for (std::size_t d = 1; d < by_degree->size(); ++d) {
-    if (!((*by_degree)[d] <= error)) error = (*by_degree)[d];
+    raise_to(error, (*by_degree)[d]);
   }
   return error;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "../../algebra/raise_to.hpp"
 #include "../../maps/discrete_hamilton_jacobi.hpp"
 #include "../../maps/symplectic_powers.hpp"
 #include "../../maps/transformed_midpoint.hpp"
@@ -107,10 +108,6 @@ class Run {
       throw Error(ErrorKind::numerical, "the energy is not finite");
     }
     done_ = k;
-    // A value that is not a number stays, and shows.
-    const auto raise_to = [](double& largest, double value) {
-      if (!(value <= largest)) largest = value;
-    };
     raise_to(result_.largest_condition, condition);
     raise_to(result_.largest_symplecticity_defect, symplecticity_defect(map.matrix()).relative);
     raise_to(result_.largest_energy_error, std::abs(point.energy_error));

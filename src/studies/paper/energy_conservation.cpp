@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "../../algebra/raise_to.hpp"
 #include "../energy_error.hpp"
 #include "../exact_flow.hpp"
 #include "../thinned_list.hpp"
@@ -52,11 +53,6 @@ std::optional<double> predicted_time(const EnergyConservationStudy& study,
   return std::nullopt;
 }
 
-/// Raises a maximum; NaN, once there, stays.
-void raise(double& largest, double value) {
-  if (!(value <= largest)) largest = value;
-}
-
 /// Whether a stop comes from the method's step equation, not from a start or a place that the scene
 /// should not have.
 bool is_of_the_method(const EnergyConservingStop& stop) {
@@ -83,7 +79,7 @@ class EnergyConservingTrajectory {
     last.state = result.run.state;
     last.energy_error = energy_.error(extended(last.state));
     last.condition = condition_(last.state);
-    raise(result.largest_energy_error, std::abs(last.energy_error));
+    raise_to(result.largest_energy_error, std::abs(last.energy_error));
     points_.add(std::move(last));
     result.points = points_.take();
   }
@@ -106,8 +102,8 @@ class EnergyConservingTrajectory {
     const double size = std::abs(step.size);
     result_.smallest_step = step.index == 0 ? size : std::min(result_.smallest_step, size);
     result_.largest_step = std::max(result_.largest_step, size);
-    raise(result_.largest_discrete_error, std::abs(*point.discrete));
-    raise(result_.largest_energy_error, std::abs(point.energy_error));
+    raise_to(result_.largest_discrete_error, std::abs(*point.discrete));
+    raise_to(result_.largest_energy_error, std::abs(point.energy_error));
     points_.add(std::move(point));
   }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "../../algebra/raise_to.hpp"
 #include "../../optimal_control/discrete_maximum_principle.hpp"
 #include "../../optimal_control/hamiltonian_discretization.hpp"
 #include "../../optimal_control/karush_kuhn_tucker.hpp"
@@ -59,8 +60,7 @@ double symplecticity_defect(const std::vector<Eigen::MatrixXd>& jacobians) {
       }
       jet.push_back(std::move(component));
     }
-    const double defect = symplecticity_by_degree(jet).front().scaled;
-    if (!(defect <= largest)) largest = defect;  // a NaN is the largest of all
+    raise_to(largest, symplecticity_by_degree(jet).front().scaled);
   }
   return largest;
 }
