@@ -37,28 +37,31 @@ void add_key(SweepStudy& study, SweepKey key, const TableReader& table, std::str
   study.keys.push_back(std::move(key));
 }
 
-void require_count(const TableReader& root, std::string_view key, double count) {
-  if (count <= static_cast<double>(most_sweep_items)) return;
+void require_count(const TableReader& root, std::string_view key, double count,
+                   std::size_t most_items) {
+  if (count <= static_cast<double>(most_items)) return;
   throw Error(ErrorKind::too_large,
               fmt::format("{}: too many items, got {:.0f}, must be at most {}", root.head(key),
-                          count, most_sweep_items));
+                          count, most_items));
 }
 
 /// Makes all combinations of the axes' values, the last axis changing fastest.
-void read_grid(const TableReader& root, const toml::table& tables, SweepStudy& study) {
+void read_grid(const TableReader& root, const toml::table& tables, std::size_t most_items,
+               SweepStudy& study) {
   study.is_grid = true;
   study.items = {{}};
   const std::vector<TableReader> axes = root.tables("axis");
   for (std::size_t i = 0; i < axes.size(); ++i) {
     const toml::table& table = *(*tables.get_as<toml::array>("axis"))[i].as_table();
-    const std::vector<std::string> values = axis_values(axes[i], table);
+    const std::vector<std::string> values = axis_values(axes[i], table, most_items);
     SweepKey key{axes[i].text("key"),
                  axes[i].has("spacing") && axes[i].text("spacing") == "logarithmic",
                  axes[i].head("key")};
     if (key.name.empty()) axes[i].fail("key", "empty, must be a key such as nominal.e");
     add_key(study, std::move(key), axes[i], "key");
     require_count(root, "axis",
-                  static_cast<double>(study.items.size()) * static_cast<double>(values.size()));
+                  static_cast<double>(study.items.size()) * static_cast<double>(values.size()),
+                  most_items);
     std::vector<std::vector<std::string>> items;
     items.reserve(study.items.size() * values.size());
     for (const auto& item : study.items) {
@@ -71,10 +74,11 @@ void read_grid(const TableReader& root, const toml::table& tables, SweepStudy& s
   }
 }
 
-void read_list(const TableReader& root, const toml::table& tables, SweepStudy& study) {
+void read_list(const TableReader& root, const toml::table& tables, std::size_t most_items,
+               SweepStudy& study) {
   const std::vector<TableReader> readers = root.tables("item");
   const toml::array& array = *tables.get_as<toml::array>("item");
-  require_count(root, "item", static_cast<double>(array.size()));
+  require_count(root, "item", static_cast<double>(array.size()), most_items);
   for (std::size_t i = 0; i < array.size(); ++i) {
     std::vector<std::string>& item = study.items.emplace_back(study.keys.size());
     const auto keys = flat_keys(*array[i].as_table());
@@ -197,7 +201,8 @@ SweepStudy read_sweep_study(const std::filesystem::path& file) {
 
 SweepStudy parse_sweep_study(
     std::string_view text, const std::filesystem::path& file,
-    const std::function<std::string(const std::filesystem::path&)>& read_scene) {
+    const std::function<std::string(const std::filesystem::path&)>& read_scene,
+    std::size_t most_items) {
   const SceneDocument document =
       parse_document(text, printable(file.string(), std::string::npos), {});
   const TableReader root(document.table, "", document.source);
@@ -216,9 +221,9 @@ SweepStudy parse_sweep_study(
         fmt::format("{}, must be {}", root.has("axis") ? "beside axis" : "missing", grid_or_list));
   }
   if (root.has("axis")) {
-    read_grid(root, document.table, study);
+    read_grid(root, document.table, most_items, study);
   } else {
-    read_list(root, document.table, study);
+    read_list(root, document.table, most_items, study);
   }
   read_columns(root, study);
   if (root.has("map")) study.map = read_map(root.table("map"), study);

@@ -70,10 +70,11 @@ inline constexpr std::size_t most_sweep_items = 1'000'000;
 SweepStudy read_sweep_study(const std::filesystem::path& file);
 
 /// read_sweep_study from text; `file` names the study, and `read_scene` brings the text of the base
-/// scene, for example from memory.
+/// scene, for example from memory. Studies of more than `most_items` items are refused.
 SweepStudy parse_sweep_study(
     std::string_view text, const std::filesystem::path& file,
-    const std::function<std::string(const std::filesystem::path&)>& read_scene);
+    const std::function<std::string(const std::filesystem::path&)>& read_scene,
+    std::size_t most_items = most_sweep_items);
 
 /// The changes of one item, in the order in which they are applied.
 std::vector<Override> sweep_overrides(const SweepStudy& study, std::size_t item);

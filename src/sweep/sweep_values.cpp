@@ -29,10 +29,11 @@ void add_flat_keys(const toml::table& table, const std::string& path,
 /// The decimal number that stands in the study.
 Extended decimal(double value) { return Extended(fmt::format("{}", value)); }
 
-std::vector<std::string> spaced_values(const TableReader& axis, bool is_logarithmic) {
+std::vector<std::string> spaced_values(const TableReader& axis, bool is_logarithmic,
+                                       std::size_t most_values) {
   const double from = axis.number("from");
   const double to = axis.number("to");
-  const auto count = axis.integer_between("count", 2, static_cast<std::int64_t>(most_sweep_items));
+  const auto count = axis.integer_between("count", 2, static_cast<std::int64_t>(most_values));
   if (from == to) axis.fail("to", "the same as from, must be another number");
   for (const char* end : {"from", "to"}) {
     if (is_logarithmic && !(axis.number(end) > 0)) {
@@ -74,12 +75,14 @@ std::vector<std::pair<std::string, const toml::node*>> flat_keys(const toml::tab
   return keys;
 }
 
-std::vector<std::string> axis_values(const TableReader& axis, const toml::table& table) {
+std::vector<std::string> axis_values(const TableReader& axis, const toml::table& table,
+                                     std::size_t most_values) {
   axis.check_keys({{"key", "values", "from", "to", "count", "spacing"}});
   const bool is_list = axis.exactly_one_of({"values", "from"}) == "values";
   if (!is_list) {
     return spaced_values(
-        axis, axis.has("spacing") && axis.choice("spacing", {"linear", "logarithmic"}) == 1);
+        axis, axis.has("spacing") && axis.choice("spacing", {"linear", "logarithmic"}) == 1,
+        most_values);
   }
   for (const char* key : {"to", "count", "spacing"}) {
     if (axis.has(key)) axis.fail(key, "beside values, must stand beside from");

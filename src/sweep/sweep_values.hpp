@@ -2,6 +2,7 @@
 
 #include <toml++/toml.h>
 
+#include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,7 +19,9 @@ std::string override_text(const toml::node& value);
 std::vector<std::pair<std::string, const toml::node*>> flat_keys(const toml::table& table);
 
 /// The values along an axis: as they are listed, or `count` from `from` to `to`, both included, the
-/// nearest binary64 numbers to what decimal arithmetic gives: 0.3, not 0.30000000000000004.
-std::vector<std::string> axis_values(const TableReader& axis, const toml::table& table);
+/// nearest binary64 numbers to what decimal arithmetic gives: 0.3, not 0.30000000000000004. `count`
+/// may be at most `most_values`.
+std::vector<std::string> axis_values(const TableReader& axis, const toml::table& table,
+                                     std::size_t most_values);
 
 }  // namespace hamjet::io
