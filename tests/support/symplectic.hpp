@@ -128,7 +128,9 @@ inline DynamicalSystem quadratic_system(const Matrix<double>& symmetric) {
 template <class Derived>
 double largest_entry(const Eigen::MatrixBase<Derived>& values) {
   double largest = 0;
-  for (const auto& x : values.eval().reshaped()) {
+  // Named, for a view in the loop's head would outlive what it looks at.
+  const typename Derived::PlainObject entries = values;
+  for (const auto& x : entries.reshaped()) {
     largest = larger(largest, std::abs(static_cast<double>(x)));
   }
   return largest;
