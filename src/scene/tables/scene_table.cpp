@@ -50,8 +50,9 @@ void TableReader::check_keys(const KnownKeys& known) const {
                             in_quotes(absent.name), suggestion(absent.name, known.keys)));
   }
   const toml::key* unknown = nullptr;
+  const auto left = joined<std::string_view>({known.keys, known.refused_by_caller});
   for (const auto& [key, node] : *table_) {
-    if (std::find(known.keys.begin(), known.keys.end(), key.str()) != known.keys.end()) continue;
+    if (std::find(left.begin(), left.end(), key.str()) != left.end()) continue;
     if (unknown == nullptr || key.source().begin < unknown->source().begin) unknown = &key;
   }
   if (unknown == nullptr) return;
@@ -253,7 +254,8 @@ std::size_t TableReader::choice(std::string_view key,
   if (match == choices.end()) {
     const auto near = nearest(value, choices);
     fail(key, fmt::format("unknown value, got {}, must be one of: {}{}", in_quotes(value),
-                          listed(choices), near ? fmt::format(" (did you mean {}?)", *near) : ""));
+                          listed(choices),
+                          near ? fmt::format(" (did you mean {}?)", printable(*near)) : ""));
   }
   return static_cast<std::size_t>(match - choices.begin());
 }
