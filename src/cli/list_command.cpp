@@ -5,6 +5,7 @@
 #include "../scene/tables/key_reference.hpp"
 #include "../studies/descriptions/method_description.hpp"
 #include "../studies/descriptions/system_description.hpp"
+#include "../sweep/sweep_tables.hpp"
 #include "hamjet/detail/maps/generating_function_kind.hpp"
 #include "standard_streams.hpp"
 
@@ -50,7 +51,7 @@ int list(const std::string& what) {
   if (what == "systems") print(systems());
   if (what == "integrators") print(integrators());
   if (what == "kinds") print(kinds());
-  if (what == "keys") print(io::key_reference());
+  if (what == "keys") print(io::key_reference(io::sweep_study_table()));
   return 0;
 }
 

@@ -15,6 +15,7 @@
 #include "../text/scene_message.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/version.hpp"
+#include "sweep_tables.hpp"
 #include "sweep_values.hpp"
 
 namespace hamjet::io {
@@ -120,7 +121,7 @@ std::string read_pointer(const TableReader& column) {
 
 void read_columns(const TableReader& root, SweepStudy& study) {
   for (const TableReader& column : root.tables("column")) {
-    column.check_keys({{"name", "unit", "value"}});
+    column.check_keys();
     SweepColumn entry{column.text("name"), "", read_pointer(column), column.head("value")};
     if (column.has("unit")) entry.unit = column.text("unit");
     const auto is_taken = [&](std::string_view name) { return entry.name == name; };
@@ -152,7 +153,7 @@ bool is_number(const std::string& text) {
 }
 
 SweepMap read_map(const TableReader& map, const SweepStudy& study) {
-  map.check_keys({{"x", "y", "value", "scale"}});
+  map.check_keys();
   std::vector<std::string_view> keys;
   std::vector<std::string_view> columns;
   for (const SweepKey& key : study.keys) keys.push_back(key.name);
@@ -167,14 +168,14 @@ SweepMap read_map(const TableReader& map, const SweepStudy& study) {
       }
     }
   }
-  settings.is_logarithmic = map.has("scale") && map.choice("scale", {"linear", "logarithmic"}) == 1;
+  settings.is_logarithmic = map.has("scale") && map.choice("scale") == 1;
   return settings;
 }
 
 void read_sweep_table(const TableReader& sweep, const toml::table& table,
                       const std::filesystem::path& file, SweepStudy& study) {
-  sweep.check_keys({{"scene", "command", "set"}});
-  study.command = static_cast<SweepCommand>(sweep.choice("command", sweep_command_names()));
+  sweep.check_keys();
+  study.command = static_cast<SweepCommand>(sweep.choice("command"));
   study.scene = sweep.text("scene");
   if (study.scene.empty()) sweep.fail("scene", "empty, must name the base scene's file");
   study.scene_path = file.parent_path() / study.scene;
@@ -205,14 +206,14 @@ SweepStudy parse_sweep_study(
     std::size_t most_items) {
   const SceneDocument document =
       parse_document(text, printable(file.string(), std::string::npos), {});
-  const TableReader root(document.table, "", document.source);
+  const TableReader root(document.table, "", document.source, &sweep_study_table());
   SweepStudy study;
   study.name = scene_name(file.string());
   study.version = version;
   // The table is read first, so that a scene in place of a study is told that it has none.
   const TableReader sweep = root.table("sweep");
-  root.integer_between("schema", 1, 1);
-  root.check_keys({{"schema", "title", "sweep", "axis", "item", "column", "map"}});
+  root.integer("schema");
+  root.check_keys();
   study.title = root.text("title");
   read_sweep_table(sweep, *document.table.get_as<toml::table>("sweep"), file, study);
   if (root.has("axis") == root.has("item")) {

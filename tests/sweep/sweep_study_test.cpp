@@ -4,6 +4,7 @@
 #include "support/errors.hpp"
 #include "support/text.hpp"
 #include "sweep/sweep_items.hpp"
+#include "sweep/sweep_tables.hpp"
 #include "sweep_samples.hpp"
 
 namespace hamjet::io {
@@ -46,6 +47,38 @@ TEST_F(SweepStudies, AGridIsAllCombinationsTheLastAxisFastest) {
   EXPECT_EQ(overrides[0].value, "1");
   EXPECT_EQ(overrides[1].key, "nominal.e");
   EXPECT_EQ(overrides[2].value, "30");
+}
+
+TEST_F(SweepStudies, TheKeysAreWhatTheTablesDeclare) {
+  const auto check_table = [&](const TableDescription& table, const std::string& header) {
+    for (const SceneKey& key : table.keys) {
+      const std::string name(key.name);
+      const std::string text = "\n" + std::string(sweep_study);
+      const std::size_t line = text.find('\n' + name + " = ", text.find(header));
+      if (line == std::string::npos) continue;
+      const std::size_t value = line + name.size() + 4;
+      const std::size_t end = text.find('\n', value);
+      const auto refuse = [&](const std::string& changed_text, const std::string& problem) {
+        SCOPED_TRACE(header + name);
+        expect_refused(changed_text, ErrorKind::scene, {"study.toml:", name + ": " + problem});
+      };
+      if (key.absence.meaning == Absence::Meaning::refused) {
+        refuse(text.substr(0, line) + text.substr(end), "missing");
+      }
+      if (key.form.has_range()) {
+        const std::string below = std::to_string(static_cast<long>(key.form.least) - 1);
+        refuse(text.substr(0, value) + below + text.substr(end), "out of range");
+      }
+      if (!key.form.choices.empty()) {
+        refuse(text.substr(0, value) + "\"other\"" + text.substr(end), "unknown value");
+      }
+    }
+  };
+  check_table(sweep_study_table(), "\nschema");
+  for (const auto& [key, header] : {std::pair("sweep", "[sweep]"), std::pair("axis", "[[axis]]"),
+                                    std::pair("column", "[[column]]"), std::pair("map", "[map]")}) {
+    check_table(*sweep_study_table().find(key)->form.table, header);
+  }
 }
 
 TEST_F(SweepStudies, LogarithmicSpacingGivesDecades) {

@@ -5,13 +5,12 @@
 #include <utility>
 
 #include "../../text/scene_message.hpp"
-#include "table_description.hpp"
 
 namespace hamjet::io {
 namespace {
 
 constexpr std::string_view introduction =
-    R"(# All keys of a scene
+    R"(# All keys of a scene, and of a sweep
 
 This page is what `hamjet list keys` prints; [the page on scenes](../README.md) explains them. Numbers are finite and
 ranges include both ends. Canonical units are those of `[units]`; times in orbits are periods of the nominal. What a
@@ -144,7 +143,7 @@ void add_tables(const std::vector<SceneKey>& keys, const std::string& path,
 
 }  // namespace
 
-std::string key_reference() {
+std::string key_reference(const TableDescription& sweep_study) {
   std::string text(introduction);
   std::set<const TableDescription*> said;
   for (const StudyDescription& study : all_studies()) {
@@ -156,6 +155,8 @@ std::string key_reference() {
     }
     add_tables(study.top.keys, "", said, text);
   }
+  text += "\n## A study of `hamjet sweep`\n\n" + table_text(sweep_study.keys);
+  add_tables(sweep_study.keys, "", said, text);
   return text;
 }
 
