@@ -19,26 +19,6 @@
 namespace hamjet::cli {
 namespace {
 
-/// Refuses a second value of one key, or a value of a table of which a key has been given, for the
-/// first would be lost without a word; a key that is removed may be given anew. The last override
-/// is the one that is judged.
-void refuse_second_value(const std::vector<io::Override>& overrides) {
-  constexpr std::string_view removal = "null";
-  const io::Override& last = overrides.back();
-  const auto earlier =
-      std::find_if(overrides.rbegin() + 1, overrides.rend(), [&](const io::Override& other) {
-        return other.key == last.key || other.key.starts_with(last.key + '.');
-      });
-  if (earlier == overrides.rend() || earlier->value == removal || last.value == removal) return;
-  if (earlier->key != last.key) {
-    refuse(fmt::format("--set {}: replaces what --set {} has given; must stand before it",
-                       io::printable(last.key), io::printable(earlier->key)));
-  }
-  refuse(fmt::format("--set {}: given twice, as {} and as {}; must be given once",
-                     io::printable(last.key), io::printable(earlier->value),
-                     io::printable(last.value)));
-}
-
 std::vector<io::Override> parse_overrides(const std::vector<std::string>& texts) {
   std::vector<io::Override> overrides;
   for (const std::string& text : texts) {
@@ -49,7 +29,6 @@ std::vector<io::Override> parse_overrides(const std::vector<std::string>& texts)
           fmt::format("--set {}: must be key=value, for example jet.order=3", io::printable(text)));
     }
     overrides.push_back({text.substr(0, equals), text.substr(equals + 1)});
-    refuse_second_value(overrides);
   }
   return overrides;
 }

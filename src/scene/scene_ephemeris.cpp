@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "../dynamics/celestial_bodies.hpp"
 #include "../text/scene_message.hpp"
 #include "hamjet/formats/orbit_message.hpp"
 #include "scene_sections.hpp"
@@ -48,6 +49,17 @@ std::string read_frame(const TableReader& ephemeris) {
   return frame;
 }
 
+/// Refuses the name of a body that has another gravitational parameter than the scene's centre.
+void require_centre(const TableReader& ephemeris, const std::string& name,
+                    const SystemSettings& system) {
+  const CelestialBody* const body = body_named(name);
+  if (body == nullptr || body == body_with_mu(system.mu_km3_s2)) return;
+  ephemeris.fail("center_name",
+                 fmt::format("another centre than the scene's, got {} and system.mu_km3_s2 = {}, "
+                             "must be the name of a body with that mu, or mu near {:.8g}",
+                             in_quotes(name), system.mu_km3_s2, body->mu_km3_s2));
+}
+
 /// Refuses a value other than that of the nominal's file, which the scene may only repeat.
 void require_same(const TableReader& ephemeris, std::string_view key, const std::string& given,
                   const std::string& of_file) {
@@ -84,7 +96,8 @@ const TableDescription& ephemeris_table() {
 }
 
 EphemerisSettings read_ephemeris(const TableReader& ephemeris,
-                                 const std::optional<NominalFile>& file) {
+                                 const std::optional<NominalFile>& file,
+                                 const SystemSettings& system) {
   ephemeris.check_keys();
   EphemerisSettings settings;
   if (file) settings = file->ephemeris;
@@ -118,6 +131,8 @@ EphemerisSettings read_ephemeris(const TableReader& ephemeris,
   read(
       "center_name", settings.center_name, [&] { return message_text(ephemeris, "center_name"); },
       of_file.center_name);
+  // A nominal from a file has been compared with the scene's centre already.
+  if (!file) require_centre(ephemeris, settings.center_name, system);
   const auto rename = [&](std::string_view key, std::string& value) {
     if (ephemeris.has(key)) value = message_text(ephemeris, key);
   };

@@ -82,7 +82,9 @@ SceneKey key_of(const MethodSetting& setting) {
 TableDescription describe_integrators() {
   TableDescription table{
       {{"label",
-        form::words(fmt::format("1 to {} of `A-Z a-z 0-9 . _ -`, no dot first", longest_label)),
+        form::words(fmt::format("1 to {} of `A-Z a-z 0-9 . _ -`, no dot first, not the name of a "
+                                "result file",
+                                longest_label)),
         absent::refused(), "the name of its folder, unlike the others"},
        {"method", form::choice(method_names()), absent::refused(),
         "see `hamjet list integrators`"}}};

@@ -16,7 +16,7 @@ void read_output_and_ephemeris(const TableReader& root, Scene& scene) {
   if (root.has("output")) scene.output = read_output(root.table("output"), scene.system.model);
   if (scene.nominal_file) scene.ephemeris = scene.nominal_file->ephemeris;
   if (root.has("ephemeris")) {
-    scene.ephemeris = read_ephemeris(root.table("ephemeris"), scene.nominal_file);
+    scene.ephemeris = read_ephemeris(root.table("ephemeris"), scene.nominal_file, scene.system);
   }
   const auto wanted = wanted_formats(scene);
   const auto dated = std::find_if(wanted.begin(), wanted.end(),

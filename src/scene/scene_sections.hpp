@@ -154,9 +154,10 @@ SelfCheckSettings read_checks(const TableReader& checks, const Scene& scene);
 OutputSettings read_output(const TableReader& output, SystemModel model);
 
 /// Table `[ephemeris]`. What the nominal's file says of time, frame and centre need not be said
-/// again, and cannot be changed.
+/// again, and cannot be changed. A body named in the scene must be the centre of its system.
 EphemerisSettings read_ephemeris(const TableReader& ephemeris,
-                                 const std::optional<NominalFile>& file);
+                                 const std::optional<NominalFile>& file,
+                                 const SystemSettings& system);
 
 /// Throws, about the key that says when the nominal starts, if the moments of the scene cannot be
 /// dated by adding seconds: before or across leap seconds of UTC, or outside of the years 1 to

@@ -104,7 +104,8 @@ Study read_tables(const SceneDocument& document) {
   // `schema` is named.
   if (!root.has("schema")) root.check_keys();
   root.integer("schema");
-  root.check_keys();
+  const auto& [name, top] = all_studies()[study];
+  root.check_keys({top.names_of(name), {}, {}, top.names_not_of(name)});
   return readers[study](root);
 }
 

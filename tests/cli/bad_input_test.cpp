@@ -231,6 +231,15 @@ TEST_F(BadInput, AnOverrideHasOneValue) {
   expect_error(
       {"check", "small.toml", "--set", "jet.order=1", "--set", "jet={order=2}"}, 2,
       {"hamjet: --set jet: replaces what --set jet.order has given; must stand before it\n"});
+  // An integrator goes by its label and by its index.
+  expect_error({"check", "small.toml", "--set", "integrator.gauss8.tolerance=1e-9", "--set",
+                "integrator.0.tolerance=1e-10"},
+               2,
+               {"hamjet: --set integrator.0.tolerance: the same key as --set "
+                "integrator.gauss8.tolerance; must be given once\n"});
+  expect_error(
+      {"check", "small.toml", "--set", "integrator.0.tolerance=1e-9", "--set", "integrator=[]"}, 2,
+      {"--set integrator: replaces what --set integrator.0.tolerance has given"});
   // Other keys, and one that is removed first, keep their order.
   succeed({"check", "small.toml", "--set", "jet.order=1", "--set", "title=b"});
   succeed({"check", "small.toml", "--set", "nominal=null", "--set", "nominal={}", "--set",

@@ -235,6 +235,10 @@ TEST_F(EnergyConservation, BadKeys) {
           {"energy_conservaton: unknown key", "did you mean energy_conservation?"});
   refused("title = \"ellipse\"", "title = \"ellipse\"\nreference = 1", 3,
           {"reference: unknown key"});
+  // Only keys that the study takes are offered.
+  refused("title = \"ellipse\"", "title = \"ellipse\"\nwhatever = 1", 3,
+          {"whatever: unknown key, must be one of: schema, title, system, units, nominal, "
+           "energy_conservation, study\n"});
 }
 
 }  // namespace

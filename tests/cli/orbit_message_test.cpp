@@ -363,6 +363,10 @@ TEST_F(OrbitMessages, TheTablesOutputAndEphemeris) {
   refuse("TOD", "ITRF2000", {"ephemeris.reference_frame: a frame that rotates"});
   refuse("CHIEF", "CHIEF\\n", {"ephemeris.object_name: no text of an orbit message"});
   refuse("center_name = \"EARTH\"\n", "", {"ephemeris.center_name: missing"});
+  refuse("center_name = \"EARTH\"", "center_name = \"Moon\"",
+         {"ephemeris.center_name: another centre than the scene's, got \"Moon\" and "
+          "system.mu_km3_s2 = 398600.4",
+          "or mu near 4902.8"});
   refuse("[ephemeris]", "[ephemeris]\noem_version = 1.0",
          {"ephemeris.oem_version: unknown version"});
   refuse("2026-02-28T23:59:50.5\"\ntime_system = \"TAI\"",

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "../../src/report/formation/validity_view.hpp"
 #include "report_tables.hpp"
 #include "transfer_samples.hpp"
 
@@ -35,6 +36,15 @@ TEST(ValidityReport, HoldsTheNumbersOfTheResult) {
   EXPECT_EQ(validity["flights"], 1234);
   EXPECT_EQ(validity["seconds"]["proof"], 2.5);
   EXPECT_NE(report.table.find(">500 km"), std::string::npos) << report.table;
+}
+
+TEST(ValidityReport, SaysWhereTheFlightsCannotTell) {
+  ValidityResult result = sample_validity();
+  result.flight_floor_m = 0.5 * result.scene.validity->tolerance_m;
+  const std::string words = "The flights themselves are right to";
+  EXPECT_EQ(validity_verdict(result).find(words), std::string::npos) << validity_verdict(result);
+  result.flight_floor_m = 2 * result.scene.validity->tolerance_m;
+  EXPECT_NE(validity_verdict(result).find(words), std::string::npos) << validity_verdict(result);
 }
 
 TEST(ValidityReport, NamesTheFrameInEveryFile) {

@@ -21,8 +21,15 @@ std::string validity_verdict(const ValidityResult& result) {
     text += fmt::format("{}{} in order {}", entry.is_at_limit ? "at least " : "",
                         length_text(entry.proved_m), entry.order);
   }
-  return text + fmt::format(", proved by flying deputies with velocities {}.",
-                            velocities_text(result.scene.validity->frame));
+  text += fmt::format(", proved by flying deputies with velocities {}.",
+                      velocities_text(result.scene.validity->frame));
+  if (result.scene.validity->tolerance_m < result.flight_floor_m) {
+    text += fmt::format(
+        " The flights themselves are right to {} only: with a tolerance below that, a small "
+        "separation, or none, says nothing of the polynomial.",
+        length_text(result.flight_floor_m));
+  }
+  return text;
 }
 
 }  // namespace hamjet::io

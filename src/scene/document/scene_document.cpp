@@ -187,7 +187,43 @@ void assign(toml::node& place, std::string_view path, Assignment& assignment) {
   }
 }
 
-void apply(const Override& change, SceneDocument& document) {
+/// What an override has set.
+struct Given {
+  const Override* change;
+  std::string path;  ///< with indices in place of labels
+};
+
+/// Refuses a second value of one key, or a value of a table or an array of which a key has been
+/// given, for the first would be lost without a word.
+void refuse_second_value(const std::vector<Given>& earlier, const Given& last) {
+  const auto lost = std::find_if(earlier.begin(), earlier.end(), [&](const Given& other) {
+    return other.path == last.path || other.path.starts_with(last.path + '.');
+  });
+  if (lost == earlier.end()) return;
+  const std::string name = override_source(lost->change->key);
+  if (lost->path != last.path) {
+    throw_usage(*last.change,
+                fmt::format("replaces what {} has given; must stand before it", name));
+  }
+  if (lost->change->key != last.change->key) {
+    throw_usage(*last.change, fmt::format("the same key as {}; must be given once", name));
+  }
+  throw_usage(*last.change,
+              fmt::format("given twice, as {} and as {}; must be given once",
+                          printable(lost->change->value), printable(last.change->value)));
+}
+
+/// A key that is removed may be given anew, and the elements behind a removed one have other
+/// indices: what was given beside a removed key is forgotten.
+void forget_beside(std::vector<Given>& given, const std::string& removed) {
+  const std::string table = removed.substr(0, removed.rfind('.'));
+  std::erase_if(given, [&](const Given& one) {
+    return one.path == table || one.path.starts_with(table + '.');
+  });
+}
+
+/// Returns the path of what was changed.
+std::string apply(const Override& change, SceneDocument& document) {
   if (change.key.size() > longest_override_key) {
     throw_usage(change, fmt::format("the key is too long, got {} bytes, must be at most {}",
                                     change.key.size(), longest_override_key));
@@ -205,10 +241,20 @@ void apply(const Override& change, SceneDocument& document) {
   } else {
     document.source.override_paths.insert_or_assign(override_source(change.key), assignment.path);
   }
+  return assignment.path;
 }
 
 void apply(const std::vector<Override>& overrides, SceneDocument& document) {
-  for (const Override& change : overrides) apply(change, document);
+  std::vector<Given> given;
+  for (const Override& change : overrides) {
+    Given last{&change, apply(change, document)};
+    if (change.value == removal) {
+      forget_beside(given, last.path);
+    } else {
+      refuse_second_value(given, last);
+      given.push_back(std::move(last));
+    }
+  }
 }
 
 }  // namespace

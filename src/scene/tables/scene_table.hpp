@@ -22,6 +22,8 @@ struct KnownKeys {
   std::vector<std::string_view> keys;
   std::vector<std::string_view> keys_elsewhere = {};
   std::string owner = {};  ///< what `keys` belong to, for example "the model kepler"
+  /// Keys that the caller refuses with a reason of its own; no message suggests them.
+  std::vector<std::string_view> refused_by_caller = {};
 };
 
 /// Typed reader of one TOML table. Every function that reads throws Error(scene) with location,
