@@ -265,8 +265,14 @@ TEST(SceneOverride, TakesForAStringWhatIsNotToml) {
   EXPECT_EQ(title("\"\""), "");
 }
 
-TEST(SceneOverride, LastOneCounts) {
-  EXPECT_EQ(parse_scene(round_orbit, "x", {{"jet.order", "5"}, {"jet.order", "6"}}).order, 6);
+TEST(SceneOverride, TwoOfOneKeyAreRefused) {
+  try {
+    (void)parse_scene(round_orbit, "x", {{"jet.order", "5"}, {"jet.order", "6"}});
+    ADD_FAILURE() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::usage);
+    EXPECT_STREQ(error.what(), "--set jet.order: given twice, as 5 and as 6; must be given once");
+  }
 }
 
 TEST(ShippedScenes, AreAllRead) {

@@ -30,7 +30,8 @@ struct Override {
 ///    one line; for a value that an override gave, `--set key` stands in place of location and
 ///    key. A text that is too large or not UTF-8 is named by its size or the byte's offset;
 ///  - Error(too_large) for an order above 20, or more than 1e9 fixed steps;
-///  - Error(usage) for an override whose key leads nowhere or whose value is empty.
+///  - Error(usage) for an override whose key leads nowhere or whose value is empty, or that
+///    takes away what an earlier one gave.
 ///
 /// A fixed step that is longer than the duration means a single step.
 Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides = {});

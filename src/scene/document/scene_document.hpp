@@ -26,7 +26,8 @@ struct SceneDocument {
 /// value `null`, which TOML does not know, removes the key.
 ///
 /// Throws Error(scene) if the text is not valid TOML (see also `check_scene_text`), and
-/// Error(usage) if an override's key leads nowhere or its value is empty.
+/// Error(usage) if an override's key leads nowhere, its value is empty, or it takes away what an
+/// earlier one gave.
 SceneDocument parse_document(std::string_view text, const std::string& name,
                              const std::vector<Override>& overrides);
 
