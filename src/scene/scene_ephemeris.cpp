@@ -53,7 +53,8 @@ std::string read_frame(const TableReader& ephemeris) {
 void require_centre(const TableReader& ephemeris, const std::string& name,
                     const SystemSettings& system) {
   const CelestialBody* const body = body_named(name);
-  if (body == nullptr || body == body_with_mu(system.mu_km3_s2)) return;
+  const bool is_other = body != nullptr && body != body_with_mu(system.mu_km3_s2);
+  if (!is_orbit(system.model) || !is_other) return;
   ephemeris.fail("center_name",
                  fmt::format("another centre than the scene's, got {} and system.mu_km3_s2 = {}, "
                              "must be the name of a body with that mu, or mu near {:.8g}",

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "../dynamics/celestial_bodies.hpp"
+#include "../text/scene_message.hpp"
 #include "scene_sections.hpp"
 
 namespace hamjet::io {
@@ -32,7 +33,10 @@ const CelestialBody* body_with_radius(double radius_km) {
 class LikelySlips {
  public:
   LikelySlips(const TableReader& root, const Scene& scene)
-      : system_(root.table("system")), nominal_(root.table("nominal")), scene_(scene) {}
+      : root_(root),
+        system_(root.table("system")),
+        nominal_(root.table("nominal")),
+        scene_(scene) {}
 
   std::vector<std::string> find() {
     if (!is_orbit(scene_.system.model)) return {};
@@ -49,6 +53,7 @@ class LikelySlips {
     check_radius();
     check_J2();
     check_distance();
+    check_centre();
     return std::move(found_);
   }
 
@@ -105,6 +110,19 @@ class LikelySlips {
                     body_ != nullptr ? fmt::format(" of {}", body_->name) : "", 1e-3 * distance));
   }
 
+  /// A file's own centre has been compared with the scene's.
+  void check_centre() {
+    if (body_ == nullptr || scene_.nominal_file || !root_.has("ephemeris")) return;
+    const TableReader ephemeris = root_.table("ephemeris");
+    if (!ephemeris.has("center_name")) return;
+    const std::string name = ephemeris.text("center_name");
+    if (body_named(name) != nullptr) return;
+    add(ephemeris, "center_name",
+        fmt::format("{} is none of the Sun, the Moon and the planets, and mu is that of {}",
+                    in_quotes(name), body_->name));
+  }
+
+  TableReader root_;
   TableReader system_;
   TableReader nominal_;
   const Scene& scene_;

@@ -105,7 +105,7 @@ Study read_tables(const SceneDocument& document) {
   if (!root.has("schema")) root.check_keys();
   root.integer("schema");
   const auto& [name, top] = all_studies()[study];
-  root.check_keys({top.names_of(name), {}, {}, top.names_not_of(name)});
+  root.check_keys({.keys = top.names_of(name), .refused_by_caller = top.names_not_of(name)});
   return readers[study](root);
 }
 

@@ -10,6 +10,7 @@
 #include "../store/csv_values.hpp"
 #include "../store/json_values.hpp"
 #include "../store/sealed_summary.hpp"
+#include "../text/scene_message.hpp"
 #include "hamjet/error.hpp"
 #include "sweep_map.hpp"
 
@@ -180,7 +181,14 @@ StudyReport sweep_report(const SweepStudy& study, const SweepRows& rows) {
   StudyReport report;
   report.files = {{"table.csv", sweep_csv(study, rows)}};
   if (study.map) {
-    std::string map = draw_figure({sweep_map(study, rows)}, report.drawing_problem);
+    const Chart chart = sweep_map(study, rows);
+    std::string map = draw_figure({chart}, report.drawing_problem);
+    if (!chart.missing.empty()) {
+      report.drawing_problem =
+          fmt::format("map.svg is left out: no item has a number{} in the column {}",
+                      study.map->is_logarithmic ? " above 0" : "",
+                      in_quotes(study.columns[study.map->value].name));
+    }
     if (!map.empty()) report.files.push_back({"map.svg", std::move(map)});
   }
   if (counts.failed + counts.missing > 0) {

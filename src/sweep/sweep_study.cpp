@@ -35,6 +35,16 @@ void add_key(SweepStudy& study, SweepKey key, const TableReader& table, std::str
     table.fail(at, fmt::format("there twice, got {}, which {} gives already", in_quotes(key.name),
                                is_constant ? "sweep.set" : "another axis"));
   }
+  // The columns of the table would say what another key has changed.
+  const auto is_within = [](std::string_view inner, const std::string& outer) {
+    return inner.starts_with(outer + '.');
+  };
+  for (const SweepKey& other : study.keys) {
+    if (is_within(other.name, key.name) || is_within(key.name, other.name)) {
+      table.fail(at, fmt::format("a part of another key, got {} beside {}, must be a key apart",
+                                 in_quotes(key.name), in_quotes(other.name)));
+    }
+  }
   study.keys.push_back(std::move(key));
 }
 
@@ -55,8 +65,7 @@ void read_grid(const TableReader& root, const toml::table& tables, std::size_t m
   for (std::size_t i = 0; i < axes.size(); ++i) {
     const toml::table& table = *(*tables.get_as<toml::array>("axis"))[i].as_table();
     const std::vector<std::string> values = axis_values(axes[i], table, most_items);
-    SweepKey key{axes[i].text("key"),
-                 axes[i].has("spacing") && axes[i].text("spacing") == "logarithmic",
+    SweepKey key{axes[i].text("key"), axes[i].has("spacing") && axes[i].choice("spacing") == 1,
                  axes[i].head("key")};
     if (key.name.empty()) axes[i].fail("key", "empty, must be a key such as nominal.e");
     add_key(study, std::move(key), axes[i], "key");
@@ -135,6 +144,13 @@ void read_columns(const TableReader& root, SweepStudy& study) {
       column.fail("name",
                   fmt::format("{}, got {}, must be a name of its own",
                               entry.name.empty() ? "empty" : "there twice", in_quotes(entry.name)));
+    }
+    for (const char* const text : {"name", "unit"}) {
+      if (column.has(text) &&
+          printable(column.text(text), std::string::npos) != column.text(text)) {
+        column.fail(text, fmt::format("a control character, got {}, must be printable",
+                                      in_quotes(column.text(text))));
+      }
     }
     // Quotes in the table's header would not keep a spreadsheet from computing it.
     if (std::string_view("=+-@").find(entry.name[0]) != std::string_view::npos) {

@@ -5,6 +5,8 @@
 namespace hamjet::io {
 namespace {
 
+ValueForm spacing_or_scale() { return form::choice({"linear", "logarithmic"}); }
+
 const TableDescription& sweep_table() {
   static const TableDescription table = {
       {{"scene", form::text(), absent::refused(), "the base scene's file, relative to the study"},
@@ -24,7 +26,7 @@ const TableDescription& axis_table() {
        {"to", form::number(), absent::other("required by `from`"), "the last value, another one"},
        {"count", form::integer(2, static_cast<double>(most_sweep_items)),
         absent::other("required by `from`"), "of values, both ends included"},
-       {"spacing", form::choice({"linear", "logarithmic"}), absent::value("linear"),
+       {"spacing", spacing_or_scale(), absent::value("linear"),
         "logarithmic: equal ratios, of values above 0"}}};
   return table;
 }
@@ -42,8 +44,7 @@ const TableDescription& map_table() {
       {{"x", form::words("a key of the items, of numbers"), absent::refused(), "the axis across"},
        {"y", form::words("another one"), absent::refused(), "the axis up"},
        {"value", form::words("the name of a column"), absent::refused(), "what the colours show"},
-       {"scale", form::choice({"linear", "logarithmic"}), absent::value("linear"),
-        "of the colours"}}};
+       {"scale", spacing_or_scale(), absent::value("linear"), "of the colours"}}};
   return table;
 }
 

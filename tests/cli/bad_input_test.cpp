@@ -240,6 +240,19 @@ TEST_F(BadInput, AnOverrideHasOneValue) {
   expect_error(
       {"check", "small.toml", "--set", "integrator.0.tolerance=1e-9", "--set", "integrator=[]"}, 2,
       {"--set integrator: replaces what --set integrator.0.tolerance has given"});
+  // What is removed beside a key changes nothing for it; elements behind a removed one move up.
+  expect_error({"check", "small.toml", "--set", "jet.order=1", "--set", "jet.arcs=null", "--set",
+                "jet.order=2"},
+               2, {"hamjet: --set jet.order: given twice, as 1 and as 2"});
+  const std::string two = R"(integrator=[{label="a", method="gauss", tolerance=1e-9}, )"
+                          R"({label="b", method="gauss", tolerance=1e-9}])";
+  expect_error({"check", "small.toml", "--set", two, "--set", "integrator.b.tolerance=1e-8",
+                "--set", "integrator.0=null", "--set", "integrator.0.tolerance=1e-7"},
+               2,
+               {"hamjet: --set integrator.0.tolerance: the same key as --set "
+                "integrator.b.tolerance; must be given once\n"});
+  succeed({"check", "small.toml", "--set", two, "--set", "integrator.a.tolerance=1e-8", "--set",
+           "integrator.0=null", "--set", "integrator.0.tolerance=1e-7"});
   // Other keys, and one that is removed first, keep their order.
   succeed({"check", "small.toml", "--set", "jet.order=1", "--set", "title=b"});
   succeed({"check", "small.toml", "--set", "nominal=null", "--set", "nominal={}", "--set",

@@ -367,6 +367,12 @@ TEST_F(OrbitMessages, TheTablesOutputAndEphemeris) {
          {"ephemeris.center_name: another centre than the scene's, got \"Moon\" and "
           "system.mu_km3_s2 = 398600.4",
           "or mu near 4902.8"});
+  write("unknown.toml", quick_scene() + changed(dated, "\"EARTH\"", "\"TERRA\""));
+  const CommandResult unknown = hamjet({"check", "unknown.toml"});
+  EXPECT_EQ(unknown.exit_code, 0);
+  EXPECT_NE(unknown.err.find("ephemeris.center_name: \"TERRA\" is none of the Sun"),
+            std::string::npos)
+      << unknown.err;
   refuse("[ephemeris]", "[ephemeris]\noem_version = 1.0",
          {"ephemeris.oem_version: unknown version"});
   refuse("2026-02-28T23:59:50.5\"\ntime_system = \"TAI\"",

@@ -50,6 +50,7 @@ TEST_F(SweepStudies, AGridIsAllCombinationsTheLastAxisFastest) {
 }
 
 TEST_F(SweepStudies, TheKeysAreWhatTheTablesDeclare) {
+  int checks = 0;
   const auto check_table = [&](const TableDescription& table, const std::string& header) {
     for (const SceneKey& key : table.keys) {
       const std::string name(key.name);
@@ -60,6 +61,7 @@ TEST_F(SweepStudies, TheKeysAreWhatTheTablesDeclare) {
       const std::size_t end = text.find('\n', value);
       const auto refuse = [&](const std::string& changed_text, const std::string& problem) {
         SCOPED_TRACE(header + name);
+        ++checks;
         expect_refused(changed_text, ErrorKind::scene, {"study.toml:", name + ": " + problem});
       };
       if (key.absence.meaning == Absence::Meaning::refused) {
@@ -79,6 +81,22 @@ TEST_F(SweepStudies, TheKeysAreWhatTheTablesDeclare) {
                                     std::pair("column", "[[column]]"), std::pair("map", "[map]")}) {
     check_table(*sweep_study_table().find(key)->form.table, header);
   }
+  // schema twice, title, scene, command twice, an axis's key and count, a column's name and value,
+  // and of the map x, y, value and scale.
+  EXPECT_EQ(checks, 14);
+}
+
+TEST_F(SweepStudies, KeysStandApart) {
+  expect_refused(with("key = \"nominal.i_deg\"\nvalues = [0, 30, 90.5]",
+                      "key = \"nominal\"\nvalues = [{e = 0.1}, {e = 0.2}]"),
+                 ErrorKind::scene, {"axis.1.key: a part of another key", "\"nominal.e\""});
+}
+
+TEST_F(SweepStudies, NamesOfColumnsArePrintable) {
+  expect_refused(with("name = \"x_final\"", "name = \"x\\u001b[31m\""), ErrorKind::scene,
+                 {"column.1.name: a control character"});
+  expect_refused(with("unit = \"length\"", "unit = \"a\\nb\""), ErrorKind::scene,
+                 {"column.1.unit: a control character"});
 }
 
 TEST_F(SweepStudies, LogarithmicSpacingGivesDecades) {

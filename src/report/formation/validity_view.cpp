@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "../../formats/relative_frame_text.hpp"
 #include "../../text/html_text.hpp"
 #include "transfer_view.hpp"
@@ -23,10 +25,13 @@ std::string validity_verdict(const ValidityResult& result) {
   }
   text += fmt::format(", proved by flying deputies with velocities {}.",
                       velocities_text(result.scene.validity->frame));
-  if (result.scene.validity->tolerance_m < result.flight_floor_m) {
+  const bool is_one_unproved =
+      std::any_of(last.entries.begin(), last.entries.end(),
+                  [](const ValidityEntry& entry) { return entry.proved_m == 0; });
+  if (is_one_unproved) {
     text += fmt::format(
-        " The flights themselves are right to {} only: with a tolerance below that, a small "
-        "separation, or none, says nothing of the polynomial.",
+        " 0 m: no separation could be proved, because those deputies missed by more than the "
+        "tolerance however near they were. The flights themselves are right to {}.",
         length_text(result.flight_floor_m));
   }
   return text;

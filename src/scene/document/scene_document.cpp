@@ -108,6 +108,7 @@ struct Assignment {
   const Override& change;
   toml::node* value;      ///< null: what is there is removed
   std::string path = "";  ///< so far, with indices in place of labels
+  bool is_removed_element = false;
   /// The key that was to be removed and is not there.
   std::optional<SceneSource::AbsentKey> absent = {};
 
@@ -164,6 +165,7 @@ void assign_in_array(toml::array& array, std::string_view path, Assignment& assi
     const auto element = array.cbegin() + static_cast<std::ptrdiff_t>(*index);
     if (assignment.value == nullptr) {
       array.erase(element);
+      assignment.is_removed_element = true;
     } else {
       assignment.value->visit([&](auto& typed) { array.replace(element, std::move(typed)); });
     }
@@ -187,43 +189,53 @@ void assign(toml::node& place, std::string_view path, Assignment& assignment) {
   }
 }
 
-/// What an override has set.
-struct Given {
+/// An override that has been applied.
+struct Applied {
   const Override* change;
   std::string path;  ///< with indices in place of labels
+  bool is_removed_element = false;
 };
 
 /// Refuses a second value of one key, or a value of a table or an array of which a key has been
 /// given, for the first would be lost without a word.
-void refuse_second_value(const std::vector<Given>& earlier, const Given& last) {
-  const auto lost = std::find_if(earlier.begin(), earlier.end(), [&](const Given& other) {
+void refuse_second_value(const std::vector<Applied>& earlier, const Applied& last) {
+  const auto first = std::find_if(earlier.begin(), earlier.end(), [&](const Applied& other) {
     return other.path == last.path || other.path.starts_with(last.path + '.');
   });
-  if (lost == earlier.end()) return;
-  const std::string name = override_source(lost->change->key);
-  if (lost->path != last.path) {
+  if (first == earlier.end()) return;
+  const std::string name = override_source(first->change->key);
+  if (first->path != last.path) {
     throw_usage(*last.change,
                 fmt::format("replaces what {} has given; must stand before it", name));
   }
-  if (lost->change->key != last.change->key) {
+  if (first->change->key != last.change->key) {
     throw_usage(*last.change, fmt::format("the same key as {}; must be given once", name));
   }
   throw_usage(*last.change,
               fmt::format("given twice, as {} and as {}; must be given once",
-                          printable(lost->change->value), printable(last.change->value)));
+                          printable(first->change->value), printable(last.change->value)));
 }
 
-/// A key that is removed may be given anew, and the elements behind a removed one have other
-/// indices: what was given beside a removed key is forgotten.
-void forget_beside(std::vector<Given>& given, const std::string& removed) {
-  const std::string table = removed.substr(0, removed.rfind('.'));
-  std::erase_if(given, [&](const Given& one) {
-    return one.path == table || one.path.starts_with(table + '.');
+/// What is removed may be given anew, and the elements behind a removed one move up.
+void forget_removed(std::vector<Applied>& earlier, const Applied& removed) {
+  std::erase_if(earlier, [&](const Applied& one) {
+    return one.path == removed.path || one.path.starts_with(removed.path + '.');
   });
+  if (!removed.is_removed_element) return;
+  const std::size_t at = removed.path.rfind('.') + 1;
+  const std::string array = removed.path.substr(0, at);
+  for (Applied& one : earlier) {
+    std::size_t index = 0;
+    const char* const digits = one.path.data() + at;
+    if (!one.path.starts_with(array)) continue;
+    const auto end = std::from_chars(digits, one.path.data() + one.path.size(), index).ptr;
+    if (index > std::stoul(removed.path.substr(at))) {
+      one.path.replace(at, static_cast<std::size_t>(end - digits), std::to_string(index - 1));
+    }
+  }
 }
 
-/// Returns the path of what was changed.
-std::string apply(const Override& change, SceneDocument& document) {
+Applied apply(const Override& change, SceneDocument& document) {
   if (change.key.size() > longest_override_key) {
     throw_usage(change, fmt::format("the key is too long, got {} bytes, must be at most {}",
                                     change.key.size(), longest_override_key));
@@ -241,18 +253,18 @@ std::string apply(const Override& change, SceneDocument& document) {
   } else {
     document.source.override_paths.insert_or_assign(override_source(change.key), assignment.path);
   }
-  return assignment.path;
+  return {&change, assignment.path, assignment.is_removed_element};
 }
 
 void apply(const std::vector<Override>& overrides, SceneDocument& document) {
-  std::vector<Given> given;
+  std::vector<Applied> earlier;
   for (const Override& change : overrides) {
-    Given last{&change, apply(change, document)};
+    Applied last = apply(change, document);
     if (change.value == removal) {
-      forget_beside(given, last.path);
+      forget_removed(earlier, last);
     } else {
-      refuse_second_value(given, last);
-      given.push_back(std::move(last));
+      refuse_second_value(earlier, last);
+      earlier.push_back(std::move(last));
     }
   }
 }

@@ -50,9 +50,9 @@ void TableReader::check_keys(const KnownKeys& known) const {
                             in_quotes(absent.name), suggestion(absent.name, known.keys)));
   }
   const toml::key* unknown = nullptr;
-  const auto left = joined<std::string_view>({known.keys, known.refused_by_caller});
+  const auto allowed = joined<std::string_view>({known.keys, known.refused_by_caller});
   for (const auto& [key, node] : *table_) {
-    if (std::find(left.begin(), left.end(), key.str()) != left.end()) continue;
+    if (std::find(allowed.begin(), allowed.end(), key.str()) != allowed.end()) continue;
     if (unknown == nullptr || key.source().begin < unknown->source().begin) unknown = &key;
   }
   if (unknown == nullptr) return;
