@@ -35,12 +35,12 @@ void add_key(SweepStudy& study, SweepKey key, const TableReader& table, std::str
     table.fail(at, fmt::format("there twice, got {}, which {} gives already", in_quotes(key.name),
                                is_constant ? "sweep.set" : "another axis"));
   }
-  // The columns of the table would say what another key has changed.
+  // The columns of a grid's table would say what another key has changed.
   const auto is_within = [](std::string_view inner, const std::string& outer) {
     return inner.starts_with(outer + '.');
   };
   for (const SweepKey& other : study.keys) {
-    if (is_within(other.name, key.name) || is_within(key.name, other.name)) {
+    if (study.is_grid && (is_within(other.name, key.name) || is_within(key.name, other.name))) {
       table.fail(at, fmt::format("a part of another key, got {} beside {}, must be a key apart",
                                  in_quotes(key.name), in_quotes(other.name)));
     }

@@ -98,7 +98,9 @@ TEST(TransferPage, ValidityBeginsWithTheSeparations) {
   EXPECT_EQ(verdict,
             "After 1855.2 s (30.9 min) the polynomial is right to 1 m up to a separation of 0 m in "
             "order 1 and at least 500 km in order 2, proved by flying deputies with "
-            "velocities as seen from the turning RTN axes.");
+            "velocities as seen from the turning RTN axes. 0 m: no separation could be proved, "
+            "because those deputies missed by more than the tolerance however near they were. The "
+            "flights themselves are right to 1 μm.");
   const std::string page = page_of(validity_report(sample_validity(), sample_transfer_origin()));
   EXPECT_LT(page.find(verdict), page.find("<main>"));
 }
