@@ -237,7 +237,8 @@ TEST_F(EnergyConservation, BadKeys) {
           {"reference: unknown key"});
   // Only keys that the study takes are offered.
   refused("title = \"ellipse\"", "title = \"ellipse\"\nwhatever = 1", 3,
-          {"whatever: unknown key, must be one of: schema, title, system, units, nominal, "
+          {"whatever: unknown key, got whatever, must be one of: schema, title, system, units, "
+           "nominal, "
            "energy_conservation, study\n"});
 }
 

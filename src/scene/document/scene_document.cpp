@@ -128,6 +128,7 @@ void assign_in_table(toml::table& table, std::string_view path, Assignment& assi
   const bool is_there = table.contains(name);
   if (!is_there && assignment.value == nullptr) {
     assignment.absent = {source, assignment.path, std::string(name)};
+    assignment.descend(printable(name));
     return;
   }
   assignment.descend(printable(name));
