@@ -57,7 +57,7 @@ def test_overrides_are_those_of_the_command():
     for overrides in ({"jet.order": 3, "jet.duration_canonical": 0.5},
                       ["jet.order=3", "jet.duration_canonical=0.5"],
                       {"jet": {"order": 3, "duration_canonical": 0.5}},
-                      {"jet.order": np.int64(3), "jet": {"order": 3, "duration_canonical": 0.5}}):
+                      {"jet": {"order": 2, "duration_canonical": 0.5}, "jet.order": np.int64(3)}):
         assert (coefficients(OSCILLATOR, overrides=overrides) == expected).all()
         assert (coefficients(TEXT, overrides=overrides) == expected).all()
     tables = scene(ORBIT, reference={})
@@ -66,6 +66,8 @@ def test_overrides_are_those_of_the_command():
     # A string stays one, though it could be read as a number.
     with pytest.raises(hamjet.SceneError, match='--set jet.order: wrong type, got the string "3"'):
         hamjet.run(OSCILLATOR, overrides={"jet.order": "3"})
+    with pytest.raises(hamjet.UsageError, match="--set jet: replaces what --set jet.order has"):
+        hamjet.run(OSCILLATOR, overrides={"jet.order": 3, "jet": {"order": 2}})
     with pytest.raises(hamjet.UsageError, match="--set a: wrong type, got set"):
         hamjet.run(OSCILLATOR, overrides={"a": {1}})
     for text in ("jet.order", "=3"):

@@ -226,9 +226,9 @@ void forget_removed(std::vector<Applied>& earlier, const Applied& removed) {
   const std::size_t at = removed.path.rfind('.') + 1;
   const std::string array = removed.path.substr(0, at);
   for (Applied& one : earlier) {
+    if (!one.path.starts_with(array)) continue;
     std::size_t index = 0;
     const char* const digits = one.path.data() + at;
-    if (!one.path.starts_with(array)) continue;
     const auto end = std::from_chars(digits, one.path.data() + one.path.size(), index).ptr;
     if (index > std::stoul(removed.path.substr(at))) {
       one.path.replace(at, static_cast<std::size_t>(end - digits), std::to_string(index - 1));
