@@ -20,6 +20,7 @@ namespace hamjet {
 namespace {
 
 constexpr std::size_t candidates = 16;
+constexpr std::size_t rounding_samples = 16;  ///< along each direction
 /// Stages of the run along each direction; other stages make other steps.
 constexpr std::array<int, 2> stages_of_runs = {16, 15};
 /// A known line is of use if no degree is larger or smaller along it by more than this factor.
@@ -140,19 +141,32 @@ std::vector<double> differences(const FlowJet<Real>& a, const FlowJet<Real>& b) 
   return result;
 }
 
-/// By degree, the larger of `result` and the error that a run along a direction shows.
+/// By degree, how far two runs along a direction differ, relative to what the jet's coefficients
+/// are.
 template <class Real>
-void include_run(std::vector<double>& result, const Direction<Real>& direction,
-                 const FlowJet<Real>& run, bool is_known, const std::vector<double>& largest) {
-  const std::vector<double> differing = differences(direction.jet, run);
+std::vector<double> relative_differences(const FlowJet<Real>& a, const FlowJet<Real>& run,
+                                         bool is_known, const std::vector<double>& largest) {
+  std::vector<double> result = differences(a, run);
   const std::vector<double> along = largest_by_degree(run);
   for (std::size_t d = 0; d < result.size(); ++d) {
     double scale = along[d] > 0 ? std::min(along[d], largest[d]) : largest[d];
     // The coefficients may add up along a known line, and their errors with them.
     if (is_known && along[d] > 0) scale = along[d];
     if (scale == 0) scale = std::max(along[d], largest[d]);
-    if (scale == 0) continue;
-    double estimate = error_estimate_safety * differing[d] / scale;
+    result[d] = scale == 0 ? 0 : result[d] / scale;
+  }
+  return result;
+}
+
+/// By degree, the larger of `result` and the error that a run along a direction shows.
+template <class Real>
+void include_run(std::vector<double>& result, const Direction<Real>& direction,
+                 const FlowJet<Real>& run, bool is_known, const std::vector<double>& largest) {
+  const std::vector<double> shown = relative_differences(direction.jet, run, is_known, largest);
+  const std::vector<double> along = largest_by_degree(run);
+  for (std::size_t d = 0; d < result.size(); ++d) {
+    if (along[d] == 0 && largest[d] == 0) continue;
+    double estimate = error_estimate_safety * shown[d];
     if (estimate < rounding<Real>()) estimate = rounding<Real>();
     raise_to(result[d], estimate);
   }
@@ -192,6 +206,45 @@ void validate_lines(const FlowProblem<Real>& problem,
   }
 }
 
+/// The problem along a direction, which is in the estimate's unit of momentum.
+template <class Real>
+FlowProblem<Real> problem_along(const FlowProblem<Real>& problem,
+                                const std::vector<Real>& direction, int exponent) {
+  const SpacePointer line = SeriesSpace::create(1, problem.space->order());
+  const std::size_t n = problem.system->degrees_of_freedom;
+  std::vector<Real> entries = direction;
+  for (std::size_t v = 0; v < entries.size(); ++v) {
+    if (problem.variables[v] >= n) entries[v] *= Real(std::ldexp(1.0, exponent));
+  }
+  return {problem.system,
+          line,
+          {0},
+          problem.initial_state,
+          problem.duration,
+          restrict_to_line(starting_jet(problem), entries, line)};
+}
+
+/// Moves the coefficients of a start by up to half a unit in the last place of the largest
+/// position, or momentum, of their degree.
+template <class Real>
+void move_by_half_units(FlowProblem<Real>& along, std::mt19937_64& generator) {
+  FlowJet<Real>& start = *along.initial_jet;
+  const std::size_t n = start.size() / 2;
+  for (std::size_t d = 0; d < start[0].size(); ++d) {
+    for (const std::size_t first : {std::size_t{0}, n}) {
+      double largest = 0;
+      for (std::size_t i = first; i < first + n; ++i) {
+        raise_to(largest, std::abs(static_cast<double>(start[i][d])));
+      }
+      for (std::size_t i = first; i < first + n; ++i) {
+        const double fraction = static_cast<double>(generator() >> 11) * 0x1p-52 - 1;  // in [-1, 1)
+        start[i][d] += Real(fraction * largest * rounding<Real>() / 2);
+      }
+    }
+  }
+  for (std::size_t i = 0; i < start.size(); ++i) along.initial_state[i] = start[i][0];
+}
+
 template <class Real>
 FlowJet<Real> run_along(const FlowProblem<Real>& problem, const std::vector<Real>& direction,
                         std::size_t number, const ErrorEstimateSettings& settings) {
@@ -199,15 +252,7 @@ FlowJet<Real> run_along(const FlowProblem<Real>& problem, const std::vector<Real
   gauss.stages = stages_of_runs[number];
   gauss.tolerance = settings.tolerance.value_or(4 * rounding<Real>());
   gauss.controls_all_degrees = true;
-  const SpacePointer line = SeriesSpace::create(1, problem.space->order());
-  const std::size_t n = problem.system->degrees_of_freedom;
-  std::vector<Real> entries = direction;
-  for (std::size_t v = 0; v < entries.size(); ++v) {
-    if (problem.variables[v] >= n) entries[v] *= Real(std::ldexp(1.0, settings.momentum_exponent));
-  }
-  const FlowJet<Real> start = restrict_to_line(starting_jet(problem), entries, line);
-  const FlowProblem<Real> along{problem.system,   line, {0}, problem.initial_state,
-                                problem.duration, start};
+  const FlowProblem<Real> along = problem_along(problem, direction, settings.momentum_exponent);
   IntegrationStatistics statistics;
   long steps = 0;
   FlowJet<Real> end =
@@ -265,6 +310,46 @@ std::vector<double> estimate_error(const FlowProblem<Real>& problem, const FlowJ
   return result;
 }
 
+template <class Real>
+std::vector<double> sample_rounding(
+    const FlowProblem<Real>& problem, const FlowJet<Real>& delivered,
+    const std::function<FlowJet<Real>(const FlowProblem<Real>&)>& integrate,
+    const ErrorEstimateSettings& settings) {
+  validate(problem);
+  validate_jet(problem, delivered);
+  const int exponent = settings.momentum_exponent;
+  const SpacePointer line = SeriesSpace::create(1, problem.space->order());
+  const FlowJet<Real> jet = in_momentum_unit(delivered, problem.variables, exponent);
+  const std::vector<double> largest = largest_by_degree(jet);
+  std::vector<double> result(largest.size(), 0);
+  std::mt19937_64 generator(1);
+  double done = 0;
+  for (const Direction<Real>& direction : choose_directions(jet, line, largest)) {
+    const FlowProblem<Real> along = problem_along(problem, direction.entries, exponent);
+    const auto run = [&](const FlowProblem<Real>& start) {
+      if (settings.progress) settings.progress(done);
+      done += 1.0 / static_cast<double>(stages_of_runs.size() * (rounding_samples + 1));
+      return in_momentum_unit(integrate(start), variable_of_line, exponent);
+    };
+    const FlowJet<Real> unmoved = run(along);
+    for (std::size_t sample = 0; sample < rounding_samples; ++sample) {
+      FlowProblem<Real> moved = along;
+      move_by_half_units(moved, generator);
+      const std::vector<double> change = relative_differences(run(moved), unmoved, false, largest);
+      for (std::size_t d = 0; d < result.size(); ++d) raise_to(result[d], change[d]);
+    }
+  }
+  return result;
+}
+
+template std::vector<double> sample_rounding(
+    const FlowProblem<double>&, const FlowJet<double>&,
+    const std::function<FlowJet<double>(const FlowProblem<double>&)>&,
+    const ErrorEstimateSettings&);
+template std::vector<double> sample_rounding(
+    const FlowProblem<Extended>&, const FlowJet<Extended>&,
+    const std::function<FlowJet<Extended>(const FlowProblem<Extended>&)>&,
+    const ErrorEstimateSettings&);
 template std::vector<double> estimate_error(const FlowProblem<double>&, const FlowJet<double>&,
                                             const ErrorEstimateSettings&,
                                             const std::vector<JetAlongLine<double>>&);

@@ -11,6 +11,8 @@
 #include <variant>
 #include <vector>
 
+#include "../algebra/raise_to.hpp"
+#include "../integrators/gauss/gauss_tolerance.hpp"
 #include "../integrators/momentum_unit.hpp"
 #include "arcs.hpp"
 #include "descriptions/method_description.hpp"
@@ -77,6 +79,15 @@ void require_stable_steps(const SharedSystem& system, const IntegratorSettings& 
                                  duration / count, duration, method.preserves_a_two_form});
 }
 
+ErrorEstimateSettings estimate_settings(const Scene& scene,
+                                        const std::function<void(double)>& progress) {
+  ErrorEstimateSettings settings;
+  settings.momentum_exponent =
+      natural_momentum_exponent(is_orbit(scene.system.model), scene.nominal);
+  settings.progress = progress;
+  return settings;
+}
+
 }  // namespace
 
 template <class Real>
@@ -112,11 +123,8 @@ JetErrorEstimate estimate_jet_error(const Scene& scene, const FlowProblem<Real>&
                                     const std::function<void(double)>& progress) {
   JetErrorEstimate result;
   const Stopwatch stopwatch(result.seconds);
-  ErrorEstimateSettings estimate;
+  ErrorEstimateSettings estimate = estimate_settings(scene, progress);
   estimate.most_steps = std::max(estimate.most_steps, 4 * statistics.steps);
-  estimate.momentum_exponent =
-      natural_momentum_exponent(is_orbit(scene.system.model), scene.nominal);
-  estimate.progress = progress;
   try {
     using Lines = std::vector<JetAlongLine<Real>>;
     const auto* known = std::get_if<Lines>(&statistics.finer_lines);
@@ -127,6 +135,29 @@ JetErrorEstimate estimate_jet_error(const Scene& scene, const FlowProblem<Real>&
     result.failure = error.what();
   }
   return result;
+}
+
+template <class Real>
+void sample_rounding_in_doubt(const Scene& scene, const FlowProblem<Real>& flow,
+                              const FlowJet<Real>& jet, const IntegratorSettings& settings,
+                              const JetErrorEstimate& estimate, IntegrationStatistics& statistics,
+                              const std::function<void(double)>& progress) {
+  std::vector<double>& rounding = statistics.rounding_by_degree;
+  if (rounding.empty() || !estimate.by_degree || !statistics.step_tolerance) return;
+  bool is_in_doubt = false;
+  for (std::size_t d = 0; d < rounding.size(); ++d) {
+    const double most = error_estimate_safety * 10 * rounding[d];
+    is_in_doubt = is_in_doubt || !(estimate.by_degree->at(d) <= most);
+  }
+  if (!is_in_doubt) return;
+  const SplittableMethod method = splittable_method(settings);
+  const auto along_line = [&](const FlowProblem<Real>& line) {
+    return integrate_with_step_tolerance<Real>(line, std::get<GaussSettings>(method),
+                                               *statistics.step_tolerance);
+  };
+  const std::vector<double> sampled =
+      sample_rounding<Real>(flow, jet, along_line, estimate_settings(scene, progress));
+  for (std::size_t d = 0; d < rounding.size(); ++d) raise_to(rounding[d], sampled[d]);
 }
 
 double integration_memory(const IntegratorSettings& settings, const DynamicalSystem& system,
@@ -150,6 +181,14 @@ template JetErrorEstimate estimate_jet_error(const Scene&, const FlowProblem<dou
 template JetErrorEstimate estimate_jet_error(const Scene&, const FlowProblem<Extended>&,
                                              const FlowJet<Extended>&, const IntegrationStatistics&,
                                              const std::function<void(double)>&);
+template void sample_rounding_in_doubt(const Scene&, const FlowProblem<double>&,
+                                       const FlowJet<double>&, const IntegratorSettings&,
+                                       const JetErrorEstimate&, IntegrationStatistics&,
+                                       const std::function<void(double)>&);
+template void sample_rounding_in_doubt(const Scene&, const FlowProblem<Extended>&,
+                                       const FlowJet<Extended>&, const IntegratorSettings&,
+                                       const JetErrorEstimate&, IntegrationStatistics&,
+                                       const std::function<void(double)>&);
 template FlowJet<double> integrate_split(const FlowProblem<double>&, const IntegratorSettings&,
                                          const ArcSettings&, IntegrationStatistics&, ArcStatistics&,
                                          const StepObserver<double>&, const ArcProgress&, bool);

@@ -36,6 +36,16 @@ JetErrorEstimate estimate_jet_error(const Scene& scene, const FlowProblem<Real>&
                                     const IntegrationStatistics& statistics,
                                     const std::function<void(double)>& progress);
 
+/// Where a Gauss method's tolerance has met rounding, of which one draw is known, and the estimate
+/// exceeds ten times that draw, raises IntegrationStatistics::rounding_by_degree to a sample
+/// (sample_rounding): a verdict must not hang on a single draw. Only then is the work worth its
+/// time. `progress` may throw to stop.
+template <class Real>
+void sample_rounding_in_doubt(const Scene& scene, const FlowProblem<Real>& flow,
+                              const FlowJet<Real>& jet, const IntegratorSettings& settings,
+                              const JetErrorEstimate& estimate, IntegrationStatistics& statistics,
+                              const std::function<void(double)>& progress);
+
 /// Bytes that the series of one integration take, `coefficients` numbers of `real_bytes` a series.
 double integration_memory(const IntegratorSettings& settings, const DynamicalSystem& system,
                           double coefficients, double real_bytes);

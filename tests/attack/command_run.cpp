@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -38,39 +39,39 @@ std::vector<double> coefficients_of(const std::filesystem::path& csv) {
   return result;
 }
 
-std::string compare_files(const std::filesystem::path& folder, int code,
-                          const AttackedRun& attacked) {
+CommandRun read_results(const std::filesystem::path& folder, int code,
+                        const AttackedRun& attacked) {
   if (code != attacked.exit_code) {
-    return fmt::format("the command ends with {}, the library with {}", code, attacked.exit_code);
+    return {fmt::format("the command ends with {}, the library with {}", code, attacked.exit_code),
+            {}};
   }
   const std::vector<double> read = coefficients_of(folder / "out/run/jet.csv");
-  std::vector<double> own;
-  for (const auto& series : attacked.run().jet) {
-    for (const auto& x : series.coefficients()) own.push_back(static_cast<double>(x));
+  CommandRun result{{}, attacked.run().jet};
+  std::size_t next = 0, expected = 0;
+  for (auto& series : result.jet) {
+    expected += series.coefficients().size();
+    for (auto& x : series.coefficients()) x = next < read.size() ? read[next++] : NAN;
   }
-  if (read.size() != own.size()) {
-    return fmt::format("jet.csv has {} coefficients, the jet {}", read.size(), own.size());
+  if (read.size() != expected) {
+    result.difference =
+        fmt::format("jet.csv has {} coefficients, the jet {}", read.size(), expected);
   }
-  for (std::size_t i = 0; i < own.size(); ++i) {
-    if (read[i] != own[i]) {
-      return fmt::format("coefficient {} is {:.17g} in jet.csv, {:.17g} in the jet", i, read[i],
-                         own[i]);
-    }
-  }
-  return {};
+  return result;
 }
 
 }  // namespace
 
-std::string difference_of_command(const std::string& program, const std::string& toml,
-                                  const AttackedRun& attacked) {
+CommandRun run_command(const std::string& program, const std::string& toml,
+                       const AttackedRun& attacked) {
   std::string name = (std::filesystem::temp_directory_path() / "attack-XXXXXX").string();
-  if (::mkdtemp(name.data()) == nullptr) return "there is no folder for the command's results";
+  if (::mkdtemp(name.data()) == nullptr) {
+    return {"there is no folder for the command's results", {}};
+  }
   const std::filesystem::path folder(name);
   std::ofstream(folder / "attack.toml") << toml;
-  const std::string difference = compare_files(folder, run_program(program, folder), attacked);
+  CommandRun result = read_results(folder, run_program(program, folder), attacked);
   std::filesystem::remove_all(folder);
-  return difference;
+  return result;
 }
 
 }  // namespace hamjet::attack

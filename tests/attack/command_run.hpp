@@ -6,9 +6,15 @@
 
 namespace hamjet::attack {
 
-/// Runs the program on the scene and compares exit code and jet.csv, number by number, with what
-/// the library made of it in this process; empty if they agree.
-std::string difference_of_command(const std::string& program, const std::string& toml,
-                                  const AttackedRun& attacked);
+/// What the program made of a scene.
+struct CommandRun {
+  std::string
+      difference;         ///< of exit codes or numbers of coefficients from the library's; or empty
+  FlowJet<Extended> jet;  ///< as jet.csv has it
+};
+
+/// Runs the program on a scene that the library has run in this process.
+CommandRun run_command(const std::string& program, const std::string& toml,
+                       const AttackedRun& attacked);
 
 }  // namespace hamjet::attack

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <variant>
@@ -164,6 +165,69 @@ TEST(ErrorEstimate, IsZeroWhereTheJetIsExact) {
   EXPECT_GT(estimate[1], 0);
   EXPECT_EQ(estimate[2], 0);
   EXPECT_EQ(estimate[3], 0);
+}
+
+// One step of a map x -> x + 1e3 (x - start) shows what is done to the start: the sample is at most
+// the map's own factor times half a unit in the last place of the largest number of its kind, and
+// of 32 draws the largest is above half of that but for one case in 2^32.
+TEST(RoundingSample, IsWhatTheMapMakesOfHalfAUnit) {
+  const Orbit orbit;
+  const FlowJet<double> jet = orbit.jet();
+  const double half_unit = 0x1p-53;
+  int runs = 0;
+  const auto amplify = [&](const FlowProblem<double>& line) {
+    ++runs;
+    FlowJet<double> end = *line.initial_jet;
+    for (std::size_t i = 0; i < 6; ++i) {
+      end[i][0] += 1e3 * (end[i][0] - orbit.problem.initial_state[i]);
+      EXPECT_EQ(line.initial_state[i], (*line.initial_jet)[i][0]);
+    }
+    return end;
+  };
+  const std::vector<double> sample = sample_rounding<double>(orbit.problem, jet, amplify);
+  EXPECT_EQ(runs, 2 * 17);
+  ASSERT_EQ(sample.size(), 4U);
+  // The largest number of the start is 1, which moves by a unit of 2^-52 upwards and 2^-53
+  // downwards, if at all; those of 0 move by any part of it.
+  const double scale = largest_of_degree(jet, 0);
+  EXPECT_GE(sample[0] * scale, 1e3 * 0.5 * half_unit);
+  EXPECT_LE(sample[0] * scale, 1001 * 2 * half_unit);
+  EXPECT_GT(sample[1], 0);
+  EXPECT_EQ(sample[2], 0);  // the start has no such degree, and the map makes none
+}
+
+// Ten times the sample is above the rounding error of the jet, which extended precision tells.
+TEST(RoundingSample, IsOfTheSizeOfRounding) {
+  const DynamicalSystem system = kepler();
+  const FlowProblem<double> problem{
+      system, SeriesSpace::create(6, 2), {0, 1, 2, 3, 4, 5}, {0.1, 0, 0, 0, 3, 3.14}, 20};
+  GaussSettings settings;
+  settings.tolerance = 1e-12;
+  settings.controls_all_degrees = true;
+  IntegrationStatistics statistics;
+  const FlowJet<double> jet = integrate_gauss<double>(problem, settings, statistics);
+  const auto sample = sample_rounding<double>(problem, jet, [&](const auto& line) {
+    IntegrationStatistics of_line;
+    return integrate_gauss<double>(line, settings, of_line);
+  });
+  FlowProblem<Extended> exact{problem.system, problem.space, problem.variables, {}, 20};
+  for (const double x : problem.initial_state) exact.initial_state.emplace_back(x);
+  GaussSettings fine = settings;
+  fine.stages = 12;
+  fine.tolerance = 1e-18;
+  const FlowJet<Extended> wanted = integrate_gauss<Extended>(exact, fine, statistics);
+  for (int d = 0; d <= 2; ++d) {
+    double error = 0;
+    for (std::size_t i = 0; i < 6; ++i) {
+      for (std::size_t k = problem.space->first(d); k < problem.space->first(d + 1); ++k) {
+        error = std::max(error, std::abs(static_cast<double>(Extended(jet[i][k] - wanted[i][k]))));
+      }
+    }
+    error /= largest_of_degree(jet, d);
+    const double sampled = sample[static_cast<std::size_t>(d)];
+    EXPECT_LE(error, 10 * sampled) << d;
+    EXPECT_GE(error, sampled / 1000) << d;  // it is no bound of another size
+  }
 }
 
 TEST(ErrorEstimate, ErrorsAreNamed) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -10,6 +11,7 @@
 
 #include "formation_scenes.hpp"
 #include "hamjet/studies/propagation.hpp"
+#include "studies/checks/run_warnings.hpp"
 
 // Every self-check once on a good run, where it passes, and once on a run that is wrong in the way
 // that it looks for.
@@ -269,6 +271,21 @@ TEST(SelfChecks, EnergyOfAParabola) {
   expect_state(check(scene, result, SelfCheckName::energy), SelfCheckState::passed);
 }
 
+TEST(SelfChecks, WarnOfADegreeWithoutADigit) {
+  // Sixteen steps of Verlet in a revolution at e = 0.9: far beyond what they can follow.
+  Scene scene = kepler_chief(0.9, 7000, 5000, 2);
+  scene.kinds.reset();
+  scene.duration = 2 * std::numbers::pi * std::pow(10, 1.5);  // perigee is at 1
+  const RunResult lost = run(scene, with_step(IntegrationMethod::velocity_verlet, 12));
+  const std::vector<double>& estimate = *lost.error_estimate.by_degree;
+  ASSERT_GE(*std::max_element(estimate.begin(), estimate.end()), 1);
+  expect_state(check(scene, lost, SelfCheckName::error_estimate), SelfCheckState::passed,
+               "not one digit of degree");
+  ASSERT_EQ(run_warnings(scene, lost).size(), 1U);
+  EXPECT_NE(run_warnings(scene, lost)[0].find("not one digit"), std::string::npos);
+  EXPECT_TRUE(run_warnings(scene, run(scene, precise_gauss())).empty());
+}
+
 TEST(SelfChecks, Symplecticity) {
   const Scene scene = good_scene();
   RunResult wrong = good_run();
@@ -276,6 +293,13 @@ TEST(SelfChecks, Symplecticity) {
   wrong.symplecticity = symplecticity_by_degree<Extended>(wrong.jet);
   const SelfCheck failed = check(scene, wrong, SelfCheckName::symplecticity);
   expect_state(failed, SelfCheckState::failed, "more than rounding explains");
+  // Beyond a millionth a map is of no use, whatever made it so.
+  RunResult useless = good_run();
+  useless.jet[0][1] *= 1 + Extended(1e-3);
+  useless.statistics.steps = 1000000000000000;
+  useless.symplecticity = symplecticity_by_degree<Extended>(useless.jet);
+  expect_state(check(scene, useless, SelfCheckName::symplecticity), SelfCheckState::failed,
+               "which rounding may explain");
   // A coefficient of degree 3 alone, as a composition of arcs that lost its digits leaves them:
   // the linear part stays symplectic, the brackets of degree 2 do not.
   RunResult high = good_run();

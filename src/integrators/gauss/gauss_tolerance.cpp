@@ -180,12 +180,25 @@ void record_choice(StepTolerance<Real> choice, IntegrationStatistics& statistics
   statistics.finer_lines = std::move(choice.finer_lines);
 }
 
+template <class Real>
+FlowJet<Real> integrate_with_step_tolerance(const FlowProblem<Real>& problem,
+                                            GaussSettings settings, double step_tolerance) {
+  settings.tolerance = step_tolerance;
+  settings.profile = nullptr;
+  IntegrationStatistics statistics;
+  return integrate_as_given(problem, settings, statistics);
+}
+
 template StepTolerance<double> choose_step_tolerance(const FlowProblem<double>&,
                                                      const GaussSettings&);
 template StepTolerance<Extended> choose_step_tolerance(const FlowProblem<Extended>&,
                                                        const GaussSettings&);
 template void record_choice(StepTolerance<double>, IntegrationStatistics&);
 template void record_choice(StepTolerance<Extended>, IntegrationStatistics&);
+template FlowJet<double> integrate_with_step_tolerance(const FlowProblem<double>&, GaussSettings,
+                                                       double);
+template FlowJet<Extended> integrate_with_step_tolerance(const FlowProblem<Extended>&,
+                                                         GaussSettings, double);
 template GaussSettings finer_gauss<double>(const GaussSettings&, double);
 template GaussSettings finer_gauss<Extended>(const GaussSettings&, double);
 

@@ -47,6 +47,12 @@ StepTolerance<Real> choose_step_tolerance(const FlowProblem<Real>& problem,
 template <class Real>
 void record_choice(StepTolerance<Real> choice, IntegrationStatistics& statistics);
 
+/// Integrates with the steps of a local tolerance that was chosen before
+/// (IntegrationStatistics::step_tolerance), without another choice.
+template <class Real>
+FlowJet<Real> integrate_with_step_tolerance(const FlowProblem<Real>& problem,
+                                            GaussSettings settings, double step_tolerance);
+
 /// Settings for an integration that shares neither order nor steps with one of the given settings,
 /// with a local error a thousand times smaller.
 template <class Real>

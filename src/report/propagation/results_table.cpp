@@ -4,7 +4,7 @@
 #include <iterator>
 
 #include "../../formats/results_names.hpp"
-#include "../../studies/checks/near_singular.hpp"
+#include "../../studies/checks/run_warnings.hpp"
 #include "../../text/html_text.hpp"
 #include "hamjet/report/results.hpp"
 
@@ -191,8 +191,9 @@ std::string summary_table(const PropagationResult& result) {
     text += fmt::format("FAILED: {}\n", result.relative_hamiltonian_failure);
   }
   for (const RunResult& run : result.runs) {
-    const std::string warning = near_singular_warning(scene, run);
-    if (!warning.empty()) text += fmt::format("WARNING: {}: {}\n", run.settings.label, warning);
+    for (const std::string& warning : run_warnings(scene, run)) {
+      text += fmt::format("WARNING: {}: {}\n", run.settings.label, warning);
+    }
     for (const std::string& check : run.failed_checks) {
       text += fmt::format("CHECK FAILED: {}: {}\n", run.settings.label, check);
     }

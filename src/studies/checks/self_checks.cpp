@@ -13,8 +13,8 @@
 #include "../stopwatch.hpp"
 #include "hamjet/integrators/error_estimate.hpp"
 #include "hamjet/studies/propagation.hpp"
-#include "near_singular.hpp"
 #include "number_scan.hpp"
+#include "run_warnings.hpp"
 
 namespace hamjet {
 namespace {
@@ -184,9 +184,11 @@ void check_symplecticity(SelfCheck& check, const Scene& scene, const RunResult& 
         worst->scaled, worst->degree);
   } else {
     check.text = fmt::format(
-        "the Poisson brackets of degree {} miss symplecticity by {:.2g}, more than rounding "
-        "explains",
-        worst->degree, worst->scaled);
+        "the Poisson brackets of degree {} miss symplecticity by {:.2g}, {}", worst->degree,
+        worst->scaled,
+        worst_limit < largest_symplecticity_defect
+            ? "more than rounding explains"
+            : "which rounding may explain; precision = \"extended\" or a lower order is needed");
   }
 }
 
@@ -321,6 +323,9 @@ void check_error_estimate(SelfCheck& check, const Scene& scene, const RunResult&
     check.value = estimate[worst];
     check.state = SelfCheckState::passed;
     check.text += "; fixed steps promise none";
+    if (const std::string warning = no_digits_warning(run); !warning.empty()) {
+      check.text += "; warning: " + warning;
+    }
   } else if (!judge(check, estimate[worst], limits[worst])) {
     const bool is_rounding = worst < run.statistics.rounding_by_degree.size();
     check.text +=

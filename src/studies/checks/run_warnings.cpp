@@ -1,8 +1,10 @@
-#include "near_singular.hpp"
+#include "run_warnings.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "../../algebra/raise_to.hpp"
@@ -50,6 +52,23 @@ std::string near_singular_warning(const Scene& scene, const RunResult& run) {
       "{} is near one of its singular times: it amplifies the error of the map, {:.2g}, up to "
       "{:.2g}-fold in its linear part, to {:.2g}, and more at higher degrees",
       name, error, kind->condition, kind->condition * error);
+}
+
+std::string no_digits_warning(const RunResult& run) {
+  const auto& errors = run.error_by_degree ? run.error_by_degree : run.error_estimate.by_degree;
+  if (!errors) return "";
+  const auto worst = std::max_element(errors->begin(), errors->end());
+  if (!(*worst >= 1)) return "";
+  return fmt::format(
+      "not one digit of degree {} of the jet is right: its error is about {:.2g} of its largest "
+      "coefficient; shorter steps or a smaller tolerance are needed",
+      worst - errors->begin(), *worst);
+}
+
+std::vector<std::string> run_warnings(const Scene& scene, const RunResult& run) {
+  std::vector<std::string> warnings = {near_singular_warning(scene, run), no_digits_warning(run)};
+  std::erase(warnings, "");
+  return warnings;
 }
 
 }  // namespace hamjet
