@@ -3,6 +3,7 @@
 #include <Eigen/SVD>
 
 #include "hamjet/algebra/extended.hpp"
+#include "hamjet/error.hpp"
 
 // These stand in a file of their own because the decompositions take long to compile.
 
@@ -10,7 +11,12 @@ namespace hamjet {
 
 template <class T>
 Vector<T> singular_values(const Matrix<T>& matrix) {
-  return Eigen::JacobiSVD<Matrix<T>>(matrix).singularValues();
+  // Pivoting first is for matrices that are not square; to compile it takes longer than all else
+  // here.
+  if (matrix.rows() != matrix.cols()) {
+    throw Error(ErrorKind::usage, "singular values: the matrix must be square");
+  }
+  return Eigen::JacobiSVD<Matrix<T>, Eigen::NoQRPreconditioner>(matrix).singularValues();
 }
 
 SingularValueDecomposition decompose_by_singular_values(const Matrix<double>& matrix) {

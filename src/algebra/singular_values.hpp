@@ -4,7 +4,8 @@
 
 namespace hamjet {
 
-/// Singular values of a matrix, the largest first; T is double or Extended.
+/// Singular values of a square matrix, the largest first; T is double or Extended. Throws
+/// Error(usage) if the matrix is not square.
 template <class T>
 Vector<T> singular_values(const Matrix<T>& matrix);
 

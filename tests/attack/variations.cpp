@@ -82,17 +82,21 @@ std::vector<double> rounding_of_map(const AttackedRun& attacked, const JudgedLin
   return largest;
 }
 
-/// What two runs may differ by: ten floors of each, of as many roundings as the longer run has
-/// steps (the floor is a sample with as many as the reference has; roundings add up as a random
-/// walk does); where the steps are chosen, they may be others, so that the errors are too.
+/// A floor is a sample with a rounding in each step of the reference. Roundings add up as a random
+/// walk does: that of a run with more steps is larger by this factor.
+double rounding_walk(const AttackedRun& attacked, const JudgedLine& line) {
+  const auto steps = static_cast<double>(attacked.run().statistics.steps);
+  return std::sqrt(1 + steps / static_cast<double>(line.reference.floor_steps + 1));
+}
+
+/// What two runs may differ by: ten floors of each; where the steps are chosen, they may be others,
+/// so that the errors are too.
 double allowed_difference(Kind kind, const DrawnScene& drawn, const AttackedRun& attacked,
                           const JudgedLine& line, std::size_t k, double other_error) {
-  const auto steps = static_cast<double>(attacked.run().statistics.steps);
-  const double walk = std::sqrt(1 + steps / static_cast<double>(line.reference.floor_steps + 1));
   // The command's numbers are read in double precision.
   const bool is_command = kind == Kind::command;
   const double floor = is_command ? line.errors.floor[k] : floor_of(drawn, line.errors.floor[k]);
-  const double rounding = 20 * walk * floor;
+  const double rounding = 20 * rounding_walk(attacked, line) * floor;
   const bool has_same_steps = has_fixed_steps(drawn) || is_command;
   return has_same_steps ? rounding : rounding + 2 * (line.errors.error[k] + other_error);
 }
@@ -133,7 +137,8 @@ void compare(const Variation& variation, const DrawnScene& drawn, const Attacked
     if (variation.kind == Kind::unsplit) {
       // Below the tolerance a revolution the error of one piece is luck.
       const double promised = drawn.tolerance.value_or(0) * std::max(1.0, drawn.revolutions);
-      const double least = std::max(floor_of(drawn, floor), promised);
+      const double rounding = rounding_walk(attacked, line) * floor_of(drawn, floor);
+      const double least = std::max(rounding, promised);
       add("arcs against one piece", line.errors.error[k] - errors.uncertainty[k],
           10 * std::max(errors.error[k], least));
     } else if (variation.kind == Kind::zeros) {
