@@ -160,12 +160,19 @@ JetAlongLine along_line(const FlowJet<Extended>& jet, const ComputedProblem& pro
   JetAlongLine result;
   result.coefficients.assign(dimension, std::vector<DoubleDouble>(degrees));
   std::vector<std::vector<double>> squares(dimension, std::vector<double>(degrees, 0));
+  result.largest_term.assign(degrees, 0);
+  const double largest_position = largest(direction.data(), dimension / 2);
+  const double largest_momentum = largest(direction.data() + dimension / 2, dimension / 2);
   for (std::size_t m = 0; m < space.size(); ++m) {
     DoubleDouble power(1);
+    double largest_power = 1;
     const auto exponents = space.exponents(m);
     for (std::size_t v = 0; v < exponents.size(); ++v) {
-      const double d = direction[problem.components[problem.variables[v]]];
-      for (int i = 0; i < exponents[v]; ++i) power *= DoubleDouble(d);
+      const std::size_t variable = problem.components[problem.variables[v]];
+      for (int i = 0; i < exponents[v]; ++i) {
+        power *= DoubleDouble(direction[variable]);
+        largest_power *= variable < dimension / 2 ? largest_position : largest_momentum;
+      }
     }
     const auto k = static_cast<std::size_t>(space.degree(m));
     for (std::size_t c = 0; c < jet.size(); ++c) {
@@ -178,6 +185,8 @@ JetAlongLine along_line(const FlowJet<Extended>& jet, const ComputedProblem& pro
           component < dimension / 2 ? reference.position_size : reference.momentum_size;
       const double scaled = magnitude(term) / size;
       squares[component][k] += scaled * scaled;
+      result.largest_term[k] =
+          std::max(result.largest_term[k], std::abs(high) * largest_power / size);
     }
   }
   result.independent_sum.assign(degrees, 0);
@@ -227,7 +236,7 @@ RelativeErrors relative_errors(const JetAlongLine& jet, const LineReference& ref
       error = difference >= error ? difference : error;
       if (!std::isfinite(difference)) error = HUGE_VAL;
     }
-    const double size = std::max(jet.independent_sum[k], reference.size[k]);
+    const double size = std::max({jet.independent_sum[k], jet.largest_term[k], reference.size[k]});
     const auto relative = [&](double x) { return x == 0 ? 0 : x / size; };
     errors.error.push_back(relative(error));
     errors.uncertainty.push_back(relative(reference.uncertainty[k]));

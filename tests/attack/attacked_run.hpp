@@ -49,6 +49,9 @@ struct JetAlongLine {
   /// By degree, in the sizes of the reference, the root of the sum of the squares of the terms of a
   /// component: what their sum is along a line where they neither cancel nor agree.
   std::vector<double> independent_sum;
+  /// By degree, in the same sizes, the largest coefficient of a component times the largest
+  /// position and momentum of the direction to the powers of its monomial.
+  std::vector<double> largest_term;
 };
 JetAlongLine along_line(const FlowJet<Extended>& jet, const ComputedProblem& problem,
                         const std::vector<double>& direction, const LineReference& reference);
@@ -59,8 +62,10 @@ JetAlongLine along_line(const FlowJet<Extended>& jet, const ComputedProblem& pro
 std::vector<double> aligned_direction(const FlowJet<Extended>& jet, const ComputedProblem& problem,
                                       const std::function<std::vector<double>()>& draw);
 
-/// By degree, relative to the larger of the reference's coefficient and the jet's independent sum,
-/// as the error along the line is a sum of the errors of the terms; 0 where both vanish.
+/// By degree, relative to the largest of the reference's coefficient, the jet's independent sum, as
+/// the error along the line is a sum of the errors of the terms, and its largest term, as an error
+/// is promised relative to the largest coefficient of its degree, which a direction may hardly see;
+/// 0 where all vanish.
 struct RelativeErrors {
   std::vector<double> error;
   std::vector<double> uncertainty;  ///< of the reference

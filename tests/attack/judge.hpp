@@ -59,8 +59,14 @@ Verdict judge(const DrawnScene& drawn, const JudgeSettings& settings);
 bool has_promise(const DrawnScene& drawn);
 
 /// What is promised of adaptive Gauss methods: the relative error of every degree is at most 100
-/// times the tolerance in each revolution, besides ten floors of the scene's precision.
-double promised_error(const DrawnScene& drawn, double floor);
+/// times the tolerance in each revolution, besides ten floors of the scene's precision, with as
+/// many roundings as the run has steps.
+double promised_error(const DrawnScene& drawn, const AttackedRun& attacked,
+                      const LineReference& reference, double floor);
+
+/// A floor is a sample with a rounding in each step of the reference. Roundings add up as a random
+/// walk does: that of a run with more steps is larger by this factor.
+double rounding_walk(const AttackedRun& attacked, const LineReference& reference);
 
 /// An estimate may be below the error by this factor in one of a hundred scenes, and by
 /// `worst_estimate` in none.

@@ -82,13 +82,6 @@ std::vector<double> rounding_of_map(const AttackedRun& attacked, const JudgedLin
   return largest;
 }
 
-/// A floor is a sample with a rounding in each step of the reference. Roundings add up as a random
-/// walk does: that of a run with more steps is larger by this factor.
-double rounding_walk(const AttackedRun& attacked, const JudgedLine& line) {
-  const auto steps = static_cast<double>(attacked.run().statistics.steps);
-  return std::sqrt(1 + steps / static_cast<double>(line.reference.floor_steps + 1));
-}
-
 /// What two runs may differ by: ten floors of each; where the steps are chosen, they may be others,
 /// so that the errors are too.
 double allowed_difference(Kind kind, const DrawnScene& drawn, const AttackedRun& attacked,
@@ -96,7 +89,7 @@ double allowed_difference(Kind kind, const DrawnScene& drawn, const AttackedRun&
   // The command's numbers are read in double precision.
   const bool is_command = kind == Kind::command;
   const double floor = is_command ? line.errors.floor[k] : floor_of(drawn, line.errors.floor[k]);
-  const double rounding = 20 * rounding_walk(attacked, line) * floor;
+  const double rounding = 20 * rounding_walk(attacked, line.reference) * floor;
   const bool has_same_steps = has_fixed_steps(drawn) || is_command;
   return has_same_steps ? rounding : rounding + 2 * (line.errors.error[k] + other_error);
 }
@@ -132,12 +125,17 @@ void compare(const Variation& variation, const DrawnScene& drawn, const Attacked
     const double error = errors.error[k] - errors.uncertainty[k];
     const double floor = std::max(errors.floor[k], line.errors.floor[k]);
     if (has_promise(variation.drawn)) {
-      add("tolerance of the variation", error, promised_error(variation.drawn, floor));
+      double promised = promised_error(variation.drawn, other, line.reference, floor);
+      // The start is rounded anew in another unit, but the reference is that of the first.
+      if (variation.kind == Kind::unit) {
+        promised += 10 * rounding_walk(other, line.reference) * floor_of(drawn, floor);
+      }
+      add("tolerance of the variation", error, promised);
     }
     if (variation.kind == Kind::unsplit) {
       // Below the tolerance a revolution the error of one piece is luck.
       const double promised = drawn.tolerance.value_or(0) * std::max(1.0, drawn.revolutions);
-      const double rounding = rounding_walk(attacked, line) * floor_of(drawn, floor);
+      const double rounding = rounding_walk(attacked, line.reference) * floor_of(drawn, floor);
       const double least = std::max(rounding, promised);
       add("arcs against one piece", line.errors.error[k] - errors.uncertainty[k],
           10 * std::max(errors.error[k], least));

@@ -9,17 +9,20 @@
 namespace hamjet {
 namespace {
 
+/// Whole numbers, so that sums are exact. The algorithm adds the distances of vertices that it
+/// cannot reach, which are the largest number there is: integers would overflow.
+using Weight = double;
 using Traits = boost::adjacency_list_traits<boost::vecS, boost::vecS, boost::directedS>;
 using EdgeProperties = boost::property<
     boost::edge_capacity_t, std::int64_t,
     boost::property<boost::edge_residual_capacity_t, std::int64_t,
                     boost::property<boost::edge_reverse_t, Traits::edge_descriptor,
-                                    boost::property<boost::edge_weight_t, std::int64_t>>>>;
+                                    boost::property<boost::edge_weight_t, Weight>>>>;
 using Graph = boost::adjacency_list<boost::vecS, boost::vecS, boost::directedS, boost::no_property,
                                     EdgeProperties>;
 
 /// An edge of capacity one and its reverse of capacity zero and opposite weight.
-void add_edges(Graph& graph, std::size_t from, std::size_t to, std::int64_t weight) {
+void add_edges(Graph& graph, std::size_t from, std::size_t to, Weight weight) {
   const auto forward = boost::add_edge(from, to, graph).first;
   const auto backward = boost::add_edge(to, from, graph).first;
   boost::put(boost::edge_capacity, graph, forward, 1);
@@ -52,7 +55,7 @@ std::optional<std::vector<std::size_t>> least_assignment(
     add_edges(graph, n + i, sink, 0);
     for (std::size_t j = 0; j < n; ++j) {
       if (!std::isfinite(costs[i][j])) continue;
-      add_edges(graph, i, n + j, std::llround(costs[i][j] * scale));
+      add_edges(graph, i, n + j, std::round(costs[i][j] * scale));
     }
   }
   boost::successive_shortest_path_nonnegative_weights(graph, source, sink);
