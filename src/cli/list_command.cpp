@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <vector>
+
 #include "../scene/tables/key_reference.hpp"
 #include "../studies/descriptions/method_description.hpp"
 #include "../studies/descriptions/system_description.hpp"
@@ -45,13 +47,44 @@ std::string kinds() {
   return text;
 }
 
+/// What can be listed.
+struct Topic {
+  const char* name;
+  const char* heading;  ///< in the list of everything; of Markdown, for the keys are a page of that
+  std::string (*text)();
+};
+
+const std::vector<Topic>& topics() {
+  static const std::vector<Topic> all = {
+      {"systems", "# Systems\n\n", systems},
+      {"integrators", "# Integrators\n\n", integrators},
+      {"kinds", "# Kinds of generating functions\n\n", kinds},
+      {"keys", "", [] { return io::key_reference(io::sweep_study_table()); }}};
+  return all;
+}
+
 }  // namespace
 
-int list(const std::string& what) {
-  if (what == "systems") print(systems());
-  if (what == "integrators") print(integrators());
-  if (what == "kinds") print(kinds());
-  if (what == "keys") print(io::key_reference(io::sweep_study_table()));
+CLI::App* add_list_command(CLI::App& app, std::optional<std::string>& what) {
+  std::vector<std::string> names;
+  for (const Topic& topic : topics()) names.emplace_back(topic.name);
+  CLI::App* command = app.add_subcommand("list", "list systems, integrators, kinds and keys");
+  command
+      ->add_option("what", what,
+                   "systems, integrators, kinds, or the keys of a scene as a page in Markdown "
+                   "(default: all, one after the other)")
+      ->check(CLI::IsMember(names));
+  return command;
+}
+
+int list(const std::optional<std::string>& what) {
+  std::string text;
+  for (const Topic& topic : topics()) {
+    if (what && *what != topic.name) continue;
+    if (!what) text += (text.empty() ? "" : "\n") + std::string(topic.heading);
+    text += topic.text();
+  }
+  print(text);
   return 0;
 }
 

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 
 namespace hamjet::cli {
 
-/// Prints what scenes may name: `what` is systems, integrators, kinds or keys. Returns the exit
-/// code.
-int list(const std::string& what);
+CLI::App* add_list_command(CLI::App& app, std::optional<std::string>& what);
+
+/// Prints what scenes may name: of one topic, or of all under headings. Returns the exit code.
+int list(const std::optional<std::string>& what);
 
 }  // namespace hamjet::cli

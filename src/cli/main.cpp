@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
@@ -12,14 +14,16 @@
 #include "../app/arithmetic.hpp"
 #include "../formats/output_formats.hpp"
 #include "../text/shell_text.hpp"
-#include "bash_completion.hpp"
 #include "compare_command.hpp"
+#include "completion/completion.hpp"
 #include "convert_command.hpp"
 #include "eval_command.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/version.hpp"
+#include "init_command.hpp"
 #include "interruption.hpp"
 #include "list_command.hpp"
+#include "output_option.hpp"
 #include "run_command.hpp"
 #include "stability_command.hpp"
 #include "stack_limit.hpp"
@@ -33,8 +37,11 @@ namespace {
 using hamjet::ErrorKind;
 
 constexpr const char* examples = R"(Examples:
+  hamjet init leo                           a commented scene to start from; writes leo.toml
   hamjet demo                               the paper's Earth orbit; results in out/earth-orbit
   hamjet run scene.toml                     results in out/scene
+  hamjet run - < scene.toml                 the same from standard input; results in
+                                            out/standard-input
   hamjet run scene.toml -o results --json   summary on standard output as JSON
   hamjet run scene.toml --set jet.order=6 --set integrator.gauss8.tolerance=1e-13
                                             the same with two keys changed
@@ -49,6 +56,7 @@ constexpr const char* examples = R"(Examples:
   hamjet sweep study.toml                   a scene over a grid of values; a table and a map
   hamjet check scene.toml                   what would be computed, and the memory it takes
   hamjet list integrators                   the methods of this build
+  hamjet help transfer                      what hamjet transfer --help prints
 
 Exit codes:
   0 all well; 1 a check failed; 2 usage; 3 scene; 4 numerical failure; 5 input or output;
@@ -58,17 +66,22 @@ Taylor maps and generating functions of Hamiltonian flows.
 )";
 
 void add_scene_argument(CLI::App& command, hamjet::cli::RunOptions& options) {
-  command.add_option("scene", options.scene_file, "scene file (TOML)")
+  command
+      .add_option("scene", options.scene_file,
+                  "scene file (TOML); - reads standard input, whose scene is named "
+                  "standard-input and names files as seen from the current folder")
       ->required()
       ->type_name("SCENE");
 }
 
-void add_run_options(CLI::App& command, hamjet::cli::RunOptions& options) {
-  command
-      .add_option("-o,--output", options.output,
-                  "directory for the results (default: out/<scene name>)")
-      ->type_name("DIRECTORY");
-  command.add_flag("--json", options.json, "print summary.json instead of the table");
+/// `results` names what the command writes, and `directory` where it does unless it is told.
+void add_run_options(CLI::App& command, hamjet::cli::RunOptions& options,
+                     const std::string& results, const std::string& directory,
+                     const char* json = "print summary.json instead of the table") {
+  hamjet::cli::add_output_option(
+      command, options.output, fmt::format("directory for {} (default: {})", results, directory),
+      "DIRECTORY", "but results are a folder; --json prints their summary on standard output");
+  command.add_flag("--json", options.json, json);
   command.add_flag("-q,--quiet", options.quiet, "print nothing but errors");
 }
 
@@ -118,10 +131,10 @@ CLI::App* add_eval_command(CLI::App& app, hamjet::cli::EvalOptions& options) {
                    "inertial")
       ->type_name("{rotating,inertial}");
   eval->add_option("--degree", options.degree, "leave out terms above this degree")->type_name("K");
-  eval->add_option("-o,--output", options.output,
-                   "CSV file of the final states with estimates of the miss (default: standard "
-                   "output)")
-      ->type_name("FILE");
+  hamjet::cli::add_output_option(
+      *eval, options.output,
+      "CSV file of the final states with estimates of the miss (default: standard output)", "FILE",
+      "but standard output is what it is without -o");
   eval->add_flag(
       "--strict", options.strict,
       "exit code 1 if a row is marked outside or unknown: beyond the polynomial's reach");
@@ -141,7 +154,7 @@ CLI::App* add_sweep_command(CLI::App& app, hamjet::cli::RunOptions& run,
       ->add_option("study", options.study,
                    "study (TOML): base scene, command, axes or items, columns")
       ->type_name("SCENE");
-  add_run_options(*sweep, run);
+  add_run_options(*sweep, run, "rows, table.csv, map.svg and summary.json", "out/<study name>");
   sweep->add_option("--threads", options.threads, "items at a time (default: all cores)")
       ->type_name("N");
   sweep
@@ -167,26 +180,37 @@ int dispatch(int argc, char** argv) {
   app.set_version_flag("--version", std::string("hamjet ") + hamjet::version);
   app.require_subcommand(1);
 
+  hamjet::cli::InitOptions start;
+  const CLI::App* init = hamjet::cli::add_init_command(app, start);
+
   hamjet::cli::RunOptions options;
   CLI::App* run = app.add_subcommand("run", "run a scene and write its results");
   add_scene_argument(*run, options);
-  add_run_options(*run, options);
+  add_run_options(*run, options, "summary.json and a folder of each integrator",
+                  "out/<scene name>");
   add_threads_option(*run, options);
   add_override_option(*run, options);
 
-  CLI::App* check = app.add_subcommand("check", "read a scene and say what would be computed");
+  CLI::App* check = app.add_subcommand(
+      "check", "read a scene and say what would be computed; nothing is written");
   add_scene_argument(*check, options);
+  check->add_flag(
+      "--json", options.json,
+      "print it as JSON, with the names of summary.json; what is wrong too: file, line, "
+      "column, key, message, exit code");
   add_override_option(*check, options);
 
   CLI::App* demo = app.add_subcommand("demo", "run the paper's Earth orbit, which is built in");
-  add_run_options(*demo, options);
+  add_run_options(*demo, options, "summary.json and a folder of each integrator",
+                  "out/earth-orbit");
   add_override_option(*demo, options);
 
   hamjet::cli::CompareOptions comparison;
   CLI::App* compare =
       app.add_subcommand("compare", "measure error against run time of many integrators");
   add_scene_argument(*compare, comparison.scene);
-  add_run_options(*compare, comparison.scene);
+  add_run_options(*compare, comparison.scene, "report.html, compare.csv and compare.json",
+                  "out/<scene name>");
   add_override_option(*compare, comparison.scene);
   compare->add_flag("--resume", comparison.resume,
                     "take up a comparison that was interrupted, from the output directory");
@@ -194,16 +218,19 @@ int dispatch(int argc, char** argv) {
   compare->add_option("--plots", plots, "the report's plots as files too: pdf or png")
       ->check(CLI::IsMember({"pdf", "png"}));
 
-  const auto add_study = [&](const char* name, const char* description) {
+  const auto add_study = [&](const char* name, const char* description, const char* results,
+                             const char* suffix) {
     CLI::App* study = app.add_subcommand(name, description);
     add_scene_argument(*study, options);
-    add_run_options(*study, options);
+    add_run_options(*study, options, results, fmt::format("out/<scene name>{}", suffix));
     add_override_option(*study, options);
     return study;
   };
   hamjet::cli::TransferOptions transfers;
   CLI::App* transfer = add_study(
-      "transfer", "velocity changes from one relative position to another, for every time");
+      "transfer", "velocity changes from one relative position to another, for every time",
+      "report.html, transfers.csv, further CSV files and summary.json",
+      hamjet::cli::transfer_suffix);
   CLI::Option* jet =
       transfer
           ->add_option("--jet", transfers.directory,
@@ -215,9 +242,11 @@ int dispatch(int argc, char** argv) {
       ->needs(jet)
       ->type_name("LABEL");
   const CLI::App* validity =
-      add_study("validity", "how far from the chief the polynomials are right, along time");
+      add_study("validity", "how far from the chief the polynomials are right, along time",
+                "report.html, validity.csv and summary.json", hamjet::cli::validity_suffix);
   const CLI::App* assign =
-      add_study("assign", "send deputies to slots at the least total velocity change");
+      add_study("assign", "send deputies to slots at the least total velocity change",
+                "assignment.csv, costs.csv and summary.json", hamjet::cli::assignment_suffix);
 
   std::optional<std::string> suite;
   CLI::App* stability = app.add_subcommand(
@@ -225,12 +254,8 @@ int dispatch(int argc, char** argv) {
   stability
       ->add_option("--suite", suite, "folder of cases, or one case (default: data/scenes/extreme)")
       ->type_name("SCENES");
-  stability
-      ->add_option("-o,--output", options.output,
-                   "directory for the report (default: out/stability)")
-      ->type_name("DIRECTORY");
-  stability->add_flag("--json", options.json, "print a list of one object a case");
-  stability->add_flag("-q,--quiet", options.quiet, "print nothing but errors");
+  add_run_options(*stability, options, "stability.html, stability.csv and summary.json",
+                  "out/stability", "print a list of one object a case");
 
   hamjet::cli::EvalOptions evaluation;
   const CLI::App* eval = add_eval_command(app, evaluation);
@@ -240,19 +265,15 @@ int dispatch(int argc, char** argv) {
   hamjet::cli::SweepOptions sweeps;
   const CLI::App* sweep = add_sweep_command(app, options, sweeps);
 
-  std::string what;
-  CLI::App* list = app.add_subcommand("list", "list systems, integrators, kinds or keys");
-  list->add_option("what", what,
-                   "systems, integrators, kinds, or the keys of a scene as a page in Markdown")
-      ->required()
-      ->check(CLI::IsMember({"systems", "integrators", "kinds", "keys"}));
+  std::optional<std::string> what;
+  const CLI::App* list = hamjet::cli::add_list_command(app, what);
 
   std::string shell;
-  CLI::App* completion = app.add_subcommand(
-      "completion",
-      "print a script with which a shell completes command lines\n"
-      "Example: hamjet completion bash > ~/.local/share/bash-completion/completions/hamjet");
-  completion->add_option("shell", shell, "bash")->required()->check(CLI::IsMember({"bash"}));
+  const CLI::App* completion = hamjet::cli::add_completion_command(app, shell);
+
+  std::optional<std::string> topic;
+  CLI::App* help = app.add_subcommand("help", "what --help prints of a command, or of the program");
+  help->add_option("command", topic, "a command (default: the program)")->type_name("COMMAND");
 
   // The command's options come behind its name; a -- before it ends those of the program.
   const int first = argc > 1 && std::string_view(argv[1]) == "--" ? 2 : 1;
@@ -274,11 +295,14 @@ int dispatch(int argc, char** argv) {
   }
   for (int i = 0; i < argc; ++i)
     options.command += (i == 0 ? "" : " ") + hamjet::io::in_shell_quotes(argv[i]);
-  if (*list) return hamjet::cli::list(what);
-  if (*completion) {
-    hamjet::cli::print(hamjet::cli::bash_completion(app));
+  for (auto* given : {&options, &comparison.scene}) hamjet::cli::take_standard_input(*given);
+  if (*help) {
+    hamjet::cli::print(hamjet::cli::help_text(app, topic));
     return 0;
   }
+  if (*init) return hamjet::cli::init(start);
+  if (*list) return hamjet::cli::list(what);
+  if (*completion) return hamjet::cli::completion(app, shell);
   if (*eval) return hamjet::cli::eval(evaluation);
   if (*convert) return hamjet::cli::convert(conversion);
   if (*check) return hamjet::cli::check(options);

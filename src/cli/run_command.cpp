@@ -11,6 +11,7 @@
 #include "../report/paper/paper_reports.hpp"
 #include "../studies/arcs.hpp"
 #include "../studies/descriptions/method_description.hpp"
+#include "check_json.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/report/results.hpp"
 #include "hamjet/store/output_directory.hpp"
@@ -138,6 +139,7 @@ void check_flow_jet(const RunOptions& options, const std::string& file, const Sc
 }  // namespace
 
 int check(const RunOptions& options) {
+  if (options.json) return check_as_json(options);
   std::visit(
       [&](const auto& study) {
         if constexpr (std::is_same_v<std::decay_t<decltype(study)>, Scene>) {

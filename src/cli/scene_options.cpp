@@ -9,6 +9,8 @@
 
 #include "../app/processors.hpp"
 #include "../app/refusal.hpp"
+#include "../scene/document/scene_text.hpp"
+#include "../scene/scene_name.hpp"
 #include "../studies/arcs.hpp"
 #include "../studies/descriptions/method_description.hpp"
 #include "../text/scene_message.hpp"
@@ -46,12 +48,20 @@ void leave_out_what_is_not_built(Scene& scene) {
 
 }  // namespace
 
+void take_standard_input(RunOptions& options) {
+  if (options.scene_file != "-") return;
+  options.scene_file = io::standard_input_name;
+  options.scene_text = read_standard_input(io::largest_scene_bytes);
+}
+
 io::Study read_study(const RunOptions& options) {
   refuse_empty(options.scene_file, "scene", "a file");
   refuse_empty(options.output, "--output", "a directory");
   const auto overrides = parse_overrides(options.overrides);
   if (options.scene_file) {
-    io::Study study = io::read_study(*options.scene_file, overrides);
+    io::Study study = options.scene_text
+                          ? io::parse_study(*options.scene_text, *options.scene_file, overrides)
+                          : io::read_study(*options.scene_file, overrides);
     if (const Scene* scene = std::get_if<Scene>(&study)) {
       for (const std::string& warning : scene->warnings) print_error(warning);
     }

@@ -13,6 +13,7 @@ namespace hamjet::cli {
 /// Options of the commands that take a scene.
 struct RunOptions {
   std::optional<std::string> scene_file;  ///< absent: the built-in scene
+  std::optional<std::string> scene_text;  ///< of standard input; scene_file is its name
   std::optional<std::string> output;
   std::vector<std::string> overrides;  ///< key=value
   bool json = false;
@@ -20,6 +21,10 @@ struct RunOptions {
   std::size_t threads = 0;  ///< for arcs; 0: as many as the machine runs at once
   std::string command;      ///< the command line, for reports
 };
+
+/// Where the scene file is `-`, reads standard input, which can be done once, and gives it a name.
+/// Throws Error(input_output), and Error(scene) for more than any scene has.
+void take_standard_input(RunOptions& options);
 
 /// The scene that the options name, with their changes, of any study. Throws Error(usage),
 /// Error(scene), Error(input_output).

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <system_error>
@@ -18,6 +20,23 @@ void open_standard_streams() {
     // The system gives the lowest free descriptor, which is this one.
     ::open("/dev/null", O_RDWR);
   }
+}
+
+std::string read_standard_input(std::size_t most_bytes) {
+  std::string text;
+  std::array<char, 65536> buffer;
+  while (text.size() <= most_bytes) {
+    const std::size_t wanted = std::min(buffer.size(), most_bytes + 1 - text.size());
+    const ssize_t count = ::read(STDIN_FILENO, buffer.data(), wanted);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) {
+      throw Error(ErrorKind::input_output, fmt::format("standard input cannot be read: {}",
+                                                       std::generic_category().message(errno)));
+    }
+    if (count == 0) break;
+    text.append(buffer.data(), static_cast<std::size_t>(count));
+  }
+  return text;
 }
 
 void print(const std::string& text) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 namespace hamjet::cli {
@@ -7,6 +8,10 @@ namespace hamjet::cli {
 /// Puts /dev/null in the place of a standard stream that is closed: the next file that is opened
 /// would take its number, and what is printed would go there.
 void open_standard_streams();
+
+/// All bytes of standard input, of which one more than `most_bytes` is read at most. Throws
+/// Error(input_output).
+std::string read_standard_input(std::size_t most_bytes);
 
 /// Text to standard output, all of it at once. A reader that went away (`| head`) is no error; a
 /// full disk is: throws Error(input_output).

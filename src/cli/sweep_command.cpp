@@ -32,6 +32,9 @@ void check_options(const RunOptions& run, const SweepOptions& options) {
   for (const auto* value : {&options.study, &run.output}) {
     if (*value && (*value)->empty()) refuse("sweep: an empty name, must name a file or directory");
   }
+  if (options.study == "-") {
+    refuse("study: got -, but the parts of a sweep read it again, must be a file");
+  }
   if (!options.study && !(options.merge && run.output)) {
     refuse(options.merge ? "sweep --merge: needs the study, or the directory with -o"
                          : "sweep: needs a study (TOML); see hamjet sweep --help");

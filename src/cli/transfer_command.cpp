@@ -88,7 +88,7 @@ int transfer(const RunOptions& options, const TransferOptions& transfers) {
       stored ? read_scene_of(*stored, options) : read_unsplit_scene(options, "hamjet transfer");
   require_transfer(scene, *options.scene_file);
   std::optional<EarlierJet> earlier;
-  const std::string name = scene.name + "-transfer";
+  const std::string name = scene.name + transfer_suffix;
   if (stored) {
     refuse_to_replace(*transfers.directory, output_path(options, name));
     earlier = earlier_jet(transfers, *stored, scene);
@@ -116,7 +116,7 @@ int transfer(const RunOptions& options, const TransferOptions& transfers) {
 int validity(const RunOptions& options) {
   const Scene scene = read_unsplit_scene(options, "hamjet validity");
   require_validity(scene, *options.scene_file);
-  return report_study(options, scene.name + "-validity", [&](const ProgressCallback& progress) {
+  return report_study(options, scene.name + validity_suffix, [&](const ProgressCallback& progress) {
     return io::validity_report(
         study_of(*options.scene_file, [&] { return study_validity(scene, progress); }),
         report_origin(options.command));
@@ -126,10 +126,11 @@ int validity(const RunOptions& options) {
 int assign(const RunOptions& options) {
   const Scene scene = read_unsplit_scene(options, "hamjet assign");
   require_assignment(scene, *options.scene_file);
-  return report_study(options, scene.name + "-assign", [&](const ProgressCallback& progress) {
-    return io::assignment_report(
-        study_of(*options.scene_file, [&] { return study_assignment(scene, progress); }));
-  });
+  return report_study(
+      options, scene.name + assignment_suffix, [&](const ProgressCallback& progress) {
+        return io::assignment_report(
+            study_of(*options.scene_file, [&] { return study_assignment(scene, progress); }));
+      });
 }
 
 }  // namespace hamjet::cli

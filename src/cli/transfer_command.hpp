@@ -10,6 +10,11 @@
 
 namespace hamjet::cli {
 
+// What stands behind the scene's name in that of the folder of each command's results.
+inline constexpr const char* transfer_suffix = "-transfer";
+inline constexpr const char* validity_suffix = "-validity";
+inline constexpr const char* assignment_suffix = "-assign";
+
 /// A jet that `hamjet run` has stored, to be used instead of computing.
 struct TransferOptions {
   std::optional<std::string> directory;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "../text/scene_message.hpp"
+#include "hamjet/error.hpp"
 
 namespace hamjet::cli {
 namespace {
@@ -23,13 +24,27 @@ std::string option_suggestion(const CLI::App& command, std::string_view word) {
   return io::suggestion(name, {names.begin(), names.end()});
 }
 
-std::string command_suggestion(const CLI::App& app, std::string_view word) {
+std::string unknown_command(const CLI::App& app, std::string_view word) {
   std::vector<std::string_view> names;
   for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
-  return io::suggestion(word, names);
+  return fmt::format("unknown command {}; {}", io::printable(word), io::suggestion(word, names));
+}
+
+/// The problem, and where more is said.
+std::string with_reference(const std::string& problem) {
+  return problem + (problem.ends_with("?") ? " See hamjet --help" : "; see hamjet --help");
 }
 
 }  // namespace
+
+std::string help_text(const CLI::App& app, const std::optional<std::string>& command) {
+  for (const CLI::App* child : app.get_subcommands({})) {
+    if (child->get_name() == command) return child->help(app.get_name());
+  }
+  if (command) throw Error(ErrorKind::usage, with_reference(unknown_command(app, *command)));
+  // App::help would be that of the command which asks.
+  return app.get_formatter()->make_help(&app, app.get_name(), CLI::AppFormatMode::Normal);
+}
 
 std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
   const auto commands = app.get_subcommands();
@@ -47,12 +62,11 @@ std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
     problem = fmt::format("unknown option {}; {}", io::printable(*option),
                           option_suggestion(commands.empty() ? app : *commands[0], *option));
   } else if (!unknown.empty() && commands.empty()) {
-    problem = fmt::format("unknown command {}; {}", io::printable(unknown[0]),
-                          command_suggestion(app, unknown[0]));
+    problem = unknown_command(app, unknown[0]);
   } else if (!unknown.empty()) {
     problem = fmt::format("unexpected argument {}", io::printable(unknown[0]));
   }
-  return problem + (problem.ends_with("?") ? " See hamjet --help" : "; see hamjet --help");
+  return with_reference(problem);
 }
 
 }  // namespace hamjet::cli

@@ -4,7 +4,11 @@
 
 namespace hamjet::io {
 
-/// The stem of the file's name, made fit for the name of a directory.
+/// The file name of a scene that is read from standard input.
+inline constexpr const char* standard_input_name = "<standard input>";
+
+/// The stem of the file's name, made fit for the name of a directory; "standard-input" for
+/// the name above.
 std::string scene_name(const std::string& file_name);
 
 }  // namespace hamjet::io

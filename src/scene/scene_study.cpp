@@ -126,6 +126,7 @@ const std::vector<StudyDescription>& all_studies() {
 }
 
 std::string scene_name(const std::string& file_name) {
+  if (file_name == standard_input_name) return "standard-input";
   std::string name = std::filesystem::path(file_name).stem().string();
   for (char& c : name) {
     const bool allowed = (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') ||

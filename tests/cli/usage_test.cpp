@@ -9,7 +9,7 @@ using Usage = CommandTest;
 
 TEST_F(Usage, HelpBeginsWithExamples) {
   const CommandResult result = succeed({"--help"});
-  EXPECT_EQ(result.out.rfind("Examples:\n  hamjet demo", 0), 0U) << result.out;
+  EXPECT_EQ(result.out.rfind("Examples:\n  hamjet init", 0), 0U) << result.out;
   for (const char* word :
        {"hamjet run scene.toml", "Exit codes", "Usage: hamjet", "check", "list"}) {
     EXPECT_NE(result.out.find(word), std::string::npos) << word;
@@ -17,11 +17,20 @@ TEST_F(Usage, HelpBeginsWithExamples) {
 }
 
 TEST_F(Usage, EveryCommandHasHelp) {
-  for (const char* command : {"run", "check", "demo", "eval", "list"}) {
+  const std::string summary = succeed({"--help"}).out;
+  EXPECT_EQ(succeed({"help"}).out, summary);
+  std::istringstream lines(summary.substr(summary.find("\nSubcommands:\n") + 14));
+  int count = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.size() < 3 || line[2] == ' ') continue;
+    ++count;
+    const std::string command = line.substr(2, line.find(' ', 2) - 2);
     const CommandResult result = succeed({command, "--help"});
+    EXPECT_EQ(succeed({"help", command}).out, result.out);
     EXPECT_NE(result.out.find(std::string("Usage: hamjet ") + command), std::string::npos)
         << result.out;
   }
+  EXPECT_GE(count, 15) << summary;
   const std::string run = succeed({"run", "--help"}).out;
   for (const char* option : {"--output", "--set", "--json", "--quiet"}) {
     EXPECT_NE(run.find(option), std::string::npos) << option;
@@ -53,6 +62,40 @@ TEST_F(Usage, Lists) {
     if (kinds[i] == '-' && is_choice(kinds[i - 1]) && is_choice(kinds[i + 1])) ++count;
   }
   EXPECT_EQ(count, 64);
+}
+
+// Everything, in the order in which the topics are named, each below a heading.
+TEST_F(Usage, AListOfEverything) {
+  const std::string all = succeed({"list"}).out;
+  std::size_t at = 0;
+  for (const char* topic : {"systems", "integrators", "kinds", "keys"}) {
+    const std::string text = succeed({"list", topic}).out;
+    const std::size_t found = all.find(text, at);
+    ASSERT_NE(found, std::string::npos) << topic;
+    EXPECT_EQ(all.substr(at, 2), "# ");
+    at = found + text.size() + 1;
+  }
+  EXPECT_EQ(at, all.size() + 1);
+}
+
+// Where each command writes by itself, as its help says, is where it does.
+TEST_F(Usage, HelpSaysWhereResultsGo) {
+  const std::string formation = quick_scene() +
+                                "[transfer]\nframe = \"RTN\"\ntimes_canonical = [0.5]\n"
+                                "start = {position_m = [0, -10, 0]}\n"
+                                "end = {position_m = [0, -5, 0]}\n"
+                                "[validity]\ntolerance_m = 1\ntimes_canonical = [0.5]\n"
+                                "[assignment]\ndeputy = [{position_m = [0, -10, 0]}]\n"
+                                "slot = [{position_m = [0, 10, 0]}]\n";
+  write("two.toml", formation);
+  for (const char* command : {"run", "transfer", "validity", "assign"}) {
+    const std::string help = succeed({command, "--help"}).out;
+    const std::size_t begin = help.find("(default: out/<scene name>") + 10;
+    const std::string folder = help.substr(begin, help.find(')', begin) - begin);
+    succeed({command, "two.toml", "-q"});
+    const auto results = directory_ / changed(folder, "<scene name>", "two");
+    EXPECT_TRUE(std::filesystem::exists(results / "summary.json")) << results << help;
+  }
 }
 
 TEST_F(Usage, CheckSaysWhatWouldBeComputed) {
@@ -115,7 +158,8 @@ TEST_F(Usage, MistakesOnTheCommandLine) {
       {{"run", ""}, {"scene: empty"}},
       {{"check", ""}, {"scene: empty"}},
       {{"run", "small.toml", "-o", ""}, {"--output: empty"}},
-      {{"list"}, {"what"}},
+      {{"help", "rnu"}, {"unknown command rnu", "did you mean run?"}},
+      {{"help", "run", "small.toml"}, {"unexpected argument small.toml"}},
       {{"list", "planets"}, {"planets", "systems", "integrators", "kinds"}},
       {{"demo", "small.toml"}, {"unexpected argument small.toml"}},
   };

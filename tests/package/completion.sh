@@ -55,6 +55,8 @@ expect 'pdf' hamjet compare orbit.toml --plots pd
 expect 'pdf png' hamjet compare orbit.toml --plots =
 expect 'pdf' hamjet compare orbit.toml --plots = pd
 expect 'integrators keys kinds systems' hamjet list ''
+expect 'geo gto leo molniya pair' hamjet init ''
+expect "$commands" hamjet help ''
 expect 'RTN canonical inertial' hamjet eval out/scene --frame ''
 # Runs of a folder of results that have a jet.
 expect 'gauss8 midpoint' hamjet eval out/scene --run ''

@@ -13,7 +13,8 @@ for path in "$1" "$2" "$prefix-before"; do
 done
 for needed in bin/hamjet include/hamjet/version.hpp include/hamjet/instruction_set.hpp \
   include/hamjet/maps/exactness.hpp share/hamjet/scenes/paper/earth-orbit.toml \
-  share/bash-completion/completions/hamjet; do
+  share/bash-completion/completions/hamjet share/zsh/site-functions/_hamjet \
+  share/fish/vendor_completions.d/hamjet.fish; do
   [ -e "$prefix/$needed" ] || { echo "not installed: $needed"; status=1; }
 done
 exit $status

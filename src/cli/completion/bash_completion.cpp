@@ -1,9 +1,9 @@
-#include "bash_completion.hpp"
-
 #include <fmt/format.h>
 
 #include <string_view>
 #include <vector>
+
+#include "completion.hpp"
 
 namespace hamjet::cli {
 namespace {
@@ -11,7 +11,7 @@ namespace {
 /// The part of the script that does not depend on the commands. `describe COMMAND` sets `commands`,
 /// `options` and `positionals` (their types); `type_of COMMAND OPTION` sets `type`, which stays
 /// empty for a flag.
-constexpr const char* engine = R"(
+constexpr const char* bash_engine = R"(
 # Words that begin with $current for an argument of this type.
 _hamjet_complete_type() {
   local folder runs=
@@ -28,6 +28,10 @@ _hamjet_complete_type() {
     DIRECTORY)
       compopt -o filenames 2>/dev/null
       mapfile -t COMPREPLY < <(compgen -d -- "$current")
+      ;;
+    COMMAND)
+      _hamjet_describe ''
+      mapfile -t COMPREPLY < <(compgen -W "$commands" -- "$current")
       ;;
     LABEL)
       for folder in "${words[@]}"; do
@@ -91,68 +95,54 @@ _hamjet() {
 complete -F _hamjet hamjet
 )";
 
-/// The words of an enumeration in braces, where the type has one: CLI11 writes it behind the type's
-/// own name.
-std::string type_of(const CLI::Option& option) {
-  const std::string name = option.get_type_name();
-  const std::size_t brace = name.find('{');
-  return brace == std::string::npos ? name : name.substr(brace, name.find('}') + 1 - brace);
-}
-
-std::vector<std::string> names(const CLI::Option& option) {
-  std::vector<std::string> all;
-  for (const std::string& name : option.get_snames()) all.push_back("-" + name);
-  for (const std::string& name : option.get_lnames()) all.push_back("--" + name);
-  return all;
-}
-
 std::string joined(const std::vector<std::string>& words, std::string_view separator) {
   return fmt::format("{}", fmt::join(words, separator));
 }
 
-/// The branch of `_hamjet_describe` for one command; the program itself has no name.
-std::string description_branch(const CLI::App& command, const std::string& name) {
-  std::vector<std::string> commands;
-  for (const CLI::App* child : command.get_subcommands({})) commands.push_back(child->get_name());
+/// The branch of `_hamjet_describe` for one command.
+std::string description_branch(const CompletionCommand& command, const std::string& commands) {
   std::vector<std::string> options;
   std::vector<std::string> positionals;
-  for (const CLI::Option* option : command.get_options()) {
-    if (option->get_positional()) positionals.push_back(type_of(*option));
-    for (const std::string& option_name : names(*option)) options.push_back(option_name);
+  for (const CompletionOption& option : command.options) {
+    options.insert(options.end(), option.names.begin(), option.names.end());
   }
-  return fmt::format("    '{}') commands='{}' options='{}' positionals='{}' ;;\n", name,
-                     joined(commands, " "), joined(options, " "), joined(positionals, " "));
+  for (const CompletionOption& option : command.positionals) positionals.push_back(option.type);
+  return fmt::format("    '{}') commands='{}' options='{}' positionals='{}' ;;\n", command.name,
+                     commands, joined(options, " "), joined(positionals, " "));
 }
 
 /// The branches of `_hamjet_type_of` for one command.
-std::string type_branches(const CLI::App& command, const std::string& name) {
+std::string type_branches(const CompletionCommand& command) {
   std::string text;
-  for (const CLI::Option* option : command.get_options()) {
-    const std::string type = type_of(*option);
-    if (option->get_positional() || type.empty()) continue;
+  for (const CompletionOption& option : command.options) {
+    if (option.type.empty()) continue;
     std::vector<std::string> patterns;
-    for (const std::string& option_name : names(*option)) {
-      patterns.push_back(fmt::format("'{} {}'", name, option_name));
+    for (const std::string& name : option.names) {
+      patterns.push_back(fmt::format("'{} {}'", command.name, name));
     }
-    text += fmt::format("    {}) type='{}' ;;\n", joined(patterns, " | "), type);
+    text += fmt::format("    {}) type='{}' ;;\n", joined(patterns, " | "), option.type);
   }
   return text;
 }
 
 }  // namespace
 
-std::string bash_completion(const CLI::App& app) {
-  std::string descriptions = description_branch(app, "");
-  std::string types = type_branches(app, "");
-  for (const CLI::App* command : app.get_subcommands({})) {
-    descriptions += description_branch(*command, command->get_name());
-    types += type_branches(*command, command->get_name());
+std::string bash_completion(const std::vector<CompletionCommand>& commands) {
+  std::vector<std::string> names;
+  for (const CompletionCommand& command : commands) {
+    if (!command.name.empty()) names.push_back(command.name);
+  }
+  std::string descriptions;
+  std::string types;
+  for (const CompletionCommand& command : commands) {
+    descriptions += description_branch(command, command.name.empty() ? joined(names, " ") : "");
+    types += type_branches(command);
   }
   return fmt::format(
       "# Completion of hamjet's command lines for bash, written by `hamjet completion bash`.\n\n"
       "_hamjet_describe() {{\n  case $1 in\n{}    *) commands= options= positionals= ;;\n"
       "  esac\n}}\n\n_hamjet_type_of() {{\n  case \"$1 $2\" in\n{}  esac\n}}\n{}",
-      descriptions, types, engine);
+      descriptions, types, bash_engine);
 }
 
 }  // namespace hamjet::cli

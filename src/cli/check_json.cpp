@@ -1,0 +1,104 @@
+#include "check_json.hpp"
+
+#include <nlohmann/json.hpp>
+#include <string_view>
+#include <type_traits>
+#include <variant>
+
+#include "../scene/system_json.hpp"
+#include "../store/json_values.hpp"
+#include "../store/text_file.hpp"
+#include "../studies/arcs.hpp"
+#include "../text/message_place.hpp"
+#include "../text/scene_message.hpp"
+#include "hamjet/error.hpp"
+#include "hamjet/report/results.hpp"
+#include "hamjet/studies/propagation.hpp"
+#include "interruption.hpp"
+#include "standard_streams.hpp"
+
+namespace hamjet::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The times of a study of relative motion.
+template <class Settings>
+Json times_json(const Settings& settings, const Scene& scene) {
+  return {{"count", settings.times.size()},
+          {"last_s", io::json_number(settings.times.back() * scene.units.time_s)}};
+}
+
+Json facts(const RunOptions& options, const Scene& scene) {
+  const std::size_t threads = thread_count(options);
+  PropagationResult nothing_run;
+  nothing_run.scene = scene;
+  nothing_run.problem = make_problem(scene, available_memory(), threads);
+  Json json = Json::parse(io::summary_json(nothing_run));
+  for (const char* of_runs : {"reference_error", "relative_hamiltonian_error", "exit_code", "runs",
+                              "operations", "skipped"}) {
+    json.erase(of_runs);
+  }
+  json["duration_s"] = io::json_number(scene.duration * scene.units.time_s);
+  json["reference"] = scene.reference.has_value();
+  json["kinds"] = scene.kinds ? Json(scene.kinds->size()) : Json(nullptr);
+  json["memory_bytes"] = io::json_number(
+      estimate_memory(scene, *nothing_run.problem.system, scene.variables.size(), threads));
+  json["integrators"] = Json::array();
+  for (const IntegratorSettings& settings : scene.integrators) {
+    Json integrator = io::integrator_json(settings);
+    if (scene.arcs != std::optional<std::size_t>(1)) {
+      integrator["arcs"] =
+          plan_arcs(scene, nothing_run.problem, settings, [](const std::string&, double) {
+            stop_if_interrupted();
+          }).arcs;
+    }
+    json["integrators"].push_back(integrator);
+  }
+  json["transfer"] = scene.transfer ? times_json(*scene.transfer, scene) : Json(nullptr);
+  json["validity"] = scene.validity ? times_json(*scene.validity, scene) : Json(nullptr);
+  json["deputies"] = scene.assignment ? Json(scene.assignment->deputies.size()) : Json(nullptr);
+  return json;
+}
+
+/// One object for each line of the message.
+Json errors_json(const std::string& file, std::string_view message) {
+  Json errors = Json::array();
+  while (!message.empty()) {
+    const io::PlacedMessage error = io::placed(io::take_line(message), file);
+    errors.push_back({{"file", io::or_null(error.file)},
+                      {"line", io::or_null(error.line)},
+                      {"column", io::or_null(error.column)},
+                      {"key", io::or_null(error.key)},
+                      {"message", error.problem}});
+  }
+  return errors;
+}
+
+}  // namespace
+
+int check_as_json(const RunOptions& options) {
+  const std::string file = io::printable(*options.scene_file, std::string::npos);
+  const auto head = [&](int exit_code, const Json& errors) {
+    return Json{{"file", file}, {"exit_code", exit_code}, {"errors", errors}};
+  };
+  Json json = head(0, Json::array());
+  try {
+    std::visit(
+        [&](const auto& study) {
+          if constexpr (std::is_same_v<std::decay_t<decltype(study)>, Scene>) {
+            json.update(facts(options, study));
+          } else {
+            json.update(Json{{"scene", study.name}, {"title", study.title}});
+          }
+        },
+        read_study(options));
+  } catch (const Error& error) {
+    print(head(error.exit_code(), errors_json(file, error.what())).dump(2) + "\n");
+    throw;
+  }
+  print(json.dump(2) + "\n");
+  return 0;
+}
+
+}  // namespace hamjet::cli
