@@ -148,6 +148,20 @@ void check_options(const InitOptions& options) {
   }
 }
 
+/// The title of the scene, which must read: what a message says may make one that does not, and
+/// nobody should get that.
+std::string title_of(const std::string& scene, const fs::path& file,
+                     const std::optional<std::string>& message) {
+  try {
+    return std::visit([](const auto& study) { return study.title; },
+                      io::parse_study(scene, file.string()));
+  } catch (const Error& error) {
+    if (!message) throw;
+    throw Error(error.kind(), fmt::format("{}: makes no scene that can be run: {}",
+                                          io::printable_path(*message), error.what()));
+  }
+}
+
 /// The commands that the scene's first comment names, a line each.
 std::string commands_in(std::string_view scene) {
   std::string commands;
@@ -200,10 +214,8 @@ int init(const InitOptions& options) {
   const std::string_view chosen =
       options.kind ? *options.kind : fill_from_message(*options.message, file, filling);
   const std::string scene = filled(chosen, filling);
-  // What a message says may make a scene that does not read, which nobody should get.
-  const io::Study study = io::parse_study(scene, file.string());
+  const std::string title = title_of(scene, file, options.message);
   output.write(scene);
-  const std::string title = std::visit([](const auto& any) { return any.title; }, study);
   print(fmt::format("wrote {}: {}\nnext:\n{}", file_text, title, commands_in(scene)));
   return 0;
 }

@@ -152,6 +152,10 @@ TEST_F(Init, TakesTheCentreOfTheMessage) {
   const std::string text = content(directory_ / "mars.toml");
   EXPECT_NE(text.find("model = \"kepler\"\nmu_km3_s2 = 42828.375816\n"), std::string::npos) << text;
   write("vesta.opm", changed(slow, "CENTER_NAME = MARS", "CENTER_NAME = VESTA"));
+  // Faster than the escape from Mars the orbit has no period.
+  write("fast.opm", parameter_message("MARS"));
+  expect_error({"init", "--from", "fast.opm"}, 3,
+               {"fast.opm: makes no scene that can be run: ", "jet.duration_orbits: no period"});
   expect_error({"init", "--from", "vesta.opm"}, 5, {"vesta.opm:6: CENTER_NAME: VESTA has no mu"});
 }
 
