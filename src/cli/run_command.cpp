@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "../report/paper/paper_reports.hpp"
+#include "../report/propagation/orbit_summary.hpp"
 #include "../studies/arcs.hpp"
 #include "../studies/descriptions/method_description.hpp"
 #include "check_json.hpp"
@@ -94,8 +95,10 @@ void check_flow_jet(const RunOptions& options, const std::string& file, const Sc
       "  nominal     ",
       file, scene.title, scene.units.length_km, scene.units.time_s);
   for (const double x : scene.nominal) text += fmt::format(" {:.17g}", x);
+  text += "\n";
+  if (const auto orbit = io::orbit_summary(scene)) text += io::orbit_text(*orbit);
   text += fmt::format(
-      "\n  duration     {:.17g} canonical = {:.10g} s\n"
+      "  duration     {:.17g} canonical = {:.10g} s\n"
       "  jet          order {} in {} variables: {} coefficients for each of{}\n"
       "  memory       about {:.0f} MB\n",
       scene.duration, scene.duration * scene.units.time_s, scene.order, scene.variables.size(),
