@@ -19,6 +19,17 @@ constexpr double farthest_start = 950;
 /// No body that orbits are flown about is as prolate: J2 of planets and moons is positive.
 constexpr double least_J2 = -1e-5;
 
+/// Saturn is the most oblate of them, with a J2 of 0.0163.
+constexpr double greatest_J2 = 0.02;
+
+/// A speed in m/s is a thousand times that in km/s, and on an orbit at least 707 times that of
+/// escape; no comet passes the Sun at a tenth of this.
+constexpr double greatest_speed_of_escape = 100;
+
+/// A gravitational parameter this far from that of the body whose radius is given is no other
+/// model of it.
+constexpr double other_mu = 0.1;
+
 /// A radius that the J_n refer to is the equator's, up to a choice of the model.
 constexpr double radius_tolerance = 0.05;
 
@@ -51,8 +62,10 @@ class LikelySlips {
       }
     }
     check_radius();
+    check_mu_beside_radius();
     check_J2();
     check_distance();
+    check_speed();
     check_centre();
     return std::move(found_);
   }
@@ -83,31 +96,75 @@ class LikelySlips {
     }
   }
 
+  /// The radius of a body beside a mu that no body has.
+  void check_mu_beside_radius() {
+    if (body_ != nullptr || !system_.has("radius_km") || !system_.has("mu_km3_s2")) return;
+    const CelestialBody* const body = body_with_radius(scene_.system.radius_km);
+    const double mu = scene_.system.mu_km3_s2;
+    if (body == nullptr || std::abs(mu / body->mu_km3_s2 - 1) <= other_mu) return;
+    add(system_, "mu_km3_s2",
+        fmt::format("{:.10g} beside the radius of {}, whose mu is {:.10g}", mu, body->name,
+                    body->mu_km3_s2));
+  }
+
   void check_J2() {
     const double J2 = scene_.system.J[2];
-    if (!(J2 < least_J2) || !system_.has("J2")) return;
-    add(system_, "J2",
-        fmt::format("{:g} is that of a body longer along its axis; J2 = -C20 of a flattened one is "
-                    "positive: {:g}",
-                    J2, -J2));
+    if (!system_.has("J2")) return;
+    if (J2 < least_J2) {
+      add(system_, "J2",
+          fmt::format("{:g} is that of a body longer along its axis; J2 = -C20 of a flattened one "
+                      "is positive: {:g}",
+                      J2, -J2));
+    } else if (body_ != nullptr && J2 > greatest_J2) {
+      add(system_, "J2",
+          fmt::format("{:g} is more than that of every planet: Saturn's is 0.0163, the Earth's "
+                      "0.00108263",
+                      J2));
+    }
+  }
+
+  /// The key that says where the nominal starts.
+  std::string_view start_key() const {
+    static constexpr std::string_view keys[] = {"a_km", "position_km", "oem_file", "opm_file"};
+    return *std::find_if(std::begin(keys), std::end(keys),
+                         [&](std::string_view key) { return nominal_.has(key); });
   }
 
   void check_distance() {
     const double radius = body_ != nullptr ? body_->equator_radius_km : scene_.system.radius_km;
     const bool is_sun = body_ != nullptr && body_->name == "SUN";  // planets are beyond this
-    if (radius == 0 || is_sun) return;
-    static constexpr std::string_view keys[] = {"a_km", "position_km", "oem_file", "opm_file"};
-    const auto* const key = std::find_if(std::begin(keys), std::end(keys),
-                                         [&](std::string_view k) { return nominal_.has(k); });
+    if (radius == 0) return;
+    const std::string_view key = start_key();
     const std::vector<double>& q = scene_.nominal;
-    const double distance = *key == "a_km" ? nominal_.number("a_km")
-                                           : scene_.units.length_km * std::hypot(q[0], q[1], q[2]);
-    if (!(distance >= farthest_start * radius)) return;
-    add(nominal_, *key,
-        fmt::format("{:.6g} km from the centre are {:.0f} radii{}; if these are metres, it must be "
-                    "{:.6g} km",
-                    distance, distance / radius,
-                    body_ != nullptr ? fmt::format(" of {}", body_->name) : "", 1e-3 * distance));
+    const double distance = key == "a_km" ? nominal_.number("a_km")
+                                          : scene_.units.length_km * std::hypot(q[0], q[1], q[2]);
+    if (distance >= farthest_start * radius && !is_sun) {
+      add(nominal_, key,
+          fmt::format("{:.6g} km from the centre are {:.0f} radii{}; if these are metres, it must "
+                      "be {:.6g} km",
+                      distance, distance / radius,
+                      body_ != nullptr ? fmt::format(" of {}", body_->name) : "", 1e-3 * distance));
+    } else if (key == "a_km" && distance < radius) {
+      add(nominal_, key,
+          fmt::format("{:.6g} km from the centre are below the surface at {:.6g} km{}; if this is "
+                      "a height, it must be {:.6g} km",
+                      distance, radius, body_ != nullptr ? fmt::format(" of {}", body_->name) : "",
+                      distance + radius));
+    }
+  }
+
+  void check_speed() {
+    if (!nominal_.has("velocity_km_s")) return;
+    const std::vector<double>& x = scene_.nominal;  // canonical, where mu is 1
+    const double speed = std::hypot(x[3], x[4], x[5]);
+    const double escapes = speed / std::sqrt(2 / std::hypot(x[0], x[1], x[2]));
+    if (!(escapes >= greatest_speed_of_escape)) return;
+    const double speed_km_s = speed * scene_.units.length_km / scene_.units.time_s;
+    add(nominal_, "velocity_km_s",
+        fmt::format(
+            "{:.6g} km/s are {:.0f} times the speed of escape; if these are m/s, it must be "
+            "{:.6g} km/s",
+            speed_km_s, escapes, 1e-3 * speed_km_s));
   }
 
   /// A file's own centre has been compared with the scene's.

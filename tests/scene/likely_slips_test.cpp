@@ -63,6 +63,38 @@ TEST(LikelySlips, AnotherBodysMu) {
                  {"system.radius_km: 6378 beside the mu of MARS", "3396.19 km"});
 }
 
+TEST(LikelySlips, AMuThatNoBodyHasBesideABodysRadius) {
+  expect_warning(changed(orbit, "398600.4415", "3986.004415"),
+                 {"file.toml:5:13: system.mu_km3_s2: 3986.004415 beside the radius of EARTH",
+                  "whose mu is 398600.4355"});
+  EXPECT_TRUE(warnings(changed(orbit, "398600.4415", "4e5")).empty());
+}
+
+TEST(LikelySlips, AHeightInPlaceOfTheSemiMajorAxis) {
+  const auto with = [](const char* a_km) {
+    return changed(orbit, "position_km = [7000, 0, 0]\nvelocity_km_s = [0, 7.5, 1]",
+                   std::string("a_km = ") + a_km +
+                       "\ne = 0\ni_deg = 0\nraan_deg = 0\nargp_deg = 0\nta_deg = 0");
+  };
+  expect_warning(with("700"), {"file.toml:9:8: nominal.a_km: 700 km from the centre",
+                               "below the surface at 6378.14 km of EARTH", "must be 7078.14 km"});
+  EXPECT_TRUE(warnings(with("6500")).empty());
+}
+
+TEST(LikelySlips, MetresPerSecondForKilometresPerSecond) {
+  expect_warning(changed(orbit, "[0, 7.5, 1]", "[0, 7500, 1000]"),
+                 {"file.toml:10:17: nominal.velocity_km_s: 7566.37 km/s are 709 times the speed of "
+                  "escape",
+                  "must be 7.56637 km/s"});
+  EXPECT_TRUE(warnings(changed(orbit, "[0, 7.5, 1]", "[0, 75, 10]")).empty());
+}
+
+TEST(LikelySlips, AJ2ThatNoPlanetHas) {
+  expect_warning(changed(orbit, "J2 = 1e-3", "J2 = 0.108"),
+                 {"file.toml:7:6: system.J2: 0.108 is more than that of every planet"});
+  EXPECT_TRUE(warnings(changed(orbit, "J2 = 1e-3", "J2 = 0.0163")).empty());
+}
+
 TEST(LikelySlips, ANegativeJ2OfABodysSize) {
   expect_warning(changed(orbit, "J2 = 1e-3", "J2 = -1.08e-3"),
                  {"file.toml:7:6: system.J2: -0.00108", "J2 = -C20", "positive: 0.00108"});
