@@ -15,7 +15,8 @@ enum class ErrorKind {
   too_large = 6,     ///< the work asked for does not fit this machine
 };
 
-/// The one exception type that hamjet throws on purpose; `what()` is one line for the user.
+/// The one exception type that hamjet throws on purpose; `what()` is one line for the
+/// user, or a line for each mistake of a scene.
 class Error : public std::runtime_error {
  public:
   Error(ErrorKind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}

@@ -48,10 +48,14 @@ void print(const std::string& text) {
 }
 
 void print_error(const std::string& message) noexcept {
-  // fputs is used, not fmt::print, which throws if the stream is closed or full.
-  std::fputs("hamjet: ", stderr);
-  std::fputs(message.c_str(), stderr);
-  std::fputs("\n", stderr);
+  // stdio is used, not fmt::print, which throws if the stream is closed or full. The errors of a
+  // scene are a line each.
+  for (std::size_t begin = 0, end = 0; end != std::string::npos; begin = end + 1) {
+    end = message.find('\n', begin);
+    std::fputs("hamjet: ", stderr);
+    std::fwrite(message.data() + begin, 1, std::min(end, message.size()) - begin, stderr);
+    std::fputs("\n", stderr);
+  }
 }
 
 }  // namespace hamjet::cli

@@ -124,7 +124,6 @@ const TableDescription& canonical_transformation_table() {
 
 CanonicalTransformationStudy read_canonical_transformation(const TableReader& root) {
   CanonicalTransformationStudy study;
-  study.title = root.text("title");
   read_start(root, study);
   const TableReader table = root.table("canonical_transformation");
   table.check_keys();

@@ -64,7 +64,6 @@ const TableDescription& energy_conservation_table() {
 EnergyConservationStudy read_energy_conservation(const TableReader& root) {
   refuse_jet(root);
   EnergyConservationStudy study;
-  study.title = root.text("title");
   const Nominal nominal = read_start(root, study);
 
   const TableReader table = root.table("energy_conservation");

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <iterator>
 #include <map>
+#include <set>
+#include <string>
 #include <type_traits>
 #include <variant>
 
@@ -85,7 +87,8 @@ TableDescription describe_integrators() {
         form::words(fmt::format("1 to {} of `A-Z a-z 0-9 . _ -`, no dot first, not the name of a "
                                 "result file",
                                 longest_label)),
-        absent::refused(), "the name of its folder, unlike the others"},
+        absent::other("the method, with stages or order where it has several forms"),
+        "the name of its folder, unlike the others"},
        {"method", form::choice(method_names()), absent::refused(),
         "see `hamjet list integrators`"}}};
   const auto add = [&](const MethodSetting& setting) {
@@ -208,6 +211,33 @@ void refuse_energy_conserving(const TableReader& integrator) {
                               in_quotes(method), listed(method_names()), no_energy_conserving_jet));
 }
 
+/// As comparisons name the series of the method in this form.
+std::string default_label(const IntegratorSettings& settings) {
+  ComparisonSettings wanted;
+  wanted.stages = {settings.stages};
+  const MethodDescription& method = description_of(settings.method);
+  for (const ComparedForm& form : method.compared_forms(wanted)) {
+    IntegratorSettings same_method = form.settings;
+    same_method.method = settings.method;
+    if (compared_values(same_method) == compared_values(settings)) return form.label;
+  }
+  return std::string(method.name);
+}
+
+/// Labels for the integrators that have none, numbered where there is one of the name already.
+void add_labels(std::vector<IntegratorSettings>& integrators) {
+  std::set<std::string> labels;
+  for (const IntegratorSettings& settings : integrators) labels.insert(settings.label);
+  for (IntegratorSettings& settings : integrators) {
+    if (!settings.label.empty()) continue;
+    const std::string label = default_label(settings);
+    settings.label = label;
+    for (int k = 2; !labels.insert(settings.label).second; ++k) {
+      settings.label = fmt::format("{}-{}", label, k);
+    }
+  }
+}
+
 IntegratorSettings read_integrator(const TableReader& integrator, Precision precision,
                                    double duration, const CanonicalScale& scale) {
   if (!integrator.has("method")) integrator.check_keys();  // a misspelt `method` is named
@@ -223,7 +253,7 @@ IntegratorSettings read_integrator(const TableReader& integrator, Precision prec
                                           "computes in double precision only",
                                           in_quotes(method.name), method.library));
   }
-  settings.label = read_label(integrator);
+  if (integrator.has("label")) settings.label = read_label(integrator);
   for (const MethodSetting& setting : method.settings) read_setting(integrator, setting, settings);
   const std::string_view size_key = read_size_key(integrator, method);
   if (size_key == "tolerance") {
@@ -251,6 +281,15 @@ std::vector<std::string_view> integrator_keys(IntegrationMethod method) {
   return keys;
 }
 
+IntegratorSettings default_integrator() {
+  IntegratorSettings settings;
+  settings.method = IntegrationMethod::gauss;
+  settings.stages = 8;
+  settings.tolerance = 1e-12;
+  settings.label = default_label(settings);
+  return settings;
+}
+
 std::vector<IntegratorSettings> read_integrators(const std::vector<TableReader>& integrators,
                                                  Precision precision, double duration,
                                                  const CanonicalScale& scale) {
@@ -264,15 +303,18 @@ std::vector<IntegratorSettings> read_integrators(const std::vector<TableReader>&
   std::vector<IntegratorSettings> all_settings;
   std::map<std::string, std::string> places;  // of the labels so far
   for (const TableReader& integrator : integrators) {
-    const IntegratorSettings settings = read_integrator(integrator, precision, duration, scale);
-    const auto [first, is_new] = places.emplace(settings.label, integrator.where("label"));
-    if (!is_new) {
+    integrator.attempt([&] {
+      const IntegratorSettings settings = read_integrator(integrator, precision, duration, scale);
+      all_settings.push_back(settings);
+      if (settings.label.empty()) return;
+      const auto [first, is_new] = places.emplace(settings.label, integrator.where("label"));
+      if (is_new) return;
       integrator.fail("label", fmt::format("duplicate label, got {}, which is already at {}, must "
                                            "be unique",
                                            in_quotes(settings.label), first->second));
-    }
-    all_settings.push_back(settings);
+    });
   }
+  add_labels(all_settings);
   return all_settings;
 }
 

@@ -46,6 +46,7 @@ std::string with_unit(double bytes) {
 }
 
 int read_order(const TableReader& jet, std::size_t variables, Precision precision) {
+  if (!jet.has("order")) return JetSettings().order;
   // An order below 1 is a mistake of the scene. One that is too high is not: it asks for more than
   // a machine holds.
   const std::optional<std::int64_t> asked = jet.integer_if_any("order");
@@ -96,7 +97,7 @@ std::optional<std::size_t> read_arcs(const TableReader& jet) {
 const TableDescription& jet_table() {
   const auto other_duration = absent::other("another duration");
   static const TableDescription table = {
-      {{"order", form::integer(1, largest_order), absent::refused(),
+      {{"order", form::integer(1, largest_order), absent::value(JetSettings().order),
         "degree of the Taylor polynomials in the initial deviations"},
        {"variables", form::words("array of the model's variables", form::array(form::text())),
         absent::other("all"),

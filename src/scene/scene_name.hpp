@@ -11,4 +11,7 @@ inline constexpr const char* standard_input_name = "<standard input>";
 /// the name above.
 std::string scene_name(const std::string& file_name);
 
+/// The title of a scene that says none: the stem of its file's name, as it can be printed.
+std::string default_title(const std::string& file_name);
+
 }  // namespace hamjet::io

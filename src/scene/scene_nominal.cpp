@@ -26,6 +26,7 @@ constexpr double greatest_distance = 1e9;
 double rounded(const Extended& value) { return convert<double>(value); }
 
 CartesianState read_elements(const TableReader& nominal, double mu_km3_s2) {
+  nominal.require(element_keys);
   OsculatingElements elements;
   elements.semi_major_axis_km = nominal.number("a_km");
   elements.eccentricity = nominal.number("e");
@@ -42,6 +43,7 @@ CartesianState read_elements(const TableReader& nominal, double mu_km3_s2) {
 }
 
 CartesianState read_position_and_velocity(const TableReader& nominal) {
+  nominal.require(cartesian_keys);
   CartesianState state;
   const std::vector<double> position = nominal.numbers("position_km", 3);
   const std::vector<double> velocity = nominal.numbers("velocity_km_s", 3);

@@ -103,7 +103,6 @@ const TableDescription& optimal_control_table() {
 
 Study read_optimal_control(const TableReader& root) {
   OptimalControlStudy study;
-  study.title = root.text("title");
   const TableReader table = root.table("optimal_control");
   table.check_keys();
   study.model = static_cast<ControlModel>(table.choice("problem"));

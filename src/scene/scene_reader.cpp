@@ -11,13 +11,8 @@
 namespace hamjet::io {
 namespace {
 
-/// The tables `[output]` and `[ephemeris]`; both may be left out.
-void read_output_and_ephemeris(const TableReader& root, Scene& scene) {
-  if (root.has("output")) scene.output = read_output(root.table("output"), scene.system.model);
-  if (scene.nominal_file) scene.ephemeris = scene.nominal_file->ephemeris;
-  if (root.has("ephemeris")) {
-    scene.ephemeris = read_ephemeris(root.table("ephemeris"), scene.nominal_file, scene.system);
-  }
+/// Refuses a format that dates an orbit where nothing does, or where the calendar ends.
+void require_dates(const TableReader& root, const Scene& scene) {
   const auto wanted = wanted_formats(scene);
   const auto dated = std::find_if(wanted.begin(), wanted.end(),
                                   [](const OutputFormat* format) { return format->needs_date; });
@@ -57,50 +52,67 @@ void require_splittable(const TableReader& jet, const Scene& scene) {
 
 Scene read_flow_jet(const TableReader& root) {
   Scene scene;
-  scene.title = root.text("title");
-  root.read_if_any("precision", scene.precision);
-  const Nominal nominal = read_start(root, scene);
-  const CanonicalScale& scale = nominal.scale;
-  scene.nominal_file = nominal.file;
-  scene.warnings = likely_slips(root, scene);
+  const bool has_precision = root.attempt([&] { root.read_if_any("precision", scene.precision); });
+  // A table that may be left out; an error of it leaves the others to be read.
+  const auto read_table = [&](std::string_view key, const auto& read) {
+    return !root.has(key) || root.attempt([&] { read(root.table(key)); });
+  };
+  read_table("reference", [&](const auto& table) { scene.reference = read_reference(table); });
+  if (root.has("case")) root.attempt([&] { root.table("case").check_keys(); });
 
-  const JetSettings jet = read_jet(root.table("jet"), scene.system, scene.precision, nominal);
-  scene.order = jet.order;
-  scene.variables = jet.variables;
-  scene.duration = jet.duration;
-  scene.arcs = jet.arcs;
+  Nominal nominal;
+  const bool has_start = root.attempt([&] {
+    nominal = read_start(root, scene);
+    scene.nominal_file = nominal.file;
+    scene.warnings = likely_slips(root, scene);
+  });
+  if (!has_start) return scene;
+  read_table("formation", [&](const auto& table) {
+    scene.separation = read_formation(table, scene.system.model, nominal.scale);
+  });
+  read_table("checks", [&](const auto& table) { scene.checks = read_checks(table, scene); });
+  read_table("output",
+             [&](const auto& table) { scene.output = read_output(table, scene.system.model); });
+  if (nominal.file) scene.ephemeris = nominal.file->ephemeris;
+  const bool has_dates = read_table("ephemeris", [&](const auto& table) {
+    scene.ephemeris = read_ephemeris(table, nominal.file, scene.system);
+  });
+  const bool has_jet = root.attempt([&] {
+    const JetSettings jet = read_jet(root.table("jet"), scene.system, scene.precision, nominal);
+    scene.order = jet.order;
+    scene.variables = jet.variables;
+    scene.duration = jet.duration;
+    scene.arcs = jet.arcs;
+  });
+  if (!has_jet || !has_precision) return scene;
 
-  scene.integrators =
-      read_integrators(root.tables("integrator"), scene.precision, scene.duration, scale);
-  if (root.has("formation")) {
-    scene.separation = read_formation(root.table("formation"), scene.system.model, scale);
-  }
-  if (root.has("generating_function")) {
-    scene.kinds = read_generating_function(root.table("generating_function"), scene);
-  }
-  if (root.has("reference")) scene.reference = read_reference(root.table("reference"));
-  if (root.has("relative_hamiltonian")) {
-    scene.relative_hamiltonian_times =
-        read_relative_hamiltonian(root.table("relative_hamiltonian"), scene.duration);
-  }
-  if (root.has("checks")) scene.checks = read_checks(root.table("checks"), scene);
-  if (root.has("compare")) {
-    scene.comparison = read_compare(root.table("compare"), scene.order, scene.duration);
-  }
-  if (root.has("figure")) scene.figure = read_figure(root.table("figure"), scene);
-  require_splittable(root.table("jet"), scene);
-  if (root.has("transfer")) {
+  root.attempt([&] {
+    scene.integrators = root.has("integrator")
+                            ? read_integrators(root.tables("integrator"), scene.precision,
+                                               scene.duration, nominal.scale)
+                            : std::vector{default_integrator()};
+  });
+  read_table("generating_function",
+             [&](const auto& table) { scene.kinds = read_generating_function(table, scene); });
+  read_table("relative_hamiltonian", [&](const auto& table) {
+    scene.relative_hamiltonian_times = read_relative_hamiltonian(table, scene.duration);
+  });
+  read_table("compare", [&](const auto& table) {
+    scene.comparison = read_compare(table, scene.order, scene.duration);
+  });
+  read_table("figure", [&](const auto& table) { scene.figure = read_figure(table, scene); });
+  root.attempt([&] { require_splittable(root.table("jet"), scene); });
+  read_table("validity",
+             [&](const auto& table) { scene.validity = read_validity(table, scene, nominal); });
+  const bool has_transfer = root.attempt([&] {
+    if (!root.has("transfer")) return;
     // An assignment gives the ends itself.
     scene.transfer = read_transfer(root.table("transfer"), scene, nominal, !root.has("assignment"));
-  }
-  if (root.has("validity")) {
-    scene.validity = read_validity(root.table("validity"), scene, nominal);
-  }
-  if (root.has("assignment")) {
-    scene.assignment = read_assignment(root.table("assignment"), scene, nominal);
-  }
-  read_output_and_ephemeris(root, scene);
-  if (root.has("case")) root.table("case").check_keys();
+  });
+  if (!has_transfer || root.is_misspelt("transfer")) return scene;
+  read_table("assignment",
+             [&](const auto& table) { scene.assignment = read_assignment(table, scene, nominal); });
+  if (has_dates) root.attempt([&] { require_dates(root, scene); });
   return scene;
 }
 

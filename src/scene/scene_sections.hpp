@@ -109,7 +109,7 @@ double read_duration(const TableReader& table, bool has_orbits, const Nominal& n
 
 /// What the table `[jet]` holds.
 struct JetSettings {
-  int order = 1;
+  int order = 4;
   std::vector<std::size_t> variables;   ///< indices into (q, p), ascending
   double duration = 0;                  ///< canonical
   std::optional<std::size_t> arcs = 1;  ///< none: auto
@@ -119,7 +119,14 @@ struct JetSettings {
 JetSettings read_jet(const TableReader& jet, const SystemSettings& system, Precision precision,
                      const Nominal& nominal);
 
-/// The tables `[[integrator]]`. Throws Error(too_large) for too many steps.
+/// The integrator of a scene without tables `[[integrator]]`, for people.
+inline constexpr std::string_view default_integrator_text = "Gauss, 8 stages, tolerance 1e-12";
+
+/// That integrator: an orbit is expanded to about the tolerance, at every degree.
+IntegratorSettings default_integrator();
+
+/// The tables `[[integrator]]`, those without a label named as comparisons name their series.
+/// Throws Error(too_large) for too many steps.
 std::vector<IntegratorSettings> read_integrators(const std::vector<TableReader>& integrators,
                                                  Precision precision, double duration,
                                                  const CanonicalScale& scale);
@@ -189,8 +196,9 @@ inline constexpr std::string_view no_energy_conserving_jet =
 EnergyConservationStudy read_energy_conservation(const TableReader& root);
 
 /// What about an orbit is almost surely a slip, though it can be computed: a mu in m^3/s^2, a
-/// radius in metres or of another body than the mu, a negative J2 of a body's size, a start in
-/// metres. One line each for the user, with place, key and what would be right.
+/// radius in metres, mu and radius of two bodies, a J2 that no planet has, a start in metres, a
+/// height in place of a semi-major axis, a velocity in m/s. One line each for the user, with place,
+/// key and what would be right.
 std::vector<std::string> likely_slips(const TableReader& root, const Scene& scene);
 
 /// Table `[relative_hamiltonian]`: canonical times from the start to the duration.

@@ -1,5 +1,6 @@
 #include <functional>
 
+#include "../studies/descriptions/system_description.hpp"
 #include "../text/scene_message.hpp"
 #include "document/scene_document.hpp"
 #include "document/scene_text.hpp"
@@ -11,9 +12,10 @@
 namespace hamjet::io {
 namespace {
 
-const SceneKey schema_key = {"schema", form::integer(1, 1), absent::refused(),
+const SceneKey schema_key = {"schema", form::integer(1, 1), absent::value(1),
                              "version of this format"};
-const SceneKey title_key = {"title", form::text(), absent::refused(), "of the results"};
+const SceneKey title_key = {"title", form::text(), absent::other("the file's name without `.toml`"),
+                            "of the results"};
 const SceneKey study_key = {"study",
                             form::choice({"flow-jet", "canonical-transformation",
                                           "energy-conservation", "optimal-control"}),
@@ -52,7 +54,7 @@ TableDescription flow_jet_top() {
         {"integrator",
          form::words(fmt::format("1 to {} tables", most_integrators),
                      form::array(form::table(integrator_table()))),
-         absent::refused(), "how the jet is integrated"},
+         absent::other(fmt::format("{}", default_integrator_text)), "how the jet is integrated"},
         optional_table("formation", formation_table(), none,
                        "residuals are also stated at this deviation"),
         optional_table("generating_function", generating_function_table(), none,
@@ -90,23 +92,27 @@ TableDescription energy_conservation_top() {
   return top;
 }
 
-Study read_tables(const SceneDocument& document) {
+/// Whether tables have the keys of orbits or of other models, where the model is known.
+std::vector<std::string_view> kind_of_model(const toml::table& scene) {
+  const auto name = scene.at_path("system.model").value<std::string_view>();
+  for (const SystemDescription& system : all_systems()) {
+    if (name == system.name) return {is_orbit(system.model) ? orbits : other_models};
+  }
+  return {};
+}
+
+/// The tables of a study whose number in all_studies() is known.
+Study read_tables(const TableReader& root, std::size_t study) {
   // In the order of all_studies().
   static const std::function<Study(const TableReader&)> readers[] = {
       read_flow_jet, read_canonical_transformation, read_energy_conservation, read_optimal_control};
-  const auto reader_of = [&](std::size_t study) {
-    return TableReader(document.table, "", document.source, &all_studies()[study].top);
-  };
-  std::size_t study = 0;
-  if (document.table.contains("study")) study = reader_of(0).choice("study");
-  const TableReader root = reader_of(study);
-  // A newer schema may have other keys, so that its number comes before theirs; but a misspelt
-  // `schema` is named.
-  if (!root.has("schema")) root.check_keys();
-  root.integer("schema");
   const auto& [name, top] = all_studies()[study];
-  root.check_keys({.keys = top.names_of(name), .refused_by_caller = top.names_not_of(name)});
-  return readers[study](root);
+  root.attempt([&] {
+    root.check_keys({.keys = top.names_of(name), .refused_by_caller = top.names_not_of(name)});
+  });
+  Study result;
+  root.attempt([&] { result = readers[study](root); });
+  return result;
 }
 
 }  // namespace
@@ -137,6 +143,11 @@ std::string scene_name(const std::string& file_name) {
   return name.empty() ? "scene" : name;
 }
 
+std::string default_title(const std::string& file_name) {
+  const std::string stem = std::filesystem::path(file_name).stem().string();
+  return stem.empty() ? "scene" : printable(stem);
+}
+
 Study parse_study(std::string_view text, const std::string& file_name,
                   const std::vector<Override>& overrides) {
   SceneDocument document = parse_document(text, printable(file_name, std::string::npos), overrides);
@@ -145,8 +156,28 @@ Study parse_study(std::string_view text, const std::string& file_name,
 }
 
 Study read_document(const SceneDocument& document, const std::string& file_name) {
-  Study study = read_tables(document);
-  std::visit([&](auto& scene) { scene.name = scene_name(file_name); }, study);
+  SceneErrors errors;
+  const auto reader_of = [&](std::size_t study) {
+    return TableReader(document.table, "", document.source, &all_studies()[study].top, &errors);
+  };
+  std::size_t number = 0;
+  if (document.table.contains("study")) number = reader_of(0).choice("study");
+  const TableReader root = reader_of(number);
+  // A newer schema may have other keys, so that its number comes before all else.
+  if (root.has("schema")) root.integer("schema");
+  Study study = read_tables(root, number);
+  std::string title = default_title(file_name);
+  root.attempt([&] { root.read_if_any("title", title); });
+  if (!errors.empty()) {
+    root.attempt_declared_keys(kind_of_model(document.table));
+    errors.raise(document.source.name);
+  }
+  std::visit(
+      [&](auto& scene) {
+        scene.name = scene_name(file_name);
+        scene.title = title;
+      },
+      study);
   return study;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <type_traits>
 #include <utility>
 
@@ -183,22 +184,31 @@ std::string portable_text(const SweepStudy& study, std::string text) {
   return text;
 }
 
-/// A mistake of an item is one of the study's: what `--set key` is in a message becomes the place
-/// of the key.
-Error study_error(const SweepStudy& study, const Error& error) {
-  const std::string text = error.what();
+/// A line of an item's errors as one of the study's: what `--set key` is becomes the place of the
+/// key.
+std::string study_line(const SweepStudy& study, const std::string& line) {
   const auto replaced = [&](const std::string& key, const std::string& place) {
     const std::string head = override_source(key);
-    if (!text.starts_with(head)) return std::string();
-    return fmt::format("{}: {}{}", place, printable(key), text.substr(head.size()));
+    if (!line.starts_with(head)) return std::string();
+    return fmt::format("{}: {}{}", place, printable(key), line.substr(head.size()));
   };
-  std::string message = text;
+  std::string message = line;
   for (const SweepKey& key : study.keys) {
     if (const std::string other = replaced(key.name, key.place); !other.empty()) message = other;
   }
   for (std::size_t i = 0; i < study.constants.size(); ++i) {
     const std::string other = replaced(study.constants[i].key, study.constant_places[i]);
     if (!other.empty()) message = other;
+  }
+  return message;
+}
+
+/// A mistake of an item is one of the study's.
+Error study_error(const SweepStudy& study, const Error& error) {
+  std::istringstream text(error.what());
+  std::string message;
+  for (std::string line; std::getline(text, line);) {
+    message += (message.empty() ? "" : "\n") + study_line(study, line);
   }
   const bool is_usage = error.kind() == ErrorKind::usage;
   return {is_usage ? ErrorKind::scene : error.kind(), message};
@@ -212,6 +222,7 @@ void take_failure(const SweepStudy& study, SweepRow& row) {
     const bool is_usage = error.kind() == ErrorKind::usage;  // of an override: the study's
     row.exit_code = is_usage ? static_cast<int>(ErrorKind::scene) : error.exit_code();
     row.error = portable_text(study, error.what());
+    replace_all(row.error, "\n", "; ");  // a row is a line
   } catch (const std::bad_alloc&) {
     row.exit_code = static_cast<int>(ErrorKind::too_large);
     row.error = "out of memory";

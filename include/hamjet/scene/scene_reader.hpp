@@ -26,10 +26,11 @@ struct Override {
 ///  - Error(input_output) with the path and the reason if the file cannot be read, or is a
 ///    directory, a pipe or a device; and for a gravity file that the scene names, relative to its
 ///    own folder (see gravity_field_file.hpp);
-///  - Error(scene) with `file:line:column: key: what is wrong, got what, what would be right`, on
-///    one line; for a value that an override gave, `--set key` stands in place of location and
-///    key. A text that is too large or not UTF-8 is named by its size or the byte's offset;
-///  - Error(too_large) for an order above 20, or more than 1e9 fixed steps;
+///  - Error(scene) with `file:line:column: key: what is wrong, got what, what would be right`, a
+///    line for each mistake, in the order of the lines, and of more than 20 how many more; for a
+///    value that an override gave, `--set key` stands in place of location and key. A text that is
+///    too large or not UTF-8 is named by its size or the byte's offset;
+///  - Error(too_large) for an order above 20, or more than 1e9 fixed steps, if nothing else is wrong;
 ///  - Error(usage) for an override whose key leads nowhere or whose value is empty, or that
 ///    takes away what an earlier one gave.
 ///

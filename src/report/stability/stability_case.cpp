@@ -6,6 +6,7 @@
 
 #include "../../scene/document/scene_document.hpp"
 #include "../../scene/document/scene_text.hpp"
+#include "../../scene/scene_name.hpp"
 #include "../../scene/scene_sections.hpp"
 #include "../../store/text_file.hpp"
 #include "../../text/scene_message.hpp"
@@ -117,7 +118,7 @@ StabilityCase read_case(const std::filesystem::path& path) {
   const TableReader root(document.table, "", document.source, &all_studies().front().top);
   const TableReader table = root.table("case");
   StabilityCase subject{path.stem().string(),
-                        root.text("title"),
+                        root.has("title") ? root.text("title") : default_title(file),
                         table.text("group"),
                         table.text("why"),
                         read_expectation(table, text, file),

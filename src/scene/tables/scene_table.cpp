@@ -34,45 +34,12 @@ std::string describe(const toml::node& node) {
 }
 
 TableReader::TableReader(const toml::table& table, std::string path, const SceneSource& source,
-                         const TableDescription* description)
-    : table_(&table), path_(std::move(path)), source_(&source), description_(description) {}
-
-void TableReader::check_keys(const KnownKeys& known) const {
-  for (const SceneSource::AbsentKey& absent : source_->absent_keys) {
-    const std::vector<std::string_view> names =
-        joined<std::string_view>({known.keys, known.keys_elsewhere});
-    if (absent.table != path_ ||
-        std::find(names.begin(), names.end(), absent.name) != names.end()) {
-      continue;
-    }
-    throw Error(ErrorKind::usage,
-                fmt::format("{}: nothing to remove, got no key {}; {}", absent.override_name,
-                            in_quotes(absent.name), suggestion(absent.name, known.keys)));
-  }
-  const toml::key* unknown = nullptr;
-  const auto allowed = joined<std::string_view>({known.keys, known.refused_by_caller});
-  for (const auto& [key, node] : *table_) {
-    if (std::find(allowed.begin(), allowed.end(), key.str()) != allowed.end()) continue;
-    if (unknown == nullptr || key.source().begin < unknown->source().begin) unknown = &key;
-  }
-  if (unknown == nullptr) return;
-  const std::string_view name = unknown->str();
-  const auto& source = unknown->source();
-  const std::string place =
-      location(source.path ? *source.path : source_->name, source.begin.line, source.begin.column);
-  const std::string head = message_head(*source_, place, dotted(name));
-  const bool elsewhere = std::find(known.keys_elsewhere.begin(), known.keys_elsewhere.end(),
-                                   name) != known.keys_elsewhere.end();
-  if (elsewhere) {
-    throw_scene_error(head, fmt::format("{} has no key {}, must be one of: {}", known.owner, name,
-                                        listed(known.keys)));
-  }
-  // An override's key may end with the name already.
-  const std::string got = place.ends_with(name) ? "" : fmt::format("got {}, ", printable(name));
-  const auto remedy = remedy_for_foreign_key(path_, name);
-  throw_scene_error(
-      head, fmt::format("unknown key, {}{}", got, remedy ? *remedy : suggestion(name, known.keys)));
-}
+                         const TableDescription* description, SceneErrors* errors)
+    : table_(&table),
+      path_(std::move(path)),
+      source_(&source),
+      description_(description),
+      errors_(errors) {}
 
 double TableReader::number(std::string_view key) const {
   if (description_ != nullptr) {
@@ -287,7 +254,7 @@ TableReader TableReader::table(std::string_view key) const {
   if (!node.is_table()) {
     fail(key, fmt::format("wrong type, got {}, must be a table [{}]", found(key), dotted(key)));
   }
-  return TableReader(*node.as_table(), dotted(key), *source_, description_of(key));
+  return TableReader(*node.as_table(), dotted(key), *source_, description_of(key), errors_);
 }
 
 std::vector<TableReader> TableReader::tables(std::string_view key) const {
@@ -300,7 +267,7 @@ std::vector<TableReader> TableReader::tables(std::string_view key) const {
       fail_element(key, i, fmt::format("wrong type, got {}, must be a table", describe(array[i])));
     }
     readers.emplace_back(*array[i].as_table(), fmt::format("{}.{}", dotted(key), i), *source_,
-                         description_of(key));
+                         description_of(key), errors_);
   }
   return readers;
 }
@@ -355,6 +322,7 @@ std::string TableReader::found(std::string_view key) const {
 const toml::node& TableReader::required(std::string_view key, std::string_view right) const {
   const toml::node* node = table_->get(key);
   if (node == nullptr) {
+    if (errors_ != nullptr && errors_->take_excuse(path_, key)) throw AlreadySaid();
     fail(key, fmt::format("missing, must be {}", right));
   }
   return *node;

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "../../text/scene_message.hpp"
+#include "scene_errors.hpp"
 #include "table_description.hpp"
 
 namespace hamjet::io {
@@ -32,11 +34,21 @@ struct KnownKeys {
 class TableReader {
  public:
   /// `path` is the table's dotted name, empty for the whole scene; the description is null where
-  /// the keys are not declared. Table, source and description must outlive the reader.
+  /// the keys are not declared; `errors` keeps what `attempt` catches, null: nothing is caught.
+  /// Table, source, description and errors must outlive the reader.
   TableReader(const toml::table& table, std::string path, const SceneSource& source,
-              const TableDescription* description = nullptr);
+              const TableDescription* description = nullptr, SceneErrors* errors = nullptr);
 
-  /// Throws Error(scene) for the first key, in the order of the text, that is not known.
+  /// Does a part of the reading on which what follows does not depend: an Error of it is kept, so
+  /// that the rest can be read too. Returns whether there was none.
+  bool attempt(const std::function<void()>& part) const;
+  /// Attempts every key that is declared, and those of all tables below, as far as they can be
+  /// judged alone: what a reader that stopped at an error has not come to. Of keys with owners,
+  /// those of `owners` and of what the table's own choices name.
+  void attempt_declared_keys(const std::vector<std::string_view>& owners) const;
+
+  /// Throws Error(scene) for the first key, in the order of the text, that is not known; where
+  /// errors are kept, the others are kept too.
   void check_keys(const KnownKeys& known) const;
   /// check_keys for all declared keys.
   void check_keys() const { check_keys({description_->names()}); }
@@ -46,6 +58,10 @@ class TableReader {
   }
 
   bool has(std::string_view key) const { return table_->contains(key); }
+  /// Whether an unknown key of the table, which has been refused, may stand for this one.
+  bool is_misspelt(std::string_view key) const {
+    return errors_ != nullptr && errors_->is_excused(path_, key);
+  }
 
   /// Required: a finite number, in the range that is declared; integers are numbers too.
   double number(std::string_view key) const;
@@ -96,6 +112,8 @@ class TableReader {
   /// not have the key.
   template <class Value>
   void read_if_any(std::string_view key, Value& value) const;
+  /// Throws for what is missing of the keys, or is not as declared; where errors are kept, for all.
+  void require(const std::vector<std::string_view>& keys) const;
   /// Required: the only one of `keys` that the table has.
   std::string_view exactly_one_of(const std::vector<std::string_view>& keys) const;
 
@@ -124,6 +142,13 @@ class TableReader {
   /// The form that is declared for the key, which must be.
   const ValueForm& form_of(std::string_view key) const;
   const TableDescription* description_of(std::string_view key) const;
+  /// Reads a key of one value or of an array, as declared, for its errors alone.
+  void read_declared(const SceneKey& key) const;
+  /// What the table's keys may belong to, besides what the tables above it are of.
+  std::vector<std::string_view> owners_of_keys() const;
+  /// Excuses the keys that the unknown one may stand for.
+  void excuse_for(std::string_view unknown, const KnownKeys& known) const;
+  [[noreturn]] void fail_unknown(const toml::key& unknown, const KnownKeys& known) const;
   double finite(const toml::node& node, const std::string& dotted_key,
                 std::string_view right) const;
   /// `key` with the table's dotted name before it.
@@ -137,6 +162,7 @@ class TableReader {
   std::string path_;
   const SceneSource* source_;
   const TableDescription* description_;
+  SceneErrors* errors_;
 };
 
 template <class Value>
