@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <stdexcept>
 #include <string>
@@ -18,6 +19,28 @@ inline std::size_t occurrences(const std::string& text, const std::string& part)
   std::size_t found = 0;
   for (std::size_t i = text.find(part); i != std::string::npos; i = text.find(part, i + 1)) ++found;
   return found;
+}
+
+/// The characters of the widest line, each of UTF-8 counted once.
+inline std::size_t widest_line(const std::string& text) {
+  std::size_t widest = 0;
+  std::size_t width = 0;
+  for (const char c : text) {
+    const bool continues = (static_cast<unsigned char>(c) & 0xC0) == 0x80;
+    width = c == '\n' ? 0 : width + (continues ? 0 : 1);
+    widest = std::max(widest, width);
+  }
+  return widest;
+}
+
+/// A text as it was before its lines were broken to fit a terminal.
+inline std::string in_one_line(const std::string& text) {
+  std::string line;
+  for (const char c : text) {
+    const bool is_blank = c == '\n' || c == ' ';
+    if (!is_blank || line.empty() || line.back() != ' ') line += is_blank ? ' ' : c;
+  }
+  return line;
 }
 
 }  // namespace hamjet::test
