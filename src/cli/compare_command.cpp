@@ -17,6 +17,7 @@
 #include "interruption.hpp"
 #include "progress.hpp"
 #include "standard_streams.hpp"
+#include "study_command.hpp"
 
 namespace hamjet::cli {
 namespace {
@@ -117,8 +118,9 @@ int compare(const CompareOptions& options) {
   if (options.scene.json) {
     print(summary);
   } else if (!options.scene.quiet) {
-    print(io::comparison_table(result) + "\n" + advice(result) +
-          fmt::format("\nreport: {}\n", (directory / "report.html").string()));
+    print_table(options.scene, io::comparison_table(result), io::comparison_details(result),
+                "\n" + advice(result) +
+                    fmt::format("\nreport: {}\n", (directory / "report.html").string()));
   }
   return 0;
 }

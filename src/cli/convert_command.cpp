@@ -15,9 +15,9 @@
 namespace hamjet::cli {
 
 CLI::App* add_convert_command(CLI::App& app, ConvertOptions& options) {
-  CLI::App* command = app.add_subcommand(
-      "convert", "write a stored jet in another format: " + io::jet_file_endings(true) +
-                     "\nExample: hamjet convert out/scene scene.h5");
+  CLI::App* command =
+      app.add_subcommand("convert", "write a stored jet as " + io::jet_file_endings(true) +
+                                        "\nExample: hamjet convert out/scene scene.h5");
   command
       ->add_option("from", options.from,
                    "results of hamjet run, or a file .h5, or .dace or .csv beside its summary.json")

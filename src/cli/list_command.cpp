@@ -8,6 +8,7 @@
 #include "../studies/descriptions/method_description.hpp"
 #include "../studies/descriptions/system_description.hpp"
 #include "../sweep/sweep_tables.hpp"
+#include "../text/terminal_text.hpp"
 #include "hamjet/detail/maps/generating_function_kind.hpp"
 #include "standard_streams.hpp"
 
@@ -25,21 +26,21 @@ std::string systems() {
 std::string integrators() {
   std::string text;
   for (const MethodDescription& method : all_methods()) {
-    text += fmt::format("{:<11}  {}", method.name, method.help);
+    text += fmt::format("{:<16} ", method.name);
     if (!method.is_built()) {
-      text += fmt::format("  NOT BUILT: configure with {}", method.build_option);
+      text += fmt::format("NOT BUILT: configure with {}; ", method.build_option);
     }
-    text += '\n';
+    text += fmt::format("{}\n", method.help);
   }
   return text;
 }
 
 std::string kinds() {
   std::string text =
-      "A generating function takes one final and one initial variable of each pair (q, p):\n"
-      "F1 (q, q0)   F2 (q, p0)   F3 (p, q0)   F4 (p, p0)   auto (the best conditioned of all)\n"
+      "Generating functions take one final, one initial variable of each pair (q, p):\n"
+      "F1 (q, q0), F2 (q, p0), F3 (p, q0), F4 (p, p0), auto (the best of all).\n"
       "For an orbit, final choice, hyphen, initial choice for x, y, z (for another model as many "
-      "letters as\ndegrees of freedom):\n";
+      "letters as degrees of freedom):\n";
   const auto all = all_kinds(3);
   for (std::size_t i = 0; i < all.size(); ++i) {
     text += all[i].name() + (i % 8 == 7 ? "\n" : "  ");
@@ -52,6 +53,7 @@ struct Topic {
   const char* name;
   const char* heading;  ///< in the list of everything; of Markdown, for the keys are a page of that
   std::string (*text)();
+  bool is_page = false;  ///< of Markdown, which a terminal's width does not concern
 };
 
 const std::vector<Topic>& topics() {
@@ -59,7 +61,7 @@ const std::vector<Topic>& topics() {
       {"systems", "# Systems\n\n", systems},
       {"integrators", "# Integrators\n\n", integrators},
       {"kinds", "# Kinds of generating functions\n\n", kinds},
-      {"keys", "", [] { return io::key_reference(io::sweep_study_table()); }}};
+      {"keys", "", [] { return io::key_reference(io::sweep_study_table()); }, true}};
   return all;
 }
 
@@ -82,7 +84,7 @@ int list(const std::optional<std::string>& what) {
   for (const Topic& topic : topics()) {
     if (what && *what != topic.name) continue;
     if (!what) text += (text.empty() ? "" : "\n") + std::string(topic.heading);
-    text += topic.text();
+    text += topic.is_page ? topic.text() : io::fitted(topic.text());
   }
   print(text);
   return 0;

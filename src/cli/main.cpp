@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <exception>
 #include <iterator>
+#include <memory>
 #include <new>
 #include <sstream>
 #include <string>
@@ -20,6 +21,7 @@
 #include "eval_command.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/version.hpp"
+#include "help_formatter.hpp"
 #include "init_command.hpp"
 #include "interruption.hpp"
 #include "list_command.hpp"
@@ -83,6 +85,7 @@ void add_run_options(CLI::App& command, hamjet::cli::RunOptions& options,
       "DIRECTORY", "but results are a folder; --json prints their summary on standard output");
   command.add_flag("--json", options.json, json);
   command.add_flag("-q,--quiet", options.quiet, "print nothing but errors");
+  command.add_flag("--verbose", options.verbose, "print more columns and lines of the results");
 }
 
 void add_threads_option(CLI::App& command, hamjet::cli::RunOptions& options) {
@@ -104,10 +107,10 @@ void add_override_option(CLI::App& command, hamjet::cli::RunOptions& options) {
 }
 
 CLI::App* add_eval_command(CLI::App& app, hamjet::cli::EvalOptions& options) {
-  CLI::App* eval = app.add_subcommand(
-      "eval",
-      "map relative states at the start through a stored jet to the end of its duration\n"
-      "Example: hamjet eval out/scene --deviations start.csv -o end.csv");
+  CLI::App* eval =
+      app.add_subcommand("eval",
+                         "map relative states through a stored jet, from its start to its end\n"
+                         "Example: hamjet eval out/scene --deviations start.csv -o end.csv");
   eval->add_option("directory", options.directory,
                    "results of hamjet run, or one of their files " + hamjet::io::jet_file_endings())
       ->required()
@@ -179,6 +182,7 @@ int dispatch(int argc, char** argv) {
   CLI::App app(examples, "hamjet");
   app.set_version_flag("--version", std::string("hamjet ") + hamjet::version);
   app.require_subcommand(1);
+  app.formatter(std::make_shared<hamjet::cli::HelpFormatter>());
 
   hamjet::cli::InitOptions start;
   const CLI::App* init = hamjet::cli::add_init_command(app, start);

@@ -12,6 +12,7 @@
 #include "../report/propagation/orbit_summary.hpp"
 #include "../studies/arcs.hpp"
 #include "../studies/descriptions/method_description.hpp"
+#include "../text/terminal_text.hpp"
 #include "check_json.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/report/results.hpp"
@@ -51,7 +52,8 @@ int run_flow_jet(const RunOptions& options, const Scene& scene) {
   if (options.json) {
     print(summary);
   } else if (!options.quiet) {
-    print(io::summary_table(result) + fmt::format("results: {}\n", directory.string()));
+    print_table(options, io::summary_table(result), io::summary_details(result),
+                fmt::format("results: {}\n", directory.string()));
   }
   const int code = exit_code(result);
   if (code != 0) {
@@ -136,7 +138,7 @@ void check_flow_jet(const RunOptions& options, const std::string& file, const Sc
   text += fmt::format("  inversions   {}\n  reference    {}\n",
                       scene.kinds ? fmt::format("{} kinds", scene.kinds->size()) : "none",
                       scene.reference ? "in extended precision" : "none");
-  print(text);
+  print(io::fitted(text));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "../app/report_origin.hpp"
 #include "../report/stability/stability_report.hpp"
 #include "../studies/descriptions/method_description.hpp"
+#include "../text/terminal_text.hpp"
 #include "hamjet/error.hpp"
 #include "standard_streams.hpp"
 #include "study_command.hpp"
@@ -55,7 +56,8 @@ int stability(const RunOptions& options, const std::optional<std::string>& suite
       results.push_back(run_stability_case(subject, [&](const std::string&, double fraction) {
         progress("stability", (done + fraction) / static_cast<double>(cases.size()));
       }));
-      if (!options.json && !options.quiet) print(io::stability_line(results.back(), width));
+      if (!options.json && !options.quiet)
+        print(io::fitted(io::stability_line(results.back(), width)));
     }
     return io::stability_report(results, report_origin(options.command));
   });

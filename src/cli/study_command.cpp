@@ -6,12 +6,18 @@
 #include <filesystem>
 #include <string>
 
+#include "../text/terminal_text.hpp"
 #include "hamjet/store/output_directory.hpp"
 #include "interruption.hpp"
 #include "progress.hpp"
 #include "standard_streams.hpp"
 
 namespace hamjet::cli {
+
+void print_table(const RunOptions& options, const std::string& table, const std::string& details,
+                 const std::string& files) {
+  print(io::fitted(table) + (options.verbose ? io::fitted(details) : "") + files);
+}
 
 int report_study(const RunOptions& options, const std::string& scene_name,
                  const std::function<io::StudyReport(const ProgressCallback&)>& work) {
@@ -39,10 +45,11 @@ int report_study(const RunOptions& options, const std::string& scene_name,
     const auto page = std::find_if(report.files.begin(), report.files.end(), [](const auto& file) {
       return file.path.extension() == ".html";
     });
-    print(report.table + fmt::format("results: {}\n", directory.string()) +
-          (page != report.files.end()
-               ? fmt::format("report: {}\n", (directory / page->path).string())
-               : ""));
+    print_table(options, report.table, report.details,
+                fmt::format("results: {}\n", directory.string()) +
+                    (page != report.files.end()
+                         ? fmt::format("report: {}\n", (directory / page->path).string())
+                         : ""));
   }
   if (report.exit_code != 0) print_error(report.failure);
   return report.exit_code;

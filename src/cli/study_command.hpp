@@ -9,6 +9,11 @@
 
 namespace hamjet::cli {
 
+/// Prints a table, its details where the options ask for them, and the lines that name files, which
+/// alone may be longer than the terminal is wide.
+void print_table(const RunOptions& options, const std::string& table, const std::string& details,
+                 const std::string& files);
+
 /// Does the work, which shows its progress and stops at a signal, and makes its report; writes the
 /// files in place of earlier results, prints what the options ask for, and returns the exit code.
 int report_study(const RunOptions& options, const std::string& scene_name,

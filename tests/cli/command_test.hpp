@@ -61,7 +61,7 @@ inline int degree(const std::vector<std::string>& row) {
 inline std::vector<std::string> labels_not_built(const std::string& integrators,
                                                  const std::string& scene) {
   std::vector<std::string> labels;
-  if (integrators.find("NOT BUILT") == std::string::npos) return labels;
+  if (in_one_line(integrators).find("NOT BUILT") == std::string::npos) return labels;
   const auto quoted = [](const std::string& line) {
     const std::size_t first = line.find('"') + 1;
     return line.substr(first, line.find('"', first) - first);

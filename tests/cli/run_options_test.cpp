@@ -11,13 +11,53 @@ using RunOptions = CommandTest;
 
 TEST_F(RunOptions, TableComesOnStandardOutput) {
   const CommandResult result = succeed({"run", "small.toml"});
-  for (const char* word : {"small\n", "gauss8", "midpoint", "F1 degree 0", "symplecticity",
-                           "relative error", "results: out/small"}) {
+  for (const char* word :
+       {"small\n", "gauss8", "midpoint", "relative error", "results: out/small"}) {
     EXPECT_NE(result.out.find(word), std::string::npos) << word << "\n" << result.out;
   }
   // Neither colours nor anything else that only a terminal understands.
   EXPECT_EQ(result.out.find('\x1b'), std::string::npos);
   EXPECT_EQ(result.out.find('\r'), std::string::npos);
+}
+
+TEST_F(RunOptions, TableHoldsTimeErrorAndVerdictAndTheRestIsAskedFor) {
+  const auto heading = [](const CommandResult& result) {
+    const std::size_t begin = result.out.find("\nintegrator ") + 1;
+    return in_one_line(result.out.substr(begin, result.out.find('\n', begin) - begin));
+  };
+  EXPECT_EQ(heading(succeed({"run", "small.toml"})), "integrator time relative error verdict");
+  // Without a reference the estimate takes its place, and there are no cells without a number.
+  const CommandResult quick = succeed({"run", "quick.toml", "--verbose"});
+  EXPECT_EQ(heading(quick), "integrator time error estimate verdict");
+  EXPECT_EQ(in_one_line(quick.out).find(" - "), std::string::npos) << quick.out;
+  EXPECT_EQ(quick.out.find("position error"), std::string::npos) << quick.out;
+  const CommandResult all = succeed({"run", "small.toml", "--verbose"});
+  for (const char* word : {"steps", "rejected", "position error", "symplecticity", "energy error",
+                           "error estimate", "F1 degree 0", "F2 degree 0"}) {
+    EXPECT_NE(all.out.find(word), std::string::npos) << word << "\n" << all.out;
+  }
+  EXPECT_LE(widest_line(all.out), 80U) << all.out;
+}
+
+TEST_F(RunOptions, VerdictsOfTheTable) {
+  const auto verdict = [&](const std::string& label, const std::vector<std::string>& overrides) {
+    const CommandResult result = hamjet(with_overrides({"run", "quick.toml"}, overrides));
+    const std::size_t begin = result.out.find("\n" + label + " ") + 1;
+    const std::string line = result.out.substr(begin, result.out.find('\n', begin) - begin);
+    return line.substr(line.rfind("  ") + 2);
+  };
+  EXPECT_EQ(verdict("gauss8", {}), "ok");
+  EXPECT_EQ(verdict("gauss8", {"integrator.gauss8.require_symplecticity=1e-30"}), "check failed");
+  EXPECT_EQ(verdict("midpoint", {"integrator.midpoint.require_symplecticity=1e-30"}),
+            "check failed");
+  // From rest the fall ends at t = pi / (2 sqrt 2) = 1.11.
+  EXPECT_EQ(verdict("gauss8", {"nominal={position_km=[10000, 0, 0], velocity_km_s=[0, 0, 0]}",
+                               "jet.duration_canonical=2"}),
+            "failed");
+  // F1 does not exist after a whole revolution; see KindThatDoesNotExistAtTheTime.
+  EXPECT_EQ(
+      verdict("gauss8", {"jet={order=2, duration_orbits=1}", "generating_function.kinds=[\"F1\"]"}),
+      "incomplete");
 }
 
 TEST_F(RunOptions, ProgressIsShownOnATerminalAndRemoved) {

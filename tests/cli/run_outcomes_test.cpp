@@ -21,7 +21,8 @@ class Outcomes : public CommandTest {
     return std::filesystem::exists(directory_ / "results" / name);
   }
   void expect_printed(const std::string& text) const {
-    EXPECT_NE(result_.out.find(text), std::string::npos) << text << "\n" << result_.out;
+    EXPECT_NE(in_one_line(result_.out).find(text), std::string::npos) << text << "\n"
+                                                                      << result_.out;
   }
 
   CommandResult result_;
@@ -93,7 +94,7 @@ TEST_F(Outcomes, Collision) {
     const std::string label = entry["label"];
     ASSERT_TRUE(entry["error"].is_string()) << label;
     expect_printed(label);
-    expect_printed("FAILED: " + entry["error"].get<std::string>());
+    expect_printed("FAILED: " + label + ": " + entry["error"].get<std::string>());
     EXPECT_FALSE(exists(label)) << label;
   }
   const std::string message = summary["runs"][0]["error"];

@@ -10,9 +10,19 @@ namespace {
 
 class ShippedScenes : public CommandTest {
  protected:
+  /// Everything but a file's name fits a terminal.
+  static void expect_narrow(const std::string& out) {
+    std::istringstream lines(out);
+    for (std::string line; std::getline(lines, line);) {
+      const bool is_file = line.starts_with("results: ") || line.starts_with("report: ") ||
+                           line.find(".toml: the scene is good") != std::string::npos;
+      EXPECT_TRUE(is_file || widest_line(line) <= 80) << line;
+    }
+  }
+
   /// A scene of a study that has no flow jet runs as it is shipped.
   void expect_study(const std::vector<std::string>& arguments, int count) const {
-    succeed(arguments);
+    expect_narrow(succeed(arguments).out);
     const Json summary = read_json(directory_ / std::to_string(count) / "summary.json");
     EXPECT_EQ(summary["exit_code"], 0);
     EXPECT_TRUE(summary["study"].is_string());
@@ -30,7 +40,7 @@ TEST_F(ShippedScenes, RunToTheEnd) {
     SCOPED_TRACE(scene);
     if (content(scene).find("\n[case]\n") != std::string::npos) continue;
     if (content(scene).find("\n[sweep]\n") != std::string::npos) continue;  // a study, below
-    std::vector<std::string> arguments = {"run", scene, "-o", std::to_string(++count), "-q"};
+    std::vector<std::string> arguments = {"run", scene, "-o", std::to_string(++count), "--verbose"};
     if (content(scene).find("\nstudy = ") != std::string::npos) {
       expect_study(arguments, count);
       continue;
@@ -40,7 +50,10 @@ TEST_F(ShippedScenes, RunToTheEnd) {
       arguments.emplace_back("--set");
       arguments.push_back("integrator." + label + "=null");
     }
-    succeed(arguments);
+    const std::string table = succeed(arguments).out;
+    expect_narrow(table);
+    EXPECT_EQ(table.find(" -\n"), std::string::npos) << table;
+    expect_narrow(succeed({"check", scene}).out);
     const Json summary = read_json(directory_ / std::to_string(count) / "summary.json");
     EXPECT_EQ(summary["order"], 2);
     EXPECT_GE(summary["runs"].size(), 1U);

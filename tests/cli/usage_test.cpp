@@ -35,7 +35,25 @@ TEST_F(Usage, EveryCommandHasHelp) {
   for (const char* option : {"--output", "--set", "--json", "--quiet"}) {
     EXPECT_NE(run.find(option), std::string::npos) << option;
   }
-  EXPECT_NE(run.find("key=null removes it"), std::string::npos) << run;
+  EXPECT_NE(in_one_line(run).find("key=null removes it"), std::string::npos) << run;
+}
+
+TEST_F(Usage, NoLineOfAHelpOrListIsBeyondAHundredCharacters) {
+  const std::string help = succeed({"--help"}).out;
+  EXPECT_LE(widest_line(help), 100U);
+  std::istringstream lines(help.substr(help.find("\nSubcommands:\n") + 14));
+  std::size_t commands = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.size() < 3 || line[2] == ' ') continue;
+    const std::string command = line.substr(2, line.find(' ', 2) - 2);
+    const std::string text = succeed({command, "--help"}).out;
+    EXPECT_LE(widest_line(text), 100U) << text;
+    ++commands;
+  }
+  EXPECT_GE(commands, 14U);
+  for (const char* what : {"systems", "integrators", "kinds"}) {
+    EXPECT_LE(widest_line(succeed({"list", what}).out), 80U) << what;
+  }
 }
 
 TEST_F(Usage, Version) {

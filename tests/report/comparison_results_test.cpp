@@ -11,6 +11,7 @@
 
 #include "comparison_samples.hpp"
 #include "hamjet/error.hpp"
+#include "support/text.hpp"
 
 // compare.json is read back as it was written, and compare.csv says the same numbers.
 
@@ -349,7 +350,7 @@ TEST(ComparisonTable, StatesRatiosToTheBest) {
   result.runs[3].seconds = {0.009};
   for (int i : {0, 1, 2}) result.runs[static_cast<std::size_t>(i)].seconds = {0.003};
   const std::string table = comparison_table(result);
-  EXPECT_EQ(table.find(verdict(result)), 0U);
+  EXPECT_EQ(test::in_one_line(table).find(verdict(result)), 0U) << table;
   // gauss reaches the first two, fehlberg78 the first at three times the price, bdf none.
   const auto line = [&](const std::string& start) {
     const std::size_t begin = table.find("\n" + start);
@@ -370,6 +371,24 @@ TEST(ComparisonTable, StatesRatiosToTheBest) {
   EXPECT_EQ(fields(line("fehlberg78")), (Words{"3.0", "-", "-"}));
   EXPECT_EQ(fields(line("cvode-bdf")), (Words{"-", "-", "-"}));
   EXPECT_NE(table.find("runs that failed: 1; runs left out: 1"), std::string::npos) << table;
+}
+
+TEST(ComparisonTable, NamesTheNearestRunWhereNoneIsGoodEnough) {
+  ComparisonResult result = sample_comparison();
+  const auto text = [&] { return test::in_one_line(comparison_table(result)); };
+  EXPECT_EQ(text().find("The nearest is"), std::string::npos) << text();
+  // The best of the sample's errors is 3e-15 times 1e6 m.
+  result.scene.comparison.wanted_error_m = 1e-9;
+  EXPECT_NE(text().find("The nearest is gauss4-0.01, 3 nm wrong; "), std::string::npos) << text();
+}
+
+TEST(ComparisonDetails, HaveARowForEveryRun) {
+  const ComparisonResult result = sample_comparison();
+  const std::string details = comparison_details(result);
+  for (const ComparedRun& run : result.runs) {
+    EXPECT_NE(details.find("\n" + run.settings.label + " "), std::string::npos) << details;
+  }
+  EXPECT_LE(test::widest_line(details), 80U) << details;
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "../../src/report/formation/validity_view.hpp"
 #include "report_tables.hpp"
+#include "support/text.hpp"
 #include "transfer_samples.hpp"
 
 // CSV and JSON of validity and assignment: the numbers in the files are those of the results, bit
@@ -103,7 +104,8 @@ TEST(AssignmentReport, HoldsTheNumbersOfTheResult) {
   EXPECT_EQ(json["transfers"][1]["transfer"]["miss_m"], point.refined->miss_m);
   EXPECT_TRUE(json["common_time_s"].is_null());
   EXPECT_TRUE(json["failure"].is_null());
-  EXPECT_NE(report.table.find("deputy 1   to slot 0"), std::string::npos) << report.table;
+  EXPECT_NE(report.table.find("deputy 1 to slot 0"), std::string::npos) << report.table;
+  EXPECT_LE(test::widest_line(report.table), 80U) << report.table;
 }
 
 TEST(AssignmentReport, WithoutAnAssignmentNothingIsMadeUp) {

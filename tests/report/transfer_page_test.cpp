@@ -41,8 +41,9 @@ TEST(TransferPage, BeginsWithTheLeastVelocityChangeItsTimeAndTheMisses) {
             "of 5565.6 s (92.8 "
             "min): flown with the full equations of motion the deputy misses its place by 33.3 μm "
             "after refinement (300 mm by order 2 alone), with the linear answer by 1.23 km. "
-            "That is the last of the times searched: beyond it the change may fall further. Of 6 "
-            "times it leaves out 1 nearer to a singularity than the margin, 1 without an answer. "
+            "That is the last of the times searched: beyond it the change may fall further, which "
+            "longer times would show. Of 6 times it leaves out 1 nearer to a singularity than the "
+            "margin, 1 without an answer; transfers.csv has them, marked. "
             "Between the listed times nothing was searched.");
   const std::string page = page_of(
       transfer_report(result, sample_trajectory(), sample_validity(), sample_transfer_origin()));
@@ -98,9 +99,11 @@ TEST(TransferPage, ValidityBeginsWithTheSeparations) {
   EXPECT_EQ(verdict,
             "After 1855.2 s (30.9 min) the polynomial is right to 1 m up to a separation of 0 m in "
             "order 1 and at least 500 km in order 2, proved by flying deputies with "
-            "velocities as seen from the turning RTN axes. 0 m: no separation could be proved, "
+            "velocities as seen from the turning RTN axes. At least: nothing further away was "
+            "tried. 0 m: no separation could be proved, "
             "because those deputies missed by more than the tolerance however near they were. The "
-            "flights themselves are right to 1 μm.");
+            "flights themselves are right to 1 μm; a finer integrator, or a larger tolerance, may "
+            "prove some.");
   const std::string page = page_of(validity_report(sample_validity(), sample_transfer_origin()));
   EXPECT_LT(page.find(verdict), page.find("<main>"));
 }

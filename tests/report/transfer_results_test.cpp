@@ -207,6 +207,30 @@ TEST(TransferSummary, WithoutAnAnswerTheBestIsNullAndTheFailureIsNamed) {
   EXPECT_NE(report.table.find("No velocity change can be named"), std::string::npos);
 }
 
+TEST(TransferView, SaysWhatToTryForWhatIsLeftOut) {
+  TransferResult result = sample_transfer();
+  const auto has = [&](const std::string& words) {
+    return transfer_verdict(result).find(words) != std::string::npos;
+  };
+  EXPECT_FALSE(has("A higher jet.order"));
+  // The fifth time has no refined answer: now it is also beyond the tolerance.
+  result.points[4].is_beyond_tolerance = true;
+  EXPECT_TRUE(has("1 beyond the tolerance of 1 m and not to be refined"));
+  EXPECT_TRUE(has("A higher jet.order reaches further"));
+  result.points[4].is_beyond_tolerance = false;
+  EXPECT_FALSE(has("The kind auto"));
+  result.scene.transfer->kind = "F1";
+  EXPECT_TRUE(has("The kind auto may have an answer"));
+  EXPECT_TRUE(has("the last of the times searched"));
+  EXPECT_TRUE(has("longer times"));
+  result.points[0] = sample_point(1, 0.5);
+  EXPECT_TRUE(has("the first of the times searched"));
+  EXPECT_TRUE(has("shorter times"));
+  result.points[0] = sample_point(1, 3);
+  result.points[1] = sample_point(2, 0.5);
+  EXPECT_FALSE(has("of the times searched"));
+}
+
 TEST(TransferSummary, StrictSaysHowManyAreAtFault) {
   TransferResult result = sample_transfer();
   result.scene.transfer->strict = true;
@@ -237,7 +261,7 @@ TEST(TransferTable, TellsTheResidualFromWhatAnUlpMakesOfIt) {
   const std::string line =
       "  Hamilton-Jacobi  residual 3.3e-15 at worst, at the transfers' own ends";
   const auto table = [&] {
-    return transfer_report(result, {}, {}, sample_transfer_origin()).table;
+    return transfer_report(result, {}, {}, sample_transfer_origin()).details;
   };
   EXPECT_NE(table().find(line + " (an ulp in the coefficients makes 1.0e-15)\n"), std::string::npos)
       << table();

@@ -50,6 +50,9 @@ std::string comparison_html(const ComparisonResult& result, const ReportOrigin& 
 /// errors (largest over all degrees) of 1e-6, 1e-9 and 1e-12 as ratios to the best.
 std::string comparison_table(const ComparisonResult& result);
 
+/// What the terminal shows beside it if asked for more: every run with its time and errors.
+std::string comparison_details(const ComparisonResult& result);
+
 /// All files of a report.
 struct ComparisonReport {
   std::vector<ReportFile> files;  ///< `compare.csv`, `report.html`, plots, `compare.json` last

@@ -42,8 +42,11 @@ std::string figure_svg(const PropagationResult& result, std::optional<std::strin
 std::string write_results(const PropagationResult& result, const std::string& figure,
                           OutputDirectory& output);
 
-/// The table for the terminal: residual and error of every integrator side by side.
+/// The table for the terminal: time, error and a verdict of every integrator, and the reasons.
 std::string summary_table(const PropagationResult& result);
+
+/// What the terminal shows beside it if asked for more: steps, further errors, exactness.
+std::string summary_details(const PropagationResult& result);
 
 /// One line that says into how many arcs a run is split, why, and what that is expected to bring.
 std::string arcs_text(const Scene& scene, const ArcPlan& plan);

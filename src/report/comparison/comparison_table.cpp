@@ -1,44 +1,40 @@
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <cmath>
+#include <iterator>
 
+#include "../../text/terminal_text.hpp"
 #include "comparison_view.hpp"
 #include "hamjet/report/comparison_report.hpp"
 
 namespace hamjet::io {
+
 namespace {
 
-/// Places that a text takes: bytes that continue a character of UTF-8 take none.
-std::size_t width(const std::string& text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
-    return (static_cast<unsigned char>(c) & 0xC0) != 0x80;
-  }));
-}
-
-std::string aligned(const std::vector<std::vector<std::string>>& rows) {
-  std::vector<std::size_t> widths(rows.front().size(), 0);
-  for (const auto& row : rows) {
-    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], width(row[i]));
+/// If no run is as good as the scene wants: the one that comes nearest, and what to try.
+std::string nearest_text(const ComparisonResult& result) {
+  const double wanted = result.scene.comparison.wanted_error_m;
+  if (!has_formation_error(result) || !cheapest_runs(result, wanted).empty()) return "";
+  const ComparedRun* nearest = nullptr;
+  for (const ComparedRun& run : result.runs) {
+    if (!run.is_finished() || !std::isfinite(run.error_at_formation_m)) continue;
+    if (!nearest || run.error_at_formation_m < nearest->error_at_formation_m) nearest = &run;
   }
-  std::string text;
-  for (const auto& row : rows) {
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      const std::string fill(widths[i] - width(row[i]), ' ');
-      text += i == 0 ? row[i] + fill : "  " + fill + row[i];
-    }
-    text += "\n";
-  }
-  return text;
+  if (!nearest || nearest->error_at_formation_m <= wanted) return "";
+  return fmt::format(
+      "The nearest is {}, {} wrong; smaller tolerances, shorter steps or more stages in [compare] "
+      "may reach it.\n",
+      nearest->settings.label, length_text(nearest->error_at_formation_m));
 }
 
 }  // namespace
 
 std::string comparison_table(const ComparisonResult& result) {
-  std::string text = verdict(result) + "\n";
+  std::string text = verdict(result) + "\n" + nearest_text(result);
   if (!result.is_complete) text += "PARTIAL: the comparison was broken off\n";
   const std::vector<SeriesReach> series = times_to_reach(result);
   if (!series.empty()) {
-    std::vector<std::vector<std::string>> rows = {{"time to reach relative error"}, {"best"}};
+    std::vector<std::vector<std::string>> rows = {{"time to reach an error of"}, {"best"}};
     for (std::size_t k = 0; k < std::size(reached_errors); ++k) {
       rows[0].push_back(fmt::format("{:.0e}", reached_errors[k]));
       const auto best = best_time(series, k);
@@ -52,16 +48,35 @@ std::string comparison_table(const ComparisonResult& result) {
       }
     }
     text +=
-        "\n" + aligned(rows) +
-        "\nEach line: median time of the series' cheapest run with that error (largest over all "
-        "degrees),\nas a ratio to the best of all series; - where no run of it reaches that.\n";
+        "\n" + aligned_table(rows) +
+        "\nEach line is a series: the runs of a method with one number of stages or one order. It "
+        "has "
+        "the median time of the series' cheapest run with that relative error (largest over all "
+        "degrees), as a ratio to the best of all series; - where no run of it reaches that.\n";
   }
   const UnfinishedCount count = count_unfinished(result);
   if (count.failed + count.left_out > 0) {
     text += fmt::format("runs that failed: {}; runs left out: {}; the reasons are in the results\n",
                         count.failed, count.left_out);
   }
-  return text;
+  return fitted(text);
+}
+
+std::string comparison_details(const ComparisonResult& result) {
+  const auto size = [](const std::optional<double>& value) {
+    return value ? fmt::format("{:.1e}", *value) : "";
+  };
+  std::vector<std::vector<std::string>> rows = {
+      {"run", "median time", "relative error", "error estimate", "symplecticity"}};
+  for (const ComparedRun& run : result.runs) {
+    rows.push_back({run.settings.label});
+    if (!run.is_finished()) continue;
+    const auto seconds = median_seconds(run);
+    rows.back().insert(rows.back().end(),
+                       {seconds ? duration_text(*seconds) : "", size(largest_error(run)),
+                        size(largest_error_estimate(run)), size(largest_symplecticity(run))});
+  }
+  return rows.size() == 1 ? "" : "\n" + aligned_table(rows);
 }
 
 }  // namespace hamjet::io

@@ -2,7 +2,8 @@
 
 #include "../../formats/relative_frame_text.hpp"
 #include "../../store/json_values.hpp"
-#include "../../text/html_text.hpp"
+#include "../../text/quantity_text.hpp"
+#include "../../text/terminal_text.hpp"
 #include "answer_columns.hpp"
 #include "hamjet/report/relative_motion_report.hpp"
 #include "transfer_json.hpp"
@@ -32,32 +33,46 @@ std::string failure_line(const AssignmentResult& result) {
 }
 
 std::string terminal_table(const AssignmentResult& result) {
-  std::string text = fmt::format("{}\n{} deputies to {} slots, {} time; frame {}, order {}\n",
+  std::string text = fmt::format("{}\n{} deputies to {} slots, {} time\nframe {}, order {}\n",
                                  result.scene.title, result.scene.assignment->deputies.size(),
                                  result.scene.assignment->slots.size(), time_choice(result),
                                  frame_text(result.scene.transfer->frame), result.scene.order);
   if (!result.failure.empty()) text += fmt::format("NOT ASSIGNED: {}\n", result.failure);
+  const double unit = result.scene.units.time_s;
+  const TimeAxis axis = time_axis(result.scene.transfer->times.back() * unit);
+  std::vector<std::vector<std::string>> rows = {
+      {"transfer", "velocity change", fmt::format("time ({})", axis.name), "miss", "verdict"}};
+  std::string failures;
   for (const AssignedTransfer& assigned : result.transfers) {
     const TransferPoint& point = assigned.transfer;
     const TransferAnswer* answer = shown_answer(point);
-    text += fmt::format("  deputy {:<3} to slot {:<3}  ", assigned.deputy, assigned.slot);
-    text += answer == nullptr
-                ? failure_text(point) + "\n"
-                : fmt::format("{:>14} in {}, misses by {}{}\n",
-                              velocity_text(answer->total_change_m_s()),
-                              time_text(point.time * result.scene.units.time_s),
-                              miss_text(answer->miss_m, result.flight_floor_m),
-                              point.is_beyond_tolerance ? ", BEYOND THE TOLERANCE" : "");
+    const std::string name = fmt::format("deputy {} to slot {}", assigned.deputy, assigned.slot);
+    if (answer == nullptr) {
+      rows.push_back({name, "", "", "", "no answer"});
+      failures += fmt::format("{}: {}\n", name, failure_text(point));
+      continue;
+    }
+    rows.push_back({name, velocity_text(answer->total_change_m_s()),
+                    fmt::format("{:.6g}", point.time * unit / axis.seconds),
+                    miss_text(answer->miss_m, result.flight_floor_m),
+                    point.is_beyond_tolerance ? "BEYOND" : "ok"});
+    if (point.is_beyond_tolerance) {
+      failures += fmt::format("{}: misses by more than the tolerance of {}\n", name,
+                              length_text(result.scene.transfer->tolerance_m));
+    }
   }
   if (!result.transfers.empty()) {
     text +=
-        fmt::format("  total                   {:>14}\n", velocity_text(result.total_change_m_s));
+        fmt::format("\n{}total: {}\n{}{}", aligned_table(rows),
+                    velocity_text(result.total_change_m_s), failures.empty() ? "" : "\n", failures);
   }
-  return text + fmt::format(
-                    "  time: {} for costs and assignment, {} to prove it by flying (floor "
-                    "{})\n",
-                    duration_text(result.study_seconds), duration_text(result.proof_seconds),
-                    length_text(result.flight_floor_m));
+  return text;
+}
+
+std::string terminal_details(const AssignmentResult& result) {
+  return fmt::format("time: {} for costs and assignment, {} to prove it by flying (floor {})\n",
+                     duration_text(result.study_seconds), duration_text(result.proof_seconds),
+                     length_text(result.flight_floor_m));
 }
 
 Json transfers_json(const AssignmentResult& result) {
@@ -142,6 +157,7 @@ StudyReport assignment_report(const AssignmentResult& result) {
                   {"costs.csv", costs_csv(result)},
                   {"summary.json", summary(result)}};
   report.table = terminal_table(result);
+  report.details = terminal_details(result);
   report.exit_code = exit_code(result);
   report.failure = failure_line(result);
   return report;

@@ -55,15 +55,16 @@ std::string terminal_table(const TransferResult& result) {
       length_text(settings.tolerance_m));
   text += change_line(result, "least", result.best_point()) +
           change_line(result, "greatest", costliest_point(result));
-  for (const MissStatistics& entry : miss_statistics(result)) {
-    text += fmt::format("  {:<17}misses by {} (median), {} (largest) away from singularities\n",
-                        entry.answer, miss_text(entry.median_m, result.flight_floor_m),
+  const std::vector<MissStatistics> misses = miss_statistics(result);
+  if (!misses.empty()) {
+    text += "  misses           away from singularities, the median and the largest:\n";
+  }
+  for (const MissStatistics& entry : misses) {
+    text += fmt::format("  {:<17}{}, {}\n", entry.answer,
+                        miss_text(entry.median_m, result.flight_floor_m),
                         miss_text(entry.largest_m, result.flight_floor_m));
   }
   text += singular_line(result);
-  if (const std::string residual = hamilton_jacobi_text(result); !residual.empty()) {
-    text += fmt::format("  Hamilton-Jacobi  residual {}\n", residual);
-  }
   if (result.chief_error_m > settings.tolerance_m) {
     text += fmt::format(
         "  chief            the integrator's chief is {} from the flown one at the last time: too "
@@ -73,6 +74,15 @@ std::string terminal_table(const TransferResult& result) {
   if (counts.refinement_failed > 0) {
     text +=
         fmt::format("  not refined      {} times; see transfers.csv\n", counts.refinement_failed);
+  }
+  return text;
+}
+
+/// How the answers were checked, and what that took.
+std::string terminal_details(const TransferResult& result) {
+  std::string text;
+  if (const std::string residual = hamilton_jacobi_text(result); !residual.empty()) {
+    text += fmt::format("  Hamilton-Jacobi  residual {}\n", residual);
   }
   return text + fmt::format(
                     "  time             {} for the answers, {} to prove them by flying "
@@ -113,6 +123,7 @@ StudyReport transfer_report(const TransferResult& result,
   report.failure = transfer_failure(result);
   report.files.push_back({"summary.json", transfer_report_json(result, validity).dump(2) + "\n"});
   report.table = terminal_table(result);
+  report.details = terminal_details(result);
   if (validity) report.table += "  validity         " + validity_verdict(*validity) + "\n";
   return report;
 }

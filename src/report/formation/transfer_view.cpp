@@ -135,8 +135,19 @@ std::string edge_text(const TransferResult& result, std::size_t best) {
   const bool is_first = best == 0;
   if (result.points.size() < 2 || (!is_first && best + 1 < result.points.size())) return "";
   return fmt::format(
-      " That is the {} of the times searched: beyond it the change may fall further.",
-      is_first ? "first" : "last");
+      " That is the {} of the times searched: beyond it the change may fall further, which {} "
+      "times would show.",
+      is_first ? "first" : "last", is_first ? "shorter" : "longer");
+}
+
+/// What may answer the times that have no answer within the tolerance.
+std::string remedy_text(const TransferResult& result, const TransferCounts& counts) {
+  if (counts.beyond_tolerance_away > counts.corrected_away) {
+    return " A higher jet.order reaches further and may answer those beyond the tolerance.";
+  }
+  return counts.unanswered_away > 0 && result.scene.transfer->kind != "auto"
+             ? " The kind auto may have an answer where this one has none."
+             : "";
 }
 
 /// Which times the least change leaves out, and why.
@@ -152,7 +163,8 @@ std::string left_out_text(const TransferResult& result) {
                   length_text(result.scene.transfer->tolerance_m)));
   add(counts.unanswered_away, "without an answer");
   if (reasons.empty()) return "";
-  return fmt::format(" Of {} times it leaves out {}.", counts.times, fmt::join(reasons, ", "));
+  return fmt::format(" Of {} times it leaves out {}; transfers.csv has them, marked.{}",
+                     counts.times, fmt::join(reasons, ", "), remedy_text(result, counts));
 }
 
 std::string between_text(const TransferResult& result) {
@@ -178,9 +190,11 @@ std::string transfer_verdict(const TransferResult& result) {
     return fmt::format(
         "No velocity change can be named: of {} transfer times {} have an answer, {} of them "
         "nearer to a singularity than the margin, and {} of the others miss by more than {} and "
-        "could not be refined.",
+        "could not be refined.{}{}",
         counts.times, counts.answered, counts.near_singular, counts.beyond_tolerance_away,
-        length_text(result.scene.transfer->tolerance_m));
+        length_text(result.scene.transfer->tolerance_m), remedy_text(result, counts),
+        counts.near_singular > 0 ? " The answers near a singularity are in transfers.csv, marked."
+                                 : "");
   }
   const TransferPoint& point = result.points[*best];
   const TransferAnswer& answer = *shown_answer(point);
@@ -236,12 +250,6 @@ std::string singular_time_text(const SingularTime& singular, double unit_s, int 
 
 std::string time_text(double seconds) {
   return fmt::format("{:.6g} s ({:.1f} min)", seconds, seconds / 60);
-}
-
-TimeAxis time_axis(double longest_s) {
-  if (std::abs(longest_s) > 3 * 3600) return {3600, "h"};
-  if (std::abs(longest_s) > 600) return {60, "min"};
-  return {1, "s"};
 }
 
 std::string velocity_text(double metres_per_second) {

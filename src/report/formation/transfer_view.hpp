@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "../../text/time_axis.hpp"
 #include "hamjet/studies/transfer.hpp"
 
 // What page, plots, files and the terminal's table derive from a transfer study, so that all say
@@ -73,12 +74,6 @@ std::string singular_time_text(const SingularTime& singular, double unit_s, int 
 /// A time for people: "5432 s (90.5 min)".
 std::string time_text(double seconds);
 
-/// The unit of an axis of time: minutes or hours where seconds would be long numbers.
-struct TimeAxis {
-  double seconds;    ///< in one unit
-  const char* name;  ///< as in "transfer time (h)"
-};
-TimeAxis time_axis(double longest_s);
 /// A velocity to four digits: "12.34 m/s".
 std::string velocity_text(double metres_per_second);
 

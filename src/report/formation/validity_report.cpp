@@ -3,11 +3,13 @@
 #include "../../formats/relative_frame_text.hpp"
 #include "../../store/csv_values.hpp"
 #include "../../store/json_values.hpp"
-#include "../../text/html_text.hpp"
+#include "../../text/quantity_text.hpp"
+#include "../../text/terminal_text.hpp"
 #include "../drawing/chart_drawer.hpp"
 #include "hamjet/report/relative_motion_report.hpp"
 #include "transfer_json.hpp"
 #include "transfer_page.hpp"
+#include "transfer_view.hpp"
 #include "validity_json.hpp"
 #include "validity_view.hpp"
 
@@ -17,27 +19,29 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 std::string terminal_table(const ValidityResult& result) {
-  std::string text =
-      fmt::format("{}\n{}\nframe {}\n  {:>12}", result.scene.title, validity_verdict(result),
-                  frame_text(result.scene.validity->frame), "time (s)");
+  const double unit = result.scene.units.time_s;
+  const TimeAxis axis = time_axis(result.points.empty() ? 0 : result.points.back().time * unit);
+  std::vector<std::vector<std::string>> rows = {{fmt::format("time ({})", axis.name)}};
   for (int order = 1; order <= result.scene.order; ++order) {
-    text += fmt::format("  {:>10}", fmt::format("order {}", order));
+    rows[0].push_back(fmt::format("order {}", order));
   }
-  text += "\n";
   bool has_limit = false;
   for (const ValidityPoint& point : result.points) {
-    text += fmt::format("  {:>12.6g}", point.time * result.scene.units.time_s);
+    rows.push_back({fmt::format("{:.6g}", point.time * unit / axis.seconds)});
     for (const ValidityEntry& entry : point.entries) {
       has_limit |= entry.is_at_limit;
-      text += fmt::format("  {:>10}", (entry.is_at_limit ? ">" : "") + length_text(entry.proved_m));
+      rows.back().push_back((entry.is_at_limit ? ">" : "") + length_text(entry.proved_m));
     }
-    text += "\n";
   }
-  if (has_limit) text += "> still right at the largest separation tried\n";
-  return text + fmt::format("{} flights; {} for the jets, {} to fly (floor {})\n", result.flights,
-                            duration_text(result.propagation_seconds),
-                            duration_text(result.proof_seconds),
-                            length_text(result.flight_floor_m));
+  return fmt::format("{}\n{}\nframe {}\n\n{}", result.scene.title, validity_verdict(result),
+                     frame_text(result.scene.validity->frame), aligned_table(rows)) +
+         (has_limit ? "> still right at the largest separation tried\n" : "");
+}
+
+std::string terminal_details(const ValidityResult& result) {
+  return fmt::format("{} flights; {} for the jets, {} to fly (floor {})\n", result.flights,
+                     duration_text(result.propagation_seconds), duration_text(result.proof_seconds),
+                     length_text(result.flight_floor_m));
 }
 
 }  // namespace
@@ -103,6 +107,7 @@ StudyReport validity_report(const ValidityResult& result, const ReportOrigin& or
   report.drawing_problem = drawer.problem();
   report.files.push_back({"summary.json", validity_report_json(result).dump(2) + "\n"});
   report.table = terminal_table(result);
+  report.details = terminal_details(result);
   return report;
 }
 

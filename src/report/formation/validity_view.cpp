@@ -25,13 +25,19 @@ std::string validity_verdict(const ValidityResult& result) {
   }
   text += fmt::format(", proved by flying deputies with velocities {}.",
                       velocities_text(result.scene.validity->frame));
+  const bool is_one_at_limit =
+      std::any_of(last.entries.begin(), last.entries.end(),
+                  [](const ValidityEntry& entry) { return entry.is_at_limit; });
+  if (is_one_at_limit) text += " At least: nothing further away was tried.";
   const bool is_one_unproved =
       std::any_of(last.entries.begin(), last.entries.end(),
                   [](const ValidityEntry& entry) { return entry.proved_m == 0; });
   if (is_one_unproved) {
     text += fmt::format(
         " 0 m: no separation could be proved, because those deputies missed by more than the "
-        "tolerance however near they were. The flights themselves are right to {}.",
+        "tolerance however near they were. The flights themselves are right to {}; a finer "
+        "integrator, or a larger tolerance, may "
+        "prove some.",
         length_text(result.flight_floor_m));
   }
   return text;

@@ -1,42 +1,51 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
+#include <functional>
 
 #include "../../formats/results_names.hpp"
 #include "../../studies/checks/run_warnings.hpp"
-#include "../../text/html_text.hpp"
+#include "../../text/quantity_text.hpp"
+#include "../../text/terminal_text.hpp"
 #include "hamjet/report/results.hpp"
 
 namespace hamjet::io {
 namespace {
 
-using Row = std::vector<std::string>;
+/// A column of the table of runs. An empty cell was not computed.
+struct Column {
+  std::string heading;
+  std::string explanation;  ///< empty: said with another column
+  std::function<std::string(const RunResult&)> cell;
+  bool is_of_failed_runs = false;  ///< whether it says something of those, too
+};
 
-constexpr const char* not_computed = "-";
-
-template <class Values, class Get>
-std::string largest(const Values& values, Get get) {
-  if (values.empty()) return not_computed;
-  double worst = 0;
-  for (const auto& value : values) worst = std::max(worst, get(value));
-  return fmt::format("{:.1e}", worst);
-}
+std::string size_text(double value) { return fmt::format("{:.1e}", value); }
 
 /// A run's largest relative error over all degrees; what the reference cannot vouch for is not
 /// stated.
 std::string relative_error(const PropagationResult& result, const RunResult& run) {
-  if (!run.error_by_degree) return not_computed;
+  if (!run.error_by_degree) return "";
   const double error = *std::max_element(run.error_by_degree->begin(), run.error_by_degree->end());
   const double claimed = result.reference->smallest_claimed_error();
-  return error < claimed ? fmt::format("< {:.0e}", claimed) : fmt::format("{:.1e}", error);
+  return error < claimed ? fmt::format("< {:.0e}", claimed) : size_text(error);
 }
 
-std::string residual_text(const KindResult& kind, std::size_t degree) {
-  if (!kind.failure.empty()) return "none";
-  if (degree >= kind.by_degree.size()) return not_computed;
-  const ExactnessEntry& entry = kind.by_degree[degree];
-  return fmt::format("{:.1e}{}", entry.residual.absolute, is_at_floor(entry) ? "*" : "");
+std::string largest_defect(const RunResult& run) {
+  double worst = 0;
+  for (const SymplecticityDefect& entry : run.symplecticity) worst = std::max(worst, entry.scaled);
+  return run.symplecticity.empty() ? "" : size_text(worst);
+}
+
+/// In a word what came of a run; the lines below the table say more.
+std::string verdict(const Scene& scene, const RunResult& run) {
+  if (!run.failure.empty()) return "failed";
+  if (!run.failed_checks.empty()) return "check failed";
+  if (!no_digits_warning(run).empty()) return "no digit";
+  if (!near_singular_warning(scene, run).empty()) return "near singular";
+  const bool is_incomplete = std::any_of(run.kinds.begin(), run.kinds.end(),
+                                         [](const auto& kind) { return !kind.failure.empty(); });
+  return is_incomplete ? "incomplete" : "ok";
 }
 
 /// The degrees whose exactness the table shows: the first and the last.
@@ -45,57 +54,93 @@ std::vector<std::size_t> shown_degrees(const Scene& scene) {
   return {0, static_cast<std::size_t>(scene.order) - 1};
 }
 
-Row header(const PropagationResult& result) {
-  Row row = {"integrator",     "steps",          "rejected",      "time",        "position error",
-             "relative error", "error estimate", "symplecticity", "energy error"};
-  if (!result.scene.kinds || !result.problem.is_full_jet) return row;
-  for (const std::string& kind : *result.scene.kinds) {
+std::string residual_text(const KindResult& kind, std::size_t degree) {
+  if (!kind.failure.empty()) return "none";
+  if (degree >= kind.by_degree.size()) return "";
+  const ExactnessEntry& entry = kind.by_degree[degree];
+  return size_text(entry.residual.absolute) + (is_at_floor(entry) ? "*" : "");
+}
+
+Column error_column(const PropagationResult& result) {
+  return {"relative error",
+          "relative error: of the jet, the largest over all degrees, relative to the largest "
+          "coefficient of the degree.",
+          [&result](const RunResult& run) { return relative_error(result, run); }};
+}
+
+Column estimate_column(const PropagationResult& result) {
+  return {"error estimate",
+          result.reference
+              ? "error estimate: the relative error from independent runs along a few directions, "
+                "without the reference."
+              : "error estimate: of the jet, the largest over all degrees, relative to the largest "
+                "coefficient of the degree, from independent runs along a few directions.",
+          [](const RunResult& run) {
+            return run.error_estimate.by_degree ? size_text(run.error_estimate.largest()) : "";
+          }};
+}
+
+std::vector<Column> main_columns(const PropagationResult& result) {
+  return {
+      {"time", "", [](const RunResult& run) { return duration_text(run.statistics.wall_seconds); }},
+      result.reference ? error_column(result) : estimate_column(result),
+      {"verdict", "verdict: what the checks came to; ok says nothing of the size of the error.",
+       [&result](const RunResult& run) { return verdict(result.scene, run); }, true}};
+}
+
+/// What the main table leaves out.
+std::vector<Column> further_columns(const PropagationResult& result) {
+  std::vector<Column> columns = {
+      {"steps", "", [](const RunResult& run) { return std::to_string(run.statistics.steps); }},
+      {"rejected", "",
+       [](const RunResult& run) { return std::to_string(run.statistics.rejected_steps); }},
+      {"position error", "position error: of the nominal at the end, against the reference.",
+       [](const RunResult& run) {
+         return run.position_error_m ? length_text(*run.position_error_m) : "";
+       }},
+      {"symplecticity",
+       "symplecticity: the largest scaled defect of the Poisson brackets over all degrees.",
+       largest_defect},
+      {"energy error", "energy error: the largest along the nominal, relative.",
+       [](const RunResult& run) { return size_text(run.energy_error); }}};
+  if (result.reference) columns.push_back(estimate_column(result));
+  if (!result.scene.kinds || !result.problem.is_full_jet) return columns;
+  for (std::size_t k = 0; k < result.scene.kinds->size(); ++k) {
     for (const std::size_t d : shown_degrees(result.scene)) {
-      row.push_back(fmt::format("{} degree {}", kind, d));
+      const std::string& kind = (*result.scene.kinds)[k];
+      std::string explanation;
+      if (k == 0 && d == 0) {
+        explanation = fmt::format(
+            "{} degree 0, ...: the absolute exactness residual of that degree{}", kind,
+            result.reference ? "; * at its floor, where round-off hides the integrator." : ".");
+      }
+      columns.push_back({fmt::format("{} degree {}", kind, d), explanation,
+                         [k, d](const RunResult& run) { return residual_text(run.kinds[k], d); }});
     }
   }
-  return row;
+  return columns;
 }
 
-Row run_row(const PropagationResult& result, const RunResult& run) {
-  if (!run.failure.empty()) return {run.settings.label, "FAILED: " + run.failure};
-  Row row = {run.settings.label, std::to_string(run.statistics.steps),
-             std::to_string(run.statistics.rejected_steps),
-             duration_text(run.statistics.wall_seconds),
-             run.position_error_m ? length_text(*run.position_error_m) : not_computed};
-  row.push_back(relative_error(result, run));
-  row.push_back(run.error_estimate.by_degree ? fmt::format("{:.1e}", run.error_estimate.largest())
-                                             : not_computed);
-  row.push_back(largest(run.symplecticity, [](const auto& entry) { return entry.scaled; }));
-  row.push_back(fmt::format("{:.1e}", run.energy_error));
-  for (const KindResult& kind : run.kinds) {
-    for (const std::size_t d : shown_degrees(result.scene)) row.push_back(residual_text(kind, d));
+/// The table of all runs, and below it what its columns are.
+std::string table_of(const PropagationResult& result, const std::vector<Column>& columns) {
+  std::vector<std::vector<std::string>> rows = {{"integrator"}};
+  for (const Column& column : columns) rows[0].push_back(column.heading);
+  for (const RunResult& run : result.runs) {
+    rows.push_back({run.settings.label});
+    for (const Column& column : columns) {
+      const bool is_known = run.failure.empty() || column.is_of_failed_runs;
+      rows.back().push_back(is_known ? column.cell(run) : "");
+    }
   }
-  return row;
-}
-
-/// The width in characters, not bytes: times and lengths may have a micro sign.
-std::size_t width(const std::string& text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
-    return (static_cast<unsigned char>(c) & 0xc0) != 0x80;
-  }));
-}
-
-std::string aligned(const std::vector<Row>& rows) {
-  std::vector<std::size_t> widths;
-  for (const Row& row : rows) {
-    if (row.size() < rows[0].size()) continue;  // a failure's text does not widen the column
-    widths.resize(std::max(widths.size(), row.size()), 0);
-    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], width(row[i]));
+  std::string explanation;
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    const bool is_shown = std::any_of(rows.begin() + 1, rows.end(),
+                                      [&](const auto& row) { return !row[c + 1].empty(); });
+    if (is_shown && !columns[c].explanation.empty()) {
+      explanation += (explanation.empty() ? "" : " ") + columns[c].explanation;
+    }
   }
-  for (const Row& row : rows) widths[0] = std::max(widths[0], width(row[0]));
-  std::string text;
-  for (const Row& row : rows) {
-    std::string line = fmt::format("{:<{}}", row[0], widths[0]);
-    for (std::size_t i = 1; i < row.size(); ++i) line += fmt::format("  {:>{}}", row[i], widths[i]);
-    text += line + "\n";
-  }
-  return text;
+  return aligned_table(rows) + "\n" + explanation + (explanation.empty() ? "" : "\n");
 }
 
 std::string reference_line(const PropagationResult& result) {
@@ -104,8 +149,7 @@ std::string reference_line(const PropagationResult& result) {
                        result.reference_failure);
   }
   if (!result.reference) {
-    return "no reference: the scene has no [reference] table, so errors and floors are not "
-           "computed\n";
+    return "no reference: the scene has no [reference] table, so errors are estimated\n";
   }
   return fmt::format(
       "reference: Gauss, {} stages, 113 bits, steps: {}, time: {}; its own uncertainty is {:.0e} "
@@ -113,20 +157,6 @@ std::string reference_line(const PropagationResult& result) {
       result.reference->stages, result.reference->statistics.steps,
       duration_text(result.reference->statistics.wall_seconds),
       result.reference->largest_uncertainty());
-}
-
-std::string explanation(const PropagationResult& result) {
-  std::string text =
-      "position error: of the nominal at the end. relative error: largest over all degrees, "
-      "relative "
-      "to the\nlargest coefficient of the degree. error estimate: the same, from independent runs "
-      "along a few directions,\nwithout a reference. symplecticity: largest scaled Poisson-bracket "
-      "defect over all degrees.\n";
-  if (result.scene.kinds && result.problem.is_full_jet) {
-    text += "F1, auto, ... degree d: absolute exactness residual";
-    text += result.reference ? "; * at its floor, where round-off hides the integrator.\n" : ".\n";
-  }
-  return text;
 }
 
 /// Which self-checks the scene turned off.
@@ -172,25 +202,25 @@ std::string arcs_text(const Scene& scene, const ArcPlan& plan) {
 std::string summary_table(const PropagationResult& result) {
   const Scene& scene = result.scene;
   std::string text = fmt::format(
-      "{}\norder {} in {} of {} variables, {} coefficients a component; duration {:.10g} canonical "
-      "= "
-      "{:.10g} s\n",
+      "{}\norder {} in {} of {} variables, {} coefficients a component\n"
+      "duration {:.10g} s, which is {:.10g} canonical\n",
       scene.title, scene.order, scene.variables.size(), scene.nominal.size(),
-      result.problem.space->size(), scene.duration, scene.duration * scene.units.time_s);
+      result.problem.space->size(), scene.duration * scene.units.time_s, scene.duration);
   if (result.problem.components.size() < scene.nominal.size()) {
     text +=
         "the nominal stays in an invariant subspace: the components outside it are not computed\n";
   }
   text += reference_line(result) + "\n";
-  std::vector<Row> rows = {header(result)};
-  for (const RunResult& run : result.runs) rows.push_back(run_row(result, run));
-  text += aligned(rows) + "\n" + explanation(result);
+  text += table_of(result, main_columns(result));
   text += checks_line(scene);
   text += arcs_lines(result);
   if (!result.relative_hamiltonian_failure.empty()) {
     text += fmt::format("FAILED: {}\n", result.relative_hamiltonian_failure);
   }
   for (const RunResult& run : result.runs) {
+    if (!run.failure.empty()) {
+      text += fmt::format("FAILED: {}: {}\n", run.settings.label, run.failure);
+    }
     for (const std::string& warning : run_warnings(scene, run)) {
       text += fmt::format("WARNING: {}: {}\n", run.settings.label, warning);
     }
@@ -200,13 +230,23 @@ std::string summary_table(const PropagationResult& result) {
     for (const KindResult& kind : run.kinds) {
       if (!kind.failure.empty()) {
         text += fmt::format("NOT COMPUTED: {}: {}\n", run.settings.label, kind.failure);
-      } else if (kind.requested == "auto") {
+      }
+    }
+  }
+  return fitted(text);
+}
+
+std::string summary_details(const PropagationResult& result) {
+  std::string text = "\n" + table_of(result, further_columns(result));
+  for (const RunResult& run : result.runs) {
+    for (const KindResult& kind : run.kinds) {
+      if (kind.failure.empty() && kind.requested == "auto") {
         text += fmt::format("{}: auto took {} (condition {:.3g})\n", run.settings.label,
                             kind.kind.name(), kind.condition);
       }
     }
   }
-  return text;
+  return fitted(text);
 }
 
 }  // namespace hamjet::io

@@ -13,6 +13,7 @@ struct StudyReport {
   /// CSV files, `figure.svg` where it could be drawn, `summary.json` last.
   std::vector<ReportFile> files;
   std::string table;                           ///< for the terminal
+  std::string details = "";                    ///< the same, where more is asked for
   std::string json = "";                       ///< what --json prints; empty: the summary
   int exit_code = 0;                           ///< 0, 1 (a check failed) or 4 (numerical failure)
   std::string failure;                         ///< one line, if the exit code is not 0
