@@ -20,7 +20,11 @@ TEST(AlongTimeChart, BreaksAtSingularTimesAndFollowsThePrecision) {
     Chart chart = exactness_along_time_chart(scene, parse_kind("F1", 3), {run});
     ASSERT_EQ(chart.curves.size(), 1U);
     EXPECT_EQ(chart.curves[0].gaps, (std::vector<std::size_t>{1, 3}));
-    EXPECT_EQ(chart.curves[0].ticks, run.singular_times);
+    // Four units of 927.6 s are an hour and two minutes: the axis is in minutes.
+    EXPECT_EQ(chart.x.label, "time (min)");
+    EXPECT_DOUBLE_EQ(chart.curves[0].points.back().first, 4 * 927.6 / 60);
+    ASSERT_EQ(chart.curves[0].ticks.size(), 3U);
+    EXPECT_DOUBLE_EQ(chart.curves[0].ticks[1], 2.25 * 927.6 / 60);
     EXPECT_EQ(chart.curves[0].marker_interval, 1);
     ASSERT_EQ(chart.notes.size(), 1U);
     EXPECT_NE(chart.notes[0].find("not looked for: too long"), std::string::npos);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../../text/time_axis.hpp"
+
 namespace hamjet::io {
 namespace {
 
@@ -13,8 +15,10 @@ template <class Measure>
 Chart along_time_chart(const Scene& scene, const std::vector<RunAlongTime>& runs, std::string label,
                        bool has_ticks, Measure measure) {
   Chart chart;
-  chart.x.label = time_label(scene.system.model, scene.units);
-  chart.x.includes = {0, scene.duration};
+  const TimeAxis axis = time_axis(scene.duration * scene.units.time_s);
+  const double unit = scene.units.time_s / axis.seconds;
+  chart.x.label = fmt::format("time ({})", axis.name);
+  chart.x.includes = {0, scene.duration * unit};
   chart.y = logarithmic_axis(std::move(label));
   chart.y.smallest = 0.01 * rounding_of(scene.precision);
   for (std::size_t i = 0; i < runs.size(); ++i) {
@@ -36,12 +40,14 @@ Chart along_time_chart(const Scene& scene, const std::vector<RunAlongTime>& runs
       if (has_ticks && next != singular) curve.gaps.push_back(curve.points.size());
       singular = next;
       if (const std::optional<double> value = measure(point)) {
-        curve.points.emplace_back(point.time, *value);
+        curve.points.emplace_back(point.time * unit, *value);
       } else {
         curve.gaps.push_back(curve.points.size());
       }
     }
-    if (has_ticks) curve.ticks = run.singular_times;
+    if (has_ticks) {
+      for (const double time : run.singular_times) curve.ticks.push_back(time * unit);
+    }
     if (!run.failure.empty()) {
       chart.notes.push_back(fmt::format("{} stopped: {}.", run.label, run.failure));
     }

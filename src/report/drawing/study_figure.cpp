@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "../../text/html_text.hpp"
 #include "chart_drawer.hpp"
 
 namespace hamjet::io {
@@ -10,6 +11,7 @@ std::string draw_figure(std::vector<Chart> charts, std::optional<std::string>& p
   // The size of Drawing::wide_svg.
   constexpr int width = 900;
   constexpr int height = 500;
+  constexpr int title_height = 40;
   ChartDrawer drawer("gnuplot");
   std::string body;
   int count = 0;
@@ -20,8 +22,12 @@ std::string draw_figure(std::vector<Chart> charts, std::optional<std::string>& p
     const std::string drawing = drawer.draw(chart, Drawing::wide_svg, reason);
     if (drawer.problem()) break;
     // A drawing has no size of its own: it fills the one that it stands in.
-    body += fmt::format("<svg y=\"{}\" width=\"{}\" height=\"{}\">\n{}</svg>\n", count++ * height,
-                        width, height, inline_svg(drawing, chart.name + "-", chart.title));
+    const int top = count++ * (height + title_height);
+    body += fmt::format(
+        "<text x=\"{}\" y=\"{}\" text-anchor=\"middle\" font-family=\"sans-serif\" "
+        "font-size=\"18\">{}</text>\n<svg y=\"{}\" width=\"{}\" height=\"{}\">\n{}</svg>\n",
+        width / 2, top + 28, escape_html(chart.title), top + title_height, width, height,
+        inline_svg(drawing, chart.name + "-", chart.title));
   }
   problem = drawer.problem();
   if (problem || count == 0) return "";
@@ -29,7 +35,7 @@ std::string draw_figure(std::vector<Chart> charts, std::optional<std::string>& p
       "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" "
       "width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\">\n"
       "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n{2}</svg>\n",
-      width, count * height, body);
+      width, count * (height + title_height), body);
 }
 
 void add_figure(StudyReport& report, std::vector<Chart> charts) {
