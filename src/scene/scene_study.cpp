@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <functional>
 
 #include "../studies/descriptions/system_description.hpp"
@@ -101,6 +102,20 @@ std::vector<std::string_view> kind_of_model(const toml::table& scene) {
   return {};
 }
 
+/// Keeps the errors of a scene whose key `study` is misspelt: which of the tables are right depends
+/// on it, so that only keys that no study has are told.
+void attempt_misspelt_study(const TableReader& root, const toml::table& scene) {
+  const bool is_misspelt = std::any_of(scene.begin(), scene.end(), [](const auto& entry) {
+    return nearest(entry.first.str(), {study_key.name}).has_value();
+  });
+  if (root.has(study_key.name) || !is_misspelt) return;
+  std::vector<std::string_view> names;
+  for (const StudyDescription& study : all_studies()) {
+    names = joined<std::string_view>({names, study.top.names()});
+  }
+  root.attempt([&] { root.check_keys({.keys = names}); });
+}
+
 /// The tables of a study whose number in all_studies() is known.
 Study read_tables(const TableReader& root, std::size_t study) {
   // In the order of all_studies().
@@ -165,6 +180,8 @@ Study read_document(const SceneDocument& document, const std::string& file_name)
   const TableReader root = reader_of(number);
   // A newer schema may have other keys, so that its number comes before all else.
   if (root.has("schema")) root.integer("schema");
+  attempt_misspelt_study(root, document.table);
+  if (!errors.empty()) errors.raise(document.source.name);
   Study study = read_tables(root, number);
   std::string title = default_title(file_name);
   root.attempt([&] { root.read_if_any("title", title); });

@@ -106,6 +106,11 @@ TEST(AllErrors, WhatFollowsFromAnotherIsNotSaid) {
                {"schema: out of range, got 2"});
 }
 
+TEST(AllErrors, TheTablesOfAMisspeltStudyAreNotJudged) {
+  expect_lines(errors_of("stuyd = \"optimal-control\"\n[optimal_control]\nproblem = 1\n"),
+               {"file.toml:1:1: stuyd: unknown key, got stuyd, did you mean study?"});
+}
+
 TEST(AllErrors, AtMostTwentyAreSaid) {
   std::string scene = orbit;
   for (int i = 0; i < 23; ++i) scene += "unknown" + std::to_string(i) + " = 1\n";

@@ -30,7 +30,8 @@ struct Override {
 ///    line for each mistake, in the order of the lines, and of more than 20 how many more; for a
 ///    value that an override gave, `--set key` stands in place of location and key. A text that is
 ///    too large or not UTF-8 is named by its size or the byte's offset;
-///  - Error(too_large) for an order above 20, or more than 1e9 fixed steps, if nothing else is wrong;
+///  - Error(too_large) for an order above 20, or more than 1e9 fixed steps, where nothing else is
+///    wrong;
 ///  - Error(usage) for an override whose key leads nowhere or whose value is empty, or that
 ///    takes away what an earlier one gave.
 ///
