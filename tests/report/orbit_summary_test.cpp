@@ -15,23 +15,23 @@ namespace {
 
 constexpr double mu = 398600.4415, radius = 6378.1363, pi = std::numbers::pi;
 
-OrbitSummary summary_of(const std::string& nominal, const std::string& duration,
-                        const std::string& system =
-                            "model = \"zonal-gravity\"\nradius_km = "
-                            "6378.1363\nmu_km3_s2 = 398600.4415\n") {
+OrbitSummary kepler_summary(const std::string& nominal, const std::string& duration,
+                            const std::string& system =
+                                "model = \"zonal-gravity\"\nradius_km = "
+                                "6378.1363\nmu_km3_s2 = 398600.4415\n") {
   const Scene scene = parse_scene(
       "[system]\n" + system + "[nominal]\n" + nominal + "[jet]\n" + duration + "\n", "a.toml");
   return orbit_summary(scene).value();
 }
 
-std::string ellipse(double a, double e, double ta_deg) {
+std::string elements_of(double a, double e, double ta_deg) {
   return "a_km = " + std::to_string(a) + "\ne = " + std::to_string(e) +
          "\ni_deg = 63.4\nraan_deg = 10\nargp_deg = 270\nta_deg = " + std::to_string(ta_deg) + "\n";
 }
 
 TEST(OrbitSummary, AnEllipse) {
   const double a = 26600, e = 0.74;
-  const OrbitSummary orbit = summary_of(ellipse(a, e, 90), "duration_orbits = -2.5");
+  const OrbitSummary orbit = kepler_summary(elements_of(a, e, 90), "duration_orbits = -2.5");
   const double period = 2 * pi * std::sqrt(a * a * a / mu);
   EXPECT_NEAR(*orbit.period_s, period, 1e-9 * period);
   EXPECT_NEAR(*orbit.revolutions, 2.5, 1e-12);
@@ -54,14 +54,14 @@ TEST(OrbitSummary, AnEllipse) {
 /// eccentric anomaly E with E - e sin E = pi / 2 beyond the apogee, thus to a (1 - e cos E).
 TEST(OrbitSummary, GoesBelowTheSurfaceOnlyIfItComesThere) {
   const double a = 7000, e = 0.2;
-  EXPECT_TRUE(summary_of(ellipse(a, e, 180), "duration_orbits = 0.51").is_below_surface());
-  EXPECT_TRUE(summary_of(ellipse(a, e, 180), "duration_orbits = -0.51").is_below_surface());
-  const OrbitSummary quarter = summary_of(ellipse(a, e, 180), "duration_orbits = 0.25");
+  EXPECT_TRUE(kepler_summary(elements_of(a, e, 180), "duration_orbits = 0.51").is_below_surface());
+  EXPECT_TRUE(kepler_summary(elements_of(a, e, 180), "duration_orbits = -0.51").is_below_surface());
+  const OrbitSummary quarter = kepler_summary(elements_of(a, e, 180), "duration_orbits = 0.25");
   EXPECT_FALSE(quarter.is_below_surface());
   const double E = std::acos(1 / e - quarter.lowest_km / (a * e));  // from r = a (1 - e cos E)
   EXPECT_NEAR(E - e * std::sin(E), pi / 2, 1e-9);
   // A short way from the perigee goes up from it.
-  EXPECT_NEAR(summary_of(ellipse(a, e, 10), "duration_orbits = 0.1").lowest_km,
+  EXPECT_NEAR(kepler_summary(elements_of(a, e, 10), "duration_orbits = 0.1").lowest_km,
               a * (1 - e * e) / (1 + e * std::cos(pi / 18)), 1e-8);
 }
 
@@ -75,22 +75,22 @@ TEST(OrbitSummary, AHyperbola) {
            std::to_string(radial) + ", " + std::to_string(across) + ", 0]\n";
   };
   const double ta = pi / 2;
-  const OrbitSummary away = summary_of(start(ta, 1), "duration_s = 600");
+  const OrbitSummary away = kepler_summary(start(ta, 1), "duration_s = 600");
   EXPECT_FALSE(away.period_s || away.revolutions || away.apogee);
   EXPECT_NEAR(away.eccentricity, 2, 1e-5);
   EXPECT_NEAR(away.perigee.distance_km, q, 0.1);
   EXPECT_NEAR(away.lowest_km, 3 * q, 0.1);
-  EXPECT_NEAR(summary_of(start(ta, -1), "duration_s = 60000").lowest_km, q, 0.1);
+  EXPECT_NEAR(kepler_summary(start(ta, -1), "duration_s = 60000").lowest_km, q, 0.1);
   // After a minute it has come nearer by about the radial speed times it, and is far from perigee.
   const double speed = mu / h * 2;
-  EXPECT_NEAR(summary_of(start(ta, -1), "duration_s = 60").lowest_km, 3 * q - 60 * speed, 3);
-  EXPECT_NEAR(summary_of(start(ta, 1), "duration_s = -60000").lowest_km, q, 0.1);
+  EXPECT_NEAR(kepler_summary(start(ta, -1), "duration_s = 60").lowest_km, 3 * q - 60 * speed, 3);
+  EXPECT_NEAR(kepler_summary(start(ta, 1), "duration_s = -60000").lowest_km, q, 0.1);
 }
 
 TEST(OrbitSummary, TheSurfaceOfTheBodyWithTheMuStandsInForTheScenes) {
   const auto with = [](const std::string& mu_text) {
-    return summary_of("position_km = [7000, 0, 0]\nvelocity_km_s = [0, 1, 1]\n", "duration_s = 1",
-                      "model = \"kepler\"\nmu_km3_s2 = " + mu_text + "\n");
+    return kepler_summary("position_km = [7000, 0, 0]\nvelocity_km_s = [0, 1, 1]\n",
+                          "duration_s = 1", "model = \"kepler\"\nmu_km3_s2 = " + mu_text + "\n");
   };
   EXPECT_EQ(with("398600.4415").surface_km, 6378.1366);
   EXPECT_FALSE(with("12345").surface_km);
@@ -98,7 +98,8 @@ TEST(OrbitSummary, TheSurfaceOfTheBodyWithTheMuStandsInForTheScenes) {
 }
 
 TEST(OrbitSummary, ItsLinesSayIt) {
-  const std::string above = orbit_text(summary_of(ellipse(7078, 0, 0), "duration_orbits = 2"));
+  const std::string above =
+      orbit_text(kepler_summary(elements_of(7078, 0, 0), "duration_orbits = 2"));
   for (const char* words :
        {"2 revolutions in the duration", "inclination 63.4000 deg", "7078.00 km from the centre",
         "699.86 km above the surface", "stays above the surface"}) {
@@ -106,9 +107,11 @@ TEST(OrbitSummary, ItsLinesSayIt) {
   }
   // 2 pi sqrt(7078^3 / mu) = 5926.21 s, and with a = 42164.17 km a sidereal day.
   EXPECT_NE(above.find("period 5926.21 s (98.77 min)"), std::string::npos) << above;
-  const std::string day = orbit_text(summary_of(ellipse(42164.17, 0, 0), "duration_orbits = 1"));
+  const std::string day =
+      orbit_text(kepler_summary(elements_of(42164.17, 0, 0), "duration_orbits = 1"));
   EXPECT_NE(day.find(" (23.934 h)"), std::string::npos) << day;
-  const std::string below = orbit_text(summary_of(ellipse(7000, 0.2, 180), "duration_orbits = 1"));
+  const std::string below =
+      orbit_text(kepler_summary(elements_of(7000, 0.2, 180), "duration_orbits = 1"));
   EXPECT_NE(below.find("goes below the surface within the duration, to 778.14 km under it"),
             std::string::npos)
       << below;
