@@ -103,7 +103,8 @@ TEST_F(Arcs, AreDecidedAndShown) {
       succeed({"run", "scene.toml", "--threads", "2", "--set", "jet.arcs=auto"}).out;
   EXPECT_NE(table.find("; ran on 2 threads\n"), std::string::npos) << table;
   // The same decision in both, with the speed-ups estimated for 1, 2 and 4 threads.
-  const auto decision = [](const std::string& text) {
+  const auto decision = [](const std::string& wrapped) {
+    const std::string text = unwrapped(wrapped);
     const std::size_t first = text.find("gauss8: ", text.find("arcs (") - 20);
     return text.substr(first, text.find(" threads", first) - first);
   };

@@ -111,7 +111,7 @@ TEST_F(CanonicalTransformationCommand, GoodRun) {
   EXPECT_EQ(summary["runs"][0]["crosses_barrier"], true);
   EXPECT_EQ(summary["runs"][1]["crosses_barrier"], false);
   const std::string figure = content(directory_ / "results/figure.svg");
-  for (const char* place : {"<svg y=\"0\" width=\"900\" height=\"500\">", "<svg y=\"1500\"",
+  for (const char* place : {"<svg y=\"40\" width=\"900\" height=\"500\">", "<svg y=\"1660\"",
                             "aria-label=\"Trajectory in the transformed coordinates\""}) {
     EXPECT_NE(figure.find(place), std::string::npos) << place;
   }

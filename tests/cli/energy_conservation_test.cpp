@@ -105,13 +105,14 @@ TEST_F(EnergyConservation, RunsToTheEnd) {
   EXPECT_TRUE(std::filesystem::exists(directory_ / "out/fixed_step.csv"));
 }
 
-// Expected: the step size in the figure stands below the energies: two viewports of 500 each.
+// Expected: the step size in the figure stands below the energies: two viewports of
+// 500 each, with 40 for its title above each.
 TEST_F(EnergyConservation, DrawsBothCharts) {
   run({}, 0);
   const std::string figure = content(directory_ / "out/figure.svg");
-  EXPECT_NE(figure.find("height=\"1000\""), std::string::npos);
-  EXPECT_NE(figure.find("<svg y=\"0\" width=\"900\" height=\"500\">"), std::string::npos);
-  EXPECT_NE(figure.find("<svg y=\"500\" width=\"900\" height=\"500\">"), std::string::npos);
+  EXPECT_NE(figure.find("height=\"1080\""), std::string::npos);
+  EXPECT_NE(figure.find("<svg y=\"40\" width=\"900\" height=\"500\">"), std::string::npos);
+  EXPECT_NE(figure.find("<svg y=\"580\" width=\"900\" height=\"500\">"), std::string::npos);
   for (const char* text : {"step size (canonical time)", "energy error", "midpoint rule"}) {
     EXPECT_NE(figure.find(text), std::string::npos) << text;
   }

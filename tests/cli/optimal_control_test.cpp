@@ -151,7 +151,7 @@ TEST_F(OptimalControl, AnExtremalThatIsNoLeastIsSaidToBeNone) {
     const std::string out = succeed(arguments).out;
     summary = read_json(directory_ / "out/summary.json");
     const std::size_t first = out.find("  second order ");
-    return out.substr(first, out.find('\n', first) - first);
+    return unwrapped(out.substr(first));
   };
   Json two;
   const std::string of_two = second_order("heisenberg-loop.toml", "[-3, 0, -6.3]", two);

@@ -203,8 +203,8 @@ TEST_F(Reproducibility, LocaleWithADecimalComma) {
                     "is missing (the package locales)";
   }
   // That it is in force is seen by a program that asks the C library for its decimal point.
-  const std::string asked = "test \"$(LC_ALL=de_DE.UTF-8 LOCPATH='" + locales.string() +
-                            "' locale decimal_point)\" = ,";
+  const std::string asked =
+      "test \"$(LC_ALL=de_DE.UTF-8 LOCPATH='" + locales.string() + "' locale decimal_point)\" = ,";
   ASSERT_EQ(std::system(asked.c_str()), 0);
   expect_same(expected,
               results_with({{"LOCPATH", locales.string()},

@@ -107,7 +107,7 @@ TEST_F(Usage, HelpSaysWhereResultsGo) {
                                 "slot = [{position_m = [0, 10, 0]}]\n";
   write("two.toml", formation);
   for (const char* command : {"run", "transfer", "validity", "assign"}) {
-    const std::string help = succeed({command, "--help"}).out;
+    const std::string help = unwrapped(succeed({command, "--help"}).out);
     const std::size_t begin = help.find("(default: out/<scene name>") + 10;
     const std::string folder = help.substr(begin, help.find(')', begin) - begin);
     succeed({command, "two.toml", "-q"});

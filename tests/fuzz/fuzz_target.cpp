@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t longest_message = 1000;
 
-void check_message(const std::string& message, const Refusal& refusal) {
+void check_line(const std::string& message, const Refusal& refusal) {
   const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
   require(std::none_of(message.begin(), message.end(), is_control),
           "a message with a line break, a NUL or another control character");
@@ -24,6 +24,18 @@ void check_message(const std::string& message, const Refusal& refusal) {
     (void)nlohmann::json(message).dump();
   } catch (const nlohmann::json::type_error&) {
     report("a message that is not UTF-8");
+  }
+}
+
+/// Errors that are said together are a line each; behind the last a line may count the others.
+void check_message(const std::string& message, const Refusal& refusal) {
+  std::size_t lines = 0;
+  for (std::size_t begin = 0, end = 0; end != std::string::npos; begin = end + 1) {
+    end = message.find('\n', begin);
+    const std::string line = message.substr(begin, end - begin);
+    require(++lines <= refusal.most_errors + (refusal.most_errors > 1 ? 1 : 0),
+            "a message of too many lines: " + message);
+    if (lines <= refusal.most_errors) check_line(line, refusal);
   }
 }
 

@@ -29,11 +29,12 @@ struct Refusal {
   std::vector<ErrorKind> kinds;
   /// The message begins with one of these: it names the file, or the option.
   std::vector<std::string_view> beginnings;
+  std::size_t most_errors = 1;  ///< that are said together, a line each
 };
 
 /// Whether the input is read. If not, requires an Error of one of these kinds whose message is one
-/// line of valid UTF-8 without control characters, of at most 1000 bytes. Any other exception, that
-/// of exhausted memory among them, is reported.
+/// line for each error, of valid UTF-8 without control characters, of at most 1000 bytes. Any other
+/// exception, that of exhausted memory among them, is reported.
 bool is_read(const std::function<void()>& read, const Refusal& refusal);
 
 void require_finite(const std::vector<double>& numbers, std::string_view what);

@@ -4,6 +4,7 @@
 
 #include "fuzz_target.hpp"
 #include "scene/study_reader.hpp"
+#include "scene/tables/scene_errors.hpp"
 
 // Target: the text of a scene of any study, and overrides. A line `#--set key=value` is a comment
 // of TOML, and is given as an override too.
@@ -148,7 +149,8 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   const auto overrides = fuzz::overrides_in(text);
   fuzz::Refusal refusal{{ErrorKind::scene, ErrorKind::too_large, ErrorKind::usage},
-                        {"scene.toml", "--set "}};
+                        {"scene.toml", "--set "},
+                        io::most_errors_said};
   // What is wrong with a file that the scene names begins with its name, which may be any.
   if (text.find("_file") != std::string_view::npos) {
     refusal.kinds.push_back(ErrorKind::input_output);

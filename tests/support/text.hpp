@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -41,6 +42,14 @@ inline std::string in_one_line(const std::string& text) {
     if (!is_blank || line.empty() || line.back() != ' ') line += is_blank ? ' ' : c;
   }
   return line;
+}
+
+/// A text whose lines may be broken anywhere between its words, as one line.
+inline std::string unwrapped(const std::string& text) {
+  std::istringstream words(text);
+  std::string result, word;
+  while (words >> word) result += (result.empty() ? "" : " ") + word;
+  return result;
 }
 
 }  // namespace hamjet::test
