@@ -14,8 +14,8 @@
 #include "hamjet/error.hpp"
 #include "hamjet/report/results.hpp"
 #include "hamjet/studies/propagation.hpp"
-#include "interruption.hpp"
-#include "standard_streams.hpp"
+#include "process/interruption.hpp"
+#include "process/standard_streams.hpp"
 
 namespace hamjet::cli {
 namespace {

@@ -14,9 +14,9 @@
 #include "../store/result_set.hpp"
 #include "../store/text_file.hpp"
 #include "hamjet/error.hpp"
-#include "interruption.hpp"
+#include "process/interruption.hpp"
+#include "process/standard_streams.hpp"
 #include "progress.hpp"
-#include "standard_streams.hpp"
 #include "study_command.hpp"
 
 namespace hamjet::cli {

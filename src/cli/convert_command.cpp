@@ -10,7 +10,7 @@
 #include "hamjet/error.hpp"
 #include "hamjet/formats/jet_file.hpp"
 #include "output_file.hpp"
-#include "standard_streams.hpp"
+#include "process/standard_streams.hpp"
 
 namespace hamjet::cli {
 

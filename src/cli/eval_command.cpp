@@ -17,9 +17,9 @@
 #include "../text/scene_message.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/formats/jet_file.hpp"
-#include "interruption.hpp"
 #include "output_file.hpp"
-#include "standard_streams.hpp"
+#include "process/interruption.hpp"
+#include "process/standard_streams.hpp"
 
 namespace hamjet::cli {
 namespace {

@@ -22,9 +22,9 @@
 #include "hamjet/formats/orbit_message.hpp"
 #include "output_file.hpp"
 #include "output_option.hpp"
+#include "process/standard_streams.hpp"
 #include "scene_options.hpp"
 #include "scene_templates.hpp"
-#include "standard_streams.hpp"
 
 namespace hamjet::cli {
 namespace {

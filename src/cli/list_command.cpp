@@ -10,7 +10,7 @@
 #include "../sweep/sweep_tables.hpp"
 #include "../text/terminal_text.hpp"
 #include "hamjet/detail/maps/generating_function_kind.hpp"
-#include "standard_streams.hpp"
+#include "process/standard_streams.hpp"
 
 namespace hamjet::cli {
 namespace {

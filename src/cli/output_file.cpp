@@ -10,7 +10,7 @@
 #include "../store/sealed_summary.hpp"
 #include "../store/text_file.hpp"
 #include "hamjet/error.hpp"
-#include "interruption.hpp"
+#include "process/interruption.hpp"
 
 namespace hamjet::cli {
 namespace {

@@ -18,9 +18,9 @@
 #include "hamjet/report/results.hpp"
 #include "hamjet/store/output_directory.hpp"
 #include "hamjet/studies/propagation.hpp"
-#include "interruption.hpp"
+#include "process/interruption.hpp"
+#include "process/standard_streams.hpp"
 #include "progress.hpp"
-#include "standard_streams.hpp"
 #include "study_command.hpp"
 
 namespace hamjet::cli {

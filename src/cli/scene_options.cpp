@@ -16,7 +16,7 @@
 #include "../text/scene_message.hpp"
 #include "demo_scene.hpp"
 #include "hamjet/error.hpp"
-#include "standard_streams.hpp"
+#include "process/standard_streams.hpp"
 
 namespace hamjet::cli {
 namespace {

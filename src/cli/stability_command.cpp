@@ -10,7 +10,7 @@
 #include "../studies/descriptions/method_description.hpp"
 #include "../text/terminal_text.hpp"
 #include "hamjet/error.hpp"
-#include "standard_streams.hpp"
+#include "process/standard_streams.hpp"
 #include "study_command.hpp"
 
 namespace hamjet::cli {

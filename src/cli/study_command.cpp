@@ -8,9 +8,9 @@
 
 #include "../text/terminal_text.hpp"
 #include "hamjet/store/output_directory.hpp"
-#include "interruption.hpp"
+#include "process/interruption.hpp"
+#include "process/standard_streams.hpp"
 #include "progress.hpp"
-#include "standard_streams.hpp"
 
 namespace hamjet::cli {
 

@@ -15,9 +15,9 @@
 #include "../text/scene_message.hpp"
 #include "../text/shell_text.hpp"
 #include "hamjet/error.hpp"
-#include "interruption.hpp"
+#include "process/interruption.hpp"
+#include "process/standard_streams.hpp"
 #include "progress.hpp"
-#include "standard_streams.hpp"
 #include "study_command.hpp"
 #include "sweep_shard.hpp"
 

@@ -13,7 +13,7 @@
 #include "hamjet/error.hpp"
 #include "hamjet/formats/jet_file.hpp"
 #include "hamjet/report/relative_motion_report.hpp"
-#include "standard_streams.hpp"
+#include "process/standard_streams.hpp"
 #include "study_command.hpp"
 
 namespace hamjet::cli {

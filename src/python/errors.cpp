@@ -4,7 +4,7 @@
 #include <new>
 #include <string>
 
-#include "../cli/interruption.hpp"
+#include "../cli/process/interruption.hpp"
 #include "../store/text_file.hpp"
 #include "bindings.hpp"
 #include "hamjet/error.hpp"

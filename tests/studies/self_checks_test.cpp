@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -11,7 +10,6 @@
 
 #include "formation_scenes.hpp"
 #include "hamjet/studies/propagation.hpp"
-#include "studies/checks/run_warnings.hpp"
 
 // Every self-check once on a good run, where it passes, and once on a run that is wrong in the way
 // that it looks for.
@@ -269,21 +267,6 @@ TEST(SelfChecks, EnergyOfAParabola) {
   EXPECT_LE(std::abs(result.energy.initial), 1e-15);
   EXPECT_NEAR(result.energy.initial_terms, 1 + 2, 1e-12);  // 1/r + p^2
   expect_state(check(scene, result, SelfCheckName::energy), SelfCheckState::passed);
-}
-
-TEST(SelfChecks, WarnOfADegreeWithoutADigit) {
-  // Sixteen steps of Verlet in a revolution at e = 0.9: far beyond what they can follow.
-  Scene scene = kepler_chief(0.9, 7000, 5000, 2);
-  scene.kinds.reset();
-  scene.duration = 2 * std::numbers::pi * std::pow(10, 1.5);  // perigee is at 1
-  const RunResult lost = run(scene, with_step(IntegrationMethod::velocity_verlet, 12));
-  const std::vector<double>& estimate = *lost.error_estimate.by_degree;
-  ASSERT_GE(*std::max_element(estimate.begin(), estimate.end()), 1);
-  expect_state(check(scene, lost, SelfCheckName::error_estimate), SelfCheckState::passed,
-               "not one digit of degree");
-  ASSERT_EQ(run_warnings(scene, lost).size(), 1U);
-  EXPECT_NE(run_warnings(scene, lost)[0].find("not one digit"), std::string::npos);
-  EXPECT_TRUE(run_warnings(scene, run(scene, precise_gauss())).empty());
 }
 
 TEST(SelfChecks, Symplecticity) {

@@ -1,6 +1,6 @@
 #include "completion.hpp"
 
-#include "../standard_streams.hpp"
+#include "../process/standard_streams.hpp"
 
 namespace hamjet::cli {
 namespace {

@@ -1,4 +1,4 @@
-#include "command_test.hpp"
+#include "../command_test.hpp"
 
 // The double well as the system of a flow jet.
 

@@ -2,7 +2,7 @@
 #include <map>
 #include <regex>
 
-#include "command_test.hpp"
+#include "../command_test.hpp"
 #include "support/magnitude.hpp"
 
 // Figures that data/paper/README.md and the comments of the paper's scenes state are those of the

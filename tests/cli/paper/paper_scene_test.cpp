@@ -1,9 +1,9 @@
 #include <cmath>
 #include <map>
 
-#include "../support/reference_data.hpp"
-#include "command_test.hpp"
+#include "../command_test.hpp"
 #include "support/magnitude.hpp"
+#include "support/reference_data.hpp"
 
 // The paper's Earth orbit as shipped, in full. What is expected is the paper's claim with its
 // missing half: symplectic integrators leave no exactness residual, and that says nothing about

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "command_test.hpp"
+#include "../command_test.hpp"
 
 // Scenes of the study "energy-conservation": runs, stops, checks, and what is refused.
 

@@ -3,7 +3,7 @@
 #include <map>
 #include <vector>
 
-#include "command_test.hpp"
+#include "../command_test.hpp"
 
 // The study of the paper's discrete canonical transformations, as a user runs it.
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "command_test.hpp"
+#include "../command_test.hpp"
 
 // The study "optimal-control" as a user runs it. Expected values are the closed forms of the
 // Heisenberg problem and of the double integrator.
