@@ -155,9 +155,14 @@ void sample_rounding_in_doubt(const Scene& scene, const FlowProblem<Real>& flow,
     return integrate_with_step_tolerance<Real>(line, std::get<GaussSettings>(method),
                                                *statistics.step_tolerance);
   };
-  const std::vector<double> sampled =
-      sample_rounding<Real>(flow, jet, along_line, estimate_settings(scene, progress));
-  for (std::size_t d = 0; d < rounding.size(); ++d) raise_to(rounding[d], sampled[d]);
+  try {
+    const std::vector<double> sampled =
+        sample_rounding<Real>(flow, jet, along_line, estimate_settings(scene, progress));
+    for (std::size_t d = 0; d < rounding.size(); ++d) raise_to(rounding[d], sampled[d]);
+  } catch (const Error& error) {
+    // The jet is there all the same; it is judged by the one draw that is known.
+    if (error.kind() != ErrorKind::numerical) throw;
+  }
 }
 
 double integration_memory(const IntegratorSettings& settings, const DynamicalSystem& system,

@@ -39,7 +39,7 @@ JetErrorEstimate estimate_jet_error(const Scene& scene, const FlowProblem<Real>&
 /// Where a Gauss method's tolerance has met rounding, of which one draw is known, and the estimate
 /// exceeds ten times that draw, raises IntegrationStatistics::rounding_by_degree to a sample
 /// (sample_rounding): a verdict must not hang on a single draw. Only then is the work worth its
-/// time. `progress` may throw to stop.
+/// time. A moved start that cannot be integrated leaves the one draw. `progress` may throw to stop.
 template <class Real>
 void sample_rounding_in_doubt(const Scene& scene, const FlowProblem<Real>& flow,
                               const FlowJet<Real>& jet, const IntegratorSettings& settings,
