@@ -5,14 +5,18 @@ set(HAMJET_LAYERS text algebra dynamics integrators maps relative_motion optimal
 
 # Adds to the target all sources of the layer whose CMakeLists.txt calls it, but those behind EXCEPT, which
 # it adds itself. With CMAKE_UNITY_BUILD those of a folder are compiled together, so many at a time.
+# Those behind FOR_EACH_REAL are templates over the number type and are compiled twice, each time for one
+# HAMJET_INSTANTIATED_REAL: for double with the target, and for Extended with the shell. In extended precision
+# the time goes into software arithmetic, for which all optimisation takes long to compile and gains nothing.
 function(hamjet_layer_sources target)
-  cmake_parse_arguments(PARSE_ARGV 1 layer "" "" EXCEPT)
+  cmake_parse_arguments(PARSE_ARGV 1 layer "" "" "EXCEPT;FOR_EACH_REAL")
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}
     ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   if(layer_EXCEPT)
     list(REMOVE_ITEM sources ${layer_EXCEPT})
   endif()
   target_sources(${target} PRIVATE ${sources})
+  target_sources(${HAMJET_SHELL} PRIVATE ${layer_FOR_EACH_REAL})
   get_filename_component(name ${CMAKE_CURRENT_SOURCE_DIR} NAME)
   set(together 24)
   foreach(source ${sources})

@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "hamjet/detail/algebra/pack.hpp"
+#include "instantiated_real.hpp"
 
 namespace hamjet {
 namespace {
@@ -252,31 +253,10 @@ std::vector<Series<T>> compose(const std::vector<Series<T>>& outer,
   return detail::compose_up_to(outer, inner, inner[0].order());
 }
 
-double composition_multiply_adds(std::size_t variables, int degree, const SeriesSpace& inner) {
-  double total = 0;
-  const int deepest = std::min(degree, inner.order());
-  for (int k = 1; k <= deepest; ++k) {
-    // The cost of one product of a node by a variable's series.
-    const int highest = inner.order() - k + 1;
-    double product = static_cast<double>(inner.first(highest + 1)) - 1;
-    for (int d = 2; d <= highest && k < deepest; ++d) {
-      product += static_cast<double>(inner.products(d).multiply_adds);
-    }
-    const double nodes =
-        SeriesSpace::monomial_count(variables, k) - SeriesSpace::monomial_count(variables, k - 1);
-    total += nodes * product;
-  }
-  return total;
-}
-
-template std::vector<Series<double>> detail::compose_up_to(const std::vector<Series<double>>&,
-                                                           const std::vector<Series<double>>&, int);
-template std::vector<Series<Extended>> detail::compose_up_to(const std::vector<Series<Extended>>&,
-                                                             const std::vector<Series<Extended>>&,
-                                                             int);
-template std::vector<Series<double>> compose(const std::vector<Series<double>>&,
-                                             const std::vector<Series<double>>&);
-template std::vector<Series<Extended>> compose(const std::vector<Series<Extended>>&,
-                                               const std::vector<Series<Extended>>&);
+template std::vector<Series<InstantiatedReal>> detail::compose_up_to(
+    const std::vector<Series<InstantiatedReal>>&, const std::vector<Series<InstantiatedReal>>&,
+    int);
+template std::vector<Series<InstantiatedReal>> compose(
+    const std::vector<Series<InstantiatedReal>>&, const std::vector<Series<InstantiatedReal>>&);
 
 }  // namespace hamjet

@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "hamjet/algebra/composition.hpp"
+#include "instantiated_real.hpp"
 
 namespace hamjet {
 namespace {
@@ -75,7 +76,7 @@ std::vector<Series<T>> inverse(const std::vector<Series<T>>& map) {
   return result;
 }
 
-template std::vector<Series<double>> inverse(const std::vector<Series<double>>&);
-template std::vector<Series<Extended>> inverse(const std::vector<Series<Extended>>&);
+template std::vector<Series<InstantiatedReal>> inverse(
+    const std::vector<Series<InstantiatedReal>>&);
 
 }  // namespace hamjet

@@ -4,8 +4,9 @@
 
 #include "hamjet/algebra/extended.hpp"
 #include "hamjet/error.hpp"
+#include "instantiated_real.hpp"
 
-// These stand in a file of their own because the decompositions take long to compile.
+// This stands in a file of its own because the decomposition takes long to compile.
 
 namespace hamjet {
 
@@ -19,13 +20,6 @@ Vector<T> singular_values(const Matrix<T>& matrix) {
   return Eigen::JacobiSVD<Matrix<T>, Eigen::NoQRPreconditioner>(matrix).singularValues();
 }
 
-SingularValueDecomposition decompose_by_singular_values(const Matrix<double>& matrix) {
-  const Eigen::JacobiSVD<Matrix<double>> decomposition(matrix,
-                                                       Eigen::ComputeFullU | Eigen::ComputeFullV);
-  return {decomposition.matrixU(), decomposition.singularValues(), decomposition.matrixV()};
-}
-
-template Vector<double> singular_values(const Matrix<double>&);
-template Vector<Extended> singular_values(const Matrix<Extended>&);
+template Vector<InstantiatedReal> singular_values(const Matrix<InstantiatedReal>&);
 
 }  // namespace hamjet

@@ -1,5 +1,6 @@
 #include "hamjet/dynamics/relative_hamiltonian.hpp"
 
+#include "../algebra/instantiated_real.hpp"
 #include "hamjet/algebra/calculus.hpp"
 #include "hamjet/algebra/extended.hpp"
 #include "hamjet/detail/dynamics/slice_evaluator.hpp"
@@ -52,14 +53,11 @@ std::vector<Series<Real>> canonical_vector_field(const Series<Real>& hamiltonian
   return field;
 }
 
-template std::vector<Series<double>> evaluate_on_series(const OperationList&,
-                                                        const std::vector<Series<double>>&);
-template std::vector<Series<Extended>> evaluate_on_series(const OperationList&,
-                                                          const std::vector<Series<Extended>>&);
-template Series<double> relative_hamiltonian(const DynamicalSystem&, std::span<const double>, int);
-template Series<Extended> relative_hamiltonian(const DynamicalSystem&, std::span<const Extended>,
-                                               int);
-template std::vector<Series<double>> canonical_vector_field(const Series<double>&);
-template std::vector<Series<Extended>> canonical_vector_field(const Series<Extended>&);
+template std::vector<Series<InstantiatedReal>> evaluate_on_series(
+    const OperationList&, const std::vector<Series<InstantiatedReal>>&);
+template Series<InstantiatedReal> relative_hamiltonian(const DynamicalSystem&,
+                                                       std::span<const InstantiatedReal>, int);
+template std::vector<Series<InstantiatedReal>> canonical_vector_field(
+    const Series<InstantiatedReal>&);
 
 }  // namespace hamjet

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "../algebra/instantiated_real.hpp"
 #include "../dynamics/operation_count.hpp"
 #include "arc_integrator.hpp"
 #include "arc_plan.hpp"
@@ -370,17 +371,12 @@ ArcPlan plan_arcs(const FlowProblem<Real>& problem, const SplittableMethod& meth
   return plan_for(problem, *arcs, asked, statistics.steps);
 }
 
-template FlowJet<double> integrate_in_arcs(const FlowProblem<double>&, const SplittableMethod&,
-                                           const ArcSettings&, IntegrationStatistics&,
-                                           ArcStatistics&, const StepObserver<double>&,
-                                           const ArcProgress&);
-template FlowJet<Extended> integrate_in_arcs(const FlowProblem<Extended>&, const SplittableMethod&,
-                                             const ArcSettings&, IntegrationStatistics&,
-                                             ArcStatistics&, const StepObserver<Extended>&,
-                                             const ArcProgress&);
-template ArcPlan plan_arcs(const FlowProblem<double>&, const SplittableMethod&,
-                           const std::optional<std::size_t>&, const ArcProgress&);
-template ArcPlan plan_arcs(const FlowProblem<Extended>&, const SplittableMethod&,
+template FlowJet<InstantiatedReal> integrate_in_arcs(const FlowProblem<InstantiatedReal>&,
+                                                     const SplittableMethod&, const ArcSettings&,
+                                                     IntegrationStatistics&, ArcStatistics&,
+                                                     const StepObserver<InstantiatedReal>&,
+                                                     const ArcProgress&);
+template ArcPlan plan_arcs(const FlowProblem<InstantiatedReal>&, const SplittableMethod&,
                            const std::optional<std::size_t>&, const ArcProgress&);
 
 }  // namespace hamjet

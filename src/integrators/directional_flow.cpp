@@ -7,6 +7,7 @@
 #include <random>
 #include <span>
 
+#include "../algebra/instantiated_real.hpp"
 #include "hamjet/algebra/extended.hpp"
 #include "line_restriction.hpp"
 #include "phase_space_scale.hpp"
@@ -108,7 +109,6 @@ std::vector<double> DirectionalFlow<Real>::relative_difference(const Lines& line
   return result;
 }
 
-template class DirectionalFlow<double>;
-template class DirectionalFlow<Extended>;
+template class DirectionalFlow<InstantiatedReal>;
 
 }  // namespace hamjet

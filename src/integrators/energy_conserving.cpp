@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "../algebra/instantiated_real.hpp"
 #include "compensated_addition.hpp"
 #include "energy_conserving_midpoint.hpp"
 #include "energy_conserving_stormer.hpp"
@@ -228,17 +229,12 @@ EnergyConservingResult<Real> integrate_energy_conserving(
   return integrate<Real, EnergyConservingMidpoint<Real>>(problem, observer);
 }
 
-template class StepCondition<double>;
-template class StepCondition<Extended>;
-template EnergyConservingResult<double> integrate_energy_conserving(
-    const EnergyConservingProblem<double>&, const EnergyConservingObserver<double>&);
-template EnergyConservingResult<Extended> integrate_energy_conserving(
-    const EnergyConservingProblem<Extended>&, const EnergyConservingObserver<Extended>&);
-template std::vector<double> discrete_energy_point(EnergyConservingMethod,
-                                                   const std::vector<double>&,
-                                                   const std::vector<double>&);
-template std::vector<Extended> discrete_energy_point(EnergyConservingMethod,
-                                                     const std::vector<Extended>&,
-                                                     const std::vector<Extended>&);
+template class StepCondition<InstantiatedReal>;
+template EnergyConservingResult<InstantiatedReal> integrate_energy_conserving(
+    const EnergyConservingProblem<InstantiatedReal>&,
+    const EnergyConservingObserver<InstantiatedReal>&);
+template std::vector<InstantiatedReal> discrete_energy_point(EnergyConservingMethod,
+                                                             const std::vector<InstantiatedReal>&,
+                                                             const std::vector<InstantiatedReal>&);
 
 }  // namespace hamjet

@@ -10,6 +10,7 @@
 #include <random>
 #include <utility>
 
+#include "../algebra/instantiated_real.hpp"
 #include "../algebra/raise_to.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
@@ -343,18 +344,12 @@ std::vector<double> sample_rounding(
 }
 
 template std::vector<double> sample_rounding(
-    const FlowProblem<double>&, const FlowJet<double>&,
-    const std::function<FlowJet<double>(const FlowProblem<double>&)>&,
+    const FlowProblem<InstantiatedReal>&, const FlowJet<InstantiatedReal>&,
+    const std::function<FlowJet<InstantiatedReal>(const FlowProblem<InstantiatedReal>&)>&,
     const ErrorEstimateSettings&);
-template std::vector<double> sample_rounding(
-    const FlowProblem<Extended>&, const FlowJet<Extended>&,
-    const std::function<FlowJet<Extended>(const FlowProblem<Extended>&)>&,
-    const ErrorEstimateSettings&);
-template std::vector<double> estimate_error(const FlowProblem<double>&, const FlowJet<double>&,
+template std::vector<double> estimate_error(const FlowProblem<InstantiatedReal>&,
+                                            const FlowJet<InstantiatedReal>&,
                                             const ErrorEstimateSettings&,
-                                            const std::vector<JetAlongLine<double>>&);
-template std::vector<double> estimate_error(const FlowProblem<Extended>&, const FlowJet<Extended>&,
-                                            const ErrorEstimateSettings&,
-                                            const std::vector<JetAlongLine<Extended>>&);
+                                            const std::vector<JetAlongLine<InstantiatedReal>>&);
 
 }  // namespace hamjet

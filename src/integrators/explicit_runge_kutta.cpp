@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "../algebra/instantiated_real.hpp"
 #include "hamjet/algebra/extended.hpp"
 #include "hamjet/error.hpp"
 #include "integration_clock.hpp"
@@ -244,12 +245,9 @@ FlowJet<Real> integrate_fehlberg78(const FlowProblem<Real>& problem,
   return FehlbergIntegration<Real>(problem, settings, statistics, observer).run();
 }
 
-template FlowJet<double> integrate_fehlberg78(const FlowProblem<double>&,
-                                              const ExplicitRungeKuttaSettings&,
-                                              IntegrationStatistics&, const StepObserver<double>&);
-template FlowJet<Extended> integrate_fehlberg78(const FlowProblem<Extended>&,
-                                                const ExplicitRungeKuttaSettings&,
-                                                IntegrationStatistics&,
-                                                const StepObserver<Extended>&);
+template FlowJet<InstantiatedReal> integrate_fehlberg78(const FlowProblem<InstantiatedReal>&,
+                                                        const ExplicitRungeKuttaSettings&,
+                                                        IntegrationStatistics&,
+                                                        const StepObserver<InstantiatedReal>&);
 
 }  // namespace hamjet

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "../algebra/instantiated_real.hpp"
 #include "hamjet/algebra/extended.hpp"
 #include "real_number.hpp"
 
@@ -61,9 +62,8 @@ void require_finite(const FlowJet<Real>& jet, const Real& time, const char* meth
   }
 }
 
-template void validate(const FlowProblem<double>&);
-template void validate(const FlowProblem<Extended>&);
-template void require_finite(const FlowJet<double>&, const double&, const char*);
-template void require_finite(const FlowJet<Extended>&, const Extended&, const char*);
+template void validate(const FlowProblem<InstantiatedReal>&);
+template void require_finite(const FlowJet<InstantiatedReal>&, const InstantiatedReal&,
+                             const char*);
 
 }  // namespace hamjet

@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <limits>
 
+#include "../algebra/instantiated_real.hpp"
 #include "hamjet/algebra/extended.hpp"
 #include "hamjet/error.hpp"
 #include "real_number.hpp"
@@ -79,9 +80,8 @@ Vector<Real> midpoint_step(DifferentiableHamiltonian<Real>& hamiltonian, const V
   fail("Newton's method does not converge from its start; a shorter step would do", tau);
 }
 
-template Vector<double> midpoint_step(DifferentiableHamiltonian<double>&, const Vector<double>&,
-                                      const double&);
-template Vector<Extended> midpoint_step(DifferentiableHamiltonian<Extended>&,
-                                        const Vector<Extended>&, const Extended&);
+template Vector<InstantiatedReal> midpoint_step(DifferentiableHamiltonian<InstantiatedReal>&,
+                                                const Vector<InstantiatedReal>&,
+                                                const InstantiatedReal&);
 
 }  // namespace hamjet

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "../algebra/instantiated_real.hpp"
 #include "hamjet/error.hpp"
 #include "newmark_force.hpp"
 #include "splitting_integration.hpp"
@@ -35,9 +36,8 @@ FlowJet<Real> integrate_newmark(const FlowProblem<Real>& problem, const NewmarkS
       .run();
 }
 
-template FlowJet<double> integrate_newmark(const FlowProblem<double>&, const NewmarkSettings&,
-                                           IntegrationStatistics&, const StepObserver<double>&);
-template FlowJet<Extended> integrate_newmark(const FlowProblem<Extended>&, const NewmarkSettings&,
-                                             IntegrationStatistics&, const StepObserver<Extended>&);
+template FlowJet<InstantiatedReal> integrate_newmark(const FlowProblem<InstantiatedReal>&,
+                                                     const NewmarkSettings&, IntegrationStatistics&,
+                                                     const StepObserver<InstantiatedReal>&);
 
 }  // namespace hamjet

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "../algebra/instantiated_real.hpp"
 #include "../dynamics/operation_count.hpp"
 #include "hamjet/detail/dynamics/slice_evaluator.hpp"
 #include "splitting_integration.hpp"
@@ -167,30 +168,20 @@ FlowJet<Real> integrate_velocity_verlet(const FlowProblem<Real>& problem,
   return integrate_splitting(problem, splitting_of<Real>(settings), statistics, observer);
 }
 
-template Splitting<double> splitting_of(const StormerSettings&);
-template Splitting<Extended> splitting_of(const StormerSettings&);
-template Splitting<double> splitting_of(const VelocityVerletSettings&);
-template Splitting<Extended> splitting_of(const VelocityVerletSettings&);
-template std::unique_ptr<ArcIntegrator<double>> make_splitting_arcs(const FlowProblem<double>&,
-                                                                    Splitting<double>);
-template std::unique_ptr<ArcIntegrator<Extended>> make_splitting_arcs(const FlowProblem<Extended>&,
-                                                                      Splitting<Extended>);
-template FlowJet<double> integrate_splitting(const FlowProblem<double>&, Splitting<double>,
-                                             IntegrationStatistics&, const StepObserver<double>&);
-template FlowJet<Extended> integrate_splitting(const FlowProblem<Extended>&, Splitting<Extended>,
-                                               IntegrationStatistics&,
-                                               const StepObserver<Extended>&);
-template FlowJet<double> integrate_stormer(const FlowProblem<double>&, const StormerSettings&,
-                                           IntegrationStatistics&, const StepObserver<double>&);
-template FlowJet<Extended> integrate_stormer(const FlowProblem<Extended>&, const StormerSettings&,
-                                             IntegrationStatistics&, const StepObserver<Extended>&);
-template FlowJet<double> integrate_velocity_verlet(const FlowProblem<double>&,
-                                                   const VelocityVerletSettings&,
-                                                   IntegrationStatistics&,
-                                                   const StepObserver<double>&);
-template FlowJet<Extended> integrate_velocity_verlet(const FlowProblem<Extended>&,
-                                                     const VelocityVerletSettings&,
-                                                     IntegrationStatistics&,
-                                                     const StepObserver<Extended>&);
+template Splitting<InstantiatedReal> splitting_of(const StormerSettings&);
+template Splitting<InstantiatedReal> splitting_of(const VelocityVerletSettings&);
+template std::unique_ptr<ArcIntegrator<InstantiatedReal>> make_splitting_arcs(
+    const FlowProblem<InstantiatedReal>&, Splitting<InstantiatedReal>);
+template FlowJet<InstantiatedReal> integrate_splitting(const FlowProblem<InstantiatedReal>&,
+                                                       Splitting<InstantiatedReal>,
+                                                       IntegrationStatistics&,
+                                                       const StepObserver<InstantiatedReal>&);
+template FlowJet<InstantiatedReal> integrate_stormer(const FlowProblem<InstantiatedReal>&,
+                                                     const StormerSettings&, IntegrationStatistics&,
+                                                     const StepObserver<InstantiatedReal>&);
+template FlowJet<InstantiatedReal> integrate_velocity_verlet(const FlowProblem<InstantiatedReal>&,
+                                                             const VelocityVerletSettings&,
+                                                             IntegrationStatistics&,
+                                                             const StepObserver<InstantiatedReal>&);
 
 }  // namespace hamjet

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "../algebra/instantiated_real.hpp"
 #include "hamjet/algebra/extended.hpp"
 #include "hamjet/error.hpp"
 
@@ -148,12 +149,9 @@ AffineSymplecticMap<Real> phase_plane_rotation(const Real& angle) {
   return AffineSymplecticMap<Real>(matrix);
 }
 
-template MatrixSymplecticityDefect symplecticity_defect(const Matrix<double>&);
-template MatrixSymplecticityDefect symplecticity_defect(const Matrix<Extended>&);
-template class AffineSymplecticMap<double>;
-template class AffineSymplecticMap<Extended>;
-template Matrix<Extended> nearest_symplectic(Matrix<Extended>);
-template AffineSymplecticMap<double> phase_plane_rotation(const double&);
-template AffineSymplecticMap<Extended> phase_plane_rotation(const Extended&);
+template MatrixSymplecticityDefect symplecticity_defect(const Matrix<InstantiatedReal>&);
+template class AffineSymplecticMap<InstantiatedReal>;
+template Matrix<InstantiatedReal> nearest_symplectic(Matrix<InstantiatedReal>);
+template AffineSymplecticMap<InstantiatedReal> phase_plane_rotation(const InstantiatedReal&);
 
 }  // namespace hamjet

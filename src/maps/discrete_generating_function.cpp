@@ -4,6 +4,7 @@
 
 #include <Eigen/LU>
 
+#include "../algebra/instantiated_real.hpp"
 #include "../algebra/singular_values.hpp"
 #include "hamjet/algebra/extended.hpp"
 #include "hamjet/error.hpp"
@@ -104,13 +105,9 @@ Vector<Real> DiscreteGeneratingFunction<Real>::transformed_point(const Vector<Re
   return Z;
 }
 
-template double existence_measure(const AffineSymplecticMap<double>&,
+template double existence_measure(const AffineSymplecticMap<InstantiatedReal>&,
                                   DiscreteGeneratingFunctionKind);
-template double existence_measure(const AffineSymplecticMap<Extended>&,
-                                  DiscreteGeneratingFunctionKind);
-template bool exists(const AffineSymplecticMap<double>&, DiscreteGeneratingFunctionKind);
-template bool exists(const AffineSymplecticMap<Extended>&, DiscreteGeneratingFunctionKind);
-template class DiscreteGeneratingFunction<double>;
-template class DiscreteGeneratingFunction<Extended>;
+template bool exists(const AffineSymplecticMap<InstantiatedReal>&, DiscreteGeneratingFunctionKind);
+template class DiscreteGeneratingFunction<InstantiatedReal>;
 
 }  // namespace hamjet

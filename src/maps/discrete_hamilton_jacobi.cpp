@@ -1,5 +1,6 @@
 #include "discrete_hamilton_jacobi.hpp"
 
+#include "../algebra/instantiated_real.hpp"
 #include "hamjet/algebra/extended.hpp"
 
 namespace hamjet {
@@ -13,13 +14,8 @@ Real hamilton_jacobi_residual(DifferentiableHamiltonian<Real>& original,
          transformed.value(generating_function.transformed_point(w));
 }
 
-template double hamilton_jacobi_residual(DifferentiableHamiltonian<double>&,
-                                         DifferentiableHamiltonian<double>&,
-                                         const DiscreteGeneratingFunction<double>&,
-                                         const Vector<double>&);
-template Extended hamilton_jacobi_residual(DifferentiableHamiltonian<Extended>&,
-                                           DifferentiableHamiltonian<Extended>&,
-                                           const DiscreteGeneratingFunction<Extended>&,
-                                           const Vector<Extended>&);
+template InstantiatedReal hamilton_jacobi_residual(
+    DifferentiableHamiltonian<InstantiatedReal>&, DifferentiableHamiltonian<InstantiatedReal>&,
+    const DiscreteGeneratingFunction<InstantiatedReal>&, const Vector<InstantiatedReal>&);
 
 }  // namespace hamjet

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../algebra/instantiated_real.hpp"
 #include "hamjet/algebra/calculus.hpp"
 
 namespace hamjet {
@@ -54,9 +55,7 @@ std::vector<ExactnessResidual> exactness_residual(const std::vector<Series<T>>& 
   return result;
 }
 
-template std::vector<ExactnessResidual> exactness_residual(const std::vector<Series<double>>&,
-                                                           std::span<const double>);
-template std::vector<ExactnessResidual> exactness_residual(const std::vector<Series<Extended>>&,
-                                                           std::span<const double>);
+template std::vector<ExactnessResidual> exactness_residual(
+    const std::vector<Series<InstantiatedReal>>&, std::span<const double>);
 
 }  // namespace hamjet

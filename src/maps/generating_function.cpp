@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+#include "../algebra/instantiated_real.hpp"
+
 namespace hamjet {
 
 template <class T>
@@ -37,9 +39,7 @@ Series<T> generating_function(const std::vector<Series<T>>& one_form) {
   return result;
 }
 
-template std::vector<Series<double>> one_form(const PartialInversion<double>&);
-template std::vector<Series<Extended>> one_form(const PartialInversion<Extended>&);
-template Series<double> generating_function(const std::vector<Series<double>>&);
-template Series<Extended> generating_function(const std::vector<Series<Extended>>&);
+template std::vector<Series<InstantiatedReal>> one_form(const PartialInversion<InstantiatedReal>&);
+template Series<InstantiatedReal> generating_function(const std::vector<Series<InstantiatedReal>>&);
 
 }  // namespace hamjet

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "../algebra/instantiated_real.hpp"
 #include "hamjet/algebra/calculus.hpp"
 #include "hamjet/algebra/composition.hpp"
 #include "hamjet/detail/algebra/monomial_values.hpp"
@@ -117,16 +118,6 @@ Series<T> hamiltonian_in_variables(const DynamicalSystem& system, std::span<cons
   return compose(hamiltonian, z)[0];
 }
 
-double HamiltonJacobiTerms::scaled() const {
-  const auto size = [](const std::vector<double>& terms) {
-    double sum = 0;
-    for (const double term : terms) sum += std::abs(term);
-    return sum;
-  };
-  const double scale = size(hamiltonian);
-  return scale > 0 ? size(residual) / scale : size(residual);
-}
-
 template <class T>
 HamiltonJacobiTerms hamilton_jacobi_terms(const DynamicalSystem& system, std::span<const T> nominal,
                                           const PartialInversion<T>& inversion,
@@ -158,26 +149,18 @@ std::vector<HamiltonJacobiResidual> hamilton_jacobi_by_degree(
   return result;
 }
 
-template PartialInversion<double> time_derivative(const DynamicalSystem&, std::span<const double>,
-                                                  const PartialInversion<double>&);
-template PartialInversion<Extended> time_derivative(const DynamicalSystem&,
-                                                    std::span<const Extended>,
-                                                    const PartialInversion<Extended>&);
-template Series<double> hamiltonian_in_variables(const DynamicalSystem&, std::span<const double>,
-                                                 const PartialInversion<double>&);
-template Series<Extended> hamiltonian_in_variables(const DynamicalSystem&,
-                                                   std::span<const Extended>,
-                                                   const PartialInversion<Extended>&);
-template HamiltonJacobiTerms hamilton_jacobi_terms(const DynamicalSystem&, std::span<const double>,
-                                                   const PartialInversion<double>&,
-                                                   std::span<const double>);
+template PartialInversion<InstantiatedReal> time_derivative(
+    const DynamicalSystem&, std::span<const InstantiatedReal>,
+    const PartialInversion<InstantiatedReal>&);
+template Series<InstantiatedReal> hamiltonian_in_variables(
+    const DynamicalSystem&, std::span<const InstantiatedReal>,
+    const PartialInversion<InstantiatedReal>&);
 template HamiltonJacobiTerms hamilton_jacobi_terms(const DynamicalSystem&,
-                                                   std::span<const Extended>,
-                                                   const PartialInversion<Extended>&,
+                                                   std::span<const InstantiatedReal>,
+                                                   const PartialInversion<InstantiatedReal>&,
                                                    std::span<const double>);
 template std::vector<HamiltonJacobiResidual> hamilton_jacobi_by_degree(
-    const DynamicalSystem&, std::span<const double>, const PartialInversion<double>&);
-template std::vector<HamiltonJacobiResidual> hamilton_jacobi_by_degree(
-    const DynamicalSystem&, std::span<const Extended>, const PartialInversion<Extended>&);
+    const DynamicalSystem&, std::span<const InstantiatedReal>,
+    const PartialInversion<InstantiatedReal>&);
 
 }  // namespace hamjet

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -63,7 +64,15 @@ struct HamiltonJacobiTerms {
   /// for these boundary values. Unlike the largest coefficient of a degree, it does not count what
   /// round-off, amplified by the inversion, makes of coefficients that add nothing at w. 0 where
   /// both vanish.
-  double scaled() const;
+  double scaled() const {
+    const auto size = [](const std::vector<double>& terms) {
+      double sum = 0;
+      for (const double term : terms) sum += std::abs(term);
+      return sum;
+    };
+    const double scale = size(hamiltonian);
+    return scale > 0 ? size(residual) / scale : size(residual);
+  }
 };
 
 /// Evaluates the Hamilton-Jacobi equation at `w`, the kind's chosen final deviations, then the

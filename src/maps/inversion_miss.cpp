@@ -7,6 +7,8 @@
 #include <random>
 #include <vector>
 
+#include "../algebra/instantiated_real.hpp"
+
 namespace hamjet {
 namespace {
 
@@ -155,8 +157,7 @@ double inversion_miss(const std::vector<Series<T>>& jet, const PartialInversion<
   return result;
 }
 
-template double inversion_miss(const std::vector<Series<double>>&, const PartialInversion<double>&);
-template double inversion_miss(const std::vector<Series<Extended>>&,
-                               const PartialInversion<Extended>&);
+template double inversion_miss(const std::vector<Series<InstantiatedReal>>&,
+                               const PartialInversion<InstantiatedReal>&);
 
 }  // namespace hamjet

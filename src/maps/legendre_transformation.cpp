@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "../algebra/instantiated_real.hpp"
 #include "../algebra/singular_values.hpp"
 #include "hamjet/algebra/calculus.hpp"
 #include "hamjet/error.hpp"
@@ -140,19 +141,12 @@ Series<T> legendre_transformation(const Series<T>& S, const GeneratingFunctionKi
   return generating_function(one_form(change_of_kind(remaining_variables(S, from), to, precision)));
 }
 
-template PartialInversion<double> remaining_variables(const Series<double>&,
-                                                      const GeneratingFunctionKind&);
-template PartialInversion<Extended> remaining_variables(const Series<Extended>&,
-                                                        const GeneratingFunctionKind&);
-template PartialInversion<double> change_of_kind(const PartialInversion<double>&,
-                                                 const GeneratingFunctionKind&, double);
-template PartialInversion<Extended> change_of_kind(const PartialInversion<Extended>&,
-                                                   const GeneratingFunctionKind&, double);
-template Series<double> legendre_transformation(const Series<double>&,
-                                                const GeneratingFunctionKind&,
-                                                const GeneratingFunctionKind&, double);
-template Series<Extended> legendre_transformation(const Series<Extended>&,
-                                                  const GeneratingFunctionKind&,
-                                                  const GeneratingFunctionKind&, double);
+template PartialInversion<InstantiatedReal> remaining_variables(const Series<InstantiatedReal>&,
+                                                                const GeneratingFunctionKind&);
+template PartialInversion<InstantiatedReal> change_of_kind(
+    const PartialInversion<InstantiatedReal>&, const GeneratingFunctionKind&, double);
+template Series<InstantiatedReal> legendre_transformation(const Series<InstantiatedReal>&,
+                                                          const GeneratingFunctionKind&,
+                                                          const GeneratingFunctionKind&, double);
 
 }  // namespace hamjet

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "../algebra/instantiated_real.hpp"
 #include "../algebra/singular_values.hpp"
 #include "../integrators/momentum_unit.hpp"
 #include "hamjet/error.hpp"
@@ -125,17 +126,12 @@ GeneratingFunctionKind best_conditioned_kind(const std::vector<Series<T>>& jet,
   return best;
 }
 
-template Matrix<double> inverted_block(const std::vector<Series<double>>&,
-                                       const GeneratingFunctionKind&, int);
-template Matrix<Extended> inverted_block(const std::vector<Series<Extended>>&,
-                                         const GeneratingFunctionKind&, int);
-template double condition_number(const Matrix<double>&);
-template double condition_number(const Matrix<Extended>&);
-template PartialInversion<double> invert_partially(const std::vector<Series<double>>&,
-                                                   const GeneratingFunctionKind&, double, int);
-template PartialInversion<Extended> invert_partially(const std::vector<Series<Extended>>&,
-                                                     const GeneratingFunctionKind&, double, int);
-template GeneratingFunctionKind best_conditioned_kind(const std::vector<Series<double>>&, int);
-template GeneratingFunctionKind best_conditioned_kind(const std::vector<Series<Extended>>&, int);
+template Matrix<InstantiatedReal> inverted_block(const std::vector<Series<InstantiatedReal>>&,
+                                                 const GeneratingFunctionKind&, int);
+template double condition_number(const Matrix<InstantiatedReal>&);
+template PartialInversion<InstantiatedReal> invert_partially(
+    const std::vector<Series<InstantiatedReal>>&, const GeneratingFunctionKind&, double, int);
+template GeneratingFunctionKind best_conditioned_kind(const std::vector<Series<InstantiatedReal>>&,
+                                                      int);
 
 }  // namespace hamjet

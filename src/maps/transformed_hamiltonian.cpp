@@ -1,19 +1,8 @@
 #include "transformed_hamiltonian.hpp"
 
-#include "hamjet/error.hpp"
+#include "../algebra/instantiated_real.hpp"
 
 namespace hamjet {
-namespace {
-
-void require_same_dimension(Eigen::Index hamiltonian, Eigen::Index map) {
-  if (hamiltonian != map) {
-    throw Error(ErrorKind::usage,
-                "transformed Hamiltonian: the map has another number of variables");
-  }
-}
-
-}  // namespace
-
 template <class Real>
 TransformedHamiltonian<Real>::TransformedHamiltonian(DifferentiableHamiltonian<Real>& original,
                                                      const AffineSymplecticMap<Real>& map)
@@ -23,7 +12,7 @@ TransformedHamiltonian<Real>::TransformedHamiltonian(DifferentiableHamiltonian<R
 
 template <class Real>
 void TransformedHamiltonian<Real>::set_map(const AffineSymplecticMap<Real>& map) {
-  require_same_dimension(dimension(), map.dimension());
+  detail::require_same_dimension(dimension(), map.dimension());
   inverse_ = map.inverse_matrix();
   shift_ = map.shift();
 }
@@ -42,25 +31,6 @@ const HamiltonianDerivatives<Real>& TransformedHamiltonian<Real>::derivatives(
   return derivatives_;
 }
 
-DynamicalSystem transformed_system(const DynamicalSystem& system,
-                                   const AffineSymplecticMap<Extended>& map) {
-  require_same_dimension(static_cast<Eigen::Index>(system.dimension()), map.dimension());
-  const AffineSymplecticMap<Extended> inverse = map.inverse();
-  const auto hamiltonian = record(system.dimension(), [&](std::span<const Expression> Z) {
-    std::vector<Expression> z;
-    for (Eigen::Index i = 0; i < inverse.dimension(); ++i) {
-      Expression sum(inverse.shift()(i));
-      for (Eigen::Index j = 0; j < inverse.dimension(); ++j) {
-        sum += Expression(inverse.matrix()(i, j)) * Z[static_cast<std::size_t>(j)];
-      }
-      z.push_back(sum);
-    }
-    return recorded_outputs(system.hamiltonian, z);
-  });
-  return make_system(system.name + ", transformed", hamiltonian);
-}
-
-template class TransformedHamiltonian<double>;
-template class TransformedHamiltonian<Extended>;
+template class TransformedHamiltonian<InstantiatedReal>;
 
 }  // namespace hamjet

@@ -6,6 +6,11 @@
 
 namespace hamjet {
 
+namespace detail {
+/// Throws Error(usage) unless a Hamiltonian and a map have as many variables as each other.
+void require_same_dimension(Eigen::Index hamiltonian, Eigen::Index map);
+}  // namespace detail
+
 /// The Hamiltonian K in the coordinates Z = A z + B of an affine canonical transformation f:
 /// K o f = H, that is K(Z) = H(A^-1 (Z - B)), with
 ///

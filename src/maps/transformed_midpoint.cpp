@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "../algebra/instantiated_real.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/integrators/midpoint.hpp"
 
@@ -32,7 +33,6 @@ void TransformedMidpoint<Real>::advance() {
   ++step_;
 }
 
-template class TransformedMidpoint<double>;
-template class TransformedMidpoint<Extended>;
+template class TransformedMidpoint<InstantiatedReal>;
 
 }  // namespace hamjet

@@ -1,13 +1,12 @@
 #include "conjugate_times.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <limits>
 #include <numbers>
 #include <utility>
+
+#include "lagrangian_plane.hpp"
 
 namespace hamjet {
 namespace {
@@ -19,36 +18,6 @@ constexpr double phase_tolerance = 1e-9;
 
 /// Eigenvalues that turn by more than this in a step could be taken for one another.
 constexpr double largest_turn = 0.75 * std::numbers::pi;
-
-/// Follows the plane of neighbouring extremals.
-class LagrangianPlane {
- public:
-  explicit LagrangianPlane(Eigen::Index n) : frame_(Eigen::MatrixXd::Zero(2 * n, n)) {
-    frame_.bottomRows(n).setIdentity();
-  }
-
-  void advance(const Eigen::MatrixXd& jacobian) {
-    const Eigen::MatrixXd moved = jacobian * frame_;
-    const Eigen::HouseholderQR<Eigen::MatrixXd> decomposition(moved);
-    frame_ = decomposition.householderQ() * Eigen::MatrixXd::Identity(moved.rows(), moved.cols());
-  }
-
-  /// The phases of the eigenvalues of U, ascending.
-  std::vector<double> phases() const {
-    using Complex = std::complex<double>;
-    const Eigen::Index n = frame_.cols();
-    const Eigen::MatrixXcd w =
-        frame_.bottomRows(n).cast<Complex>() + Complex(0, 1) * frame_.topRows(n).cast<Complex>();
-    const Eigen::ComplexEigenSolver<Eigen::MatrixXcd> solver(w * w.transpose(), false);
-    std::vector<double> result;
-    for (const Complex& value : solver.eigenvalues()) result.push_back(std::arg(value));
-    std::sort(result.begin(), result.end());
-    return result;
-  }
-
- private:
-  Eigen::MatrixXd frame_;
-};
 
 /// Follows the phases, ascending, to those of the next step: on the circle their order stays, so
 /// that the next ones are a cyclic shift of them, the one with the least largest turn. Returns that

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "../../algebra/instantiated_real.hpp"
 #include "../directional_flow.hpp"
 #include "gauss_lanes.hpp"
 #include "hamjet/algebra/extended.hpp"
@@ -189,17 +190,11 @@ FlowJet<Real> integrate_with_step_tolerance(const FlowProblem<Real>& problem,
   return integrate_as_given(problem, settings, statistics);
 }
 
-template StepTolerance<double> choose_step_tolerance(const FlowProblem<double>&,
-                                                     const GaussSettings&);
-template StepTolerance<Extended> choose_step_tolerance(const FlowProblem<Extended>&,
-                                                       const GaussSettings&);
-template void record_choice(StepTolerance<double>, IntegrationStatistics&);
-template void record_choice(StepTolerance<Extended>, IntegrationStatistics&);
-template FlowJet<double> integrate_with_step_tolerance(const FlowProblem<double>&, GaussSettings,
-                                                       double);
-template FlowJet<Extended> integrate_with_step_tolerance(const FlowProblem<Extended>&,
-                                                         GaussSettings, double);
-template GaussSettings finer_gauss<double>(const GaussSettings&, double);
-template GaussSettings finer_gauss<Extended>(const GaussSettings&, double);
+template StepTolerance<InstantiatedReal> choose_step_tolerance(const FlowProblem<InstantiatedReal>&,
+                                                               const GaussSettings&);
+template void record_choice(StepTolerance<InstantiatedReal>, IntegrationStatistics&);
+template FlowJet<InstantiatedReal> integrate_with_step_tolerance(
+    const FlowProblem<InstantiatedReal>&, GaussSettings, double);
+template GaussSettings finer_gauss<InstantiatedReal>(const GaussSettings&, double);
 
 }  // namespace hamjet
