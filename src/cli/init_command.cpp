@@ -53,12 +53,19 @@ std::string filled(std::string_view name, const Filling& filling) {
   const auto* const found =
       std::find_if(std::begin(scene_templates), std::end(scene_templates),
                    [&](const auto& candidate) { return candidate.first == name; });
-  std::string text(found->second);
-  for (const auto& [mark, content] : filling) {
-    const std::string marked = "@" + mark + "@";
-    for (std::size_t at = text.find(marked); at != std::string::npos;
-         at = text.find(marked, at + content.size())) {
-      text.replace(at, marked.size(), content);
+  // In one pass over the template: what was filled in may look like a mark itself.
+  std::string_view left(found->second);
+  std::string text;
+  while (!left.empty()) {
+    const auto mark = std::find_if(filling.begin(), filling.end(), [&](const auto& entry) {
+      return left.starts_with("@" + entry.first + "@");
+    });
+    if (mark != filling.end()) {
+      text += mark->second;
+      left.remove_prefix(mark->first.size() + 2);
+    } else {
+      text += left.front();
+      left.remove_prefix(1);
     }
   }
   return text;

@@ -11,6 +11,7 @@
 #include "../report/paper/paper_reports.hpp"
 #include "../report/propagation/orbit_summary.hpp"
 #include "../studies/arcs.hpp"
+#include "../studies/checks/run_warnings.hpp"
 #include "../studies/descriptions/method_description.hpp"
 #include "../text/terminal_text.hpp"
 #include "check_json.hpp"
@@ -49,6 +50,13 @@ int run_flow_jet(const RunOptions& options, const Scene& scene) {
     summary = io::write_results(result, figure, output);
   }
   if (drawing_problem) print_error(*drawing_problem);
+  if (options.json || options.quiet) {
+    for (const RunResult& run : result.runs) {
+      for (const std::string& warning : run_warnings(scene, run)) {
+        print_error(fmt::format("warning: {}: {}", run.settings.label, warning));
+      }
+    }
+  }
   if (options.json) {
     print(summary);
   } else if (!options.quiet) {

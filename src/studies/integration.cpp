@@ -15,6 +15,7 @@
 #include "../integrators/gauss/gauss_tolerance.hpp"
 #include "../integrators/momentum_unit.hpp"
 #include "arcs.hpp"
+#include "checks/error_promise.hpp"
 #include "descriptions/method_description.hpp"
 #include "hamjet/algebra/composition.hpp"
 #include "hamjet/integrators/error_estimate.hpp"
@@ -139,21 +140,16 @@ JetErrorEstimate estimate_jet_error(const Scene& scene, const FlowProblem<Real>&
 
 template <class Real>
 void sample_rounding_in_doubt(const Scene& scene, const FlowProblem<Real>& flow,
-                              const FlowJet<Real>& jet, const IntegratorSettings& settings,
-                              const JetErrorEstimate& estimate, IntegrationStatistics& statistics,
+                              const FlowJet<Real>& jet, RunResult& run,
                               const std::function<void(double)>& progress) {
-  std::vector<double>& rounding = statistics.rounding_by_degree;
-  if (rounding.empty() || !estimate.by_degree || !statistics.step_tolerance) return;
-  bool is_in_doubt = false;
-  for (std::size_t d = 0; d < rounding.size(); ++d) {
-    const double most = error_estimate_safety * 10 * rounding[d];
-    is_in_doubt = is_in_doubt || !(estimate.by_degree->at(d) <= most);
-  }
-  if (!is_in_doubt) return;
-  const SplittableMethod method = splittable_method(settings);
+  std::vector<double>& rounding = run.statistics.rounding_by_degree;
+  const std::optional<double>& step_tolerance = run.statistics.step_tolerance;
+  if (rounding.empty() || !step_tolerance || !exceeds_promise(scene, run)) return;
+  const Stopwatch stopwatch(run.error_estimate.seconds);
+  const SplittableMethod method = splittable_method(run.settings);
   const auto along_line = [&](const FlowProblem<Real>& line) {
     return integrate_with_step_tolerance<Real>(line, std::get<GaussSettings>(method),
-                                               *statistics.step_tolerance);
+                                               *step_tolerance);
   };
   try {
     const std::vector<double> sampled =
@@ -180,20 +176,18 @@ template FlowJet<double> integrate(const FlowProblem<double>&, const IntegratorS
                                    IntegrationStatistics&, const StepObserver<double>&, bool);
 template FlowJet<Extended> integrate(const FlowProblem<Extended>&, const IntegratorSettings&,
                                      IntegrationStatistics&, const StepObserver<Extended>&, bool);
+template void sample_rounding_in_doubt(const Scene&, const FlowProblem<double>&,
+                                       const FlowJet<double>&, RunResult&,
+                                       const std::function<void(double)>&);
+template void sample_rounding_in_doubt(const Scene&, const FlowProblem<Extended>&,
+                                       const FlowJet<Extended>&, RunResult&,
+                                       const std::function<void(double)>&);
 template JetErrorEstimate estimate_jet_error(const Scene&, const FlowProblem<double>&,
                                              const FlowJet<double>&, const IntegrationStatistics&,
                                              const std::function<void(double)>&);
 template JetErrorEstimate estimate_jet_error(const Scene&, const FlowProblem<Extended>&,
                                              const FlowJet<Extended>&, const IntegrationStatistics&,
                                              const std::function<void(double)>&);
-template void sample_rounding_in_doubt(const Scene&, const FlowProblem<double>&,
-                                       const FlowJet<double>&, const IntegratorSettings&,
-                                       const JetErrorEstimate&, IntegrationStatistics&,
-                                       const std::function<void(double)>&);
-template void sample_rounding_in_doubt(const Scene&, const FlowProblem<Extended>&,
-                                       const FlowJet<Extended>&, const IntegratorSettings&,
-                                       const JetErrorEstimate&, IntegrationStatistics&,
-                                       const std::function<void(double)>&);
 template FlowJet<double> integrate_split(const FlowProblem<double>&, const IntegratorSettings&,
                                          const ArcSettings&, IntegrationStatistics&, ArcStatistics&,
                                          const StepObserver<double>&, const ArcProgress&, bool);

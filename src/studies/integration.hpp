@@ -37,13 +37,13 @@ JetErrorEstimate estimate_jet_error(const Scene& scene, const FlowProblem<Real>&
                                     const std::function<void(double)>& progress);
 
 /// Where a Gauss method's tolerance has met rounding, of which one draw is known, and the estimate
-/// exceeds ten times that draw, raises IntegrationStatistics::rounding_by_degree to a sample
+/// exceeds what is promised, raises IntegrationStatistics::rounding_by_degree to a sample
 /// (sample_rounding): a verdict must not hang on a single draw. Only then is the work worth its
-/// time. A moved start that cannot be integrated leaves the one draw. `progress` may throw to stop.
+/// time, which counts as the estimate's. A moved start that cannot be integrated leaves the one
+/// draw. Precondition: the run has its jet and its error estimate. `progress` may throw to stop.
 template <class Real>
 void sample_rounding_in_doubt(const Scene& scene, const FlowProblem<Real>& flow,
-                              const FlowJet<Real>& jet, const IntegratorSettings& settings,
-                              const JetErrorEstimate& estimate, IntegrationStatistics& statistics,
+                              const FlowJet<Real>& jet, RunResult& run,
                               const std::function<void(double)>& progress);
 
 /// Bytes that the series of one integration take, `coefficients` numbers of `real_bytes` a series.

@@ -63,12 +63,11 @@ void run_integrator(const Scene& scene, const ComputedProblem& problem, std::siz
                   progress(static_cast<double>(time) / scene.duration);
                 },
                 records_step_error);
+  run.jet = convert_map<Extended>(jet);
   if (scene.checks[SelfCheckName::error_estimate].is_on) {
     run.error_estimate = estimate_jet_error<Real>(scene, flow, jet, run.statistics, progress);
-    sample_rounding_in_doubt<Real>(scene, flow, jet, run.settings, run.error_estimate,
-                                   run.statistics, progress);
+    sample_rounding_in_doubt<Real>(scene, flow, jet, run, progress);
   }
-  run.jet = convert_map<Extended>(jet);
   run.nominal_final = full_state(run.jet, problem, scene.nominal.size());
   run.energy_error = recorder.largest_energy_error();
   run.energy = recorder.energy();

@@ -129,6 +129,14 @@ TEST_F(Init, StartsFromAMessage) {
             std::string::npos);
 }
 
+TEST_F(Init, AMarkInANameIsLeftAsItIs) {
+  fs::create_directory(directory_ / "odd@scene@");
+  write("odd@scene@/a@results@.opm", parameter_message("EARTH"));
+  run_what_is_next(succeed({"init", "--from", "odd@scene@/a@results@.opm", "-o", "odd.toml"}).out);
+  EXPECT_NE(content(directory_ / "odd.toml").find("opm_file = \"odd@scene@/a@results@.opm\"\n"),
+            std::string::npos);
+}
+
 TEST_F(Init, TakesTheFirstOfSeveralObjects) {
   const std::string head =
       "CCSDS_OEM_VERS = 2.0\nCREATION_DATE = 2026-01-01T00:00:00\nORIGINATOR = TEST\n";

@@ -152,6 +152,26 @@ TEST_F(RunFiles, SummaryHasTheDocumentedKeys) {
   EXPECT_EQ(summary["runs"][1]["steps"], 100);  // a duration of 1 in steps of 0.01
 }
 
+TEST_F(RunFiles, AWarningIsInTheSummaryAndOnStandardErrorWhereThereIsNoTable) {
+  // Eight steps of Verlet in a revolution at e = 0.9 follow nothing, and fixed steps promise
+  // nothing.
+  write("lost.toml",
+        "system = { model = \"kepler\", mu_km3_s2 = 398600.4415 }\n"
+        "nominal = { a_km = 70000, e = 0.9, i_deg = 0, raan_deg = 0, argp_deg = 0, ta_deg = 180 }\n"
+        "jet = { order = 1, duration_orbits = 2 }\n"
+        "integrator = [{ label = \"coarse\", method = \"velocity-verlet\", step_s = 23000 }]\n"
+        "checks.energy = false\n");
+  for (const char* quiet : {"-q", "--json"}) {
+    const CommandResult result = hamjet({"run", "lost.toml", "-o", "lost", quiet});
+    EXPECT_NE(result.err.find("hamjet: warning: coarse: not one digit of degree"),
+              std::string::npos)
+        << result.err;
+    const Json run = read_json(directory_ / "lost/summary.json")["runs"][0];
+    ASSERT_EQ(run["warnings"].size(), 1U);
+    EXPECT_NE(run["warnings"][0].get<std::string>().find("not one digit"), std::string::npos);
+  }
+}
+
 // The table for the terminal says nothing that is not in the file, and says times and lengths as
 // all other tables and pages do.
 TEST_F(RunFiles, TheTablesTimesAndPositionErrorsAreThoseOfTheSummary) {

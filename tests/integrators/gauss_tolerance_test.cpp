@@ -121,6 +121,19 @@ TEST(GaussTolerance, IsOfRoundingOnlyWhereRoundingLimits) {
   EXPECT_GT(hard.rounding_by_degree[4], 1e-12);
 }
 
+TEST(GaussTolerance, TakesNoErrorOfCoarseStepsForRounding) {
+  // With three stages and a hundredth as the tolerance the first steps leave degree 4 no digit, and
+  // shorter ones little more: not because of rounding, which leaves two digits here (with eight
+  // stages and a tolerance of 1e-13 the error is 2e-3).
+  const auto flow = flow_on<double>({140000, 0.95, 63, 90, 2.5}, 0, 4);
+  IntegrationStatistics coarse;
+  const auto jet = test::run_gauss(flow, test::adaptive(3, 1e-2), &coarse);
+  for (const double error : coarse.rounding_by_degree) EXPECT_LE(error, 1e-2);
+  const auto extended = flow_on<Extended>({140000, 0.95, 63, 90, 2.5}, 0, 4);
+  const auto exact = test::run_gauss(extended, test::adaptive(14, 1e-17));
+  for (int d = 0; d <= 4; ++d) EXPECT_LE(test::relative_error(jet, exact, d), 100 * 1e-2 * 2.5);
+}
+
 TEST(GaussTolerance, HoldsInAFieldOfShortWaves) {
   // The zonals of degree 10 and above are a millionth of the field and have waves shorter than a
   // step that suits the rest: the position was wrong by 1e-7 at a tolerance of 1e-11.

@@ -117,5 +117,19 @@ TEST(OrbitSummary, ItsLinesSayIt) {
       << below;
 }
 
+/// With J2 the heights are not those of the Kepler orbit: at e = 0.01 its lowest one is missed by
+/// up to 18 km (found by integrating), so that none is guaranteed.
+TEST(OrbitSummary, GuaranteesNoHeightWithAZonalField) {
+  const OrbitSummary orbit = kepler_summary(elements_of(6900, 0.01, 180), "duration_orbits = 3",
+                                            "model = \"zonal-gravity\"\nmu_km3_s2 = "
+                                            "398600.4415\nradius_km = 6378.1363\nJ2 = 1.0826e-3\n");
+  ASSERT_TRUE(orbit.perturbation_km);
+  EXPECT_NEAR(*orbit.perturbation_km, 1.0826e-3 * 6378.1363 * 6378.1363 / 6900, 1e-9);
+  const std::string text = orbit_text(orbit);
+  EXPECT_EQ(text.find("at least"), std::string::npos) << text;
+  EXPECT_NE(text.find("several times\n               J2 R^2/a = 6.4 km"), std::string::npos)
+      << text;
+}
+
 }  // namespace
 }  // namespace hamjet::io

@@ -94,6 +94,11 @@ TEST(AllErrors, OneTableHasSeveral) {
 TEST(AllErrors, WhatFollowsFromAnotherIsNotSaid) {
   expect_lines(errors_of(changed(orbit, "[system]", "[sytem]")), {"sytem: unknown key"});
   expect_lines(errors_of(changed(orbit, "J2 = 1e-3", "J21 = 1")), {"J21: unknown key"});
+  // No key of another model is offered, where another error hides what the model asks for too.
+  const auto said =
+      errors_of(changed(changed(orbit, "J2 = 1e-3", "zzz = 1"), "mu_km3_s2 = ", "mu_km3_s2 = -"));
+  expect_lines(said, {"system.mu_km3_s2: not positive", "system.zzz: unknown key"});
+  for (const std::string& line : said) EXPECT_EQ(line.find("mass_kg"), std::string::npos) << line;
   expect_lines(errors_of(changed(orbit, "[jet]", "[je]")), {"file.toml:11:2: je: unknown key"});
   expect_lines(errors_of(changed(orbit, "separation_km", "separation_m")),
                {"formation.separation_m: the model zonal-gravity has no key separation_m"});

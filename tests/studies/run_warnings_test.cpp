@@ -32,6 +32,11 @@ TEST(RunWarnings, OfADegreeWithoutADigit) {
   EXPECT_NE(check.text.find("not one digit of degree"), std::string::npos) << check.text;
   ASSERT_EQ(run_warnings(scene, lost).size(), 1U);
   EXPECT_NE(run_warnings(scene, lost)[0].find("not one digit"), std::string::npos);
+  // An error that is no number is no digit either, wherever it stands.
+  RunResult unknown = lost;
+  unknown.error_estimate.by_degree = {std::nan(""), 1e-3};
+  ASSERT_EQ(run_warnings(scene, unknown).size(), 1U);
+  EXPECT_NE(run_warnings(scene, unknown)[0].find("degree 0"), std::string::npos);
   scene.integrators = {precise_gauss()};
   EXPECT_TRUE(run_warnings(scene, propagate(scene).runs[0]).empty());
 }

@@ -24,9 +24,11 @@ constexpr double least_reduction = 1e-5;
 /// it is the waves of the field that limit them, not yet the tolerance.
 constexpr double next_reduction = 1e-3;
 constexpr int most_trials = 6;
-/// Lines of more steps are tried twice only: each trial is a good part of the whole work then, and
-/// what is left after so long is rounding.
+/// Lines of more steps are tried twice only: each trial is a good part of the whole work then.
 constexpr long most_steps_of_more_trials = 10000;
+/// Steps that leave a degree fewer than two digits are too coarse to converge yet, so that an error
+/// which they do not halve need not be rounding.
+constexpr double largest_converging_error = 1e-2;
 /// From this degree on the zonal harmonics are weak and short enough to hide from the step control.
 constexpr int least_short_waves = 5;
 
@@ -48,9 +50,10 @@ struct Trial {
   long steps = 0;  ///< of each line: the nominal chooses them, and both have one
 
   double excess(std::size_t degree) const { return error_by_degree[degree] / limit; }
-  double largest_excess() const {
-    return *std::max_element(error_by_degree.begin(), error_by_degree.end()) / limit;
+  double largest_error() const {
+    return *std::max_element(error_by_degree.begin(), error_by_degree.end());
   }
+  double largest_excess() const { return largest_error() / limit; }
 };
 
 template <class Real>
@@ -154,9 +157,9 @@ StepTolerance<Real> choose_step_tolerance(const FlowProblem<Real>& problem,
     if (!(trial.largest_excess() > 1)) return chosen(next, flow, std::move(trial));
     const bool is_shorter = trial.steps > before.steps;
     // Steps that much shorter would take away far more of a truncation error.
-    const bool is_rounding = is_shorter && trial.largest_excess() > 0.5 * excess;
-    const bool is_long = before.steps > most_steps_of_more_trials;
-    if (is_rounding || is_long || next == smallest) {
+    const bool is_rounding = is_shorter && trial.largest_excess() > 0.5 * excess &&
+                             trial.largest_error() <= largest_converging_error;
+    if (is_rounding || next == smallest) {
       const double tolerance = where_rounding_begins(before, trial);
       std::vector<double> rounding = trial.error_by_degree;
       StepTolerance<Real> choice = chosen(tolerance, flow, std::move(trial));
@@ -165,7 +168,9 @@ StepTolerance<Real> choose_step_tolerance(const FlowProblem<Real>& problem,
     }
     power = is_shorter ? convergence(before, trial) : 1;
     largest_reduction = is_shorter ? 0.1 : next_reduction;
+    const bool is_long = before.steps > most_steps_of_more_trials;
     before = std::move(trial);
+    if (is_long) break;
   }
   std::vector<double> unmet = before.error_by_degree;
   StepTolerance<Real> choice = chosen(before.tolerance, flow, std::move(before));

@@ -117,6 +117,13 @@ std::optional<OrbitSummary> orbit_summary(const Scene& scene) {
     summary.revolutions = std::abs(scene.duration) / orbit.period();
   }
   summary.lowest_km = orbit.lowest(scene.duration) * units.length_km;
+  if (scene.system.model == SystemModel::zonal_gravity && scene.system.J[2] != 0) {
+    const double radius_km = scene.system.radius_km;
+    const double size_km =
+        (orbit.is_ellipse() ? orbit.perigee() + orbit.apogee() : 2 * orbit.perigee()) / 2 *
+        units.length_km;
+    summary.perturbation_km = std::abs(scene.system.J[2]) * radius_km * radius_km / size_km;
+  }
   if (scene.system.radius_km > 0) {
     summary.surface_km = scene.system.radius_km;
   } else if (const CelestialBody* const body = body_with_mu(scene.system.mu_km3_s2)) {
@@ -154,8 +161,14 @@ std::string orbit_text(const OrbitSummary& orbit) {
     text += fmt::format("goes below the surface within the duration, to {:.2f} km under it",
                         *orbit.surface_km - orbit.lowest_km);
   } else {
-    text += fmt::format("stays above the surface within the duration, by {:.2f} km at least",
+    text += fmt::format("stays above the surface within the duration, by {:.2f} km",
                         orbit.lowest_km - *orbit.surface_km);
+  }
+  if (orbit.perturbation_km) {
+    text += fmt::format(
+        "\n               on the Kepler orbit of the start; J2 moves heights by several times\n"
+        "               J2 R^2/a = {:.2g} km, which only a run follows",
+        *orbit.perturbation_km);
   }
   return text + "\n";
 }

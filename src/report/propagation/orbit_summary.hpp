@@ -24,6 +24,8 @@ struct OrbitSummary {
   std::optional<double> period_s;     ///< of an ellipse
   std::optional<double> revolutions;  ///< periods in the duration, whatever its sign
   double lowest_km = 0;               ///< smallest distance from the centre within the duration
+  /// J2 R^2/a, several times of which zonal coefficients move heights by; none without J2.
+  std::optional<double> perturbation_km;
   /// Of the scene, or of the equator of the body whose mu the scene has.
   std::optional<double> surface_km;
 

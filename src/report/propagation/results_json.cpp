@@ -3,6 +3,7 @@
 #include "../../formats/results_names.hpp"
 #include "../../scene/system_json.hpp"
 #include "../../store/json_values.hpp"
+#include "../../studies/checks/run_warnings.hpp"
 #include "hamjet/report/results.hpp"
 #include "hamjet/version.hpp"
 #include "results_operations_json.hpp"
@@ -89,6 +90,7 @@ Json run_json(const PropagationResult& result, const RunResult& run) {
   Json json = integrator_json(run.settings);
   json["error"] = text_or_null(run.failure);
   json["failed_checks"] = run.failed_checks;
+  json["warnings"] = run_warnings(result.scene, run);
   if (!run.failure.empty()) {
     for (const char* key :
          {"checks", "steps", "rejected_steps", "vector_field_evaluations", "nominal_evaluations",

@@ -98,12 +98,18 @@ std::vector<std::string_view> TableReader::owners_of_keys() const {
 void TableReader::attempt_declared_keys(const std::vector<std::string_view>& owners) const {
   if (description_ == nullptr) return;
   const auto all_owners = joined<std::string_view>({owners, owners_of_keys()});
-  attempt([&] { check_keys(); });
+  const auto is_of_another = [&](const SceneKey& key) {
+    return !key.owners.empty() &&
+           std::none_of(all_owners.begin(), all_owners.end(),
+                        [&](std::string_view owner) { return key.belongs_to(owner); });
+  };
+  KnownKeys known;
   for (const SceneKey& key : description_->keys) {
-    const bool is_of_another =
-        std::none_of(all_owners.begin(), all_owners.end(),
-                     [&](std::string_view owner) { return key.belongs_to(owner); });
-    if (is_of_another && !key.owners.empty()) continue;
+    (is_of_another(key) ? known.refused_by_caller : known.keys).push_back(key.name);
+  }
+  attempt([&] { check_keys(known); });
+  for (const SceneKey& key : description_->keys) {
+    if (is_of_another(key)) continue;
     const bool is_required = key.absence.meaning == Absence::Meaning::refused;
     if (errors_->has_about(head(key.name)) || (!has(key.name) && !is_required)) continue;
     // Only `hamjet stability` looks into this one.

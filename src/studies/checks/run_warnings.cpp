@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -57,8 +58,11 @@ std::string near_singular_warning(const Scene& scene, const RunResult& run) {
 std::string no_digits_warning(const RunResult& run) {
   const auto& errors = run.error_by_degree ? run.error_by_degree : run.error_estimate.by_degree;
   if (!errors) return "";
-  const auto worst = std::max_element(errors->begin(), errors->end());
-  if (!(*worst >= 1)) return "";
+  // What is not a number counts as larger than any.
+  const auto worst = std::max_element(errors->begin(), errors->end(), [](double a, double b) {
+    return a < b || (!std::isnan(a) && std::isnan(b));
+  });
+  if (*worst < 1) return "";
   return fmt::format(
       "not one digit of degree {} of the jet is right: its error is about {:.2g} of its largest "
       "coefficient; shorter steps or a smaller tolerance are needed",

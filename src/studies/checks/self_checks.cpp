@@ -11,6 +11,7 @@
 #include "../descriptions/method_description.hpp"
 #include "../largest_coefficient.hpp"
 #include "../stopwatch.hpp"
+#include "error_promise.hpp"
 #include "hamjet/integrators/error_estimate.hpp"
 #include "hamjet/studies/propagation.hpp"
 #include "number_scan.hpp"
@@ -23,14 +24,8 @@ constexpr double largest_fixed_step_error = 5;
 constexpr double gauss_excess = 10;  ///< error over tolerance that Gauss accepts in a step
 constexpr double largest_energy_change = 0.1;
 constexpr double largest_symplecticity_defect = 1e-6;
-constexpr double largest_rounding = 1e-3;         ///< relative rounding of a usable degree
 constexpr double largest_inversion_miss = 1e-20;  ///< or epsilon if larger
 constexpr double largest_amplified_rounding = 1e-4;
-
-/// Whether the tolerance bounds the error of every degree after one period, not a local error.
-bool is_tolerance_of_jet(const RunResult& run) {
-  return description_of(run.settings.method).tolerance_is_of_the_jet;
-}
 
 void not_applicable(SelfCheck& check, std::string why) {
   check.state = SelfCheckState::not_applicable;
@@ -148,13 +143,6 @@ double frequency_growth(const Scene& scene, const RunResult& run) {
   return last > 0 && std::isfinite(largest) ? std::max(1.0, largest / last) : 1;
 }
 
-/// The run's jet, whose coefficients are comparable whatever the unit of length.
-FlowJet<Extended> comparable_jet(const Scene& scene, const RunResult& run) {
-  const std::size_t dimension = scene.nominal.size();
-  return in_momentum_unit(run.jet, kinds_of_variables(scene.variables, dimension, run.jet.size()),
-                          natural_momentum_exponent(is_orbit(scene.system.model), scene.nominal));
-}
-
 void check_symplecticity(SelfCheck& check, const Scene& scene, const RunResult& run) {
   const auto& method = description_of(run.settings.method);
   if (!method.not_symplectic.empty()) {
@@ -254,52 +242,6 @@ void check_surface(SelfCheck& check, const Scene& scene, const RunResult& run) {
   }
 }
 
-/// How often a run's tolerance may count: once a period of the linearised motion for Gauss, whose
-/// tolerance is that of the error after one; once a step for the others, whose tolerance is that of
-/// a step.
-double tolerance_count(const RunResult& run) {
-  return std::max(1.0, is_tolerance_of_jet(run) ? run.statistics.periods
-                                                : static_cast<double>(run.statistics.steps));
-}
-
-/// By degree, by how much half-ulp changes of the start alone change the coefficients, relative to
-/// the largest. Degree d changes by the coefficients of degree d + 1; the last degree is taken to
-/// grow as the one before.
-std::vector<double> half_ulp_changes(const Scene& scene, const RunResult& run) {
-  const int exponent = natural_momentum_exponent(is_orbit(scene.system.model), scene.nominal);
-  const FlowJet<Extended> jet = comparable_jet(scene, run);
-  double size = 0;
-  for (std::size_t i = 0; i < scene.nominal.size(); ++i) {
-    const int momentum = i < scene.nominal.size() / 2 ? 0 : exponent;
-    size = std::max(size, std::ldexp(std::abs(scene.nominal[i]), -momentum));
-  }
-  std::vector<double> changes;
-  for (int d = 0; d < scene.order; ++d) {
-    const double at = d == 0 ? size : largest_coefficient(jet, d);
-    const double above = largest_coefficient(jet, d + 1);
-    changes.push_back(
-        at > 0 ? 0.5 * rounding_of(scene.precision) * (1 + (d + 1) * above * size / at) : 0);
-  }
-  changes.push_back(changes.back() * (scene.order + 1) / scene.order);
-  return changes;
-}
-
-/// By degree, the estimate of the error that a run with a tolerance is allowed; see self_checks.
-std::vector<double> promised_errors(const Scene& scene, const RunResult& run) {
-  std::vector<double> promised = half_ulp_changes(scene, run);
-  const std::vector<double>& measured = run.statistics.rounding_by_degree;
-  const double steps = static_cast<double>(run.statistics.steps);
-  for (std::size_t d = 0; d < promised.size(); ++d) {
-    double floor = std::sqrt(1 + steps) * promised[d];
-    if (d < measured.size()) floor = std::max(floor, measured[d]);
-    // A degree with fewer than three digits is not delivered, even where rounding is the reason.
-    const double error = std::min(10 * floor, largest_rounding) +
-                         100 * *run.settings.tolerance * tolerance_count(run);
-    promised[d] = error_estimate_safety * error;
-  }
-  return promised;
-}
-
 void check_error_estimate(SelfCheck& check, const Scene& scene, const RunResult& run) {
   check.seconds += run.error_estimate.seconds;
   if (!run.error_estimate.by_degree) return not_applicable(check, run.error_estimate.failure);
@@ -308,7 +250,7 @@ void check_error_estimate(SelfCheck& check, const Scene& scene, const RunResult&
   if (check.limit) {
     limits.assign(estimate.size(), *check.limit);
   } else if (run.settings.tolerance) {
-    limits = promised_errors(scene, run);
+    limits = promised_errors(scene, run).total;
   }
   std::size_t worst = 0;
   const auto badness = [&](std::size_t d) {
@@ -326,7 +268,11 @@ void check_error_estimate(SelfCheck& check, const Scene& scene, const RunResult&
     if (const std::string warning = no_digits_warning(run); !warning.empty()) {
       check.text += "; warning: " + warning;
     }
-  } else if (!judge(check, estimate[worst], limits[worst])) {
+  } else if (judge(check, estimate[worst], limits[worst])) {
+    if (run.settings.tolerance && estimate[worst] > promised_errors(scene, run).of_tolerance) {
+      check.text += ", which is rounding and more than the tolerance asks for";
+    }
+  } else {
     const bool is_rounding = worst < run.statistics.rounding_by_degree.size();
     check.text +=
         is_rounding ? ": shorter steps leave it what rounding makes; precision = \"extended\" or a "
