@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include "../app/rounding_note.hpp"
 #include "../formats/output_formats.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/formats/jet_file.hpp"
@@ -45,12 +46,7 @@ int convert(const ConvertOptions& options) {
   }
   const OutputFile file(to);
   const io::StoredJet stored = io::read_jet_file(options.from, options.run);
-  if (format.digits > 0 && stored.precision == Precision::extended) {
-    print_error(
-        fmt::format("note: the {} holds {} digits: the coefficients of extended precision "
-                    "are rounded",
-                    format.help, format.digits));
-  }
+  if (const auto note = rounding_note(stored, format)) print_error("note: " + *note);
   file.write(io::jet_file_content(stored, format));
   return 0;
 }

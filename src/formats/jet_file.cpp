@@ -70,10 +70,13 @@ const OutputFormat& jet_format(const std::filesystem::path& file) {
 StoredJet read_jet_file(const std::filesystem::path& path,
                         const std::optional<std::string>& label) {
   std::error_code none;
-  if (std::filesystem::is_directory(path, none) || !std::filesystem::exists(path, none)) {
+  const OutputFormat* format = format_of(path);
+  const bool exists = std::filesystem::exists(path, none);
+  if (std::filesystem::is_directory(path, none) || (!exists && format == nullptr)) {
     return read_stored_jet(path, label);
   }
-  const OutputFormat* format = format_of(path);
+  // By its ending it would be a file, and is missing as such.
+  if (!exists) (void)read_text_file(path, largest_jet_bytes);
   if (format == nullptr) {
     throw Error(ErrorKind::input_output,
                 fmt::format("{}: is neither a results directory nor a file {}",

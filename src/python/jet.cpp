@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "hamjet/algebra/calculus.hpp"
 #include "hamjet/algebra/composition.hpp"
 #include "hamjet/error.hpp"
 #include "refusal.hpp"
@@ -86,6 +87,16 @@ MapEvaluator Jet::deviation_to(int degree) const {
         fmt::format("degree {}: must be 1 to the order of the jet, {}", degree, stored_.order()));
   }
   return map_.evaluator(degree);
+}
+
+MapEvaluator Jet::derivatives() const {
+  std::vector<Series<double>> derivatives;
+  for (const Series<double>& component : map_.jet()) {
+    for (std::size_t i = 0; i < map_.variables(); ++i) {
+      derivatives.push_back(derivative(component, i));
+    }
+  }
+  return MapEvaluator(derivatives, stored_.order() - 1);
 }
 
 Jet Jet::composed_with(const Jet& after) const {

@@ -24,6 +24,9 @@ class Jet {
   /// The map of the final deviation without the terms above `degree`. Throws Error(usage) unless
   /// that is from 1 to the order.
   MapEvaluator deviation_to(int degree) const;
+  /// The derivatives of the map, one component a number: those of the first component by each
+  /// variable, then those of the second. They are of one degree less than the map.
+  MapEvaluator derivatives() const;
 
   /// The jet of this flow and then `after`'s, of the lower of the two orders. Throws Error(usage)
   /// unless `after` is of the same system, expanded in the components of this one, and starts where

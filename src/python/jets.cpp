@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
-#include <pybind11/stl/filesystem.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "arithmetic_scope.hpp"
@@ -14,7 +14,10 @@
 #include "interruptible.hpp"
 #include "inverted_jet.hpp"
 #include "jet.hpp"
+#include "jet_arrays.hpp"
+#include "jet_files.hpp"
 #include "pickling.hpp"
+#include "refusal.hpp"
 #include "relative_evaluation.hpp"
 #include "signature.hpp"
 
@@ -50,6 +53,13 @@ Returns an array (N, components), or (components,). The nominal's final state, n
 not added, for small deviations would lose their digits in it. Rows that are not finite, or
 overflow, stay alone and give a RuntimeWarning. Other threads run meanwhile. Raises UsageError.)";
 
+constexpr const char* jacobian_doc =
+    R"(Derivatives of the final deviations by the initial ones, at initial ones; canonical.
+
+deviations: as of evaluate. Returns an array (N, components, variables), or (components, variables) of
+one: the state transition matrix about the trajectory that starts there. At zero it is linear_part. A
+call for many points prepares the derivatives once. Raises UsageError.)";
+
 constexpr const char* evaluate_relative_doc =
     R"(Carries relative states through the jet of an orbit, as `hamjet eval` does.
 
@@ -67,7 +77,12 @@ constexpr const char* compose_doc =
     R"(The jet of this flow and then that of `after`, of the lower of their orders.
 
 `after` must be of the same system in the same units, expanded in this jet's components, and start
-where this one ends (to 1e-12). Raises UsageError.)";
+where this one ends (to 1e-12). `after @ jet` is the same. Raises UsageError.)";
+
+constexpr const char* matmul_doc =
+    R"(The jet of the flow of `before` and then of this one: before.compose(self).
+
+It is written as the product of their linear parts is.)";
 
 constexpr const char* inverse_doc =
     R"(The jet of the flow back: from deviations at the end to those at the start.
@@ -117,6 +132,23 @@ py::object evaluate(const Jet& jet, const py::object& deviations, const py::obje
   return evaluate_array(jet.deviation_to(*degree), deviations, columns, out, "deviations");
 }
 
+py::object jacobian(const Jet& jet, const py::object& deviations) {
+  const auto columns = [&] { return names(jet.stored(), jet.stored().variables); };
+  const py::object rows =
+      evaluate_array(jet.derivatives(), deviations, columns, py::none(), "deviations");
+  std::vector<py::ssize_t> shape;
+  if (py::cast<py::array>(rows).ndim() == 2) shape.push_back(py::cast<py::array>(rows).shape(0));
+  shape.push_back(size_of(jet.stored().components.size()));
+  shape.push_back(size_of(jet.stored().variables.size()));
+  return rows.attr("reshape")(shape);
+}
+
+Jet composition(const JetPointer& first, const JetPointer& second) {
+  return interruptibly(py::none(), [first, second](const ProgressCallback&) {
+    return first->composed_with(*second);
+  });
+}
+
 void warn_if_not_inside(const std::vector<unsigned char>& support, bool is_strict) {
   const auto inside = static_cast<unsigned char>(TruncationEstimate::Support::inside);
   const auto count = std::count_if(support.begin(), support.end(),
@@ -153,7 +185,8 @@ py::object evaluate_relative_states(const Jet& jet, const py::object& states,
   warn_if_not_inside(support, is_strict);
   return py::module_::import("hamjet.relative_states")
       .attr("_relative_states")(array_of(std::move(results), {size_of(count), size_of(columns)}),
-                                array_of(std::move(miss)), array_of(std::move(support)));
+                                array_of(std::move(miss)), array_of(std::move(support)),
+                                py::tuple(py::cast(column_names())));
 }
 
 std::string representation(const Jet& jet) {
@@ -166,15 +199,35 @@ std::string representation(const Jet& jet) {
          stored.scene + ", " + stored.label + ">";
 }
 
+/// Canonical units of these lengths and times. Throws Error(usage) unless both are above 0.
+CanonicalUnits units_of(double length_km, double time_s) {
+  for (const auto& [name, value] : {std::pair("length_km", length_km), {"time_s", time_s}}) {
+    if (!std::isnormal(value) || value < 0) {
+      refuse(fmt::format("Units: {}: got {}, must be a number above 0", name, value));
+    }
+  }
+  return {length_km, time_s};
+}
+
 void bind_units(py::module_& module) {
   py::class_<CanonicalUnits> units(
       module, "Units",
       "Canonical units: an SI value is the canonical one times these. For an orbit mu = 1.");
   bind_copies(units);
-  units.def_property_readonly("length_km", [](const CanonicalUnits& u) { return u.length_km; })
-      .def_property_readonly("time_s", [](const CanonicalUnits& u) { return u.time_s; })
-      .def_property_readonly("velocity_km_s",
-                             [](const CanonicalUnits& u) { return u.length_km / u.time_s; })
+  units
+      .def(py::init(&units_of), py::arg("length_km"), py::arg("time_s"),
+           documented("__init__(self, length_km, time_s)",
+                      "Units of these sizes; for an orbit mu is 1 only where time_s is "
+                      "sqrt(length_km^3 / mu).")
+               .c_str())
+      .def_property_readonly(
+          "length_km", [](const CanonicalUnits& u) { return u.length_km; },
+          "Kilometres in a unit of length.")
+      .def_property_readonly(
+          "time_s", [](const CanonicalUnits& u) { return u.time_s; }, "Seconds in a unit of time.")
+      .def_property_readonly(
+          "velocity_km_s", [](const CanonicalUnits& u) { return u.length_km / u.time_s; },
+          "Kilometres a second in a unit of velocity.")
       .def("__repr__", [](const CanonicalUnits& u) {
         return py::str("Units(length_km={!r}, time_s={!r})").format(u.length_km, u.time_s);
       });
@@ -277,14 +330,17 @@ void bind_jets(py::module_& module) {
                       "degree=None, strict=False)",
                       evaluate_relative_doc)
                .c_str())
+      .def("jacobian", &jacobian, py::arg("deviations"),
+           documented("jacobian(self, deviations)", jacobian_doc).c_str())
+      .def("compose", &composition, py::arg("after"),
+           documented("compose(self, after)", compose_doc).c_str())
       .def(
-          "compose",
-          [](const JetPointer& self, const JetPointer& after) {
-            return interruptibly(py::none(), [self, after](const ProgressCallback&) {
-              return self->composed_with(*after);
-            });
+          "__matmul__",
+          [](const JetPointer& self, const JetPointer& before) {
+            return composition(before, self);
           },
-          py::arg("after"), documented("compose(self, after)", compose_doc).c_str())
+          py::is_operator(), py::arg("before"),
+          documented("__matmul__(self, before)", matmul_doc).c_str())
       .def(
           "inverse",
           [](const JetPointer& self) {
@@ -316,14 +372,8 @@ void bind_jets(py::module_& module) {
                 py::none(), [self](const ProgressCallback&) { return self->symplecticity(); }));
           },
           documented("symplecticity(self)", symplecticity_doc).c_str());
-  module.def(
-      "load_jet",
-      [](const std::filesystem::path& directory, const std::optional<std::string>& run) {
-        return interruptibly(py::none(), [directory, run](const ProgressCallback&) {
-          return Jet(io::read_stored_jet(directory, run));
-        });
-      },
-      py::arg("directory"), py::arg("run"));
+  bind_jet_arrays(jet);
+  bind_jet_files(module, jet);
 }
 
 }  // namespace hamjet::python

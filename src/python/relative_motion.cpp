@@ -227,9 +227,13 @@ void bind_relative_motion(py::module_& module) {
   bind_study<TransferResult>(module, "TransferStudy")
       .def_property_readonly(
           "exit_code", [](const Studied<TransferResult>& s) { return exit_code(*s.result()); })
+      .def_property_readonly(
+          "csv", [](const Studied<TransferResult>& s) { return io::transfers_csv(*s.result()); })
       .def("arrays", [](const Studied<TransferResult>& s) { return transfer_arrays(*s.result()); })
       .def("fly", &fly);
   bind_study<ValidityResult>(module, "ValidityStudy")
+      .def_property_readonly(
+          "csv", [](const Studied<ValidityResult>& s) { return io::validity_csv(*s.result()); })
       .def("arrays", [](const Studied<ValidityResult>& s) { return validity_arrays(*s.result()); });
   module.def("study_transfers", &study_transfers, py::arg("scene"), py::arg("progress"));
   module.def("study_separations", &study_separations, py::arg("scene"), py::arg("progress"));

@@ -8,7 +8,8 @@
     f1 = jet.invert_partially("F1")                # a generating function
     transfers = hamjet.transfer("data/scenes/transfer-earth-orbit.toml")
 
-A scene is a TOML file, its text, or a dict; data/scenes/README.md has its keys. Systems are those
+A scene is a TOML file, its text, or a dict, which `orbit` makes of keyword arguments;
+data/scenes/README.md has its keys. Systems are those
 that scenes can name: a Hamiltonian of your own needs the C++ library. Coefficients, exponents and
 trajectories are NumPy arrays, read-only. Mistakes are raised as subclasses of `Error`, with the
 text that the command prints. Long work lets other threads run and ends within a second of Ctrl-C.
@@ -17,6 +18,7 @@ text that the command prints. Long work lets other threads run and ends within a
 from ._hamjet import GeneratingFunction, Jet, Units, __version__
 from .errors import (Error, InputOutputError, MissingFileError, NumericalError, SceneError,
                      TooLargeError, UsageError)
+from .orbits import orbit
 from .relative_motion import Transfers, Validity, transfer, validity
 from .relative_states import RelativeStates
 from .results import AlongTime, Nominal, Result, Run, StudyResult, load, run
@@ -24,6 +26,6 @@ from .results import AlongTime, Nominal, Result, Run, StudyResult, load, run
 __all__ = [
     "AlongTime", "Error", "GeneratingFunction", "InputOutputError", "Jet", "MissingFileError",
     "Nominal", "NumericalError", "RelativeStates", "Result", "Run", "SceneError", "StudyResult",
-    "TooLargeError", "Transfers", "Units", "UsageError", "Validity", "__version__", "load", "run",
-    "transfer", "validity",
+    "TooLargeError", "Transfers", "Units", "UsageError", "Validity", "__version__", "load",
+    "orbit", "run", "transfer", "validity",
 ]

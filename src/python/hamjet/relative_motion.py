@@ -5,19 +5,30 @@ from __future__ import annotations
 import json
 import os
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 import numpy.typing as npt
 
-from . import _hamjet, arguments, scenes
+from . import _hamjet, arguments, plots, scenes
+from .errors import UsageError
 from .immutable import Immutable
 from .results import Floats, Progress
+from .tables import Table, data_frame, read_table
 
 Flags = npt.NDArray[np.bool_]
 
 #: Most intervals of one trajectory: more would be gigabytes of a smooth curve.
 _MOST_INTERVALS = 1_000_000
+
+
+_Study = TypeVar("_Study", _hamjet.TransferStudy, _hamjet.ValidityStudy)
+
+
+def _required(study: _Study | None, what: str) -> _Study:
+    if study is None:
+        raise UsageError(f"{what}: these results were unpickled, which leaves their study behind")
+    return study
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,12 +64,13 @@ class Transfers(Immutable):
     #: The command's exit code: 0; 1, if strict and an answer is missing or too far off; 4, without
     #: answers.
     exit_code: int
-    _study: _hamjet.TransferStudy = field(repr=False)
+    table: Table = field(repr=False)  #: the columns of ``transfers.csv``, by name
+    _study: _hamjet.TransferStudy | None = field(repr=False)
 
     @property
     def summary(self) -> dict[str, Any]:
         """What ``hamjet transfer`` writes as summary.json. Draws the report when first asked."""
-        return dict(json.loads(self._study.summary))
+        return dict(json.loads(_required(self._study, "summary").summary))
 
     def trajectory(self, index: int, count: int = 400) -> tuple[Floats, Floats]:
         """The flown deputy of one transfer time's best answer, at ``count`` equal intervals.
@@ -67,13 +79,32 @@ class Transfers(Immutable):
         Returns times in s, (count + 1,), and states, (count + 1, 6), in m and m/s along R, T, N of
         the chief with rotating derivatives. Raises UsageError, also if this time has no answer.
         """
-        return self._study.fly(
+        return _required(self._study, "trajectory").fly(
             arguments.integer(index, "trajectory: index", 0, len(self.times_s) - 1),
             arguments.integer(count, "trajectory: count", 1, _MOST_INTERVALS))
 
     def write(self, directory: str | os.PathLike[str]) -> None:
         """Writes what ``hamjet transfer`` writes, the report among it. Raises InputOutputError."""
-        self._study.write(arguments.path(directory, "directory"))
+        _required(self._study, "write").write(arguments.path(directory, "directory"))
+
+    def to_dataframe(self) -> Any:
+        """A pandas.DataFrame with the columns of ``transfers.csv``, a row a transfer time.
+
+        Raises ImportError where pandas is not installed.
+        """
+        return data_frame(self.table)
+
+    def plot(self, axes: Any = None) -> Any:
+        """Draws the least velocity change of each transfer time, with what is singular marked.
+
+        axes: of matplotlib; None: those of a new figure. Returns the axes. Raises ImportError where
+        matplotlib is not installed.
+        """
+        return plots.draw_transfers(self, axes)
+
+    def __getstate__(self) -> dict[str, Any]:
+        # The study, which trajectories are flown and files are written from, is the C++ library's.
+        return {**super().__getstate__(), "_study": None}
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,16 +116,36 @@ class Validity(Immutable):
     proved_m: Floats  #: (T, N): by flying sampled deputies; 0 where none tried holds
     miss_m: Floats  #: (T, N): the worst sampled miss at ``proved_m``
     is_lower_bound: Flags  #: (T, N): still right at the largest separation tried
-    _study: _hamjet.ValidityStudy = field(repr=False)
+    table: Table = field(repr=False)  #: the columns of ``validity.csv``, by name
+    _study: _hamjet.ValidityStudy | None = field(repr=False)
 
     @property
     def summary(self) -> dict[str, Any]:
         """What ``hamjet validity`` writes as summary.json. Draws the report when first asked."""
-        return dict(json.loads(self._study.summary))
+        return dict(json.loads(_required(self._study, "summary").summary))
 
     def write(self, directory: str | os.PathLike[str]) -> None:
         """Writes what ``hamjet validity`` writes. Raises InputOutputError."""
-        self._study.write(arguments.path(directory, "directory"))
+        _required(self._study, "write").write(arguments.path(directory, "directory"))
+
+    def to_dataframe(self) -> Any:
+        """A pandas.DataFrame with the columns of ``validity.csv``, a row a time and order.
+
+        Raises ImportError where pandas is not installed.
+        """
+        return data_frame(self.table)
+
+    def plot(self, axes: Any = None) -> Any:
+        """Draws the proved separation of each order along time.
+
+        axes: of matplotlib; None: those of a new figure. Returns the axes. Raises ImportError where
+        matplotlib is not installed.
+        """
+        return plots.draw_validity(self, axes)
+
+    def __getstate__(self) -> dict[str, Any]:
+        # The study, which trajectories are flown and files are written from, is the C++ library's.
+        return {**super().__getstate__(), "_study": None}
 
 
 def transfer(scene: scenes.Scene, *, overrides: scenes.Overrides | None = None,
@@ -105,7 +156,8 @@ def transfer(scene: scenes.Scene, *, overrides: scenes.Overrides | None = None,
     NumericalError, TooLargeError, InputOutputError.
     """
     study = _hamjet.study_transfers(scenes.read(scene, overrides), progress)
-    return Transfers(**study.arrays(), exit_code=study.exit_code, _study=study)
+    return Transfers(**study.arrays(), exit_code=study.exit_code,
+                     table=read_table(study.csv), _study=study)
 
 
 def validity(scene: scenes.Scene, *, overrides: scenes.Overrides | None = None,
@@ -115,4 +167,4 @@ def validity(scene: scenes.Scene, *, overrides: scenes.Overrides | None = None,
     The scene has a table [validity]; arguments as of ``run``. Raises as ``transfer``.
     """
     study = _hamjet.study_separations(scenes.read(scene, overrides), progress)
-    return Validity(**study.arrays(), _study=study)
+    return Validity(**study.arrays(), table=read_table(study.csv), _study=study)

@@ -2,32 +2,54 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
+from .tables import data_frame
 
-class RelativeStates(NamedTuple):
-    """Relative states at the end of a jet's duration, and how far the series can be trusted."""
 
-    #: (N, 6) float64: positions in m, velocities in m/s, along the axes of the frame.
+class _RelativeStates(NamedTuple):
     states: npt.NDArray[np.float64]
-    #: (N,) float64: by how much the position may be wrong, in m: what the missing degrees add,
-    #: rounding of coefficients and evaluation, and the errors of the coefficients where the run has
-    #: measured or estimated them. An estimate and no bound; NaN where ``support`` is not "inside".
     miss_m: npt.NDArray[np.float64]
-    #: (N,) str: "inside"; "outside", beyond the polynomial's reach, where the degrees do not
-    #: decay and the states say nothing; or "unknown", where there is but one degree to judge by, or
-    #: a number is not finite.
     support: npt.NDArray[np.str_]
+
+
+class RelativeStates(_RelativeStates):
+    """Relative states at the end of a jet's duration, and how far the series can be trusted.
+
+    It is a tuple (states, miss_m, support) of
+
+      states   (N, 6) float64: positions in m, velocities in m/s, along the axes of the frame
+      miss_m   (N,) float64: by how much the position may be wrong, in m: what the missing degrees
+               add, rounding of coefficients and evaluation, and the errors of the coefficients
+               where the run has measured or estimated them. An estimate and no bound; NaN where
+               ``support`` is not "inside".
+      support  (N,) str: "inside"; "outside", beyond the polynomial's reach, where the degrees do
+               not decay and the states say nothing; or "unknown", where there is but one degree to
+               judge by, or a number is not finite.
+    """
+
+    #: The names of the columns of ``states``, as `hamjet eval` has them.
+    columns: tuple[str, ...]
+
+    def to_dataframe(self) -> Any:
+        """A pandas.DataFrame with the columns that `hamjet eval` writes, a row a state.
+
+        Raises ImportError where pandas is not installed.
+        """
+        named = dict(zip(self.columns, self.states.T))
+        return data_frame({**named, "miss_estimate_m": self.miss_m, "support": self.support})
 
 
 _SUPPORT = np.array(["inside", "outside", "unknown"])
 
 
 def _relative_states(states: npt.NDArray[np.float64], miss_m: npt.NDArray[np.float64],
-                     support: npt.NDArray[np.uint8]) -> RelativeStates:
+                     support: npt.NDArray[np.uint8], columns: tuple[str, ...]) -> RelativeStates:
     words = _SUPPORT[support]
     words.flags.writeable = False
-    return RelativeStates(states, miss_m, words)
+    result = RelativeStates(states, miss_m, words)
+    result.columns = columns
+    return result

@@ -16,7 +16,7 @@ from . import _hamjet, arguments, scenes
 from ._hamjet import Jet
 from .errors import InputOutputError, NumericalError, UsageError
 from .immutable import Immutable
-from .tables import Table, read_table
+from .tables import Table, data_frame, read_table
 
 Floats = npt.NDArray[np.float64]
 Progress = Callable[[str, float], object]
@@ -148,6 +148,18 @@ class StudyResult(Immutable):
         if self._report is None:
             raise UsageError("write: these results were read from files")
         self._report.write(arguments.path(directory, "directory"))
+
+    def to_dataframe(self, table: str | None = None) -> Any:
+        """A pandas.DataFrame of one of the tables, for a sweep of the only one.
+
+        table: its name; None: the only one. Raises UsageError, naming the tables, if there is none
+        of this name or several without a name, ImportError where pandas is not installed.
+        """
+        name = next(iter(self.tables)) if table is None and len(self.tables) == 1 else table
+        if name not in self.tables:
+            names = ", ".join(sorted(self.tables)) or "none"
+            raise UsageError(f"table: got {name!r}, must be one of: {names}")
+        return data_frame(self.tables[name])
 
 
 def _nominal(times: Floats, states: Floats, energy_error: Floats, time_s: float) -> Nominal:

@@ -63,11 +63,14 @@ def _pairs(overrides: Overrides | None) -> list[tuple[str, str]]:
     return pairs
 
 
-def read(scene: Scene, overrides: Overrides | None) -> _hamjet.GivenScene:
-    """Reads and checks a scene; raises SceneError, UsageError, InputOutputError, TooLargeError."""
+def read(scene: Scene, overrides: Overrides | None, name: str = _NAME) -> _hamjet.GivenScene:
+    """Reads and checks a scene; raises SceneError, UsageError, InputOutputError, TooLargeError.
+
+    name: of tables, for messages.
+    """
     pairs = _pairs(overrides)
     if isinstance(scene, Mapping):
-        return _hamjet.scene_of_tables(scene, _NAME, pairs)
+        return _hamjet.scene_of_tables(scene, name, pairs)
     if isinstance(scene, str) and "\n" in scene:
         return _hamjet.scene_of_text(arguments.text(scene, _NAME), _NAME, pairs)
     if isinstance(scene, (str, os.PathLike)):

@@ -6,10 +6,12 @@ import csv
 import io
 import types
 from collections.abc import Mapping
-from typing import Union
+from typing import Any, Union
 
 import numpy as np
 import numpy.typing as npt
+
+from .optional_packages import required
 
 _Column = Union["npt.NDArray[np.float64]", "npt.NDArray[np.bool_]", "npt.NDArray[np.str_]"]
 
@@ -32,7 +34,13 @@ def _column(fields: list[str]) -> _Column:
 
 
 def read_table(text: str) -> Table:
+    """The columns of a CSV file with a header."""
     rows = list(csv.reader(io.StringIO(text)))
     columns = {name: _column([row[i] if i < len(row) else "" for row in rows[1:]])
                for i, name in enumerate(rows[0])}
     return types.MappingProxyType(columns)
+
+
+def data_frame(columns: Mapping[str, Any]) -> Any:
+    """A pandas.DataFrame of the columns; raises ImportError where pandas is not installed."""
+    return required("pandas", "to_dataframe").DataFrame(dict(columns))

@@ -1,0 +1,89 @@
+#include "jet_files.hpp"
+
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <optional>
+#include <string>
+
+#include "../app/replaceable_file.hpp"
+#include "../app/rounding_note.hpp"
+#include "../store/file_system.hpp"
+#include "hamjet/error.hpp"
+#include "hamjet/formats/jet_file.hpp"
+#include "interruptible.hpp"
+#include "refusal.hpp"
+#include "signature.hpp"
+
+namespace hamjet::python {
+namespace {
+
+namespace py = pybind11;
+
+constexpr const char* save_doc =
+    R"(Writes the jet to a file, whole or not at all, as `hamjet convert` does.
+
+path: its ending is the format. A file .h5 (HDF5) holds everything, every digit of extended precision
+too. Files .csv and .dace hold the coefficients alone, .dace in double precision (a RuntimeWarning
+says so where digits are lost): `load` takes them beside the summary.json of their results.
+
+Raises UsageError for another ending, a file of results, or HDF5 in a build without it;
+InputOutputError if it cannot be written.)";
+
+constexpr const char* load_doc =
+    R"(Reads one jet, which `save`, `hamjet convert` or `hamjet run` has written, bit by bit.
+
+path: a file .h5; a file .csv or .dace beside the summary.json of its results or one folder below; or
+a directory of results. run: the label of the run; by default the first that has a result.
+
+Raises UsageError if no run has this label, InputOutputError if the file is not what was written,
+and of these MissingFileError, a FileNotFoundError, if it is not there.)";
+
+std::filesystem::path path_of(const py::object& given) {
+  return py::module_::import("hamjet.arguments")
+      .attr("path")(given, "path")
+      .cast<std::filesystem::path>();
+}
+
+void save(const std::shared_ptr<Jet>& jet, const py::object& path) {
+  const std::filesystem::path file = path_of(path);
+  const io::OutputFormat& format = io::jet_format(file);
+  if (const auto note = cli::rounding_note(jet->stored(), format)) {
+    const std::string text = "save: " + *note;
+    if (PyErr_WarnEx(PyExc_RuntimeWarning, text.c_str(), 1) != 0) throw py::error_already_set();
+  }
+  interruptibly(py::none(), [jet, file, &format](const ProgressCallback&) {
+    cli::require_replaceable(file);
+    io::write_whole_file(file, io::jet_file_content(jet->stored(), format));
+    return true;
+  });
+}
+
+Jet load(const std::filesystem::path& file, const std::optional<std::string>& run) {
+  return interruptibly(py::none(), [file, run](const ProgressCallback&) {
+    return Jet(io::read_jet_file(file, run));
+  });
+}
+
+}  // namespace
+
+void bind_jet_files(py::module_& module, py::class_<Jet, std::shared_ptr<Jet>>& jet) {
+  jet.def("save", &save, py::arg("path"), documented("save(self, path)", save_doc).c_str())
+      .def_static(
+          "load",
+          [](const py::object& path, const std::optional<std::string>& run) {
+            return load(path_of(path), run);
+          },
+          py::arg("path"), py::arg("run") = py::none(),
+          documented("load(path, run=None)", load_doc).c_str());
+  module.def(
+      "load_jet",
+      [](const std::filesystem::path& directory, const std::optional<std::string>& run) {
+        return interruptibly(py::none(), [directory, run](const ProgressCallback&) {
+          return Jet(io::read_stored_jet(directory, run));
+        });
+      },
+      py::arg("directory"), py::arg("run"));
+}
+
+}  // namespace hamjet::python
