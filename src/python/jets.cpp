@@ -332,14 +332,14 @@ void bind_jets(py::module_& module) {
                .c_str())
       .def("jacobian", &jacobian, py::arg("deviations"),
            documented("jacobian(self, deviations)", jacobian_doc).c_str())
-      .def("compose", &composition, py::arg("after"),
+      .def("compose", &composition, py::arg("after").none(false),
            documented("compose(self, after)", compose_doc).c_str())
       .def(
           "__matmul__",
           [](const JetPointer& self, const JetPointer& before) {
             return composition(before, self);
           },
-          py::is_operator(), py::arg("before"),
+          py::is_operator(), py::arg("before").none(false),
           documented("__matmul__(self, before)", matmul_doc).c_str())
       .def(
           "inverse",

@@ -1,4 +1,4 @@
-"""Makes the wheel of the package: CMake compiles and installs it, setuptools packs what is there."""
+"""Makes the wheel of the package: CMake compiles and installs, setuptools packs what is there."""
 
 from __future__ import annotations
 

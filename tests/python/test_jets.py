@@ -245,3 +245,65 @@ def test_jets_in_extended_precision_keep_their_digits():
     # A rotation by 2.5: rounding it to double would leave 1e-17 of the brackets.
     assert jet.symplecticity()["scaled"].max() < 1e-30
     assert jet.inverse().compose(jet).precision == "extended"
+
+
+def test_the_jacobian_is_the_derivative_of_the_polynomial(jet):
+    points = deviations(40, 0.02)
+    found = jet.jacobian(points)
+    assert found.shape == (40, 6, 6)
+    for j in range(6):
+        # The derivative of each monomial, from its exponents.
+        lower = jet.exponents.astype(int) - np.eye(6, dtype=int)[j]
+        kept = lower[:, j] >= 0
+        slope = polynomial(jet.coefficients[:, kept] * jet.exponents[kept, j], lower[kept], points)
+        assert np.abs(found[:, :, j] - slope).max() < 1e-13 * np.abs(slope).max()
+    assert (jet.jacobian(np.zeros(6)) == jet.linear_part).all()
+    assert (jet.jacobian(points[3]) == found[3]).all()
+
+
+def test_the_jacobian_of_a_linear_jet_is_its_linear_part_everywhere():
+    linear = hamjet.run(scene(ORBIT, jet={"order": 1, "duration_canonical": 1.0,
+                                          "variables": ["x", "px"]})).runs["gauss8"].jet
+    found = linear.jacobian([[0.1, 0.2], [0, 0]])
+    assert found.shape == (2, len(linear.components), 2)
+    assert (found == linear.linear_part).all()
+    with pytest.raises(hamjet.UsageError, match=r"^deviations: must have the shape \(N, 2\)"):
+        linear.jacobian(np.zeros(6))
+
+
+def test_the_product_of_jets_is_composition_as_of_their_matrices():
+    halves = [hamjet.run(ORBIT, overrides={"jet.duration_canonical": 1.0}).runs["gauss8"].jet]
+    position, velocity = np.split(halves[0].nominal_final, 2)
+    units = halves[0].units
+    halves.append(hamjet.run(scene(ORBIT, units={"length_km": units.length_km}, nominal={
+        "position_km": position * units.length_km, "velocity_km_s": velocity * units.velocity_km_s},
+        jet={"order": 3, "duration_canonical": 1.0})).runs["gauss8"].jet)
+    first, second = halves
+    product = second @ first
+    assert (product.coefficients == first.compose(second).coefficients).all()
+    assert product.duration_canonical == 2.0
+    largest = np.abs(product.linear_part).max()
+    assert np.abs(product.linear_part - second.linear_part @ first.linear_part).max() < (
+        1e-14 * largest)
+    # The whole flow in one.
+    whole = hamjet.run(ORBIT, overrides={"jet.duration_canonical": 2.0}).runs["gauss8"].jet
+    assert np.abs(product.linear_part - whole.linear_part).max() < 1e-11 * largest
+
+
+def test_products_that_do_not_fit_are_refused(jet):
+    oscillator = hamjet.run(OSCILLATOR).runs["gauss8"].jet
+    with pytest.raises(hamjet.UsageError, match="^compose: the jets are of different systems"):
+        oscillator @ jet
+    with pytest.raises(hamjet.UsageError, match="^compose: the second jet starts"):
+        jet @ jet
+    other = hamjet.run(ORBIT, overrides={"units.length_km": 6000}).runs["gauss8"].jet
+    with pytest.raises(hamjet.UsageError, match="^compose: the jets have different canonical"):
+        other @ jet
+    part = hamjet.run(ORBIT, overrides={"jet.variables": ["x"]}).runs["gauss8"].jet
+    with pytest.raises(hamjet.UsageError, match="^compose: the second jet is expanded in x, must"):
+        part @ jet
+    for wrong in (3, None, "jet"):
+        with pytest.raises(TypeError, match="unsupported operand"):
+            jet @ wrong
+    with pytest.raises(TypeError):
+        jet.compose(None)

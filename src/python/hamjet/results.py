@@ -155,11 +155,12 @@ class StudyResult(Immutable):
         table: its name; None: the only one. Raises UsageError, naming the tables, if there is none
         of this name or several without a name, ImportError where pandas is not installed.
         """
-        name = next(iter(self.tables)) if table is None and len(self.tables) == 1 else table
-        if name not in self.tables:
+        if table is None and len(self.tables) == 1:
+            (table,) = self.tables
+        if table is None or table not in self.tables:
             names = ", ".join(sorted(self.tables)) or "none"
-            raise UsageError(f"table: got {name!r}, must be one of: {names}")
-        return data_frame(self.tables[name])
+            raise UsageError(f"table: got {table!a}, must be one of: {names}")
+        return data_frame(self.tables[table])
 
 
 def _nominal(times: Floats, states: Floats, energy_error: Floats, time_s: float) -> Nominal:
