@@ -10,6 +10,7 @@
 #include "hamjet/algebra/calculus.hpp"
 #include "hamjet/algebra/composition.hpp"
 #include "hamjet/error.hpp"
+#include "jet_dates.hpp"
 #include "refusal.hpp"
 
 namespace hamjet::python {
@@ -109,6 +110,7 @@ Jet Jet::composed_with(const Jet& after) const {
                     names_of(second, second.variables), names_of(stored_, stored_.components)));
   }
   require_meeting(stored_, second);
+  require_dates_meeting(stored_, second);
   io::StoredJet result = stored_;
   result.scene =
       stored_.scene == second.scene ? stored_.scene : stored_.scene + ", " + second.scene;
@@ -136,6 +138,7 @@ Jet Jet::inverse() const {
   io::StoredJet result = stored_;
   result.duration = -stored_.duration;
   std::swap(result.nominal_initial, result.nominal_final);
+  result.ephemeris = ephemeris_at_end(stored_);
   result.error_by_degree.clear();
   result.jet = in_precision(stored_.precision, [&]<class T>(T) {
     std::vector<T> start;

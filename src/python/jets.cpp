@@ -77,7 +77,8 @@ constexpr const char* compose_doc =
     R"(The jet of this flow and then that of `after`, of the lower of their orders.
 
 `after` must be of the same system in the same units, expanded in this jet's components, and start
-where this one ends (to 1e-12). `after @ jet` is the same. Raises UsageError.)";
+where this one ends (to 1e-12), and if both are dated, when it does and in the same frame.
+`after @ jet` is the same. Raises UsageError.)";
 
 constexpr const char* matmul_doc =
     R"(The jet of the flow of `before` and then of this one: before.compose(self).

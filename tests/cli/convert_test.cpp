@@ -61,7 +61,7 @@ TEST_F(ConvertTest, Mistakes) {
   expect_error({"convert", "results/summary.json", "a.csv"}, 5,
                {"summary.json: is neither a results directory"});
   expect_error({"convert", "absent", "a.csv"}, 5, {"absent/summary.json", "No such file"});
-  expect_error({"convert", "absent.h5", "a.csv"}, 5, {"absent.h5"});
+  expect_error({"convert", "absent.h5", "a.csv"}, 5, {"absent.h5: cannot be read: No such file"});
   expect_error({"convert", "results", "quick.toml/a.csv"}, 5, {"quick.toml"});
   write("far.csv", content(directory_ / "results" / "gauss8" / "jet.csv"));
   expect_error({"convert", "far.csv", "a.csv"}, 5, {"far.csv: no summary.json beside it"});

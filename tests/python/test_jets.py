@@ -307,3 +307,33 @@ def test_products_that_do_not_fit_are_refused(jet):
             jet @ wrong
     with pytest.raises(TypeError):
         jet.compose(None)
+
+
+def dated(epoch, **changes):
+    settings = {"epoch": epoch, "time_system": "UTC", "reference_frame": "TOD",
+                "center_name": "EARTH", **changes}
+    return hamjet.run(scene(ORBIT, ephemeris=settings)).runs["gauss8"].jet
+
+
+def test_jets_with_dates_follow_each_other_in_time(jet):
+    first = dated("2026-03-01T00:00:00")
+    back = first.inverse()
+    # The flow back starts when the flow ends, and is back when that started.
+    assert (back @ first).linear_part.shape == (6, 6)
+    assert (first @ back).duration_canonical == 0
+    end = np.datetime64("2026-03-01T00:00:00", "ns") + np.timedelta64(
+        round(first.duration_s * 1e9), "ns")
+    later = dated("2026-03-02T00:00:00")
+    with pytest.raises(hamjet.UsageError) as raised:
+        later.inverse() @ first
+    start = end + np.timedelta64(1, "D")
+    said = [part.rstrip(",") for part in str(raised.value).split() if part.startswith("2026-")]
+    assert str(raised.value).startswith("compose: the second jet starts at 2026-03-02T")
+    for found, expected in zip(said, (start, end)):
+        assert abs(np.datetime64(found[:-3], "ns") - expected) <= np.timedelta64(10, "ns")
+    with pytest.raises(hamjet.UsageError) as raised:
+        back @ dated("2026-03-01T00:00:00", time_system="TDB")
+    assert str(raised.value) == ("compose: the second jet is in TOD about EARTH in UTC, must be in "
+                                 "the frame of the first, TOD about EARTH in TDB")
+    # Without a date there is nothing to compare.
+    assert (back @ jet).order == first.order
