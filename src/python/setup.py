@@ -19,7 +19,7 @@ SOURCE = pathlib.Path(__file__).resolve().parents[2]
 #: A finished build, whose package is packed as it is; without one there is a build of its own.
 FINISHED = os.environ.get("HAMJET_WHEEL_FROM")
 #: It stays, so that the next wheel compiles what has changed alone.
-BUILD = pathlib.Path(FINISHED or SOURCE / "build-python")
+BUILD = SOURCE / (FINISHED or os.environ.get("HAMJET_BUILD", "build-python"))
 
 
 def said_to_cmake(pattern: str) -> str:

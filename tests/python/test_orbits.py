@@ -37,6 +37,11 @@ def test_keywords_make_the_scene_that_they_say():
 def test_what_is_given_stands_in_place_of_what_would_be_filled_in():
     system = hamjet.orbit(**LOW, mu_km3_s2=1.0e5, radius_km=5000)["system"]
     assert (system["mu_km3_s2"], system["radius_km"]) == (1.0e5, 5000)
+    # Of another body neither is filled in.
+    with pytest.raises(hamjet.SceneError, match="^orbit: system.radius_km: missing"):
+        hamjet.orbit(**LOW, mu_km3_s2=42828.37)
+    with pytest.raises(hamjet.SceneError, match="^orbit: system.mu_km3_s2: missing"):
+        hamjet.orbit(**LOW, radius_km=3396.19)
     without = {**LOW, "J2": None}
     assert hamjet.orbit(**without, model="kepler", mu_km3_s2=2.0e5)["system"] == {
         "model": "kepler", "mu_km3_s2": 2.0e5}

@@ -22,9 +22,10 @@ def orbit(**keys: Any) -> dict[str, Any]:
                                       duration_orbits=0.8)).runs["gauss8"].jet
 
     The keywords are keys of a scene, listed below: those of the tables that every scene has, and
-    whole tables as dicts (``transfer={...}``). What is None is left out. Without ``model`` the
-    field is the Earth's, zonal-gravity with its mu and equatorial radius and the J_n that are
-    given; with elements of an orbit, angles are 0 that are left out (node, perigee, anomaly).
+    whole tables as dicts (``transfer={...}``). What is None is left out. Without ``model`` it is
+    zonal-gravity with the J_n that are given, and without mu, radius and a file of the field it is
+    the Earth's mu and equatorial radius. With elements of an orbit, angles are 0 that are left out
+    (node, perigee, anomaly).
 
     Returns the tables of the scene as a dict, which was checked. Raises as ``run`` does: an unknown
     keyword is a SceneError that names the nearest key.
@@ -39,7 +40,8 @@ def orbit(**keys: Any) -> dict[str, Any]:
     system = scene["system"]
     if "model" not in system:
         earth = _hamjet.earth_system()
-        if "gravity_file" in system:  # which has a mu and a radius of its own
+        # The mu of one body and the radius of another would make a field that is neither's.
+        if system.keys() & {*earth, "gravity_file"}:
             earth = {"model": earth["model"]}
         scene["system"] = {**earth, **system}
     if "a_km" in scene["nominal"]:
