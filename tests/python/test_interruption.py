@@ -84,10 +84,11 @@ def test_progress_is_reported_and_may_stop_the_work():
         if len(seen) == 3:
             raise RuntimeError("enough")
 
-    start = time.monotonic()
+    # Of the processor, which other programs may keep busy too.
+    start = time.process_time()
     with pytest.raises(RuntimeError, match="^enough$"):
         hamjet.run(LONG, progress=watch)
-    assert time.monotonic() - start < 20
+    assert time.process_time() - start < 20
     assert [task for task, _ in seen] == ["gauss8"] * 3
     fractions = [fraction for _, fraction in seen]
     assert 0 < fractions[0] < fractions[1] < fractions[2] < 1
