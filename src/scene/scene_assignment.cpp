@@ -11,7 +11,7 @@ const TableDescription& relative_state_table() {
 }
 
 std::vector<RelativeState> read_states(const TableReader& assignment, std::string_view key,
-                                       const Nominal& nominal) {
+                                       const Nominal& nominal, RelativeFrame frame) {
   const std::vector<TableReader> tables = assignment.tables(key);
   if (tables.size() > static_cast<std::size_t>(most_deputies)) {
     assignment.fail(key,
@@ -23,7 +23,7 @@ std::vector<RelativeState> read_states(const TableReader& assignment, std::strin
     table.check_keys({relative_state_table().names(),
                       {"frame", "derivatives"},
                       fmt::format("a {}, which is in the frame of the table [transfer],", key)});
-    states.push_back(read_relative_state(table, nominal));
+    states.push_back(read_relative_state(table, nominal, frame));
   }
   return states;
 }
@@ -54,8 +54,8 @@ AssignmentSettings read_assignment(const TableReader& assignment, const Scene& s
   }
   AssignmentSettings settings;
   assignment.read_if_any("time", settings.time);
-  settings.deputies = read_states(assignment, "deputy", nominal);
-  settings.slots = read_states(assignment, "slot", nominal);
+  settings.deputies = read_states(assignment, "deputy", nominal, scene.transfer->frame);
+  settings.slots = read_states(assignment, "slot", nominal, scene.transfer->frame);
   if (settings.deputies.size() != settings.slots.size()) {
     assignment.fail("slot",
                     fmt::format("as many slots as deputies are needed, got {} deputies and {} "

@@ -290,6 +290,16 @@ IntegratorSettings default_integrator() {
   return settings;
 }
 
+const std::string& default_integrator_table() {
+  static const std::string table = [] {
+    const IntegratorSettings settings = default_integrator();
+    return fmt::format(
+        "[[integrator]]\nlabel = \"{}\"\nmethod = \"{}\"\nstages = {}\ntolerance = {:e}\n",
+        settings.label, method_name(settings.method), settings.stages, *settings.tolerance);
+  }();
+  return table;
+}
+
 std::vector<IntegratorSettings> read_integrators(const std::vector<TableReader>& integrators,
                                                  Precision precision, double duration,
                                                  const CanonicalScale& scale) {

@@ -14,7 +14,7 @@ struct NominalFromFile {
 
 /// The centre of attraction as a scene has it.
 struct SceneCentre {
-  const SystemSettings& system;
+  SystemSettings system;
   std::optional<std::string> stated_name;  ///< `ephemeris.center_name`
 };
 

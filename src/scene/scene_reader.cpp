@@ -6,7 +6,7 @@
 #include "../formats/output_formats.hpp"
 #include "../studies/arcs.hpp"
 #include "../text/scene_message.hpp"
-#include "scene_sections.hpp"
+#include "scene_relative_motion.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -77,6 +77,7 @@ Scene read_flow_jet(const TableReader& root) {
   const bool has_dates = read_table("ephemeris", [&](const auto& table) {
     scene.ephemeris = read_ephemeris(table, nominal.file, scene.system);
   });
+  nominal.ephemeris = scene.ephemeris;
   const bool has_jet = root.attempt([&] {
     const JetSettings jet = read_jet(root.table("jet"), scene.system, scene.precision, nominal);
     scene.order = jet.order;
@@ -104,12 +105,18 @@ Scene read_flow_jet(const TableReader& root) {
   root.attempt([&] { require_splittable(root.table("jet"), scene); });
   read_table("validity",
              [&](const auto& table) { scene.validity = read_validity(table, scene, nominal); });
+  const bool has_deputy = read_table(
+      "deputy", [&](const auto& table) { scene.deputy = read_deputy(table, scene, nominal); });
+  if (!has_deputy || root.is_misspelt("deputy")) return scene;
   const bool has_transfer = root.attempt([&] {
     if (!root.has("transfer")) return;
     // An assignment gives the ends itself.
     scene.transfer = read_transfer(root.table("transfer"), scene, nominal, !root.has("assignment"));
   });
   if (!has_transfer || root.is_misspelt("transfer")) return scene;
+  for (std::string& warning : distant_deputies(root, scene)) {
+    scene.warnings.push_back(std::move(warning));
+  }
   read_table("assignment",
              [&](const auto& table) { scene.assignment = read_assignment(table, scene, nominal); });
   if (has_dates) root.attempt([&] { require_dates(root, scene); });

@@ -40,7 +40,17 @@ RelativeFrame read_relative_frame(const TableReader& table, const TableReader& f
 /// The frame of one table; RTN if it has no key `frame`.
 RelativeFrame read_relative_frame_or_rtn(const TableReader& table);
 
-/// The keys `position_m` and, optional, `velocity_m_s`.
-RelativeState read_relative_state(const TableReader& table, const Nominal& nominal);
+/// A deputy in the given frame: `position_m` and, optional, `velocity_m_s` in that frame, or its
+/// own orbit in the keys of [nominal], whose difference from the chief's is taken.
+RelativeState read_relative_state(const TableReader& table, const Nominal& nominal,
+                                  RelativeFrame frame);
+
+/// The start of the scene's deputy in the frame of another table.
+RelativeState in_other_frame(const TableReader& table, const Nominal& nominal,
+                             const DeputySettings& deputy, RelativeFrame frame);
+
+/// A line for each deputy that is beyond what any polynomial resolves: a twentieth of the chief's
+/// distance from the centre away or more.
+std::vector<std::string> distant_deputies(const TableReader& root, const Scene& scene);
 
 }  // namespace hamjet::io

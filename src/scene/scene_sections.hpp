@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hamjet/algebra/extended.hpp"
+#include "scene_nominal_file.hpp"
 #include "study_reader.hpp"
 #include "tables/scene_table.hpp"
 
@@ -63,6 +64,11 @@ struct Nominal {
   std::vector<double> state;         ///< (q, p), canonical, 2n numbers
   std::optional<Extended> period_s;  ///< of the osculating Kepler ellipse, if there is one
   std::optional<NominalFile> file;   ///< the file that it was read from
+  /// Of an orbit, what deputies given by their own orbits are compared with: the state before it is
+  /// rounded, its centre, and what dates it.
+  std::optional<CartesianState> orbit;
+  SceneCentre centre;
+  std::optional<EphemerisSettings> ephemeris;
 };
 
 /// Table `[units]`: the canonical unit of length, `length_km`. Throws Error(scene) for a model that
@@ -125,6 +131,9 @@ inline constexpr std::string_view default_integrator_text = "Gauss, 8 stages, to
 /// That integrator: an orbit is expanded to about the tolerance, at every degree.
 IntegratorSettings default_integrator();
 
+/// The same as a table `[[integrator]]`, in TOML.
+const std::string& default_integrator_table();
+
 /// The tables `[[integrator]]`, those without a label named as comparisons name their series.
 /// Throws Error(too_large) for too many steps.
 std::vector<IntegratorSettings> read_integrators(const std::vector<TableReader>& integrators,
@@ -174,8 +183,12 @@ void require_calendar(const TableReader& table, std::string_view key, const Scen
 /// Table `[figure]`, checked against what `scene` already holds.
 FigureSettings read_figure(const TableReader& figure, const Scene& scene);
 
+/// Table `[deputy]`, checked against what `scene` already holds.
+DeputySettings read_deputy(const TableReader& deputy, const Scene& scene, const Nominal& nominal);
+
 /// Table `[transfer]`, checked against what `scene` already holds. The tables `[transfer.start]`
-/// and `[transfer.end]` may be left out together where `needs_ends` is false.
+/// and `[transfer.end]` may be left out together where `needs_ends` is false, and the start where
+/// the scene has a deputy.
 TransferSettings read_transfer(const TableReader& transfer, const Scene& scene,
                                const Nominal& nominal, bool needs_ends);
 

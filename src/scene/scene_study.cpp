@@ -13,10 +13,6 @@
 namespace hamjet::io {
 namespace {
 
-const SceneKey schema_key = {"schema", form::integer(1, 1), absent::value(1),
-                             "version of this format"};
-const SceneKey title_key = {"title", form::text(), absent::other("the file's name without `.toml`"),
-                            "of the results"};
 const SceneKey study_key = {"study",
                             form::choice({"flow-jet", "canonical-transformation",
                                           "energy-conservation", "optimal-control"}),
@@ -46,9 +42,8 @@ std::vector<SceneKey> start_keys() {
 TableDescription flow_jet_top() {
   constexpr std::string_view none = "none";
   return {joined<SceneKey>(
-      {{schema_key,
-        title_key,
-        {"precision", form::choice({"double", "extended"}), absent::value("double"),
+      {head_keys(),
+       {{"precision", form::choice({"double", "extended"}), absent::value("double"),
          "extended: the whole chain with 113 significant bits"}},
        start_keys(),
        {required_table("jet", jet_table(), "the Taylor polynomials of the flow"),
@@ -67,6 +62,7 @@ TableDescription flow_jet_top() {
         optional_table("checks", checks_table(), "all on", "self-checks"),
         optional_table("compare", compare_table(), "the defaults", "of `hamjet compare`"),
         optional_table("figure", figure_table(), none, "`figure.svg`, with its numbers in CSV"),
+        optional_table("deputy", deputy_table(), none, "of `hamjet motion`, `transfer` and `eval`"),
         optional_table("transfer", transfer_table(), none, "of `hamjet transfer` and `assign`"),
         optional_table("validity", validity_table(), none, "of `hamjet validity` and `transfer`"),
         optional_table("assignment", assignment_table(), none, "of `hamjet assign`"),
@@ -79,9 +75,8 @@ TableDescription flow_jet_top() {
 
 /// A study of the paper on a model: its own table beside the model's.
 TableDescription paper_top(std::string_view name, const TableDescription& table) {
-  return {joined<SceneKey>({{schema_key, title_key},
-                            start_keys(),
-                            {required_table(name, table, "the study"), study_key}})};
+  return {joined<SceneKey>(
+      {head_keys(), start_keys(), {required_table(name, table, "the study"), study_key}})};
 }
 
 TableDescription energy_conservation_top() {
@@ -132,6 +127,13 @@ Study read_tables(const TableReader& root, std::size_t study) {
 
 }  // namespace
 
+const std::vector<SceneKey>& head_keys() {
+  static const std::vector<SceneKey> keys = {
+      {"schema", form::integer(1, 1), absent::value(1), "version of this format"},
+      {"title", form::text(), absent::other("the file's name without `.toml`"), "of the results"}};
+  return keys;
+}
+
 const std::vector<StudyDescription>& all_studies() {
   static const std::vector<StudyDescription> studies = [] {
     const auto& names = study_key.form.choices;
@@ -140,8 +142,9 @@ const std::vector<StudyDescription>& all_studies() {
         {names[1], paper_top("canonical_transformation", canonical_transformation_table())},
         {names[2], energy_conservation_top()},
         {names[3],
-         {{schema_key, title_key, study_key,
-           required_table("optimal_control", optimal_control_table(), "the study")}}}};
+         {joined<SceneKey>({head_keys(),
+                            {study_key, required_table("optimal_control", optimal_control_table(),
+                                                       "the study")}})}}};
   }();
   return studies;
 }
@@ -165,7 +168,8 @@ std::string default_title(const std::string& file_name) {
 
 Study parse_study(std::string_view text, const std::string& file_name,
                   const std::vector<Override>& overrides) {
-  SceneDocument document = parse_document(text, printable(file_name, std::string::npos), overrides);
+  SceneDocument document = parse_document(text, printable(file_name, std::string::npos), overrides,
+                                          default_integrator_table());
   document.source.folder = std::filesystem::path(file_name).parent_path();
   return read_document(document, file_name);
 }

@@ -34,13 +34,20 @@ void require_one_frame(const FramedTable& first, const FramedTable& other) {
                                     frame_text(other.frame), first.head, frame_text(first.frame)));
 }
 
-/// Reads one end of the transfer; `fallback` is the table [transfer].
+bool names_frame(const TableReader& table) {
+  return table.has("frame") || table.has("derivatives");
+}
+
+/// Reads one end of the transfer; `fallback` is the table [transfer], and the frame is that of the
+/// scene's deputy where neither names one.
 FramedTable read_end(const TableReader& fallback, std::string_view key, const Nominal& nominal,
-                     RelativeState& state) {
+                     const std::optional<DeputySettings>& deputy, RelativeState& state) {
   const TableReader end = fallback.table(key);
   end.check_keys();
-  const RelativeFrame frame = read_relative_frame(end, fallback);
-  state = read_relative_state(end, nominal);
+  const bool is_named = names_frame(end) || names_frame(fallback);
+  const RelativeFrame frame =
+      deputy && !is_named ? deputy->frame : read_relative_frame(end, fallback);
+  state = read_relative_state(end, nominal, frame);
   return {end, frame, (end.has("frame") ? end : fallback).head("frame")};
 }
 
@@ -95,11 +102,12 @@ const TableDescription& end_table() {
 
 const TableDescription& transfer_table() {
   static const TransferSettings preset;
-  const auto end = absent::other("both, only beside `[assignment]`");
+  const auto end = absent::other("required, but beside `[assignment]`");
   const auto margin = form::words("number from 0", form::number());
   static const TableDescription table = {joined<SceneKey>(
-      {relative_frame_keys(absent::other("required, or of `start` and `end`")),
-       {{"start", form::table(end_table()), end, "velocity before the first impulse"},
+      {relative_frame_keys(absent::other("required, or of `start` and `end`, or of `[deputy]`")),
+       {{"start", form::table(end_table()), absent::other("`[deputy]`; none beside `[assignment]`"),
+         "velocity before the first impulse"},
         {"end", form::table(end_table()), end, "velocity after the second impulse"}},
        transfer_time_keys(absent::other("another of these four")),
        {{"kind", form::words("kind of three degrees of freedom"), absent::value(preset.kind),
@@ -129,11 +137,15 @@ TransferSettings read_transfer(const TableReader& transfer, const Scene& scene,
     first = {transfer, read_relative_frame(transfer, transfer), transfer.head("frame")};
   }
   if (needs_ends || transfer.has("start") || transfer.has("end")) {
-    const FramedTable start = read_end(transfer, "start", nominal, settings.start);
-    const FramedTable end = read_end(transfer, "end", nominal, settings.end);
-    require_one_frame(start, end);
-    if (first) require_one_frame(*first, start);
-    first = start;
+    std::optional<FramedTable> start;
+    if (transfer.has("start") || !scene.deputy) {
+      start = read_end(transfer, "start", nominal, scene.deputy, settings.start);
+    }
+    const FramedTable end = read_end(transfer, "end", nominal, scene.deputy, settings.end);
+    if (start) require_one_frame(*start, end);
+    if (first) require_one_frame(*first, start ? *start : end);
+    first = start ? *start : end;
+    if (!start) settings.start = in_other_frame(transfer, nominal, *scene.deputy, end.frame);
   }
   if (!first) transfer.choice("frame");  // says what is missing
   settings.frame = first->frame;

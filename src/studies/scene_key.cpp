@@ -103,7 +103,7 @@ enum class KeyOf { reference, comparison };
 std::string scene_key(const Scene& scene, int jet_order, KeyOf whose) {
   const auto& [name, title, precision, system, units, canonical_radius, nominal, duration, order,
                arcs, variables, integrators, separation, kinds, reference,
-               relative_hamiltonian_times, checks, comparison, figure, transfer, validity,
+               relative_hamiltonian_times, checks, comparison, figure, deputy, transfer, validity,
                assignment, output, ephemeris, nominal_file, warnings, own_system] = scene;
   KeyText key;
   key.add("key", 5);  // version of this text, and of what is kept under it

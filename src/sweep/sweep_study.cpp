@@ -228,9 +228,10 @@ SweepStudy parse_sweep_study(
   study.version = version;
   // The table is read first, so that a scene in place of a study is told that it has none.
   const TableReader sweep = root.table("sweep");
-  root.integer("schema");
+  if (root.has("schema")) root.integer("schema");
   root.check_keys();
-  study.title = root.text("title");
+  study.title = default_title(file.string());
+  root.read_if_any("title", study.title);
   read_sweep_table(sweep, *document.table.get_as<toml::table>("sweep"), file, study);
   if (root.has("axis") == root.has("item")) {
     root.fail(

@@ -51,17 +51,16 @@ const TableDescription& map_table() {
 }  // namespace
 
 const TableDescription& sweep_study_table() {
-  static const TableDescription table = {
-      {{"schema", form::integer(1, 1), absent::refused(), "version of this format"},
-       {"title", form::text(), absent::refused(), "of the results"},
-       {"sweep", form::table(sweep_table()), absent::refused(), "the scene and what is done"},
-       {"axis", form::array(form::table(axis_table())), absent::other("`[[item]]`"),
-        "the items are all combinations, the last axis changing fastest"},
-       {"item", form::words("tables with keys of the scene"), absent::other("`[[axis]]`"),
-        "the items as a list"},
-       {"column", form::array(form::table(column_table())), absent::refused(),
-        "what is taken of each item's results"},
-       {"map", form::table(map_table()), absent::other("none"), "a picture over two keys"}}};
+  static const TableDescription table = {joined<SceneKey>(
+      {head_keys(),
+       {{"sweep", form::table(sweep_table()), absent::refused(), "the scene and what is done"},
+        {"axis", form::array(form::table(axis_table())), absent::other("`[[item]]`"),
+         "the items are all combinations, the last axis changing fastest"},
+        {"item", form::words("tables with keys of the scene"), absent::other("`[[axis]]`"),
+         "the items as a list"},
+        {"column", form::array(form::table(column_table())), absent::refused(),
+         "what is taken of each item's results"},
+        {"map", form::table(map_table()), absent::other("none"), "a picture over two keys"}}})};
   return table;
 }
 

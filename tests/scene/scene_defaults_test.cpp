@@ -53,6 +53,31 @@ TEST(SceneDefaults, TheOtherStudiesHaveThemToo) {
   EXPECT_EQ(std::get<OptimalControlStudy>(study).title, "free-end");
 }
 
+// The integrator that is not written is named as one that is.
+TEST(SceneDefaults, OverridesFindTheDefaultIntegrator) {
+  const auto settings = [](const std::vector<Override>& overrides) {
+    return parse_scene(smallest, "a.toml", overrides).integrators;
+  };
+  const auto changed = settings({{"integrator.gauss8.tolerance", "1e-9"}});
+  ASSERT_EQ(changed.size(), 1U);
+  EXPECT_EQ(changed[0].label, "gauss8");
+  EXPECT_EQ(changed[0].stages, 8);
+  EXPECT_EQ(changed[0].tolerance, 1e-9);
+  EXPECT_EQ(settings({{"integrator.0.stages", "4"}})[0].stages, 4);
+  expect_error(
+      [&] {
+        settings({{"integrator.gauss9.stages", "4"}});
+      },
+      ErrorKind::usage, {"no such element, got \"gauss9\", must be gauss8 or an index below 1"},
+      "");
+  // What is written stays.
+  const std::string midpoint = "[[integrator]]\nmethod = \"gauss\"\nstages = 1\ntolerance = 1e-6\n";
+  const Scene written =
+      parse_scene(smallest + midpoint, "a.toml", {{"integrator.0.tolerance", "1e-7"}});
+  ASSERT_EQ(written.integrators.size(), 1U);
+  EXPECT_EQ(written.integrators[0].stages, 1);
+}
+
 /// The names that comparisons give their series.
 TEST(SceneDefaults, LabelsAreThoseOfComparisons) {
   const std::string step = "step_canonical = 0.1\n", table = "[[integrator]]\n" + step;

@@ -47,6 +47,7 @@ Place place_of(const std::string& table, std::string_view owner) {
         {plane, {"system", "{model=\"fermi-pasta-ulam\", omega_rad_per_s=1, pairs=1}"}}}}};
   static const std::map<std::string, Place, std::less<>> of_tables = {
       {"formation", {orbit_file, {{"formation", "{separation_km=1}"}}}},
+      {"deputy", {orbit_file, {{"deputy", "{position_m=[0, 100, 0]}"}}}},
       {"figure", {orbit_file, {{"figure", "{quantity=\"exactness\"}"}}}},
       {"assignment",
        {orbit_file,
@@ -91,6 +92,13 @@ const std::map<std::string, Place>& special_places() {
                                      "{position_km=[7000, 0, 0], velocity_km_s=[0, 7.5, 1]}"};
   static const Override no_orbits = {"energy_conservation.duration_orbits", "null"};
   static const std::string message = "orbit-messages";
+  static const std::string mars = "\"../../tests/fuzz/corpus/orbit_message/ephemeris.oem\"";
+  static const Override no_deputy = {"deputy", "null"};
+  static const Override ellipse = {
+      "deputy", "{a_km=7086, e=0.001, i_deg=98.2, raan_deg=0, argp_deg=90, ta_deg=0}"};
+  static const Override states = {"deputy",
+                                  "{position_km=[0, -1000, 7000], velocity_km_s=[-7.5, 0, 0]}"};
+  static const Override of_message = {"deputy", "{opm_file=\"eutelsat-w4.opm\"}"};
   static const std::map<std::string, Place> places = {
       {"system.gravity_file", {"", {field, highest}, "\"../gravity/EGM96-zonals.gfc\""}},
       {"system.highest_zonal", {"", {field}}},
@@ -106,12 +114,31 @@ const std::map<std::string, Place>& special_places() {
          {"jet.duration_orbits", "null"},
          {"jet.duration_s", "100"},
          {"system", "{model=\"kepler\", mu_km3_s2=42828.37}"}},
-        "\"../../tests/fuzz/corpus/orbit_message/ephemeris.oem\""}},
+        mars}},
       {"nominal.opm_file", {message, {}, "\"eutelsat-w4.opm\""}},
       {"nominal.epoch", {message, {}, "\"2021-06-03T00:00:00\""}},
       {"nominal.object", {message, {}, "\"EUTELSAT W4\""}},
       {"nominal.position_m", {"", {}, "[2]"}},
       {"nominal.momentum_kg_m_s", {"", {}, "[2]"}},
+      {"deputy.a_km", {"", {no_deputy, ellipse}, "7087"}},
+      {"deputy.e", {"", {no_deputy, ellipse}, "0.0011"}},
+      {"deputy.i_deg", {"", {no_deputy, ellipse}, "98.3"}},
+      {"deputy.raan_deg", {"", {no_deputy, ellipse}, "0.1"}},
+      {"deputy.argp_deg", {"", {no_deputy, ellipse}, "90.1"}},
+      {"deputy.ta_deg", {"", {no_deputy, ellipse}, "0.1"}},
+      {"deputy.position_km", {"", {no_deputy, states}, "[0, -1010, 7000]"}},
+      {"deputy.velocity_km_s", {"", {no_deputy, states}, "[-7.6, 0, 0]"}},
+      {"deputy.oem_file",
+       {message,
+        {{"nominal.opm_file", "null"},
+         {"nominal.oem_file", mars},
+         {"jet.duration_orbits", "null"},
+         {"jet.duration_s", "100"},
+         {"system", "{model=\"kepler\", mu_km3_s2=42828.37}"}},
+        mars}},
+      {"deputy.opm_file", {message, {}, "\"eutelsat-w4.opm\""}},
+      {"deputy.epoch", {message, {of_message}, "\"2021-06-03T00:00:00\""}},
+      {"deputy.object", {message, {of_message}, "\"EUTELSAT W4\""}},
       {"jet.variables", {"", {}, R"(["x", "y", "z", "px", "py", "pz"])"}},
       {"jet.duration_s", {"", {no_duration}, "100"}},
       {"jet.duration_canonical", {"", {no_duration}}},
@@ -228,6 +255,7 @@ class StudyText {
     add_all(s.frame, s.start, s.end, s.times, s.kind, s.tolerance_m, s.refine, s.refined_miss_m,
             s.singular_margin, s.strict);
   }
+  void add(const DeputySettings& s) { add_all(s.frame, s.start); }
   void add(const ValiditySettings& s) {
     add_all(s.tolerance_m, s.times, s.semi_axes, s.samples, s.frame);
   }
@@ -241,7 +269,7 @@ class StudyText {
   void add(const Scene& s) {
     add_all(s.title, s.precision, s.system, s.units, s.canonical_radius, s.nominal, s.duration,
             s.order, s.arcs, s.variables, s.integrators, s.separation, s.kinds, s.reference,
-            s.relative_hamiltonian_times, s.comparison, s.figure, s.transfer, s.validity,
+            s.relative_hamiltonian_times, s.comparison, s.figure, s.deputy, s.transfer, s.validity,
             s.assignment, s.output.formats, s.ephemeris);
     for (std::size_t i = 0; i < self_check_count; ++i) add(s.checks[SelfCheckName(i)]);
   }
@@ -306,6 +334,10 @@ void check_keys(const TableDescription& table, const std::string& path,
                 std::set<const TableDescription*>& checked) {
   for (const SceneKey& key : table.keys) {
     EXPECT_FALSE(key.help.empty() && key.owners.empty()) << path << ": " << key.name;
+    // The orbits of ends and slots are read as that of [deputy] is.
+    const bool is_of_another_orbit =
+        nominal_table().find(key.name) != nullptr && key.name != "position_m" && key.owners.empty();
+    if (is_of_another_orbit && path != "deputy") continue;
     if (key.form.table != nullptr) {
       // Other commands than `stability` do not look into this one.
       if (key.name == "case" || !checked.insert(key.form.table).second) continue;

@@ -61,6 +61,19 @@ TEST_F(SweepItems, WhatFailsIsARow) {
   EXPECT_TRUE(std::holds_alternative<double>(singular.values[1]));
 }
 
+// All errors of an item's scene stand in its row, which is one line.
+TEST_F(SweepItems, SeveralErrorsAreOneRow) {
+  study_.items[3][1] = "200";
+  study_.constants = {{"jet.order", "0"}};
+  const SweepRow row = run_sweep_item(study_, 3);
+  EXPECT_EQ(row.exit_code, 3);
+  EXPECT_EQ(row.error.find('\n'), std::string::npos) << row.error;
+  for (const char* const word : {"--set nominal.i_deg: out of range, got 200", "; ",
+                                 "--set jet.order: out of range, got 0"}) {
+    EXPECT_NE(row.error.find(word), std::string::npos) << row.error;
+  }
+}
+
 TEST_F(SweepItems, AColumnThatLeadsNowhereIsTheStudysMistake) {
   const auto message = [&](const std::string& pointer) {
     study_.columns[1].pointer = pointer;

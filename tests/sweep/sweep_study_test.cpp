@@ -81,9 +81,15 @@ TEST_F(SweepStudies, TheKeysAreWhatTheTablesDeclare) {
                                     std::pair("column", "[[column]]"), std::pair("map", "[map]")}) {
     check_table(*sweep_study_table().find(key)->form.table, header);
   }
-  // schema twice, title, scene, command twice, an axis's key and count, a column's name and value,
-  // and of the map x, y, value and scale.
-  EXPECT_EQ(checks, 14);
+  // schema twice (below and above its range), scene, command twice, an axis's key and count, a
+  // column's name and value, and of the map x, y, value and scale.
+  EXPECT_EQ(checks, 12);
+}
+
+TEST_F(SweepStudies, SchemaAndTitleHaveTheDefaultsOfScenes) {
+  const SweepStudy bare = study(with("schema = 1\ntitle = \"twelve orbits\"\n", ""));
+  EXPECT_EQ(bare.title, "study");
+  EXPECT_EQ(bare.items.size(), 12U);
 }
 
 TEST_F(SweepStudies, KeysStandApart) {

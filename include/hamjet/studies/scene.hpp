@@ -115,6 +115,7 @@ struct Scene {
   SelfCheckSettings checks;
   ComparisonSettings comparison;
   std::optional<FigureSettings> figure;  ///< absent: no figure, and nothing is watched along time
+  std::optional<DeputySettings> deputy;
   std::optional<TransferSettings> transfer;
   std::optional<ValiditySettings> validity;
   std::optional<AssignmentSettings> assignment;

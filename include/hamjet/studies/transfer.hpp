@@ -134,6 +134,9 @@ struct RelativeTrajectory {
   std::vector<double> times;  ///< canonical
   std::vector<RelativeState> states;
   RelativeFrame frame = RelativeFrame::rtn_rotating;  ///< of the states
+  /// The deputy that makes no velocity changes, over the scene's whole duration; empty where none
+  /// are asked for.
+  std::vector<RelativeState> unchanged;
   /// (q, p) about the centre of attraction, canonical: of the chief, and of the deputy from after
   /// the first velocity change to before the second.
   std::vector<std::vector<double>> chief;

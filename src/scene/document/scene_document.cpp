@@ -257,7 +257,24 @@ Applied apply(const Override& change, SceneDocument& document) {
   return {&change, assignment.path, assignment.is_removed_element};
 }
 
-void apply(const std::vector<Override>& overrides, SceneDocument& document) {
+/// Writes out what the document means where an override names a key in it.
+void write_implied(std::string_view implied, const std::vector<Override>& overrides,
+                   SceneDocument& document) {
+  if (implied.empty() || overrides.empty()) return;
+  toml::table tables = parse_toml(implied, "the default");
+  for (const Override& change : overrides) {
+    const std::size_t dot = change.key.find('.');
+    const std::string_view name = std::string_view(change.key).substr(0, dot);
+    if (dot == std::string::npos || document.table.contains(name) || !tables.contains(name)) {
+      continue;
+    }
+    insert(document.table, name, *tables.get(name), "the default");
+  }
+}
+
+void apply(const std::vector<Override>& overrides, std::string_view implied,
+           SceneDocument& document) {
+  write_implied(implied, overrides, document);
   std::vector<Applied> earlier;
   for (const Override& change : overrides) {
     Applied last = apply(change, document);
@@ -273,16 +290,16 @@ void apply(const std::vector<Override>& overrides, SceneDocument& document) {
 }  // namespace
 
 SceneDocument parse_document(std::string_view text, const std::string& name,
-                             const std::vector<Override>& overrides) {
+                             const std::vector<Override>& overrides, std::string_view implied) {
   SceneDocument document{parse_toml(text, name), {name, true, {}}};
-  apply(overrides, document);
+  apply(overrides, implied, document);
   return document;
 }
 
 SceneDocument make_document(toml::table tables, const std::string& name,
-                            const std::vector<Override>& overrides) {
+                            const std::vector<Override>& overrides, std::string_view implied) {
   SceneDocument document{std::move(tables), {name, false, {}}};
-  apply(overrides, document);
+  apply(overrides, implied, document);
   return document;
 }
 

@@ -25,15 +25,18 @@ struct SceneDocument {
 /// tables on the way are added. The value is TOML; what is not valid TOML is taken as a string. The
 /// value `null`, which TOML does not know, removes the key.
 ///
+/// `implied`, TOML, has what a document without it means: an override that names a key in one of
+/// its tables or arrays finds it there.
+///
 /// Throws Error(scene) if the text is not valid TOML (see also `check_scene_text`), and
 /// Error(usage) if an override's key leads nowhere, its value is empty, or it takes away what an
 /// earlier one gave.
 SceneDocument parse_document(std::string_view text, const std::string& name,
-                             const std::vector<Override>& overrides);
+                             const std::vector<Override>& overrides, std::string_view implied = {});
 
 /// parse_document for tables that a program has made, which have no lines.
 SceneDocument make_document(toml::table tables, const std::string& name,
-                            const std::vector<Override>& overrides);
+                            const std::vector<Override>& overrides, std::string_view implied = {});
 
 /// Reads the document; `file_name` names the scene. Throws as parse_study does.
 Study read_document(const SceneDocument& document, const std::string& file_name);

@@ -139,6 +139,7 @@ const TableDescription& case_table();
 const TableDescription& checks_table();
 const TableDescription& compare_table();
 const TableDescription& energy_conservation_table();
+const TableDescription& deputy_table();
 const TableDescription& ephemeris_table();
 const TableDescription& figure_table();
 const TableDescription& formation_table();
@@ -154,6 +155,9 @@ const TableDescription& system_table();
 const TableDescription& transfer_table();
 const TableDescription& units_table();
 const TableDescription& validity_table();
+
+/// The keys that every scene and every sweep begins with: `schema` and `title`.
+const std::vector<SceneKey>& head_keys();
 
 /// A study's name and the tables and keys at the top of its scenes.
 struct StudyDescription {

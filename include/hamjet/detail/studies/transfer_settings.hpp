@@ -8,6 +8,12 @@
 
 namespace hamjet {
 
+/// Table `[deputy]`: the second satellite at the start.
+struct DeputySettings {
+  RelativeFrame frame = RelativeFrame::rtn_rotating;  ///< of the state, and of its motion
+  RelativeState start;
+};
+
 /// Table `[transfer]`: from one relative state to another in given times.
 struct TransferSettings {
   RelativeFrame frame = RelativeFrame::rtn_rotating;  ///< of both ends

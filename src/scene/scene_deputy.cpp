@@ -1,0 +1,24 @@
+#include "scene_relative_motion.hpp"
+
+namespace hamjet::io {
+
+const TableDescription& deputy_table() {
+  static const TableDescription table = {
+      joined<SceneKey>({relative_frame_keys(absent::value("RTN")), relative_state_keys()}),
+      "The second satellite at the start: relative to the chief, or by its own orbit in the keys "
+      "of "
+      "`[nominal]`, all of one form, of the same moment and in the same axes. The frame is that of "
+      "its motion too."};
+  return table;
+}
+
+DeputySettings read_deputy(const TableReader& deputy, const Scene& scene, const Nominal& nominal) {
+  deputy.check_keys();
+  require_relative_motion(deputy, scene);
+  DeputySettings settings;
+  settings.frame = read_relative_frame_or_rtn(deputy);
+  settings.start = read_relative_state(deputy, nominal, settings.frame);
+  return settings;
+}
+
+}  // namespace hamjet::io

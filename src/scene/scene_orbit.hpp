@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+#include "scene_nominal_file.hpp"
+
+// The state of a satellite about the centre of attraction, as [nominal] and the tables of deputies
+// give it.
+
+namespace hamjet::io {
+
+/// The keys of read_orbit, which belong to `owners`.
+std::vector<SceneKey> orbit_keys(const std::vector<std::string_view>& owners = {});
+
+/// The first key of read_orbit that the table has, of those that say which form it has.
+std::optional<std::string_view> orbit_key_of(const TableReader& table);
+
+/// A state, and the message that it was read from, if it was.
+struct Orbit {
+  CartesianState state;
+  std::optional<NominalFile> file;
+};
+
+/// The state in one of its forms: position and velocity, all six osculating elements, or the file
+/// of a message. Throws Error(scene); as read_nominal_file for a message.
+Orbit read_orbit(const TableReader& table, const SceneCentre& centre);
+
+}  // namespace hamjet::io
