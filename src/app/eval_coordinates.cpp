@@ -27,6 +27,11 @@ RelativeFrame relative_frame(const std::string& frame,
                                                         : RelativeFrame::rtn_inertial;
 }
 
+std::vector<double> numbers_of(const RelativeState& state) {
+  return {state.position_m[0],   state.position_m[1],   state.position_m[2],
+          state.velocity_m_s[0], state.velocity_m_s[1], state.velocity_m_s[2]};
+}
+
 }  // namespace
 
 void check_frame(const std::string& frame, const std::optional<std::string>& derivatives) {
@@ -71,6 +76,13 @@ EvalCoordinates::EvalCoordinates(const io::StoredJet& stored, const std::string&
   final_.emplace(stored.nominal_final, units, axes);
 }
 
+std::vector<double> EvalCoordinates::initial_row(std::span<const double> canonical) const {
+  if (initial_) return numbers_of(initial_->relative(canonical));
+  std::vector<double> row;
+  for (const std::size_t v : stored_.variables) row.push_back(canonical[v]);
+  return row;
+}
+
 std::optional<std::vector<double>> EvalCoordinates::variables(
     std::span<const double> deviation) const {
   if (!initial_) return std::vector<double>(deviation.begin(), deviation.end());
@@ -95,9 +107,7 @@ std::vector<double> EvalCoordinates::final_state(std::span<const double> compone
   if (!final_) return {components.begin(), components.end()};
   std::vector<double> full(stored_.nominal_initial.size(), 0);
   for (std::size_t c = 0; c < components.size(); ++c) full[stored_.components[c]] = components[c];
-  const RelativeState state = final_->relative(full);
-  return {state.position_m[0],   state.position_m[1],   state.position_m[2],
-          state.velocity_m_s[0], state.velocity_m_s[1], state.velocity_m_s[2]};
+  return numbers_of(final_->relative(full));
 }
 
 }  // namespace hamjet::cli

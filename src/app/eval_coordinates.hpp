@@ -26,6 +26,8 @@ class EvalCoordinates {
   const std::vector<std::string_view>& initial_columns() const { return initial_columns_; }
   const std::vector<std::string_view>& final_columns() const { return final_columns_; }
 
+  /// A canonical deviation (dq, dp) in the numbers of the initial columns.
+  std::vector<double> initial_row(std::span<const double> canonical) const;
   /// The jet's variables of a deviation; no value if the deviation has other components too, of
   /// which the jet says nothing.
   std::optional<std::vector<double>> variables(std::span<const double> deviation) const;

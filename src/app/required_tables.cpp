@@ -41,6 +41,10 @@ void require_transfer(const Scene& scene, const std::string& file) {
   }
 }
 
+void require_deputy(const Scene& scene, const std::string& file) {
+  require_table(file, scene.deputy.has_value(), "deputy", "position_m = [0, -1000, 0]");
+}
+
 void require_validity(const Scene& scene, const std::string& file) {
   require_table(file, scene.validity.has_value(), "validity", "tolerance_m = 1, count = 12");
 }

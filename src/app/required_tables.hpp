@@ -16,6 +16,7 @@ namespace hamjet::cli {
 /// Each throws Error(scene) if the scene has not the tables that the command of this name works on;
 /// the message shows the smallest such table.
 void require_transfer(const Scene& scene, const std::string& file);
+void require_deputy(const Scene& scene, const std::string& file);
 void require_validity(const Scene& scene, const std::string& file);
 void require_assignment(const Scene& scene, const std::string& file);
 

@@ -5,6 +5,7 @@
 #include <type_traits>
 #include <variant>
 
+#include "../formats/relative_frame_text.hpp"
 #include "../scene/system_json.hpp"
 #include "../store/json_values.hpp"
 #include "../store/text_file.hpp"
@@ -54,6 +55,15 @@ Json facts(const RunOptions& options, const Scene& scene) {
           }).arcs;
     }
     json["integrators"].push_back(integrator);
+  }
+  json["deputy"] = nullptr;
+  if (scene.deputy) {
+    const auto array = [](const Eigen::Vector3d& v) { return Json{v[0], v[1], v[2]}; };
+    json["deputy"] = {
+        {"frame", io::frame_name(scene.deputy->frame)},
+        {"derivatives", io::text_or_null(std::string(io::derivatives_name(scene.deputy->frame)))},
+        {"position_m", array(scene.deputy->start.position_m)},
+        {"velocity_m_s", array(scene.deputy->start.velocity_m_s)}};
   }
   json["transfer"] = scene.transfer ? times_json(*scene.transfer, scene) : Json(nullptr);
   json["validity"] = scene.validity ? times_json(*scene.validity, scene) : Json(nullptr);

@@ -12,11 +12,15 @@
 #include "../app/eval_coordinates.hpp"
 #include "../app/jet_evaluation.hpp"
 #include "../app/refusal.hpp"
+#include "../app/required_tables.hpp"
+#include "../app/stored_chief.hpp"
 #include "../formats/number_table.hpp"
 #include "../store/text_file.hpp"
 #include "../text/scene_message.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/formats/jet_file.hpp"
+#include "hamjet/relative_motion/chief_frame.hpp"
+#include "hamjet/scene/scene_reader.hpp"
 #include "output_file.hpp"
 #include "process/interruption.hpp"
 #include "process/standard_streams.hpp"
@@ -33,11 +37,14 @@ constexpr std::size_t most_json_rows = 100;
 void check_options(const EvalOptions& options) {
   refuse_empty(options.directory, "directory", "the results of hamjet run");
   refuse_empty(options.deviations, "--deviations", "a file");
+  refuse_empty(options.deputy, "--deputy", "a scene");
   refuse_empty(options.run, "--run", "a run");
   refuse_empty(options.output, "--output", "a file");
   check_frame(options.frame, options.derivatives);
-  if (options.deviation && options.deviations) {
-    refuse("--deviation and --deviations: must not both be given");
+  const int given = int(options.deviation.has_value()) + int(options.deviations.has_value()) +
+                    int(options.deputy.has_value());
+  if (given > 1) {
+    refuse("--deviation, --deviations and --deputy: must not be given together, but one of them");
   }
   if (options.output) {
     std::error_code none;
@@ -49,13 +56,39 @@ void check_options(const EvalOptions& options) {
       refuse("--output: is a file that this command reads; choose another");
     }
   }
-  if (!options.deviation && !options.deviations) {
-    refuse("nothing to evaluate; give --deviation with numbers or --deviations with a CSV file");
+  if (given == 0) {
+    refuse(
+        "nothing to evaluate; give --deviation with numbers, --deviations with a CSV file or "
+        "--deputy with a scene");
   }
 }
 
-io::NumberTable read_deviations(const EvalOptions& options,
-                                const std::vector<std::string_view>& columns) {
+/// The one row of the scene's deputy.
+io::NumberTable read_deputy(const std::string& file, const io::StoredJet& stored,
+                            const EvalCoordinates& coordinates) {
+  Scene scene;
+  try {
+    scene = io::read_scene(file);
+  } catch (const Error& error) {
+    throw Error(error.kind(), fmt::format("--deputy: {}", error.what()));
+  }
+  require_deputy(scene, file);
+  if (!is_about_chief(stored, scene)) {
+    refuse_scene(file, "nominal",
+                 fmt::format("another orbit than that of the jet {}, must be the scene that it was "
+                             "made from",
+                             io::printable(stored.label)));
+  }
+  const ChiefFrame frame(scene.nominal, {scene.units.length_km * 1000, scene.units.time_s},
+                         scene.deputy->frame);
+  const std::vector<double> row = coordinates.initial_row(frame.deviation(scene.deputy->start));
+  return {row.size(), row};
+}
+
+io::NumberTable read_deviations(const EvalOptions& options, const io::StoredJet& stored,
+                                const EvalCoordinates& coordinates) {
+  if (options.deputy) return read_deputy(*options.deputy, stored, coordinates);
+  const std::vector<std::string_view>& columns = coordinates.initial_columns();
   if (options.deviations) {
     const std::filesystem::path file = *options.deviations;
     return io::read_number_table(io::printable_path(file),
@@ -189,24 +222,24 @@ void report(const EvalCoordinates& coordinates, const io::StoredJet& stored,
   const bool is_linear = stored.order() < 2;
   const auto points = static_cast<double>(evaluation.points());
   const std::size_t multiply_adds = evaluation.evaluator().multiply_adds_per_point();
-  print_error(fmt::format(
+  print_note(fmt::format(
       "points {}, evaluation alone {:.3g} s, {:.3g} ns a point, {} multiply-adds a point, "
       "{:.3g} multiply-adds a second",
       evaluation.points(), evaluation.seconds(), evaluation.seconds() / points * 1e9, multiply_adds,
       static_cast<double>(multiply_adds) * points / evaluation.seconds()));
-  print_error(fmt::format("frame {}; the estimates of the miss cover {}", coordinates.text(),
-                          miss_covers(stored)));
+  print_note(fmt::format("frame {}; the estimates of the miss cover {}", coordinates.text(),
+                         miss_covers(stored)));
   if (output.outside() > 0) {
-    print_error(fmt::format(
+    print_note(fmt::format(
         "{} of {} rows marked outside, beyond the polynomial's reach: its degrees do not decay at "
         "such deviations, and the numbers are sizes alone",
         output.outside(), evaluation.points()));
   }
   if (output.unknown() > 0) {
-    print_error(fmt::format("{} of {} rows marked unknown: {}", output.unknown(),
-                            evaluation.points(),
-                            is_linear ? "degree 1 alone has no decay to judge by"
-                                      : "their numbers are beyond double precision"));
+    print_note(fmt::format("{} of {} rows marked unknown: {}", output.unknown(),
+                           evaluation.points(),
+                           is_linear ? "degree 1 alone has no decay to judge by"
+                                     : "their numbers are beyond double precision"));
   }
 }
 
@@ -222,7 +255,7 @@ int eval(const EvalOptions& options) {
   const EvalCoordinates coordinates(stored, options.frame, options.derivatives);
   std::optional<OutputFile> file;
   if (options.output) file.emplace(*options.output);
-  const io::NumberTable deviations = read_deviations(options, coordinates.initial_columns());
+  const io::NumberTable deviations = read_deviations(options, stored, coordinates);
 
   JetEvaluation evaluation(stored, options.degree);
   Output output(coordinates.final_columns(), deviations.rows());
@@ -235,6 +268,7 @@ int eval(const EvalOptions& options) {
       const std::string what = fmt::format(
           "the deviation leaves the variables that the jet is expanded in:{}", expanded);
       if (options.deviation) refuse("--deviation: " + what);
+      if (options.deputy) refuse_scene(*options.deputy, "deputy", what);
       throw Error(ErrorKind::input_output,
                   fmt::format("{}:{}: {}", io::printable_path(*options.deviations),
                               io::NumberTable::line(row), what));

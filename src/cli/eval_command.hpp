@@ -9,6 +9,7 @@ struct EvalOptions {
   std::string directory;                  ///< results of `hamjet run`, or a file of theirs
   std::optional<std::string> deviation;   ///< one deviation, numbers between commas
   std::optional<std::string> deviations;  ///< a CSV file of them
+  std::optional<std::string> deputy;      ///< a scene, whose deputy it is
   std::optional<std::string> run;         ///< label of the integrator's run
   std::string frame = "RTN";
   std::optional<std::string> derivatives;  ///< of RTN: rotating (default) or inertial

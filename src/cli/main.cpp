@@ -48,6 +48,7 @@ constexpr const char* examples = R"(Examples:
   hamjet run scene.toml --set jet.order=6 --set integrator.gauss8.tolerance=1e-13
                                             the same with two keys changed
   hamjet compare scene.toml                 error against run time of many integrators; a report
+  hamjet motion scene.toml                  where the second satellite goes; a report
   hamjet transfer scene.toml                velocity changes between relative positions; a report
   hamjet validity scene.toml                how far from the chief the polynomials are right
   hamjet assign scene.toml                  deputies to slots at the least total velocity change
@@ -124,6 +125,9 @@ CLI::App* add_eval_command(CLI::App& app, hamjet::cli::EvalOptions& options) {
                    "vT_m_s, vN_m_s (RTN), x_m, y_m, z_m, vx_m_s, vy_m_s, vz_m_s (inertial), or the "
                    "jet's variables (canonical)")
       ->type_name("FILE");
+  eval->add_option("--deputy", options.deputy,
+                   "a scene of the same chief: the deputy of its table [deputy]")
+      ->type_name("SCENE");
   eval->add_option("--run", options.run, "label of the run (default: the first with a result)")
       ->type_name("LABEL");
   eval->add_option("--frame", options.frame,
@@ -230,10 +234,13 @@ int dispatch(int argc, char** argv) {
     add_override_option(*study, options);
     return study;
   };
+  const CLI::App* motion = add_study(
+      "motion", "where the deputy goes relative to its chief, and by how much it is wrong",
+      "report.html, motion.csv and summary.json", hamjet::cli::motion_suffix);
   hamjet::cli::TransferOptions transfers;
   CLI::App* transfer = add_study(
       "transfer", "velocity changes from one relative position to another, for every time",
-      "report.html, transfers.csv, further CSV files and summary.json",
+      "report.html, figure.svg, transfers.csv, further CSV files and summary.json",
       hamjet::cli::transfer_suffix);
   CLI::Option* jet =
       transfer
@@ -319,6 +326,7 @@ int dispatch(int argc, char** argv) {
   if (*transfer) return hamjet::cli::transfer(options, transfers);
   if (*stability) return hamjet::cli::stability(options, suite);
   if (*sweep) return hamjet::cli::sweep(options, sweeps);
+  if (*motion) return hamjet::cli::motion(options);
   if (*validity) return hamjet::cli::validity(options);
   if (*assign) return hamjet::cli::assign(options);
   return hamjet::cli::run(options);

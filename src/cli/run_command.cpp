@@ -8,11 +8,13 @@
 #include <type_traits>
 #include <variant>
 
+#include "../formats/relative_frame_text.hpp"
 #include "../report/paper/paper_reports.hpp"
 #include "../report/propagation/orbit_summary.hpp"
 #include "../studies/arcs.hpp"
 #include "../studies/checks/run_warnings.hpp"
 #include "../studies/descriptions/method_description.hpp"
+#include "../text/quantity_text.hpp"
 #include "../text/terminal_text.hpp"
 #include "check_json.hpp"
 #include "hamjet/error.hpp"
@@ -128,6 +130,13 @@ void check_flow_jet(const RunOptions& options, const std::string& file, const Sc
     const ArcPlan plan = plan_arcs(scene, problem, settings,
                                    [](const std::string&, double) { stop_if_interrupted(); });
     text += fmt::format("  arcs         {}: {}\n", settings.label, io::arcs_text(scene, plan));
+  }
+  if (scene.deputy) {
+    const auto letters = io::axis_letters(scene.deputy->frame);
+    const Eigen::Vector3d& place = scene.deputy->start.position_m;
+    text += fmt::format("  deputy       {} away: {} {:.7g} m, {} {:.7g} m, {} {:.7g} m\n",
+                        length_text(place.norm()), letters[0], place[0], letters[1], place[1],
+                        letters[2], place[2]);
   }
   if (scene.transfer) {
     text +=

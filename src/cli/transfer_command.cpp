@@ -8,6 +8,9 @@
 
 #include "../app/report_origin.hpp"
 #include "../app/required_tables.hpp"
+#include "../app/stored_chief.hpp"
+#include "../report/formation/deputy_motion_report.hpp"
+#include "../studies/formation/deputy_motion.hpp"
 #include "../text/scene_message.hpp"
 #include "hamjet/algebra/composition.hpp"
 #include "hamjet/error.hpp"
@@ -56,10 +59,8 @@ Scene read_scene_of(const io::StoredJet& stored, const RunOptions& options) {
 /// The stored jet; throws unless it is of the scene's chief and expanded in all six variables.
 EarlierJet earlier_jet(const TransferOptions& transfers, const io::StoredJet& stored,
                        const Scene& scene) {
-  const bool is_same_chief =
-      stored.model == scene.system.model && stored.units.length_km == scene.units.length_km &&
-      stored.units.time_s == scene.units.time_s && stored.nominal_initial == scene.nominal;
-  if (!is_same_chief) refuse_jet(transfers, stored, "is about another orbit than the scene's");
+  if (!is_about_chief(stored, scene))
+    refuse_jet(transfers, stored, "is about another orbit than the scene's");
   if (stored.components.size() != scene.nominal.size() ||
       stored.variables.size() != scene.nominal.size()) {
     refuse_jet(transfers, stored, "is not expanded in all six variables, which transfers need");
@@ -110,6 +111,16 @@ int transfer(const RunOptions& options, const TransferOptions& transfers) {
     std::optional<ValidityResult> validity;
     if (scene.validity) validity = study_validity(scene, progress);
     return io::transfer_report(result, trajectory, validity, report_origin(options.command));
+  });
+}
+
+int motion(const RunOptions& options) {
+  const Scene scene = read_unsplit_scene(options, "hamjet motion");
+  require_deputy(scene, *options.scene_file);
+  return report_study(options, scene.name + motion_suffix, [&](const ProgressCallback& progress) {
+    return io::deputy_motion_report(
+        study_of(*options.scene_file, [&] { return study_deputy_motion(scene, progress); }),
+        report_origin(options.command));
   });
 }
 

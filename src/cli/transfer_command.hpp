@@ -11,6 +11,7 @@
 namespace hamjet::cli {
 
 // What stands behind the scene's name in that of the folder of each command's results.
+inline constexpr const char* motion_suffix = "-motion";
 inline constexpr const char* transfer_suffix = "-transfer";
 inline constexpr const char* validity_suffix = "-validity";
 inline constexpr const char* assignment_suffix = "-assign";
@@ -23,6 +24,9 @@ struct TransferOptions {
 
 /// Velocity changes from one relative position to another, for each transfer time.
 int transfer(const RunOptions& options, const TransferOptions& transfers);
+
+/// Where the deputy goes by itself, relative to the chief.
+int motion(const RunOptions& options);
 
 /// How far from the chief each order's polynomial is right.
 int validity(const RunOptions& options);

@@ -173,6 +173,23 @@ TEST(TransferCharts, ProjectionsHaveEqualScales) {
   EXPECT_DOUBLE_EQ(charts[2].curves[0].points[10].second, 0);
 }
 
+TEST(TransferCharts, TheRendezvousIsDrawnBesideTheDeputyByItself) {
+  RelativeTrajectory trajectory = sample_trajectory();
+  RelativeState state;
+  state.position_m = {500, -9000, 0};
+  trajectory.unchanged = {state, state};
+  const Chart chart = rendezvous_chart(trajectory);
+  EXPECT_TRUE(chart.is_isometric);
+  EXPECT_EQ(chart.x.label, "T (km)");
+  EXPECT_EQ(chart.y.label, "R (km)");
+  ASSERT_EQ(chart.curves.size(), 5U);
+  EXPECT_EQ(chart.curves[0].title, "by itself");
+  EXPECT_EQ(chart.curves[0].points[0], std::pair(-9.0, 0.5));
+  EXPECT_EQ(chart.curves[1].points.size(), trajectory.states.size());
+  EXPECT_EQ(chart.curves[4].title, "chief");
+  EXPECT_EQ(chart.curves[4].points[0], std::pair(0.0, 0.0));
+}
+
 TEST(TransferCharts, ValidityLinesAreProvedAndHollowMarkersPredicted) {
   const Chart chart = validity_time_chart(sample_validity());
   ASSERT_EQ(chart.curves.size(), 4U);

@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <system_error>
 
+#include "../../text/terminal_text.hpp"
 #include "hamjet/error.hpp"
 
 namespace hamjet::cli {
@@ -56,6 +57,16 @@ void print_error(const std::string& message) noexcept {
     std::fwrite(message.data() + begin, 1, std::min(end, message.size()) - begin, stderr);
     std::fputs("\n", stderr);
   }
+}
+
+void print_note(const std::string& text) {
+  const std::string_view head = "hamjet: ";
+  std::string lines = io::fitted(text, io::terminal_width - head.size());
+  for (std::size_t end = lines.find('\n'); end != std::string::npos;
+       end = lines.find('\n', end + 1)) {
+    lines.insert(end + 1, head.size(), ' ');
+  }
+  std::fputs(fmt::format("{}{}\n", head, lines).c_str(), stderr);
 }
 
 }  // namespace hamjet::cli

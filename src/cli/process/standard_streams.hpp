@@ -20,4 +20,8 @@ void print(const std::string& text);
 /// Prints "hamjet: message" as a line of standard error. There is nobody to tell if that fails.
 void print_error(const std::string& message) noexcept;
 
+/// Prints "hamjet: text" on standard error, broken as tables are, for explanations that are no
+/// errors.
+void print_note(const std::string& text);
+
 }  // namespace hamjet::cli

@@ -21,6 +21,10 @@ Chart condition_chart(const TransferResult& result);
 /// the first.
 std::vector<Chart> relative_trajectory_charts(const RelativeTrajectory& trajectory);
 
+/// The flown transfer beside the same deputy that makes no velocity changes, in the plane of the
+/// first two axes.
+Chart rendezvous_chart(const RelativeTrajectory& trajectory);
+
 /// The largest separation at which each order is right, along time.
 Chart validity_time_chart(const ValidityResult& result);
 /// The largest separation at which an order is right, against the order, for some of the times.

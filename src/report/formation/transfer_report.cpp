@@ -5,7 +5,9 @@
 #include "../../formats/relative_frame_text.hpp"
 #include "../../text/html_text.hpp"
 #include "../drawing/chart_drawer.hpp"
+#include "../drawing/study_figure.hpp"
 #include "hamjet/report/relative_motion_report.hpp"
+#include "transfer_charts.hpp"
 #include "transfer_json.hpp"
 #include "transfer_page.hpp"
 #include "transfer_view.hpp"
@@ -119,6 +121,9 @@ StudyReport transfer_report(const TransferResult& result,
   report.files.push_back(
       {"report.html", transfer_page(result, trajectory, validity, origin, drawer)});
   report.drawing_problem = drawer.problem();
+  if (trajectory && !report.drawing_problem) {
+    add_figure(report, {rendezvous_chart(*trajectory)});
+  }
   report.exit_code = exit_code(result);
   report.failure = transfer_failure(result);
   report.files.push_back({"summary.json", transfer_report_json(result, validity).dump(2) + "\n"});

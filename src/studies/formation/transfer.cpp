@@ -10,6 +10,7 @@
 #include "../../integrators/momentum_unit.hpp"
 #include "../exact_flow.hpp"
 #include "../jets_along_time.hpp"
+#include "flown_trajectory.hpp"
 #include "formation_problem.hpp"
 #include "hamjet/error.hpp"
 #include "single_transfer.hpp"
@@ -220,31 +221,21 @@ bool has_orbital_plane(const std::vector<double>& chief) {
 
 RelativeTrajectory fly_relative(const TransferResult& result, std::size_t point, int count) {
   const Scene& scene = result.scene;
-  const SharedSystem system = make_system(scene);
   const TransferPoint& transfer = result.points[point];
+  const std::vector<double>& chief = scene.nominal;
   const MetricUnits units = metric_units(scene);
+  const bool is_inertial =
+      scene.transfer->frame == RelativeFrame::inertial && !has_orbital_plane(chief);
+  const auto fly = [&](const RelativeState& start, double time, int intervals) {
+    return flown_trajectory(scene, ChiefFrame(chief, units, scene.transfer->frame).deviation(start),
+                            is_inertial ? RelativeFrame::inertial : RelativeFrame::rtn_rotating,
+                            time, intervals);
+  };
   RelativeState start = scene.transfer->start;
+  std::vector<RelativeState> unchanged = fly(start, scene.duration, smooth_intervals(scene)).states;
   start.velocity_m_s += transfer.best().start_change_m_s;
-  std::vector<double> chief = scene.nominal;
-  std::vector<double> deputy = chief;
-  const auto deviation = ChiefFrame(chief, units, scene.transfer->frame).deviation(start);
-  for (std::size_t i = 0; i < deputy.size(); ++i) deputy[i] += deviation[i];
-  RelativeTrajectory trajectory;
-  if (scene.transfer->frame == RelativeFrame::inertial && !has_orbital_plane(chief)) {
-    trajectory.frame = RelativeFrame::inertial;
-  }
-  for (int k = 0; k <= count; ++k) {
-    if (k > 0) {
-      chief = exact_flow(system, chief, transfer.time / count);
-      deputy = exact_flow(system, deputy, transfer.time / count);
-    }
-    std::vector<double> difference;
-    for (std::size_t i = 0; i < deputy.size(); ++i) difference.push_back(deputy[i] - chief[i]);
-    trajectory.times.push_back(transfer.time * k / count);
-    trajectory.chief.push_back(chief);
-    trajectory.deputy.push_back(deputy);
-    trajectory.states.push_back(ChiefFrame(chief, units, trajectory.frame).relative(difference));
-  }
+  RelativeTrajectory trajectory = fly(start, transfer.time, count);
+  trajectory.unchanged = std::move(unchanged);
   return trajectory;
 }
 

@@ -1,0 +1,243 @@
+#include "deputy_motion_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "../../formats/relative_frame_text.hpp"
+#include "../../store/columns.hpp"
+#include "../../store/json_values.hpp"
+#include "../../text/html_text.hpp"
+#include "../../text/terminal_text.hpp"
+#include "../../text/time_axis.hpp"
+#include "../drawing/report_page.hpp"
+#include "transfer_charts.hpp"
+#include "transfer_json.hpp"
+#include "transfer_view.hpp"
+
+namespace hamjet::io {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using MotionPoint = const DeputyMotionPoint&;
+
+/// A larger error than this share of the separation is no answer.
+constexpr double resolved_share = 0.01;
+
+/// Rows of the terminal's table, besides that of the start.
+constexpr std::size_t shown_times = 8;
+
+struct Approach {
+  std::size_t nearest = 0;
+  std::size_t farthest = 0;
+};
+
+Approach approach(const DeputyMotion& motion) {
+  Approach found;
+  for (std::size_t i = 1; i < motion.points.size(); ++i) {
+    if (motion.separation_m(i) < motion.separation_m(found.nearest)) found.nearest = i;
+    if (motion.separation_m(i) > motion.separation_m(found.farthest)) found.farthest = i;
+  }
+  return found;
+}
+
+double seconds_at(const DeputyMotion& motion, std::size_t point) {
+  return motion.points[point].time * motion.scene.units.time_s;
+}
+
+std::string error_text(const DeputyMotion& motion, double error_m) {
+  return miss_text(error_m, motion.flight_floor_m);
+}
+
+bool is_resolved(const DeputyMotion& motion) {
+  const double farthest_m = motion.separation_m(approach(motion).farthest);
+  const double error_m = motion.largest_error_m(motion.scene.order);
+  return error_m <= std::max(resolved_share * farthest_m, motion.flight_floor_m);
+}
+
+std::string terminal_table(const DeputyMotion& motion) {
+  const TimeAxis axis = time_axis(seconds_at(motion, motion.points.size() - 1));
+  const auto letters = axis_letters(motion.scene.deputy->frame);
+  std::vector<std::vector<std::string>> rows = {{fmt::format("time ({})", axis.name)}};
+  for (const std::string_view letter : letters) rows[0].push_back(fmt::format("{} (m)", letter));
+  rows[0].emplace_back("separation");
+  rows[0].emplace_back("error");
+  rows[0].emplace_back("linear error");
+  const std::size_t last = motion.points.size() - 1;
+  for (std::size_t k = 0; k <= shown_times; ++k) {
+    const std::size_t i = k * last / shown_times;
+    const DeputyMotionPoint& point = motion.points[i];
+    rows.push_back({fmt::format("{:.4g}", seconds_at(motion, i) / axis.seconds)});
+    for (const double x : point.state.position_m) rows.back().push_back(fmt::format("{:.1f}", x));
+    rows.back().push_back(length_text(motion.separation_m(i)));
+    const auto error = [&](double error_m) {
+      return i == 0 ? std::string("0 m")
+             : error_m < motion.flight_floor_m
+                 ? fmt::format("<{}", length_text(motion.flight_floor_m))
+                 : length_text(error_m);
+    };
+    rows.back().push_back(error(point.errors_m.back()));
+    rows.back().push_back(error(point.errors_m.front()));
+  }
+  return fmt::format("{}\n{}\nframe {}; order {}\n\n{}", motion.scene.title,
+                     deputy_motion_verdict(motion), frame_text(motion.scene.deputy->frame),
+                     motion.scene.order, aligned_table(rows));
+}
+
+std::string page(const DeputyMotion& motion, const ReportOrigin& origin, ChartDrawer& drawer) {
+  ReportPage page;
+  page.title = motion.scene.title + ": motion of the deputy";
+  page.verdict = deputy_motion_verdict(motion);
+  std::vector<Chart> paths = relative_trajectory_charts(motion.flown);
+  for (Chart& chart : paths) fit(chart);
+  page.first_figure = figure_html(paths.front(), drawer);
+  page.facts =
+      origin_facts_html(origin) +
+      fact_html("Scene", fmt::format("{}, order {}", motion.scene.name, motion.scene.order)) +
+      fact_html("Frame", frame_text(motion.scene.deputy->frame)) +
+      fact_html("Times", std::to_string(motion.points.size())) +
+      fact_html("Flight floor", length_text(motion.flight_floor_m)) +
+      fact_html("Time", duration_text(motion.propagation_seconds) + " for the jets");
+  page.sections = "<section>\n<h2>The other planes</h2>\n";
+  for (std::size_t i = 1; i < paths.size(); ++i) page.sections += figure_html(paths[i], drawer);
+  page.sections += "</section>\n";
+  Chart errors = deputy_motion_error_chart(motion);
+  fit(errors);
+  page.sections += section_html(errors, drawer);
+  return page_html(page, drawer);
+}
+
+Json state_json(const DeputyMotion& motion, std::size_t index) {
+  const RelativeState& state = motion.points[index].state;
+  const auto vector = [](const Eigen::Vector3d& v) {
+    return Json{json_number(v[0]), json_number(v[1]), json_number(v[2])};
+  };
+  return {{"time_s", seconds_at(motion, index)},
+          {"separation_m", json_number(motion.separation_m(index))},
+          {"position_m", vector(state.position_m)},
+          {"velocity_m_s", vector(state.velocity_m_s)}};
+}
+
+Json summary_json(const DeputyMotion& motion) {
+  const RelativeFrame frame = motion.scene.deputy->frame;
+  const Approach found = approach(motion);
+  Json json = study_head_json(motion.scene, "motion", motion.integrator);
+  json["frame"] = frame_name(frame);
+  json["derivatives"] = text_or_null(std::string(derivatives_name(frame)));
+  json["axes"] = axis_letters(frame);
+  json["verdict"] = deputy_motion_verdict(motion);
+  json["duration_s"] = seconds_at(motion, motion.points.size() - 1);
+  json["times"] = motion.points.size();
+  json["start"] = state_json(motion, 0);
+  json["end"] = state_json(motion, motion.points.size() - 1);
+  json["nearest"] = state_json(motion, found.nearest);
+  json["farthest"] = state_json(motion, found.farthest);
+  json["largest_error_m_by_order"] = Json::array();
+  for (int order = 1; order <= motion.scene.order; ++order) {
+    json["largest_error_m_by_order"].push_back(json_number(motion.largest_error_m(order)));
+  }
+  json["is_resolved"] = is_resolved(motion);
+  json["flight_floor_m"] = json_number(motion.flight_floor_m);
+  json["seconds"] = {{"propagation", motion.propagation_seconds}};
+  json["exit_code"] = 0;
+  return json;
+}
+
+}  // namespace
+
+std::string deputy_motion_verdict(const DeputyMotion& motion) {
+  const auto [nearest, farthest] = approach(motion);
+  const std::size_t last = motion.points.size() - 1;
+  const TimeAxis axis = time_axis(seconds_at(motion, last));
+  const auto time = [&](std::size_t i) {
+    return fmt::format("{:.3g} {}", seconds_at(motion, i) / axis.seconds, axis.name);
+  };
+  const int order = motion.scene.order;
+  const std::string error = error_text(motion, motion.largest_error_m(order));
+  std::string text = fmt::format(
+      "Within {} the deputy is nearest to its chief after {}, {} away, and farthest after {}, {} "
+      "away; at the end it is {} away. Polynomials of order {} are never wrong by {}{}",
+      time(last), time(nearest), length_text(motion.separation_m(nearest)), time(farthest),
+      length_text(motion.separation_m(farthest)), length_text(motion.separation_m(last)), order,
+      error.starts_with("less") ? "as much as " : "more than ",
+      error.starts_with("less") ? length_text(motion.flight_floor_m) : error);
+  if (order > 1) {
+    text += fmt::format(", the linear theory by up to {}", length_text(motion.largest_error_m(1)));
+  }
+  text += ", measured by flying both with the full equations of motion.";
+  if (!is_resolved(motion)) {
+    text += fmt::format(
+        " That is no small part of the separation: the deputy is beyond what order {} resolves. A "
+        "higher jet.order or a shorter duration reaches it; `hamjet validity` says how far apart "
+        "the two may be.",
+        order);
+  }
+  return text;
+}
+
+std::string deputy_motion_csv(const DeputyMotion& motion) {
+  const double unit = motion.scene.units.time_s;
+  Columns<DeputyMotionPoint> columns;
+  columns.add("time_canonical", &DeputyMotionPoint::time);
+  columns.add("time_s", [=](MotionPoint point) { return point.time * unit; });
+  const auto letters = axis_letters(motion.scene.deputy->frame);
+  for (std::size_t i = 0; i < letters.size(); ++i) {
+    const auto axis = static_cast<Eigen::Index>(i);
+    columns.add(fmt::format("{}_m", letters[i]),
+                [=](MotionPoint point) { return point.state.position_m[axis]; });
+  }
+  for (std::size_t i = 0; i < letters.size(); ++i) {
+    const auto axis = static_cast<Eigen::Index>(i);
+    columns.add(fmt::format("v{}_m_s", letters[i]),
+                [=](MotionPoint point) { return point.state.velocity_m_s[axis]; });
+  }
+  columns.add("separation_m", [](MotionPoint point) { return point.state.position_m.norm(); });
+  for (std::size_t k = 0; k < motion.points.front().errors_m.size(); ++k) {
+    columns.add(fmt::format("error_m_order_{}", k + 1),
+                [=](MotionPoint point) { return point.errors_m[k]; });
+  }
+  return columns.csv(motion.points);
+}
+
+Chart deputy_motion_error_chart(const DeputyMotion& motion) {
+  const TimeAxis axis = time_axis(seconds_at(motion, motion.points.size() - 1));
+  Chart chart;
+  chart.name = "motion-error";
+  chart.title = "Errors of the polynomials along time";
+  chart.x.label = fmt::format("time ({})", axis.name);
+  chart.y = logarithmic_axis("position error", AxisUnit::metres);
+  chart.y.smallest = motion.flight_floor_m;
+  chart.reading = fmt::format(
+      "The distance between where the polynomial of each order has the deputy and where it flew "
+      "to, both relative to the chief. Flights are right to {}; what is below that is drawn at the "
+      "lower limit.",
+      length_text(motion.flight_floor_m));
+  for (int order = 1; order <= motion.scene.order; ++order) {
+    ChartCurve curve;
+    curve.title = fmt::format("order {}", order);
+    curve.style = static_cast<std::size_t>(order - 1);
+    curve.has_markers = false;
+    for (std::size_t i = 1; i < motion.points.size(); ++i) {
+      curve.points.emplace_back(seconds_at(motion, i) / axis.seconds,
+                                motion.points[i].errors_m[static_cast<std::size_t>(order - 1)]);
+    }
+    chart.curves.push_back(std::move(curve));
+  }
+  return chart;
+}
+
+StudyReport deputy_motion_report(const DeputyMotion& motion, const ReportOrigin& origin) {
+  StudyReport report;
+  ChartDrawer drawer(origin.gnuplot);
+  report.files = {{"motion.csv", deputy_motion_csv(motion)},
+                  {"report.html", page(motion, origin, drawer)}};
+  report.drawing_problem = drawer.problem();
+  report.files.push_back({"summary.json", summary_json(motion).dump(2) + "\n"});
+  report.table = terminal_table(motion);
+  report.details =
+      fmt::format("{} times; {} for the jets (flight floor {})\n", motion.points.size(),
+                  duration_text(motion.propagation_seconds), length_text(motion.flight_floor_m));
+  return report;
+}
+
+}  // namespace hamjet::io

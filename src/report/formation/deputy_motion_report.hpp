@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "../../studies/formation/deputy_motion.hpp"
+#include "../drawing/chart.hpp"
+#include "hamjet/detail/report/report_origin.hpp"
+#include "hamjet/detail/report/study_report.hpp"
+
+namespace hamjet::io {
+
+/// The first that a reader sees: how near and how far the deputy comes, and by how much the
+/// polynomials are wrong.
+std::string deputy_motion_verdict(const DeputyMotion& motion);
+
+/// `motion.csv`: one row a time.
+std::string deputy_motion_csv(const DeputyMotion& motion);
+
+/// The polynomials' errors along time, not fitted.
+Chart deputy_motion_error_chart(const DeputyMotion& motion);
+
+/// The files of `hamjet motion`: `motion.csv`, `report.html`, `summary.json`.
+StudyReport deputy_motion_report(const DeputyMotion& motion, const ReportOrigin& origin);
+
+}  // namespace hamjet::io

@@ -1,0 +1,75 @@
+#include "deputy_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "../exact_flow.hpp"
+#include "../formation_scale.hpp"
+#include "../jets_along_time.hpp"
+#include "flown_trajectory.hpp"
+#include "formation_problem.hpp"
+#include "hamjet/detail/algebra/monomial_values.hpp"
+#include "hamjet/error.hpp"
+#include "single_transfer.hpp"
+
+namespace hamjet {
+double DeputyMotion::largest_error_m(int order) const {
+  double largest = 0;
+  for (const DeputyMotionPoint& point : points) {
+    largest = std::max(largest, point.errors_m[static_cast<std::size_t>(order - 1)]);
+  }
+  return largest;
+}
+
+DeputyMotion study_deputy_motion(const Scene& scene, const ProgressCallback& progress) {
+  require_formation_problem(scene, scene.deputy.has_value(), "deputy");
+  if (scene.duration == 0) {
+    throw Error(ErrorKind::scene, "deputy: no motion in no time, got a jet.duration of 0");
+  }
+  DeputyMotion result;
+  result.scene = scene;
+  const MetricUnits units = metric_units(scene);
+  const RelativeFrame frame = scene.deputy->frame;
+  const std::vector<double> deviation =
+      ChiefFrame(scene.nominal, units, frame).deviation(scene.deputy->start);
+  const int count = smooth_intervals(scene);
+  if (progress) progress("flight", 0);
+  result.flown = flown_trajectory(scene, deviation, frame, scene.duration, count);
+  const auto orders = static_cast<std::size_t>(scene.order);
+  result.points.push_back({0, scene.deputy->start, std::vector<double>(orders, 0.0)});
+
+  const ComputedProblem problem = make_problem(scene, available_memory());
+  MonomialValues values(problem.space);
+  values.set_point(deviation);
+  const IntegratorSettings& integrator = symplectic_integrator(scene);
+  result.integrator = integrator.label;
+  const std::vector<double> times(result.flown.times.begin() + 1, result.flown.times.end());
+  const auto visit = [&](std::size_t index, const FlowJet<double>& jet) {
+    if (progress) progress("motion", static_cast<double>(index) / count);
+    const std::vector<double> chief = nominal_of(jet);
+    const std::vector<double>& flown_chief = result.flown.chief[index + 1];
+    const std::vector<double>& flown_deputy = result.flown.deputy[index + 1];
+    DeputyMotionPoint point{times[index], {}, {}};
+    // Degree by degree: what is relative to the chief would lose its digits in the chief's place.
+    std::vector<double> relative(jet.size(), 0.0);
+    for (int order = 1; order <= scene.order; ++order) {
+      double square = 0;
+      for (std::size_t i = 0; i < jet.size(); ++i) {
+        relative[i] += values.slice(jet[i], order);
+        if (i >= 3) continue;
+        square += std::pow(relative[i] - (flown_deputy[i] - flown_chief[i]), 2);
+      }
+      point.errors_m.push_back(std::sqrt(square) * units.length_m);
+      if (order == scene.order) point.state = ChiefFrame(chief, units, frame).relative(relative);
+    }
+    result.points.push_back(std::move(point));
+    if (index + 1 == times.size()) {
+      result.flight_floor_m = rounding_of_flights(problem, jet) * units.length_m;
+    }
+  };
+  const auto statistics = visit_jets(problem, integrator, times, visit);
+  result.propagation_seconds = statistics.wall_seconds;
+  return result;
+}
+
+}  // namespace hamjet
