@@ -13,6 +13,7 @@
 
 #include "../app/refusal.hpp"
 #include "../dynamics/celestial_bodies.hpp"
+#include "../report/propagation/orbit_summary.hpp"
 #include "../scene/scene_name.hpp"
 #include "../scene/study_reader.hpp"
 #include "../store/text_file.hpp"
@@ -155,18 +156,32 @@ void check_options(const InitOptions& options) {
   }
 }
 
-/// The title of the scene, which must read: what a message says may make one that does not, and
-/// nobody should get that.
-std::string title_of(const std::string& scene, const fs::path& file,
-                     const std::optional<std::string>& message) {
+/// Fills in a duration: a revolution, or an hour where the orbit has none.
+void fill_duration(bool has_period, Filling& filling) {
+  filling["span"] = has_period ? "one revolution" : "an hour";
+  filling["duration"] =
+      has_period ? "duration_orbits = 1        # periods of the start's ellipse; or duration_s"
+                 : "duration_s = 3600          # the start is on no ellipse, and has no period";
+}
+
+/// The study that the scene is, which must read: what a message says may make one that does not,
+/// and nobody should get that.
+io::Study study_of(const std::string& scene, const fs::path& file,
+                   const std::optional<std::string>& message) {
   try {
-    return std::visit([](const auto& study) { return study.title; },
-                      io::parse_study(scene, file.string()));
+    return io::parse_study(scene, file.string());
   } catch (const Error& error) {
     if (!message) throw;
     throw Error(error.kind(), fmt::format("{}: makes no scene that can be run: {}",
                                           io::printable_path(*message), error.what()));
   }
+}
+
+/// Whether the orbit of the scene's start is closed.
+bool has_period(const io::Study& study) {
+  const auto* scene = std::get_if<Scene>(&study);
+  const auto orbit = scene != nullptr ? io::orbit_summary(*scene) : std::nullopt;
+  return orbit && orbit->period_s;
 }
 
 /// The commands that the scene's first comment names, a line each.
@@ -220,8 +235,15 @@ int init(const InitOptions& options) {
                      {"results", io::in_shell_quotes(results.string())}};
   const std::string_view chosen =
       options.kind ? *options.kind : fill_from_message(*options.message, file, filling);
-  const std::string scene = filled(chosen, filling);
-  const std::string title = title_of(scene, file, options.message);
+  fill_duration(false, filling);
+  std::string scene = filled(chosen, filling);
+  const io::Study study = study_of(scene, file, options.message);
+  if (options.message && has_period(study)) {
+    fill_duration(true, filling);
+    scene = filled(chosen, filling);
+    study_of(scene, file, options.message);
+  }
+  const std::string title = std::visit([](const auto& any) { return any.title; }, study);
   output.write(scene);
   print(fmt::format("wrote {}: {}\nnext:\n{}", file_text, title, commands_in(scene)));
   return 0;
