@@ -68,6 +68,9 @@ MetricUnits metric_units(const Nominal& nominal) {
 
 double distance_of(const Nominal& nominal) { return Eigen::Vector3d(nominal.state.data()).norm(); }
 
+/// Of a circular orbit through the chief, canonical: mu = 1.
+double circular_speed_of(const Nominal& nominal) { return 1 / std::sqrt(distance_of(nominal)); }
+
 /// The axes at the chief; says about the table why there are none.
 ChiefFrame frame_at_chief(const TableReader& table, const Nominal& nominal, RelativeFrame frame) {
   try {
@@ -128,6 +131,14 @@ RelativeState read_own_orbit(const TableReader& table, const Nominal& nominal,
     table.fail("", fmt::format("too far from its chief, got {:.6g} km between the two, must be "
                                "below {:.6g} km, the chief's distance from the centre",
                                separation * unit_km, distance_of(nominal) * unit_km));
+  }
+  const double speed = Eigen::Vector3d(deviation.data() + 3).stableNorm();
+  if (!(speed < circular_speed_of(nominal))) {
+    const double unit_km_s = metric_units(nominal).velocity_m_s() / 1000;
+    table.fail("", fmt::format("too fast beside its chief, got {:.6g} km/s between the two, must "
+                               "be below {:.6g} km/s, the speed of a circular orbit through the "
+                               "chief",
+                               speed * unit_km_s, circular_speed_of(nominal) * unit_km_s));
   }
   return frame_at_chief(table, nominal, frame).relative(deviation);
 }
@@ -280,13 +291,13 @@ RelativeState read_relative_state(const TableReader& table, const Nominal& nomin
   if (own) return read_own_orbit(table, nominal, frame);
   const MetricUnits units = metric_units(nominal);
   const double distance = distance_of(nominal);
-  const double circular_speed = 1 / std::sqrt(distance);  // canonical, as mu = 1
   RelativeState state;
   state.position_m = read_vector(table, "position_m", distance * units.length_m,
                                  "the chief's distance from the centre");
   if (table.has("velocity_m_s")) {
-    state.velocity_m_s = read_vector(table, "velocity_m_s", circular_speed * units.velocity_m_s(),
-                                     "the speed of a circular orbit through the chief");
+    state.velocity_m_s =
+        read_vector(table, "velocity_m_s", circular_speed_of(nominal) * units.velocity_m_s(),
+                    "the speed of a circular orbit through the chief");
   }
   return state;
 }

@@ -19,7 +19,7 @@ TEST_F(EvalErrors, MistakesOnTheCommandLine) {
       {{}, {"directory"}},
       {{"kepler"}, {"--deviation", "--deviations"}},
       {{"", "--deviation", one}, {"directory: empty"}},
-      {{"kepler", "--deviation", one, "--deviations", "a.csv"}, {"must not both be given"}},
+      {{"kepler", "--deviation", one, "--deviations", "a.csv"}, {"must not be given together"}},
       {{"kepler", "--deviation", "1,2,3"}, {"must be 6 numbers", "R_m,T_m,N_m", "\"1,2,3\""}},
       {{"kepler", "--deviation", "1,2,3,4,5,x"}, {"vN_m_s must be a finite number", "\"x\""}},
       {{"kepler", "--deviation", "nan,0,0,0,0,0"}, {"R_m must be a finite number"}},

@@ -39,7 +39,7 @@ std::string ephemeris_block(const std::string& name, const std::string& id, cons
 
 class Init : public CommandTest {
  protected:
-  /// Runs what the command said to go on with, two lines of plain words.
+  /// Runs what the command said to go on with, at least two lines of plain words.
   void run_what_is_next(const std::string& said) const {
     const std::size_t next = said.find("\nnext:\n");
     ASSERT_NE(next, std::string::npos) << said;
@@ -53,7 +53,7 @@ class Init : public CommandTest {
       const CommandResult result = hamjet(arguments);
       EXPECT_EQ(result.exit_code, 0) << line << result.err;
     }
-    EXPECT_EQ(count, 2) << said;
+    EXPECT_GE(count, 2) << said;
   }
 
   /// The nominal's distance from the centre at the start, which is the unit of length of a run.

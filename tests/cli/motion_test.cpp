@@ -21,7 +21,7 @@ TEST_F(Motion, SaysHowNearHowFarAndHowWrong) {
   for (const char* const words :
        {"the deputy is nearest to its chief after ", "Polynomials of order 2 are never wrong by",
         "the linear theory by up to ", "frame RTN with rotating derivatives; order 2",
-        "time (h) R (m) T (m) N (m) separation error linear error",
+        "time (min) R (m) T (m) N (m) separation error linear error",
         "report: out/two-motion/report.html"}) {
     EXPECT_NE(out.find(words), std::string::npos) << words << " is not in " << out;
   }

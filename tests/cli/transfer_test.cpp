@@ -70,8 +70,9 @@ TEST_F(TransferCommand, LeavesTablesPageAndSummary) {
     names.push_back(entry.path().filename().string());
   }
   std::sort(names.begin(), names.end());
-  EXPECT_EQ(names, (std::vector<std::string>{"conditions.csv", "report.html", "singular_times.csv",
-                                             "summary.json", "transfers.csv"}));
+  EXPECT_EQ(names,
+            (std::vector<std::string>{"conditions.csv", "figure.svg", "report.html",
+                                      "singular_times.csv", "summary.json", "transfers.csv"}));
   const Json summary = read_json(directory / "summary.json");
   EXPECT_EQ(summary["exit_code"], 0);
   EXPECT_EQ(summary["counts"]["answered"], 3);
@@ -152,7 +153,10 @@ TEST_F(TransferCommand, BeyondValidityIsMarkedAndFailsOnlyAStrictScene) {
   // A thousand kilometres from the chief no cubic polynomial is right to a metre.
   const std::string far = changed(transfer, "[0, -1000, 200]", "[0, -1000000, 0]");
   write("far.toml", circle + far);
-  const CommandResult marked = succeed({"transfer", "far.toml"});
+  const CommandResult marked = hamjet({"transfer", "far.toml"});
+  EXPECT_EQ(marked.exit_code, 0);
+  EXPECT_NE(marked.err.find("transfer.start: far from its chief, got 1 Mm"), std::string::npos)
+      << marked.err;
   EXPECT_NE(marked.out.find("3 of the others beyond the tolerance of 1 m"), std::string::npos)
       << marked.out;
   Json summary = read_json(directory_ / "out/far-transfer/summary.json");

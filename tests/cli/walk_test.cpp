@@ -5,8 +5,9 @@
 #include "command_test.hpp"
 
 // The walk of a new user: the commands on the front page and in data/examples/two-satellites are
-// run, and print what the pages say. Words are the same. Numbers agree to a hundredth, and lengths
-// below a millimetre, which rounding makes in part, to a factor of three.
+// run, and print what the pages say. Words are the same. Numbers agree to a hundredth; lengths
+// below a millimetre and bare numbers below a hundredth, which rounding makes in part, to a factor
+// of three.
 
 namespace hamjet::test {
 namespace {
@@ -93,7 +94,7 @@ bool agree(const std::string& first, const std::string& second, const std::strin
   const double x = a->value * unit_a.value_or(1);
   const double y = b->value * unit_b.value_or(1);
   const double size = std::max(std::abs(x), std::abs(y));
-  if (unit_a && size < 1e-3) return std::min(std::abs(x), std::abs(y)) >= size / 3;
+  if (size < (unit_a ? 1e-3 : 1e-2)) return std::min(std::abs(x), std::abs(y)) >= size / 3;
   return std::abs(x - y) <= 0.01 * size;
 }
 
@@ -139,6 +140,7 @@ TEST_F(Walk, WordsAreComparedAsThePagesSay) {
   EXPECT_FALSE(agree("999", "999", "m", "km"));
   EXPECT_TRUE(agree("10", "29", "nm", "nm"));
   EXPECT_FALSE(agree("10", "31", "nm", "nm"));
+  EXPECT_TRUE(agree("0.002", "0.005", "inside", "inside"));
   EXPECT_FALSE(agree("deputy", "chief", "", ""));
 }
 

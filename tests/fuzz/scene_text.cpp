@@ -109,6 +109,7 @@ void check(const Scene& scene) {
     require(scene.validity->semi_axes.size() == 3, "semi_axes");
     require_finite(scene.validity->semi_axes, "semi_axes");
   }
+  if (scene.deputy) check_state(scene.deputy->start);
   if (scene.assignment) {
     require(scene.assignment->deputies.size() == scene.assignment->slots.size(), "assignment");
     for (const RelativeState& state : scene.assignment->deputies) check_state(state);

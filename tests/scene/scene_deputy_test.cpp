@@ -171,6 +171,9 @@ TEST(SceneDeputy, Errors) {
   refused("frame = \"RTN\"\n", {"deputy.position_m: missing"});
   refused("position_km = [-4, 0, 0]\nvelocity_km_s = [0, 0, 0]\n",
           {"deputy: too far from its chief, got 8 km", "below 4 km"});
+  refused("position_km = [4.001, 0, 0]\nvelocity_km_s = [0, -0.1, 0]\n",
+          {"deputy: too fast beside its chief, got 0.6 km/s", "below 0.5 km/s"});
+  refused("position_km = [4.001, 0, 0]\nvelocity_km_s = [0, 1e308, 0]\n", {"too fast"});
   refused("frame = \"LVLH\"\nposition_m = [1, 0, 0]\n", {"deputy.frame: ambiguous"});
   expect_scene_error(
       changed(circle, "[0, 0.5, 0]", "[1, 0, 0]") + std::string("[deputy]\n") + beside,
