@@ -23,22 +23,45 @@ TEST(AlongTimeChart, BreaksAtSingularTimesAndFollowsThePrecision) {
     // Four units of 927.6 s are an hour and two minutes: the axis is in minutes.
     EXPECT_EQ(chart.x.label, "time (min)");
     EXPECT_DOUBLE_EQ(chart.curves[0].points.back().first, 4 * 927.6 / 60);
-    ASSERT_EQ(chart.curves[0].ticks.size(), 3U);
-    EXPECT_DOUBLE_EQ(chart.curves[0].ticks[1], 2.25 * 927.6 / 60);
+    ASSERT_EQ(chart.rules.size(), 3U);
+    EXPECT_TRUE(chart.rules[1].is_vertical);
+    EXPECT_DOUBLE_EQ(chart.rules[1].place, 2.25 * 927.6 / 60);
     EXPECT_EQ(chart.curves[0].marker_interval, 1);
-    ASSERT_EQ(chart.notes.size(), 1U);
+    ASSERT_EQ(chart.notes.size(), 2U);
     EXPECT_NE(chart.notes[0].find("not looked for: too long"), std::string::npos);
+    EXPECT_EQ(chart.notes[1],
+              "Lines are broken at the vertical lines, where the kind does not exist.");
     fit(chart);
     // In double precision all of this is below what rounding leaves.
-    EXPECT_EQ(chart.at_limit.size(), precision == Precision::extended ? 0U : 1U);
     if (precision == Precision::extended) {
+      EXPECT_EQ(chart.notes.size(), 2U);
       EXPECT_LE(chart.y.lower, 1e-33);
+    } else {
+      ASSERT_EQ(chart.notes.size(), 3U);
+      EXPECT_NE(chart.notes[2].find("the rounding of double precision"), std::string::npos);
+      EXPECT_NE(chart.notes[2].find("drawn at it: 5."), std::string::npos);
+      EXPECT_DOUBLE_EQ(chart.y.lower, 1e-16);
     }
   }
   Chart energy = energy_along_time_chart(scene, {run});
   EXPECT_TRUE(energy.curves[0].gaps.empty());
+  EXPECT_TRUE(energy.rules.empty());
   fit(energy);
-  EXPECT_LE(energy.y.lower, 1e-34);
+  EXPECT_DOUBLE_EQ(energy.y.lower, 1e-34);
+}
+
+// The times are those of the flow, the same for all integrators, and are drawn once.
+TEST(AlongTimeChart, DrawsASingularTimeOnceAndCountsWhatIsMissing) {
+  Scene scene = sample_comparison().scene;
+  scene.duration = 4;
+  std::vector<RunAlongTime> runs = {{"short", "", {{1, 1e-9, 3, 0}}, {0.5}},
+                                    {"long", "", {{1, 1e-9, 3, 0}, {3, {}, 3, 0}}, {0.5, 2.25}}};
+  Chart chart = exactness_along_time_chart(scene, parse_kind("F1", 3), runs);
+  ASSERT_EQ(chart.rules.size(), 2U);
+  EXPECT_EQ(chart.rules[1].title, "kind does not exist");
+  ASSERT_EQ(chart.notes.size(), 2U);
+  EXPECT_EQ(chart.notes[1],
+            "Lines are broken at points where the residual could not be computed: 1.");
 }
 
 }  // namespace

@@ -75,7 +75,9 @@ TEST(TransferPage, HasEveryPlotInTwoWidthsWithUniqueIds) {
   EXPECT_FALSE(report.drawing_problem) << *report.drawing_problem;
   const std::string page = page_of(report);
   // Velocity change, three projections, misses, conditions, validity along time and order.
-  EXPECT_EQ(test::occurrences(page, "<svg"), 2 * 8U);
+  // The projections are panels beside one another, narrow in every window.
+  EXPECT_EQ(test::occurrences(page, "<svg"), 2 * 5U + 3);
+  EXPECT_EQ(test::occurrences(page, "<div class=\"panels\">"), 1U);
   for (const char* name : {"velocity-change", "relative-tr", "relative-tn", "relative-rn",
                            "miss-time", "kind-conditions", "validity-time", "validity-order"}) {
     EXPECT_NE(page.find("id=\"figure-" + std::string(name) + "\""), std::string::npos) << name;
@@ -161,16 +163,32 @@ TEST(TransferCharts, ConditionsAreTickedWhereAKindFails) {
   for (const auto& point : best->points) EXPECT_DOUBLE_EQ(point.second, 2 + 1.0 / 3);
 }
 
-TEST(TransferCharts, ProjectionsHaveEqualScales) {
-  const auto charts = relative_trajectory_charts(sample_trajectory());
+// All panels show one span, so that their amplitudes can be compared by eye.
+TEST(TransferCharts, ProjectionsHaveEqualScalesAndTimeAsColour) {
+  auto charts = relative_trajectory_charts(sample_trajectory(), 3600);
   ASSERT_EQ(charts.size(), 3U);
-  for (const Chart& chart : charts) EXPECT_TRUE(chart.is_isometric);
+  for (Chart& chart : charts) {
+    EXPECT_TRUE(chart.is_isometric && chart.is_panel);
+    fit(chart);
+    // T goes from -8 km to 100 m.
+    EXPECT_NEAR(chart.x.upper - chart.x.lower, 8.1 * 1.1, 1e-9);
+    EXPECT_NEAR(chart.y.upper - chart.y.lower, 8.1 * 1.1, 1e-9);
+    // Six canonical units of an hour.
+    EXPECT_EQ(chart.value_label, "time (h)");
+    ASSERT_EQ(chart.curves[0].values.size(), 11U);
+    EXPECT_DOUBLE_EQ(chart.curves[0].values[10], 6);
+  }
   EXPECT_EQ(charts[0].x.label, "T (km)");
   EXPECT_EQ(charts[0].y.label, "R (km)");
   EXPECT_EQ(charts[1].y.label, "N (km)");
   EXPECT_EQ(charts[2].x.label, "R (km)");
   EXPECT_DOUBLE_EQ(charts[0].curves[0].points[0].first, -8);
   EXPECT_DOUBLE_EQ(charts[2].curves[0].points[10].second, 0);
+  // The parabola 100 k (10 - k) m has its top at k = 5.
+  ASSERT_EQ(charts[0].notes.size(), 1U);
+  EXPECT_EQ(charts[0].notes[0],
+            "Of the deputy: R from 0 m to 2.5 km (amplitude 1.25 km); T from -8 km to 100 m "
+            "(amplitude 4.05 km); N from 0 m to 6 km (amplitude 3 km).");
 }
 
 TEST(TransferCharts, TheRendezvousIsDrawnBesideTheDeputyByItself) {

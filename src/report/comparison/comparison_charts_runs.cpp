@@ -7,34 +7,12 @@
 #include "../drawing/along_time_charts.hpp"
 #include "comparison_charts.hpp"
 #include "comparison_view.hpp"
+#include "run_chart_parts.hpp"
 
-// Plots with one point a run.
+// Plots with one point a run; that of work and precision has a file of its own.
 
 namespace hamjet::io {
 namespace {
-
-ChartAxis error_axis(const ComparisonResult& result) {
-  return logarithmic_axis(shown_error_name(result),
-                          has_formation_error(result) ? AxisUnit::metres : AxisUnit::power);
-}
-
-ChartAxis time_axis() { return logarithmic_axis("time of integration", AxisUnit::seconds); }
-
-/// Whether the error may be shown; counts those that are the reference's as much as the run's.
-bool is_claimed(double error, double smallest, std::size_t& below) {
-  if (error > 0 && !(error < smallest)) return true;
-  if (std::isfinite(error)) ++below;
-  return false;
-}
-
-void note_below(const ComparisonResult& result, double smallest, std::size_t below, Chart& chart) {
-  if (below == 0) return;
-  chart.notes.push_back(fmt::format(
-      "Not drawn: runs with an error below {}, ten times the reference's uncertainty, "
-      "or of exactly zero: {}.",
-      has_formation_error(result) ? length_text(smallest) : fmt::format("{:.1e}", smallest),
-      below));
-}
 
 /// A chart of one point a run: its error across, and upwards what `measure` gives, coloured by
 /// corner.
@@ -66,10 +44,9 @@ Chart corner_chart(const ComparisonResult& result, std::string label, Measure me
   }
   chart.curves.assign(curves.begin(), curves.end());
   note_below(result, smallest, below, chart);
-  chart.rules.push_back({false, largest_exact_defect});
-  if (has_formation_error(result) && result.scene.comparison.wanted_error_m > 0) {
-    chart.rules.push_back({true, result.scene.comparison.wanted_error_m});
-  }
+  chart.rules.push_back(
+      {false, largest_exact_defect, fmt::format("exact: at most {:.0e}", largest_exact_defect)});
+  add_wanted_error(result, chart);
   const auto name = [](Corner corner) { return std::string(corner_text(corner)); };
   chart.corners = {{false, false, name(Corner::exact_and_accurate)},
                    {true, false, name(Corner::exact_but_wrong)},
@@ -79,48 +56,6 @@ Chart corner_chart(const ComparisonResult& result, std::string label, Measure me
 }
 
 }  // namespace
-
-Chart work_precision_chart(const ComparisonResult& result) {
-  Chart chart;
-  chart.name = "work-precision";
-  chart.title = "Work and precision";
-  chart.reading =
-      "Each line is one method, each marker one step or tolerance of it. Error runs across, "
-      "falling "
-      "to the right; computing time runs upwards, as in the work-precision diagrams of Hairer, "
-      "Nørsett and Wanner: at a given error the lowest line is the cheapest method, and its slope "
-      "is the price of one more digit (flatter is better: a high order). A line that turns upwards "
-      "at its right end has reached its rounding floor. Times are medians of repeats that were "
-      "interleaved over all methods, integration alone, one thread.";
-  chart.x = error_axis(result);
-  chart.x.is_reversed = true;
-  chart.y = time_axis();
-  // The margins keep markers off the very edge.
-  chart.x.margin = chart.y.margin = 0.05;
-  const double smallest = smallest_shown_error(result);
-  std::size_t below = 0;
-  for (const std::string& name : series_names(result.runs)) {
-    ChartCurve curve;
-    curve.title = name;
-    curve.style = series_index(result, name);
-    for (const ComparedRun& run : result.runs) {
-      if (run.series != name || !run.is_finished() || run.seconds.empty()) continue;
-      const double error = shown_error(result, run);
-      if (is_claimed(error, smallest, below) || !std::isfinite(error)) {
-        curve.points.emplace_back(error, run.median_seconds());
-      }
-    }
-    chart.curves.push_back(curve);
-  }
-  note_below(result, smallest, below, chart);
-  const auto unfinished = std::count_if(result.runs.begin(), result.runs.end(),
-                                        [](const ComparedRun& run) { return !run.is_finished(); });
-  if (unfinished > 0) {
-    chart.notes.push_back(fmt::format(
-        "Runs that failed or were left out have no point: {}; the table names them.", unfinished));
-  }
-  return chart;
-}
 
 Chart exactness_chart(const ComparisonResult& result) {
   std::size_t without = 0;
@@ -137,11 +72,11 @@ Chart exactness_chart(const ComparisonResult& result) {
       "a symplectic method (below)? The residual says how far the generating function {} is from a "
       "closed form at degree 0, relative to its largest coefficient. Neither answer implies the "
       "other: points at the lower right satisfy the generating function's equations to round-off "
-      "and yet are wrong. The vertical line is the wanted error, the horizontal one {:.0e}. Colour "
+      "and yet are wrong. Colour "
       "and shape come from the symplecticity defect (next plot), which needs no inversion; the "
       "residual here is raised by the inversion's condition ({:.2g}), so that a point may lie on "
       "the other side of the horizontal line.",
-      kind_text(result), largest_exact_defect, result.kind_condition);
+      kind_text(result), result.kind_condition);
   if (!result.kind) {
     chart.missing = no_generating_function;
   } else if (without > 0) {
@@ -182,11 +117,14 @@ Chart cost_chart(const ComparisonResult& result) {
   chart.x.label = "order of the jet";
   chart.x.is_integer = true;
   chart.x.margin = 0.04;
-  chart.y = time_axis();
+  chart.y = run_time_axis();
   for (const std::string& name : series_names(result.cost_runs)) {
     ChartCurve curve;
     curve.title = name;
-    curve.style = series_index(result, name);
+    const SeriesLook look = series_look(result, name);
+    curve.style = look.shape;
+    curve.colour = look.colour;
+    curve.is_filled = look.is_filled;
     for (const ComparedRun& run : result.cost_runs) {
       if (run.series != name || !run.is_finished() || run.seconds.empty()) continue;
       curve.points.emplace_back(run.order, run.median_seconds());

@@ -43,7 +43,9 @@ void add_convergence(const ComparisonResult& result, const std::string& name, st
                      Chart& chart) {
   const ConvergenceFit* fit = fit_of(result, name);
   ChartCurve used;
-  used.style = series_index(result, name);
+  const SeriesLook look = series_look(result, name);
+  used.style = look.shape;
+  used.colour = look.colour;
   used.title = fit != nullptr ? fmt::format("{}: {:.2f}", name, fit->slope) : name;
   used.has_line = false;
   ChartCurve others = used;
@@ -93,7 +95,7 @@ Chart convergence_chart(const ComparisonResult& result) {
       "sixty-fourth of the duration (the table says which) where the whole would take too long or "
       "its leading term does not dominate. A series with too few usable runs, "
       "or whose runs scatter about the fit by more than a tenth of a decade, has none.";
-  chart.x = logarithmic_axis("step (canonical time)");
+  chart.x = logarithmic_axis("step", AxisUnit::seconds);
   chart.y = logarithmic_axis("relative error of degree 0");
   chart.x.margin = chart.y.margin = 0.05;
   std::size_t below = 0;
@@ -104,6 +106,9 @@ Chart convergence_chart(const ComparisonResult& result) {
     chart.notes.push_back(fmt::format(
         "Not drawn: runs with an error below {:.1e}, ten times the reference's uncertainty: {}.",
         result.smallest_claimed_error(0), below));
+  }
+  for (ChartCurve& curve : chart.curves) {
+    for (auto& point : curve.points) point.first *= result.scene.units.time_s;
   }
   if (chart.curves.empty()) chart.missing = "No series of the comparison has fixed steps.";
   return chart;

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <iterator>
 
 #include "../drawing/along_time_charts.hpp"
 
@@ -64,9 +64,14 @@ double smallest_shown_error(const ComparisonResult& result) {
 }
 
 std::string shown_error_name(const ComparisonResult& result) {
-  if (!has_formation_error(result)) return "largest relative error";
-  const double metres = *result.scene.separation * result.scene.units.length_km * 1000;
-  return fmt::format("position error at {} separation", length_text(metres));
+  const std::optional<double> separation_m = shown_separation_m(result);
+  if (!separation_m) return "largest relative error";
+  return fmt::format("position error at {} separation", length_text(*separation_m));
+}
+
+std::optional<double> shown_separation_m(const ComparisonResult& result) {
+  if (!has_formation_error(result)) return std::nullopt;
+  return *result.scene.separation * result.scene.units.length_km * 1000;
 }
 
 std::vector<std::string> series_names(const std::vector<ComparedRun>& runs) {
@@ -75,11 +80,28 @@ std::vector<std::string> series_names(const std::vector<ComparedRun>& runs) {
   return names;
 }
 
-std::size_t series_index(const ComparisonResult& result, std::string_view series) {
-  std::vector<std::string> names = series_names(result.runs);
-  add_new_names(result.cost_runs, names);
-  return static_cast<std::size_t>(
-      std::distance(names.begin(), std::find(names.begin(), names.end(), series)));
+SeriesLook series_look(const ComparisonResult& result, std::string_view series) {
+  std::vector<IntegrationMethod> methods;
+  std::vector<std::string> names;
+  // Shapes used so far, for each method that of fixed and that of adaptive steps.
+  std::vector<std::array<std::size_t, 2>> shapes;
+  SeriesLook look;
+  for (const auto* runs : {&result.runs, &result.cost_runs}) {
+    for (const ComparedRun& run : *runs) {
+      if (std::find(names.begin(), names.end(), run.series) != names.end()) continue;
+      names.push_back(run.series);
+      const auto method = std::find(methods.begin(), methods.end(), run.settings.method);
+      look.colour = static_cast<std::size_t>(method - methods.begin());
+      if (method == methods.end()) {
+        methods.push_back(run.settings.method);
+        shapes.push_back({0, 0});
+      }
+      look.is_filled = !run.settings.tolerance;
+      look.shape = shapes[look.colour][look.is_filled ? 0 : 1]++;
+      if (run.series == series) return look;
+    }
+  }
+  return look;
 }
 
 std::string kind_text(const ComparisonResult& result) {

@@ -40,9 +40,17 @@ std::string shown_error_name(const ComparisonResult& result);
 /// The names of all series, in the order in which they first occur.
 std::vector<std::string> series_names(const std::vector<ComparedRun>& runs);
 
-/// The place of a series among all that the comparison has, which gives it the same looks in all
-/// plots.
-std::size_t series_index(const ComparisonResult& result, std::string_view series);
+/// The separation at which errors are stated; none where they are relative.
+std::optional<double> shown_separation_m(const ComparisonResult& result);
+
+/// How a series looks in all plots, no two alike: a colour for the method, a shape for the place
+/// among those of the method, filled where steps are fixed.
+struct SeriesLook {
+  std::size_t colour = 0;
+  std::size_t shape = 0;
+  bool is_filled = true;
+};
+SeriesLook series_look(const ComparisonResult& result, std::string_view series);
 
 /// The kind whose exactness is stated, as "F1 (qqq-qqq)" or the notation alone; empty without a
 /// kind.

@@ -10,17 +10,33 @@
 namespace hamjet::io {
 namespace {
 
+/// Vertical lines at the times of one run that no run before had; those of the flow are the same
+/// for all that go so far.
+void add_singular_times(const std::vector<double>& times, double unit, Chart& chart) {
+  const double nearest = 1e-3 * std::abs(chart.x.includes.back());
+  for (const double time : times) {
+    const bool is_new = std::none_of(
+        chart.rules.begin(), chart.rules.end(),
+        [&](const ChartRule& rule) { return std::abs(rule.place - time * unit) < nearest; });
+    if (is_new) chart.rules.push_back({true, time * unit, "kind does not exist", true});
+  }
+}
+
 /// A chart with a curve for each integrator along time; `measure` gives a point's value, or none.
 template <class Measure>
 Chart along_time_chart(const Scene& scene, const std::vector<RunAlongTime>& runs, std::string label,
-                       bool has_ticks, Measure measure) {
+                       bool is_of_kind, Measure measure) {
   Chart chart;
   const TimeAxis axis = time_axis(scene.duration * scene.units.time_s);
   const double unit = scene.units.time_s / axis.seconds;
   chart.x.label = fmt::format("time ({})", axis.name);
   chart.x.includes = {0, scene.duration * unit};
   chart.y = logarithmic_axis(std::move(label));
-  chart.y.smallest = 0.01 * rounding_of(scene.precision);
+  chart.y.floor = rounding_of(scene.precision);
+  chart.y.floor_name = scene.precision == Precision::double_precision
+                           ? "the rounding of double precision"
+                           : "the rounding of extended precision";
+  std::size_t without = 0;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const RunAlongTime& run = runs[i];
     ChartCurve curve;
@@ -37,38 +53,39 @@ Chart along_time_chart(const Scene& scene, const std::vector<RunAlongTime>& runs
       const auto next = std::find_if(singular, run.singular_times.end(), [&](double time) {
         return std::abs(time) > std::abs(point.time);
       });
-      if (has_ticks && next != singular) curve.gaps.push_back(curve.points.size());
+      if (is_of_kind && next != singular) curve.gaps.push_back(curve.points.size());
       singular = next;
       if (const std::optional<double> value = measure(point)) {
         curve.points.emplace_back(point.time * unit, *value);
       } else {
         curve.gaps.push_back(curve.points.size());
+        ++without;
       }
     }
-    if (has_ticks) {
-      for (const double time : run.singular_times) curve.ticks.push_back(time * unit);
-    }
+    if (is_of_kind) add_singular_times(run.singular_times, unit, chart);
     if (!run.failure.empty()) {
       chart.notes.push_back(fmt::format("{} stopped: {}.", run.label, run.failure));
     }
-    if (has_ticks && !run.not_searched.empty()) {
+    if (is_of_kind && !run.not_searched.empty()) {
       chart.notes.push_back(
           fmt::format("{}: the times at which the kind does not exist were not looked for: {}.",
                       run.label, run.not_searched));
     }
     chart.curves.push_back(curve);
   }
+  if (!chart.rules.empty()) {
+    chart.notes.emplace_back(
+        "Lines are broken at the vertical lines, where the kind does not exist.");
+  }
+  if (without > 0) {
+    chart.notes.push_back(fmt::format(
+        "Lines are broken at points where the residual could not be computed: {}.", without));
+  }
   if (runs.empty()) chart.missing = "No integrator was watched along time.";
   return chart;
 }
 
 }  // namespace
-
-std::string time_label(SystemModel model, const CanonicalUnits& units) {
-  return is_orbit(model) || units.time_s != 1
-             ? fmt::format("time (canonical; 1 is {:.4g} s)", units.time_s)
-             : "time (s)";
-}
 
 std::string kind_text(const GeneratingFunctionKind& kind) {
   for (const char* name : {"F1", "F2", "F3", "F4"}) {
@@ -90,12 +107,10 @@ Chart exactness_along_time_chart(const Scene& scene,
       "The figure of Guibout and Bloch: how far the generating function {} of each of the scene's "
       "integrators is from closed at degree 0, as the flow goes on. A symplectic method stays at "
       "round-off, amplified where the kind comes near to a time at which it does not exist; a "
-      "method that is not symplectic drifts upwards. A short stroke at the lower edge in the "
-      "line's "
-      "colour marks each time at which the kind does not exist: those of the exact flow, found as "
-      "hamjet transfer finds them. Points are the ends of the integrator's steps; a line that "
-      "joins "
-      "them is broken at those times and where the residual could not be computed. A low line says "
+      "method that is not symplectic drifts upwards. A vertical line marks each time at which the "
+      "kind does not exist: those of the exact flow, found as hamjet transfer finds them. Points "
+      "are the ends of the integrator's steps. A "
+      "low line says "
       "that a map is exact, not that it is right.",
       kind ? kind_text(*kind) : "");
   if (!kind) {

@@ -14,9 +14,6 @@ namespace hamjet::io {
 /// A kind in words: "F1 (qqq-qqq)", or the notation alone.
 std::string kind_text(const GeneratingFunctionKind& kind);
 
-/// The axis of time of a scene's model.
-std::string time_label(SystemModel model, const CanonicalUnits& units);
-
 /// The vertical axis of plots of the exactness residual, and what stands in place of a plot where
 /// there is none.
 inline constexpr const char* exactness_label = "exactness residual, degree 0, scaled";

@@ -7,6 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include "../../text/quantity_text.hpp"
+
 namespace hamjet::io {
 namespace {
 
@@ -28,7 +30,7 @@ struct Range {
 };
 
 bool can_be_drawn(const ChartAxis& axis, double value) {
-  return std::isfinite(value) && (!axis.is_logarithmic || (value > 0 && value >= axis.smallest));
+  return std::isfinite(value) && (!axis.is_logarithmic || value > 0);
 }
 
 void set_limits(ChartAxis& axis, Range range, bool needs_room_below) {
@@ -49,9 +51,21 @@ void set_limits(ChartAxis& axis, Range range, bool needs_room_below) {
   axis.upper = std::pow(10, std::min(upper, 300.0));
 }
 
+/// Lifts what is below the floor of y to it; returns how many there were.
+std::size_t lift(const ChartAxis& y, ChartCurve& curve) {
+  std::size_t lifted = 0;
+  for (auto& point : curve.points) {
+    if (!(point.second >= 0 && point.second < y.floor)) continue;
+    point.second = y.floor;
+    ++lifted;
+  }
+  return lifted;
+}
+
 /// Splits a curve into what can be drawn and the zeros; returns the number of the others.
 std::size_t split(const Chart& chart, ChartCurve& curve, ChartCurve& zeros) {
   std::vector<std::pair<double, double>> kept;
+  std::vector<double> values;
   std::vector<std::size_t> gaps;
   std::size_t omitted = 0;
   bool is_broken = false;
@@ -62,17 +76,18 @@ std::size_t split(const Chart& chart, ChartCurve& curve, ChartCurve& zeros) {
       if (is_broken) gaps.push_back(kept.size());
       is_broken = false;
       kept.push_back(point);
+      if (!curve.values.empty()) values.push_back(curve.values[i]);
       continue;
     }
     is_broken = true;
-    if (can_be_drawn(chart.x, point.first) && point.second >= 0 &&
-        point.second < std::max(chart.y.smallest, std::numeric_limits<double>::min())) {
+    if (can_be_drawn(chart.x, point.first) && point.second == 0) {
       zeros.points.push_back(point);
     } else {
       ++omitted;
     }
   }
   curve.points = std::move(kept);
+  curve.values = std::move(values);
   curve.gaps = std::move(gaps);
   return omitted;
 }
@@ -81,8 +96,10 @@ void fit_axes(Chart& chart) {
   Range x;
   Range y;
   std::size_t omitted = 0;
+  std::size_t lifted = 0;
   bool has_ticks = false;
   for (ChartCurve& curve : chart.curves) {
+    lifted += lift(chart.y, curve);
     ChartCurve zeros = curve;
     zeros.points.clear();
     zeros.ticks.clear();
@@ -102,10 +119,19 @@ void fit_axes(Chart& chart) {
                     "logarithmic horizontal axis: {}.",
                     omitted));
   }
+  if (lifted > 0) {
+    const std::string floor = chart.y.unit == AxisUnit::metres
+                                  ? length_text(chart.y.floor)
+                                  : fmt::format("{:.1e}", chart.y.floor);
+    chart.rules.push_back({false, chart.y.floor, "floor: " + floor});
+    chart.notes.push_back(
+        fmt::format("Values below the floor of {}, {}, say nothing and are drawn at it: {}.", floor,
+                    chart.y.floor_name, lifted));
+  }
   if (!chart.at_limit.empty()) {
     chart.notes.emplace_back(
         "A triangle that points down at the lower edge is a value of zero, which a logarithmic "
-        "axis has no place for, or one below the axis.");
+        "axis has no place for.");
   }
   if (x.is_empty() && !chart.map) return;
   // If all values are zero, or none exists, the marks still need some decades to be drawn in.
@@ -117,6 +143,7 @@ void fit_axes(Chart& chart) {
     }
   }
   for (const double place : chart.x.includes) x.include(place);
+  for (const double place : chart.y.includes) y.include(place);
   for (const ChartRule& rule : chart.rules) (rule.is_vertical ? x : y).include(rule.place);
   if (chart.is_isometric) {
     // Neither side of a straight line may vanish.

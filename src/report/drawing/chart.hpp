@@ -19,8 +19,9 @@ struct ChartAxis {
   bool is_integer = false;
   double lower = 0;  ///< set by fit_axes
   double upper = 1;
-  double margin = 0;    ///< decades to leave free at either end
-  double smallest = 0;  ///< logarithmic: smaller values are drawn at the lower limit, as zeros are
+  double margin = 0;  ///< decades to leave free at either end
+  double floor = 0;   ///< logarithmic y: smaller values, zeros too, say nothing and are drawn here
+  std::string floor_name;        ///< "the rounding of double precision"
   std::vector<double> includes;  ///< places that it must reach
 };
 
@@ -28,27 +29,34 @@ ChartAxis logarithmic_axis(std::string label, AxisUnit unit = AxisUnit::power);
 
 /// A line, a set of markers or both.
 struct ChartCurve {
-  std::string title;      ///< empty: not in the legend
-  std::size_t style = 0;  ///< colour, dashes and marker
+  std::string title;                  ///< empty: not in the legend
+  std::size_t style = 0;              ///< dashes, marker and colour
+  std::optional<std::size_t> colour;  ///< where it is not the style's
   bool has_line = true;
   bool has_markers = true;
   bool is_filled = true;
+  bool is_background = false;  ///< the line is broad, pale and grey
   int marker_interval = 1;
   std::vector<std::pair<double, double>> points;
   std::vector<std::size_t> gaps;  ///< the line is broken before these points
   std::vector<double> ticks;      ///< where a short vertical stroke says that there is no value
+  std::vector<double> values;     ///< one a point: its colour in place of the curve's, or none
 };
 
-/// A straight line over the whole chart, or a text in one of its corners.
+/// A straight line over the whole chart. Those of one title look alike and share an entry of the
+/// legend.
 struct ChartRule {
   bool is_vertical = false;
   double place = 0;
+  std::string title;      ///< empty: not in the legend
+  bool is_faint = false;  ///< one of many
 };
 /// A range of x that is shaded over the whole height, behind the curves.
 struct ChartBand {
   double from = 0;
   double to = 0;
 };
+/// A text in one of the corners.
 struct ChartCornerText {
   bool is_right = false;
   bool is_top = false;
@@ -77,9 +85,11 @@ struct Chart {
   std::vector<std::string> notes;  ///< what is not drawn, or not where it belongs
   std::string missing;             ///< why there is nothing to draw, where there is nothing
   bool is_isometric = false;       ///< a unit is as long along x as along y
+  bool is_panel = false;           ///< stands beside others, drawn narrow in every window
   ChartAxis x;
   ChartAxis y;
   std::optional<ChartMap> map;  ///< behind the curves
+  std::string value_label;      ///< of the colours of the curves' values
   std::vector<ChartCurve> curves;
   std::vector<ChartCurve> at_limit;  ///< below a logarithmic axis, and put at its limit
   std::vector<ChartRule> rules;
@@ -88,18 +98,31 @@ struct Chart {
 };
 
 /// Fits a chart for drawing: takes out the curves that have nothing to draw, sets the axes' ranges
-/// from the others; cuts bands at the ends of x; moves what is below a logarithmic y to `at_limit`,
-/// takes out what cannot be drawn at all, and says both in the notes. A chart that is left without
-/// curves says so in `missing`.
+/// from the others; cuts bands at the ends of x; lifts what is below the floor of y to it, which
+/// becomes a rule, moves zeros of a logarithmic y that has no floor to `at_limit`, takes out what
+/// cannot be drawn at all, and says each in the notes. A chart that is left without curves says so
+/// in `missing`.
 void fit(Chart& chart);
 
 /// What a chart is drawn as.
 enum class Drawing { wide_svg, narrow_svg, pdf, png };
 
+/// The commands that give the values from the least to the most their colours.
+std::string colour_commands(const std::string& label, double least, double most,
+                            bool is_logarithmic, bool is_of_lines);
+
 /// The parts of a script that draw a map: the commands before `plot`, with the data, and what is
 /// plotted.
 std::string map_commands(const ChartMap& map);
 std::string map_plot(const ChartMap& map);
+
+/// The size of a drawing that is an SVG, in points: a legend of many entries takes room of its own
+/// below the plot.
+struct DrawingSize {
+  std::size_t width;
+  std::size_t height;
+};
+DrawingSize size_of(const Chart& chart, Drawing drawing);
 
 /// The gnuplot script that draws a fitted chart to the standard output.
 std::string gnuplot_script(const Chart& chart, Drawing drawing);

@@ -43,7 +43,8 @@ std::string ChartDrawer::draw(const Chart& chart, Drawing drawing, std::string& 
 std::string ChartDrawer::draw_inline(const Chart& chart, std::string& reason) {
   std::string html;
   for (const Drawing drawing : {Drawing::wide_svg, Drawing::narrow_svg}) {
-    const char* width = drawing == Drawing::wide_svg ? "wide" : "narrow";
+    if (chart.is_panel && drawing == Drawing::wide_svg) continue;
+    const char* width = chart.is_panel ? "panel" : drawing == Drawing::wide_svg ? "wide" : "narrow";
     const std::string output = draw(chart, drawing, reason);
     if (output.empty()) return "";
     html +=

@@ -16,7 +16,8 @@ class ChartDrawer {
 
   /// The chart as a file, or an empty text and the reason.
   std::string draw(const Chart& chart, Drawing drawing, std::string& reason);
-  /// The chart in both widths as a part of a page, or an empty text and the reason.
+  /// The chart in both widths, a panel in one, as a part of a page, or an empty text and the
+  /// reason.
   std::string draw_inline(const Chart& chart, std::string& reason);
 
   /// The first reason for which something could not be drawn, one line.

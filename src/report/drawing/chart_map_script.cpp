@@ -10,9 +10,11 @@ namespace {
 
 /// Viridis of S. van der Walt and N. Smith (2015): as bright as it is large, for the colour-blind
 /// and on grey paper too.
-constexpr const char* palette =
+constexpr fmt::format_string<const char*> palette =
     "set palette defined (0 '#440154', 1 '#46327E', 2 '#365C8D', 3 '#277F8E', 4 '#1FA187', "
-    "5 '#4AC16D', 6 '#A0DA39', 7 '#FDE725')\n";
+    "5 '#4AC16D'{})\n";
+/// The bright end, for areas alone: a line of these colours is lost on its ground.
+constexpr const char* bright_end = ", 6 '#A0DA39', 7 '#FDE725'";
 
 bool are_points(const ChartMap& map) {
   return std::any_of(map.cells.begin(), map.cells.end(), [](const ChartCell& cell) {
@@ -22,20 +24,27 @@ bool are_points(const ChartMap& map) {
 
 }  // namespace
 
+std::string colour_commands(const std::string& label, double least, double most,
+                            bool is_logarithmic, bool is_of_lines) {
+  std::string text = fmt::format(palette, is_of_lines ? "" : bright_end);
+  if (least < most) {
+    text += fmt::format("set cbrange [{:.17g}:{:.17g}]\n", least, most);
+    if (is_logarithmic) text += "set logscale cb 10\n";
+  } else {
+    text += fmt::format("set cbrange [{:.17g}:{:.17g}]\nset cbtics ('{:g}' {:.17g})\n", least - 1,
+                        least + 1, least, least);
+  }
+  return text +
+         fmt::format("set cblabel {} noenhanced\nset format cb '%g'\n", gnuplot_literal(label));
+}
+
 std::string map_commands(const ChartMap& map) {
   const auto [least, most] =
       std::minmax_element(map.cells.begin(), map.cells.end(),
                           [](const ChartCell& a, const ChartCell& b) { return a.value < b.value; });
-  std::string text = palette;
-  if (least->value < most->value) {
-    text += fmt::format("set cbrange [{:.17g}:{:.17g}]\n", least->value, most->value);
-    if (map.is_logarithmic) text += "set logscale cb 10\n";
-  } else {
-    text += fmt::format("set cbrange [{:.17g}:{:.17g}]\nset cbtics ('{:g}' {:.17g})\n",
-                        least->value - 1, least->value + 1, least->value, least->value);
-  }
-  text += fmt::format("set cblabel {} noenhanced\nset format cb '%g'\n$map << END\n",
-                      gnuplot_literal(map.label));
+  std::string text =
+      colour_commands(map.label, least->value, most->value, map.is_logarithmic, false);
+  text += "$map << END\n";
   for (const ChartCell& cell : map.cells) {
     text += fmt::format("{:.10g} {:.10g} {:.10g} {:.10g} {:.10g} {:.10g} {:.10g}\n",
                         (cell.left + cell.right) / 2, (cell.lower + cell.upper) / 2, cell.left,

@@ -30,19 +30,42 @@ struct Layout {
   double marker_size = 0.9;
 };
 
+/// Entries of a legend that find room in one column beside the plot.
+constexpr std::size_t most_rows_beside = 18;
+
+/// Dashes of the rules, in the order of their titles.
+constexpr std::array<const char*, 3> rule_dashes = {"(6,4)", "(2,3)", "(10,3,2,3)"};
+
+/// The titles of the rules without repetition, with the empty one of those without a title.
+std::vector<std::string> rule_titles(const Chart& chart) {
+  std::vector<std::string> titles;
+  for (const ChartRule& rule : chart.rules) {
+    if (std::find(titles.begin(), titles.end(), rule.title) == titles.end()) {
+      titles.push_back(rule.title);
+    }
+  }
+  return titles;
+}
+
 std::size_t legend_rows(const Chart& chart) {
+  const std::vector<std::string> rules = rule_titles(chart);
   return static_cast<std::size_t>(
       std::count_if(chart.curves.begin(), chart.curves.end(),
-                    [](const ChartCurve& curve) { return !curve.title.empty(); }));
+                    [](const ChartCurve& curve) { return !curve.title.empty(); }) +
+      std::count_if(rules.begin(), rules.end(),
+                    [](const std::string& title) { return !title.empty(); }));
+}
+
+std::string svg_terminal(const Chart& chart, Drawing drawing, int font_size) {
+  const DrawingSize size = size_of(chart, drawing);
+  return fmt::format("svg enhanced size {},{} dynamic font 'sans-serif,{}' background 'white'",
+                     size.width, size.height, font_size);
 }
 
 Layout layout_of(const Chart& chart, Drawing drawing) {
   switch (drawing) {
     case Drawing::narrow_svg:
-      return {
-          fmt::format("svg enhanced size 420,{} dynamic font 'sans-serif,13' background 'white'",
-                      400 + 20 * legend_rows(chart)),
-          true, 1.5, 0.8};
+      return {svg_terminal(chart, drawing, 13), true, 1.5, 0.8};
     case Drawing::pdf:
       return {"pdfcairo enhanced color size 8in,4.4in font 'sans-serif,12'", false, 1.8, 0.7};
     case Drawing::png:
@@ -50,14 +73,15 @@ Layout layout_of(const Chart& chart, Drawing drawing) {
     case Drawing::wide_svg:
       break;
   }
-  return {"svg enhanced size 900,500 dynamic font 'sans-serif,14' background 'white'"};
+  return {svg_terminal(chart, drawing, 14)};
 }
 
 /// What a decade is called on an axis.
 std::string decade_text(AxisUnit unit, int exponent) {
   const double value = std::pow(10, exponent);
   const bool has_prefix = exponent >= -15 && exponent < 15;
-  if (unit == AxisUnit::seconds && has_prefix) return duration_text(value);
+  // Nobody counts in kiloseconds.
+  if (unit == AxisUnit::seconds && has_prefix && exponent < 3) return duration_text(value);
   if (unit == AxisUnit::metres && has_prefix) return length_text(value);
   const char* name = unit == AxisUnit::seconds ? " s" : unit == AxisUnit::metres ? " m" : "";
   return (exponent == 0 ? "1" : fmt::format("10^{{{}}}", exponent)) + name;
@@ -99,7 +123,7 @@ std::string axis_commands(const char* axis, const ChartAxis& settings, int most_
 /// Equal ticks along both axes, few enough that their numbers find room on the shorter one: 1, 2 or
 /// 5 times a power of ten.
 std::string isometric_ticks(const Chart& chart) {
-  constexpr double most_ticks = 10;
+  const double most_ticks = chart.is_panel ? 6 : 10;
   const double width =
       std::max(chart.x.upper - chart.x.lower, chart.y.upper - chart.y.lower) / most_ticks;
   const double power = std::pow(10, std::floor(std::log10(width)));
@@ -115,14 +139,6 @@ std::string decorations(const Chart& chart) {
         "set object rectangle from first {:.17g}, graph 0 to first {:.17g}, graph 1 behind "
         "fillcolor rgb '#E4E4E4' fillstyle solid noborder\n",
         band.from, band.to);
-  }
-  for (const ChartRule& rule : chart.rules) {
-    text += rule.is_vertical
-                ? fmt::format("set arrow from first {0:.17g}, graph 0 to first {0:.17g}, graph 1",
-                              rule.place)
-                : fmt::format("set arrow from graph 0, first {0:.17g} to graph 1, first {0:.17g}",
-                              rule.place);
-    text += " nohead lc rgb '#444444' lw 1 dt (6,4)\n";
   }
   for (const ChartCornerText& corner : chart.corners) {
     // The longest name takes two lines, so that it stays on its side of the boundary.
@@ -147,9 +163,22 @@ std::string data_block(const std::string& name, const ChartCurve& curve) {
     const bool is_broken = std::find(curve.gaps.begin(), curve.gaps.end(), i) != curve.gaps.end();
     // An empty line breaks the line; two would begin another set.
     if (is_broken && i > 0) text += "\n";
-    text += fmt::format("{:.10g} {:.10g}\n", curve.points[i].first, curve.points[i].second);
+    text += fmt::format("{:.10g} {:.10g}", curve.points[i].first, curve.points[i].second);
+    if (!curve.values.empty()) text += fmt::format(" {:.10g}", curve.values[i]);
+    text += '\n';
   }
   return text + "END\n";
+}
+
+/// The colours of curves that have values, one scale for all of them.
+std::string value_colours(const Chart& chart) {
+  std::vector<double> all;
+  for (const ChartCurve& curve : chart.curves) {
+    all.insert(all.end(), curve.values.begin(), curve.values.end());
+  }
+  if (all.empty()) return "";
+  const auto [least, most] = std::minmax_element(all.begin(), all.end());
+  return colour_commands(chart.value_label, *least, *most, false, true);
 }
 
 /// Strokes at the lower edge, one row a curve so that none hides another.
@@ -170,8 +199,20 @@ std::string title_option(const std::string& title) {
   return title.empty() ? "notitle" : fmt::format("title {} noenhanced", gnuplot_literal(title));
 }
 
+const char* colour_of(const ChartCurve& curve) {
+  return colours[curve.colour.value_or(curve.style) % colours.size()];
+}
+
 std::string curve_command(const std::string& block, const ChartCurve& curve, const Layout& layout) {
-  const char* colour = colours[curve.style % colours.size()];
+  if (!curve.values.empty()) {
+    return fmt::format("${} using 1:2:3 with lines lc palette lw {} {}", block,
+                       1.6 * layout.line_width, title_option(curve.title));
+  }
+  if (curve.is_background) {
+    return fmt::format("${} using 1:2 with lines lc rgb '#D8D8D8' lw {} dt 1 {}", block,
+                       6 * layout.line_width, title_option(curve.title));
+  }
+  const char* colour = colour_of(curve);
   const int marker =
       filled_markers[curve.style % filled_markers.size()] - (curve.is_filled ? 0 : 1);
   std::string text = fmt::format("${} using 1:2 with ", block);
@@ -185,7 +226,37 @@ std::string curve_command(const std::string& block, const ChartCurve& curve, con
   return text + " " + title_option(curve.title);
 }
 
+/// How the rules of one title are drawn.
+std::string rule_look(const Chart& chart, std::size_t title) {
+  const std::string name = rule_titles(chart)[title];
+  const bool is_faint = std::any_of(chart.rules.begin(), chart.rules.end(), [&](const auto& rule) {
+    return rule.title == name && rule.is_faint;
+  });
+  return fmt::format("with lines lc rgb '{}' lw 1 dt {}", is_faint ? "#AAAAAA" : "#444444",
+                     rule_dashes[title % rule_dashes.size()]);
+}
+
+/// The rules of one title as curves, for gnuplot does not dash its arrows everywhere.
+std::string rule_block(const Chart& chart, std::size_t title) {
+  std::string text = fmt::format("$rules{} << END\n", title);
+  const std::string name = rule_titles(chart)[title];
+  for (const ChartRule& rule : chart.rules) {
+    if (rule.title != name) continue;
+    text += rule.is_vertical ? fmt::format("{0:.17g} {1:.17g}\n{0:.17g} {2:.17g}\n\n", rule.place,
+                                           chart.y.lower, chart.y.upper)
+                             : fmt::format("{1:.17g} {0:.17g}\n{2:.17g} {0:.17g}\n\n", rule.place,
+                                           chart.x.lower, chart.x.upper);
+  }
+  return text + "END\n";
+}
+
 }  // namespace
+
+DrawingSize size_of(const Chart& chart, Drawing drawing) {
+  const std::size_t rows = legend_rows(chart);
+  if (drawing == Drawing::narrow_svg) return {420, 400 + 20 * rows};
+  return {900, 500 + (rows > most_rows_beside ? 11 * rows : 0)};
+}
 
 std::string gnuplot_script(const Chart& chart, Drawing drawing) {
   const Layout layout = layout_of(chart, drawing);
@@ -194,8 +265,9 @@ std::string gnuplot_script(const Chart& chart, Drawing drawing) {
   script += "set grid xtics ytics lc rgb '#DDDDDD' lw 0.7 dt 1\n";
   if (layout.is_narrow) {
     script += "set key outside bottom center vertical Left reverse maxcols 1 samplen 3 height 1\n";
-  } else if (!chart.corners.empty() || chart.map) {
-    // Names in the corners need the whole width, as does the scale of the colours.
+  } else if (!chart.corners.empty() || chart.map || legend_rows(chart) > most_rows_beside) {
+    // Names in the corners need the whole width, as do the scale of the colours and a legend that
+    // would take two columns.
     script += "set key outside bottom center horizontal Left reverse samplen 2 height 1\n";
   } else {
     script += "set key outside right top vertical Left reverse samplen 3 spacing 1.2\n";
@@ -204,10 +276,16 @@ std::string gnuplot_script(const Chart& chart, Drawing drawing) {
   script += axis_commands("x", chart.x, layout.is_narrow ? 5 : 9) +
             axis_commands("y", chart.y, layout.is_narrow ? 8 : 10) +
             (chart.is_isometric ? isometric_ticks(chart) : "") + decorations(chart);
+  script += value_colours(chart);
   std::vector<std::string> plots;
   if (chart.map) {
     script += map_commands(*chart.map);
     plots.push_back(map_plot(*chart.map));
+  }
+  const std::vector<std::string> titles = rule_titles(chart);
+  for (std::size_t i = 0; i < titles.size(); ++i) {
+    script += rule_block(chart, i);
+    plots.push_back(fmt::format("$rules{} using 1:2 {} notitle", i, rule_look(chart, i)));
   }
   const auto rows = static_cast<std::size_t>(
       std::count_if(chart.curves.begin(), chart.curves.end(),
@@ -222,8 +300,8 @@ std::string gnuplot_script(const Chart& chart, Drawing drawing) {
     if (curve.ticks.empty()) continue;
     script += tick_block(fmt::format("ticks{}", i), curve, chart.y, row++, rows);
     plots.push_back(
-        fmt::format("$ticks{} using 1:2 with lines lc rgb '{}' lw {} dt 1 {}", i,
-                    colours[curve.style % colours.size()], layout.line_width,
+        fmt::format("$ticks{} using 1:2 with lines lc rgb '{}' lw {} dt 1 {}", i, colour_of(curve),
+                    layout.line_width,
                     // A curve that exists nowhere has its name in the legend all the same.
                     title_option(curve.points.empty() ? curve.title : "")));
   }
@@ -231,8 +309,12 @@ std::string gnuplot_script(const Chart& chart, Drawing drawing) {
     const ChartCurve& zeros = chart.at_limit[i];
     script += data_block(fmt::format("zeros{}", i), zeros);
     plots.push_back(fmt::format("$zeros{} using 1:2 with points lc rgb '{}' pt {} ps {} notitle", i,
-                                colours[zeros.style % colours.size()], triangle_down,
-                                layout.marker_size * 1.2));
+                                colour_of(zeros), triangle_down, layout.marker_size * 1.2));
+  }
+  // The rules lie behind the curves, and come after them in the legend.
+  for (std::size_t i = 0; i < titles.size(); ++i) {
+    if (titles[i].empty()) continue;
+    plots.push_back(fmt::format("NaN {} {}", rule_look(chart, i), title_option(titles[i])));
   }
   return script + fmt::format("plot {}\n", fmt::join(plots, ", \\\n  "));
 }

@@ -7,25 +7,60 @@
 
 namespace hamjet::io {
 
-std::string figure_html(const Chart& chart, ChartDrawer& drawer) {
-  if (!chart.missing.empty()) return fmt::format("<p>{}</p>\n", escape_html(chart.missing));
+namespace {
+
+/// The drawing of a chart, or why there is none.
+std::string drawing_html(const Chart& chart, ChartDrawer& drawer) {
   std::string reason;
   const std::string drawing = drawer.draw_inline(chart, reason);
-  std::string html = fmt::format("<figure id=\"figure-{}\">\n{}", chart.name, drawing);
-  if (!reason.empty()) {
-    html += fmt::format("<p class=\"problem\">This plot could not be drawn: {}</p>\n",
-                        escape_html(reason));
+  if (reason.empty()) return drawing;
+  return drawing + fmt::format("<p class=\"problem\">This plot could not be drawn: {}</p>\n",
+                               escape_html(reason));
+}
+
+std::string notes_html(const Chart& chart) {
+  std::string html;
+  for (const std::string& note : chart.notes) {
+    html += fmt::format("<p class=\"note\">{}</p>\n", escape_html(note));
   }
-  if (!drawing.empty()) {
-    for (const std::string& note : chart.notes) {
-      html += fmt::format("<p class=\"note\">{}</p>\n", escape_html(note));
-    }
+  return html;
+}
+
+std::string reading_html(const Chart& chart, std::string_view element) {
+  if (chart.reading.empty()) return "";
+  return fmt::format("<{0}><strong>How to read it.</strong> {1}</{0}>\n", element,
+                     escape_html(chart.reading));
+}
+
+std::size_t column_count(std::string_view head) {
+  std::size_t count = 0;
+  for (std::size_t i = head.find("<th"); i != head.npos; i = head.find("<th", i + 3)) ++count;
+  return count;
+}
+
+bool has_drawing(std::string_view html) { return html.find("<svg") != html.npos; }
+
+}  // namespace
+
+std::string figure_html(const Chart& chart, ChartDrawer& drawer) {
+  if (!chart.missing.empty()) return fmt::format("<p>{}</p>\n", escape_html(chart.missing));
+  std::string html = drawing_html(chart, drawer);
+  if (has_drawing(html)) html += notes_html(chart) + reading_html(chart, "figcaption");
+  return fmt::format("<figure id=\"figure-{}\">\n{}</figure>\n", chart.name, html);
+}
+
+std::string panels_html(const std::vector<Chart>& charts, ChartDrawer& drawer) {
+  std::string panels;
+  std::string notes;
+  for (const Chart& chart : charts) {
+    if (!chart.missing.empty()) continue;
+    panels += fmt::format("<figure id=\"figure-{}\">\n{}</figure>\n", chart.name,
+                          drawing_html(chart, drawer));
+    notes += notes_html(chart);
   }
-  if (!drawing.empty() && !chart.reading.empty()) {
-    html += fmt::format("<figcaption><strong>How to read it.</strong> {}</figcaption>\n",
-                        escape_html(chart.reading));
-  }
-  return html + "</figure>\n";
+  if (!has_drawing(panels)) return panels + notes;
+  return "<div class=\"panels\">\n" + panels + "</div>\n" + notes +
+         reading_html(charts.front(), "p");
 }
 
 std::string section_html(const Chart& chart, ChartDrawer& drawer) {
@@ -34,10 +69,14 @@ std::string section_html(const Chart& chart, ChartDrawer& drawer) {
 }
 
 std::string table_html(std::string_view caption, std::string_view head, std::string_view rows) {
+  // A table of so many columns does not fit into a telephone.
+  constexpr std::size_t most_narrow_columns = 4;
+  const bool is_wide = column_count(head) > most_narrow_columns;
   return fmt::format(
-      "<p class=\"caption\">{}</p>\n<div class=\"scroll\" tabindex=\"0\"><table>\n"
+      "<p class=\"caption\">{}{}</p>\n<div class=\"scroll\" tabindex=\"0\"><table>\n"
       "<thead>{}</thead>\n<tbody>{}</tbody></table></div>\n",
-      caption, head, rows);
+      caption, is_wide ? " <span class=\"hint\">The table scrolls sideways \u2192</span>" : "",
+      head, rows);
 }
 
 std::string header_cells(const std::vector<std::string>& names) {
@@ -76,7 +115,7 @@ std::string page_html(const ReportPage& page, const ChartDrawer& drawer) {
     html += fmt::format("<p class=\"problem\">{}. The tables are complete.</p>\n",
                         escape_html(*drawer.problem()));
   }
-  const bool has_plot = page.first_figure.find("<svg") != std::string::npos;
+  const bool has_plot = has_drawing(page.first_figure);
   html += fmt::format("</header>\n<main>\n<div class=\"first{}\">\n{}<dl>\n{}</dl>\n</div>\n",
                       has_plot ? "" : " without-plot", page.first_figure, page.facts);
   return html + page.sections + "</main>\n</body>\n</html>\n";

@@ -18,6 +18,9 @@ extern const char* const page_style;
 
 /// A fitted chart with its notes and how to read it, or why it is not there.
 std::string figure_html(const Chart& chart, ChartDrawer& drawer);
+/// Fitted charts side by side where the window is wide enough; below them the notes of all, and how
+/// to read the first.
+std::string panels_html(const std::vector<Chart>& charts, ChartDrawer& drawer);
 /// The figure_html of a chart under its title.
 std::string section_html(const Chart& chart, ChartDrawer& drawer);
 

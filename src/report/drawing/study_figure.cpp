@@ -2,19 +2,41 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "../../text/html_text.hpp"
 #include "chart_drawer.hpp"
 
 namespace hamjet::io {
 
+namespace {
+
+constexpr std::size_t line_height = 19;
+
+/// A chart's notes in lines as long as the figure is wide.
+std::vector<std::string> note_lines(const Chart& chart) {
+  constexpr std::size_t most_characters = 120;
+  std::vector<std::string> lines;
+  for (std::string note : chart.notes) {
+    while (note.size() > most_characters) {
+      const std::size_t space = note.rfind(' ', most_characters);
+      if (space == std::string::npos) break;
+      lines.push_back(note.substr(0, space));
+      note.erase(0, space + 1);
+    }
+    lines.push_back(std::move(note));
+  }
+  return lines;
+}
+
+}  // namespace
+
 std::string draw_figure(std::vector<Chart> charts, std::optional<std::string>& problem) {
-  // The size of Drawing::wide_svg.
-  constexpr int width = 900;
-  constexpr int height = 500;
-  constexpr int title_height = 40;
+  constexpr std::size_t title_height = 40;
+  std::size_t width = 0;
+  std::size_t bottom = 0;
   ChartDrawer drawer("gnuplot");
   std::string body;
-  int count = 0;
   for (Chart& chart : charts) {
     fit(chart);
     if (!chart.missing.empty()) continue;
@@ -22,7 +44,16 @@ std::string draw_figure(std::vector<Chart> charts, std::optional<std::string>& p
     const std::string drawing = drawer.draw(chart, Drawing::wide_svg, reason);
     if (drawer.problem()) break;
     // A drawing has no size of its own: it fills the one that it stands in.
-    const int top = count++ * (height + title_height);
+    const auto [chart_width, height] = size_of(chart, Drawing::wide_svg);
+    width = chart_width;
+    const std::size_t top = std::exchange(bottom, bottom + title_height + height);
+    for (const std::string& line : note_lines(chart)) {
+      body += fmt::format(
+          "<text x=\"16\" y=\"{}\" font-family=\"sans-serif\" font-size=\"13\" "
+          "fill=\"#444444\">{}</text>\n",
+          bottom + line_height / 2, escape_html(line));
+      bottom += line_height;
+    }
     body += fmt::format(
         "<text x=\"{}\" y=\"{}\" text-anchor=\"middle\" font-family=\"sans-serif\" "
         "font-size=\"18\">{}</text>\n<svg y=\"{}\" width=\"{}\" height=\"{}\">\n{}</svg>\n",
@@ -30,12 +61,12 @@ std::string draw_figure(std::vector<Chart> charts, std::optional<std::string>& p
         inline_svg(drawing, chart.name + "-", chart.title));
   }
   problem = drawer.problem();
-  if (problem || count == 0) return "";
+  if (problem || bottom == 0) return "";
   return fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" "
       "width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\">\n"
       "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n{2}</svg>\n",
-      width, count * (height + title_height), body);
+      width, bottom, body);
 }
 
 void add_figure(StudyReport& report, std::vector<Chart> charts) {

@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
+#include <string_view>
 
 #include "../../formats/relative_frame_text.hpp"
+#include "../../text/quantity_text.hpp"
+#include "../../text/time_axis.hpp"
 #include "transfer_charts.hpp"
 
 namespace hamjet::io {
@@ -19,17 +23,50 @@ struct Projection {
 /// and R-N.
 constexpr std::array<Projection, 3> projections = {{{1, 0}, {1, 2}, {0, 2}}};
 
+/// How far a trajectory reaches along each axis, the chief included.
+struct Extent {
+  Eigen::Vector3d least = Eigen::Vector3d::Zero();
+  Eigen::Vector3d most = Eigen::Vector3d::Zero();
+
+  double largest_m() const { return std::max(most.maxCoeff(), -least.minCoeff()); }
+  /// The width of a square that holds the trajectory in every projection.
+  double span_m() const { return std::max((most - least).maxCoeff(), 1e-6); }
+};
+
+Extent extent_of(const RelativeTrajectory& trajectory) {
+  Extent extent;
+  for (const RelativeState& state : trajectory.states) {
+    extent.least = extent.least.cwiseMin(state.position_m);
+    extent.most = extent.most.cwiseMax(state.position_m);
+  }
+  return extent;
+}
+
+/// What equal scales hide of a component that is small beside the others: "R from -2.03 km to 214 m
+/// (amplitude 1.12 km)".
+std::string amplitude_text(const RelativeTrajectory& trajectory, Eigen::Index axis,
+                           std::string_view letter) {
+  double least = std::numeric_limits<double>::infinity();
+  double most = -least;
+  for (const RelativeState& state : trajectory.states) {
+    least = std::min(least, state.position_m[axis]);
+    most = std::max(most, state.position_m[axis]);
+  }
+  return fmt::format("{} from {} to {} (amplitude {})", letter, length_text(least),
+                     length_text(most), length_text((most - least) / 2));
+}
+
 }  // namespace
 
-std::vector<Chart> relative_trajectory_charts(const RelativeTrajectory& trajectory) {
-  double largest_m = 0;
-  for (const RelativeState& state : trajectory.states) {
-    largest_m = std::max(largest_m, state.position_m.cwiseAbs().maxCoeff());
-  }
-  const bool is_in_km = largest_m >= 1000;
+std::vector<Chart> relative_trajectory_charts(const RelativeTrajectory& trajectory, double time_s) {
+  const Extent extent = extent_of(trajectory);
+  const bool is_in_km = extent.largest_m() >= 1000;
   const double unit = is_in_km ? 1e-3 : 1;
   const auto letters = axis_letters(trajectory.frame);
   const auto columns = axis_columns(trajectory.frame);
+  const TimeAxis time = time_axis(trajectory.times.empty() ? 0 : trajectory.times.back() * time_s);
+  std::vector<double> times;
+  for (const double t : trajectory.times) times.push_back(t * time_s / time.seconds);
   std::vector<Chart> charts;
   for (const Projection& projection : projections) {
     const auto letter = [&](Eigen::Index axis) { return letters[static_cast<std::size_t>(axis)]; };
@@ -42,7 +79,15 @@ std::vector<Chart> relative_trajectory_charts(const RelativeTrajectory& trajecto
     chart.is_isometric = true;
     chart.x.label = fmt::format("{} ({})", letter(projection.across), is_in_km ? "km" : "m");
     chart.y.label = fmt::format("{} ({})", letter(projection.upwards), is_in_km ? "km" : "m");
+    chart.is_panel = true;
+    chart.value_label = fmt::format("time ({})", time.name);
     chart.x.margin = chart.y.margin = 0.05;
+    for (const auto& [drawn, component] :
+         {std::pair(&chart.x, projection.across), std::pair(&chart.y, projection.upwards)}) {
+      const double middle = (extent.least[component] + extent.most[component]) / 2;
+      drawn->includes = {(middle - extent.span_m() / 2) * unit,
+                         (middle + extent.span_m() / 2) * unit};
+    }
     const auto place = [&](const RelativeState& state) {
       return std::pair(state.position_m[projection.across] * unit,
                        state.position_m[projection.upwards] * unit);
@@ -51,6 +96,7 @@ std::vector<Chart> relative_trajectory_charts(const RelativeTrajectory& trajecto
     path.title = "deputy";
     path.has_markers = false;
     for (const RelativeState& state : trajectory.states) path.points.push_back(place(state));
+    path.values = times;
     chart.curves.push_back(path);
     const auto mark = [&](std::string title, std::size_t style, std::pair<double, double> point) {
       ChartCurve curve;
@@ -68,9 +114,12 @@ std::vector<Chart> relative_trajectory_charts(const RelativeTrajectory& trajecto
     charts.push_back(std::move(chart));
   }
   const bool is_inertial = trajectory.frame == RelativeFrame::inertial;
+  charts.front().notes.push_back(fmt::format(
+      "Of the deputy: {}; {}; {}.", amplitude_text(trajectory, 0, letters[0]),
+      amplitude_text(trajectory, 1, letters[1]), amplitude_text(trajectory, 2, letters[2])));
   charts.front().reading = fmt::format(
       "The deputy as it was flown, relative to the chief at the origin, in three projections of "
-      "equal scale along both axes. {}",
+      "one scale for all axes; its colour is the time. {}",
       is_inertial ? "The axes x, y, z are the inertial ones of the orbit."
                   : "R points away from the centre of the Earth, N along the orbit's angular "
                     "momentum, T completes them and points along the motion; the axes turn with "

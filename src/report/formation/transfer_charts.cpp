@@ -38,7 +38,15 @@ Chart chart_over_time(const TransferResult& result, std::string name, std::strin
   return chart;
 }
 
-/// A line over the transfer times; `measure` gives a point's value, or none, which breaks it.
+/// Whether there is a time between the two, which may go backwards, at which F1 does not exist.
+bool is_singular_between(const std::vector<SingularTime>& singular, double first, double second) {
+  return std::any_of(singular.begin(), singular.end(), [&](const SingularTime& one) {
+    return std::min(first, second) < one.time && one.time < std::max(first, second);
+  });
+}
+
+/// A line over the transfer times; `measure` gives a point's value, or none, which breaks it, as
+/// does a time between two points at which F1 does not exist.
 template <class Measure>
 ChartCurve curve_over_time(const TransferResult& result, std::string title, std::size_t style,
                            Measure measure) {
@@ -46,7 +54,13 @@ ChartCurve curve_over_time(const TransferResult& result, std::string title, std:
   curve.title = std::move(title);
   curve.style = style;
   curve.has_markers = result.points.size() < fewest_points_without_markers;
+  const std::vector<SingularTime> singular = result.position_singularities();
+  double previous = result.points.empty() ? 0 : result.points.front().time;
   for (const TransferPoint& point : result.points) {
+    if (is_singular_between(singular, previous, point.time)) {
+      curve.gaps.push_back(curve.points.size());
+    }
+    previous = point.time;
     if (const std::optional<double> value = measure(point)) {
       curve.points.emplace_back(point.time * time_unit(result), *value);
     } else {
@@ -74,8 +88,18 @@ ChartCurve marks(const TransferResult& result, std::string title, std::size_t st
 
 constexpr const char* shading =
     " Shaded: nearer than the scene's margin to a time at which F1 does not exist, where no "
-    "initial "
-    "velocity commands the final position in one direction of space.";
+    "initial velocity commands the final position in one direction of space; lines are broken at "
+    "that time.";
+
+/// Says how often lines are broken for want of an answer.
+void note_unanswered(const TransferResult& result, Chart& chart) {
+  const auto count =
+      std::count_if(result.points.begin(), result.points.end(),
+                    [](const auto& point) { return shown_answer(point) == nullptr; });
+  if (count == 0) return;
+  chart.notes.push_back(fmt::format(
+      "Lines are also broken at transfer times without an answer: {}; the table says why.", count));
+}
 
 }  // namespace
 
@@ -116,15 +140,16 @@ Chart velocity_change_chart(const TransferResult& result) {
                                  return point.is_beyond_tolerance && !point.is_near_singular;
                                }));
   if (const auto best = result.best_point()) {
-    chart.rules.push_back({true, result.points[*best].time * time_unit(result)});
+    chart.rules.push_back({true, result.points[*best].time * time_unit(result), "least"});
   }
   chart.reading = fmt::format(
       "What leaving the start and stopping at the end costs together, for every transfer time: the "
-      "magnitudes of both impulses and their sum, of the {}. The dark vertical line is the least "
+      "magnitudes of both impulses and their sum, of the {}. The vertical line is the least "
       "sum, among answers that come within the tolerance and are not near a singularity.{}",
       is_refined ? "answer that flying refined (where that failed, of the highest order)"
                  : fmt::format("polynomials of order {}", result.scene.order),
       shading);
+  note_unanswered(result, chart);
   return chart;
 }
 
@@ -149,14 +174,17 @@ Chart miss_chart(const TransferResult& result) {
                                              return point.refined->miss_m;
                                            }));
   }
-  chart.rules.push_back({false, result.scene.transfer->tolerance_m});
-  if (result.flight_floor_m > 0) chart.rules.push_back({false, result.flight_floor_m});
+  chart.rules.push_back(
+      {false, result.scene.transfer->tolerance_m,
+       fmt::format("tolerance: {}", length_text(result.scene.transfer->tolerance_m))});
+  chart.y.floor = result.flight_floor_m;
+  chart.y.floor_name = "the rounding of the flights";
   chart.reading = fmt::format(
       "Every answer is proved: a deputy flies it with the full equations of motion, and its "
-      "distance from the wanted end is drawn, one line for each order of the polynomials. The "
-      "horizontal lines are the scene's tolerance of {} and the floor of {} below which a "
-      "miss says nothing, the rounding of the flights.{}",
-      length_text(result.scene.transfer->tolerance_m), length_text(result.flight_floor_m), shading);
+      "distance from the wanted end is drawn, one line for each order of the polynomials. A miss "
+      "below {}, the rounding of the flights, says nothing.{}",
+      length_text(result.flight_floor_m), shading);
+  note_unanswered(result, chart);
   return chart;
 }
 

@@ -17,9 +17,9 @@ Chart miss_chart(const TransferResult& result);
 /// Conditions of F1..F4 and of the best kind along time.
 Chart condition_chart(const TransferResult& result);
 
-/// The trajectory relative to the chief, projected on three planes. How to read them stands under
-/// the first.
-std::vector<Chart> relative_trajectory_charts(const RelativeTrajectory& trajectory);
+/// The trajectory relative to the chief, projected on three planes that show the same span, its
+/// colour the time; `time_s` is a canonical unit of time. How to read them stands with the first.
+std::vector<Chart> relative_trajectory_charts(const RelativeTrajectory& trajectory, double time_s);
 
 /// The flown transfer beside the same deputy that makes no velocity changes, in the plane of the
 /// first two axes.

@@ -58,11 +58,9 @@ std::string trajectory_section(const TransferResult& result,
   }
   html += fmt::format("<p>The transfer of the least velocity change, in {}.</p>\n",
                       time_text(result.points[*best].time * result.scene.units.time_s));
-  for (Chart& chart : relative_trajectory_charts(*trajectory)) {
-    fit(chart);
-    html += figure_html(chart, drawer);
-  }
-  return html + "</section>\n";
+  std::vector<Chart> charts = relative_trajectory_charts(*trajectory, result.scene.units.time_s);
+  for (Chart& chart : charts) fit(chart);
+  return html + panels_html(charts, drawer) + "</section>\n";
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hamjet/studies/scene.hpp"
+
 namespace hamjet::io {
 namespace {
 
@@ -80,7 +82,8 @@ Chart difference_chart(const CanonicalTransformationResult& result) {
   chart.title = "Difference of the energy errors of the two coordinates";
   chart.x.label = "time (canonical)";
   chart.y = logarithmic_axis("|difference of the energy errors|");
-  chart.y.smallest = 1e-18;  // far below the rounding of double
+  chart.y.floor = rounding_of(Precision::double_precision);
+  chart.y.floor_name = "the rounding of double precision";
   add_curves(result, chart, "", 0, false, [](const Point& point) {
     return std::pair(point.time, std::abs(point.transformed_energy_error - point.energy_error));
   });

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "hamjet/studies/scene.hpp"
+
 namespace hamjet::io {
 namespace {
 
@@ -77,7 +79,8 @@ Chart cost_chart(const OptimalControlResult& result) {
   chart.x = logarithmic_axis("step");
   chart.y = logarithmic_axis("cost: relative error from the closed form");
   chart.x.margin = chart.y.margin = 0.05;
-  chart.y.smallest = 1e-17;
+  chart.y.floor = rounding_of(Precision::double_precision);
+  chart.y.floor_name = "the rounding of double precision";
   ChartCurve continuous;
   continuous.title =
       result.fit ? fmt::format("continuous: order {:.2f}", result.fit->order) : "continuous";

@@ -19,9 +19,10 @@ Chart ratio_chart(const std::vector<StabilityResult>& results) {
   Chart chart;
   chart.name = "error-over-floor";
   chart.title = "How close to the floor";
-  chart.x.label = "errors without a tolerance of their own, in the order of their ratio";
+  chart.x.label = "errors, sorted by their ratio";
   chart.y = logarithmic_axis("error / floor");
-  chart.y.smallest = 1e-3;
+  chart.y.floor = 1e-3;
+  chart.y.floor_name = "a thousandth of the floor";
   std::vector<double> ratios;
   for (const StabilityResult& result : results) {
     for (const MeasuredError& error : result.measured) {
@@ -35,9 +36,10 @@ Chart ratio_chart(const std::vector<StabilityResult>& results) {
     curve.points.emplace_back(static_cast<double>(curve.points.size() + 1), ratio);
   }
   chart.curves.push_back(std::move(curve));
-  chart.rules.push_back({false, 1});
+  chart.rules.push_back({false, 1, "the floor"});
   chart.reading =
-      "The error against an independent reference, divided by the largest that random roundings at "
+      "Errors that have no tolerance of their own. The error against an independent reference, "
+      "divided by the largest that random roundings at "
       "the start and in every step, carried along the flow, cause in a sample. Below 1 no program "
       "in double precision can promise to be.";
   return chart;
