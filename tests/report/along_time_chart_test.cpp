@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <numbers>
+#include <string>
+
 #include "../../src/report/drawing/along_time_charts.hpp"
 #include "comparison_samples.hpp"
 
@@ -48,6 +51,29 @@ TEST(AlongTimeChart, BreaksAtSingularTimesAndFollowsThePrecision) {
   EXPECT_TRUE(energy.rules.empty());
   fit(energy);
   EXPECT_DOUBLE_EQ(energy.y.lower, 1e-34);
+}
+
+// An orbit of a semi-major axis of 1 closes in 2 pi.
+TEST(AlongTimeChart, CountsRevolutionsAtTheTop) {
+  Scene scene = sample_comparison().scene;
+  scene.system = {};
+  scene.system.model = SystemModel::kepler;
+  scene.nominal = {1, 0, 0, 0, 1, 0};
+  scene.duration = 4 * std::numbers::pi;
+  const double hours = 4 * std::numbers::pi * scene.units.time_s / 3600;
+  Chart chart = energy_along_time_chart(scene, {{"gauss", "", {{1, {}, 1, 1e-9}}}});
+  fit(chart);
+  EXPECT_EQ(chart.x.label, "time (h)");
+  EXPECT_NEAR(chart.x.top_unit, hours / 2, 1e-12);
+  EXPECT_EQ(chart.x.top_label, "revolutions");
+  const std::string script = gnuplot_script(chart, Drawing::wide_svg);
+  EXPECT_NE(script.find("set x2label 'revolutions'"), std::string::npos);
+  const std::string range = "set x2range [0:";
+  ASSERT_NE(script.find(range), std::string::npos);
+  EXPECT_NEAR(std::stod(script.substr(script.find(range) + range.size())), 2, 1e-12);
+  EXPECT_EQ(script.find("set title"), std::string::npos);
+  EXPECT_NE(gnuplot_script(chart, Drawing::png).find("set title 'Energy error along time'"),
+            std::string::npos);
 }
 
 // The times are those of the flow, the same for all integrators, and are drawn once.

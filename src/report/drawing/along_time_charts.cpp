@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../../studies/nominal_period.hpp"
 #include "../../text/time_axis.hpp"
 
 namespace hamjet::io {
@@ -31,6 +32,7 @@ Chart along_time_chart(const Scene& scene, const std::vector<RunAlongTime>& runs
   const double unit = scene.units.time_s / axis.seconds;
   chart.x.label = fmt::format("time ({})", axis.name);
   chart.x.includes = {0, scene.duration * unit};
+  add_revolutions(scene, axis.seconds, chart.x);
   chart.y = logarithmic_axis(std::move(label));
   chart.y.floor = rounding_of(scene.precision);
   chart.y.floor_name = scene.precision == Precision::double_precision
@@ -86,6 +88,13 @@ Chart along_time_chart(const Scene& scene, const std::vector<RunAlongTime>& runs
 }
 
 }  // namespace
+
+void add_revolutions(const Scene& scene, double seconds, ChartAxis& x) {
+  const std::optional<double> period = nominal_period(scene);
+  if (!period || !is_orbit(scene.system.model)) return;
+  x.top_unit = *period * scene.units.time_s / seconds;
+  x.top_label = "revolutions";
+}
 
 std::string kind_text(const GeneratingFunctionKind& kind) {
   for (const char* name : {"F1", "F2", "F3", "F4"}) {

@@ -14,6 +14,10 @@ namespace hamjet::io {
 /// A kind in words: "F1 (qqq-qqq)", or the notation alone.
 std::string kind_text(const GeneratingFunctionKind& kind);
 
+/// Gives x, which is a time in units of so many seconds, an axis of revolutions at the top, where
+/// the nominal is an orbit that closes.
+void add_revolutions(const Scene& scene, double seconds, ChartAxis& x);
+
 /// The vertical axis of plots of the exactness residual, and what stands in place of a plot where
 /// there is none.
 inline constexpr const char* exactness_label = "exactness residual, degree 0, scaled";

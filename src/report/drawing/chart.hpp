@@ -23,6 +23,9 @@ struct ChartAxis {
   double floor = 0;   ///< logarithmic y: smaller values, zeros too, say nothing and are drawn here
   std::string floor_name;        ///< "the rounding of double precision"
   std::vector<double> includes;  ///< places that it must reach
+  /// x alone: what one of the units of a second axis at the top is; 0 is without.
+  double top_unit = 0;
+  std::string top_label;
 };
 
 ChartAxis logarithmic_axis(std::string label, AxisUnit unit = AxisUnit::power);

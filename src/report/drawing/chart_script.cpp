@@ -120,6 +120,15 @@ std::string axis_commands(const char* axis, const ChartAxis& settings, int most_
   return text;
 }
 
+/// The axis at the top, which counts the same in another unit.
+std::string top_axis(const ChartAxis& x) {
+  if (!(x.top_unit > 0)) return "";
+  return fmt::format(
+      "set border 7 lc rgb '#444444'\nset x2range [{:.17g}:{:.17g}]\nset x2tics format '%g'\n"
+      "set x2label {} noenhanced\n",
+      x.lower / x.top_unit, x.upper / x.top_unit, gnuplot_literal(x.top_label));
+}
+
 /// Equal ticks along both axes, few enough that their numbers find room on the shorter one: 1, 2 or
 /// 5 times a power of ten.
 std::string isometric_ticks(const Chart& chart) {
@@ -273,8 +282,12 @@ std::string gnuplot_script(const Chart& chart, Drawing drawing) {
     script += "set key outside right top vertical Left reverse samplen 3 spacing 1.2\n";
   }
   if (layout.is_narrow) script += "set rmargin 3\n";
+  // A file stands alone; in a page and in a figure the title is above the drawing.
+  if (drawing == Drawing::pdf || drawing == Drawing::png) {
+    script += fmt::format("set title {} noenhanced\n", gnuplot_literal(chart.title));
+  }
   script += axis_commands("x", chart.x, layout.is_narrow ? 5 : 9) +
-            axis_commands("y", chart.y, layout.is_narrow ? 8 : 10) +
+            axis_commands("y", chart.y, layout.is_narrow ? 8 : 10) + top_axis(chart.x) +
             (chart.is_isometric ? isometric_ticks(chart) : "") + decorations(chart);
   script += value_colours(chart);
   std::vector<std::string> plots;

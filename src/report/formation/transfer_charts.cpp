@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "../../text/html_text.hpp"
+#include "../drawing/along_time_charts.hpp"
 #include "transfer_view.hpp"
 
 namespace hamjet::io {
@@ -30,6 +31,7 @@ Chart chart_over_time(const TransferResult& result, std::string name, std::strin
   chart.name = std::move(name);
   chart.title = std::move(title);
   chart.x.label = fmt::format("transfer time ({})", axis_of(result).name);
+  add_revolutions(result.scene, axis_of(result).seconds, chart.x);
   const double unit = time_unit(result);
   const double margin = result.scene.transfer->singular_margin;
   for (const SingularTime& singular : result.position_singularities()) {

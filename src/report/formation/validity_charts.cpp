@@ -4,6 +4,7 @@
 #include <set>
 
 #include "../../text/html_text.hpp"
+#include "../drawing/along_time_charts.hpp"
 #include "transfer_charts.hpp"
 #include "transfer_view.hpp"
 
@@ -66,6 +67,7 @@ Chart validity_time_chart(const ValidityResult& result) {
   Chart chart = separation_chart("validity-time", "Validity along time");
   const TimeAxis axis = time_axis(result.scene.validity->times.back() * result.scene.units.time_s);
   chart.x.label = fmt::format("time ({})", axis.name);
+  add_revolutions(result.scene, axis.seconds, chart.x);
   const double unit = result.scene.units.time_s / axis.seconds;
   for (int order = 1; order <= result.scene.order; ++order) {
     std::vector<std::pair<double, double>> proved;

@@ -110,10 +110,12 @@ TEST_F(EnergyConservation, RunsToTheEnd) {
 TEST_F(EnergyConservation, DrawsBothCharts) {
   run({}, 0);
   const std::string figure = content(directory_ / "out/figure.svg");
-  EXPECT_NE(figure.find("height=\"1080\""), std::string::npos);
+  // Below the first chart stands the note of what is drawn at the floor.
+  EXPECT_NE(figure.find("height=\"1099\""), std::string::npos);
   EXPECT_NE(figure.find("<svg y=\"40\" width=\"900\" height=\"500\">"), std::string::npos);
-  EXPECT_NE(figure.find("<svg y=\"580\" width=\"900\" height=\"500\">"), std::string::npos);
-  for (const char* text : {"step size (canonical time)", "energy error", "midpoint rule"}) {
+  EXPECT_NE(figure.find("<svg y=\"599\" width=\"900\" height=\"500\">"), std::string::npos);
+  for (const char* text :
+       {"step size (s)", "energy error", "midpoint rule", "the rounding of double precision"}) {
     EXPECT_NE(figure.find(text), std::string::npos) << text;
   }
 }
