@@ -136,6 +136,18 @@ TEST(TransferCharts, ShadeTheMarginsAndMarkWhatIsDoubtful) {
   EXPECT_NE(script.find("behind"), std::string::npos);
 }
 
+// Without the point that has no answer the time at which F1 does not exist still breaks the lines.
+TEST(TransferCharts, LinesAreBrokenAtSingularTimesAndForWantOfAnAnswer) {
+  TransferResult result = sample_transfer();
+  EXPECT_EQ(velocity_change_chart(result).notes,
+            (std::vector<std::string>{"Lines are also broken at transfer times without an answer: "
+                                      "1; the table says why."}));
+  std::erase_if(result.points, [](const auto& point) { return shown_answer(point) == nullptr; });
+  const Chart chart = velocity_change_chart(result);
+  EXPECT_TRUE(chart.notes.empty());
+  EXPECT_EQ(curve_named(chart, "both impulses")->gaps.size(), 1U);
+}
+
 TEST(TransferCharts, BandsEndWhereTheAxisDoes) {
   Chart chart;
   ChartCurve curve;

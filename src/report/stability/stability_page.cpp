@@ -21,8 +21,8 @@ Chart ratio_chart(const std::vector<StabilityResult>& results) {
   chart.title = "How close to the floor";
   chart.x.label = "errors, sorted by their ratio";
   chart.y = logarithmic_axis("error / floor");
-  chart.y.floor = 1e-3;
-  chart.y.floor_name = "a thousandth of the floor";
+  // How far below the floor an error is says nothing.
+  constexpr double least_ratio = 1e-3;
   std::vector<double> ratios;
   for (const StabilityResult& result : results) {
     for (const MeasuredError& error : result.measured) {
@@ -33,7 +33,14 @@ Chart ratio_chart(const std::vector<StabilityResult>& results) {
   ChartCurve curve;
   curve.title = "state or matrix of a case";
   for (const double ratio : ratios) {
-    curve.points.emplace_back(static_cast<double>(curve.points.size() + 1), ratio);
+    curve.points.emplace_back(static_cast<double>(curve.points.size() + 1),
+                              std::max(ratio, least_ratio));
+  }
+  const auto least =
+      std::count_if(ratios.begin(), ratios.end(), [](double ratio) { return ratio < least_ratio; });
+  if (least > 0) {
+    chart.notes.push_back(fmt::format(
+        "Errors below {:g} of their floor, zeros too, are drawn at it: {}.", least_ratio, least));
   }
   chart.curves.push_back(std::move(curve));
   chart.rules.push_back({false, 1, "the floor"});
