@@ -175,9 +175,9 @@ TEST(SceneDeputy, Errors) {
           {"deputy: too fast beside its chief, got 0.6 km/s", "below 0.5 km/s"});
   refused("position_km = [4.001, 0, 0]\nvelocity_km_s = [0, 1e308, 0]\n", {"too fast"});
   refused("frame = \"LVLH\"\nposition_m = [1, 0, 0]\n", {"deputy.frame: ambiguous"});
-  expect_scene_error(
-      changed(circle, "[0, 0.5, 0]", "[1, 0, 0]") + std::string("[deputy]\n") + beside,
-      {"deputy.frame: not defined at this chief, got RTN", "must be \"inertial\""});
+  expect_scene_error(changed(circle, "[0, 0.5, 0]", "[0.25, 0, 0]") + std::string("[deputy]\n") +
+                         changed(beside, "0.502", "0.002"),
+                     {"deputy.frame: not defined at this chief, got RTN", "must be \"inertial\""});
 }
 
 TEST(SceneDeputy, OfAMessageIsOfTheChiefsMomentAndAxes) {
