@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -14,38 +15,71 @@
 namespace hamjet::cli {
 namespace {
 
-const std::vector<std::string_view> frames = {"RTN", "inertial", "canonical"};
-const std::vector<std::string_view> rtn_columns = {"R_m",    "T_m",    "N_m",
-                                                   "vR_m_s", "vT_m_s", "vN_m_s"};
-const std::vector<std::string_view> inertial_columns = {"x_m",    "y_m",    "z_m",
-                                                        "vx_m_s", "vy_m_s", "vz_m_s"};
-
-RelativeFrame relative_frame(const std::string& frame,
-                             const std::optional<std::string>& derivatives) {
-  if (frame == "inertial") return RelativeFrame::inertial;
-  return derivatives.value_or("rotating") == "rotating" ? RelativeFrame::rtn_rotating
-                                                        : RelativeFrame::rtn_inertial;
+const std::vector<std::string_view>& frames() {
+  static const std::vector<std::string_view> names = [] {
+    std::vector<std::string_view> all;
+    for (const DeputyForm form : forms()) all.push_back(name_of(form));
+    all.push_back(canonical_frame);
+    return all;
+  }();
+  return names;
 }
 
-std::vector<double> numbers_of(const RelativeState& state) {
-  return {state.position_m[0],   state.position_m[1],   state.position_m[2],
-          state.velocity_m_s[0], state.velocity_m_s[1], state.velocity_m_s[2]};
+DeputyForm form_of(const std::string& frame, const std::optional<std::string>& derivatives) {
+  if (frame == name_of(DeputyForm::rtn_inertial) &&
+      derivatives.value_or("rotating") == "inertial") {
+    return DeputyForm::rtn_inertial;
+  }
+  return *std::find_if(forms().begin(), forms().end(),
+                       [&](DeputyForm form) { return name_of(form) == frame; });
+}
+
+void check_one_frame(const std::string& option, const std::string& frame) {
+  if (frame == "LVLH") {
+    refuse(
+        option +
+        " LVLH: has two meanings: x radially outward and z along the orbit's normal, or z toward "
+        "the nadir and y opposite the normal; say RTN, which is radial, transverse, normal");
+  }
+  if (std::find(frames().begin(), frames().end(), frame) == frames().end()) {
+    refuse(fmt::format("{} {}: no such frame; {}", option, io::printable(frame),
+                       io::suggestion(frame, frames())));
+  }
+}
+
+std::vector<std::string_view> columns_of(DeputyForm form) {
+  std::vector<std::string_view> names;
+  for (const DeputyComponent& component : components_of(form)) names.push_back(component.name);
+  return names;
+}
+
+/// The form in words: with derivatives where there are two kinds.
+std::string text_of(DeputyForm form) {
+  if (form == DeputyForm::rtn_rotating) return io::frame_text(RelativeFrame::rtn_rotating);
+  if (form == DeputyForm::rtn_inertial) return io::frame_text(RelativeFrame::rtn_inertial);
+  return std::string(name_of(form));
 }
 
 }  // namespace
 
-void check_frame(const std::string& frame, const std::optional<std::string>& derivatives) {
-  if (frame == "LVLH") {
-    refuse(
-        "--frame LVLH: has two meanings: x radially outward and z along the orbit's normal, or z "
-        "toward the nadir and y opposite the normal; say RTN, which is radial, transverse, normal");
-  }
-  if (std::find(frames.begin(), frames.end(), frame) == frames.end()) {
-    refuse(fmt::format("--frame {}: no such frame; {}", io::printable(frame),
-                       io::suggestion(frame, frames)));
+const std::vector<DeputyForm>& forms() {
+  static const std::vector<DeputyForm> all = [] {
+    std::vector<DeputyForm> found = {DeputyForm::rtn_rotating, DeputyForm::inertial};
+    found.insert(found.end(), nonlinear_forms.begin(), nonlinear_forms.end());
+    return found;
+  }();
+  return all;
+}
+
+void EvalFrames::check() const {
+  check_one_frame("--frame", frame);
+  if (to) check_one_frame("--to", *to);
+  if (to && (frame == canonical_frame) != (*to == canonical_frame)) {
+    refuse(fmt::format("--to {}: got --frame {}, must both be canonical or neither", *to, frame));
   }
   if (!derivatives) return;
-  if (frame != "RTN") {
+  const std::string_view rtn = name_of(DeputyForm::rtn_rotating);
+  if (frame != rtn && final_frame() != rtn) {
     refuse(fmt::format("--derivatives: goes with --frame RTN alone, got --frame {}", frame));
   }
   if (*derivatives != "rotating" && *derivatives != "inertial") {
@@ -54,40 +88,51 @@ void check_frame(const std::string& frame, const std::optional<std::string>& der
   }
 }
 
-EvalCoordinates::EvalCoordinates(const io::StoredJet& stored, const std::string& frame,
-                                 const std::optional<std::string>& derivatives)
+EvalCoordinates::EvalCoordinates(const io::StoredJet& stored, const EvalFrames& frames)
     : stored_(stored) {
-  check_frame(frame, derivatives);
-  if (frame == "canonical") {
+  frames.check();
+  if (frames.frame == canonical_frame) {
     const auto names = stored.variable_names();
     for (const std::size_t v : stored.variables) initial_columns_.push_back(names[v]);
     for (const std::size_t c : stored.components) final_columns_.push_back(names[c]);
     return;
   }
   if (!is_orbit(stored.model)) {
-    refuse(fmt::format("--frame {}: the model {} is no orbit; say --frame canonical", frame,
+    refuse(fmt::format("--frame {}: the model {} is no orbit; say --frame canonical", frames.frame,
                        model_name(stored.model)));
   }
-  initial_columns_ = final_columns_ = frame == "RTN" ? rtn_columns : inertial_columns;
+  const DeputyForm initial = form_of(frames.frame, frames.derivatives);
+  const DeputyForm final = form_of(frames.final_frame(), frames.derivatives);
+  initial_columns_ = columns_of(initial);
+  final_columns_ = columns_of(final);
   const MetricUnits units{stored.units.length_km * 1000, stored.units.time_s};
-  const RelativeFrame axes = relative_frame(frame, derivatives);
-  text_ = io::frame_text(axes);
-  initial_.emplace(stored.nominal_initial, units, axes);
-  final_.emplace(stored.nominal_final, units, axes);
+  text_ = text_of(initial);
+  if (final != initial) text_ += ", results " + text_of(final);
+  // In canonical units of an orbit mu is 1.
+  initial_.emplace(stored.nominal_initial, units, 1, initial);
+  final_.emplace(stored.nominal_final, units, 1, final);
 }
 
 std::vector<double> EvalCoordinates::initial_row(std::span<const double> canonical) const {
-  if (initial_) return numbers_of(initial_->relative(canonical));
+  if (initial_) {
+    const auto numbers = initial_->coordinates(canonical);
+    return {numbers.begin(), numbers.end()};
+  }
   std::vector<double> row;
   for (const std::size_t v : stored_.variables) row.push_back(canonical[v]);
   return row;
 }
 
-std::optional<std::vector<double>> EvalCoordinates::variables(
-    std::span<const double> deviation) const {
+std::vector<double> EvalCoordinates::variables(std::span<const double> deviation) const {
   if (!initial_) return std::vector<double>(deviation.begin(), deviation.end());
-  const auto canonical = initial_->deviation(
-      {{deviation[0], deviation[1], deviation[2]}, {deviation[3], deviation[4], deviation[5]}});
+  const std::array<double, 6> canonical = [&] {
+    try {
+      return initial_->deviation(deviation);
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::numerical) throw;
+      throw Error(ErrorKind::usage, error.what());
+    }
+  }();
   std::vector<double> result;
   for (const std::size_t v : stored_.variables) result.push_back(canonical[v]);
   if (result.size() == canonical.size()) return result;
@@ -98,7 +143,13 @@ std::optional<std::vector<double>> EvalCoordinates::variables(
   for (std::size_t i = 0; i < canonical.size(); ++i) {
     const bool is_variable =
         std::binary_search(stored_.variables.begin(), stored_.variables.end(), i);
-    if (!is_variable && std::abs(canonical[i]) > round_off * size) return std::nullopt;
+    if (!is_variable && std::abs(canonical[i]) > round_off * size) {
+      const auto names = stored_.variable_names();
+      std::string expanded;
+      for (const std::size_t v : stored_.variables) expanded += fmt::format(" {}", names[v]);
+      throw Error(ErrorKind::usage,
+                  "the deviation leaves the variables that the jet is expanded in:" + expanded);
+    }
   }
   return result;
 }
@@ -107,7 +158,14 @@ std::vector<double> EvalCoordinates::final_state(std::span<const double> compone
   if (!final_) return {components.begin(), components.end()};
   std::vector<double> full(stored_.nominal_initial.size(), 0);
   for (std::size_t c = 0; c < components.size(); ++c) full[stored_.components[c]] = components[c];
-  return numbers_of(final_->relative(full));
+  try {
+    const auto numbers = final_->coordinates(full);
+    return {numbers.begin(), numbers.end()};
+  } catch (const Error& error) {
+    // Beyond the polynomial's reach it may give what is no orbit of a deputy at all.
+    if (error.kind() != ErrorKind::numerical) throw;
+    return std::vector<double>(full.size(), std::numeric_limits<double>::quiet_NaN());
+  }
 }
 
 }  // namespace hamjet::cli

@@ -7,18 +7,34 @@
 #include <vector>
 
 #include "hamjet/formats/stored_jet.hpp"
-#include "hamjet/relative_motion/chief_frame.hpp"
+#include "hamjet/relative_motion/deputy_coordinates.hpp"
 
 namespace hamjet::cli {
+
+/// The word for canonical deviations.
+inline constexpr std::string_view canonical_frame = "canonical";
+
+/// The forms of deputies that have words of their own.
+const std::vector<DeputyForm>& forms();
+
+/// The words of the command line.
+struct EvalFrames {
+  std::string frame = "RTN";                    ///< name of a form, or canonical
+  std::optional<std::string> to = {};           ///< likewise, of the results; as `frame` if absent
+  std::optional<std::string> derivatives = {};  ///< of RTN: rotating (default) or inertial
+
+  const std::string& final_frame() const { return to ? *to : frame; }
+  /// Throws Error(usage) if they are no such words or do not fit each other.
+  void check() const;
+};
 
 /// The numbers in which the user gives deviations from a jet's nominal and wants the final ones:
 /// canonical, or a relative state of an orbit in metres and m/s.
 class EvalCoordinates {
  public:
-  /// `frame` and `derivatives` are the words of the command line. Throws Error(usage) if they are
-  /// wrong or do not fit the jet's model.
-  EvalCoordinates(const io::StoredJet& stored, const std::string& frame,
-                  const std::optional<std::string>& derivatives);
+  /// Throws Error(usage) if the words are wrong or do not fit the jet's model, and Error(numerical)
+  /// as DeputyCoordinates.
+  EvalCoordinates(const io::StoredJet& stored, const EvalFrames& frames);
 
   /// The frame in words, with the derivatives.
   const std::string& text() const { return text_; }
@@ -28,10 +44,10 @@ class EvalCoordinates {
 
   /// A canonical deviation (dq, dp) in the numbers of the initial columns.
   std::vector<double> initial_row(std::span<const double> canonical) const;
-  /// The jet's variables of a deviation; no value if the deviation has other components too, of
-  /// which the jet says nothing.
-  std::optional<std::vector<double>> variables(std::span<const double> deviation) const;
-  /// The final state of the jet's components.
+  /// The jet's variables of a deviation. Throws Error(usage) if the deviation has other components
+  /// too, of which the jet says nothing, or is none of a deputy.
+  std::vector<double> variables(std::span<const double> deviation) const;
+  /// The final state of the jet's components; NaN where that has not what the form needs.
   std::vector<double> final_state(std::span<const double> components) const;
 
  private:
@@ -39,11 +55,8 @@ class EvalCoordinates {
   std::vector<std::string_view> initial_columns_;
   std::vector<std::string_view> final_columns_;
   std::string text_ = "canonical";
-  std::optional<ChiefFrame> initial_;  ///< absent: canonical
-  std::optional<ChiefFrame> final_;
+  std::optional<DeputyCoordinates> initial_;  ///< absent: canonical
+  std::optional<DeputyCoordinates> final_;
 };
-
-/// Throws Error(usage) if a frame or the derivatives are no such words.
-void check_frame(const std::string& frame, const std::optional<std::string>& derivatives);
 
 }  // namespace hamjet::cli

@@ -40,7 +40,7 @@ void check_options(const EvalOptions& options) {
   refuse_empty(options.deputy, "--deputy", "a scene");
   refuse_empty(options.run, "--run", "a run");
   refuse_empty(options.output, "--output", "a file");
-  check_frame(options.frame, options.derivatives);
+  options.frames.check();
   const int given = int(options.deviation.has_value()) + int(options.deviations.has_value()) +
                     int(options.deputy.has_value());
   if (given > 1) {
@@ -113,6 +113,21 @@ io::NumberTable read_deviations(const EvalOptions& options, const io::StoredJet&
   return table;
 }
 
+/// The jet's variables of a row; says where the row stands if it has none.
+std::vector<double> variables_of(const EvalOptions& options, const EvalCoordinates& coordinates,
+                                 const io::NumberTable& deviations, std::size_t row) {
+  try {
+    return coordinates.variables(deviations.row(row));
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::usage) throw;
+    if (options.deviation) refuse(fmt::format("--deviation: {}", error.what()));
+    if (options.deputy) refuse_scene(*options.deputy, "deputy", error.what());
+    throw Error(ErrorKind::input_output,
+                fmt::format("{}:{}: {}", io::printable_path(*options.deviations),
+                            io::NumberTable::line(row), error.what()));
+  }
+}
+
 const char* support_name(Support support) {
   switch (support) {
     case Support::inside:
@@ -153,6 +168,7 @@ class Output {
       if (std::isfinite(x)) fmt::format_to(write, "{}", is_outside ? size_alone(x) : x);
       fmt::format_to(write, ",");
     }
+    undefined_ += std::any_of(state.begin(), state.end(), [](double x) { return std::isnan(x); });
     if (is_inside) fmt::format_to(write, "{:.3g}", estimate.miss_m());
     fmt::format_to(write, ",{}\n", support_name(estimate.support));
     if (is_inside) largest_miss_ = std::max(largest_miss_.value_or(0), estimate.miss_m());
@@ -174,6 +190,8 @@ class Output {
   Json json_rows() const { return has_json_rows_ ? json_rows_ : Json(nullptr); }
   std::size_t outside() const { return outside_; }
   std::size_t unknown() const { return unknown_; }
+  /// Rows whose final state has no numbers of the form asked for.
+  std::size_t undefined() const { return undefined_; }
   /// The largest estimate of the miss, in metres, among the rows inside; none without such rows.
   std::optional<double> largest_miss() const { return largest_miss_; }
 
@@ -184,12 +202,13 @@ class Output {
   Json json_rows_ = Json::array();
   std::size_t outside_ = 0;
   std::size_t unknown_ = 0;
+  std::size_t undefined_ = 0;
   std::optional<double> largest_miss_;
 };
 
 std::string summary(const EvalOptions& options, const io::StoredJet& stored,
                     const JetEvaluation& evaluation, const Output& output) {
-  const bool is_rtn = options.frame == "RTN";
+  const bool is_rtn = options.frames.frame == "RTN" || options.frames.final_frame() == "RTN";
   const auto points = static_cast<double>(evaluation.points());
   const auto multiply_adds = static_cast<double>(evaluation.evaluator().multiply_adds_per_point());
   const Json json = {
@@ -198,12 +217,15 @@ std::string summary(const EvalOptions& options, const io::StoredJet& stored,
       {"model", model_name(stored.model)},
       {"order", stored.order()},
       {"degree", evaluation.evaluator().degree()},
-      {"frame", options.frame},
-      {"derivatives", is_rtn ? Json(options.derivatives.value_or("rotating")) : Json(nullptr)},
+      {"frame", options.frames.frame},
+      {"final_frame", options.frames.final_frame()},
+      {"derivatives",
+       is_rtn ? Json(options.frames.derivatives.value_or("rotating")) : Json(nullptr)},
       {"duration_s", stored.duration * stored.units.time_s},
       {"points", evaluation.points()},
       {"outside", output.outside()},
       {"unknown", output.unknown()},
+      {"undefined", output.undefined()},
       {"miss_estimate_covers", miss_covers(stored)},
       {"largest_miss_estimate_m",
        output.largest_miss() ? Json(*output.largest_miss()) : Json(nullptr)},
@@ -235,6 +257,12 @@ void report(const EvalCoordinates& coordinates, const io::StoredJet& stored,
         "such deviations, and the numbers are sizes alone",
         output.outside(), evaluation.points()));
   }
+  if (output.undefined() > 0) {
+    print_note(fmt::format(
+        "{} of {} rows without numbers: their final state is no elliptic orbit with a node, or not "
+        "finite, and has no coordinates of this kind",
+        output.undefined(), evaluation.points()));
+  }
   if (output.unknown() > 0) {
     print_note(fmt::format("{} of {} rows marked unknown: {}", output.unknown(),
                            evaluation.points(),
@@ -252,7 +280,7 @@ int eval(const EvalOptions& options) {
     refuse(fmt::format("--degree {}: must be 1 to the order of the jet, {}", *options.degree,
                        stored.order()));
   }
-  const EvalCoordinates coordinates(stored, options.frame, options.derivatives);
+  const EvalCoordinates coordinates(stored, options.frames);
   std::optional<OutputFile> file;
   if (options.output) file.emplace(*options.output);
   const io::NumberTable deviations = read_deviations(options, stored, coordinates);
@@ -260,20 +288,7 @@ int eval(const EvalOptions& options) {
   JetEvaluation evaluation(stored, options.degree);
   Output output(coordinates.final_columns(), deviations.rows());
   for (std::size_t row = 0; row < deviations.rows(); ++row) {
-    const auto variables = coordinates.variables(deviations.row(row));
-    if (!variables) {
-      const auto names = stored.variable_names();
-      std::string expanded;
-      for (const std::size_t v : stored.variables) expanded += fmt::format(" {}", names[v]);
-      const std::string what = fmt::format(
-          "the deviation leaves the variables that the jet is expanded in:{}", expanded);
-      if (options.deviation) refuse("--deviation: " + what);
-      if (options.deputy) refuse_scene(*options.deputy, "deputy", what);
-      throw Error(ErrorKind::input_output,
-                  fmt::format("{}:{}: {}", io::printable_path(*options.deviations),
-                              io::NumberTable::line(row), what));
-    }
-    evaluation.add(*variables);
+    evaluation.add(variables_of(options, coordinates, deviations, row));
     if (evaluation.pending() < JetEvaluation::most_points && row + 1 < deviations.rows()) continue;
     stop_if_interrupted();
     evaluation.run([&](const std::vector<double>& deviation, const MissEstimate& estimate) {
@@ -290,7 +305,7 @@ int eval(const EvalOptions& options) {
     print(output.csv());
   }
   if (!options.quiet) report(coordinates, stored, evaluation, output);
-  const std::size_t not_inside = output.outside() + output.unknown();
+  const std::size_t not_inside = std::max(output.outside() + output.unknown(), output.undefined());
   if (!options.strict || not_inside == 0) return 0;
   print_error(fmt::format("--strict: {} of {} rows are not inside the polynomial's reach",
                           not_inside, evaluation.points()));

@@ -3,6 +3,8 @@
 #include <optional>
 #include <string>
 
+#include "../app/eval_coordinates.hpp"
+
 namespace hamjet::cli {
 
 struct EvalOptions {
@@ -11,10 +13,9 @@ struct EvalOptions {
   std::optional<std::string> deviations;  ///< a CSV file of them
   std::optional<std::string> deputy;      ///< a scene, whose deputy it is
   std::optional<std::string> run;         ///< label of the integrator's run
-  std::string frame = "RTN";
-  std::optional<std::string> derivatives;  ///< of RTN: rotating (default) or inertial
-  std::optional<int> degree;               ///< truncates the jet
-  std::optional<std::string> output;       ///< CSV file; absent: standard output
+  EvalFrames frames;
+  std::optional<int> degree;          ///< truncates the jet
+  std::optional<std::string> output;  ///< CSV file; absent: standard output
   bool json = false;
   bool strict = false;  ///< a row that is not inside makes the exit code 1
   bool quiet = false;

@@ -116,24 +116,39 @@ CLI::App* add_eval_command(CLI::App& app, hamjet::cli::EvalOptions& options) {
                    "results of hamjet run, or one of their files " + hamjet::io::jet_file_endings())
       ->required()
       ->type_name("FILE");
+  std::string columns;
+  std::string frames;
+  for (const hamjet::DeputyForm form : hamjet::cli::forms()) {
+    std::string names;
+    for (const auto& component : components_of(form)) {
+      names += (names.empty() ? "" : ", ") + std::string(component.name);
+    }
+    columns += names + " (" + std::string(name_of(form)) + "), ";
+    frames += std::string(name_of(form)) + ",";
+  }
+  const std::string frame_type = "{" + frames + std::string(hamjet::cli::canonical_frame) + "}";
   eval->add_option("--deviation", options.deviation,
-                   "one deviation, x,y,z,vx,vy,vz along the axes of the frame in m and m/s; in the "
-                   "frame canonical one number a variable of the jet")
+                   "one deviation, the six numbers of the frame (see --deviations); in the frame "
+                   "canonical one number a variable of the jet")
       ->type_name("NUMBERS");
   eval->add_option("--deviations", options.deviations,
-                   "CSV file of many; its first line names the columns: R_m, T_m, N_m, vR_m_s, "
-                   "vT_m_s, vN_m_s (RTN), x_m, y_m, z_m, vx_m_s, vy_m_s, vz_m_s (inertial), or the "
-                   "jet's variables (canonical)")
+                   "CSV file of many; its first line names the columns: " + columns +
+                       "or the jet's variables (canonical)")
       ->type_name("FILE");
   eval->add_option("--deputy", options.deputy,
                    "a scene of the same chief: the deputy of its table [deputy]")
       ->type_name("SCENE");
   eval->add_option("--run", options.run, "label of the run (default: the first with a result)")
       ->type_name("LABEL");
-  eval->add_option("--frame", options.frame,
-                   "RTN (default: radial, transverse, normal of the chief), inertial, or canonical")
-      ->type_name("{RTN,inertial,canonical}");
-  eval->add_option("--derivatives", options.derivatives,
+  eval->add_option("--frame", options.frames.frame,
+                   "RTN (default: radial, transverse, normal of the chief), inertial, curvilinear, "
+                   "relative-elements (D'Amico), element-differences (Gim and Alfriend; both of "
+                   "osculating elements), or canonical")
+      ->type_name(frame_type);
+  eval->add_option("--to", options.frames.to,
+                   "the frame of the results (default: that of the deviations)")
+      ->type_name(frame_type);
+  eval->add_option("--derivatives", options.frames.derivatives,
                    "of RTN: rotating (default: velocities as seen from the turning axes) or "
                    "inertial")
       ->type_name("{rotating,inertial}");

@@ -64,14 +64,15 @@ constexpr const char* evaluate_relative_doc =
     R"(Carries relative states through the jet of an orbit, as `hamjet eval` does.
 
 states: (N, 6) or (6,), the deputy relative to the chief at the start: position in m and velocity in
-m/s along the axes of the frame; columns of a data frame by name, as the columns of a file of `hamjet
-eval`, R_m, T_m, ... or x_m, y_m, .... frame: "RTN" (radial, transverse, normal of the chief) or
-"inertial". derivatives: of RTN, "rotating" (default: velocities as seen from the turning axes) or
+m/s along the axes of the frame, or six numbers of another form; columns of a data frame by name, as
+the columns of a file of `hamjet eval`. frame: "RTN" (radial, transverse, normal of the chief),
+"inertial", "curvilinear", "relative-elements" or "element-differences" (`hamjet eval --help` has the
+numbers of each). to: likewise, of the results; by default as frame. derivatives: of RTN, "rotating" (default: velocities as seen from the turning axes) or
 "inertial". degree: leaves out the terms above it. strict: raises NumericalError if a row is not
 inside the polynomial's reach; otherwise such rows give a RuntimeWarning.
 
 Returns a RelativeStates: the states at the end of the duration, (N, 6), with an estimate of the
-miss of each. The conversions make it several times slower than evaluate. Raises UsageError.)";
+miss of each; NaN where the final state has no elements. The conversions make it several times slower than evaluate. Raises UsageError.)";
 
 constexpr const char* compose_doc =
     R"(The jet of this flow and then that of `after`, of the lower of their orders.
@@ -164,11 +165,12 @@ void warn_if_not_inside(const std::vector<unsigned char>& support, bool is_stric
 
 /// A RelativeStates, which the package defines.
 py::object evaluate_relative_states(const Jet& jet, const py::object& states,
-                                    const std::string& frame,
+                                    const std::string& frame, const std::optional<std::string>& to,
                                     const std::optional<std::string>& derivatives,
                                     std::optional<int> degree, bool is_strict) {
   constexpr std::size_t columns = 6;
-  const auto column_names = [&] { return relative_columns(jet, {frame, derivatives, degree}); };
+  const RelativeCoordinates coordinates{{frame, to, derivatives}, degree};
+  const auto column_names = [&] { return initial_columns(jet, coordinates); };
   const py::array_t<double> rows = rows_of(states, columns, column_names, "states");
   const bool is_one = rows.ndim() == 1;
   const auto count = is_one ? 1 : static_cast<std::size_t>(rows.shape(0));
@@ -180,14 +182,14 @@ py::object evaluate_relative_states(const Jet& jet, const py::object& states,
     const py::gil_scoped_release no_gil;
     const ArithmeticScope arithmetic;
     SignalCheck check;
-    evaluate_relative(jet, {frame, derivatives, degree}, data, count,
-                      {results.data(), miss.data(), support.data()}, [&] { check(); });
+    evaluate_relative(jet, coordinates, data, count, {results.data(), miss.data(), support.data()},
+                      [&] { check(); });
   }
   warn_if_not_inside(support, is_strict);
   return py::module_::import("hamjet.relative_states")
       .attr("_relative_states")(array_of(std::move(results), {size_of(count), size_of(columns)}),
                                 array_of(std::move(miss)), array_of(std::move(support)),
-                                py::tuple(py::cast(column_names())));
+                                py::tuple(py::cast(final_columns(jet, coordinates))));
 }
 
 std::string representation(const Jet& jet) {
@@ -325,10 +327,11 @@ void bind_jets(py::module_& module) {
           py::arg("deviations"),
           documented("__call__(self, deviations)", "evaluate(deviations).").c_str())
       .def("evaluate_relative", &evaluate_relative_states, py::arg("states"), py::kw_only(),
-           py::arg("frame") = "RTN", py::arg("derivatives") = py::none(),
-           py::arg("degree") = py::none(), py::arg("strict") = false,
-           documented("evaluate_relative(self, states, *, frame='RTN', derivatives=None, "
-                      "degree=None, strict=False)",
+           py::arg("frame") = "RTN", py::arg("to") = py::none(),
+           py::arg("derivatives") = py::none(), py::arg("degree") = py::none(),
+           py::arg("strict") = false,
+           documented("evaluate_relative(self, states, *, frame='RTN', to=None, "
+                      "derivatives=None, degree=None, strict=False)",
                       evaluate_relative_doc)
                .c_str())
       .def("jacobian", &jacobian, py::arg("deviations"),

@@ -14,17 +14,22 @@ namespace hamjet::python {
 namespace {
 
 cli::EvalCoordinates frame_of(const io::StoredJet& stored, const RelativeCoordinates& coordinates) {
-  if (coordinates.frame == "canonical") {
+  if (coordinates.frames.frame == cli::canonical_frame) {
     throw Error(ErrorKind::usage, "--frame canonical: evaluate() takes canonical deviations");
   }
-  return {stored, coordinates.frame, coordinates.derivatives};
+  return {stored, coordinates.frames};
 }
 
 }  // namespace
 
-std::vector<std::string> relative_columns(const Jet& jet, const RelativeCoordinates& coordinates) {
+std::vector<std::string> initial_columns(const Jet& jet, const RelativeCoordinates& coordinates) {
   const cli::EvalCoordinates frame = frame_of(jet.stored(), coordinates);
   return {frame.initial_columns().begin(), frame.initial_columns().end()};
+}
+
+std::vector<std::string> final_columns(const Jet& jet, const RelativeCoordinates& coordinates) {
+  const cli::EvalCoordinates frame = frame_of(jet.stored(), coordinates);
+  return {frame.final_columns().begin(), frame.final_columns().end()};
 }
 
 void evaluate_relative(const Jet& jet, const RelativeCoordinates& coordinates, const double* states,
@@ -37,14 +42,11 @@ void evaluate_relative(const Jet& jet, const RelativeCoordinates& coordinates, c
   cli::JetEvaluation evaluation(stored, coordinates.degree);
   std::size_t done = 0;
   for (std::size_t row = 0; row < count; ++row) {
-    const auto variables = frame.variables(std::span(states + row * columns, columns));
-    if (!variables) {
-      throw Error(ErrorKind::usage,
-                  fmt::format("row {}: the deviation leaves the variables that the jet is expanded "
-                              "in",
-                              row));
+    try {
+      evaluation.add(frame.variables(std::span(states + row * columns, columns)));
+    } catch (const Error& error) {
+      throw Error(error.kind(), fmt::format("row {}: {}", row, error.what()));
     }
-    evaluation.add(*variables);
     if (evaluation.pending() < cli::JetEvaluation::most_points && row + 1 < count) continue;
     evaluation.run([&](const std::vector<double>& deviation, const cli::MissEstimate& estimate) {
       const auto state = frame.final_state(deviation);

@@ -5,20 +5,21 @@
 #include <string>
 #include <vector>
 
+#include "../app/eval_coordinates.hpp"
 #include "jet.hpp"
 
 namespace hamjet::python {
 
 /// The coordinates of relative states, as `hamjet eval` takes them.
 struct RelativeCoordinates {
-  std::string frame = "RTN";
-  std::optional<std::string> derivatives = std::nullopt;
+  cli::EvalFrames frames;
   std::optional<int> degree = std::nullopt;
 };
 
-/// Names of the columns of a relative state. Throws Error(usage) if the coordinates do not fit the
-/// jet.
-std::vector<std::string> relative_columns(const Jet& jet, const RelativeCoordinates& coordinates);
+/// Names of the columns of a relative state, at the start and at the end. Throws Error(usage) if
+/// the coordinates do not fit the jet.
+std::vector<std::string> initial_columns(const Jet& jet, const RelativeCoordinates& coordinates);
+std::vector<std::string> final_columns(const Jet& jet, const RelativeCoordinates& coordinates);
 
 /// Where results go: of each of `count` rows the final state (6 numbers), the estimate of the miss
 /// in metres (NaN where there is none) and TruncationEstimate::Support as a number.

@@ -5,13 +5,21 @@
 namespace hamjet::io {
 namespace {
 
-const TableDescription& relative_state_table() {
+const TableDescription& assigned_deputy_table() {
   static const TableDescription table = {relative_state_keys(), "In the frame of `[transfer]`."};
   return table;
 }
 
+const TableDescription& slot_table() {
+  static const TableDescription table = {
+      arrival_keys(), "In the frame of `[transfer]`, relative to where the chief is at arrival."};
+  return table;
+}
+
+/// The states of the tables of a key, each read by `read`.
+template <class Read>
 std::vector<RelativeState> read_states(const TableReader& assignment, std::string_view key,
-                                       const Nominal& nominal, RelativeFrame frame) {
+                                       const TableDescription& description, const Read& read) {
   const std::vector<TableReader> tables = assignment.tables(key);
   if (tables.size() > static_cast<std::size_t>(most_deputies)) {
     assignment.fail(key,
@@ -20,10 +28,10 @@ std::vector<RelativeState> read_states(const TableReader& assignment, std::strin
   }
   std::vector<RelativeState> states;
   for (const TableReader& table : tables) {
-    table.check_keys({relative_state_table().names(),
+    table.check_keys({description.names(),
                       {"frame", "derivatives"},
                       fmt::format("a {}, which is in the frame of the table [transfer],", key)});
-    states.push_back(read_relative_state(table, nominal, frame));
+    states.push_back(read(table));
   }
   return states;
 }
@@ -32,13 +40,15 @@ std::vector<RelativeState> read_states(const TableReader& assignment, std::strin
 
 const TableDescription& assignment_table() {
   static const std::string at_most = fmt::format("1 to {} tables", most_deputies);
-  static const ValueForm tables =
-      form::words(at_most, form::array(form::table(relative_state_table())));
+  const auto tables = [](const TableDescription& description) {
+    return form::words(at_most, form::array(form::table(description)));
+  };
   static const TableDescription table = {
       {{"time", form::choice({"per-pair", "common"}), absent::value("per-pair"),
         "each pair its best transfer time, or one time for all"},
-       {"deputy", tables, absent::refused(), "where the deputies start"},
-       {"slot", tables, absent::refused(), "where they may end, as many as deputies"}},
+       {"deputy", tables(assigned_deputy_table()), absent::refused(), "where the deputies start"},
+       {"slot", tables(slot_table()), absent::refused(),
+        "where they may end, as many as deputies"}},
       "Transfer times and frame are those of `[transfer]`."};
   return table;
 }
@@ -54,8 +64,12 @@ AssignmentSettings read_assignment(const TableReader& assignment, const Scene& s
   }
   AssignmentSettings settings;
   assignment.read_if_any("time", settings.time);
-  settings.deputies = read_states(assignment, "deputy", nominal, scene.transfer->frame);
-  settings.slots = read_states(assignment, "slot", nominal, scene.transfer->frame);
+  settings.deputies =
+      read_states(assignment, "deputy", assigned_deputy_table(), [&](const auto& table) {
+        return read_relative_state(table, nominal, scene.transfer->frame);
+      });
+  settings.slots = read_states(assignment, "slot", slot_table(),
+                               [&](const auto& table) { return read_arrival(table, nominal); });
   if (settings.deputies.size() != settings.slots.size()) {
     assignment.fail("slot",
                     fmt::format("as many slots as deputies are needed, got {} deputies and {} "

@@ -9,10 +9,6 @@
 #include "../formats/relative_frame_text.hpp"
 #include "../text/quantity_text.hpp"
 #include "../text/scene_message.hpp"
-#include "hamjet/error.hpp"
-#include "hamjet/formats/orbit_message.hpp"
-#include "hamjet/relative_motion/chief_frame.hpp"
-#include "scene_orbit.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -48,111 +44,7 @@ std::string lower_case(std::string text) {
   return text;
 }
 
-/// A deputy as far from its chief as the centre of attraction is, or as fast as the orbit itself,
-/// is beyond every expansion.
-Eigen::Vector3d read_vector(const TableReader& table, std::string_view key, double limit,
-                            std::string_view what) {
-  const std::vector<double> numbers = table.numbers(key, 3);
-  const Eigen::Vector3d vector(numbers[0], numbers[1], numbers[2]);
-  if (!(vector.stableNorm() < limit)) {
-    table.fail(key, fmt::format("too large, got a magnitude of {:.4g}, must be below {:.4g}, {}",
-                                vector.stableNorm(), limit, what));
-  }
-  return vector;
-}
-
-MetricUnits metric_units(const Nominal& nominal) {
-  const CanonicalUnits units = canonical_units(nominal.scale);
-  return {units.length_km * 1000, units.time_s};
-}
-
-double distance_of(const Nominal& nominal) { return Eigen::Vector3d(nominal.state.data()).norm(); }
-
-/// Of a circular orbit through the chief, canonical: mu = 1.
-double circular_speed_of(const Nominal& nominal) { return 1 / std::sqrt(distance_of(nominal)); }
-
-/// The axes at the chief; says about the table why there are none.
-ChiefFrame frame_at_chief(const TableReader& table, const Nominal& nominal, RelativeFrame frame) {
-  try {
-    return {nominal.state, metric_units(nominal), frame};
-  } catch (const Error& error) {
-    if (error.kind() != ErrorKind::numerical) throw;
-    table.fail("frame", fmt::format("not defined at this chief, got {}, must be \"inertial\": {}",
-                                    frame_text(frame), error.what()));
-  }
-}
-
-/// Refuses a message whose state is not of the chief's moment, or is in other axes.
-void require_same_date(const TableReader& table, const Nominal& nominal,
-                       const EphemerisSettings& message) {
-  const std::string_view file = table.exactly_one_of({"oem_file", "opm_file"});
-  if (!nominal.ephemeris) {
-    table.fail(file,
-               fmt::format("a dated state beside a chief without a date, got {} {}, must have "
-                           "a table [ephemeris] that says the chief's epoch, or a chief from "
-                           "a message",
-                           message.epoch, message.time_system));
-  }
-  const EphemerisSettings& chief = *nominal.ephemeris;
-  if (parse_epoch(message.epoch) != parse_epoch(chief.epoch) ||
-      message.time_system != chief.time_system) {
-    table.fail(table.has("epoch") ? "epoch" : file,
-               fmt::format("a state of another moment than the chief's, got {} {}, must be {} {}",
-                           message.epoch, message.time_system, chief.epoch, chief.time_system));
-  }
-  if (message.reference_frame != chief.reference_frame ||
-      message.reference_frame_epoch != chief.reference_frame_epoch) {
-    table.fail(file, fmt::format("a state in other axes than the chief's, got {}{}, must be {}{}",
-                                 message.reference_frame, message.reference_frame_epoch,
-                                 chief.reference_frame, chief.reference_frame_epoch));
-  }
-}
-
-/// The relative state of a deputy that is given by its own orbit: the difference of the two
-/// inertial states, neither of which has been rounded before.
-RelativeState read_own_orbit(const TableReader& table, const Nominal& nominal,
-                             RelativeFrame frame) {
-  const Orbit deputy = read_orbit(table, nominal.centre);
-  if (deputy.file) require_same_date(table, nominal, deputy.file->ephemeris);
-  const CanonicalScale& scale = nominal.scale;
-  std::vector<double> deviation;
-  for (std::size_t i = 0; i < 3; ++i) {
-    deviation.push_back(convert<double>(
-        (deputy.state.position_km[i] - nominal.orbit->position_km[i]) / scale.length_km));
-  }
-  for (std::size_t i = 0; i < 3; ++i) {
-    deviation.push_back(
-        convert<double>((deputy.state.velocity_km_s[i] - nominal.orbit->velocity_km_s[i]) *
-                        scale.time_s / scale.length_km));
-  }
-  const double separation = Eigen::Vector3d(deviation.data()).stableNorm();
-  if (!(separation < distance_of(nominal))) {
-    const double unit_km = canonical_units(scale).length_km;
-    table.fail("", fmt::format("too far from its chief, got {:.6g} km between the two, must be "
-                               "below {:.6g} km, the chief's distance from the centre",
-                               separation * unit_km, distance_of(nominal) * unit_km));
-  }
-  const double speed = Eigen::Vector3d(deviation.data() + 3).stableNorm();
-  if (!(speed < circular_speed_of(nominal))) {
-    const double unit_km_s = metric_units(nominal).velocity_m_s() / 1000;
-    table.fail("", fmt::format("too fast beside its chief, got {:.6g} km/s between the two, must "
-                               "be below {:.6g} km/s, the speed of a circular orbit through the "
-                               "chief",
-                               speed * unit_km_s, circular_speed_of(nominal) * unit_km_s));
-  }
-  return frame_at_chief(table, nominal, frame).relative(deviation);
-}
-
 }  // namespace
-
-std::vector<SceneKey> relative_state_keys() {
-  return joined<SceneKey>(
-      {{{"position_m", form::array(form::number(), 3), absent::other("the deputy's own orbit"),
-         "relative to the chief, along the axes of the frame; below its distance from the centre"},
-        {"velocity_m_s", form::array(form::number(), 3), absent::other("0, at rest in the frame"),
-         "below the speed of a circular orbit through the chief"}},
-       orbit_keys()});
-}
 
 std::vector<SceneKey> relative_frame_keys(const Absence& frame) {
   return {
@@ -277,36 +169,6 @@ RelativeFrame read_relative_frame(const TableReader& table, const TableReader& f
 
 RelativeFrame read_relative_frame_or_rtn(const TableReader& table) {
   return read_frame(table, table, true);
-}
-
-RelativeState read_relative_state(const TableReader& table, const Nominal& nominal,
-                                  RelativeFrame frame) {
-  const auto own = orbit_key_of(table);
-  for (const std::string_view relative : {"position_m", "velocity_m_s"}) {
-    if (!own || !table.has(relative)) continue;
-    table.fail(relative, fmt::format("both forms of a deputy, got {} and {}, must be either its "
-                                     "state relative to the chief or its own orbit",
-                                     *own, relative));
-  }
-  if (own) return read_own_orbit(table, nominal, frame);
-  const MetricUnits units = metric_units(nominal);
-  const double distance = distance_of(nominal);
-  RelativeState state;
-  state.position_m = read_vector(table, "position_m", distance * units.length_m,
-                                 "the chief's distance from the centre");
-  if (table.has("velocity_m_s")) {
-    state.velocity_m_s =
-        read_vector(table, "velocity_m_s", circular_speed_of(nominal) * units.velocity_m_s(),
-                    "the speed of a circular orbit through the chief");
-  }
-  return state;
-}
-
-RelativeState in_other_frame(const TableReader& table, const Nominal& nominal,
-                             const DeputySettings& deputy, RelativeFrame frame) {
-  if (deputy.frame == frame) return deputy.start;
-  return frame_at_chief(table, nominal, frame)
-      .relative(frame_at_chief(table, nominal, deputy.frame).deviation(deputy.start));
 }
 
 std::vector<std::string> distant_deputies(const TableReader& root, const Scene& scene) {

@@ -19,8 +19,9 @@ inline constexpr int most_deputies = 200;
 /// six variables, extended precision.
 void require_relative_motion(const TableReader& table, const Scene& scene);
 
-/// The keys of read_relative_state.
+/// The keys of read_relative_state, and of read_arrival.
 std::vector<SceneKey> relative_state_keys();
+std::vector<SceneKey> arrival_keys();
 /// The keys of the frame of a table, with what holds where it names none.
 std::vector<SceneKey> relative_frame_keys(const Absence& frame);
 /// The keys of read_transfer_times, with what holds where a table has none of them.
@@ -40,10 +41,15 @@ RelativeFrame read_relative_frame(const TableReader& table, const TableReader& f
 /// The frame of one table; RTN if it has no key `frame`.
 RelativeFrame read_relative_frame_or_rtn(const TableReader& table);
 
-/// A deputy in the given frame: `position_m` and, optional, `velocity_m_s` in that frame, or its
-/// own orbit in the keys of [nominal], whose difference from the chief's is taken.
+/// A deputy at the start, in the given frame: `position_m` and, optional, `velocity_m_s` in that
+/// frame; numbers of another form (components_of); or its own orbit in the keys of [nominal], whose
+/// difference from the chief's is taken.
 RelativeState read_relative_state(const TableReader& table, const Nominal& nominal,
                                   RelativeFrame frame);
+
+/// A deputy at its arrival, `position_m` and, optional, `velocity_m_s` in the frame of the table:
+/// other forms would need the chief's orbit of that time.
+RelativeState read_arrival(const TableReader& table, const Nominal& nominal);
 
 /// The start of the scene's deputy in the frame of another table.
 RelativeState in_other_frame(const TableReader& table, const Nominal& nominal,

@@ -47,7 +47,7 @@ FramedTable read_end(const TableReader& fallback, std::string_view key, const No
   const bool is_named = names_frame(end) || names_frame(fallback);
   const RelativeFrame frame =
       deputy && !is_named ? deputy->frame : read_relative_frame(end, fallback);
-  state = read_relative_state(end, nominal, frame);
+  state = key == "start" ? read_relative_state(end, nominal, frame) : read_arrival(end, nominal);
   return {end, frame, (end.has("frame") ? end : fallback).head("frame")};
 }
 
@@ -92,9 +92,16 @@ double read_singular_margin(const TableReader& transfer, const Nominal& nominal)
   return margin;
 }
 
-const TableDescription& end_table() {
+const TableDescription& start_table() {
   static const TableDescription table = {joined<SceneKey>(
       {relative_frame_keys(absent::other("of `[transfer]`")), relative_state_keys()})};
+  return table;
+}
+
+const TableDescription& end_table() {
+  static const TableDescription table = {
+      joined<SceneKey>({relative_frame_keys(absent::other("of `[transfer]`")), arrival_keys()}),
+      "At the arrival, relative to where the chief is then."};
   return table;
 }
 
@@ -106,7 +113,8 @@ const TableDescription& transfer_table() {
   const auto margin = form::words("number from 0", form::number());
   static const TableDescription table = {joined<SceneKey>(
       {relative_frame_keys(absent::other("required, or of `start` and `end`, or of `[deputy]`")),
-       {{"start", form::table(end_table()), absent::other("`[deputy]`; none beside `[assignment]`"),
+       {{"start", form::table(start_table()),
+         absent::other("`[deputy]`; none beside `[assignment]`"),
          "velocity before the first impulse"},
         {"end", form::table(end_table()), end, "velocity after the second impulse"}},
        transfer_time_keys(absent::other("another of these four")),

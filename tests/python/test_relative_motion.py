@@ -63,6 +63,25 @@ def test_relative_states_are_those_of_eval(tmp_path, frame, derivatives, degree)
         found.states[0] = 0
 
 
+@pytest.mark.parametrize("frame, to", [("curvilinear", "RTN"), ("RTN", "relative-elements"),
+                                       ("element-differences", None)])
+def test_other_forms_of_relative_states_are_those_of_eval(tmp_path, frame, to):
+    result = hamjet.run(ORBIT)
+    jet = result.runs["gauss8"].jet
+    result.write(tmp_path / "out")
+    scale = {"element-differences": [100, 1e-3, 1e-3, 1e-5, 1e-5, 1e-3]}.get(
+        frame, [100] * 3 + [0.1] * 3)
+    states = np.random.default_rng(5).uniform(-1, 1, (6, 6)) * scale
+    found = jet.evaluate_relative(states, frame=frame, to=to)
+    for row, state in zip(found.states, states):
+        printed = command("eval", tmp_path / "out", "--deviation",
+                          ",".join(map(repr, map(float, state))), "--frame", frame,
+                          *(["--to", to] if to else []), "-q", directory=tmp_path)
+        expected = columns(printed.stdout)
+        assert found.columns == tuple(expected)[:6]
+        assert [float(expected[name][0]) for name in found.columns] == list(row)
+
+
 def test_frames_that_do_not_fit_are_refused(jet):
     oscillator = hamjet.run(OSCILLATOR).runs["gauss8"].jet
     momenta = hamjet.run(ORBIT, overrides={"jet.variables": ["px", "py", "pz"]}).runs["gauss8"].jet

@@ -150,13 +150,51 @@ TEST(SceneDeputy, ATransferStartsFromIt) {
   expect_near(inertial.transfer->start.velocity_m_s, {1, 2, 0.5}, 1e-10);
 }
 
-TEST(SceneDeputy, EndsOfATransferAndDeputiesOfAnAssignmentHaveOrbitsToo) {
+TEST(SceneDeputy, StartsHaveOrbitsAndEndsAreRelative) {
   const std::string transfer = "[transfer]\nframe = \"RTN\"\ntimes_s = 16\n";
-  const Scene scene = scene_of(
-      transfer + "[transfer.start]\nposition_m = [0, 1, 0]\n" + "[transfer.end]\n" + beside +
-      "[[assignment.deputy]]\nposition_m = [0, 1, 0]\n" + "[[assignment.slot]]\n" + beside);
-  expect_near(scene.transfer->end.velocity_m_s, {1.375, 1.5, 0.5}, 1e-10);
-  expect_near(scene.assignment->slots[0].velocity_m_s, {1.375, 1.5, 0.5}, 1e-10);
+  const std::string relative = "position_m = [0, 1, 0]\n";
+  const auto tables = [&](const std::string& end, const std::string& slot) {
+    return transfer + "[transfer.start]\n" + beside + "[transfer.end]\n" + end +
+           "[[assignment.deputy]]\n" + beside + "[[assignment.slot]]\n" + slot;
+  };
+  const Scene scene = scene_of(tables(relative, relative));
+  expect_near(scene.transfer->start.velocity_m_s, {1.375, 1.5, 0.5}, 1e-10);
+  expect_near(scene.assignment->deputies[0].velocity_m_s, {1.375, 1.5, 0.5}, 1e-10);
+  // At arrival the chief is elsewhere, and an orbit of the start would say nothing of it.
+  expect_scene_error(circle + tables(beside, relative), {"transfer.end.position_km: unknown key"});
+  expect_scene_error(circle + tables(relative, beside),
+                     {"assignment.slot.0.position_km: unknown key"});
+}
+
+// On the chief's own circle, 1/1000 of a radian ahead, the deputy rests in the turning axes; in
+// each form one number says it. The orbit is tilted, for without a node there are no elements.
+TEST(SceneDeputy, OtherFormsOfOnePlaceOnTheCircle) {
+  const std::string tilted = changed(circle, "[0, 0.5, 0]", "[0, 0.3, 0.4]");
+  for (const char* form : {"arc_m = 4", "a_dlambda_m = 4", "dtheta_deg = 0.057295779513082321"}) {
+    for (const std::string table : {"[deputy]\n",
+                                    "[transfer]\ntimes_s = 16\nframe = \"RTN\"\n"
+                                    "end.position_m = [0, 0, 1]\n[transfer.start]\n"}) {
+      const Scene scene = parse_scene(tilted + table + form + "\n", "file.toml");
+      const RelativeState& start = scene.deputy ? scene.deputy->start : scene.transfer->start;
+      const double angle = 1e-3;
+      expect_near(start.position_m, {4000 * (std::cos(angle) - 1), 4000 * std::sin(angle), 0},
+                  1e-11);
+      expect_near(start.velocity_m_s, {0, 0, 0}, 1e-12);
+    }
+  }
+}
+
+TEST(SceneDeputy, ErrorsOfOtherForms) {
+  const std::string tilted = changed(circle, "[0, 0.5, 0]", "[0, 0.3, 0.4]") + "[deputy]\n";
+  expect_scene_error(tilted + "arc_m = 4\na_da_m = 1\n",
+                     {"deputy.a_da_m: two forms of a deputy, got arc_m and a_da_m"});
+  expect_scene_error(tilted + "position_m = [1, 0, 0]\narc_m = 4\n", {"two forms of a deputy"});
+  expect_scene_error(tilted + "da_m = -5000\n",
+                     {"deputy.da_m: no state of a deputy, got element-differences of -5000",
+                      "the orbit is no ellipse"});
+  expect_scene_error(std::string(circle) + "[deputy]\na_da_m = 1\n",
+                     {"deputy.a_da_m: no state of a deputy", "equatorial plane and has no node"});
+  expect_scene_error(tilted + "arc_m = 9000\n", {"deputy: too far from its chief"});
 }
 
 TEST(SceneDeputy, Errors) {

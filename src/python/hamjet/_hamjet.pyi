@@ -60,6 +60,7 @@ class Jet:
     def evaluate(self, deviations: npt.ArrayLike, *, out: _Floats | None = None,
                  degree: int | None = None) -> _Floats: ...
     def evaluate_relative(self, states: npt.ArrayLike, *, frame: str = "RTN",
+                          to: str | None = None,
                           derivatives: str | None = None,
                           degree: int | None = None,
                           strict: bool = False) -> RelativeStates: ...

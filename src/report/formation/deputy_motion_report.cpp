@@ -10,6 +10,7 @@
 #include "../../text/html_text.hpp"
 #include "../../text/terminal_text.hpp"
 #include "../../text/time_axis.hpp"
+#include "../drawing/along_time_charts.hpp"
 #include "../drawing/report_page.hpp"
 #include "transfer_charts.hpp"
 #include "transfer_json.hpp"
@@ -88,9 +89,9 @@ std::string page(const DeputyMotion& motion, const ReportOrigin& origin, ChartDr
   ReportPage page;
   page.title = motion.scene.title + ": motion of the deputy";
   page.verdict = deputy_motion_verdict(motion);
-  std::vector<Chart> paths = relative_trajectory_charts(motion.flown);
+  std::vector<Chart> paths = relative_trajectory_charts(motion.flown, motion.scene.units.time_s);
   for (Chart& chart : paths) fit(chart);
-  page.first_figure = figure_html(paths.front(), drawer);
+  page.first_figure = panels_html(paths, drawer);
   page.facts =
       origin_facts_html(origin) +
       fact_html("Scene", fmt::format("{}, order {}", motion.scene.name, motion.scene.order)) +
@@ -98,12 +99,9 @@ std::string page(const DeputyMotion& motion, const ReportOrigin& origin, ChartDr
       fact_html("Times", std::to_string(motion.points.size())) +
       fact_html("Flight floor", length_text(motion.flight_floor_m)) +
       fact_html("Time", duration_text(motion.propagation_seconds) + " for the jets");
-  page.sections = "<section>\n<h2>The other planes</h2>\n";
-  for (std::size_t i = 1; i < paths.size(); ++i) page.sections += figure_html(paths[i], drawer);
-  page.sections += "</section>\n";
   Chart errors = deputy_motion_error_chart(motion);
   fit(errors);
-  page.sections += section_html(errors, drawer);
+  page.sections = section_html(errors, drawer);
   return page_html(page, drawer);
 }
 
@@ -205,12 +203,13 @@ Chart deputy_motion_error_chart(const DeputyMotion& motion) {
   chart.name = "motion-error";
   chart.title = "Errors of the polynomials along time";
   chart.x.label = fmt::format("time ({})", axis.name);
+  add_revolutions(motion.scene, axis.seconds, chart.x);
   chart.y = logarithmic_axis("position error", AxisUnit::metres);
-  chart.y.smallest = motion.flight_floor_m;
+  chart.y.floor = motion.flight_floor_m;
+  chart.y.floor_name = "the rounding of the flights";
   chart.reading = fmt::format(
       "The distance between where the polynomial of each order has the deputy and where it flew "
-      "to, both relative to the chief. Flights are right to {}; what is below that is drawn at the "
-      "lower limit.",
+      "to, both relative to the chief. Flights are right to {}; an error below that says nothing.",
       length_text(motion.flight_floor_m));
   for (int order = 1; order <= motion.scene.order; ++order) {
     ChartCurve curve;

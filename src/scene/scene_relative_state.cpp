@@ -1,0 +1,231 @@
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "../formats/relative_frame_text.hpp"
+#include "../text/scene_message.hpp"
+#include "hamjet/error.hpp"
+#include "hamjet/formats/orbit_message.hpp"
+#include "hamjet/relative_motion/deputy_coordinates.hpp"
+#include "scene_orbit.hpp"
+#include "scene_relative_motion.hpp"
+
+namespace hamjet::io {
+namespace {
+
+/// A deputy as far from its chief as the centre of attraction is, or as fast as the orbit itself,
+/// is beyond every expansion.
+Eigen::Vector3d read_vector(const TableReader& table, std::string_view key, double limit,
+                            std::string_view what) {
+  const std::vector<double> numbers = table.numbers(key, 3);
+  const Eigen::Vector3d vector(numbers[0], numbers[1], numbers[2]);
+  if (!(vector.stableNorm() < limit)) {
+    table.fail(key, fmt::format("too large, got a magnitude of {:.4g}, must be below {:.4g}, {}",
+                                vector.stableNorm(), limit, what));
+  }
+  return vector;
+}
+
+MetricUnits metric_units(const Nominal& nominal) {
+  const CanonicalUnits units = canonical_units(nominal.scale);
+  return {units.length_km * 1000, units.time_s};
+}
+
+double distance_of(const Nominal& nominal) { return Eigen::Vector3d(nominal.state.data()).norm(); }
+
+/// Of a circular orbit through the chief, canonical: mu = 1.
+double circular_speed_of(const Nominal& nominal) { return 1 / std::sqrt(distance_of(nominal)); }
+
+/// The axes at the chief; says about the table why there are none.
+ChiefFrame frame_at_chief(const TableReader& table, const Nominal& nominal, RelativeFrame frame) {
+  try {
+    return {nominal.state, metric_units(nominal), frame};
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::numerical) throw;
+    table.fail("frame", fmt::format("not defined at this chief, got {}, must be \"inertial\": {}",
+                                    frame_text(frame), error.what()));
+  }
+}
+
+/// Refuses a message whose state is not of the chief's moment, or is in other axes.
+void require_same_date(const TableReader& table, const Nominal& nominal,
+                       const EphemerisSettings& message) {
+  const std::string_view file = table.exactly_one_of({"oem_file", "opm_file"});
+  if (!nominal.ephemeris) {
+    table.fail(file,
+               fmt::format("a dated state beside a chief without a date, got {} {}, must have "
+                           "a table [ephemeris] that says the chief's epoch, or a chief from "
+                           "a message",
+                           message.epoch, message.time_system));
+  }
+  const EphemerisSettings& chief = *nominal.ephemeris;
+  if (parse_epoch(message.epoch) != parse_epoch(chief.epoch) ||
+      message.time_system != chief.time_system) {
+    table.fail(table.has("epoch") ? "epoch" : file,
+               fmt::format("a state of another moment than the chief's, got {} {}, must be {} {}",
+                           message.epoch, message.time_system, chief.epoch, chief.time_system));
+  }
+  if (message.reference_frame != chief.reference_frame ||
+      message.reference_frame_epoch != chief.reference_frame_epoch) {
+    table.fail(file, fmt::format("a state in other axes than the chief's, got {}{}, must be {}{}",
+                                 message.reference_frame, message.reference_frame_epoch,
+                                 chief.reference_frame, chief.reference_frame_epoch));
+  }
+}
+
+/// Refuses a deputy, given by its canonical deviation, that is beyond every expansion.
+void require_near(const TableReader& table, const Nominal& nominal,
+                  std::span<const double> deviation) {
+  const double separation = Eigen::Vector3d(deviation.data()).stableNorm();
+  if (!(separation < distance_of(nominal))) {
+    const double unit_km = canonical_units(nominal.scale).length_km;
+    table.fail("", fmt::format("too far from its chief, got {:.6g} km between the two, must be "
+                               "below {:.6g} km, the chief's distance from the centre",
+                               separation * unit_km, distance_of(nominal) * unit_km));
+  }
+  const double speed = Eigen::Vector3d(deviation.data() + 3).stableNorm();
+  if (!(speed < circular_speed_of(nominal))) {
+    const double unit_km_s = metric_units(nominal).velocity_m_s() / 1000;
+    table.fail("", fmt::format("too fast beside its chief, got {:.6g} km/s between the two, must "
+                               "be below {:.6g} km/s, the speed of a circular orbit through the "
+                               "chief",
+                               speed * unit_km_s, circular_speed_of(nominal) * unit_km_s));
+  }
+}
+
+/// The relative state of a deputy that is given by its own orbit: the difference of the two
+/// inertial states, neither of which has been rounded before.
+RelativeState read_own_orbit(const TableReader& table, const Nominal& nominal,
+                             RelativeFrame frame) {
+  const Orbit deputy = read_orbit(table, nominal.centre);
+  if (deputy.file) require_same_date(table, nominal, deputy.file->ephemeris);
+  const CanonicalScale& scale = nominal.scale;
+  std::vector<double> deviation;
+  for (std::size_t i = 0; i < 3; ++i) {
+    deviation.push_back(convert<double>(
+        (deputy.state.position_km[i] - nominal.orbit->position_km[i]) / scale.length_km));
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    deviation.push_back(
+        convert<double>((deputy.state.velocity_km_s[i] - nominal.orbit->velocity_km_s[i]) *
+                        scale.time_s / scale.length_km));
+  }
+  require_near(table, nominal, deviation);
+  return frame_at_chief(table, nominal, frame).relative(deviation);
+}
+
+/// The relative state of a deputy whose table has numbers of this form; those left out are 0.
+RelativeState read_in_form(const TableReader& table, const Nominal& nominal, RelativeFrame frame,
+                           DeputyForm form) {
+  std::array<double, 6> numbers{};
+  std::string_view first;
+  for (std::size_t i = 0; i < 6; ++i) {
+    const std::string_view key = components_of(form)[i].name;
+    if (!table.has(key)) continue;
+    if (first.empty()) first = key;
+    numbers[i] = table.number(key);
+  }
+  std::array<double, 6> deviation{};
+  try {
+    // In canonical units of an orbit mu is 1.
+    deviation = DeputyCoordinates(nominal.state, metric_units(nominal), 1, form).deviation(numbers);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::numerical) throw;
+    table.fail(first, fmt::format("no state of a deputy, got {} of {}, must be numbers of an "
+                                  "orbit, or another form: {}",
+                                  name_of(form), fmt::join(numbers, ", "), error.what()));
+  }
+  require_near(table, nominal, deviation);
+  return frame_at_chief(table, nominal, frame).relative(deviation);
+}
+
+/// The first key of a form that the table has.
+std::optional<std::string_view> key_of_form(const TableReader& table, DeputyForm form) {
+  for (const DeputyComponent& component : components_of(form)) {
+    if (table.has(component.name)) return component.name;
+  }
+  return std::nullopt;
+}
+
+/// A state relative to the chief, along the axes of the frame.
+RelativeState read_along_axes(const TableReader& table, const Nominal& nominal) {
+  const MetricUnits units = metric_units(nominal);
+  RelativeState state;
+  state.position_m = read_vector(table, "position_m", distance_of(nominal) * units.length_m,
+                                 "the chief's distance from the centre");
+  if (table.has("velocity_m_s")) {
+    state.velocity_m_s =
+        read_vector(table, "velocity_m_s", circular_speed_of(nominal) * units.velocity_m_s(),
+                    "the speed of a circular orbit through the chief");
+  }
+  return state;
+}
+
+}  // namespace
+
+std::vector<SceneKey> arrival_keys() {
+  return {{"position_m", form::array(form::number(), 3), absent::refused(),
+           "relative to the chief, along the axes of the frame; below its distance from the "
+           "centre"},
+          {"velocity_m_s", form::array(form::number(), 3), absent::other("0, at rest in the frame"),
+           "below the speed of a circular orbit through the chief"}};
+}
+
+std::vector<SceneKey> relative_state_keys() {
+  std::vector<SceneKey> keys = arrival_keys();
+  keys[0].absence = absent::other("another form of the deputy");
+  for (const DeputyForm form : nonlinear_forms) {
+    for (const DeputyComponent& component : components_of(form)) {
+      keys.push_back({component.name, form::number(),
+                      absent::other("0, or another form of the deputy"), component.help});
+    }
+  }
+  return joined<SceneKey>({keys, orbit_keys()});
+}
+
+RelativeState read_relative_state(const TableReader& table, const Nominal& nominal,
+                                  RelativeFrame frame) {
+  struct Given {
+    std::string_view key;
+    std::optional<DeputyForm> form;
+    bool is_own_orbit = false;
+  };
+  std::vector<Given> given;
+  if (const auto own = orbit_key_of(table)) given.push_back({*own, {}, true});
+  for (const DeputyForm form : nonlinear_forms) {
+    if (const auto key = key_of_form(table, form)) given.push_back({*key, form});
+  }
+  for (const std::string_view key : {"position_m", "velocity_m_s"}) {
+    if (table.has(key)) given.push_back({key, {}});
+  }
+  if (given.empty() || (!given[0].is_own_orbit && !given[0].form)) {
+    return read_along_axes(table, nominal);
+  }
+  if (given.size() > 1) {
+    table.fail(given[1].key,
+               fmt::format("two forms of a deputy, got {} and {}, must be one of: its state "
+                           "relative to the chief, {}, {}, {}, or its own orbit",
+                           given[0].key, given[1].key, name_of(nonlinear_forms[0]),
+                           name_of(nonlinear_forms[1]), name_of(nonlinear_forms[2])));
+  }
+  return given[0].is_own_orbit ? read_own_orbit(table, nominal, frame)
+                               : read_in_form(table, nominal, frame, *given[0].form);
+}
+
+RelativeState read_arrival(const TableReader& table, const Nominal& nominal) {
+  return read_along_axes(table, nominal);
+}
+
+RelativeState in_other_frame(const TableReader& table, const Nominal& nominal,
+                             const DeputySettings& deputy, RelativeFrame frame) {
+  if (deputy.frame == frame) return deputy.start;
+  return frame_at_chief(table, nominal, frame)
+      .relative(frame_at_chief(table, nominal, deputy.frame).deviation(deputy.start));
+}
+
+}  // namespace hamjet::io
