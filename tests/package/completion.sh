@@ -57,7 +57,7 @@ expect 'pdf' hamjet compare orbit.toml --plots = pd
 expect 'integrators keys kinds systems' hamjet list ''
 expect 'geo gto leo molniya pair' hamjet init ''
 expect "$commands" hamjet help ''
-expect 'RTN canonical inertial' hamjet eval out/scene --frame ''
+expect 'RTN canonical curvilinear element-differences inertial relative-elements' hamjet eval out/scene --frame ''
 # Runs of a folder of results that have a jet.
 expect 'gauss8 midpoint' hamjet eval out/scene --run ''
 expect 'gauss8' hamjet transfer orbit.toml --jet out/scene/ --run g

@@ -80,7 +80,7 @@ expect 'pdf png' 'hamjet compare orbit.toml --plots '
 expect 'pdf png' 'hamjet compare orbit.toml --plots='
 expect 'integrators keys kinds systems' 'hamjet list '
 expect 'geo gto leo molniya pair' 'hamjet init '
-expect 'RTN canonical inertial' 'hamjet eval out/scene --frame '
+expect 'RTN canonical curvilinear element-differences inertial relative-elements' 'hamjet eval out/scene --frame '
 expect 'gauss8 midpoint' 'hamjet eval out/scene --run '
 expect 'gauss8' 'hamjet transfer orbit.toml --jet out/scene/ --run g'
 zpty -d shell

@@ -161,8 +161,10 @@ TEST(SceneDeputy, StartsHaveOrbitsAndEndsAreRelative) {
   expect_near(scene.transfer->start.velocity_m_s, {1.375, 1.5, 0.5}, 1e-10);
   expect_near(scene.assignment->deputies[0].velocity_m_s, {1.375, 1.5, 0.5}, 1e-10);
   // At arrival the chief is elsewhere, and an orbit of the start would say nothing of it.
-  expect_scene_error(circle + tables(beside, relative), {"transfer.end.position_km: unknown key"});
-  expect_scene_error(circle + tables(relative, beside),
+  const std::string orbit_key = "position_km = [4.004, 0.003, -0.002]\n";
+  expect_scene_error(circle + tables(orbit_key, relative),
+                     {"transfer.end.position_km: unknown key"});
+  expect_scene_error(circle + tables(relative, orbit_key),
                      {"assignment.slot.0.position_km: unknown key"});
 }
 
@@ -202,8 +204,8 @@ TEST(SceneDeputy, Errors) {
     expect_scene_error(std::string(circle) + "[deputy]\n" + deputy, words);
   };
   refused(std::string(beside) + "position_m = [1, 0, 0]\n",
-          {"file.toml:12:14: deputy.position_m: both forms of a deputy, got position_km and "
-           "position_m, must be either"});
+          {"file.toml:12:14: deputy.position_m: two forms of a deputy, got position_km and "
+           "position_m, must be one of"});
   refused("position_km = [4, 0, 0]\n", {"deputy.velocity_km_s: missing"});
   refused(std::string(beside) + "a_km = 1\n", {"deputy.a_km: both forms of an orbit"});
   refused("frame = \"RTN\"\n", {"deputy.position_m: missing"});

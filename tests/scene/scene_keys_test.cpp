@@ -6,6 +6,7 @@
 #include <set>
 #include <sstream>
 
+#include "hamjet/relative_motion/deputy_coordinates.hpp"
 #include "scene/study_reader.hpp"
 #include "scene/tables/key_reference.hpp"
 #include "scene/tables/table_description.hpp"
@@ -99,7 +100,7 @@ const std::map<std::string, Place>& special_places() {
   static const Override states = {"deputy",
                                   "{position_km=[0, -1000, 7000], velocity_km_s=[-7.5, 0, 0]}"};
   static const Override of_message = {"deputy", "{opm_file=\"eutelsat-w4.opm\"}"};
-  static const std::map<std::string, Place> places = {
+  static const std::map<std::string, Place> listed = {
       {"system.gravity_file", {"", {field, highest}, "\"../gravity/EGM96-zonals.gfc\""}},
       {"system.highest_zonal", {"", {field}}},
       {"system.zonals", {"", {field}}},
@@ -175,6 +176,19 @@ const std::map<std::string, Place>& special_places() {
       {"optimal_control.end", {"", {}, "[2]"}},
       {"optimal_control.free_end", {"", {}, "[\"position\"]"}},
       {"optimal_control.costate_guess", {"", {}, "[1, 1]"}}};
+  // The forms of a deputy have six keys each, of which one that is left out is 0.
+  static const std::map<std::string, Place> places = [] {
+    std::map<std::string, Place> all = listed;
+    for (const DeputyForm form : nonlinear_forms) {
+      const auto& components = components_of(form);
+      for (const DeputyComponent& component : components) {
+        const auto& other = component.name == components[0].name ? components[1] : components[0];
+        const Override rest = {"deputy", fmt::format("{{{} = 20}}", other.name)};
+        all[fmt::format("deputy.{}", component.name)] = {"", {no_deputy, rest}, "0.01"};
+      }
+    }
+    return all;
+  }();
   return places;
 }
 
@@ -334,10 +348,10 @@ void check_keys(const TableDescription& table, const std::string& path,
                 std::set<const TableDescription*>& checked) {
   for (const SceneKey& key : table.keys) {
     EXPECT_FALSE(key.help.empty() && key.owners.empty()) << path << ": " << key.name;
-    // The orbits of ends and slots are read as that of [deputy] is.
-    const bool is_of_another_orbit =
-        nominal_table().find(key.name) != nullptr && key.name != "position_m" && key.owners.empty();
-    if (is_of_another_orbit && path != "deputy") continue;
+    // The other deputies are read as [deputy] is.
+    const bool is_of_deputy = special_places().contains(fmt::format("deputy.{}", key.name));
+    const bool is_of_nominal = path == "nominal" || !key.owners.empty();
+    if (is_of_deputy && !is_of_nominal && path != "deputy") continue;
     if (key.form.table != nullptr) {
       // Other commands than `stability` do not look into this one.
       if (key.name == "case" || !checked.insert(key.form.table).second) continue;

@@ -210,7 +210,7 @@ TEST(SceneTransfer, Errors) {
        {"[0.5, 0, -1]", "[0, 500, 0]", {"velocity_m_s: too large", "below 500"}},
        {"velocity_m_s",
         "velocity_km_s",
-        {"start.position_m: both forms of a deputy, got velocity_km_s and position_m"}},
+        {"start.position_m: two forms of a deputy, got velocity_km_s and position_m"}},
        {"[transfer.end]\nposition_m = [0, 0, 4]\n", "", {"transfer.end: missing, must be a table"}},
        {"[transfer.start]\nposition_m = [1, 2, 3]\nvelocity_m_s = [0.5, 0, -1]\n",
         "",

@@ -166,8 +166,9 @@ std::string orbit_text(const OrbitSummary& orbit) {
   }
   if (orbit.perturbation_km) {
     text += fmt::format(
-        "\n               on the Kepler orbit of the start; J2 moves heights by several times\n"
-        "               J2 R^2/a = {:.2g} km, which only a run follows",
+        " on the Kepler orbit of the start; J2 moves heights by several times J2 R^2/a = {:.2g} "
+        "km, "
+        "which only a run follows",
         *orbit.perturbation_km);
   }
   return text + "\n";
