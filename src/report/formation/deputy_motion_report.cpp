@@ -91,7 +91,9 @@ std::string page(const DeputyMotion& motion, const ReportOrigin& origin, ChartDr
   page.verdict = deputy_motion_verdict(motion);
   std::vector<Chart> paths = relative_trajectory_charts(motion.flown, motion.scene.units.time_s);
   for (Chart& chart : paths) fit(chart);
-  page.first_figure = panels_html(paths, drawer);
+  Chart errors = deputy_motion_error_chart(motion);
+  fit(errors);
+  page.first_figure = figure_html(errors, drawer);
   page.facts =
       origin_facts_html(origin) +
       fact_html("Scene", fmt::format("{}, order {}", motion.scene.name, motion.scene.order)) +
@@ -99,9 +101,8 @@ std::string page(const DeputyMotion& motion, const ReportOrigin& origin, ChartDr
       fact_html("Times", std::to_string(motion.points.size())) +
       fact_html("Flight floor", length_text(motion.flight_floor_m)) +
       fact_html("Time", duration_text(motion.propagation_seconds) + " for the jets");
-  Chart errors = deputy_motion_error_chart(motion);
-  fit(errors);
-  page.sections = section_html(errors, drawer);
+  page.sections =
+      "<section>\n<h2>Relative trajectory</h2>\n" + panels_html(paths, drawer) + "</section>\n";
   return page_html(page, drawer);
 }
 
