@@ -35,7 +35,7 @@ std::string colour_commands(const std::string& label, double least, double most,
                         least + 1, least, least);
   }
   return text +
-         fmt::format("set cblabel {} noenhanced\nset format cb '%g'\n", gnuplot_literal(label));
+         fmt::format("set cblabel {} noenhanced offset 1.5,0\nset format cb '%g'\n", gnuplot_literal(label));
 }
 
 std::string map_commands(const ChartMap& map) {
