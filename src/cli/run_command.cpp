@@ -149,8 +149,8 @@ void check_flow_jet(const RunOptions& options, const std::string& file, const Sc
                         scene.validity->times.back() * scene.units.time_s, scene.validity->samples);
   }
   if (scene.assignment) {
-    text += fmt::format("  assignment   {0} deputies to {0} slots\n",
-                        scene.assignment->deputies.size());
+    text += fmt::format("  assignment   {} deputies to {} slots\n",
+                        scene.assignment->deputies.size(), scene.assignment->slots.size());
   }
   text += fmt::format("  inversions   {}\n  reference    {}\n",
                       scene.kinds ? fmt::format("{} kinds", scene.kinds->size()) : "none",

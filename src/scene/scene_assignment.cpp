@@ -48,7 +48,7 @@ const TableDescription& assignment_table() {
         "each pair its best transfer time, or one time for all"},
        {"deputy", tables(assigned_deputy_table()), absent::refused(), "where the deputies start"},
        {"slot", tables(slot_table()), absent::refused(),
-        "where they may end, as many as deputies"}},
+        "where they may end; of deputies and slots the fewer all find one"}},
       "Transfer times and frame are those of `[transfer]`."};
   return table;
 }
@@ -70,12 +70,6 @@ AssignmentSettings read_assignment(const TableReader& assignment, const Scene& s
       });
   settings.slots = read_states(assignment, "slot", slot_table(),
                                [&](const auto& table) { return read_arrival(table, nominal); });
-  if (settings.deputies.size() != settings.slots.size()) {
-    assignment.fail("slot",
-                    fmt::format("as many slots as deputies are needed, got {} deputies and {} "
-                                "slots, must be the same number",
-                                settings.deputies.size(), settings.slots.size()));
-  }
   return settings;
 }
 

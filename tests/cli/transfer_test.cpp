@@ -290,8 +290,19 @@ TEST_F(TransferCommand, DeputiesGoToTheSlotsThatCostLeast) {
 TEST_F(TransferCommand, DeputiesAndSlotsOfDifferentNumber) {
   write("uneven.toml",
         circle + changed(assignment, "[[assignment.slot]]\nposition_m = [0, -900, 0]\n", ""));
-  expect_error({"assign", "uneven.toml"}, 3,
-               {"uneven.toml:", "assignment.slot: ", "got 2 deputies and 1 slots"});
+  const CommandResult said = succeed({"assign", "uneven.toml"});
+  const Json summary = read_json(directory_ / "out/uneven-assign/summary.json");
+  ASSERT_EQ(summary["transfers"].size(), 1U);
+  const std::size_t sent = summary["transfers"][0]["deputy"];
+  EXPECT_EQ(summary["deputies_without_slot"], Json({1 - sent}));
+  EXPECT_EQ(summary["slots_without_deputy"], Json::array());
+  EXPECT_NE(said.out.find(fmt::format("deputies without a slot: {}\n", 1 - sent)),
+            std::string::npos)
+      << said.out;
+  // The one that is sent is the cheaper one.
+  const Table costs = read_table(directory_ / "out/uneven-assign/costs.csv");
+  ASSERT_EQ(costs.rows.size(), 2U);
+  EXPECT_LE(std::stod(costs.rows[sent].back()), std::stod(costs.rows[1 - sent].back()));
 }
 
 }  // namespace

@@ -29,19 +29,24 @@ struct AssignmentResult {
   std::vector<std::vector<AssignmentCost>> costs;  ///< [deputy][slot], each at its best time (or at
                                                    ///< the common one)
   std::optional<std::size_t> common_time;          ///< index, where the scene asks for one
-  std::vector<AssignedTransfer> transfers;         ///< in the order of the deputies
+  std::vector<AssignedTransfer> transfers;         ///< in the order of the deputies that have one
   double total_change_m_s = 0;
   double flight_floor_m = 0;
   double study_seconds = 0;
   double proof_seconds = 0;
-  std::string failure;  ///< not empty: no assignment gives every deputy a slot, and why
+  std::string
+      failure;  ///< not empty: there are not as many transfers as deputies or slots, and why
 };
 
 /// The study of table `[assignment]`: a matrix of velocity changes from the generating functions of
-/// `[transfer]`'s times, and the assignment of least total (a flow of least cost; Boost Graph).
-/// Only transfers away from singularities count; those chosen are proved by flying. Throws as
-/// study_transfer.
+/// `[transfer]`'s times, and the assignment of least total (a flow of least cost; Boost Graph), of
+/// as many pairs as there are of the fewer, deputies or slots. Only transfers away from
+/// singularities count; those chosen are proved by flying. Throws as study_transfer.
 AssignmentResult study_assignment(const Scene& scene, const ProgressCallback& progress = {});
+
+/// Those of `count` deputies, or slots, that no transfer has.
+std::vector<std::size_t> left_out(const std::vector<AssignedTransfer>& transfers, std::size_t count,
+                                  std::size_t AssignedTransfer::*which);
 
 /// Exit code: 0; 1 if the scene is strict and a chosen transfer is beyond its tolerance or could
 /// not be refined; 4 if there is no assignment, or a chosen transfer has no answer.

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "../../formats/relative_frame_text.hpp"
 #include "../../store/json_values.hpp"
@@ -32,6 +33,20 @@ std::string failure_line(const AssignmentResult& result) {
                      length_text(result.scene.transfer->tolerance_m));
 }
 
+std::vector<std::size_t> deputies_left(const AssignmentResult& result) {
+  return left_out(result.transfers, result.scene.assignment->deputies.size(),
+                  &AssignedTransfer::deputy);
+}
+
+std::vector<std::size_t> slots_left(const AssignmentResult& result) {
+  return left_out(result.transfers, result.scene.assignment->slots.size(), &AssignedTransfer::slot);
+}
+
+/// The deputies or slots that an assignment of unequal numbers leaves out; empty without such.
+std::string left_line(std::string_view what, const std::vector<std::size_t>& left) {
+  return left.empty() ? "" : fmt::format("{}: {}\n", what, fmt::join(left, ", "));
+}
+
 std::string terminal_table(const AssignmentResult& result) {
   std::string text = fmt::format("{}\n{} deputies to {} slots, {} time\nframe {}, order {}\n",
                                  result.scene.title, result.scene.assignment->deputies.size(),
@@ -62,9 +77,11 @@ std::string terminal_table(const AssignmentResult& result) {
     }
   }
   if (!result.transfers.empty()) {
-    text +=
-        fmt::format("\n{}total: {}\n{}{}", aligned_table(rows),
-                    velocity_text(result.total_change_m_s), failures.empty() ? "" : "\n", failures);
+    text += fmt::format("\n{}total: {}\n{}{}{}{}", aligned_table(rows),
+                        velocity_text(result.total_change_m_s),
+                        left_line("deputies without a slot", deputies_left(result)),
+                        left_line("slots without a deputy", slots_left(result)),
+                        failures.empty() ? "" : "\n", failures);
   }
   return text;
 }
@@ -103,6 +120,8 @@ std::string summary(const AssignmentResult& result) {
   }
   json["transfers"] = transfers_json(result);
   json["total_change_m_s"] = is_assigned ? json_number(result.total_change_m_s) : Json(nullptr);
+  json["deputies_without_slot"] = is_assigned ? Json(deputies_left(result)) : Json(nullptr);
+  json["slots_without_deputy"] = is_assigned ? Json(slots_left(result)) : Json(nullptr);
   json["failure"] = text_or_null(result.failure);
   json["flight_floor_m"] = json_number(result.flight_floor_m);
   json["seconds"] = {{"study", result.study_seconds}, {"proof", result.proof_seconds}};

@@ -28,10 +28,11 @@ class AssignmentStudy {
     result_.scene = scene;
     // All pairs if they are few, else this many of them, evenly taken.
     constexpr std::size_t most_pairs = 64;
-    const std::size_t n = settings_.deputies.size();
-    const std::size_t stride = std::max<std::size_t>(1, n * n / most_pairs);
-    for (std::size_t k = 0; k < n * n; k += stride) {
-      typical_.push_back({settings_.deputies[k / n], settings_.slots[k % n]});
+    const std::size_t slots = settings_.slots.size();
+    const std::size_t pairs = settings_.deputies.size() * slots;
+    const std::size_t stride = std::max<std::size_t>(1, pairs / most_pairs);
+    for (std::size_t k = 0; k < pairs; k += stride) {
+      typical_.push_back({settings_.deputies[k / slots], settings_.slots[k % slots]});
     }
   }
 
@@ -92,7 +93,7 @@ class AssignmentStudy {
   }
 
   void choose() {
-    std::optional<std::vector<std::size_t>> slots;
+    std::optional<Assignment> slots;
     if (settings_.time == AssignmentTime::common) {
       slots = choose_common();
     } else {
@@ -101,23 +102,26 @@ class AssignmentStudy {
     }
     if (!slots) {
       result_.failure =
-          "no assignment gives every deputy a slot: at no transfer time away from singularities do "
-          "enough transfers have an answer";
+          "no assignment gives every deputy a slot, or every slot a deputy: at no transfer time "
+          "away "
+          "from singularities do enough transfers have an answer";
       return;
     }
     for (std::size_t i = 0; i < slots->size(); ++i) {
-      result_.transfers.push_back({i, (*slots)[i], {}});
+      if ((*slots)[i]) result_.transfers.push_back({i, *(*slots)[i], {}});
     }
   }
 
-  std::optional<std::vector<std::size_t>> choose_common() {
-    std::optional<std::vector<std::size_t>> best;
+  std::optional<Assignment> choose_common() {
+    std::optional<Assignment> best;
     double least = no_cost;
     for (std::size_t t = 0; t < costs_.size(); ++t) {
       const auto slots = least_assignment(costs_[t]);
       if (!slots) continue;
       double total = 0;
-      for (std::size_t i = 0; i < slots->size(); ++i) total += costs_[t][i][(*slots)[i]];
+      for (std::size_t i = 0; i < slots->size(); ++i) {
+        if ((*slots)[i]) total += costs_[t][i][*(*slots)[i]];
+      }
       if (!(total < least)) continue;
       least = total;
       best = slots;
@@ -190,10 +194,18 @@ class AssignmentStudy {
 AssignmentResult study_assignment(const Scene& scene, const ProgressCallback& progress) {
   require_formation_problem(scene, scene.assignment.has_value() && scene.transfer.has_value(),
                             "assignment");
-  if (scene.assignment->deputies.size() != scene.assignment->slots.size()) {
-    throw Error(ErrorKind::scene, "assignment: there must be as many slots as deputies");
-  }
   return AssignmentStudy(scene, progress).run();
+}
+
+std::vector<std::size_t> left_out(const std::vector<AssignedTransfer>& transfers, std::size_t count,
+                                  std::size_t AssignedTransfer::*which) {
+  std::vector<std::size_t> rest;
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool is_in = std::any_of(transfers.begin(), transfers.end(),
+                                   [&](const auto& transfer) { return transfer.*which == i; });
+    if (!is_in) rest.push_back(i);
+  }
+  return rest;
 }
 
 int exit_code(const AssignmentResult& result) {

@@ -35,10 +35,10 @@ void add_edges(Graph& graph, std::size_t from, std::size_t to, Weight weight) {
 
 }  // namespace
 
-std::optional<std::vector<std::size_t>> least_assignment(
-    const std::vector<std::vector<double>>& costs) {
+std::optional<Assignment> least_assignment(const std::vector<std::vector<double>>& costs) {
   constexpr double resolution = 1e9;
-  const std::size_t n = costs.size();
+  const std::size_t rows = costs.size();
+  const std::size_t columns = rows == 0 ? 0 : costs[0].size();
   double largest = 0;
   for (const auto& row : costs) {
     for (const double cost : row) {
@@ -47,31 +47,33 @@ std::optional<std::vector<std::size_t>> least_assignment(
   }
   const double scale = largest > 0 ? resolution / largest : 1;
   // Vertices: rows, columns, source, sink.
-  const std::size_t source = 2 * n;
-  const std::size_t sink = 2 * n + 1;
-  Graph graph(2 * n + 2);
-  for (std::size_t i = 0; i < n; ++i) {
+  const std::size_t source = rows + columns;
+  const std::size_t sink = source + 1;
+  Graph graph(sink + 1);
+  for (std::size_t j = 0; j < columns; ++j) add_edges(graph, rows + j, sink, 0);
+  for (std::size_t i = 0; i < rows; ++i) {
     add_edges(graph, source, i, 0);
-    add_edges(graph, n + i, sink, 0);
-    for (std::size_t j = 0; j < n; ++j) {
+    for (std::size_t j = 0; j < columns; ++j) {
       if (!std::isfinite(costs[i][j])) continue;
-      add_edges(graph, i, n + j, std::round(costs[i][j] * scale));
+      add_edges(graph, i, rows + j, std::round(costs[i][j] * scale));
     }
   }
   boost::successive_shortest_path_nonnegative_weights(graph, source, sink);
-  std::vector<std::size_t> columns(n, n);
+  Assignment assignment(rows);
+  std::size_t pairs = 0;
   const auto capacity = boost::get(boost::edge_capacity, graph);
   const auto residual = boost::get(boost::edge_residual_capacity, graph);
-  for (std::size_t i = 0; i < n; ++i) {
+  for (std::size_t i = 0; i < rows; ++i) {
     const auto [first, last] = boost::out_edges(i, graph);
     for (auto edge = first; edge != last; ++edge) {
       if (boost::get(capacity, *edge) == 1 && boost::get(residual, *edge) == 0) {
-        columns[i] = boost::target(*edge, graph) - n;
+        assignment[i] = boost::target(*edge, graph) - rows;
+        ++pairs;
       }
     }
-    if (columns[i] >= n) return std::nullopt;
   }
-  return columns;
+  if (pairs < std::min(rows, columns)) return std::nullopt;
+  return assignment;
 }
 
 }  // namespace hamjet
