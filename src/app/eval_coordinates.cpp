@@ -80,7 +80,8 @@ void EvalFrames::check() const {
   if (!derivatives) return;
   const std::string_view rtn = name_of(DeputyForm::rtn_rotating);
   if (frame != rtn && final_frame() != rtn) {
-    refuse(fmt::format("--derivatives: goes with --frame RTN alone, got --frame {}", frame));
+    refuse(fmt::format("--derivatives: goes with RTN alone, as --frame or --to, got --frame {}",
+                       frame));
   }
   if (*derivatives != "rotating" && *derivatives != "inertial") {
     refuse(

@@ -34,10 +34,10 @@ constexpr const char* from_arrays_doc =
 
 coefficients: (components, count), finite. exponents: (count, variables), of the initial deviations,
 each row once, in any order; a term that is not there is zero, and the row of zeros, which must be
-there, has the nominal's final state. nominal_initial: (2n,), the state (q, p) of all variables of the
-system. duration_canonical: of the flow. units: a Units. model: as in scenes, or "own" for a
-Hamiltonian that they do not have. variables, components: names of those that the jet is expanded in
-and has; by default all. scene, run: names for messages and files.
+there, has the nominal's final state. nominal_initial: (2n,), the state (q, p) of all variables of
+the system. duration_canonical: of the flow. units: a Units. model: as in scenes, or "own" for a
+Hamiltonian that they do not have. variables, components: names of those that the jet is expanded
+in and has; by default all. scene, run: names for messages and files.
 
 Whether it is the jet of a symplectic map is not required, but a RuntimeWarning says if it is not;
 `symplecticity` has every degree. Raises UsageError for shapes and numbers that do not fit.)";

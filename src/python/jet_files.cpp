@@ -23,9 +23,10 @@ namespace py = pybind11;
 constexpr const char* save_doc =
     R"(Writes the jet to a file, whole or not at all, as `hamjet convert` does.
 
-path: its ending is the format. A file .h5 (HDF5) holds everything, every digit of extended precision
-too. Files .csv and .dace hold the coefficients alone, .dace in double precision (a RuntimeWarning
-says so where digits are lost): `load` takes them beside the summary.json of their results.
+path: its ending is the format. A file .h5 (HDF5) holds everything, every digit of extended
+precision too. Files .csv and .dace hold the coefficients alone, .dace in double precision (a
+RuntimeWarning says so where digits are lost): `load` takes them beside the summary.json of their
+results.
 
 Raises UsageError for another ending, a file of results, or HDF5 in a build without it;
 InputOutputError if it cannot be written.)";
@@ -33,8 +34,8 @@ InputOutputError if it cannot be written.)";
 constexpr const char* load_doc =
     R"(Reads one jet, which `save`, `hamjet convert` or `hamjet run` has written, bit by bit.
 
-path: a file .h5; a file .csv or .dace beside the summary.json of its results or one folder below; or
-a directory of results. run: the label of the run; by default the first that has a result.
+path: a file .h5; a file .csv or .dace beside the summary.json of its results or one folder below;
+or a directory of results. run: the label of the run; by default the first that has a result.
 
 Raises UsageError if no run has this label, InputOutputError if the file is not what was written,
 and of these MissingFileError, a FileNotFoundError, if it is not there.)";

@@ -56,9 +56,9 @@ overflow, stay alone and give a RuntimeWarning. Other threads run meanwhile. Rai
 constexpr const char* jacobian_doc =
     R"(Derivatives of the final deviations by the initial ones, at initial ones; canonical.
 
-deviations: as of evaluate. Returns an array (N, components, variables), or (components, variables) of
-one: the state transition matrix about the trajectory that starts there. At zero it is linear_part. A
-call for many points prepares the derivatives once. Raises UsageError.)";
+deviations: as of evaluate. Returns an array (N, components, variables), or (components,
+variables) of one: the state transition matrix about the trajectory that starts there. At zero it
+is linear_part. A call for many points prepares the derivatives once. Raises UsageError.)";
 
 constexpr const char* evaluate_relative_doc =
     R"(Carries relative states through the jet of an orbit, as `hamjet eval` does.
@@ -66,13 +66,15 @@ constexpr const char* evaluate_relative_doc =
 states: (N, 6) or (6,), the deputy relative to the chief at the start: position in m and velocity in
 m/s along the axes of the frame, or six numbers of another form; columns of a data frame by name, as
 the columns of a file of `hamjet eval`. frame: "RTN" (radial, transverse, normal of the chief),
-"inertial", "curvilinear", "relative-elements" or "element-differences" (`hamjet eval --help` has the
-numbers of each). to: likewise, of the results; by default as frame. derivatives: of RTN, "rotating" (default: velocities as seen from the turning axes) or
-"inertial". degree: leaves out the terms above it. strict: raises NumericalError if a row is not
-inside the polynomial's reach; otherwise such rows give a RuntimeWarning.
+"inertial", "curvilinear", "relative-elements" or "element-differences" (`hamjet eval --help` has
+the numbers of each). to: likewise, of the results; by default as frame. derivatives: of RTN,
+"rotating" (default: velocities as seen from the turning axes) or "inertial". degree: leaves out
+the terms above it. strict: raises NumericalError if a row is not inside the polynomial's reach;
+otherwise such rows give a RuntimeWarning.
 
 Returns a RelativeStates: the states at the end of the duration, (N, 6), with an estimate of the
-miss of each; NaN where the final state has no elements. The conversions make it several times slower than evaluate. Raises UsageError.)";
+miss of each; NaN where the final state has no elements. The conversions make it several times
+slower than evaluate, and those of elements a thousand times. Raises UsageError.)";
 
 constexpr const char* compose_doc =
     R"(The jet of this flow and then that of `after`, of the lower of their orders.

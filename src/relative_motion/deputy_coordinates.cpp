@@ -161,7 +161,7 @@ DeputyCoordinates::DeputyCoordinates(std::span<const double> chief, const Metric
       chief_(as_extended(chief, "chief")),
       frame_(chief, units, linear_frame(form)) {
   if (is_nonlinear(form) && form != DeputyForm::curvilinear) {
-    quasi_nonsingular_elements(chief_, mu_);
+    quasi_nonsingular_elements(chief_, mu_, "chief");
   }
 }
 
@@ -201,10 +201,11 @@ Numbers DeputyCoordinates::deputy_from_curvilinear(const Numbers& coordinates) c
   const Extended length = units_.length_m, speed = units_.velocity_m_s();
   const Extended distance = r + coordinates[0] / length;
   const Extended turn = coordinates[1] / length / r, rise = coordinates[2] / length / r;
-  if (!(distance > 0) || !(abs(rise) < boost::math::constants::half_pi<Extended>())) {
+  const Extended half_turn = boost::math::constants::pi<Extended>();
+  if (!(distance > 0) || !(abs(rise) < half_turn / 2) || !(abs(turn) <= half_turn)) {
     throw Error(ErrorKind::numerical,
-                "curvilinear coordinates: the deputy must be above the centre and less than a "
-                "quarter turn out of the chief's plane");
+                "curvilinear coordinates: the deputy must be above the centre, at most half a turn "
+                "from its chief and less than a quarter turn out of the chief's plane");
   }
   const Extended radial_speed = chief.radial_speed + coordinates[3] / speed;
   const Extended turn_rate = chief.rate + (coordinates[4] / speed - chief.radial_speed * turn) / r;
@@ -250,24 +251,33 @@ Numbers DeputyCoordinates::curvilinear_of(const Numbers& deputy) const {
 }
 
 Numbers DeputyCoordinates::deputy_from_elements(const Numbers& given) const {
-  const QuasiNonsingularElements chief = quasi_nonsingular_elements(chief_, mu_);
+  const QuasiNonsingularElements chief = quasi_nonsingular_elements(chief_, mu_, "chief");
   QuasiNonsingularElements deputy = chief;
   const Extended length = units_.length_m;
+  const bool is_relative = form_ == DeputyForm::relative_elements;
+  const Extended size = chief.semi_major_axis * length;
+  const Extended node =
+      is_relative ? Extended(given[5] / size / sin(chief.inclination)) : given[5] * degree();
+  const Extended along = is_relative ? Extended(given[1] / size) : given[1] * degree();
+  // The same place would be told by other numbers, of fewer turns.
+  const Extended half_turn = boost::math::constants::pi<Extended>();
+  if (!(abs(node) <= half_turn) || !(abs(along) <= half_turn)) {
+    throw Error(ErrorKind::numerical,
+                "relative elements: the deputy's node or place is more than half a turn from its "
+                "chief's; near the equatorial plane a small distance turns the node far");
+  }
   deputy.semi_major_axis += given[0] / length;
-  if (form_ == DeputyForm::relative_elements) {
-    const Extended size = chief.semi_major_axis * length;
-    const Extended node = given[5] / size / sin(chief.inclination);
-    deputy.mean_argument_of_latitude += given[1] / size - node * cos(chief.inclination);
+  deputy.ascending_node += node;
+  if (is_relative) {
+    deputy.mean_argument_of_latitude += along - node * cos(chief.inclination);
     deputy.eccentricity_x += given[2] / size;
     deputy.eccentricity_y += given[3] / size;
     deputy.inclination += given[4] / size;
-    deputy.ascending_node += node;
   } else {
     deputy.inclination += given[2] * degree();
     deputy.eccentricity_x += given[3];
     deputy.eccentricity_y += given[4];
-    deputy.ascending_node += given[5] * degree();
-    deputy.true_argument_of_latitude += given[1] * degree();
+    deputy.true_argument_of_latitude += along;
     deputy.mean_argument_of_latitude = mean_argument_of_latitude(deputy);
   }
   // Beyond the equator's plane the node would be the opposite one, and so not the one given.
@@ -279,8 +289,8 @@ Numbers DeputyCoordinates::deputy_from_elements(const Numbers& given) const {
 }
 
 Numbers DeputyCoordinates::elements_of(const Numbers& state) const {
-  const QuasiNonsingularElements chief = quasi_nonsingular_elements(chief_, mu_);
-  const QuasiNonsingularElements deputy = quasi_nonsingular_elements(state, mu_);
+  const QuasiNonsingularElements chief = quasi_nonsingular_elements(chief_, mu_, "chief");
+  const QuasiNonsingularElements deputy = quasi_nonsingular_elements(state, mu_, "deputy");
   const Extended length = units_.length_m;
   const Extended node = within_half_turn(deputy.ascending_node - chief.ascending_node);
   const Extended inclination = deputy.inclination - chief.inclination;

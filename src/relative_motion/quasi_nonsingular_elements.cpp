@@ -1,5 +1,7 @@
 #include "quasi_nonsingular_elements.hpp"
 
+#include <fmt/format.h>
+
 #include <boost/math/constants/constants.hpp>
 #include <limits>
 
@@ -93,7 +95,15 @@ Extended mean_argument_of_latitude(const QuasiNonsingularElements& elements) {
   return theta + within_half_turn(F - ellipse.x * sin(F) + ellipse.y * cos(F) - theta);
 }
 
-QuasiNonsingularElements quasi_nonsingular_elements(const OrbitState& state, const Extended& mu) {
+QuasiNonsingularElements quasi_nonsingular_elements(const OrbitState& state, const Extended& mu,
+                                                    std::string_view satellite) {
+  const auto refuse = [&](std::string_view why) {
+    throw Error(
+        ErrorKind::numerical,
+        fmt::format("orbital elements: the orbit of the {} {}; curvilinear coordinates need "
+                    "no elements",
+                    satellite, why));
+  };
   const ExtendedVector r = {state[0], state[1], state[2]}, v = {state[3], state[4], state[5]};
   const ExtendedVector h = cross(r, v);
   const Extended distance = sqrt(dot(r, r)), momentum = sqrt(dot(h, h));
@@ -101,17 +111,15 @@ QuasiNonsingularElements quasi_nonsingular_elements(const OrbitState& state, con
   // A node nearer to undefined than this would be what rounding of the state makes of it.
   const Extended least_sine("1e-12");
   if (!(momentum > least_sine * distance * sqrt(dot(v, v)))) {
-    throw Error(ErrorKind::numerical,
-                "orbital elements: the orbit is a line through the centre, without a plane");
+    refuse("is a line through the centre, without a plane");
   }
   if (!(across > least_sine * momentum)) {
-    throw Error(ErrorKind::numerical,
-                "orbital elements: the orbit lies in the equatorial plane and has no node");
+    refuse("lies in the equatorial plane and has no node");
   }
   QuasiNonsingularElements elements;
   const Extended inverse_a = 2 / distance - dot(v, v) / mu;
   if (!(inverse_a > 0)) {
-    throw Error(ErrorKind::numerical, "orbital elements: the orbit is no ellipse, it escapes");
+    refuse("is no ellipse, it escapes");
   }
   elements.semi_major_axis = 1 / inverse_a;
   elements.inclination = atan2(across, h[2]);

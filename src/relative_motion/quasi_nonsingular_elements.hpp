@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <string_view>
 
 #include "hamjet/algebra/extended.hpp"
 
@@ -22,9 +23,10 @@ struct QuasiNonsingularElements {
   Extended ascending_node;
 };
 
-/// The elements of a state. Throws Error(numerical) for orbits that are not elliptic, and for those
-/// in the equatorial plane or through the centre, which have no node.
-QuasiNonsingularElements quasi_nonsingular_elements(const OrbitState& state, const Extended& mu);
+/// The elements of a state. Throws Error(numerical), which names the satellite, for orbits that are
+/// not elliptic, and for those in the equatorial plane or through the centre, which have no node.
+QuasiNonsingularElements quasi_nonsingular_elements(const OrbitState& state, const Extended& mu,
+                                                    std::string_view satellite);
 
 /// The state of elements; the true argument of latitude is not read. Throws Error(numerical) unless
 /// a > 0 and e < 1.

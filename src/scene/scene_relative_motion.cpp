@@ -178,10 +178,11 @@ std::vector<std::string> distant_deputies(const TableReader& root, const Scene& 
   const auto look = [&](const TableReader& table, const RelativeState& state) {
     const double separation_m = state.position_m.stableNorm();
     if (separation_m < distance_m / 20) return;
-    warnings.push_back(fmt::format(
-        "{}: far from its chief, got {}, should be well below {}: polynomials are right near the "
-        "chief alone, and hamjet validity says how far",
-        table.head(""), length_text(separation_m), length_text(distance_m / 20)));
+    warnings.push_back(
+        fmt::format("warning: {}: far from its chief, got {}, should be well below {}: polynomials "
+                    "are right near the "
+                    "chief alone, and hamjet validity says how far",
+                    table.head(""), length_text(separation_m), length_text(distance_m / 20)));
   };
   if (scene.deputy) look(root.table("deputy"), scene.deputy->start);
   if (!scene.transfer) return warnings;

@@ -84,16 +84,18 @@ void require_near(const TableReader& table, const Nominal& nominal,
   const double separation = Eigen::Vector3d(deviation.data()).stableNorm();
   if (!(separation < distance_of(nominal))) {
     const double unit_km = canonical_units(nominal.scale).length_km;
-    table.fail("", fmt::format("too far from its chief, got {:.6g} km between the two, must be "
-                               "below {:.6g} km, the chief's distance from the centre",
-                               separation * unit_km, distance_of(nominal) * unit_km));
+    table.fail(
+        "", fmt::format("too far from its chief, got {:.6g} km between the two, must be "
+                        "below {:.6g} km, the chief's distance from the centre; beside the chief "
+                        "are position_m and velocity_m_s",
+                        separation * unit_km, distance_of(nominal) * unit_km));
   }
   const double speed = Eigen::Vector3d(deviation.data() + 3).stableNorm();
   if (!(speed < circular_speed_of(nominal))) {
     const double unit_km_s = metric_units(nominal).velocity_m_s() / 1000;
     table.fail("", fmt::format("too fast beside its chief, got {:.6g} km/s between the two, must "
                                "be below {:.6g} km/s, the speed of a circular orbit through the "
-                               "chief",
+                               "chief; beside the chief are position_m and velocity_m_s",
                                speed * unit_km_s, circular_speed_of(nominal) * unit_km_s));
   }
 }
@@ -203,9 +205,17 @@ RelativeState read_relative_state(const TableReader& table, const Nominal& nomin
   for (const std::string_view key : {"position_m", "velocity_m_s"}) {
     if (table.has(key)) given.push_back({key, {}});
   }
-  if (given.empty() || (!given[0].is_own_orbit && !given[0].form)) {
-    return read_along_axes(table, nominal);
+  if (given.empty()) {
+    table.fail("position_m",
+               fmt::format("missing, must be an array of 3 finite numbers, or the deputy must have "
+                           "another form: its own orbit in the keys of [nominal], or {}, {} or {} "
+                           "({}, {}, {} and so on)",
+                           name_of(nonlinear_forms[0]), name_of(nonlinear_forms[1]),
+                           name_of(nonlinear_forms[2]), components_of(nonlinear_forms[0])[1].name,
+                           components_of(nonlinear_forms[1])[1].name,
+                           components_of(nonlinear_forms[2])[1].name));
   }
+  if (!given[0].is_own_orbit && !given[0].form) return read_along_axes(table, nominal);
   if (given.size() > 1) {
     table.fail(given[1].key,
                fmt::format("two forms of a deputy, got {} and {}, must be one of: its state "

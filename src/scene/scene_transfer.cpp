@@ -146,6 +146,9 @@ TransferSettings read_transfer(const TableReader& transfer, const Scene& scene,
   }
   if (needs_ends || transfer.has("start") || transfer.has("end")) {
     std::optional<FramedTable> start;
+    if (!transfer.has("start") && !scene.deputy) {
+      transfer.fail("start", "missing, must be a table, or the scene must have a table [deputy]");
+    }
     if (transfer.has("start") || !scene.deputy) {
       start = read_end(transfer, "start", nominal, scene.deputy, settings.start);
     }

@@ -90,7 +90,7 @@ def test_frames_that_do_not_fit_are_refused(jet):
         (lambda: jet.evaluate_relative(state, frame="LVLH"), "--frame LVLH: has two meanings"),
         (lambda: jet.evaluate_relative(state, frame="canonical"), "--frame canonical"),
         (lambda: jet.evaluate_relative(state, frame="inertial", derivatives="rotating"),
-         "--derivatives: goes with --frame RTN alone"),
+         "--derivatives: goes with RTN alone"),
         (lambda: oscillator.evaluate_relative(state), "harmonic-oscillator is no orbit"),
         (lambda: momenta.evaluate_relative(np.vstack([state * [0, 0, 0, 1, 1, 1], state]),
                                            derivatives="inertial"), "row 1: the deviation leaves"),

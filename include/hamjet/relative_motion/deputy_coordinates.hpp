@@ -72,7 +72,8 @@ class DeputyCoordinates {
   DeputyCoordinates(std::span<const double> chief, const MetricUnits& units, double mu,
                     DeputyForm form);
 
-  /// The canonical deviation of a deputy, from 6 numbers. Throws Error(numerical) for elements of no ellipse, and
+  /// The canonical deviation of a deputy, from 6 numbers. Throws Error(numerical) for elements of no
+  /// ellipse or beyond half a turn, and
   /// for curvilinear coordinates of a deputy in the centre or behind it.
   std::array<double, 6> deviation(std::span<const double> coordinates) const;
 

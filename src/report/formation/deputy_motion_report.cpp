@@ -22,25 +22,11 @@ namespace {
 using Json = nlohmann::ordered_json;
 using MotionPoint = const DeputyMotionPoint&;
 
-/// A larger error than this share of the separation is no answer.
+/// A larger error than this share of the separation at the time is no answer.
 constexpr double resolved_share = 0.01;
 
 /// Rows of the terminal's table, besides that of the start.
 constexpr std::size_t shown_times = 8;
-
-struct Approach {
-  std::size_t nearest = 0;
-  std::size_t farthest = 0;
-};
-
-Approach approach(const DeputyMotion& motion) {
-  Approach found;
-  for (std::size_t i = 1; i < motion.points.size(); ++i) {
-    if (motion.separation_m(i) < motion.separation_m(found.nearest)) found.nearest = i;
-    if (motion.separation_m(i) > motion.separation_m(found.farthest)) found.farthest = i;
-  }
-  return found;
-}
 
 double seconds_at(const DeputyMotion& motion, std::size_t point) {
   return motion.points[point].time * motion.scene.units.time_s;
@@ -51,9 +37,11 @@ std::string error_text(const DeputyMotion& motion, double error_m) {
 }
 
 bool is_resolved(const DeputyMotion& motion) {
-  const double farthest_m = motion.separation_m(approach(motion).farthest);
-  const double error_m = motion.largest_error_m(motion.scene.order);
-  return error_m <= std::max(resolved_share * farthest_m, motion.flight_floor_m);
+  for (std::size_t i = 1; i < motion.points.size(); ++i) {
+    const double most = std::max(resolved_share * motion.separation_m(i), motion.flight_floor_m);
+    if (!(motion.points[i].errors_m.back() <= most)) return false;
+  }
+  return true;
 }
 
 std::string terminal_table(const DeputyMotion& motion) {
@@ -106,20 +94,18 @@ std::string page(const DeputyMotion& motion, const ReportOrigin& origin, ChartDr
   return page_html(page, drawer);
 }
 
-Json state_json(const DeputyMotion& motion, std::size_t index) {
-  const RelativeState& state = motion.points[index].state;
+Json state_json(const DeputyMotion& motion, double time, const RelativeState& state) {
   const auto vector = [](const Eigen::Vector3d& v) {
     return Json{json_number(v[0]), json_number(v[1]), json_number(v[2])};
   };
-  return {{"time_s", seconds_at(motion, index)},
-          {"separation_m", json_number(motion.separation_m(index))},
+  return {{"time_s", time * motion.scene.units.time_s},
+          {"separation_m", json_number(state.position_m.norm())},
           {"position_m", vector(state.position_m)},
           {"velocity_m_s", vector(state.velocity_m_s)}};
 }
 
 Json summary_json(const DeputyMotion& motion) {
   const RelativeFrame frame = motion.scene.deputy->frame;
-  const Approach found = approach(motion);
   Json json = study_head_json(motion.scene, "motion", motion.integrator);
   json["frame"] = frame_name(frame);
   json["derivatives"] = text_or_null(std::string(derivatives_name(frame)));
@@ -127,10 +113,13 @@ Json summary_json(const DeputyMotion& motion) {
   json["verdict"] = deputy_motion_verdict(motion);
   json["duration_s"] = seconds_at(motion, motion.points.size() - 1);
   json["times"] = motion.points.size();
-  json["start"] = state_json(motion, 0);
-  json["end"] = state_json(motion, motion.points.size() - 1);
-  json["nearest"] = state_json(motion, found.nearest);
-  json["farthest"] = state_json(motion, found.farthest);
+  const DeputyMotionPoint& start = motion.points.front();
+  const DeputyMotionPoint& end = motion.points.back();
+  const auto& [nearest, farthest] = motion.extremes;
+  json["start"] = state_json(motion, start.time, start.state);
+  json["end"] = state_json(motion, end.time, end.state);
+  json["nearest"] = state_json(motion, nearest.time, nearest.state);
+  json["farthest"] = state_json(motion, farthest.time, farthest.state);
   json["largest_error_m_by_order"] = Json::array();
   for (int order = 1; order <= motion.scene.order; ++order) {
     json["largest_error_m_by_order"].push_back(json_number(motion.largest_error_m(order)));
@@ -145,19 +134,21 @@ Json summary_json(const DeputyMotion& motion) {
 }  // namespace
 
 std::string deputy_motion_verdict(const DeputyMotion& motion) {
-  const auto [nearest, farthest] = approach(motion);
+  const auto& [nearest, farthest] = motion.extremes;
   const std::size_t last = motion.points.size() - 1;
   const TimeAxis axis = time_axis(seconds_at(motion, last));
-  const auto time = [&](std::size_t i) {
-    return fmt::format("{:.3g} {}", seconds_at(motion, i) / axis.seconds, axis.name);
+  const auto time = [&](double canonical) {
+    return fmt::format("{:.3g} {}", canonical * motion.scene.units.time_s / axis.seconds,
+                       axis.name);
   };
+  const auto place = [](const SeparationAt& at) { return length_text(at.state.position_m.norm()); };
   const int order = motion.scene.order;
   const std::string error = error_text(motion, motion.largest_error_m(order));
   std::string text = fmt::format(
       "Within {} the deputy is nearest to its chief after {}, {} away, and farthest after {}, {} "
       "away; at the end it is {} away. Polynomials of order {} are never wrong by {}{}",
-      time(last), time(nearest), length_text(motion.separation_m(nearest)), time(farthest),
-      length_text(motion.separation_m(farthest)), length_text(motion.separation_m(last)), order,
+      time(motion.points[last].time), time(nearest.time), place(nearest), time(farthest.time),
+      place(farthest), length_text(motion.separation_m(last)), order,
       error.starts_with("less") ? "as much as " : "more than ",
       error.starts_with("less") ? length_text(motion.flight_floor_m) : error);
   if (order > 1) {
@@ -166,7 +157,8 @@ std::string deputy_motion_verdict(const DeputyMotion& motion) {
   text += ", measured by flying both with the full equations of motion.";
   if (!is_resolved(motion)) {
     text += fmt::format(
-        " That is no small part of the separation: the deputy is beyond what order {} resolves. A "
+        " At some time that is more than a hundredth of the separation: the deputy is beyond what "
+        "order {} resolves there. A "
         "higher jet.order or a shorter duration reaches it; `hamjet validity` says how far apart "
         "the two may be.",
         order);

@@ -35,6 +35,7 @@ DeputyMotion study_deputy_motion(const Scene& scene, const ProgressCallback& pro
   const int count = smooth_intervals(scene);
   if (progress) progress("flight", 0);
   result.flown = flown_trajectory(scene, deviation, frame, scene.duration, count);
+  result.extremes = extreme_separations(scene, result.flown);
   const auto orders = static_cast<std::size_t>(scene.order);
   result.points.push_back({0, scene.deputy->start, std::vector<double>(orders, 0.0)});
 
@@ -46,10 +47,9 @@ DeputyMotion study_deputy_motion(const Scene& scene, const ProgressCallback& pro
   const std::vector<double> times(result.flown.times.begin() + 1, result.flown.times.end());
   const auto visit = [&](std::size_t index, const FlowJet<double>& jet) {
     if (progress) progress("motion", static_cast<double>(index) / count);
-    const std::vector<double> chief = nominal_of(jet);
     const std::vector<double>& flown_chief = result.flown.chief[index + 1];
     const std::vector<double>& flown_deputy = result.flown.deputy[index + 1];
-    DeputyMotionPoint point{times[index], {}, {}};
+    DeputyMotionPoint point{times[index], result.flown.states[index + 1], {}};
     // Degree by degree: what is relative to the chief would lose its digits in the chief's place.
     std::vector<double> relative(jet.size(), 0.0);
     for (int order = 1; order <= scene.order; ++order) {
@@ -60,7 +60,6 @@ DeputyMotion study_deputy_motion(const Scene& scene, const ProgressCallback& pro
         square += std::pow(relative[i] - (flown_deputy[i] - flown_chief[i]), 2);
       }
       point.errors_m.push_back(std::sqrt(square) * units.length_m);
-      if (order == scene.order) point.state = ChiefFrame(chief, units, frame).relative(relative);
     }
     result.points.push_back(std::move(point));
     if (index + 1 == times.size()) {

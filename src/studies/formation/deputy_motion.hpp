@@ -3,16 +3,17 @@
 #include <string>
 #include <vector>
 
+#include "extreme_separations.hpp"
 #include "hamjet/detail/studies/progress.hpp"
 #include "hamjet/studies/transfer.hpp"
 
 namespace hamjet {
 
-/// The deputy at one time, as polynomials say.
+/// The deputy at one time.
 struct DeputyMotionPoint {
   double time = 0;               ///< canonical
-  RelativeState state;           ///< by the polynomial of the highest order
-  std::vector<double> errors_m;  ///< of orders 1..N: distance from where the deputy flew to
+  RelativeState state;           ///< as it flew
+  std::vector<double> errors_m;  ///< of the polynomials of orders 1..N: distance from there
 };
 
 /// How the scene's deputy moves relative to the chief.
@@ -21,6 +22,7 @@ struct DeputyMotion {
   std::string integrator;
   std::vector<DeputyMotionPoint> points;  ///< the first one is the start
   RelativeTrajectory flown;               ///< at the same times
+  ExtremeSeparations extremes;            ///< as it flew, between the times too
   double flight_floor_m = 0;              ///< see TransferResult; errors below it say nothing
   double propagation_seconds = 0;
 
@@ -29,9 +31,9 @@ struct DeputyMotion {
   double largest_error_m(int order) const;
 };
 
-/// The motion of the scene's deputy over the scene's duration, without velocity changes: by the
-/// jets at equal times, some tens a revolution, and flown with the full equations of motion, which
-/// gives the polynomials' errors. Throws as study_transfer.
+/// The motion of the scene's deputy over the scene's duration, without velocity changes: flown with
+/// the full equations of motion to equal times, some tens a revolution, and by the jets at the same
+/// times, whose errors that gives. Throws as study_transfer.
 DeputyMotion study_deputy_motion(const Scene& scene, const ProgressCallback& progress = {});
 
 }  // namespace hamjet

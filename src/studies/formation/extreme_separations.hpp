@@ -1,0 +1,24 @@
+#pragma once
+
+#include "hamjet/studies/transfer.hpp"
+
+namespace hamjet {
+
+/// Where a deputy is at a time of its own.
+struct SeparationAt {
+  double time = 0;  ///< canonical
+  RelativeState state;
+};
+
+/// When a deputy is nearest to its chief and when farthest.
+struct ExtremeSeparations {
+  SeparationAt nearest;
+  SeparationAt farthest;
+};
+
+/// The extremes of a flown trajectory, between its times too: where the separation turns between
+/// two of them, the turn is found by flying on from the first. Of many turns those are tried that
+/// cubic interpolation of the squared separation has as the most extreme. Throws as exact_flow.
+ExtremeSeparations extreme_separations(const Scene& scene, const RelativeTrajectory& flown);
+
+}  // namespace hamjet
