@@ -1,18 +1,21 @@
 #include "hamjet/dynamics/osculating_elements.hpp"
 
+#include <algorithm>
 #include <boost/math/constants/constants.hpp>
 #include <cmath>
+#include <iterator>
 
 #include "hamjet/error.hpp"
+#include "newton_in_bracket.hpp"
 
 namespace hamjet {
 namespace {
 
 Extended pi() { return boost::math::constants::pi<Extended>(); }
 
-/// The angle reduced to (-360, 360): std::fmod is exact, so nothing is rounded, and the sum of two
-/// such angles keeps at least 100 bits below the degree.
-Extended within_one_turn(double angle_deg) { return Extended(std::fmod(angle_deg, 360.0)); }
+/// The angle reduced to (-360, 360), so that the sum of two such angles keeps at least 100 bits
+/// below the degree. Nothing is rounded below 1e30 degrees, where the number of turns is exact.
+Extended within_one_turn(const Extended& angle_deg) { return fmod(angle_deg, Extended(360)); }
 
 /// A zero with a minus sign, which the products below may leave, is the same state as +0, but would
 /// be printed differently.
@@ -23,15 +26,23 @@ Extended norm_squared(const std::array<Extended, 3>& v) {
 }
 
 void check(const OsculatingElements& elements, double mu_km3_s2) {
+  const Extended* const numbers[] = {
+      &elements.semi_major_axis_km,      &elements.eccentricity,
+      &elements.inclination_deg,         &elements.ascending_node_deg,
+      &elements.argument_of_perigee_deg, &elements.true_anomaly_deg};
   const bool finite =
-      std::isfinite(elements.semi_major_axis_km) && std::isfinite(elements.eccentricity) &&
-      std::isfinite(elements.inclination_deg) && std::isfinite(elements.ascending_node_deg) &&
-      std::isfinite(elements.argument_of_perigee_deg) && std::isfinite(elements.true_anomaly_deg) &&
-      std::isfinite(mu_km3_s2);
+      std::isfinite(mu_km3_s2) && std::all_of(std::begin(numbers), std::end(numbers),
+                                              [](const Extended* x) { return isfinite(*x); });
   if (!finite || elements.semi_major_axis_km <= 0 || elements.eccentricity < 0 ||
       elements.eccentricity >= 1 || mu_km3_s2 <= 0) {
     throw Error(ErrorKind::usage,
                 "osculating elements must be finite, with a > 0, 0 <= e < 1 and mu > 0");
+  }
+}
+
+void check_anomaly(const Extended& anomaly_deg, const Extended& eccentricity) {
+  if (!isfinite(anomaly_deg) || !(eccentricity >= 0 && eccentricity < 1)) {
+    throw Error(ErrorKind::usage, "an anomaly must be finite, with 0 <= e < 1");
   }
 }
 
@@ -87,6 +98,35 @@ CartesianState state_from_elements(const OsculatingElements& elements, double mu
   for (Extended& x : state.position_km) x = without_sign_of_zero(x);
   for (Extended& v : state.velocity_km_s) v = without_sign_of_zero(v);
   return state;
+}
+
+Extended eccentric_anomaly_of_mean_deg(const Extended& mean_anomaly_deg,
+                                       const Extended& eccentricity) {
+  check_anomaly(mean_anomaly_deg, eccentricity);
+  // In degrees, of which sine and cosine at multiples of a right angle are exact.
+  const Extended e_deg = eccentricity * 180 / pi();
+  const auto miss = [&](const Extended& anomaly_deg) -> MissAndSlope {
+    const auto [sine, cosine] = sine_cosine_of_degrees(anomaly_deg);
+    return {anomaly_deg - e_deg * sine - mean_anomaly_deg, 1 - eccentricity * cosine};
+  };
+  return root_in_bracket(miss, mean_anomaly_deg - e_deg, mean_anomaly_deg + e_deg,
+                         mean_anomaly_deg);
+}
+
+Extended true_anomaly_of_eccentric_deg(const Extended& eccentric_anomaly_deg,
+                                       const Extended& eccentricity) {
+  check_anomaly(eccentric_anomaly_deg, eccentricity);
+  const Extended b = eccentricity / (1 + sqrt(Extended((1 - eccentricity) * (1 + eccentricity))));
+  const auto [sine, cosine] = sine_cosine_of_degrees(eccentric_anomaly_deg);
+  return eccentric_anomaly_deg + 2 * atan(Extended(b * sine / (1 - b * cosine))) * 180 / pi();
+}
+
+Extended semi_major_axis_of_period_km(const Extended& period_s, double mu_km3_s2) {
+  if (!(isfinite(period_s) && period_s > 0 && std::isfinite(mu_km3_s2) && mu_km3_s2 > 0)) {
+    throw Error(ErrorKind::usage, "a period and mu must be finite and above 0");
+  }
+  const Extended inverse_motion = period_s / (2 * pi());
+  return pow(Extended(mu_km3_s2 * inverse_motion * inverse_motion), Extended(1) / 3);
 }
 
 std::optional<Extended> osculating_period_s(const CartesianState& state, double mu_km3_s2) {

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <boost/math/constants/constants.hpp>
-#include <limits>
 
+#include "../dynamics/newton_in_bracket.hpp"
 #include "extended_vectors.hpp"
 #include "hamjet/error.hpp"
 
@@ -34,25 +34,15 @@ struct Ellipse {
   Extended x, y, eta, beta;
 };
 
-/// The eccentric argument of latitude F from that of the mean one, by Newton's method with steps
-/// that stay within the bracket |F - u| <= e.
+/// The eccentric argument of latitude F from that of the mean one, within |F - u| <= e.
 Extended eccentric_argument(const Ellipse& ellipse, const Extended& mean) {
   const Extended e = sqrt(ellipse.x * ellipse.x + ellipse.y * ellipse.y);
-  Extended low = mean - e, high = mean + e, F = mean;
-  // Halving alone gains a bit a step; Newton's steps need some ten.
-  constexpr int most_steps = 200;
-  for (int i = 0; i < most_steps; ++i) {
+  const auto miss = [&](const Extended& F) -> MissAndSlope {
     const Extended sine = sin(F), cosine = cos(F);
-    const Extended miss = F - ellipse.x * sine + ellipse.y * cosine - mean;
-    (miss > 0 ? high : low) = F;
-    Extended next = F - miss / (1 - ellipse.x * cosine - ellipse.y * sine);
-    if (!(next >= low && next <= high)) next = (low + high) / 2;
-    const bool is_found =
-        next == F || abs(next - F) <= 4 * std::numeric_limits<Extended>::epsilon() * (1 + abs(F));
-    F = next;
-    if (is_found) break;
-  }
-  return F;
+    return {F - ellipse.x * sine + ellipse.y * cosine - mean,
+            1 - ellipse.x * cosine - ellipse.y * sine};
+  };
+  return root_in_bracket(miss, mean - e, mean + e, mean);
 }
 
 /// The place on the ellipse as a multiple of a, along the line of nodes and across it.

@@ -170,6 +170,79 @@ TEST(StateFromElements, RefusesWhatIsNoEllipse) {
   EXPECT_THROW(state_from_elements(general_elements(), nan), Error);
 }
 
+// Expected: Vallado's example 2-1 (Fundamentals of Astrodynamics, 4th ed.), printed to 12 digits
+// after the point.
+TEST(EccentricAnomaly, AgreesWithPublishedExample) {
+  expect_close(eccentric_anomaly_of_mean_deg(235.4, Extended("0.4")), Extended("220.512074767522"),
+               Extended("3e-15"));
+}
+
+// Expected: Kepler's equation itself, M = E - e sin E, near the hardest places too: near the
+// perigee of a long ellipse, where the left side is almost of third order.
+TEST(EccentricAnomaly, SatisfiesKeplersEquation) {
+  for (const char* const e : {"0", "1e-20", "0.1", "0.74", "0.99", "0.999999999999"}) {
+    for (const char* const mean : {"1e-12", "0.001", "17.3", "89", "179.999", "235.4", "-359.9"}) {
+      const Extended E = eccentric_anomaly_of_mean_deg(Extended(mean), Extended(e));
+      const Extended sine = sine_cosine_of_degrees(E).sine;
+      expect_close(E - Extended(e) * sine * 180 / pi(), Extended(mean), round_off);
+    }
+  }
+}
+
+// Expected: at the apsides all three anomalies are one, on a circle everywhere; nothing is rounded.
+TEST(EccentricAnomaly, IsTheMeanOneAtTheApsidesAndOnACircle) {
+  for (int half_turns = -2; half_turns <= 2; ++half_turns) {
+    const Extended angle = 180 * half_turns;
+    for (const double e : {0.0, 0.3, 0.999}) {
+      EXPECT_EQ(eccentric_anomaly_of_mean_deg(angle, e), angle);
+      EXPECT_EQ(true_anomaly_of_eccentric_deg(angle, e), angle);
+    }
+  }
+  for (const double angle : {-270.0, 12.345, 90.0, 300.1}) {
+    EXPECT_EQ(eccentric_anomaly_of_mean_deg(angle, 0), angle);
+    EXPECT_EQ(true_anomaly_of_eccentric_deg(angle, 0), angle);
+  }
+}
+
+// Expected: r cos nu = a (cos E - e) and r sin nu = a sqrt(1 - e^2) sin E, with r = a (1 - e cos
+// E), and nu on the same turn, nearer to E than half of one.
+TEST(TrueAnomaly, IsThatOfThePlaceOnTheEllipse) {
+  for (const char* const text : {"0.05", "0.4", "0.9", "0.9999"}) {
+    const Extended e(text);
+    for (int degrees = -357; degrees < 360; degrees += 17) {
+      const Extended nu = true_anomaly_of_eccentric_deg(degrees, e);
+      const SineCosine eccentric = sine_cosine_of_degrees(degrees);
+      const SineCosine truth = sine_cosine_of_degrees(nu);
+      const Extended r = 1 - e * eccentric.cosine;
+      const Extended b = sqrt(Extended((1 - e) * (1 + e)));
+      expect_close(truth.cosine * r, eccentric.cosine - e, 10 * round_off);
+      expect_close(truth.sine * r, b * eccentric.sine, 10 * round_off);
+      EXPECT_LT(abs(nu - degrees), 180);
+    }
+  }
+}
+
+TEST(Anomalies, AreThoseOfEllipses) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const double e : {-0.1, 1.0, 2.0, nan}) {
+    EXPECT_THROW(eccentric_anomaly_of_mean_deg(1, e), Error) << e;
+    EXPECT_THROW(true_anomaly_of_eccentric_deg(1, e), Error) << e;
+  }
+  EXPECT_THROW(eccentric_anomaly_of_mean_deg(nan, 0.1), Error);
+  EXPECT_THROW(true_anomaly_of_eccentric_deg(nan, 0.1), Error);
+}
+
+// Expected: Kepler's third law, n^2 a^3 = mu.
+TEST(SemiMajorAxisOfPeriod, FollowsKeplersThirdLaw) {
+  for (const double period : {1e-3, 5400.0, 86164.0905, 1e9}) {
+    const Extended a = semi_major_axis_of_period_km(period, earth_mu);
+    const Extended n = 2 * pi() / period;
+    expect_close(n * n * a * a * a / earth_mu, 1, 10 * round_off);
+  }
+  EXPECT_THROW(semi_major_axis_of_period_km(0, earth_mu), Error);
+  EXPECT_THROW(semi_major_axis_of_period_km(1, -1), Error);
+}
+
 // Expected: Kepler's third law, T = 2 pi sqrt(a^3 / mu), with the a that the state was made from.
 TEST(OsculatingPeriod, FollowsKeplersThirdLaw) {
   const CartesianState circle = {{Extended(1), Extended(0), Extended(0)},

@@ -24,8 +24,15 @@ MetricUnits units_of_orbit() {
   return {length_km * 1000, std::sqrt(length_km * length_km * length_km / mu_km)};
 }
 
-std::vector<double> state_of(const OsculatingElements& elements) {
-  const CartesianState state = state_from_elements(elements, mu_km);
+/// Osculating elements in double precision, which the formulas of the tests compute with.
+struct Elements {
+  double semi_major_axis_km, eccentricity, inclination_deg, ascending_node_deg,
+      argument_of_perigee_deg, true_anomaly_deg;
+};
+
+std::vector<double> state_of(const Elements& elements) {
+  const auto& [a, e, i, node, perigee, anomaly] = elements;
+  const CartesianState state = state_from_elements({a, e, i, node, perigee, anomaly}, mu_km);
   const double speed_km_s = units_of_orbit().velocity_m_s() / 1000;
   std::vector<double> numbers;
   for (const auto& x : state.position_km) numbers.push_back(convert<double>(x) / length_km);
@@ -44,15 +51,15 @@ std::vector<double> difference(const std::vector<double>& a, const std::vector<d
 }
 
 /// Kepler's equation's right side: the mean anomaly of a true one, by the eccentric one.
-double mean_anomaly(const OsculatingElements& orbit) {
+double mean_anomaly(const Elements& orbit) {
   const double e = orbit.eccentricity;
   const double E =
       2 * std::atan(std::sqrt((1 - e) / (1 + e)) * std::tan(orbit.true_anomaly_deg * degree / 2));
   return E - e * std::sin(E);
 }
 
-const OsculatingElements chief_orbit{8000, 0.1, 55, 30, 70, 40};
-const OsculatingElements deputy_orbit{8000.02, 0.1001, 55.003, 30.002, 70.01, 39.98};
+const Elements chief_orbit{8000, 0.1, 55, 30, 70, 40};
+const Elements deputy_orbit{8000.02, 0.1001, 55.003, 30.002, 70.01, 39.98};
 
 TEST(DeputyCoordinates, RelativeElementsAreThoseOfTheDefinition) {
   const auto& c = chief_orbit;
@@ -113,7 +120,7 @@ TEST(DeputyCoordinates, CurvilinearOnOneCircleIsTheArcAlone) {
 TEST(DeputyCoordinates, CurvilinearRatesAreDerivativesByTime) {
   // Along Kepler's motion, by the mean anomaly: the error of a central difference over 2 h goes as
   // h^2 of the third derivative, some 1e-3 m/s over the square of the time unit, 930 s.
-  const auto moved = [](OsculatingElements orbit, double t_s) {
+  const auto moved = [](Elements orbit, double t_s) {
     const double e = orbit.eccentricity, a = orbit.semi_major_axis_km;
     const double M = mean_anomaly(orbit) + t_s * std::sqrt(mu_km / (a * a * a));
     double E = M;

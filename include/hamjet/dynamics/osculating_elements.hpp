@@ -10,12 +10,12 @@ namespace hamjet {
 /// Osculating Kepler elements of an elliptic orbit: the ellipse on which the body would go on if
 /// every force but the central one vanished at that instant.
 struct OsculatingElements {
-  double semi_major_axis_km = 0;       ///< a > 0
-  double eccentricity = 0;             ///< e in [0, 1)
-  double inclination_deg = 0;          ///< i, from the equatorial plane
-  double ascending_node_deg = 0;       ///< right ascension of the ascending node, from the x axis
-  double argument_of_perigee_deg = 0;  ///< from the ascending node, along the motion
-  double true_anomaly_deg = 0;         ///< from perigee, along the motion
+  Extended semi_major_axis_km = 0;       ///< a > 0
+  Extended eccentricity = 0;             ///< e in [0, 1)
+  Extended inclination_deg = 0;          ///< i, from the equatorial plane
+  Extended ascending_node_deg = 0;       ///< right ascension of the ascending node, from the x axis
+  Extended argument_of_perigee_deg = 0;  ///< from the ascending node, along the motion
+  Extended true_anomaly_deg = 0;         ///< from perigee, along the motion
 };
 
 /// Cartesian state in the inertial axes x, y (equatorial plane) and z (north).
@@ -45,6 +45,32 @@ SineCosine sine_cosine_of_degrees(const Extended& angle_deg);
 /// Source: D. A. Vallado, Fundamentals of Astrodynamics and Applications, 4th ed. (2013), section
 /// 2.6 (algorithm COE2RV), its rotation written out with the argument of latitude.
 CartesianState state_from_elements(const OsculatingElements& elements, double mu_km3_s2);
+
+/// Eccentric anomaly of a mean one on an ellipse, by Kepler's equation M = E - e sin E, good to
+/// about 33 digits. On the same turn as the mean anomaly; multiples of 180 degrees, and all angles
+/// where e = 0, stay as they are.
+///
+/// Throws Error(usage) unless 0 <= e < 1 and the anomaly is finite.
+///
+/// Source: D. A. Vallado, Fundamentals of Astrodynamics and Applications, 4th ed. (2013), section
+/// 2.2 (algorithm KepEqtnE), with a bracket about Newton's steps.
+Extended eccentric_anomaly_of_mean_deg(const Extended& mean_anomaly_deg,
+                                       const Extended& eccentricity);
+
+/// True anomaly of an eccentric one on an ellipse, good to about 33 digits. On the same turn as the
+/// eccentric anomaly; multiples of 180 degrees, and all angles where e = 0, stay as they are.
+///
+/// Throws Error(usage) unless 0 <= e < 1 and the anomaly is finite.
+///
+/// Source: tan((nu - E)/2) = b sin E/(1 - b cos E) with b = e/(1 + sqrt(1 - e^2)); R. Broucke and
+/// P. Cefola, Celestial Mechanics 7 (1973) 388.
+Extended true_anomaly_of_eccentric_deg(const Extended& eccentric_anomaly_deg,
+                                       const Extended& eccentricity);
+
+/// Semi-major axis of the ellipse with a period, a^3 = mu (T/2 pi)^2.
+///
+/// Throws Error(usage) unless T > 0, mu > 0 and both are finite.
+Extended semi_major_axis_of_period_km(const Extended& period_s, double mu_km3_s2);
 
 /// Period of the osculating Kepler ellipse in seconds, or nothing where there is none: on a
 /// parabola or a hyperbola, and on a straight line through the centre.

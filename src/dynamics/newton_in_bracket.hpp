@@ -1,0 +1,35 @@
+#pragma once
+
+#include <limits>
+
+#include "hamjet/algebra/extended.hpp"
+
+namespace hamjet {
+
+/// How far a rising function is above 0 at a place, and how fast it rises there.
+struct MissAndSlope {
+  Extended miss;
+  Extended slope;
+};
+
+/// The root of a rising function between `low` and `high`, by Newton's method from `guess`; a step
+/// that would leave the bracket halves it. `miss_at` gives MissAndSlope at a place.
+template <class Function>
+Extended root_in_bracket(const Function& miss_at, Extended low, Extended high, Extended guess) {
+  // Halving alone gains a bit a step; Newton's steps need some ten.
+  constexpr int most_steps = 200;
+  for (int i = 0; i < most_steps; ++i) {
+    const MissAndSlope at = miss_at(guess);
+    (at.miss > 0 ? high : low) = guess;
+    Extended next = guess - at.miss / at.slope;
+    if (!(next >= low && next <= high)) next = (low + high) / 2;
+    const bool is_found =
+        next == guess ||
+        abs(next - guess) <= 4 * std::numeric_limits<Extended>::epsilon() * (1 + abs(guess));
+    guess = next;
+    if (is_found) break;
+  }
+  return guess;
+}
+
+}  // namespace hamjet
