@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "../dynamics/celestial_bodies.hpp"
+#include "../scene/scene_elements.hpp"
 #include "../scene/tables/table_description.hpp"
 #include "../studies/descriptions/system_description.hpp"
 #include "../text/scene_message.hpp"
@@ -112,11 +113,17 @@ py::dict earth_system() {
   return system;
 }
 
+/// The keys of elements of an orbit, and those of them that say the place.
+std::pair<std::vector<std::string_view>, std::vector<std::string_view>> element_keys() {
+  return {io::TableDescription{io::element_keys()}.names(), io::place_keys()};
+}
+
 }  // namespace
 
 void bind_orbit_keys(py::module_& module) {
   module.def("orbit_keys", &orbit_keys);
   module.def("table_of_keyword", &table_of_keyword, py::arg("scene"), py::arg("keyword"));
+  module.def("element_keys", &element_keys);
   module.def("earth_system", &earth_system);
 }
 

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
+#include <optional>
 
 #include "../dynamics/celestial_bodies.hpp"
 #include "../text/scene_message.hpp"
+#include "scene_elements.hpp"
 #include "scene_sections.hpp"
 
 namespace hamjet::io {
@@ -123,11 +124,21 @@ class LikelySlips {
     }
   }
 
-  /// The key that says where the nominal starts.
+  /// The key that says where the nominal starts, or how large its orbit is.
   std::string_view start_key() const {
-    static constexpr std::string_view keys[] = {"a_km", "position_km", "oem_file", "opm_file"};
-    return *std::find_if(std::begin(keys), std::end(keys),
-                         [&](std::string_view key) { return nominal_.has(key); });
+    static const auto keys = joined<std::string_view>({size_keys(), {"position_km", "oem_file"}});
+    const auto found = std::find_if(keys.begin(), keys.end(),
+                                    [&](std::string_view key) { return nominal_.has(key); });
+    return found != keys.end() ? *found : "opm_file";
+  }
+
+  /// The key's own number where it is a length; of a period nothing is a slip of units.
+  std::optional<double> start_length_km(std::string_view key) const {
+    const std::vector<double>& q = scene_.nominal;
+    const bool is_length = key.ends_with("_km") && key != "position_km";
+    if (is_length) return nominal_.number(key);
+    if (key == "period_s") return std::nullopt;
+    return scene_.units.length_km * std::hypot(q[0], q[1], q[2]);
   }
 
   void check_distance() {
@@ -135,21 +146,19 @@ class LikelySlips {
     const bool is_sun = body_ != nullptr && body_->name == "SUN";  // planets are beyond this
     if (radius == 0) return;
     const std::string_view key = start_key();
-    const std::vector<double>& q = scene_.nominal;
-    const double distance = key == "a_km" ? nominal_.number("a_km")
-                                          : scene_.units.length_km * std::hypot(q[0], q[1], q[2]);
-    if (distance >= farthest_start * radius && !is_sun) {
+    const auto length = start_length_km(key);
+    if (!length) return;
+    const std::string of_body = body_ != nullptr ? fmt::format(" of {}", body_->name) : "";
+    if (*length >= farthest_start * radius && !is_sun) {
       add(nominal_, key,
-          fmt::format("{:.6g} km from the centre are {:.0f} radii{}; if these are metres, it must "
-                      "be {:.6g} km",
-                      distance, distance / radius,
-                      body_ != nullptr ? fmt::format(" of {}", body_->name) : "", 1e-3 * distance));
-    } else if (key == "a_km" && distance < radius) {
+          fmt::format("{:.6g} km {} are {:.0f} radii{}; if these are metres, it must be {:.6g} km",
+                      *length, key.ends_with("height_km") ? "above the surface" : "from the centre",
+                      *length / radius, of_body, 1e-3 * *length));
+    } else if (key == "a_km" && *length < radius) {
       add(nominal_, key,
           fmt::format("{:.6g} km from the centre are below the surface at {:.6g} km{}; if this is "
                       "a height, it must be {:.6g} km",
-                      distance, radius, body_ != nullptr ? fmt::format(" of {}", body_->name) : "",
-                      distance + radius));
+                      *length, radius, of_body, *length + radius));
     }
   }
 

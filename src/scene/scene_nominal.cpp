@@ -75,8 +75,13 @@ const TableDescription& nominal_table() {
           {orbit_keys({orbits}),
            {{"position_m", of_model, absent::refused(), "of each degree of freedom", other},
             {"momentum_kg_m_s", of_model, absent::refused(), "likewise", other}}}),
-      "An orbit has one of three forms: position and velocity, all six osculating elements, or the "
-      "file of a message, whose path is relative to the scene's folder."};
+      "An orbit has one of three forms: position and velocity, osculating elements, or the file of "
+      "a message, whose path is relative to the scene's folder. Elements are size and shape "
+      "(`a_km` "
+      "with `e`, `perigee_height_km` with `apogee_height_km`, `period_s` with `e`, or `height_km` "
+      "of a circle), `i_deg`, `raan_deg`, `argp_deg`, and a place (one of `ta_deg`, `ea_deg`, "
+      "`ma_deg`, `u_deg`); on a circle `u_deg` may stand for `argp_deg` too. Heights are above "
+      "`radius_km` of `[system]`."};
   return table;
 }
 

@@ -5,37 +5,24 @@
 #include <algorithm>
 
 #include "../text/scene_message.hpp"
+#include "scene_elements.hpp"
 
 namespace hamjet::io {
 namespace {
 
 const std::vector<std::string_view> cartesian_keys = {"position_km", "velocity_km_s"};
-const std::vector<std::string_view> element_keys = {"a_km",     "e",        "i_deg",
-                                                    "raan_deg", "argp_deg", "ta_deg"};
 const std::vector<std::string_view> file_keys = {"oem_file", "opm_file", "epoch", "object"};
+
+const std::vector<std::string_view>& names_of_elements() {
+  static const std::vector<std::string_view> names = TableDescription{element_keys()}.names();
+  return names;
+}
 
 std::optional<std::string_view> any_of(const TableReader& table,
                                        const std::vector<std::string_view>& keys) {
   const auto given =
       std::find_if(keys.begin(), keys.end(), [&](std::string_view key) { return table.has(key); });
   return given != keys.end() ? std::optional(*given) : std::nullopt;
-}
-
-CartesianState read_elements(const TableReader& table, double mu_km3_s2) {
-  table.require(element_keys);
-  OsculatingElements elements;
-  elements.semi_major_axis_km = table.number("a_km");
-  elements.eccentricity = table.number("e");
-  if (elements.eccentricity < 0 || elements.eccentricity >= 1) {
-    table.fail("e", fmt::format("out of range, got {}, must be at least 0 and below 1 (other "
-                                "orbits are given by position_km and velocity_km_s)",
-                                table.found("e")));
-  }
-  elements.inclination_deg = table.number("i_deg");
-  elements.ascending_node_deg = table.number("raan_deg");
-  elements.argument_of_perigee_deg = table.number("argp_deg");
-  elements.true_anomaly_deg = table.number("ta_deg");
-  return state_from_elements(elements, mu_km3_s2);
 }
 
 CartesianState read_position_and_velocity(const TableReader& table) {
@@ -56,29 +43,22 @@ CartesianState read_position_and_velocity(const TableReader& table) {
 
 std::vector<SceneKey> orbit_keys(const std::vector<std::string_view>& owners) {
   const auto other_form = absent::other("another form");
-  // Angles go once around in either sense; what is beyond is no angle in degrees.
-  const auto angle = form::between(-360, 360);
-  return {{"position_km", form::array(form::number(), 3), other_form, "x, y, z from the centre",
-           owners},
-          {"velocity_km_s", form::array(form::number(), 3), other_form, "their rates", owners},
-          {"a_km", form::positive(), other_form, "semi-major axis", owners},
-          {"e", form::words("number from 0, below 1", form::number()), other_form, "eccentricity",
-           owners},
-          {"i_deg", form::between(0, 180), other_form, "inclination", owners},
-          {"raan_deg", angle, other_form, "right ascension of the ascending node", owners},
-          {"argp_deg", angle, other_form, "argument of perigee", owners},
-          {"ta_deg", angle, other_form, "true anomaly", owners},
-          {"oem_file", form::text(), other_form, "an orbit ephemeris message of CCSDS", owners},
-          {"opm_file", form::text(), other_form, "an orbit parameter message of CCSDS", owners},
-          {"epoch", form::words("`\"YYYY-MM-DDThh:mm:ss\"` or `\"YYYY-DDDThh:mm:ss\"`"),
-           absent::other("the first of the file"), "of the state to take; nothing is interpolated",
-           owners},
-          {"object", form::text(), absent::other("the only one of the file"),
-           "name or identifier of the object to take", owners}};
+  return joined<SceneKey>(
+      {{{"position_km", form::array(form::number(), 3), other_form, "x, y, z from the centre",
+         owners},
+        {"velocity_km_s", form::array(form::number(), 3), other_form, "their rates", owners}},
+       element_keys(owners),
+       {{"oem_file", form::text(), other_form, "an orbit ephemeris message of CCSDS", owners},
+        {"opm_file", form::text(), other_form, "an orbit parameter message of CCSDS", owners},
+        {"epoch", form::words("`\"YYYY-MM-DDThh:mm:ss\"` or `\"YYYY-DDDThh:mm:ss\"`"),
+         absent::other("the first of the file"), "of the state to take; nothing is interpolated",
+         owners},
+        {"object", form::text(), absent::other("the only one of the file"),
+         "name or identifier of the object to take", owners}}});
 }
 
 std::optional<std::string_view> orbit_key_of(const TableReader& table) {
-  for (const auto* keys : {&cartesian_keys, &element_keys, &file_keys}) {
+  for (const auto* keys : {&cartesian_keys, &names_of_elements(), &file_keys}) {
     if (const auto key = any_of(table, *keys)) return key;
   }
   return std::nullopt;
@@ -86,11 +66,12 @@ std::optional<std::string_view> orbit_key_of(const TableReader& table) {
 
 Orbit read_orbit(const TableReader& table, const SceneCentre& centre) {
   const auto cartesian = any_of(table, cartesian_keys);
-  const auto element = any_of(table, element_keys);
+  const auto element = any_of(table, names_of_elements());
   const auto of_file = any_of(table, file_keys);
-  const std::string right =
-      fmt::format("either {}, all of {}, or the file of an orbit message, oem_file or opm_file",
-                  fmt::join(cartesian_keys, " and "), listed(element_keys));
+  const std::string right = fmt::format(
+      "either {}, elements ({} among others), or the file of an orbit message, "
+      "oem_file or opm_file",
+      fmt::join(cartesian_keys, " and "), "a_km, e, i_deg, raan_deg, argp_deg, ta_deg");
   const auto refuse_both = [&](std::string_view one, std::string_view other) {
     table.fail(other,
                fmt::format("both forms of an orbit, got {} and {}, must be {}", one, other, right));
@@ -99,7 +80,7 @@ Orbit read_orbit(const TableReader& table, const SceneCentre& centre) {
   if (cartesian && of_file) refuse_both(*cartesian, *of_file);
   if (element && of_file) refuse_both(*element, *of_file);
   if (cartesian) return {read_position_and_velocity(table), std::nullopt};
-  if (element) return {read_elements(table, centre.system.mu_km3_s2), std::nullopt};
+  if (element) return {read_elements(table, centre), std::nullopt};
   if (!of_file) table.fail("", "no orbit, got neither of its forms, must be " + right);
   NominalFromFile read = read_nominal_file(table, centre);
   return {read.state, std::move(read.file)};

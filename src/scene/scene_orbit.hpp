@@ -21,8 +21,8 @@ struct Orbit {
   std::optional<NominalFile> file;
 };
 
-/// The state in one of its forms: position and velocity, all six osculating elements, or the file
-/// of a message. Throws Error(scene); as read_nominal_file for a message.
+/// The state in one of its forms: position and velocity, osculating elements, or the file of a
+/// message. Throws Error(scene); as read_nominal_file for a message.
 Orbit read_orbit(const TableReader& table, const SceneCentre& centre);
 
 }  // namespace hamjet::io

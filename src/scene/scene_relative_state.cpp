@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "../dynamics/celestial_bodies.hpp"
 #include "../formats/relative_frame_text.hpp"
 #include "../text/scene_message.hpp"
 #include "hamjet/error.hpp"
@@ -52,7 +53,13 @@ ChiefFrame frame_at_chief(const TableReader& table, const Nominal& nominal, Rela
   }
 }
 
-/// Refuses a message whose state is not of the chief's moment, or is in other axes.
+/// Whether two messages name one centre: a body by any of its names, or the same name.
+bool is_same_centre(const std::string& one, const std::string& other) {
+  return one == other || (body_named(one) != nullptr && body_named(one) == body_named(other));
+}
+
+/// Refuses a message whose state is not of the chief's moment, is in other axes, or is about
+/// another centre, which a scene with the mu of no known body cannot tell otherwise.
 void require_same_date(const TableReader& table, const Nominal& nominal,
                        const EphemerisSettings& message) {
   const std::string_view file = table.exactly_one_of({"oem_file", "opm_file"});
@@ -75,6 +82,11 @@ void require_same_date(const TableReader& table, const Nominal& nominal,
     table.fail(file, fmt::format("a state in other axes than the chief's, got {}{}, must be {}{}",
                                  message.reference_frame, message.reference_frame_epoch,
                                  chief.reference_frame, chief.reference_frame_epoch));
+  }
+  if (!is_same_centre(message.center_name, chief.center_name)) {
+    table.fail(file,
+               fmt::format("a state about another centre than the chief's, got {}, must be {}",
+                           printable(message.center_name), printable(chief.center_name)));
   }
 }
 

@@ -54,6 +54,24 @@ def test_what_is_given_stands_in_place_of_what_would_be_filled_in():
     assert hamjet.run(state).runs["gauss8"].jet.duration_s == pytest.approx(60, rel=1e-14)
 
 
+def test_sizes_and_places_of_every_kind_get_the_angles_that_are_left_out():
+    rest = {"i_deg": 98, "duration_s": 60}
+    made = hamjet.orbit(**rest, height_km=500)["nominal"]
+    assert made == {"height_km": 500, "i_deg": 98, "raan_deg": 0, "argp_deg": 0, "ta_deg": 0}
+    for place in ("ta_deg", "ea_deg", "ma_deg", "u_deg"):
+        made = hamjet.orbit(**rest, perigee_height_km=300, apogee_height_km=900, **{place: 90})
+        assert made["nominal"] == {"perigee_height_km": 300, "apogee_height_km": 900, "i_deg": 98,
+                                   "raan_deg": 0, "argp_deg": 0, place: 90}
+    made = hamjet.orbit(**rest, period_s=5400, e=0, argp_deg=20, ma_deg=30)["nominal"]
+    assert made == {"period_s": 5400, "e": 0, "i_deg": 98, "raan_deg": 0, "argp_deg": 20,
+                    "ma_deg": 30}
+    # What is left out besides is said alone.
+    with pytest.raises(hamjet.SceneError, match="^orbit: nominal: no size of the orbit.*$"):
+        hamjet.orbit(**rest)
+    with pytest.raises(hamjet.SceneError, match="^orbit: nominal: no orbit"):
+        hamjet.orbit(duration_s=60)
+
+
 def test_other_tables_come_whole():
     validity = {"frame": "RTN", "derivatives": "rotating", "count": 2, "tolerance_m": 1.0}
     made = hamjet.orbit(**LOW, validity=validity)
@@ -64,8 +82,11 @@ def test_other_tables_come_whole():
 @pytest.mark.parametrize("change, text", [
     ({"duration_orbit": 1}, "orbit: jet.duration_orbit: unknown key, got duration_orbit, did you "
      "mean duration_orbits?"),
-    ({"altitude_km": 500}, "orbit: nominal.altitude_km: unknown key, got altitude_km, a height "
-     "above the surface is not read, must be a_km, from the centre"),
+    ({"altitude_km": 500}, "orbit: nominal.altitude_km: unknown key, got altitude_km, must be "
+     "height_km of a circle, or perigee_height_km with apogee_height_km"),
+    ({"height_km": 500}, "orbit: nominal.height_km: size and shape given twice, got a_km and "
+     "height_km, must be one of: a_km with e, perigee_height_km with apogee_height_km, period_s "
+     "with e, height_km of a circle"),
     ({"integrators": []}, "orbit: integrators: unknown key, got integrators, did you mean "
      "integrator?"),
     ({"duration_orbits": None}, MISSING_DURATION % "orbit"),

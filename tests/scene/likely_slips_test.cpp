@@ -81,6 +81,18 @@ TEST(LikelySlips, AHeightInPlaceOfTheSemiMajorAxis) {
   EXPECT_TRUE(warnings(with("6500")).empty());
 }
 
+TEST(LikelySlips, AHeightInMetres) {
+  const auto with = [](const char* size) {
+    return changed(orbit, "position_km = [7000, 0, 0]\nvelocity_km_s = [0, 7.5, 1]",
+                   std::string(size) + "\ni_deg = 0\nraan_deg = 0\nu_deg = 0");
+  };
+  expect_warning(with("height_km = 35786000"),
+                 {"file.toml:9:13: nominal.height_km: 3.5786e+07 km above the surface are",
+                  "5611 radii of EARTH; if these are metres, it must be 35786 km"});
+  EXPECT_TRUE(warnings(with("height_km = 35786")).empty());
+  EXPECT_TRUE(warnings(with("period_s = 86164\ne = 0")).empty());
+}
+
 TEST(LikelySlips, MetresPerSecondForKilometresPerSecond) {
   expect_warning(changed(orbit, "[0, 7.5, 1]", "[0, 7500, 1000]"),
                  {"file.toml:10:17: nominal.velocity_km_s: 7566.37 km/s are 709 times the speed of "

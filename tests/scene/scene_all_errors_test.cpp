@@ -87,7 +87,8 @@ TEST(AllErrors, OneTableHasSeveral) {
                   "a_km = -7000\ni_deg = 200\nraan_deg = 0\n");
   expect_lines(
       errors_of(scene),
-      {"nominal.e: missing", "nominal.argp_deg: missing", "nominal.ta_deg: missing",
+      {"nominal.e: missing beside a_km", "nominal.argp_deg: missing",
+       "nominal: missing, got none of a choice, must be exactly one of: ta_deg",
        "file.toml:9:8: nominal.a_km: not positive", "file.toml:10:9: nominal.i_deg: out of range"});
 }
 

@@ -220,7 +220,7 @@ TEST(SceneDeputy, Errors) {
                      {"deputy.frame: not defined at this chief, got RTN", "must be \"inertial\""});
 }
 
-TEST(SceneDeputy, OfAMessageIsOfTheChiefsMomentAndAxes) {
+TEST(SceneDeputy, OfAMessageIsOfTheChiefsMomentAxesAndCentre) {
   const std::string folder = std::string(HAMJET_SOURCE_DIR) + "/data/scenes/";
   const std::string head =
       "[system]\nmodel = \"kepler\"\nmu_km3_s2 = 398600.4415\n[jet]\nduration_s = 60\n"
@@ -245,6 +245,12 @@ TEST(SceneDeputy, OfAMessageIsOfTheChiefsMomentAndAxes) {
            "must be 2021-06-03T00:00:01.000000000000 UTC"});
   refused(dated("2021-06-03T00:00:00", "EME2000"),
           {"deputy.opm_file: a state in other axes than the chief's, got TOD, must be EME2000"});
+  const std::string same = changed(dated("2021-06-03T00:00:00", "TOD"), "[42164, 0, 0]",
+                                   "[6655.9942, -40218.5751, -82.9177]");
+  EXPECT_NO_THROW(read(changed(same, "[0, 3.07, 0]", "[3.11548208, 0.47042605, -0.00101495]")));
+  refused(changed(same, "\"EARTH\"", "\"EARTH BARYCENTER\""),
+          {"deputy.opm_file: a state about another centre than the chief's, got EARTH, must be "
+           "EARTH BARYCENTER"});
 }
 
 TEST(SceneDeputy, FarFromItsChiefIsWarnedOf) {

@@ -11,7 +11,7 @@
 #include "scene/tables/key_reference.hpp"
 #include "scene/tables/table_description.hpp"
 #include "scene_samples.hpp"
-#include "studies/descriptions/settings_fields.hpp"
+#include "study_text.hpp"
 #include "sweep/sweep_tables.hpp"
 
 // What the tables declare of their keys is what the readers do: every key is taken, a value just
@@ -100,6 +100,19 @@ const std::map<std::string, Place>& special_places() {
   static const Override states = {"deputy",
                                   "{position_km=[0, -1000, 7000], velocity_km_s=[-7.5, 0, 0]}"};
   static const Override of_message = {"deputy", "{opm_file=\"eutelsat-w4.opm\"}"};
+  static const Override on_circle = {"nominal", "{height_km=700, i_deg=98, raan_deg=0, u_deg=0}"};
+  static const Override between = {"nominal",
+                                   "{perigee_height_km=700, apogee_height_km=800, i_deg=98, "
+                                   "raan_deg=0, argp_deg=0, ta_deg=0}"};
+  static const Override no_axis = {"nominal.a_km", "null"};
+  static const Override no_anomaly = {"nominal.ta_deg", "null"};
+  static const Override deputy_on_circle = {"deputy",
+                                            "{height_km=701, i_deg=98.2, raan_deg=0, u_deg=90}"};
+  static const Override deputy_between = {"deputy",
+                                          "{perigee_height_km=700, apogee_height_km=720, "
+                                          "i_deg=98.2, raan_deg=0, argp_deg=90, ta_deg=0}"};
+  static const Override no_deputy_axis = {"deputy.a_km", "null"};
+  static const Override no_deputy_anomaly = {"deputy.ta_deg", "null"};
   static const std::map<std::string, Place> listed = {
       {"system.gravity_file", {"", {field, highest}, "\"../gravity/EGM96-zonals.gfc\""}},
       {"system.highest_zonal", {"", {field}}},
@@ -109,6 +122,13 @@ const std::map<std::string, Place>& special_places() {
       {"nominal.position_km", {"", {cartesian}, "[7000, 1, 0]"}},
       {"nominal.velocity_km_s", {"", {cartesian}, "[0, 7, 1]"}},
       {"nominal.e", {"", {}, "0.5"}},
+      {"nominal.perigee_height_km", {"", {between}, "750"}},
+      {"nominal.apogee_height_km", {"", {between}, "750"}},
+      {"nominal.period_s", {"", {no_axis}, "7000"}},
+      {"nominal.height_km", {"", {on_circle}, "800"}},
+      {"nominal.ea_deg", {"", {no_anomaly}}},
+      {"nominal.ma_deg", {"", {no_anomaly}}},
+      {"nominal.u_deg", {"", {no_anomaly}}},
       {"nominal.oem_file",
        {message,
         {{"nominal.opm_file", "null"},
@@ -127,6 +147,13 @@ const std::map<std::string, Place>& special_places() {
       {"deputy.raan_deg", {"", {no_deputy, ellipse}, "0.1"}},
       {"deputy.argp_deg", {"", {no_deputy, ellipse}, "90.1"}},
       {"deputy.ta_deg", {"", {no_deputy, ellipse}, "0.1"}},
+      {"deputy.perigee_height_km", {"", {no_deputy, deputy_between}, "702"}},
+      {"deputy.apogee_height_km", {"", {no_deputy, deputy_between}, "718"}},
+      {"deputy.period_s", {"", {no_deputy, ellipse, no_deputy_axis}, "5938"}},
+      {"deputy.height_km", {"", {no_deputy, deputy_on_circle}, "702"}},
+      {"deputy.ea_deg", {"", {no_deputy, ellipse, no_deputy_anomaly}, "0.1"}},
+      {"deputy.ma_deg", {"", {no_deputy, ellipse, no_deputy_anomaly}, "0.1"}},
+      {"deputy.u_deg", {"", {no_deputy, ellipse, no_deputy_anomaly}, "90.1"}},
       {"deputy.position_km", {"", {no_deputy, states}, "[0, -1010, 7000]"}},
       {"deputy.velocity_km_s", {"", {no_deputy, states}, "[-7.6, 0, 0]"}},
       {"deputy.oem_file",
@@ -233,77 +260,6 @@ std::vector<std::string> wrong_values(const ValueForm& form) {
   for (std::string& value : values) value = in_array(form, value);
   return values;
 }
-
-/// All that a key can change of a study, in one text.
-class StudyText {
- public:
-  template <class Value>
-  void add(const Value& value) {
-    if constexpr (HasFields<Value>) {
-      for_each_field(value, [&](std::string_view, const auto& member) { add(member); });
-    } else if constexpr (std::is_enum_v<Value>) {
-      add(static_cast<int>(value));
-    } else if constexpr (std::is_same_v<Value, ZonalCoefficients>) {
-      for (int n = ZonalCoefficients::lowest; n <= ZonalCoefficients::highest; ++n) add(value[n]);
-    } else if constexpr (requires {
-                           *value;
-                           value.has_value();
-                         }) {
-      if (value) add(*value);
-      text_ += "; ";
-    } else if constexpr (std::is_same_v<Value, RelativeState>) {
-      for (int i = 0; i < 3; ++i) add_all(value.position_m[i], value.velocity_m_s[i]);
-    } else if constexpr (std::is_arithmetic_v<Value> ||
-                         std::is_convertible_v<Value, std::string_view>) {
-      text_ += fmt::format("{} ", value);
-    } else {
-      for (const auto& element : value) add(element);
-      text_ += "; ";
-    }
-  }
-  template <class... Values>
-  void add_all(const Values&... values) {
-    (add(values), ...);
-  }
-  void add(const TransferSettings& s) {
-    add_all(s.frame, s.start, s.end, s.times, s.kind, s.tolerance_m, s.refine, s.refined_miss_m,
-            s.singular_margin, s.strict);
-  }
-  void add(const DeputySettings& s) { add_all(s.frame, s.start); }
-  void add(const ValiditySettings& s) {
-    add_all(s.tolerance_m, s.times, s.semi_axes, s.samples, s.frame);
-  }
-  void add(const AssignmentSettings& s) { add_all(s.deputies, s.slots, s.time); }
-  void add(const EphemerisSettings& s) {
-    add_all(s.epoch, s.time_system, s.reference_frame, s.center_name, s.reference_frame_epoch,
-            s.object_name, s.object_id, s.deputy_name, s.deputy_id, s.originator, s.oem_version);
-  }
-  void add(const FigureSettings& s) { add_all(s.quantity, s.kind); }
-  void add(const SelfCheckSetting& s) { add_all(s.is_on, s.limit); }
-  void add(const Scene& s) {
-    add_all(s.title, s.precision, s.system, s.units, s.canonical_radius, s.nominal, s.duration,
-            s.order, s.arcs, s.variables, s.integrators, s.separation, s.kinds, s.reference,
-            s.relative_hamiltonian_times, s.comparison, s.figure, s.deputy, s.transfer, s.validity,
-            s.assignment, s.output.formats, s.ephemeris);
-    for (std::size_t i = 0; i < self_check_count; ++i) add(s.checks[SelfCheckName(i)]);
-  }
-  void add(const EnergyConservationStudy& s) {
-    add_all(s.title, s.system, s.nominal, s.method, s.first_step, s.duration, s.expected,
-            s.require_energy_error);
-  }
-  void add(const CanonicalTransformationStudy& s) {
-    add_all(s.title, s.system, s.nominal, s.duration, s.steps, s.require_invariance);
-  }
-  void add(const OptimalControlStudy& s) {
-    add_all(s.title, s.model, s.discretization, s.duration, s.steps, s.refinements, s.start, s.end,
-            s.costate_guess, s.shooting_intervals, s.require_cost_error, s.require_equivalence);
-  }
-
-  const std::string& text() const { return text_; }
-
- private:
-  std::string text_;
-};
 
 /// The study as a text, or the message where it is refused, behind "refused: ".
 std::string read(const Place& place, const std::string& key, const std::string& value) {

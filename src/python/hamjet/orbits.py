@@ -12,7 +12,7 @@ from . import _hamjet, scenes
 _NAME = "orbit"
 
 #: Angles that an orbit has by default, which its shape does not depend on.
-_ANGLES = {"raan_deg": 0, "argp_deg": 0, "ta_deg": 0}
+_ANGLES = {"raan_deg": 0, "argp_deg": 0}
 
 
 def orbit(**keys: Any) -> dict[str, Any]:
@@ -25,7 +25,7 @@ def orbit(**keys: Any) -> dict[str, Any]:
     whole tables as dicts (``transfer={...}``). What is None is left out. Without ``model`` it is
     zonal-gravity with the J_n that are given, and without mu, radius and a file of the field it is
     the Earth's mu and equatorial radius. With elements of an orbit, angles are 0 that are left out
-    (node, perigee, anomaly).
+    (node, perigee, and the place, if none is given: ta_deg, ea_deg, ma_deg or u_deg).
 
     Returns the tables of the scene as a dict, which was checked. Raises as ``run`` does: an unknown
     keyword is a SceneError that names the nearest key.
@@ -44,8 +44,11 @@ def orbit(**keys: Any) -> dict[str, Any]:
         if system.keys() & {*earth, "gravity_file"}:
             earth = {"model": earth["model"]}
         scene["system"] = {**earth, **system}
-    if "a_km" in scene["nominal"]:
-        scene["nominal"] = {**_ANGLES, **scene["nominal"]}
+    nominal = scene["nominal"]
+    elements, places = _hamjet.element_keys()
+    if nominal.keys() & set(elements):
+        place = {} if nominal.keys() & set(places) else {places[0]: 0}
+        scene["nominal"] = {**_ANGLES, **place, **nominal}
     scenes.read(scene, None, _NAME)
     return scene
 

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+#include "scene/study_reader.hpp"
+#include "studies/descriptions/settings_fields.hpp"
+
+// Settings that a scene was read into, as a text that two readings can be compared by.
+
+namespace hamjet::io {
+
+/// All that a key can change of a study, in one text.
+class StudyText {
+ public:
+  template <class Value>
+  void add(const Value& value) {
+    if constexpr (HasFields<Value>) {
+      for_each_field(value, [&](std::string_view, const auto& member) { add(member); });
+    } else if constexpr (std::is_enum_v<Value>) {
+      add(static_cast<int>(value));
+    } else if constexpr (std::is_same_v<Value, ZonalCoefficients>) {
+      for (int n = ZonalCoefficients::lowest; n <= ZonalCoefficients::highest; ++n) add(value[n]);
+    } else if constexpr (requires {
+                           *value;
+                           value.has_value();
+                         }) {
+      if (value) add(*value);
+      text_ += "; ";
+    } else if constexpr (std::is_same_v<Value, RelativeState>) {
+      for (int i = 0; i < 3; ++i) add_all(value.position_m[i], value.velocity_m_s[i]);
+    } else if constexpr (std::is_arithmetic_v<Value> ||
+                         std::is_convertible_v<Value, std::string_view>) {
+      text_ += fmt::format("{} ", value);
+    } else {
+      for (const auto& element : value) add(element);
+      text_ += "; ";
+    }
+  }
+  template <class... Values>
+  void add_all(const Values&... values) {
+    (add(values), ...);
+  }
+  void add(const TransferSettings& s) {
+    add_all(s.frame, s.start, s.end, s.times, s.kind, s.tolerance_m, s.refine, s.refined_miss_m,
+            s.singular_margin, s.strict);
+  }
+  void add(const DeputySettings& s) { add_all(s.frame, s.start); }
+  void add(const ValiditySettings& s) {
+    add_all(s.tolerance_m, s.times, s.semi_axes, s.samples, s.frame);
+  }
+  void add(const AssignmentSettings& s) { add_all(s.deputies, s.slots, s.time); }
+  void add(const EphemerisSettings& s) {
+    add_all(s.epoch, s.time_system, s.reference_frame, s.center_name, s.reference_frame_epoch,
+            s.object_name, s.object_id, s.deputy_name, s.deputy_id, s.originator, s.oem_version);
+  }
+  void add(const FigureSettings& s) { add_all(s.quantity, s.kind); }
+  void add(const SelfCheckSetting& s) { add_all(s.is_on, s.limit); }
+  void add(const Scene& s) {
+    add_all(s.title, s.precision, s.system, s.units, s.canonical_radius, s.nominal, s.duration,
+            s.order, s.arcs, s.variables, s.integrators, s.separation, s.kinds, s.reference,
+            s.relative_hamiltonian_times, s.comparison, s.figure, s.deputy, s.transfer, s.validity,
+            s.assignment, s.output.formats, s.ephemeris);
+    for (std::size_t i = 0; i < self_check_count; ++i) add(s.checks[SelfCheckName(i)]);
+  }
+  void add(const EnergyConservationStudy& s) {
+    add_all(s.title, s.system, s.nominal, s.method, s.first_step, s.duration, s.expected,
+            s.require_energy_error);
+  }
+  void add(const CanonicalTransformationStudy& s) {
+    add_all(s.title, s.system, s.nominal, s.duration, s.steps, s.require_invariance);
+  }
+  void add(const OptimalControlStudy& s) {
+    add_all(s.title, s.model, s.discretization, s.duration, s.steps, s.refinements, s.start, s.end,
+            s.costate_guess, s.shooting_intervals, s.require_cost_error, s.require_equivalence);
+  }
+
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+}  // namespace hamjet::io
