@@ -19,6 +19,10 @@ struct SizeForm {
   std::vector<std::string_view> keys;
   Ellipse (*read)(const TableReader& table, const SceneCentre& centre);
   std::string_view words = {};
+
+  bool has(std::string_view key) const {
+    return std::find(keys.begin(), keys.end(), key) != keys.end();
+  }
 };
 
 double read_eccentricity(const TableReader& table) {
@@ -104,20 +108,37 @@ const SizeForm& size_form_of(const TableReader& table) {
                              listed_size_forms()));
 }
 
+/// Refuses keys of which no form has both.
+void require_one_form(const TableReader& table) {
+  std::vector<std::string_view> given;
+  for (const std::string_view key : joined<std::string_view>({size_keys(), {"e"}})) {
+    if (table.has(key)) given.push_back(key);
+  }
+  const auto are_of_one_form = [](std::string_view one, std::string_view other) {
+    return std::any_of(size_forms().begin(), size_forms().end(),
+                       [&](const SizeForm& form) { return form.has(one) && form.has(other); });
+  };
+  std::string_view wrong;
+  std::string problem;
+  for (const std::string_view key : given) {
+    std::vector<std::string_view> others = given;
+    std::erase_if(others, [&](std::string_view other) { return are_of_one_form(key, other); });
+    if (others.empty()) continue;
+    const std::string removal = table.removal_of_others(key, others);
+    if (!problem.empty() && removal.empty()) continue;
+    wrong = removal.empty() ? others[0] : key;
+    problem = fmt::format("size and shape given twice, got {} and {}, must be one of: {}{}", key,
+                          others[0], listed_size_forms(), removal);
+    if (!removal.empty()) break;
+  }
+  if (!problem.empty()) table.fail(wrong, problem);
+}
+
 Ellipse read_ellipse(const TableReader& table, const SceneCentre& centre) {
   const SizeForm& form = size_form_of(table);
-  const auto is_of_form = [&](std::string_view key) {
-    return std::find(form.keys.begin(), form.keys.end(), key) != form.keys.end();
-  };
+  require_one_form(table);
   const std::string_view given = *std::find_if(
       form.keys.begin(), form.keys.end(), [&](std::string_view key) { return table.has(key); });
-  for (const SizeForm& other : size_forms()) {
-    for (const std::string_view key : other.keys) {
-      if (is_of_form(key) || !table.has(key)) continue;
-      table.fail(key, fmt::format("size and shape given twice, got {} and {}, must be one of: {}",
-                                  given, key, listed_size_forms()));
-    }
-  }
   bool is_good = true;
   for (const std::string_view key : form.keys) {
     const auto read_one = [&] {

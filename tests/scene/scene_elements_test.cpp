@@ -142,6 +142,17 @@ TEST(SceneElements, EachPieceIsThereOnce) {
                  {"file.toml:11:13: nominal.height_km: size and shape given twice, got a_km and "
                   "height_km",
                   forms});
+  expect_error(
+      [] {
+        parse_scene(
+            "system = {model = \"kepler\", mu_km3_s2 = 4e5}\njet.duration_s = 1\n"
+            "nominal = {a_km = 7000, e = 0, i_deg = 0, raan_deg = 0, u_deg = 0}\n",
+            "file.toml", {{"nominal.height_km", "700"}});
+      },
+      ErrorKind::scene,
+      {"--set nominal.height_km: size and shape given twice, got height_km and a_km",
+       "; what is not wanted is removed by --set nominal.a_km=null --set nominal.e=null"},
+      "an override");
   expect_refused("height_km = 700\ne = 0\n" + angles,
                  {"nominal.e: size and shape given twice, got height_km and e", forms});
   expect_refused("period_s = 7000\ne = 0\napogee_height_km = 700\n" + angles,

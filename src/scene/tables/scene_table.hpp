@@ -116,6 +116,10 @@ class TableReader {
   void require(const std::vector<std::string_view>& keys) const;
   /// Required: the only one of `keys` that the table has.
   std::string_view exactly_one_of(const std::vector<std::string_view>& keys) const;
+  /// How the other keys of a choice are removed, as the end of a message, if an override gave this
+  /// one; empty otherwise.
+  std::string removal_of_others(std::string_view key,
+                                const std::vector<std::string_view>& given) const;
 
   /// Required: a table.
   TableReader table(std::string_view key) const;
@@ -154,9 +158,6 @@ class TableReader {
   /// `key` with the table's dotted name before it.
   std::string dotted(std::string_view key) const;
   std::string location_of(const toml::node& node) const;
-  /// How the other keys of a choice are removed, if an override gave this one.
-  std::string removal_of_others(std::string_view key,
-                                const std::vector<std::string_view>& given) const;
 
   const toml::table* table_;
   std::string path_;
