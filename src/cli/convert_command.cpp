@@ -5,15 +5,63 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <system_error>
+#include <type_traits>
+#include <variant>
 
+#include "../app/refusal.hpp"
 #include "../app/rounding_note.hpp"
+#include "../formats/foreign_jet.hpp"
+#include "../formats/number_table.hpp"
 #include "../formats/output_formats.hpp"
+#include "../store/text_file.hpp"
+#include "../text/scene_message.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/formats/jet_file.hpp"
 #include "output_file.hpp"
 #include "process/standard_streams.hpp"
 
 namespace hamjet::cli {
+namespace {
+
+std::vector<double> numbers_of(const std::string& option, const std::string& text) {
+  std::vector<std::string_view> fields;
+  io::split_line(text, fields);
+  std::vector<double> numbers;
+  for (const std::string_view field : fields) {
+    const auto number = io::finite_number(field);
+    if (!number) {
+      refuse(fmt::format("{}: must be finite numbers between commas, got {}", option,
+                         io::in_quotes(field)));
+    }
+    numbers.push_back(*number);
+  }
+  return numbers;
+}
+
+/// An option for each thing that a file from elsewhere does not say.
+void add_description_options(CLI::App& command, io::JetDescription& foreign) {
+  constexpr const char* group = "A jet from elsewhere, a file .dace without summary.json";
+  for (const io::DescriptionMember& member : io::description_members()) {
+    const std::string option = member.option();
+    const auto add = [&]<class Value>(std::optional<Value> io::JetDescription::*value) {
+      std::optional<Value>& target = foreign.*value;
+      CLI::Option* added = nullptr;
+      if constexpr (std::is_same_v<Value, std::vector<double>>) {
+        added = command.add_option_function<std::string>(
+            option,
+            [&target, option](const std::string& text) { target = numbers_of(option, text); });
+        added->type_name("NUMBERS");
+      } else {
+        added = command.add_option(option, target);
+        added->type_name(std::is_same_v<Value, double> ? "NUMBER" : "NAME");
+      }
+      added->description(std::string(member.help))->group(group);
+    };
+    std::visit(add, member.value);
+  }
+}
+
+}  // namespace
 
 CLI::App* add_convert_command(CLI::App& app, ConvertOptions& options) {
   CLI::App* command =
@@ -29,6 +77,7 @@ CLI::App* add_convert_command(CLI::App& app, ConvertOptions& options) {
       ->type_name("FILE");
   command->add_option("--run", options.run, "label of the run (default: the first with a result)")
       ->type_name("LABEL");
+  add_description_options(*command, options.foreign);
   return command;
 }
 
@@ -45,7 +94,7 @@ int convert(const ConvertOptions& options) {
     throw Error(ErrorKind::usage, "from and to: are the same file");
   }
   const OutputFile file(to);
-  const io::StoredJet stored = io::read_jet_file(options.from, options.run);
+  const io::StoredJet stored = io::read_jet_file(options.from, options.run, options.foreign);
   if (const auto note = rounding_note(stored, format)) print_error("note: " + *note);
   file.write(io::jet_file_content(stored, format));
   return 0;

@@ -3,6 +3,8 @@
 #include <optional>
 #include <string>
 
+#include "hamjet/formats/jet_file.hpp"
+
 namespace CLI {
 class App;
 }
@@ -13,6 +15,7 @@ struct ConvertOptions {
   std::string from;  ///< results of `hamjet run`, or a file of a jet
   std::string to;    ///< .h5, .dace or .csv
   std::optional<std::string> run;
+  io::JetDescription foreign;  ///< what is told of a jet from elsewhere
 };
 
 CLI::App* add_convert_command(CLI::App& app, ConvertOptions& options);

@@ -99,6 +99,7 @@ const OutputFormat dace_format = {
           return dace_text(stored.jet, jet_notes(stored, stored.order()));
         },
     .read_coefficients = read_dace_coefficients,
+    .read_polynomials = read_dace_text,
 };
 
 }  // namespace hamjet::io

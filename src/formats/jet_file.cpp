@@ -9,6 +9,8 @@
 #include "../store/sealed_summary.hpp"
 #include "../store/text_file.hpp"
 #include "../text/scene_message.hpp"
+#include "dace_text.hpp"
+#include "foreign_jet.hpp"
 #include "hamjet/error.hpp"
 #include "output_formats.hpp"
 #include "stored_jet_source.hpp"
@@ -29,6 +31,32 @@ bool has_summary(const std::filesystem::path& directory) {
   return std::filesystem::exists(directory / "summary.json", none);
 }
 
+/// What may stand in place of a summary, for formats of polynomials alone.
+std::string how_to_describe(const OutputFormat& format) {
+  if (format.read_polynomials == nullptr) return "";
+  std::vector<std::string> options;
+  for (const DescriptionMember& member : description_members()) options.push_back(member.option());
+  return fmt::format(", or convert it with {}", fmt::join(options, ", "));
+}
+
+StoredJet read_foreign(const std::filesystem::path& file, const OutputFormat* format,
+                       const std::optional<std::string>& label, const JetDescription& foreign) {
+  const std::string name = printable_path(file);
+  if (label) {
+    throw Error(ErrorKind::usage,
+                fmt::format("{}: a jet from elsewhere has no runs, got the label {}", name,
+                            in_quotes(*label)));
+  }
+  if (format == nullptr || format->read_polynomials == nullptr) {
+    throw Error(ErrorKind::usage,
+                fmt::format("{}: what is told of a jet from elsewhere is for {} alone, which says "
+                            "nothing of it itself",
+                            name, dace_format.ending));
+  }
+  return foreign_jet(name, printable(file.stem().string()), read_text_file(file, largest_jet_bytes),
+                     *format, foreign);
+}
+
 StoredJet read_beside_summary(const std::filesystem::path& file, const OutputFormat& format,
                               std::optional<std::string> label) {
   const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
@@ -38,8 +66,8 @@ StoredJet read_beside_summary(const std::filesystem::path& file, const OutputFor
     if (!has_summary(directory)) {
       throw Error(ErrorKind::input_output,
                   fmt::format("{}: no summary.json beside it or one folder up, which says what its "
-                              "coefficients are of; give the results directory or an .h5 file",
-                              printable_path(file)));
+                              "coefficients are of; give the results directory or an .h5 file{}",
+                              printable_path(file), how_to_describe(format)));
     }
     if (!label) label = std::filesystem::canonical(folder).filename().string();
   }
@@ -67,11 +95,12 @@ const OutputFormat& jet_format(const std::filesystem::path& file) {
               fmt::format("{}: must end in {}", printable_path(file), jet_file_endings()));
 }
 
-StoredJet read_jet_file(const std::filesystem::path& path,
-                        const std::optional<std::string>& label) {
+StoredJet read_jet_file(const std::filesystem::path& path, const std::optional<std::string>& label,
+                        const JetDescription& foreign) {
   std::error_code none;
   const OutputFormat* format = format_of(path);
   const bool exists = std::filesystem::exists(path, none);
+  if (is_any_given(foreign)) return read_foreign(path, format, label, foreign);
   if (std::filesystem::is_directory(path, none) || (!exists && format == nullptr)) {
     return read_stored_jet(path, label);
   }

@@ -38,6 +38,9 @@ struct OutputFormat {
                     const std::optional<std::string>& label) = nullptr;
   /// Reads coefficients whose `summary.json` says what they are of.
   FlowJet<Extended> (*read_coefficients)(const CoefficientFile&, std::string_view text) = nullptr;
+  /// Reads coefficients by themselves, of as many variables and orders as they have.
+  std::vector<Series<double>> (*read_polynomials)(const std::string& name,
+                                                  std::string_view text) = nullptr;
 };
 
 /// All formats.

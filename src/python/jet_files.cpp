@@ -36,6 +36,9 @@ constexpr const char* load_doc =
 
 path: a file .h5; a file .csv or .dace beside the summary.json of its results or one folder below;
 or a directory of results. run: the label of the run; by default the first that has a result.
+model, units, duration_canonical, nominal_initial: all of them for a file .dace from elsewhere,
+which says nothing but its polynomials, the final state by the deviations; they are as in
+`from_arrays`.
 
 Raises UsageError if no run has this label, InputOutputError if the file is not what was written,
 and of these MissingFileError, a FileNotFoundError, if it is not there.)";
@@ -60,9 +63,10 @@ void save(const std::shared_ptr<Jet>& jet, const py::object& path) {
   });
 }
 
-Jet load(const std::filesystem::path& file, const std::optional<std::string>& run) {
-  return interruptibly(py::none(), [file, run](const ProgressCallback&) {
-    return Jet(io::read_jet_file(file, run));
+Jet load(const std::filesystem::path& file, const std::optional<std::string>& run,
+         const io::JetDescription& foreign) {
+  return interruptibly(py::none(), [file, run, foreign](const ProgressCallback&) {
+    return Jet(io::read_jet_file(file, run, foreign));
   });
 }
 
@@ -72,11 +76,23 @@ void bind_jet_files(py::module_& module, py::class_<Jet, std::shared_ptr<Jet>>& 
   jet.def("save", &save, py::arg("path"), documented("save(self, path)", save_doc).c_str())
       .def_static(
           "load",
-          [](const py::object& path, const std::optional<std::string>& run) {
-            return load(path_of(path), run);
+          [](const py::object& path, const std::optional<std::string>& run,
+             const std::optional<std::string>& model, const std::optional<CanonicalUnits>& units,
+             std::optional<double> duration, const std::optional<std::vector<double>>& nominal) {
+            io::JetDescription foreign{model, {}, {}, duration, nominal};
+            if (units) {
+              foreign.length_unit_km = units->length_km;
+              foreign.time_unit_s = units->time_s;
+            }
+            return load(path_of(path), run, foreign);
           },
-          py::arg("path"), py::arg("run") = py::none(),
-          documented("load(path, run=None)", load_doc).c_str());
+          py::arg("path"), py::arg("run") = py::none(), py::kw_only(),
+          py::arg("model") = py::none(), py::arg("units") = py::none(),
+          py::arg("duration_canonical") = py::none(), py::arg("nominal_initial") = py::none(),
+          documented("load(path, run=None, *, model=None, units=None, duration_canonical=None, "
+                     "nominal_initial=None)",
+                     load_doc)
+              .c_str());
   module.def(
       "load_jet",
       [](const std::filesystem::path& directory, const std::optional<std::string>& run) {

@@ -43,6 +43,60 @@ TEST_F(ConvertTest, ExtendedPrecisionInTheTextOfDace) {
   EXPECT_NE(content(directory_ / "jet.dace").find("rounded"), std::string::npos);
 }
 
+// A kick and a drift: q + 2 p + p^2 and p, about q = 0.5 and p = 0.25.
+TEST_F(ConvertTest, AJetFromElsewhere) {
+  const std::string rule(48, '-');
+  const std::string head = "     I  COEFFICIENT              ORDER EXPONENTS\n";
+  write("map.dace", "[[[ 2 vector\n" + head +
+                        "     1    1.2500000000000000e+00   0   0  0\n"
+                        "     2    1.0000000000000000e+00   1   1  0\n"
+                        "     3    2.0000000000000000e+00   1   0  1\n"
+                        "     4    1.0000000000000000e+00   2   0  2\n" +
+                        rule + "\n" + head +
+                        "     1    2.5000000000000000e-01   0   0  0\n"
+                        "     2    1.0000000000000000e+00   1   0  1\n" +
+                        rule + "\n]]]\n");
+  const std::vector<std::string> told = {"--model=own", "--length-unit-km=7000",
+                                         "--time-unit-s=1000", "--duration-canonical=2",
+                                         "--nominal-initial=0.5,0.25"};
+  const auto converting = [&](const std::string& to, std::vector<std::string> options) {
+    std::vector<std::string> arguments = {"convert", "map.dace", to};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    return arguments;
+  };
+  succeed(converting("map.csv", told));
+  EXPECT_NE(content(directory_ / "map.csv").find("q,0,1,2\n"), std::string::npos);
+  EXPECT_NE(content(directory_ / "map.csv").find("p,0,2,0\n"), std::string::npos);
+  if (io::hdf5_available()) {
+    succeed(converting("map.h5", told));
+    // q + 2 p + p^2 moves by 0.2 + 0.01 for a deviation of 0.1 in p.
+    const std::string out =
+        succeed({"eval", "map.h5", "-q", "--frame", "canonical", "--deviation", "0,0.1"}).out;
+    EXPECT_NE(out.find("0.21"), std::string::npos) << out;
+  }
+  expect_error(converting("a.csv", {}), 5, {"no summary.json", "--length-unit-km"});
+  expect_error(converting("a.csv", {told[0], told[3]}), 2,
+               {"map.dace", "needs length_unit_km, time_unit_s, nominal_initial",
+                "--length-unit-km, --time-unit-s, --nominal-initial"});
+  const auto expect_wrong = [&](std::size_t i, const std::string& option, int code,
+                                const std::vector<std::string>& words) {
+    auto options = told;
+    options[i] = option;
+    expect_error(converting("a.csv", options), code, words);
+  };
+  expect_wrong(0, "--model=kelper", 2, {"model: got \"kelper\"", "did you mean kepler?"});
+  expect_wrong(0, "--model=kepler", 2, {"nominal_initial: got 2 numbers, must be 6"});
+  expect_wrong(1, "--length-unit-km=0", 2, {"length_unit_km: got 0, must be above 0"});
+  expect_wrong(2, "--time-unit-s=nan", 2, {"time_unit_s: got nan, must be finite"});
+  expect_wrong(4, "--nominal-initial=0.5,x", 2, {"--nominal-initial", "\"x\""});
+  expect_wrong(4, "--nominal-initial=0.5,0,0,0", 5,
+               {"map.dace: has 2 polynomials in 2 variables, must have 4 in 4"});
+  auto options = told;
+  options.push_back("--run=gauss8");
+  expect_error(converting("a.csv", options), 2, {"has no runs", "gauss8"});
+  expect_error({"convert", "results", "a.csv", told[0]}, 2, {"results", ".dace alone"});
+}
+
 TEST_F(ConvertTest, Mistakes) {
   expect_error({"convert"}, 2, {"from"});
   expect_error({"convert", "results"}, 2, {"to"});

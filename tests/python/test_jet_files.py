@@ -129,3 +129,17 @@ def test_a_file_is_replaced_whole_or_not_at_all(tmp_path, jet):
     hamjet.run(other).runs["gauss8"].jet.save(file)
     assert file.read_bytes() != before
     assert os.listdir(tmp_path) == ["jet.csv"]
+
+
+def test_polynomials_from_elsewhere(tmp_path):
+    jet = hamjet.run(OSCILLATOR).runs["gauss8"].jet
+    jet.save(tmp_path / "x.dace")
+    told = {"model": jet.model, "units": jet.units, "duration_canonical": jet.duration_canonical,
+            "nominal_initial": list(jet.nominal_initial)}
+    again = hamjet.Jet.load(tmp_path / "x.dace", **told)
+    assert (again.coefficients == jet.coefficients).all()
+    assert again.units.length_km == jet.units.length_km
+    assert (again.nominal_initial == jet.nominal_initial).all()
+    del told["units"]
+    with pytest.raises(hamjet.UsageError, match="needs length_unit_km, time_unit_s as well"):
+        hamjet.Jet.load(tmp_path / "x.dace", **told)

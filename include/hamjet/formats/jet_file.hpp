@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "hamjet/formats/stored_jet.hpp"
 
@@ -21,13 +22,25 @@ struct OutputFormat;
 /// other.
 const OutputFormat& jet_format(const std::filesystem::path& file);
 
+/// What a file of polynomials from elsewhere does not say, in the file's own units. All of it is
+/// needed, for a state whose components are all in the file, expanded in all of its variables.
+struct JetDescription {
+  std::optional<std::string> model = {};  ///< a name of model_names()
+  std::optional<double> length_unit_km = {};
+  std::optional<double> time_unit_s = {};
+  std::optional<double> duration_canonical = {};
+  std::optional<std::vector<double>> nominal_initial = {};
+};
+
 /// Reads the run with this label, or else the first that has a result, from a results directory, an
 /// HDF5 file, or a file of coefficients beside its `summary.json` or one folder below, which then
 /// has the run's name unless `label` says otherwise. What the summary lists must be as it was
-/// written. DACE's text holds double precision, and so does what is read from it. Throws as
-/// read_stored_jet.
+/// written. DACE's text holds double precision, and so does what is read from it. Where
+/// anything is told in `foreign`, the file must be one of DACE's text from elsewhere, no summary is
+/// looked for, and the jet has the file's name. Throws as read_stored_jet.
 StoredJet read_jet_file(const std::filesystem::path& path,
-                        const std::optional<std::string>& label = {});
+                        const std::optional<std::string>& label = {},
+                        const JetDescription& foreign = {});
 
 /// The content of a file of this format. Throws Error(input_output) if the format cannot hold the
 /// jet, Error(usage) for HDF5 in a build without it.
