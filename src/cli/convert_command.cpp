@@ -17,6 +17,7 @@
 #include "../text/scene_message.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/formats/jet_file.hpp"
+#include "noted_jet.hpp"
 #include "output_file.hpp"
 #include "process/standard_streams.hpp"
 
@@ -94,7 +95,7 @@ int convert(const ConvertOptions& options) {
     throw Error(ErrorKind::usage, "from and to: are the same file");
   }
   const OutputFile file(to);
-  const io::StoredJet stored = io::read_jet_file(options.from, options.run, options.foreign);
+  const io::StoredJet stored = read_noted_jet(options.from, options.run, options.foreign);
   if (const auto note = rounding_note(stored, format)) print_error("note: " + *note);
   file.write(io::jet_file_content(stored, format));
   return 0;

@@ -18,9 +18,9 @@
 #include "../store/text_file.hpp"
 #include "../text/scene_message.hpp"
 #include "hamjet/error.hpp"
-#include "hamjet/formats/jet_file.hpp"
 #include "hamjet/relative_motion/chief_frame.hpp"
 #include "hamjet/scene/scene_reader.hpp"
+#include "noted_jet.hpp"
 #include "output_file.hpp"
 #include "process/interruption.hpp"
 #include "process/standard_streams.hpp"
@@ -275,7 +275,7 @@ void report(const EvalCoordinates& coordinates, const io::StoredJet& stored,
 
 int eval(const EvalOptions& options) {
   check_options(options);
-  const io::StoredJet stored = io::read_jet_file(options.directory, options.run);
+  const io::StoredJet stored = read_noted_jet(options.directory, options.run);
   if (options.degree && (*options.degree < 1 || *options.degree > stored.order())) {
     refuse(fmt::format("--degree {}: must be 1 to the order of the jet, {}", *options.degree,
                        stored.order()));

@@ -14,8 +14,8 @@
 #include "../text/scene_message.hpp"
 #include "hamjet/algebra/composition.hpp"
 #include "hamjet/error.hpp"
-#include "hamjet/formats/jet_file.hpp"
 #include "hamjet/report/relative_motion_report.hpp"
+#include "noted_jet.hpp"
 #include "process/standard_streams.hpp"
 #include "study_command.hpp"
 
@@ -33,7 +33,7 @@ constexpr int trajectory_intervals = 400;
 }
 
 io::StoredJet read_stored_jet(const TransferOptions& transfers) {
-  io::StoredJet stored = io::read_jet_file(*transfers.directory, transfers.run);
+  io::StoredJet stored = read_noted_jet(*transfers.directory, transfers.run);
   if (stored.duration == 0) {
     refuse_jet(transfers, stored, "has the duration 0, in which nothing can be transferred");
   }

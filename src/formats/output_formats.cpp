@@ -17,6 +17,8 @@ const std::vector<const OutputFormat*>& output_formats() {
       &dace_format,
       &csv_format,
       &oem_format,
+      &start_opm_format,
+      &end_opm_format,
   };
   return formats;
 }

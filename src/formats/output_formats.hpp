@@ -14,7 +14,8 @@ namespace hamjet::io {
 /// it: its header and source say it once, and the list in output_formats.cpp names it. What a
 /// format does not do is left null or empty.
 struct OutputFormat {
-  /// In `[output]`; empty: it is not asked for there, results always have it.
+  /// In `[output]`, where formats of one name are asked for together; empty: it is not asked for
+  /// there, results always have it.
   std::string_view name = {};
   std::string_view help = {};  ///< for people: what a file of it is; empty where the ending says it
   std::string_view file;       ///< its name in the results, or in the folder of each run

@@ -65,9 +65,14 @@ void save(const std::shared_ptr<Jet>& jet, const py::object& path) {
 
 Jet load(const std::filesystem::path& file, const std::optional<std::string>& run,
          const io::JetDescription& foreign) {
-  return interruptibly(py::none(), [file, run, foreign](const ProgressCallback&) {
-    return Jet(io::read_jet_file(file, run, foreign));
+  io::StoredJet stored = interruptibly(py::none(), [file, run, foreign](const ProgressCallback&) {
+    return io::read_jet_file(file, run, foreign);
   });
+  for (const std::string& note : stored.notes) {
+    const std::string text = "load: " + note;
+    if (PyErr_WarnEx(PyExc_RuntimeWarning, text.c_str(), 1) != 0) throw py::error_already_set();
+  }
+  return Jet(std::move(stored));
 }
 
 }  // namespace

@@ -13,7 +13,11 @@ namespace {
 std::vector<std::string_view> format_names() {
   std::vector<std::string_view> names;
   for (const OutputFormat* format : output_formats()) {
-    if (!format->name.empty()) names.push_back(format->name);
+    if (format->name.empty()) continue;
+    // Formats of one name are asked for together.
+    if (std::find(names.begin(), names.end(), format->name) == names.end()) {
+      names.push_back(format->name);
+    }
   }
   return names;
 }

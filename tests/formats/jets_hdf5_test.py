@@ -242,6 +242,45 @@ class JetsHdf5Test(unittest.TestCase):
             file["gauss8/coefficients"][0, 3] *= 2
         self.expect_refused(changed, "was cut or changed", "checksum")
 
+    def test_additions_of_another_program(self):
+        added = self.folder / "added.h5"
+
+        def add(file):
+            file.attrs["seen"] = "by another program"
+            file["gauss8"].attrs["note"] = numpy.arange(100.0)
+            file.create_group("analysis")["residuals"] = numpy.ones((50, 3))
+            file["gauss8/mean"] = 1.5
+
+        def write(change):
+            added.write_bytes(self.file.read_bytes())
+            with h5py.File(added, "r+") as file:
+                add(file)
+                change(file)
+
+        write(lambda file: None)
+        self.assertGreater(added.stat().st_size, self.file.stat().st_size)
+        result = hamjet("convert", added, self.folder / "added.csv")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("note: ", result.stderr)
+        self.assertIn("another program has added to it", result.stderr)
+        self.assertEqual((self.folder / "added.csv").read_bytes(),
+                         (self.results / "gauss8" / "jet.csv").read_bytes())
+
+        # What is hamjet's own is checked as before.
+        def scaled(file):
+            file["gauss8/coefficients"][0, 3] *= 2
+
+        for change in [scaled,
+                       lambda file: file.attrs.__setitem__("length_unit_km", 7001.0),
+                       lambda file: file.attrs.__setitem__("duration_canonical", 0.75),
+                       lambda file: file.attrs.__setitem__("scene", "another"),
+                       lambda file: file["gauss8"].attrs.__delitem__("content_crc32")]:
+            write(change)
+            self.expect_refused(added, "was cut or changed", "checksum")
+        write(lambda file: None)
+        added.write_bytes(added.read_bytes()[:-100])
+        self.expect_refused(added)
+
     def test_attributes(self):
         needed = ["format", "format_version", "scene", "model", "precision", "length_unit_km",
                   "time_unit_s", "duration_canonical", "nominal_initial", "components", "variables",

@@ -68,7 +68,11 @@ struct OrbitEphemerisMessage {
 /// An Orbit Parameter Message (OPM): the state of one object at one moment.
 struct OrbitParameterMessage {
   std::string version;
+  std::vector<std::string> comments;  ///< of the header; written, not read
+  Epoch creation_date;                ///< UTC
+  std::string originator;
   OrbitMetadata metadata;
+  std::vector<std::string> state_comments;  ///< before the state; written, not read
   OrbitState state;
   std::optional<double> gm_km3_s2;  ///< GM, which stands with the Keplerian elements
   std::size_t gm_line = 0;          ///< of GM
@@ -93,6 +97,9 @@ OrbitParameterMessage read_opm(const std::string& name, std::string_view text);
 /// read back and written again is the same text, and differs from the numbers given by at most
 /// 7e-16 of each. Texts must be printable ASCII.
 std::string oem_text(const OrbitEphemerisMessage& message);
+
+/// An OPM of the state alone as text; otherwise as oem_text.
+std::string opm_text(const OrbitParameterMessage& message);
 
 /// Whether a reference frame is one whose axes do not rotate, as far as it is known here.
 bool is_inertial_frame(std::string_view reference_frame);

@@ -41,6 +41,8 @@ struct StoredJet {
   /// measured or estimated them (see relative_error_by_degree) and the format keeps them; else
   /// empty.
   std::vector<double> error_by_degree = {};
+  /// What its reader has to tell of the file, a line each.
+  std::vector<std::string> notes = {};
   /// One series a component. The printed digits bring back the numbers of the run bit by bit; in
   /// double precision they are doubles.
   FlowJet<Extended> jet;

@@ -11,14 +11,16 @@
 // `jets.h5`: the jets of all runs of a scene in one HDF5 file, which h5py, MATLAB and Julia read.
 // The file says itself what it holds (attribute `description`). Its first 512 bytes, which HDF5
 // leaves to the user, hold size and CRC-32 of what follows, so that a file that was cut or changed
-// is refused before anything in it is believed.
+// is refused before anything in it is believed. A file that has grown, because another program has
+// added groups or attributes, is read all the same if the checksum of the run, over what is read,
+// is right; a note says so.
 //
 //   /               attributes: format, format_version, hamjet_version, description, scene, title,
 //                   model, precision, frame, units, length_unit_km, time_unit_s, order,
 //                   duration_canonical, variables, components, state, nominal_initial, runs; of a
 //                   scene with [ephemeris] also reference_frame, center_name, epoch, time_system
-//   /<label>        one group a run, with its label; attributes: method, nominal_final; of a run
-//                   that failed the attribute error, and nothing else
+//   /<label>        one group a run, with its label; attributes: method, nominal_final,
+//                   content_crc32; of a run that failed the attribute error, and nothing else
 //     coefficients  (component, term) float64
 //     coefficients_decimal  (component, term) strings of 36 digits; in extended precision alone,
 //                   where `coefficients` are rounded

@@ -14,6 +14,9 @@ inline constexpr int format_version = 1;
 /// Attribute of a run: relative errors of the coefficients of each degree, where they are known.
 inline constexpr const char* error_attribute = "coefficient_error_by_degree";
 
+/// Attribute of a run: see content_checksum.
+inline constexpr const char* checksum_attribute = "content_crc32";
+
 /// Names of the precisions, in the order of the enumeration Precision.
 inline const std::vector<std::string> precision_names = {"double", "extended"};
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "../../text/scene_message.hpp"
+#include "../content_checksum.hpp"
 #include "../stored_coefficients.hpp"
 #include "hamjet/error.hpp"
 #include "hdf5_jets.hpp"
@@ -171,9 +172,9 @@ FlowJet<Extended> read_jet(const Reader& run, const StoredJet& stored, int order
 
 StoredJet read_jets_hdf5(const std::string& name, std::string_view bytes,
                          const std::optional<std::string>& label) {
-  const std::string_view image = unseal_hdf5(name, bytes);
+  const UnsealedHdf5 unsealed = unseal_hdf5(name, bytes);
   const hdf5::Session session;
-  const Reader root(name, image);
+  const Reader root(name, unsealed.image);
   require_this_format(root);
   StoredJet stored = read_scene(root);
   const int order = root.integer("order");
@@ -193,6 +194,15 @@ StoredJet read_jets_hdf5(const std::string& name, std::string_view bytes,
         stored.nominal_final[stored.components[c]]) {
       run.fail("nominal_final", "the attribute is not the constant term of the coefficients");
     }
+  }
+  if (unsealed.has_grown) {
+    if (!run.has_attribute(hdf5::checksum_attribute) ||
+        run.text(hdf5::checksum_attribute) != content_checksum(stored, stored.jet)) {
+      refuse_changed_hdf5(name);
+    }
+    stored.notes.push_back(fmt::format(
+        "{}: another program has added to it; the jet of the run {} is as hamjet wrote it", name,
+        stored.label));
   }
   return stored;
 }

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../content_checksum.hpp"
 #include "../jet_description.hpp"
 #include "../results_names.hpp"
 #include "../stored_coefficients.hpp"
@@ -128,13 +129,17 @@ void write_jet(const Writer& file, hid_t group, const FlowJet<Extended>& jet, Pr
   write_exponents(file, group, space, 0);
 }
 
-/// Writes the errors of the coefficients, which estimates of what is computed from them need;
-/// nothing where they are not known.
-void write_errors(const Writer& file, hid_t group, const std::vector<double>& error_by_degree) {
-  const bool is_known = std::all_of(error_by_degree.begin(), error_by_degree.end(),
-                                    [](double error) { return std::isfinite(error); });
-  if (error_by_degree.empty() || !is_known) return;
-  file.attribute(group, hdf5::error_attribute, error_by_degree);
+/// Writes all that is read of a run: its final state, the coefficients, their errors, which
+/// estimates of what is computed from them need, where they are known, and the checksum of these.
+void write_stored(const Writer& file, hid_t group, StoredJet stored, const FlowJet<Extended>& jet) {
+  std::vector<double>& errors = stored.error_by_degree;
+  const bool is_known =
+      std::all_of(errors.begin(), errors.end(), [](double error) { return std::isfinite(error); });
+  if (!is_known) errors.clear();
+  file.attribute(group, "nominal_final", stored.nominal_final);
+  write_jet(file, group, jet, stored.precision);
+  if (!errors.empty()) file.attribute(group, hdf5::error_attribute, errors);
+  file.attribute(group, hdf5::checksum_attribute, content_checksum(stored, jet));
 }
 
 void write_nominal(const Writer& file, hid_t group, const RunResult& run) {
@@ -182,9 +187,7 @@ void write_run(const Writer& file, const PropagationResult& result, const RunRes
     file.attribute(group, "error", run.failure);
     return;
   }
-  file.attribute(group, "nominal_final", run.nominal_final);
-  write_jet(file, group, run.jet, result.scene.precision);
-  write_errors(file, group, describe_jet(result, run).error_by_degree);
+  write_stored(file, group, describe_jet(result, run), run.jet);
   write_nominal(file, group, run);
   write_generating_functions(file, group, result, run);
 }
@@ -209,9 +212,7 @@ std::string jets_hdf5(const StoredJet& stored) {
   const Writer file;
   write_scene(file, stored, stored.order(), "", {stored.label});
   const Handle group = file.group(file.root(), stored.label);
-  file.attribute(group, "nominal_final", stored.nominal_final);
-  write_jet(file, group, stored.jet, stored.precision);
-  write_errors(file, group, stored.error_by_degree);
+  write_stored(file, group, stored, stored.jet);
   return seal_hdf5(file.image());
 }
 

@@ -131,18 +131,50 @@ std::vector<OrbitState> flown_states(const Scene& scene, const std::vector<doubl
   return result;
 }
 
+std::string accuracy_text(const RunResult& run) {
+  if (!run.error_by_degree) return "Accuracy: not measured, for the scene asks for no reference";
+  return fmt::format(
+      "Accuracy: relative error of the last state {:.2g}, against a reference in extended "
+      "precision",
+      run.error_by_degree->front());
+}
+
+/// The nominal's state at one moment, with what the messages of its whole motion say too.
+std::string opm_at(const PropagationResult& result, const RunResult& run, std::string_view place,
+                   double time, const std::vector<double>& state) {
+  OrbitEphemerisMessage common = message_of(
+      result.scene, fmt::format("The {} of the nominal of the run {}", place, run.settings.label));
+  EphemerisSegment& segment = common.segments.front();
+  segment.comments.push_back(accuracy_text(run));
+  OrbitParameterMessage message;
+  message.version = common.version;
+  message.comments = std::move(common.comments);
+  message.creation_date = common.creation_date;
+  message.originator = std::move(common.originator);
+  message.metadata = std::move(segment.metadata);
+  message.state_comments = std::move(segment.comments);
+  message.state = orbit_state(result.scene, time, state);
+  return opm_text(message);
+}
+
+/// What both messages of the ends have in common.
+OutputFormat opm_format(std::string_view file,
+                        std::string (*of_nominal)(const PropagationResult&, const RunResult&)) {
+  return {.name = "opm",
+          .help = "orbit parameter messages",
+          .file = file,
+          .needs_orbit = true,
+          .needs_date = true,
+          .of_nominal = of_nominal};
+}
+
 }  // namespace
 
 std::string nominal_oem(const PropagationResult& result, const RunResult& run) {
   OrbitEphemerisMessage message =
       message_of(result.scene, fmt::format("The nominal of the run {}", run.settings.label));
   std::vector<std::string>& comments = message.segments.front().comments;
-  comments.push_back(
-      run.error_by_degree
-          ? fmt::format("Accuracy: relative error of the last state {:.2g}, against a reference in "
-                        "extended precision",
-                        run.error_by_degree->front())
-          : "Accuracy: not measured, for the scene asks for no reference");
+  comments.push_back(accuracy_text(run));
   comments.push_back(
       "States at the steps of the integrator, which are not spaced for interpolation. Taylor "
       "coefficients, generating functions and checks cannot stand here: see jet.csv, summary.json");
@@ -187,5 +219,15 @@ const OutputFormat oem_format = {.name = "oem",
                                  .needs_orbit = true,
                                  .needs_date = true,
                                  .of_nominal = nominal_oem};
+
+const OutputFormat start_opm_format =
+    opm_format("start.opm", [](const PropagationResult& result, const RunResult& run) {
+      return opm_at(result, run, "start", 0, result.scene.nominal);
+    });
+
+const OutputFormat end_opm_format =
+    opm_format("end.opm", [](const PropagationResult& result, const RunResult& run) {
+      return opm_at(result, run, "end", result.scene.duration, run.nominal_final);
+    });
 
 }  // namespace hamjet::io

@@ -6,9 +6,10 @@
 #include "hamjet/detail/store/report_file.hpp"
 #include "hamjet/studies/transfer.hpp"
 
-// Orbits as Orbit Ephemeris Messages: canonical states in km and km/s, canonical times on the
-// calendar. The scene must have an ephemeris. The messages say in comments what they cannot hold.
-// All throw Error(input_output) for a moment outside of the calendar.
+// Orbits as Orbit Ephemeris Messages, and their ends as Orbit Parameter Messages: canonical states
+// in km and km/s, canonical times on the calendar. The scene must have an ephemeris. The messages
+// say in comments what they cannot hold. All throw Error(input_output) for a moment outside of the
+// calendar.
 
 namespace hamjet::io {
 
@@ -16,6 +17,10 @@ struct OutputFormat;
 
 /// `nominal.oem` of each run.
 extern const OutputFormat oem_format;
+
+/// `start.opm` and `end.opm` of each run, the nominal's state at the two ends; asked for together.
+extern const OutputFormat start_opm_format;
+extern const OutputFormat end_opm_format;
 
 /// `nominal.oem` of a run: the nominal at the steps of the integrator.
 std::string nominal_oem(const PropagationResult& result, const RunResult& run);

@@ -106,8 +106,8 @@ OrbitParameterMessage read_opm(const std::string& name, std::string_view text) {
     block.add(line, keywords);
   }
   block.end_at(lines.number());
-  block.epoch("CREATION_DATE");
-  block.text("ORIGINATOR");
+  message.creation_date = block.epoch("CREATION_DATE");
+  message.originator = block.text("ORIGINATOR");
   message.metadata = block.metadata();
   message.state.epoch = block.epoch("EPOCH");
   for (std::size_t i = 0; i < 3; ++i) {

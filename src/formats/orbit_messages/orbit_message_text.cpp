@@ -29,11 +29,20 @@ void write_comments(std::back_insert_iterator<fmt::memory_buffer> out,
   }
 }
 
-void write_segment(std::back_insert_iterator<fmt::memory_buffer> out,
-                   const EphemerisSegment& segment) {
-  const OrbitMetadata& metadata = segment.metadata;
+/// The header, which both kinds of messages have.
+template <class Message>
+void write_header(std::back_insert_iterator<fmt::memory_buffer> out, std::string_view keyword,
+                  const Message& message) {
+  fmt::format_to(out, "{} = {}\n", keyword, message.version);
+  write_comments(out, message.comments);
+  fmt::format_to(out, "CREATION_DATE = {}\nORIGINATOR = {}\n", format_epoch(message.creation_date),
+                 message.originator);
+}
+
+/// The object, centre, frame and time system, in the order of the standard.
+void write_metadata(std::back_insert_iterator<fmt::memory_buffer> out,
+                    const OrbitMetadata& metadata) {
   fmt::format_to(out,
-                 "META_START\n"
                  "OBJECT_NAME = {}\n"
                  "OBJECT_ID = {}\n"
                  "CENTER_NAME = {}\n"
@@ -43,11 +52,15 @@ void write_segment(std::back_insert_iterator<fmt::memory_buffer> out,
   if (metadata.reference_frame_epoch) {
     fmt::format_to(out, "REF_FRAME_EPOCH = {}\n", format_epoch(*metadata.reference_frame_epoch));
   }
-  fmt::format_to(out,
-                 "TIME_SYSTEM = {}\n"
-                 "START_TIME = {}\n",
-                 time_system_names()[static_cast<std::size_t>(metadata.time_system)],
-                 format_epoch(segment.states.front().epoch));
+  fmt::format_to(out, "TIME_SYSTEM = {}\n",
+                 time_system_names()[static_cast<std::size_t>(metadata.time_system)]);
+}
+
+void write_segment(std::back_insert_iterator<fmt::memory_buffer> out,
+                   const EphemerisSegment& segment) {
+  fmt::format_to(out, "META_START\n");
+  write_metadata(out, segment.metadata);
+  fmt::format_to(out, "START_TIME = {}\n", format_epoch(segment.states.front().epoch));
   if (segment.useable_start) {
     fmt::format_to(out, "USEABLE_START_TIME = {}\n", format_epoch(*segment.useable_start));
   }
@@ -69,13 +82,30 @@ void write_segment(std::back_insert_iterator<fmt::memory_buffer> out,
 std::string oem_text(const OrbitEphemerisMessage& message) {
   fmt::memory_buffer buffer;
   const auto out = std::back_inserter(buffer);
-  fmt::format_to(out, "CCSDS_OEM_VERS = {}\n", message.version);
-  write_comments(out, message.comments);
-  fmt::format_to(out, "CREATION_DATE = {}\nORIGINATOR = {}\n", format_epoch(message.creation_date),
-                 message.originator);
+  write_header(out, "CCSDS_OEM_VERS", message);
   for (const EphemerisSegment& segment : message.segments) {
     fmt::format_to(out, "\n");
     write_segment(out, segment);
+  }
+  return fmt::to_string(buffer);
+}
+
+std::string opm_text(const OrbitParameterMessage& message) {
+  fmt::memory_buffer buffer;
+  const auto out = std::back_inserter(buffer);
+  write_header(out, "CCSDS_OPM_VERS", message);
+  fmt::format_to(out, "\n");
+  write_metadata(out, message.metadata);
+  fmt::format_to(out, "\n");
+  write_comments(out, message.state_comments);
+  const OrbitState& state = message.state;
+  fmt::format_to(out, "EPOCH = {}\n", format_epoch(state.epoch));
+  constexpr std::string_view axes = "XYZ";
+  for (std::size_t i = 0; i < 3; ++i) {
+    fmt::format_to(out, "{} = {:.15e} [km]\n", axes[i], state.position_km[i]);
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    fmt::format_to(out, "{}_DOT = {:.15e} [km/s]\n", axes[i], state.velocity_km_s[i]);
   }
   return fmt::to_string(buffer);
 }
