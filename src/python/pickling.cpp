@@ -75,8 +75,9 @@ using JetState =
                std::vector<std::size_t>, std::optional<Ephemeris>, std::vector<double>, int>;
 
 JetState state_of(const io::StoredJet& stored) {
+  // The notes are of the file that was read, and have been said.
   const auto& [scene, label, model, precision, units, duration, nominal_initial, nominal_final,
-               components, variables, ephemeris, error_by_degree, jet] = stored;
+               components, variables, ephemeris, error_by_degree, notes, jet] = stored;
   return {scene,
           label,
           static_cast<std::size_t>(model),
