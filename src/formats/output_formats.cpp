@@ -13,12 +13,7 @@ namespace hamjet::io {
 
 const std::vector<const OutputFormat*>& output_formats() {
   static const std::vector<const OutputFormat*> formats = {
-      &hdf5_format,
-      &dace_format,
-      &csv_format,
-      &oem_format,
-      &start_opm_format,
-      &end_opm_format,
+      &hdf5_format, &dace_format, &csv_format, &oem_format, &start_opm_format, &end_opm_format,
   };
   return formats;
 }

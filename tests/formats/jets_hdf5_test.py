@@ -245,16 +245,11 @@ class JetsHdf5Test(unittest.TestCase):
     def test_additions_of_another_program(self):
         added = self.folder / "added.h5"
 
-        def add(file):
-            file.attrs["seen"] = "by another program"
-            file["gauss8"].attrs["note"] = numpy.arange(100.0)
-            file.create_group("analysis")["residuals"] = numpy.ones((50, 3))
-            file["gauss8/mean"] = 1.5
-
         def write(change):
             added.write_bytes(self.file.read_bytes())
             with h5py.File(added, "r+") as file:
-                add(file)
+                file["gauss8"].attrs["note"] = numpy.arange(100.0)
+                file.create_group("analysis")["residuals"] = numpy.ones((50, 3))
                 change(file)
 
         write(lambda file: None)
@@ -277,9 +272,6 @@ class JetsHdf5Test(unittest.TestCase):
                        lambda file: file["gauss8"].attrs.__delitem__("content_crc32")]:
             write(change)
             self.expect_refused(added, "was cut or changed", "checksum")
-        write(lambda file: None)
-        added.write_bytes(added.read_bytes()[:-100])
-        self.expect_refused(added)
 
     def test_attributes(self):
         needed = ["format", "format_version", "scene", "model", "precision", "length_unit_km",
