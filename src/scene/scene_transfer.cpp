@@ -130,6 +130,8 @@ const TableDescription& transfer_table() {
          "nearer to a singular time is marked"},
         {"singular_margin_orbits", margin, absent::value(default_revolutions),
          "likewise, in periods of the nominal"},
+        {"impulses", form::choice({"two", "optimal"}), absent::value("two"),
+         "also the least velocity change with as many impulses, at such times, as it takes"},
         {"strict", form::boolean(), absent::value(preset.strict),
          "a miss beyond the tolerance is exit code 1"}}})};
   return table;
@@ -166,6 +168,7 @@ TransferSettings read_transfer(const TableReader& transfer, const Scene& scene,
   transfer.read_if_any("refine", settings.refine);
   transfer.read_if_any("refined_miss_m", settings.refined_miss_m);
   settings.singular_margin = read_singular_margin(transfer, nominal);
+  transfer.read_if_any("impulses", settings.impulses);
   transfer.read_if_any("strict", settings.strict);
   return settings;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hamjet/detail/algebra/eigen.hpp"
+#include "hamjet/detail/studies/impulse_plan.hpp"
 #include "hamjet/detail/studies/progress.hpp"
 #include "hamjet/detail/studies/singular_times.hpp"
 #include "hamjet/studies/propagation.hpp"
@@ -70,6 +71,7 @@ struct TransferSeconds {
   double solution = 0;       ///< boundary values by the polynomials, all orders
   double proof = 0;          ///< deputies flown, and the refinement
   double residual = 0;       ///< Hamilton-Jacobi residuals
+  double impulses = 0;       ///< the primer vector and optimal impulses
 
   /// Seconds that the answers took, without their proof and residuals.
   double study() const { return propagation + singularities + inversion + solution; }
@@ -96,6 +98,9 @@ struct TransferResult {
   /// lower than at any listed time.
   std::optional<TransferPoint> least_between;
   std::size_t times_between = 0;  ///< number of further times answered for it
+  /// Of the least answer at the listed times; absent where there is none.
+  std::optional<PrimerHistory> primer;
+  std::optional<OptimalImpulses> optimal;  ///< if the scene asks for it
   TransferSeconds seconds;
 
   /// Index of the point with the least total velocity change among answers that are within the
@@ -124,8 +129,9 @@ struct EarlierJet {
 TransferResult study_transfer(const Scene& scene, const ProgressCallback& progress = {},
                               const EarlierJet* earlier = nullptr);
 
-/// Exit code: 0; 1 if the scene is strict and an answer away from singularities is missing, beyond
-/// its tolerance or could not be refined; 4 if no transfer time has an answer.
+/// Exit code: 0; 1 if optimal impulses were asked for and not found, or if the scene is strict and
+/// an answer away from singularities is missing, beyond its tolerance or could not be refined; 4 if
+/// no transfer time has an answer.
 int exit_code(const TransferResult& result);
 
 /// A flown deputy relative to its chief, along R, T, N whatever the scene's frame (along the

@@ -4,6 +4,7 @@
 #include "../../scene/system_json.hpp"
 #include "../../store/json_values.hpp"
 #include "hamjet/version.hpp"
+#include "impulse_view.hpp"
 #include "transfer_view.hpp"
 
 namespace hamjet::io {
@@ -19,7 +20,7 @@ Json seconds_json(const TransferSeconds& seconds) {
   return {{"propagation", seconds.propagation}, {"singularities", seconds.singularities},
           {"inversion", seconds.inversion},     {"solution", seconds.solution},
           {"study", seconds.study()},           {"proof", seconds.proof},
-          {"residual", seconds.residual}};
+          {"residual", seconds.residual},       {"impulses", seconds.impulses}};
 }
 
 Json counts_json(const TransferCounts& counts) {
@@ -130,6 +131,8 @@ Json transfer_summary_json(const TransferResult& result) {
                                            ? transfer_point_json(*result.least_between, scene.units)
                                            : Json(nullptr);
   json["times_between_listed"] = result.times_between;
+  json["primer_vector"] = primer_json(result);
+  json["optimal_impulses"] = optimal_impulses_json(result);
   json["counts"] = counts_json(count_points(result));
   json["misses_away_from_singularities"] = misses_json(result);
   json["position_singular_times"] = Json::array();

@@ -5,6 +5,7 @@
 #include "../../formats/relative_frame_text.hpp"
 #include "../../text/html_text.hpp"
 #include "../drawing/report_page.hpp"
+#include "impulse_view.hpp"
 #include "transfer_charts.hpp"
 #include "transfer_view.hpp"
 #include "validity_view.hpp"
@@ -63,6 +64,11 @@ std::string trajectory_section(const TransferResult& result,
   return html + panels_html(charts, drawer) + "</section>\n";
 }
 
+std::string impulse_sections(const TransferResult& result, ChartDrawer& drawer) {
+  if (!result.primer && !result.optimal) return "";
+  return impulse_table_html(result) + fitted_section(primer_chart(result), drawer);
+}
+
 }  // namespace
 
 std::string transfer_page(const TransferResult& result,
@@ -78,8 +84,9 @@ std::string transfer_page(const TransferResult& result,
   page.facts = facts_html(result, origin);
   page.sections = "<section>\n<h2>The best transfer</h2>\n" + best_transfer_table_html(result) +
                   "</section>\n" + trajectory_section(result, trajectory, drawer) +
-                  fitted_section(miss_chart(result), drawer) + miss_table_html(result) +
-                  fitted_section(condition_chart(result), drawer) + singular_table_html(result);
+                  impulse_sections(result, drawer) + fitted_section(miss_chart(result), drawer) +
+                  miss_table_html(result) + fitted_section(condition_chart(result), drawer) +
+                  singular_table_html(result);
   if (validity) {
     page.sections += fitted_section(validity_time_chart(*validity), drawer) +
                      validity_sections_html(*validity, drawer);

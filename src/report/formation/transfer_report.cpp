@@ -7,6 +7,7 @@
 #include "../drawing/chart_drawer.hpp"
 #include "../drawing/study_figure.hpp"
 #include "hamjet/report/relative_motion_report.hpp"
+#include "impulse_view.hpp"
 #include "transfer_charts.hpp"
 #include "transfer_json.hpp"
 #include "transfer_page.hpp"
@@ -57,6 +58,7 @@ std::string terminal_table(const TransferResult& result) {
       length_text(settings.tolerance_m));
   text += change_line(result, "least", result.best_point()) +
           change_line(result, "greatest", costliest_point(result));
+  text += impulse_lines(result);
   const std::vector<MissStatistics> misses = miss_statistics(result);
   if (!misses.empty()) {
     text += "  misses           away from singularities, the median and the largest:\n";
@@ -111,6 +113,7 @@ StudyReport transfer_report(const TransferResult& result,
   report.files = {{"transfers.csv", transfers_csv(result)},
                   {"singular_times.csv", singular_times_csv(result)},
                   {"conditions.csv", conditions_csv(result)}};
+  if (result.optimal) report.files.push_back({"impulses.csv", impulses_csv(result)});
   if (validity) report.files.push_back({"validity.csv", validity_csv(*validity)});
   if (result.scene.output.has(oem_format.name) && trajectory) {
     for (ReportFile& file : transfer_oems(result, *trajectory)) {

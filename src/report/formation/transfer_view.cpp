@@ -7,6 +7,7 @@
 
 #include "../../text/html_text.hpp"
 #include "hamjet/error.hpp"
+#include "impulse_view.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -185,16 +186,22 @@ std::string between_text(const TransferResult& result) {
 
 std::string transfer_verdict(const TransferResult& result) {
   const std::optional<std::size_t> best = result.best_point();
+  const std::string optimal = optimal_impulses_verdict(result);
+  const std::string optimal_text = optimal.empty() ? "" : " " + optimal;
   if (!best) {
     const TransferCounts counts = count_points(result);
     return fmt::format(
-        "No velocity change can be named: of {} transfer times {} have an answer, {} of them "
-        "nearer to a singularity than the margin, and {} of the others miss by more than {} and "
-        "could not be refined.{}{}",
-        counts.times, counts.answered, counts.near_singular, counts.beyond_tolerance_away,
-        length_text(result.scene.transfer->tolerance_m), remedy_text(result, counts),
-        counts.near_singular > 0 ? " The answers near a singularity are in transfers.csv, marked."
-                                 : "");
+               "No velocity change can be named: of {} transfer times {} have an answer, {} of "
+               "them "
+               "nearer to a singularity than the margin, and {} of the others miss by more than {} "
+               "and "
+               "could not be refined.{}{}",
+               counts.times, counts.answered, counts.near_singular, counts.beyond_tolerance_away,
+               length_text(result.scene.transfer->tolerance_m), remedy_text(result, counts),
+               counts.near_singular > 0
+                   ? " The answers near a singularity are in transfers.csv, marked."
+                   : "") +
+           optimal_text;
   }
   const TransferPoint& point = result.points[*best];
   const TransferAnswer& answer = *shown_answer(point);
@@ -213,7 +220,8 @@ std::string transfer_verdict(const TransferResult& result) {
   if (linear != nullptr && result.scene.order > 1) {
     text += fmt::format(", with the linear answer by {}", length_text(linear->miss_m));
   }
-  return text + "." + edge_text(result, *best) + left_out_text(result) + between_text(result);
+  return text + "." + edge_text(result, *best) + left_out_text(result) + between_text(result) +
+         optimal_text;
 }
 
 std::string transfer_failure(const TransferResult& result) {
@@ -223,6 +231,9 @@ std::string transfer_failure(const TransferResult& result) {
     const std::string reason = result.points.empty() ? "" : failure_text(result.points.front());
     return fmt::format("no transfer time has an answer; at the first of {}: {}",
                        result.points.size(), reason);
+  }
+  if (const std::string failure = optimal_impulses_failure(result); !failure.empty()) {
+    return failure;
   }
   const TransferCounts counts = count_points(result);
   return fmt::format(

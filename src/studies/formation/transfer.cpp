@@ -10,9 +10,11 @@
 #include "../../integrators/momentum_unit.hpp"
 #include "../exact_flow.hpp"
 #include "../jets_along_time.hpp"
+#include "../stopwatch.hpp"
 #include "flown_trajectory.hpp"
 #include "formation_problem.hpp"
 #include "hamjet/error.hpp"
+#include "impulse_plan.hpp"
 #include "single_transfer.hpp"
 #include "transfer_points.hpp"
 
@@ -187,6 +189,16 @@ TransferResult study_transfer(const Scene& asked, const ProgressCallback& progre
     result.seconds.propagation = result.statistics.wall_seconds;
     search_between(result, points, integrator, ends, progress);
   }
+  {
+    const Stopwatch watch(result.seconds.impulses);
+    if (const auto best = result.best_point()) {
+      result.primer =
+          primer_history(scene, points.problem(), points.linear_flow(), result.points[*best]);
+    }
+    if (settings.impulses == TransferImpulses::optimal) {
+      result.optimal = optimal_impulses(scene, points.problem(), points.linear_flow(), progress);
+    }
+  }
   result.hamilton_jacobi_floor = points.hamilton_jacobi_floor();
   result.singular_times = points.singular_times();
   return result;
@@ -202,6 +214,9 @@ int exit_code(const TransferResult& result) {
                 (point.refined && !point.is_refined());
   }
   if (!has_answer) return static_cast<int>(ErrorKind::numerical);
+  if (result.optimal && !result.optimal->is_found()) {
+    return static_cast<int>(ErrorKind::check_failed);
+  }
   return result.scene.transfer->strict && has_fault ? static_cast<int>(ErrorKind::check_failed) : 0;
 }
 

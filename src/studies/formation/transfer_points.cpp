@@ -64,10 +64,11 @@ void TransferPoints::find_singular_times(const ProgressCallback& progress) {
   // anyway.
   const double quarter = std::numbers::pi / 2 * std::pow(initial_distance(problem_.nominal), 1.5);
   const double margin = std::min(settings_.singular_margin, quarter);
-  const LinearFlow flow(problem_, last + std::copysign(margin, last), checkpoints_per_revolution,
-                        [&](double done) {
-                          if (progress) progress("linear flow", done);
-                        });
+  flow_.emplace(problem_, last + std::copysign(margin, last), checkpoints_per_revolution,
+                [&](double done) {
+                  if (progress) progress("linear flow", done);
+                });
+  const LinearFlow& flow = *flow_;
   for (std::size_t k = 0; k < kinds_.size(); ++k) {
     if (progress) {
       progress("singular times", static_cast<double>(k) / static_cast<double>(kinds_.size()));

@@ -35,6 +35,9 @@ class TransferPoints {
   const std::vector<GeneratingFunctionKind>& kinds() const noexcept { return kinds_; }
   const std::vector<SingularTime>& singular_times() const noexcept { return singular_times_; }
 
+  /// About the chief, beyond the scene's last transfer time.
+  const LinearFlow& linear_flow() const noexcept { return *flow_; }
+
   bool is_near_singular(double time) const;
 
   /// The scene's kind, or the best one for these transfers, with hysteresis along the calls.
@@ -79,6 +82,7 @@ class TransferPoints {
   const TransferSettings& settings_;
   TransferSeconds& seconds_;
   ComputedProblem problem_;
+  std::optional<LinearFlow> flow_;
   std::vector<GeneratingFunctionKind> kinds_;
   KindChoice choice_;
   double chief_time_ = 0;

@@ -14,6 +14,12 @@ struct DeputySettings {
   RelativeState start;
 };
 
+/// How many impulses a transfer may have.
+enum class TransferImpulses {
+  two,      ///< at the start and at the end
+  optimal,  ///< beside these the least, as many and when it likes
+};
+
 /// Table `[transfer]`: from one relative state to another in given times.
 struct TransferSettings {
   RelativeFrame frame = RelativeFrame::rtn_rotating;  ///< of both ends
@@ -32,6 +38,7 @@ struct TransferSettings {
   /// Answers nearer than this to a time at which positions cannot be commanded are marked;
   /// canonical.
   double singular_margin = 0;
+  TransferImpulses impulses = TransferImpulses::two;
   bool strict = false;  ///< an answer beyond the tolerance fails the command
 };
 

@@ -1,0 +1,219 @@
+#include "impulse_view.hpp"
+
+#include <fmt/format.h>
+
+#include "../../formats/relative_frame_text.hpp"
+#include "../../store/columns.hpp"
+#include "../../store/json_values.hpp"
+#include "../../text/html_text.hpp"
+#include "../../text/terminal_text.hpp"
+#include "../drawing/report_page.hpp"
+#include "transfer_view.hpp"
+
+namespace hamjet::io {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const ImpulsePlan* plan_of(const TransferResult& result) {
+  return result.optimal && result.optimal->plan ? &*result.optimal->plan : nullptr;
+}
+
+double seconds(const TransferResult& result, double time) {
+  return time * result.scene.units.time_s;
+}
+
+std::string end_text(const TransferResult& result, const ImpulsePlan& plan) {
+  return fmt::format("{} and {:.2g} m/s", miss_text(plan.miss_m, result.flight_floor_m),
+                     plan.velocity_miss_m_s);
+}
+
+std::string impulses_text(const ImpulsePlan& plan) {
+  return plan.impulses.size() == 1 ? "1 impulse" : fmt::format("{} impulses", plan.impulses.size());
+}
+
+std::vector<std::string> axis_names(const TransferResult& result) {
+  std::vector<std::string> names;
+  for (const std::string_view axis : axis_letters(result.scene.transfer->frame)) {
+    names.push_back(fmt::format("{} (m/s)", axis));
+  }
+  return names;
+}
+
+}  // namespace
+
+std::string primer_text(const TransferResult& result) {
+  if (!result.primer) return "";
+  const PrimerMagnitude& largest = result.primer->largest;
+  return result.primer->calls_for_impulse()
+             ? fmt::format(
+                   "the primer vector reaches {:.3g} at {}: a further impulse there makes "
+                   "it cheaper",
+                   largest.magnitude, time_text(seconds(result, largest.time)))
+             : "the primer vector is at most 1: to first order no further impulse makes it cheaper";
+}
+
+std::string optimal_impulses_failure(const TransferResult& result) {
+  if (!result.optimal) return "";
+  const ImpulsePlan* plan = plan_of(result);
+  if (plan == nullptr) return "optimal impulses: " + result.optimal->failure;
+  return plan->failure.empty() ? ""
+                               : "optimal impulses: the plan of the linear theory was not brought "
+                                 "to its end by flying: " +
+                                     plan->failure;
+}
+
+std::string optimal_impulses_verdict(const TransferResult& result) {
+  if (!result.optimal) return "";
+  if (const std::string failure = optimal_impulses_failure(result); !failure.empty()) {
+    return fmt::format("No optimal impulses can be named: {}.", failure);
+  }
+  const ImpulsePlan& plan = *plan_of(result);
+  return fmt::format(
+      "With {} in {} the same takes {}, flown with a miss of {} ({} in the linear theory); to "
+      "first "
+      "order about this plan no impulses cost less than {}.",
+      impulses_text(plan), time_text(seconds(result, plan.duration)),
+      velocity_text(plan.total_change_m_s()), end_text(result, plan),
+      velocity_text(plan.linear_change_m_s), velocity_text(plan.lower_bound_m_s));
+}
+
+std::string impulse_lines(const TransferResult& result) {
+  std::string text;
+  if (const std::string primer = primer_text(result); !primer.empty()) {
+    text += fmt::format("  another impulse  {}\n", primer);
+  }
+  const ImpulsePlan* plan = plan_of(result);
+  if (plan == nullptr) return text;
+  text += fmt::format("  optimal          {} by {} in {}: misses by {}\n",
+                      velocity_text(plan->total_change_m_s()), impulses_text(*plan),
+                      time_text(seconds(result, plan->duration)), end_text(result, *plan));
+  std::vector<std::vector<std::string>> rows = {{"at time (s)", "change (m/s)"}};
+  for (std::string& name : axis_names(result)) rows[0].push_back(std::move(name));
+  for (const Impulse& impulse : plan->impulses) {
+    rows.push_back({fmt::format("{:.1f}", seconds(result, impulse.time)),
+                    fmt::format("{:.6f}", impulse.change_m_s.norm())});
+    for (const double x : impulse.change_m_s) rows.back().push_back(fmt::format("{:.6f}", x));
+  }
+  return text + aligned_table(rows) + "\n";
+}
+
+std::string impulse_table_html(const TransferResult& result) {
+  std::string html = "<section>\n<h2>Number of impulses</h2>\n";
+  if (const std::string primer = primer_text(result); !primer.empty()) {
+    html += "<p>Of the best transfer with two impulses " + escape_html(primer) + ".</p>\n";
+  }
+  html += "<p>" + escape_html(optimal_impulses_verdict(result)) + "</p>\n";
+  const ImpulsePlan* plan = plan_of(result);
+  if (plan == nullptr) return html + "</section>\n";
+  std::vector<std::string> names = {"time (s)", "change (m/s)"};
+  for (std::string& name : axis_names(result)) names.push_back(std::move(name));
+  std::string rows;
+  for (const Impulse& impulse : plan->impulses) {
+    rows += "<tr>" + row_name_cell(fmt::format("{:.6g}", seconds(result, impulse.time))) +
+            cell(fmt::format("{:.5g}", impulse.change_m_s.norm()));
+    for (const double x : impulse.change_m_s) rows += cell(fmt::format("{:.5g}", x));
+    rows += "</tr>\n";
+  }
+  return html +
+         table_html(
+             escape_html(fmt::format("Velocity changes of the optimal plan, flown {} times to "
+                                     "correct them, along the axes of the frame {} at their times.",
+                                     plan->flights, frame_text(result.scene.transfer->frame))),
+             "<tr>" + header_cells(names) + "</tr>", rows) +
+         "</section>\n";
+}
+
+Chart primer_chart(const TransferResult& result) {
+  Chart chart;
+  chart.name = "primer-vector";
+  chart.title = "Primer vector along the transfer";
+  const TimeAxis axis = time_axis(seconds(result, result.scene.transfer->times.back()));
+  chart.x.label = fmt::format("time since the start ({})", axis.name);
+  chart.y.label = "magnitude of the primer vector";
+  chart.y.includes = {0, 1};
+  const auto add = [&](std::string title, std::size_t style, const auto& magnitudes) {
+    ChartCurve curve;
+    curve.title = std::move(title);
+    curve.style = style;
+    curve.has_markers = false;
+    for (const PrimerMagnitude& one : magnitudes) {
+      curve.points.emplace_back(seconds(result, one.time) / axis.seconds, one.magnitude);
+    }
+    chart.curves.push_back(std::move(curve));
+  };
+  if (result.primer) add("best transfer with two impulses", 0, result.primer->magnitudes);
+  if (const ImpulsePlan* plan = plan_of(result)) {
+    add("optimal impulses", 1, plan->primer);
+    ChartCurve impulses;
+    impulses.title = "optimal impulses are here";
+    impulses.style = 1;
+    impulses.has_line = false;
+    for (const Impulse& impulse : plan->impulses) {
+      impulses.points.emplace_back(seconds(result, impulse.time) / axis.seconds, 1.0);
+    }
+    chart.curves.push_back(std::move(impulses));
+  }
+  chart.rules.push_back({false, 1, "1: the cost of an impulse"});
+  chart.reading =
+      "By how much a small velocity change at a time lowers the cost of the rest, for each m/s of "
+      "its own: above 1 it is worth its cost, and a further impulse makes the transfer cheaper. A "
+      "transfer whose primer vector is at most 1, and 1 at its impulses, is the cheapest of all in "
+      "the linear theory, with any number of impulses.";
+  return chart;
+}
+
+Json primer_json(const TransferResult& result) {
+  if (!result.primer) return nullptr;
+  const PrimerMagnitude& largest = result.primer->largest;
+  return {{"largest_magnitude", json_number(largest.magnitude)},
+          {"time_s", seconds(result, largest.time)},
+          {"further_impulse_helps", result.primer->calls_for_impulse()}};
+}
+
+Json optimal_impulses_json(const TransferResult& result) {
+  if (!result.optimal) return nullptr;
+  Json json = {{"failure", text_or_null(optimal_impulses_failure(result))},
+               {"least_by_time", Json::array()},
+               {"plan", nullptr}};
+  for (const LeastChange& one : result.optimal->by_time) {
+    json["least_by_time"].push_back({{"time_s", seconds(result, one.time)},
+                                     {"linear_change_m_s", json_number(one.change_m_s)}});
+  }
+  const ImpulsePlan* plan = plan_of(result);
+  if (plan == nullptr) return json;
+  Json impulses = Json::array();
+  for (const Impulse& impulse : plan->impulses) {
+    const auto& v = impulse.change_m_s;
+    impulses.push_back({{"time_s", seconds(result, impulse.time)},
+                        {"change_m_s", {json_number(v[0]), json_number(v[1]), json_number(v[2])}},
+                        {"magnitude_m_s", json_number(v.norm())}});
+  }
+  json["plan"] = {{"duration_s", seconds(result, plan->duration)},
+                  {"impulses", std::move(impulses)},
+                  {"total_change_m_s", json_number(plan->total_change_m_s())},
+                  {"linear_change_m_s", json_number(plan->linear_change_m_s)},
+                  {"lower_bound_m_s", json_number(plan->lower_bound_m_s)},
+                  {"miss_m", json_number(plan->miss_m)},
+                  {"velocity_miss_m_s", json_number(plan->velocity_miss_m_s)},
+                  {"flights", plan->flights}};
+  return json;
+}
+
+std::string impulses_csv(const TransferResult& result) {
+  const double unit = result.scene.units.time_s;
+  Columns<Impulse> columns;
+  columns.add("time_canonical", &Impulse::time);
+  columns.add("time_s", [=](const Impulse& impulse) { return impulse.time * unit; });
+  Eigen::Index i = 0;
+  for (const std::string_view axis : axis_columns(result.scene.transfer->frame)) {
+    columns.add(fmt::format("change_{}_m_s", axis),
+                [i](const Impulse& impulse) { return impulse.change_m_s[i]; });
+    ++i;
+  }
+  columns.add("magnitude_m_s", [](const Impulse& impulse) { return impulse.change_m_s.norm(); });
+  const ImpulsePlan* plan = plan_of(result);
+  return columns.csv(plan == nullptr ? std::vector<Impulse>() : plan->impulses);
+}
+
+}  // namespace hamjet::io

@@ -1,0 +1,318 @@
+#include "impulse_plan.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "../../integrators/momentum_unit.hpp"
+#include "../exact_flow.hpp"
+#include "hamjet/error.hpp"
+#include "hamjet/relative_motion/chief_frame.hpp"
+#include "impulse_search.hpp"
+#include "single_transfer.hpp"
+
+namespace hamjet {
+
+double ImpulsePlan::total_change_m_s() const {
+  double total = 0;
+  for (const Impulse& impulse : impulses) total += impulse.change_m_s.norm();
+  return total;
+}
+
+namespace {
+
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+/// Impulses in the order of time, in the units of the linear flow.
+struct TimedImpulses {
+  std::vector<double> times;
+  std::vector<Eigen::Vector3d> changes;
+
+  double sum() const {
+    double total = 0;
+    for (const Eigen::Vector3d& change : changes) total += change.norm();
+    return total;
+  }
+};
+
+/// One deputy's way from the scene's start to its end.
+class PlannedTransfer {
+ public:
+  PlannedTransfer(const Scene& scene, const ComputedProblem& problem, const LinearFlow& flow,
+                  double duration)
+      : scene_(scene),
+        problem_(problem),
+        flow_(flow),
+        duration_(duration),
+        units_(metric_units(scene)),
+        momentum_unit_(std::ldexp(1.0, problem.momentum_exponent)),
+        chief_end_(flow.nominal(duration)),
+        start_(frame(problem.nominal).deviation(scene.transfer->start)),
+        end_(frame(chief_end_).deviation(scene.transfer->end)),
+        from_end_(symplectic_inverse(flow.at(duration))),
+        change_(from_end_ * in_flow_units(end_) - in_flow_units(start_)) {}
+
+  const Vector6& change() const { return change_; }
+  /// A sum of magnitudes in the flow's units in m/s.
+  double metres_per_second(double momentum) const {
+    return momentum * momentum_unit_ * units_.velocity_m_s();
+  }
+
+  ImpulsePlan plan() const {
+    ImpulsePlan plan;
+    plan.duration = duration_;
+    ImpulseOptimum optimum = search_impulses(flow_, duration_, change_);
+    TimedImpulses impulses = merged(optimum, change_);
+    plan.linear_change_m_s = metres_per_second(impulses.sum());
+    correct(plan, impulses);
+    // The flown impulses make another change of the linear theory than the wanted one, since that
+    // theory does not hold exactly; others may make that change for less.
+    constexpr int most_rounds = 4;
+    constexpr double worth_it = 1e-5;
+    for (int round = 0; round < most_rounds && plan.failure.empty(); ++round) {
+      const Vector6 made = change_by(impulses);
+      optimum = search_impulses(flow_, duration_, made);
+      const bool is_least = impulses.sum() <= optimum.least.lower_bound * (1 + worth_it);
+      if (is_least || round + 1 == most_rounds) break;
+      ImpulsePlan other = plan;
+      TimedImpulses others = merged(optimum, made);
+      correct(other, others);
+      if (!other.failure.empty() || !(others.sum() < impulses.sum())) break;
+      plan = std::move(other);
+      impulses = std::move(others);
+    }
+    plan.lower_bound_m_s = metres_per_second(optimum.least.lower_bound);
+    plan.primer = optimum.primer;
+    tell(plan, impulses);
+    return plan;
+  }
+
+ private:
+  ChiefFrame frame(const std::vector<double>& chief) const {
+    return {chief, units_, scene_.transfer->frame};
+  }
+
+  Vector6 in_flow_units(const std::vector<double>& deviation) const {
+    Vector6 z;
+    for (Eigen::Index i = 0; i < 6; ++i) {
+      z[i] = deviation[static_cast<std::size_t>(i)] / (i < 3 ? 1 : momentum_unit_);
+    }
+    return z;
+  }
+
+  /// Those of neighbouring times become one impulse, at their mean time.
+  TimedImpulses merged(const ImpulseOptimum& optimum, const Vector6& change) const {
+    TimedImpulses found;
+    auto& [times, changes] = found;
+    constexpr std::size_t neighbours = 3;
+    std::vector<double> weights;
+    std::size_t last = 0;
+    for (const ChosenImpulse& impulse : optimum.least.impulses) {
+      const double time = optimum.grid.times[impulse.time];
+      const double weight = impulse.change.norm();
+      if (!times.empty() && impulse.time - last <= neighbours) {
+        weights.back() += weight;
+        times.back() += (time - times.back()) * weight / weights.back();
+        changes.back() += impulse.change;
+      } else {
+        times.push_back(time);
+        weights.push_back(weight);
+        changes.push_back(impulse.change);
+      }
+      last = impulse.time;
+    }
+    add_change(effects_at(times), changes, weights, change - change_by(found));
+    return found;
+  }
+
+  /// The change of the deviation at the start that impulses make in the linear theory.
+  Vector6 change_by(const TimedImpulses& impulses) const {
+    const std::vector<ImpulseEffect> effects = effects_at(impulses.times);
+    Vector6 change = Vector6::Zero();
+    for (std::size_t k = 0; k < effects.size(); ++k) change += effects[k] * impulses.changes[k];
+    return change;
+  }
+
+  std::vector<ImpulseEffect> effects_at(const std::vector<double>& times) const {
+    std::vector<ImpulseEffect> effects;
+    for (const double time : times) effects.push_back(effect_of(flow_.at(time)));
+    return effects;
+  }
+
+  /// The deviation from the chief at the end of a deputy that flies the impulses.
+  std::vector<double> fly(const std::vector<double>& times,
+                          const std::vector<Eigen::Vector3d>& changes) const {
+    std::vector<double> state = problem_.nominal;
+    for (std::size_t i = 0; i < 6; ++i) state[i] += start_[i];
+    double now = 0;
+    for (std::size_t k = 0; k < times.size(); ++k) {
+      if (times[k] != now) state = exact_flow(problem_.system, state, times[k] - now);
+      now = times[k];
+      for (std::size_t i = 0; i < 3; ++i) {
+        state[3 + i] += changes[k][static_cast<Eigen::Index>(i)] * momentum_unit_;
+      }
+    }
+    if (now != duration_) state = exact_flow(problem_.system, state, duration_ - now);
+    for (std::size_t i = 0; i < 6; ++i) state[i] -= chief_end_[i];
+    return state;
+  }
+
+  /// Flies the plan and takes the linear flow's word on how to mend what it misses by.
+  void correct(ImpulsePlan& plan, TimedImpulses& impulses) const {
+    constexpr int most_flights = 16;
+    const double most_miss = scene_.transfer->refined_miss_m / units_.length_m;
+    // The same times the mean motion of a circle, to a factor of two.
+    const double most_velocity_miss = most_miss * momentum_unit_;
+    auto& [times, changes] = impulses;
+    std::vector<ImpulseEffect> effects = effects_at(times);
+    std::vector<double> weights;
+    for (const Eigen::Vector3d& change : changes) weights.push_back(change.norm());
+    double miss = 0;
+    try {
+      for (int flight = 0; flight < most_flights; ++flight) {
+        ++plan.flights;
+        const std::vector<double> flown = fly(times, changes);
+        std::vector<double> missing(6);
+        for (std::size_t i = 0; i < 6; ++i) missing[i] = end_[i] - flown[i];
+        miss = std::hypot(missing[0], missing[1], missing[2]);
+        const double velocity_miss = std::hypot(missing[3], missing[4], missing[5]);
+        plan.miss_m = miss * units_.length_m;
+        plan.velocity_miss_m_s = velocity_miss * units_.velocity_m_s();
+        if (miss <= most_miss && velocity_miss <= most_velocity_miss) return;
+        const Vector6 mend = from_end_ * in_flow_units(missing);
+        if (!add_change(effects, changes, weights, mend)) {
+          add_trims(impulses, weights);
+          effects = effects_at(times);
+          if (!add_change(effects, changes, weights, mend)) break;
+        }
+      }
+      plan.failure = fmt::format("the last of {} flights misses by {:.3g} m", most_flights,
+                                 miss * units_.length_m);
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::numerical) throw;
+      plan.failure = error.what();
+    }
+  }
+
+  /// Adds times, evenly from start to end, at which small impulses may correct what those of the
+  /// plan cannot, such as a way out of the plane of an orbit by impulses half a revolution apart.
+  void add_trims(TimedImpulses& impulses, std::vector<double>& weights) const {
+    constexpr int trims = 5;
+    constexpr double share = 1e-2;
+    const double weight = share * impulses.sum() / trims;
+    auto& [times, changes] = impulses;
+    for (int k = 0; k < trims; ++k) {
+      const double time = duration_ * k / (trims - 1);
+      const auto place = std::lower_bound(times.begin(), times.end(), time, [](double a, double b) {
+        return std::abs(a) < std::abs(b);
+      });
+      if (place != times.end() && *place == time) continue;
+      const auto at = place - times.begin();
+      times.insert(place, time);
+      changes.insert(changes.begin() + at, Eigen::Vector3d::Zero());
+      weights.insert(weights.begin() + at, weight);
+    }
+  }
+
+  void tell(ImpulsePlan& plan, const TimedImpulses& impulses) const {
+    const auto& [times, changes] = impulses;
+    for (std::size_t k = 0; k < times.size(); ++k) {
+      const Eigen::Vector3d canonical = changes[k] * momentum_unit_;
+      plan.impulses.push_back(
+          {times[k], frame(flow_.nominal(times[k])).velocity_change_m_s(canonical)});
+    }
+  }
+
+  const Scene& scene_;
+  const ComputedProblem& problem_;
+  const LinearFlow& flow_;
+  double duration_;
+  MetricUnits units_;
+  double momentum_unit_;
+  std::vector<double> chief_end_;
+  std::vector<double> start_;  ///< canonical (dq, dp)
+  std::vector<double> end_;
+  Matrix6 from_end_;  ///< the flow from the end to the start
+  Vector6 change_;    ///< of the deviation at the start that impulses must make
+};
+
+/// Some of the listed times, evenly over their list and with the last.
+std::vector<double> some_times(const std::vector<double>& times) {
+  constexpr std::size_t most = 24;
+  const std::size_t count = std::min(most, times.size());
+  std::vector<double> some;
+  for (std::size_t k = 1; k <= count; ++k) some.push_back(times[times.size() * k / count - 1]);
+  return some;
+}
+
+}  // namespace
+
+std::optional<PrimerHistory> primer_history(const Scene& scene, const ComputedProblem& problem,
+                                            const LinearFlow& flow, const TransferPoint& point) {
+  const MetricUnits units = metric_units(scene);
+  const ImpulseGrid grid = impulse_grid(flow, point.time);
+  const TransferAnswer& answer = point.best();
+  // The primer is along the impulse at each, from the frame's axes back in inertial ones.
+  const auto direction = [&](const std::vector<double>& chief, const Eigen::Vector3d& change) {
+    const ChiefFrame frame(chief, units, scene.transfer->frame);
+    Eigen::Matrix3d axes;
+    for (Eigen::Index i = 0; i < 3; ++i) axes.col(i) = frame.along_axes(Eigen::Vector3d::Unit(i));
+    return Eigen::Vector3d(axes.transpose() * change.normalized());
+  };
+  Matrix6 both;
+  both << grid.effects.front().transpose(), grid.effects.back().transpose();
+  Vector6 ends;
+  ends << direction(problem.nominal, answer.start_change_m_s),
+      direction(flow.nominal(point.time), answer.end_change_m_s);
+  Eigen::FullPivLU<Matrix6> solver(both);
+  solver.setThreshold(1e-9);
+  if (!ends.allFinite() || !solver.isInvertible()) return std::nullopt;
+  const Vector6 costate = solver.solve(ends);
+  PrimerHistory history;
+  for (std::size_t k = 0; k < grid.times.size(); ++k) {
+    const double magnitude = (grid.effects[k].transpose() * costate).norm();
+    history.magnitudes.push_back({grid.times[k], magnitude});
+    if (magnitude > history.largest.magnitude) history.largest = history.magnitudes.back();
+  }
+  return history;
+}
+
+OptimalImpulses optimal_impulses(const Scene& scene, const ComputedProblem& problem,
+                                 const LinearFlow& flow, const ProgressCallback& progress) {
+  OptimalImpulses optimal;
+  const std::vector<double> times = some_times(scene.transfer->times);
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    if (progress) {
+      progress("optimal impulses", static_cast<double>(k) / static_cast<double>(times.size()));
+    }
+    const PlannedTransfer transfer(scene, problem, flow, times[k]);
+    try {
+      const ImpulseGrid grid = impulse_grid(flow, times[k]);
+      const LeastImpulses least = least_impulses(grid.effects, transfer.change());
+      optimal.by_time.push_back({times[k], transfer.metres_per_second(least.cost)});
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::numerical) throw;
+      optimal.failure = error.what();
+    }
+  }
+  if (optimal.by_time.empty()) return optimal;
+  optimal.failure.clear();
+  double least = optimal.by_time.front().change_m_s;
+  for (const LeastChange& one : optimal.by_time) least = std::min(least, one.change_m_s);
+  const auto best =
+      std::find_if(optimal.by_time.begin(), optimal.by_time.end(),
+                   [&](const LeastChange& one) { return one.change_m_s <= 1.001 * least; });
+  try {
+    optimal.plan = PlannedTransfer(scene, problem, flow, best->time).plan();
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::numerical) throw;
+    optimal.failure = error.what();
+  }
+  return optimal;
+}
+
+}  // namespace hamjet

@@ -1,0 +1,95 @@
+#include "impulse_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace hamjet {
+
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+Matrix6 symplectic_inverse(const Matrix6& flow) {
+  Matrix6 inverse;
+  inverse.topLeftCorner<3, 3>() = flow.bottomRightCorner<3, 3>().transpose();
+  inverse.topRightCorner<3, 3>() = -flow.topRightCorner<3, 3>().transpose();
+  inverse.bottomLeftCorner<3, 3>() = -flow.bottomLeftCorner<3, 3>().transpose();
+  inverse.bottomRightCorner<3, 3>() = flow.topLeftCorner<3, 3>().transpose();
+  return inverse;
+}
+
+ImpulseEffect effect_of(const Matrix6& flow) { return symplectic_inverse(flow).rightCols<3>(); }
+
+void ImpulseGrid::add(double time, const Matrix6& flow) {
+  times.push_back(time);
+  effects.push_back(effect_of(flow));
+}
+
+ImpulseGrid impulse_grid(const LinearFlow& flow, double time) {
+  constexpr std::size_t every = 5;
+  constexpr std::size_t most = 4000;
+  const std::size_t last = flow.checkpoint_before(time);
+  const std::size_t stride = std::max(every, last / most + 1);
+  ImpulseGrid grid;
+  for (std::size_t k = 0; k <= last && std::abs(flow.times()[k]) < std::abs(time); k += stride) {
+    grid.add(flow.times()[k], flow.checkpoint(k));
+  }
+  grid.add(time, flow.at(time));
+  return grid;
+}
+
+namespace {
+
+/// The grid with finer times about those at which the primer is a local maximum of almost 1.
+ImpulseGrid refined(const LinearFlow& flow, const ImpulseGrid& grid, const LeastImpulses& least,
+                    double nearness) {
+  constexpr std::size_t most_maxima = 64;
+  constexpr int parts = 7;
+  const std::size_t last = grid.times.size() - 1;
+  std::vector<double> primer;
+  for (const ImpulseEffect& effect : grid.effects) {
+    primer.push_back((effect.transpose() * least.costate).norm());
+  }
+  std::vector<std::size_t> maxima;
+  for (const ChosenImpulse& impulse : least.impulses) maxima.push_back(impulse.time);
+  for (std::size_t k = 1; k < last && maxima.size() < most_maxima; ++k) {
+    const bool is_maximum = primer[k] > primer[k - 1] && primer[k] >= primer[k + 1];
+    if (is_maximum && primer[k] >= 1 - nearness) maxima.push_back(k);
+  }
+  std::set<std::size_t> gaps;
+  for (const std::size_t k : maxima) {
+    if (k > 0) gaps.insert(k - 1);
+    if (k < last) gaps.insert(k);
+  }
+  ImpulseGrid finer;
+  for (std::size_t k = 0; k <= last; ++k) {
+    finer.times.push_back(grid.times[k]);
+    finer.effects.push_back(grid.effects[k]);
+    if (!gaps.contains(k)) continue;
+    for (int i = 1; i < parts; ++i) {
+      const double time = grid.times[k] + (grid.times[k + 1] - grid.times[k]) * i / parts;
+      finer.add(time, flow.at(time));
+    }
+  }
+  return finer;
+}
+
+}  // namespace
+
+ImpulseOptimum search_impulses(const LinearFlow& flow, double duration, const Vector6& change) {
+  const ImpulseGrid coarse = impulse_grid(flow, duration);
+  ImpulseOptimum optimum{coarse, least_impulses(coarse.effects, change), {}};
+  // Between the times of a grid the primer may exceed 1, and so much less an impulse there would
+  // cost: by 1e-3 for the coarse one, 1e-8 for the finest.
+  for (const double nearness : {1e-2, 2e-4, 4e-6}) {
+    optimum.grid = refined(flow, optimum.grid, optimum.least, nearness);
+    optimum.least = least_impulses(optimum.grid.effects, change);
+  }
+  for (std::size_t k = 0; k < coarse.times.size(); ++k) {
+    optimum.primer.push_back(
+        {coarse.times[k], (coarse.effects[k].transpose() * optimum.least.costate).norm()});
+  }
+  return optimum;
+}
+
+}  // namespace hamjet

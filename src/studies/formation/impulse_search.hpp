@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+#include "hamjet/detail/studies/impulse_plan.hpp"
+#include "hamjet/detail/studies/singular_times.hpp"
+#include "least_impulses.hpp"
+
+namespace hamjet {
+
+/// The inverse of a symplectic matrix.
+Eigen::Matrix<double, 6, 6> symplectic_inverse(const Eigen::Matrix<double, 6, 6>& flow);
+
+ImpulseEffect effect_of(const Eigen::Matrix<double, 6, 6>& flow);
+
+/// The times at which impulses are looked for, moving away from 0, and what they do.
+struct ImpulseGrid {
+  std::vector<double> times;  ///< canonical
+  std::vector<ImpulseEffect> effects;
+
+  void add(double time, const Eigen::Matrix<double, 6, 6>& flow);
+};
+
+/// Every fifth checkpoint of the flow, 48 a revolution, before a time; fewer where that is more
+/// than some thousands, and the time itself.
+ImpulseGrid impulse_grid(const LinearFlow& flow, double time);
+
+/// The least impulses on a grid, and the primer vector along the coarse one.
+struct ImpulseOptimum {
+  ImpulseGrid grid;
+  LeastImpulses least;
+  std::vector<PrimerMagnitude> primer;
+};
+
+/// The least impulses until a time for a change of the deviation at the start, in the units of the
+/// flow, on a grid that is fine about them. Throws as least_impulses.
+ImpulseOptimum search_impulses(const LinearFlow& flow, double duration,
+                               const Eigen::Matrix<double, 6, 1>& change);
+
+}  // namespace hamjet

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "hamjet/detail/algebra/eigen.hpp"
+
+namespace hamjet {
+
+/// What an impulse at a time does to the deviation at the start of a linear flow: the last three
+/// columns of the inverse of the flow's matrix to that time.
+using ImpulseEffect = Eigen::Matrix<double, 6, 3>;
+
+/// An impulse at one of the given times.
+struct ChosenImpulse {
+  std::size_t time = 0;  ///< the index of its effect
+  Eigen::Vector3d change = Eigen::Vector3d::Zero();
+};
+
+/// The impulses of the least sum of magnitudes that together make a change of the deviation.
+struct LeastImpulses {
+  std::vector<ChosenImpulse> impulses;  ///< at most six, in the order of the times
+  double cost = 0;                      ///< sum of their magnitudes
+  /// No impulses at the given times make the change for less: the value of the dual problem.
+  double lower_bound = 0;
+  /// The primer vector is effect^T times this; its magnitude is at most 1 at the given times, and 1
+  /// where there are impulses. (Lawden, Optimal Trajectories for Space Navigation, 1963.)
+  Eigen::Matrix<double, 6, 1> costate = Eigen::Matrix<double, 6, 1>::Zero();
+};
+
+/// Least sum |v_k| with sum B_k v_k = change, by the dual problem, largest change . y with
+/// |B_k^T y| <= 1 for all k, whose six unknowns an interior-point method finds (Boyd and
+/// Vandenberghe, Convex Optimization, chapter 11). Throws Error(numerical) if the impulses cannot
+/// make every change, as at one time alone.
+LeastImpulses least_impulses(const std::vector<ImpulseEffect>& effects,
+                             const Eigen::Matrix<double, 6, 1>& change);
+
+/// Changes the impulses so that they make `change` more, by the least sum of squares over the
+/// weights, which are at least 0. With the magnitudes of optimal impulses as weights the cost is
+/// the least to first order. False, and nothing is changed, if impulses at these times cannot.
+bool add_change(const std::vector<ImpulseEffect>& effects, std::vector<Eigen::Vector3d>& impulses,
+                const std::vector<double>& weights, const Eigen::Matrix<double, 6, 1>& change);
+
+}  // namespace hamjet

@@ -1,0 +1,207 @@
+#include "hamjet/detail/studies/impulse_plan.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "formation_scenes.hpp"
+#include "hamjet/studies/transfer.hpp"
+#include "studies/formation/least_impulses.hpp"
+
+// The least velocity change with any number of impulses. A circle of radius 1 has the mean motion
+// 1, so that angles are times.
+
+namespace hamjet {
+namespace {
+
+using std::numbers::pi;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+/// The matrix of Clohessy and Wiltshire about a circle of mean motion 1, velocities in the rotating
+/// axes R, T, N. (Journal of the Aerospace Sciences 27, 1960.)
+Eigen::Matrix<double, 6, 6> clohessy_wiltshire(double t) {
+  const double s = std::sin(t), c = std::cos(t);
+  Eigen::Matrix<double, 6, 6> flow;
+  flow << 4 - 3 * c, 0, 0, s, 2 - 2 * c, 0,            //
+      6 * (s - t), 1, 0, 2 * c - 2, 4 * s - 3 * t, 0,  //
+      0, 0, c, 0, 0, s,                                //
+      3 * s, 0, 0, c, 2 * s, 0,                        //
+      6 * c - 6, 0, 0, -2 * s, 4 * c - 3, 0,           //
+      0, 0, -s, 0, 0, c;
+  return flow;
+}
+
+std::vector<ImpulseEffect> effects_of_circle(double duration, int intervals) {
+  std::vector<ImpulseEffect> effects;
+  for (int k = 0; k <= intervals; ++k) {
+    const Eigen::Matrix<double, 6, 6> back = clohessy_wiltshire(-duration * k / intervals);
+    effects.emplace_back(back.rightCols<3>());
+  }
+  return effects;
+}
+
+/// A deputy a metre or so from a chief on a circle of radius 7000 km, with velocities in m/s that
+/// are in units of the mean motion times a metre.
+Scene metres_from_circle(const RelativeState& start, double duration) {
+  const double radius_km = 7000;
+  Scene scene = kepler_chief(0, radius_km, std::sqrt(std::pow(radius_km, 3) / 398600.4415), 2);
+  TransferSettings settings;
+  settings.start = start;
+  settings.start.velocity_m_s /= scene.units.time_s;
+  settings.times = {duration};
+  settings.impulses = TransferImpulses::optimal;
+  settings.refined_miss_m = 1e-6;
+  scene.transfer = settings;
+  return scene;
+}
+
+/// The plan's total in units of the mean motion times a metre.
+double total_of(const TransferResult& result) {
+  return result.optimal->plan->total_change_m_s() * result.scene.units.time_s;
+}
+
+void expect_flown(const TransferResult& result) {
+  ASSERT_TRUE(result.optimal && result.optimal->plan) << result.optimal->failure;
+  const ImpulsePlan& plan = *result.optimal->plan;
+  EXPECT_EQ(plan.failure, "");
+  EXPECT_LE(plan.miss_m, result.scene.transfer->refined_miss_m);
+  EXPECT_LE(plan.lower_bound_m_s, plan.total_change_m_s() * (1 + 1e-12));
+  EXPECT_GT(plan.lower_bound_m_s, plan.total_change_m_s() * (1 - 2e-5));
+  for (const PrimerMagnitude& primer : plan.primer) EXPECT_LE(primer.magnitude, 1 + 1e-9);
+}
+
+// Any impulses that make a change cost at least what the least ones do, which is the value of the
+// dual problem: no random plan is cheaper, and the two values meet.
+TEST(LeastImpulses, NothingIsCheaper) {
+  const double duration = 3 * pi;
+  const std::vector<ImpulseEffect> effects = effects_of_circle(duration, 96);
+  std::mt19937_64 generator(3);
+  std::normal_distribution<double> normal;
+  for (int draw = 0; draw < 20; ++draw) {
+    Vector6 change;
+    for (double& x : change) x = normal(generator);
+    const LeastImpulses least = least_impulses(effects, change);
+    Vector6 made = Vector6::Zero();
+    for (const ChosenImpulse& impulse : least.impulses)
+      made += effects[impulse.time] * impulse.change;
+    EXPECT_LT((made - change).norm(), 1e-12 * change.norm());
+    EXPECT_LE(least.impulses.size(), 6U);
+    EXPECT_GE(least.cost, least.lower_bound);
+    EXPECT_LT(least.cost, least.lower_bound * (1 + 1e-7));
+    EXPECT_NEAR(change.dot(least.costate), least.lower_bound, 1e-7 * least.cost);
+    for (const ImpulseEffect& effect : effects) {
+      EXPECT_LE((effect.transpose() * least.costate).norm(), 1 + 1e-12);
+    }
+    // Two impulses at random times, and the least that others need to make up for them.
+    for (int other = 0; other < 5; ++other) {
+      std::uniform_int_distribution<std::size_t> place(0, effects.size() - 1);
+      Vector6 rest = change;
+      double cost = 0;
+      for (int k = 0; k < 2; ++k) {
+        const Eigen::Vector3d impulse =
+            0.3 * Eigen::Vector3d(normal(generator), normal(generator), normal(generator));
+        rest -= effects[place(generator)] * impulse;
+        cost += impulse.norm();
+      }
+      EXPECT_GE(cost + least_impulses(effects, rest).cost, least.lower_bound);
+    }
+  }
+}
+
+TEST(LeastImpulses, OneTimeDoesNotReachEverything) {
+  EXPECT_THROW(least_impulses({effects_of_circle(1, 1).front()}, Vector6::Ones()), Error);
+}
+
+// n a |delta i|: one impulse at the node. (Gaias and D'Amico, Journal of Guidance 38, 2015.)
+TEST(ImpulsePlan, OutOfThePlane) {
+  const TransferResult result =
+      study_transfer(metres_from_circle({{0, 0, 3}, {0, 0, 4}}, 3.3 * pi));
+  expect_flown(result);
+  EXPECT_NEAR(total_of(result), 5, 1e-5);
+}
+
+// n a |delta e| / 2: tangential impulses of both signs half a revolution apart, an ellipse of the
+// same size and phase as the chief's. (Gaias and D'Amico, the same.)
+TEST(ImpulsePlan, RelativeEccentricity) {
+  const TransferResult result =
+      study_transfer(metres_from_circle({{-1, 0, 0}, {0, 2, 0}}, 20 * pi));
+  expect_flown(result);
+  EXPECT_NEAR(total_of(result), 0.5, 1e-5);
+}
+
+// Hohmann's transfer between circles a metre apart: n da / 2, where the phase is right. (Curtis,
+// Orbital Mechanics for Engineering Students, section 6.2.)
+TEST(ImpulsePlan, Hohmann) {
+  const TransferResult result =
+      study_transfer(metres_from_circle({{-1, -0.75 * pi, 0}, {0, 1.5, 0}}, pi));
+  expect_flown(result);
+  EXPECT_NEAR(total_of(result), 0.5, 1e-5);
+}
+
+// Along the orbit in half a revolution: two radial impulses of n x / 4. (Fehse, Automated
+// Rendezvous and Docking of Spacecraft, 2003, section 3.3.)
+TEST(ImpulsePlan, RadialAlongTheOrbit) {
+  const TransferResult result = study_transfer(metres_from_circle({{0, -1, 0}, {}}, pi));
+  expect_flown(result);
+  EXPECT_NEAR(total_of(result), 0.5, 1e-5);
+  EXPECT_FALSE(result.primer.has_value());  // F1 is singular after half a revolution.
+}
+
+// In one and a half revolutions along the orbit two impulses are not optimal, the primer vector of
+// two exceeds 1, and four are, which lie symmetrically. (Prussing, AIAA Journal 8, 1970.)
+TEST(ImpulsePlan, FourImpulsesLieSymmetrically) {
+  const double duration = 2.9 * pi;
+  const TransferResult result = study_transfer(metres_from_circle({{0, 1, 0}, {}}, duration));
+  expect_flown(result);
+  ASSERT_TRUE(result.primer.has_value());
+  EXPECT_TRUE(result.primer->calls_for_impulse());
+  const ImpulsePlan& plan = *result.optimal->plan;
+  ASSERT_EQ(plan.impulses.size(), 4U);
+  EXPECT_EQ(plan.impulses[0].time, 0);
+  EXPECT_EQ(plan.impulses[3].time, duration);
+  EXPECT_NEAR(plan.impulses[1].time + plan.impulses[2].time, duration, 1e-3);
+  EXPECT_NEAR(plan.impulses[0].change_m_s.norm(), plan.impulses[3].change_m_s.norm(),
+              1e-4 * plan.total_change_m_s());
+  EXPECT_LT(plan.total_change_m_s(), 0.999 * result.points[0].best().total_change_m_s());
+}
+
+// A whole number of revolutions along the orbit by tangential impulses at both ends costs
+// 2 x / (3 T), and no more is needed than that.
+TEST(ImpulsePlan, DriftAlongTheOrbit) {
+  const double duration = 20 * pi;
+  const TransferResult result = study_transfer(metres_from_circle({{0, 1, 0}, {}}, duration));
+  expect_flown(result);
+  EXPECT_LT(total_of(result), 2 / (3 * duration) * (1 + 1e-6));
+  EXPECT_GT(total_of(result), 2 / (3 * duration) * (1 - 1e-3));
+}
+
+// Kilometres from the paper's orbit: what the linear theory says misses by metres, and is
+// corrected.
+TEST(ImpulsePlan, IsCorrectedByFlying) {
+  Scene scene = paper_chief(3);
+  TransferSettings settings;
+  settings.start.position_m = {3000, -20000, 1000};
+  settings.times = equal_times(2.4 * paper_period, 12);
+  settings.impulses = TransferImpulses::optimal;
+  scene.transfer = settings;
+  const TransferResult result = study_transfer(scene);
+  expect_flown(result);
+  const ImpulsePlan& plan = *result.optimal->plan;
+  EXPECT_GT(plan.flights, 1);
+  EXPECT_EQ(result.optimal->by_time.size(), 12U);
+  for (const TransferPoint& point : result.points) {
+    if (!point.is_candidate()) continue;
+    EXPECT_GT(point.best().total_change_m_s(), plan.total_change_m_s());
+  }
+  // More time never costs more where one may wait beside the end.
+  for (std::size_t k = 1; k < result.optimal->by_time.size(); ++k) {
+    EXPECT_LE(result.optimal->by_time[k].change_m_s,
+              result.optimal->by_time[k - 1].change_m_s * (1 + 1e-3));
+  }
+}
+
+}  // namespace
+}  // namespace hamjet
