@@ -15,6 +15,7 @@
 #include "../studies/checks/run_warnings.hpp"
 #include "../studies/descriptions/method_description.hpp"
 #include "../text/quantity_text.hpp"
+#include "../text/scene_message.hpp"
 #include "../text/terminal_text.hpp"
 #include "check_json.hpp"
 #include "hamjet/error.hpp"
@@ -94,6 +95,25 @@ int run(const RunOptions& options) {
 
 namespace {
 
+/// What the gravity field of a file is made of; empty for a scene without one.
+std::string field_text(const SystemSettings& system) {
+  if (!system.gravity_file) return "";
+  const GravityFile& file = *system.gravity_file;
+  std::string text =
+      fmt::format("  field        {} ({}) from {}:",
+                  file.model_name.empty() ? "a model without a name" : file.model_name,
+                  file.tide_system, io::printable(file.file));
+  for (int n = ZonalCoefficients::lowest; n <= ZonalCoefficients::highest; ++n) {
+    if (system.J[n] != 0) text += fmt::format(" J{}", n);
+  }
+  if (!file.epoch.empty()) text += fmt::format("; what varies with time is of {}", file.epoch);
+  if (file.origin_offset_m.value_or(0) != 0) {
+    text += fmt::format("; its C(1,0), which is left out, puts the centre of mass at z = {:.4g} m",
+                        *file.origin_offset_m);
+  }
+  return text + "\n";
+}
+
 void check_flow_jet(const RunOptions& options, const std::string& file, const Scene& scene) {
   const std::size_t threads = thread_count(options);
   const ComputedProblem problem = make_problem(scene, available_memory(), threads);
@@ -107,7 +127,7 @@ void check_flow_jet(const RunOptions& options, const std::string& file, const Sc
       "  nominal     ",
       file, scene.title, scene.units.length_km, scene.units.time_s);
   for (const double x : scene.nominal) text += fmt::format(" {:.17g}", x);
-  text += "\n";
+  text += "\n" + field_text(scene.system);
   if (const auto orbit = io::orbit_summary(scene)) text += io::orbit_text(*orbit);
   text += fmt::format(
       "  duration     {:.17g} canonical = {:.10g} s\n"

@@ -12,9 +12,9 @@
 #include "../store/text_file.hpp"
 #include "../text/scene_message.hpp"
 #include "../text/whole_number.hpp"
+#include "gravity_coefficient.hpp"
 #include "hamjet/algebra/extended.hpp"
 #include "hamjet/error.hpp"
-#include "number_table.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -32,17 +32,6 @@ std::vector<std::string_view> words_of(std::string_view line) {
   }
 }
 
-/// A number with an exponent of C or of Fortran.
-std::optional<Extended> number_in(std::string_view word) {
-  std::string text(word);
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return c == 'D' || c == 'd' || c == 'E'; }, 'e');
-  // The number must be within double precision too, in which scenes have their numbers.
-  if (!finite_number(text)) return std::nullopt;
-  if (text.starts_with('+')) text.erase(0, 1);
-  return finite_extended_number(text);
-}
-
 std::optional<int> natural_in(std::string_view word) {
   const auto number = whole_number<int>(word);
   return number && *number >= 0 ? number : std::nullopt;
@@ -51,7 +40,7 @@ std::optional<int> natural_in(std::string_view word) {
 class Reader {
  public:
   Reader(const std::string& name, std::string_view text, const ZonalChoice& choice)
-      : name_(name), text_(text) {
+      : file_{name}, text_(text), epoch_(choice.epoch) {
     for (int n = ZonalCoefficients::lowest; n <= choice.highest; ++n) wanted_.push_back(n);
     if (!choice.degrees.empty()) wanted_ = choice.degrees;
   }
@@ -62,19 +51,19 @@ class Reader {
       if (!words_.empty()) read_record();
     }
     for (const int n : wanted_) {
-      if (!line_of_.contains(n)) {
+      if (!coefficients_.contains(n)) {
         fail(fmt::format("the file ends without C({},0), which is asked for; its max_degree is {}",
                          n, field_.max_degree));
       }
     }
+    find_epoch();
+    for (const int n : wanted_) field_.J[n] = J_of(n);
+    take_origin();
     return field_;
   }
 
  private:
-  [[noreturn]] void fail_at(int line, const std::string& problem) const {
-    throw Error(ErrorKind::input_output, fmt::format("{}:{}: {}", name_, line, problem));
-  }
-  [[noreturn]] void fail(const std::string& problem) const { fail_at(line_, problem); }
+  [[noreturn]] void fail(const std::string& problem) const { file_.fail_at(line_, problem); }
 
   /// Takes the words of the next line; false at the end.
   bool next_line() {
@@ -97,7 +86,7 @@ class Reader {
       static constexpr std::array keywords = {
           "product_type", "modelname",  "product_name", "earth_gravity_constant",
           "norm",         "max_degree", "tide_system",  "gravity_constant",
-          "radius"};
+          "radius",       "format"};
       if (std::find(keywords.begin(), keywords.end(), words_[0]) == keywords.end()) continue;
       if (words_.size() < 2) fail(fmt::format("{}: has no value", words_[0]));
       const auto [first, is_new] =
@@ -113,10 +102,13 @@ class Reader {
     end_of_head_ = line_;
     expect_value("product_type", {"gravity_field"});
     is_normalized_ = expect_value("norm", {"fully_normalized", "unnormalized"}) != "unnormalized";
+    format_ = expect_value("format", {"icgem1.0", "icgem2.0"}) == "icgem2.0"
+                  ? GravityFormat::icgem2
+                  : GravityFormat::icgem1;
     field_.mu_km3_s2 = positive({"earth_gravity_constant", "gravity_constant"}, 1000000000);
     field_.radius_km = positive({"radius"}, 1000);
     const auto degree = header_.find("max_degree");
-    if (degree == header_.end()) fail_at(end_of_head_, "the header has no max_degree");
+    if (degree == header_.end()) file_.fail_at(end_of_head_, "the header has no max_degree");
     line_ = degree->second.line;
     const auto max_degree = natural_in(degree->second.value);
     if (!max_degree) {
@@ -155,7 +147,7 @@ class Reader {
       const auto found = header_.find(keyword);
       if (found == header_.end()) continue;
       line_ = found->second.line;
-      const auto number = number_in(found->second.value);
+      const auto number = gravity_number(found->second.value);
       const double converted = number ? static_cast<double>(Extended(*number / divisor)) : 0;
       if (!(converted > 0)) {
         fail(fmt::format("{}: must be a positive number, got {}", keyword,
@@ -163,22 +155,23 @@ class Reader {
       }
       return converted;
     }
-    fail_at(end_of_head_, fmt::format("the header has no {}", fmt::join(keywords, " or ")));
+    file_.fail_at(end_of_head_, fmt::format("the header has no {}", fmt::join(keywords, " or ")));
   }
 
   void read_record() {
-    static constexpr std::array variable = {"gfct", "trnd", "dot", "asin", "acos"};
+    const auto& keys = gravity_record_keys();
     const std::string_view key = words_[0];
-    const bool is_variable = std::find(variable.begin(), variable.end(), key) != variable.end();
-    if (!is_variable && key != "gfc") {
-      fail(fmt::format("unknown key {}, must be gfc", in_quotes(key)));
+    const bool is_constant = key == keys.front();
+    if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
+      fail(
+          fmt::format("unknown key {}, must be one of: {}", in_quotes(key), fmt::join(keys, ", ")));
     }
     const std::size_t columns = words_.size();
-    if (is_variable ? columns < 5 : columns != 5 && columns != 7 && columns != 9) {
+    if (is_constant ? columns != 5 && columns != 7 && columns != 9 : columns < 5) {
       fail(fmt::format("{}: has {} columns, must have {}", key, columns,
-                       is_variable ? "5 or more"
-                                   : "5 (key, degree, order, C, S), or 7 or 9 with "
-                                     "standard deviations"));
+                       is_constant ? "5 (key, degree, order, C, S), or 7 or 9 with "
+                                     "standard deviations"
+                                   : "5 or more"));
     }
     const auto degree = natural_in(words_[1]);
     const auto order = natural_in(words_[2]);
@@ -189,43 +182,53 @@ class Reader {
                       key, field_.max_degree, in_quotes(words_[1]), in_quotes(words_[2])));
     }
     if (*order != 0) return;
-    const bool is_value = key == "gfc" || key == "gfct";
-    if (is_value && *degree == 0 && coefficient(0) != 1) {
-      fail(fmt::format("C(0,0): must be 1, got {}", in_quotes(words_[3])));
-    }
-    if (is_value && *degree == 1 && coefficient(1) != 0) {
-      fail(fmt::format("C(1,0): must be 0, got {}: the origin must be the centre of mass",
-                       in_quotes(words_[3])));
-    }
-    if (std::find(wanted_.begin(), wanted_.end(), *degree) == wanted_.end()) return;
-    if (is_variable) {
-      fail(
-          fmt::format("{}: C({},0) varies with time, and a scene's field is constant: give J{} in "
-                      "the scene with its value at your epoch, or take a static model",
-                      key, *degree, *degree));
-    }
-    const auto [first, is_new] = line_of_.emplace(*degree, line_);
-    if (!is_new)
-      fail(fmt::format("C({},0) is there twice, first in line {}", *degree, first->second));
-    take(*degree);
+    if (*degree == 0) return check_constant_mass();
+    if (*degree > 1 && std::find(wanted_.begin(), wanted_.end(), *degree) == wanted_.end()) return;
+    coefficients_.try_emplace(*degree, *degree).first->second.add(file_, line_, words_, format_);
   }
 
-  Extended coefficient(int degree) const {
-    const auto number = number_in(words_[3]);
-    if (!number) {
-      fail(fmt::format("C({},0): must be a finite number, got {}", degree, in_quotes(words_[3])));
-    }
-    return *number;
+  /// C(0,0) is that of the gravity constant, now and always.
+  void check_constant_mass() const {
+    const bool is_value = words_[0] == "gfc" || words_[0] == "gfct";
+    const int right = is_value ? 1 : 0;
+    if (gravity_number(words_[3]) == Extended(right)) return;
+    fail(fmt::format("C(0,0): must be 1{}, got {}", is_value ? "" : " at all times",
+                     is_value ? in_quotes(words_[3])
+                              : fmt::format("a term {} of {}", words_[0], in_quotes(words_[3]))));
   }
 
-  void take(int degree) {
+  /// Asks for the epoch, once, if one of the coefficients varies with time.
+  void find_epoch() {
+    const bool is_needed = std::any_of(coefficients_.begin(), coefficients_.end(),
+                                       [](const auto& entry) { return entry.second.varies(); });
+    if (is_needed && epoch_) field_.epoch = epoch_();
+  }
+
+  /// J_n = -C_n0 of what was read, not normalised.
+  double J_of(int degree) const {
+    const GravityCoefficient& coefficient = coefficients_.at(degree);
     const Extended norm = is_normalized_ ? Extended(sqrt(Extended(2 * degree + 1))) : Extended(1);
-    const auto J = static_cast<double>(Extended(-norm * coefficient(degree)));
+    const auto J = static_cast<double>(Extended(-norm * coefficient.at(file_, field_.epoch)));
     if (!(std::abs(J) <= 1)) {
-      fail(fmt::format("C({},0): out of range, got {}, which is J{} = {:.6g}, must be from -1 to 1",
-                       degree, in_quotes(words_[3]), degree, J));
+      file_.fail_at(coefficient.line(),
+                    fmt::format("C({},0): out of range, got J{} = {:.6g}, must be from -1 to 1",
+                                degree, degree, J));
     }
-    field_.J[degree] = J;
+    return J;
+  }
+
+  /// A mass whose centre lies at z on the axis attracts with
+  ///   mu / |r - z e| = mu / r (1 + z sin(latitude) / r + ...),
+  /// and the term of degree 1 is mu / r C10 R sin(latitude) / r with the C10 that is not
+  /// normalised.
+  void take_origin() {
+    const auto first = coefficients_.find(1);
+    if (first == coefficients_.end()) return;
+    if (first->second.varies() && !field_.epoch) {
+      field_.origin_offset_km.reset();
+      return;
+    }
+    field_.origin_offset_km = -J_of(1) * field_.radius_km;
   }
 
   struct HeaderLine {
@@ -233,15 +236,17 @@ class Reader {
     int line;
   };
 
-  std::string name_;
+  NamedFile file_;
   std::string_view text_;
+  std::function<std::optional<Epoch>()> epoch_;
+  GravityFormat format_ = GravityFormat::icgem1;
   std::vector<int> wanted_;
   int line_ = 0;
   int end_of_head_ = 0;  ///< its line
   std::vector<std::string_view> words_;
   std::map<std::string, HeaderLine, std::less<>> header_;
   bool is_normalized_ = true;
-  std::map<int, int> line_of_;  ///< the line of each coefficient that was taken
+  std::map<int, GravityCoefficient> coefficients_;  ///< C(1,0) and those that are asked for
   GravityField field_;
 };
 

@@ -31,18 +31,6 @@ std::string message_text(const TableReader& ephemeris, std::string_view key) {
   return text;
 }
 
-std::string read_epoch(const TableReader& ephemeris, std::string_view key) {
-  const std::string text = ephemeris.text(key);
-  const auto epoch = parse_epoch(text);
-  if (!epoch) {
-    ephemeris.fail(key, fmt::format("no moment of the calendar, got {}, must be "
-                                    "YYYY-MM-DDThh:mm:ss or YYYY-DDDThh:mm:ss, with a fraction "
-                                    "of a second if wanted",
-                                    in_quotes(text)));
-  }
-  return format_epoch(*epoch);
-}
-
 std::string read_frame(const TableReader& ephemeris) {
   const std::string frame = message_text(ephemeris, "reference_frame");
   if (!is_inertial_frame(frame)) ephemeris.fail("reference_frame", frame_problem(frame));
@@ -71,10 +59,33 @@ void require_same(const TableReader& ephemeris, std::string_view key, const std:
 
 }  // namespace
 
+Epoch read_epoch(const TableReader& table, std::string_view key) {
+  const std::string text = table.text(key);
+  const auto epoch = parse_epoch(text);
+  if (!epoch) {
+    table.fail(key, fmt::format("no moment of the calendar, got {}, must be "
+                                "YYYY-MM-DDThh:mm:ss or YYYY-DDDThh:mm:ss, with a fraction "
+                                "of a second if wanted",
+                                in_quotes(text)));
+  }
+  return *epoch;
+}
+
+ValueForm form_of_epoch() {
+  return form::words("`\"YYYY-MM-DDThh:mm:ss\"` or `\"YYYY-DDDThh:mm:ss\"`");
+}
+
+std::optional<Epoch> epoch_of_start(const TableReader& root) {
+  if (root.has("ephemeris") && root.table("ephemeris").has("epoch")) {
+    return read_epoch(root.table("ephemeris"), "epoch");
+  }
+  return root.has("nominal") ? epoch_of_nominal_file(root.table("nominal")) : std::nullopt;
+}
+
 const TableDescription& ephemeris_table() {
   static const EphemerisSettings preset;
   const auto of_file = absent::other("required, or of the nominal's file");
-  const auto epoch = form::words("`\"YYYY-MM-DDThh:mm:ss\"` or `\"YYYY-DDDThh:mm:ss\"`");
+  const auto epoch = form_of_epoch();
   const auto text = form::words("1 to 80 characters of ASCII");
   static const TableDescription table = {
       {{"epoch", epoch, of_file, "of the nominal's start, in the time system"},
@@ -110,7 +121,8 @@ EphemerisSettings read_ephemeris(const TableReader& ephemeris,
     if (file) require_same(ephemeris, key, value, right);
   };
   read(
-      "epoch", settings.epoch, [&] { return read_epoch(ephemeris, "epoch"); }, of_file.epoch);
+      "epoch", settings.epoch, [&] { return format_epoch(read_epoch(ephemeris, "epoch")); },
+      of_file.epoch);
   read(
       "time_system", settings.time_system,
       [&] { return std::string(time_system_names()[ephemeris.choice("time_system")]); },
@@ -119,7 +131,7 @@ EphemerisSettings read_ephemeris(const TableReader& ephemeris,
       "reference_frame", settings.reference_frame, [&] { return read_frame(ephemeris); },
       of_file.reference_frame);
   if (ephemeris.has("reference_frame_epoch")) {
-    settings.reference_frame_epoch = read_epoch(ephemeris, "reference_frame_epoch");
+    settings.reference_frame_epoch = format_epoch(read_epoch(ephemeris, "reference_frame_epoch"));
     if (file) {
       require_same(ephemeris, "reference_frame_epoch", settings.reference_frame_epoch,
                    of_file.reference_frame_epoch);

@@ -68,6 +68,7 @@ class LikelySlips {
     check_distance();
     check_speed();
     check_centre();
+    check_origin();
     return std::move(found_);
   }
 
@@ -186,6 +187,16 @@ class LikelySlips {
     add(ephemeris, "center_name",
         fmt::format("{} is none of the Sun, the Moon and the planets, and mu is that of {}",
                     in_quotes(name), body_->name));
+  }
+
+  /// A small offset that the scene does not mention.
+  void check_origin() {
+    const auto& file = scene_.system.gravity_file;
+    if (!file || file->origin_offset_m == 0.0 || system_.has("leave_out_C10")) return;
+    add(system_, "gravity_file",
+        fmt::format("C(1,0) is left out, which puts the file's centre of mass at z = {:.4g} m; "
+                    "that centre is the scene's origin",
+                    file->origin_offset_m.value()));
   }
 
   TableReader root_;

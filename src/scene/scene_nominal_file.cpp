@@ -11,6 +11,7 @@
 #include "../text/scene_message.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/formats/orbit_message.hpp"
+#include "scene_sections.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -21,16 +22,17 @@ struct ChosenState {
   OrbitState state;
 };
 
+/// What the file of an orbit message says, before it is compared with the scene.
+struct MessageOfFile {
+  ChosenState chosen;
+  std::string format;
+  std::vector<std::string> unused;
+  std::optional<OrbitParameterMessage> parameters;  ///< of an OPM
+};
+
 std::optional<Epoch> wanted_epoch(const TableReader& nominal) {
   if (!nominal.has("epoch")) return std::nullopt;
-  const std::string text = nominal.text("epoch");
-  const auto epoch = parse_epoch(text);
-  if (!epoch) {
-    nominal.fail("epoch", fmt::format("no moment of the calendar, got {}, must be "
-                                      "YYYY-MM-DDThh:mm:ss or YYYY-DDDThh:mm:ss",
-                                      in_quotes(text)));
-  }
-  return epoch;
+  return read_epoch(nominal, "epoch");
 }
 
 bool is_of(const EphemerisSegment& segment, const std::string& object) {
@@ -190,55 +192,75 @@ EphemerisSettings settings_of(const ChosenState& chosen) {
   return settings;
 }
 
-}  // namespace
-
-NominalFromFile read_nominal_file(const TableReader& nominal, const SceneCentre& centre) {
-  const std::string_view key = nominal.exactly_one_of({"oem_file", "opm_file"});
-  const std::filesystem::path file = nominal.path_beside_scene(key);
+/// Reads `key`, oem_file or opm_file, and takes from the message what the other keys choose.
+MessageOfFile read_message(const TableReader& nominal, std::string_view key) {
+  const std::string file = printable_path(nominal.path_beside_scene(key));
   const std::string text = nominal.content_beside_scene(key, largest_orbit_message_bytes);
   const auto epoch = wanted_epoch(nominal);
-  NominalFromFile result;
-  ChosenState chosen;
+  MessageOfFile result;
   if (key == "oem_file") {
-    OrbitEphemerisMessage message = read_oem(printable_path(file), text);
-    result.file.format = "OEM " + message.version;
+    OrbitEphemerisMessage message = read_oem(file, text);
+    result.format = "OEM " + message.version;
     const auto segments = wanted_segments(nominal, std::move(message.segments));
-    chosen = choose_state(nominal, segments, epoch);
+    result.chosen = choose_state(nominal, segments, epoch);
     const auto add_if_any = [&](bool EphemerisSegment::*has, const char* name) {
       const bool is_there =
           std::any_of(segments.begin(), segments.end(),
                       [&](const EphemerisSegment& segment) { return segment.*has; });
-      if (is_there) result.file.unused.emplace_back(name);
+      if (is_there) result.unused.emplace_back(name);
     };
     add_if_any(&EphemerisSegment::has_acceleration, "accelerations");
     add_if_any(&EphemerisSegment::has_covariance, "covariance");
-  } else {
-    OrbitParameterMessage message = read_opm(printable_path(file), text);
-    result.file.format = "OPM " + message.version;
-    result.file.unused = message.unused;
-    chosen = {message.metadata, message.state};
-    require_same_mu(nominal, key, centre.system.mu_km3_s2, message, printable_path(file));
-    const auto refuse_key = [&](std::string_view other, const std::string& of_message) {
-      nominal.fail(other, fmt::format("not that of the message, got {}, must be {} or left out",
-                                      in_quotes(nominal.text(other)), in_quotes(of_message)));
-    };
-    if (epoch && *epoch != message.state.epoch) {
-      refuse_key("epoch", format_epoch(message.state.epoch));
-    }
-    if (nominal.has("object") && nominal.text("object") != message.metadata.object_name &&
-        nominal.text("object") != message.metadata.object_id) {
-      refuse_key("object", message.metadata.object_name);
-    }
+    return result;
   }
-  require_same_centre(nominal, key, centre, chosen.metadata, printable_path(file));
+  result.parameters = read_opm(file, text);
+  const OrbitParameterMessage& message = *result.parameters;
+  result.format = "OPM " + message.version;
+  result.unused = message.unused;
+  result.chosen = {message.metadata, message.state};
+  const auto refuse_key = [&](std::string_view other, const std::string& of_message) {
+    nominal.fail(other, fmt::format("not that of the message, got {}, must be {} or left out",
+                                    in_quotes(nominal.text(other)), in_quotes(of_message)));
+  };
+  if (epoch && *epoch != message.state.epoch) {
+    refuse_key("epoch", format_epoch(message.state.epoch));
+  }
+  if (nominal.has("object") && nominal.text("object") != message.metadata.object_name &&
+      nominal.text("object") != message.metadata.object_id) {
+    refuse_key("object", message.metadata.object_name);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::optional<Epoch> epoch_of_nominal_file(const TableReader& nominal) {
+  for (const std::string_view key : {"oem_file", "opm_file"}) {
+    if (nominal.has(key)) return read_message(nominal, key).chosen.state.epoch;
+  }
+  return std::nullopt;
+}
+
+NominalFromFile read_nominal_file(const TableReader& nominal, const SceneCentre& centre) {
+  const std::string_view key = nominal.exactly_one_of({"oem_file", "opm_file"});
+  const std::string file = printable_path(nominal.path_beside_scene(key));
+  MessageOfFile message = read_message(nominal, key);
+  if (message.parameters) {
+    require_same_mu(nominal, key, centre.system.mu_km3_s2, *message.parameters, file);
+  }
+  const ChosenState& chosen = message.chosen;
+  require_same_centre(nominal, key, centre, chosen.metadata, file);
   const auto& position = chosen.state.position_km;
   if (std::all_of(position.begin(), position.end(), [](double x) { return x == 0; })) {
     nominal.fail(key, "at the centre of attraction, got the position 0 0 0, must be any other");
   }
+  NominalFromFile result;
   std::copy(position.begin(), position.end(), result.state.position_km.begin());
   std::copy(chosen.state.velocity_km_s.begin(), chosen.state.velocity_km_s.end(),
             result.state.velocity_km_s.begin());
   result.file.path = nominal.text(key);
+  result.file.format = std::move(message.format);
+  result.file.unused = std::move(message.unused);
   result.file.ephemeris = settings_of(chosen);
   return result;
 }

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+
+#include "hamjet/detail/formats/epoch.hpp"
 #include "hamjet/dynamics/osculating_elements.hpp"
 #include "hamjet/studies/scene.hpp"
 #include "tables/scene_table.hpp"
@@ -31,5 +34,9 @@ inline constexpr double gm_tolerance = 1e-5;
 /// does not state that name itself; a GM other than the scene's mu; and zonal coefficients about
 /// another body than the Earth, the axis of which all frames that are read have.
 NominalFromFile read_nominal_file(const TableReader& nominal, const SceneCentre& centre);
+
+/// The epoch of the state that read_nominal_file takes, of a table that has no such file none.
+/// Throws as that, but for the centre.
+std::optional<Epoch> epoch_of_nominal_file(const TableReader& nominal);
 
 }  // namespace hamjet::io

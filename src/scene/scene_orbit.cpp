@@ -6,6 +6,7 @@
 
 #include "../text/scene_message.hpp"
 #include "scene_elements.hpp"
+#include "scene_sections.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -50,9 +51,8 @@ std::vector<SceneKey> orbit_keys(const std::vector<std::string_view>& owners) {
        element_keys(owners),
        {{"oem_file", form::text(), other_form, "an orbit ephemeris message of CCSDS", owners},
         {"opm_file", form::text(), other_form, "an orbit parameter message of CCSDS", owners},
-        {"epoch", form::words("`\"YYYY-MM-DDThh:mm:ss\"` or `\"YYYY-DDDThh:mm:ss\"`"),
-         absent::other("the first of the file"), "of the state to take; nothing is interpolated",
-         owners},
+        {"epoch", form_of_epoch(), absent::other("the first of the file"),
+         "of the state to take; nothing is interpolated", owners},
         {"object", form::text(), absent::other("the only one of the file"),
          "name or identifier of the object to take", owners}}});
 }

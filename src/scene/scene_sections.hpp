@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hamjet/algebra/extended.hpp"
+#include "hamjet/detail/formats/epoch.hpp"
 #include "scene_nominal_file.hpp"
 #include "study_reader.hpp"
 #include "tables/scene_table.hpp"
@@ -45,8 +46,13 @@ Study read_optimal_control(const TableReader& root);
 /// The keys that a table `[[integrator]]` may have for a method.
 std::vector<std::string_view> integrator_keys(IntegrationMethod method);
 
-/// Table `[system]`.
-SystemSettings read_system(const TableReader& system);
+/// Table `[system]`; `root` is the whole scene, of which a gravity field that varies with time
+/// needs the epoch.
+SystemSettings read_system(const TableReader& root);
+
+/// The moment at which a scene's nominal starts, by its table `[ephemeris]` or the orbit message
+/// that it is read from; none if neither is there.
+std::optional<Epoch> epoch_of_start(const TableReader& root);
 
 /// Canonical units before they are rounded: SI value = canonical value times these.
 struct CanonicalScale {
@@ -95,7 +101,7 @@ double read_canonical_radius(const TableReader& system, const SystemSettings& se
 template <class ModelScene>
 Nominal read_start(const TableReader& root, ModelScene& scene) {
   const TableReader system = root.table("system");
-  scene.system = read_system(system);
+  scene.system = read_system(root);
   std::optional<double> length_km;
   if (root.has("units")) length_km = read_unit_of_length(root.table("units"), scene.system.model);
   std::optional<std::string> center_name;
@@ -168,6 +174,10 @@ SelfCheckSettings read_checks(const TableReader& checks, const Scene& scene);
 
 /// Table `[output]`: the formats besides CSV and JSON.
 OutputSettings read_output(const TableReader& output, SystemModel model);
+
+/// Required: a key of any table that is a moment of the calendar. Its form in declarations.
+Epoch read_epoch(const TableReader& table, std::string_view key);
+ValueForm form_of_epoch();
 
 /// Table `[ephemeris]`. What the nominal's file says of time, frame and centre need not be said
 /// again, and cannot be changed. A body named in the scene must be the centre of its system.

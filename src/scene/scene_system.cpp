@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <variant>
 
 #include "../store/text_file.hpp"
@@ -15,6 +16,11 @@ namespace {
 constexpr std::array<std::string_view, 19> zonal_keys = {
     "J2",  "J3",  "J4",  "J5",  "J6",  "J7",  "J8",  "J9",  "J10", "J11",
     "J12", "J13", "J14", "J15", "J16", "J17", "J18", "J19", "J20"};
+
+/// Largest distance of a file's origin from the centre of mass, in radii, that is left out without
+/// being asked for: 0.13 m of the Earth. Frames that satellites are tracked in keep to its centre
+/// of mass within centimetres.
+constexpr double largest_origin_offset = 2e-8;
 
 std::string_view zonal_key(int n) {
   return zonal_keys.at(static_cast<std::size_t>(n - ZonalCoefficients::lowest));
@@ -34,7 +40,11 @@ std::vector<SceneKey> zonal_gravity_keys() {
       {"highest_zonal", form::integer(lowest, highest), absent::other("`zonals`, beside a file"),
        "to take from the file", owner},
       {"zonals", form::array(form::integer(lowest, highest)),
-       absent::other("`highest_zonal`, beside a file"), "to take from the file, ascending", owner}};
+       absent::other("`highest_zonal`, beside a file"), "to take from the file, ascending", owner},
+      {"epoch", form_of_epoch(), absent::other("that of the nominal's start"),
+       "of a file's coefficients that vary with time", owner},
+      {"leave_out_C10", form::boolean(), absent::value(false),
+       "of a file whose origin is not the centre of mass", owner}};
   // |J| <= 1 is far beyond every planet (Saturn, the most oblate, has J2 = 0.016); what is larger
   // was meant in other units.
   for (const std::string_view key : zonal_keys) {
@@ -73,12 +83,15 @@ void refuse_other_zonals(const TableReader& system) {
 
 /// The zonal coefficients and what they refer to, key by key.
 void read_zonals(const TableReader& system, SystemSettings& settings) {
+  const auto refuse = [&](std::string_view key, std::string_view right) {
+    if (!system.has(key)) return;
+    system.fail(
+        key, fmt::format("without a gravity_file, got {}, must be {}", system.found(key), right));
+  };
   for (const std::string_view key : {"highest_zonal", "zonals"}) {
-    if (system.has(key)) {
-      system.fail(key, fmt::format("without a gravity_file, got {}, must be J2 to J20 one by one",
-                                   system.found(key)));
-    }
+    refuse(key, "J2 to J20 one by one");
   }
+  for (const std::string_view key : {"epoch", "leave_out_C10"}) refuse(key, "left out");
   settings.mu_km3_s2 = system.number("mu_km3_s2");
   bool needs_radius = system.has("radius_km");
   for (int n = ZonalCoefficients::lowest; n <= ZonalCoefficients::highest; ++n) {
@@ -90,8 +103,14 @@ void read_zonals(const TableReader& system, SystemSettings& settings) {
   if (needs_radius) settings.radius_km = system.number("radius_km");
 }
 
-ZonalChoice read_zonal_choice(const TableReader& system) {
+ZonalChoice read_zonal_choice(const TableReader& root) {
+  const TableReader system = root.table("system");
   ZonalChoice choice;
+  if (system.has("epoch")) {
+    choice.epoch = [epoch = read_epoch(system, "epoch")] { return epoch; };
+  } else {
+    choice.epoch = [&root] { return epoch_of_start(root); };
+  }
   if (system.exactly_one_of({"highest_zonal", "zonals"}) == "highest_zonal") {
     choice.highest = static_cast<int>(system.integer("highest_zonal"));
     return choice;
@@ -108,8 +127,32 @@ ZonalChoice read_zonal_choice(const TableReader& system) {
   return choice;
 }
 
+/// Refuses a file whose origin lies too far from the centre of mass to be taken for it.
+void require_centre_of_mass(const TableReader& system, const GravityField& field) {
+  bool is_left_out = false;
+  system.read_if_any("leave_out_C10", is_left_out);
+  if (is_left_out) return;
+  constexpr std::string_view remedy =
+      "leave_out_C10 = true, for a scene whose own origin is that "
+      "centre";
+  if (!field.origin_offset_km) {
+    system.fail("gravity_file",
+                fmt::format("C(1,0) varies with time, got a file whose origin moves about the "
+                            "centre of mass, must be one with an epoch in [system] or "
+                            "[ephemeris], or {}",
+                            remedy));
+  }
+  if (std::abs(*field.origin_offset_km) <= largest_origin_offset * field.radius_km) return;
+  system.fail("gravity_file",
+              fmt::format("the origin is not the centre of mass, got a file with C(1,0) that puts "
+                          "that centre at z = {:.4g} m, must be within {:.2g} m, or {}",
+                          1000 * *field.origin_offset_km,
+                          1000 * largest_origin_offset * field.radius_km, remedy));
+}
+
 /// Reads the gravity field from a file, which has all of it: a key beside it would contradict it.
-void read_gravity_file(const TableReader& system, SystemSettings& settings) {
+void read_gravity_file(const TableReader& root, SystemSettings& settings) {
+  const TableReader system = root.table("system");
   std::vector<std::string_view> keys = {"mu_km3_s2", "radius_km"};
   keys.insert(keys.end(), zonal_keys.begin(), zonal_keys.end());
   for (const std::string_view key : keys) {
@@ -119,15 +162,20 @@ void read_gravity_file(const TableReader& system, SystemSettings& settings) {
                                    system.found(key)));
     }
   }
-  const ZonalChoice choice = read_zonal_choice(system);
+  const ZonalChoice choice = read_zonal_choice(root);
   const GravityField field = parse_gravity_field(
       printable_path(system.path_beside_scene("gravity_file")),
       system.content_beside_scene("gravity_file", largest_gravity_field_bytes), choice);
+  require_centre_of_mass(system, field);
   settings.mu_km3_s2 = field.mu_km3_s2;
   settings.radius_km = field.radius_km;
   settings.J = field.J;
-  settings.gravity_file =
-      GravityFile{system.text("gravity_file"), field.model_name, field.tide_system};
+  settings.gravity_file = {.file = system.text("gravity_file"),
+                           .model_name = field.model_name,
+                           .tide_system = field.tide_system,
+                           .epoch = field.epoch ? format_epoch(*field.epoch) : "",
+                           .origin_offset_m = field.origin_offset_km};
+  if (auto& offset = settings.gravity_file->origin_offset_m) *offset *= 1000;
 }
 
 void read_pair(const TableReader& system, const SystemParameter& parameter,
@@ -176,7 +224,8 @@ const TableDescription& system_table() {
   return table;
 }
 
-SystemSettings read_system(const TableReader& system) {
+SystemSettings read_system(const TableReader& root) {
+  const TableReader system = root.table("system");
   if (!system.has("model")) system.check_keys();  // a misspelt `model` is named
   SystemSettings settings;
   settings.model = static_cast<SystemModel>(system.choice("model"));
@@ -185,7 +234,7 @@ SystemSettings read_system(const TableReader& system) {
   const std::string_view model = model_name(settings.model);
   system.check_keys(model, "the model " + std::string(model));
   if (has_zonals && system.has("gravity_file")) {
-    read_gravity_file(system, settings);
+    read_gravity_file(root, settings);
   } else if (has_zonals) {
     read_zonals(system, settings);
   }

@@ -42,7 +42,9 @@ Json system_json(const SystemSettings& system) {
   if (system.gravity_file) {
     json["gravity_file"] = {{"file", system.gravity_file->file},
                             {"model_name", text_or_null(system.gravity_file->model_name)},
-                            {"tide_system", system.gravity_file->tide_system}};
+                            {"tide_system", system.gravity_file->tide_system},
+                            {"epoch", text_or_null(system.gravity_file->epoch)},
+                            {"origin_offset_m", json_value(system.gravity_file->origin_offset_m)}};
   }
   return json;
 }

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "command_test.hpp"
 
 // A gravity field from a file: what the results say of it, and what is said of a damaged one.
@@ -43,6 +45,34 @@ TEST_F(GravityFile, IsNamedInTheSummaryWithAllThatWasTakenFromIt) {
   EXPECT_TRUE(read_json(directory_ / "kepler/summary.json")["system"]["radius_km"].is_null());
 }
 
+// J5 doubles in a Julian year: its trend is its value.
+TEST_F(GravityFile, ThatVariesWithTimeIsTakenAtTheEpoch) {
+  const std::string field = content(directory_ / "field.gfc");
+  const std::string row = "gfc     5    0   0.685323475630e-07   0.0 0 0";
+  const std::size_t line = field.find("gfc     5    0");
+  const std::size_t end = field.find('\n', line);
+  write("field.gfc", field.substr(0, line) + "gfct" + row.substr(3) + " 20200101\n" + "trnd" +
+                         row.substr(3) + "\ngfc 1 0 1e-9 0" + field.substr(end));
+  const double J5 = -std::sqrt(11.0) * 0.685323475630e-7;
+  const std::vector<std::string> overrides = {"system.epoch=\"2020-12-31T06:00:00\"",
+                                              "system.leave_out_C10=true"};
+  succeed(with_overrides({"run", "scenes/scene.toml", "-q", "-o", "out"}, overrides));
+  const Json system = read_json(directory_ / "out/summary.json")["system"];
+  EXPECT_NEAR(system["zonal_coefficients"]["J5"].get<double>() / (2 * J5), 1, 1e-15);
+  EXPECT_EQ(system["gravity_file"]["epoch"], "2020-12-31T06:00:00.000000000000");
+  EXPECT_NEAR(system["gravity_file"]["origin_offset_m"].get<double>(),
+              std::sqrt(3.0) * 6378136.3e-9, 1e-15);
+  const std::string check =
+      in_one_line(succeed(with_overrides({"check", "scenes/scene.toml"}, overrides)).out);
+  for (const char* words :
+       {"field EGM96 (tide_free) from ../field.gfc: J2 J3 J4 J5 J6",
+        "what varies with time is of 2020-12-31T06:00:00", "the centre of mass at z = 0.01105 m"}) {
+    EXPECT_NE(check.find(words), std::string::npos) << check;
+  }
+  expect_error({"run", "scenes/scene.toml"}, 5,
+               {"scenes/../field.gfc:23: gfct: C(5,0) varies with time", "epoch in [system]"});
+}
+
 TEST_F(GravityFile, DamagedItIsOneLineAndExitCode5) {
   const std::string field = content(directory_ / "field.gfc");
   const auto refuse = [&](const std::string& damaged, const std::string& words) {
@@ -54,7 +84,7 @@ TEST_F(GravityFile, DamagedItIsOneLineAndExitCode5) {
   refuse(changed(field, "end_of_head", "end"), ":38: the header has no end_of_head");
   refuse(changed(field, "0.539873863789e-06", "0.53987386378ge-06"),
          ":22: C(4,0): must be a finite");
-  refuse(changed(field, "gfc     5    0", "gfct    5    0"), ":23: gfct: C(5,0) varies with time");
+  refuse(changed(field, "gfc     5    0", "trnd    5    0"), ":23: trnd: C(5,0) varies with time");
   refuse(field.substr(0, field.find("gfc     6")), ":23: the file ends without C(6,0)");
   refuse("", ":1: the header has no end_of_head");
   std::filesystem::remove(directory_ / "field.gfc");

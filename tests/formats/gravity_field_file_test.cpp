@@ -104,11 +104,12 @@ TEST(GravityFieldFile, TakesHeadersOfOtherKinds) {
   }
 }
 
-TEST(GravityFieldFile, RefusesWhatVariesWithTimeOnlyWhereItIsAskedFor) {
-  expect_field_refused(
-      eigen, {"field.gfc:16: gfct: C(2,0) varies with time", "give J2 in the scene"}, {2});
-  for (const char* key : {"trnd", "dot", "asin", "acos"}) {
-    const std::string text = std::string(eigen) + key + " 6 0 1e-11 0 0 0 20041001 20051001 1.0\n";
+TEST(GravityFieldFile, RefusesWhatVariesWithoutAnEpochOnlyWhereItIsAskedFor) {
+  expect_field_refused(eigen, {"field.gfc:16: gfct: C(2,0) varies with time", "key epoch"}, {2});
+  for (const char* record : {"trnd 6 0 1e-11 0 0 0", "dot 6 0 1e-11 0", "asin 6 0 1e-11 0 0 0 1.0",
+                             "acos 6 0 1e-11 0 0 0 0 0 0.5"}) {
+    const std::string text = std::string(eigen) + record + "\n";
+    const std::string key = std::string(record).substr(0, std::string(record).find(' '));
     expect_field_refused(text, {fmt::format("field.gfc:21: {}: C(6,0) varies with time", key)});
     EXPECT_NO_THROW(parse_gravity_field("field.gfc", text, {0, {5}}));
   }
@@ -127,12 +128,11 @@ TEST(GravityFieldFile, RefusesAnExponentWithoutEnd) {
   }
 }
 
-TEST(GravityFieldFile, RefusesAnOriginThatIsNotTheCentreOfMass) {
+TEST(GravityFieldFile, RefusesAMassThatIsNotThatOfTheGravityConstant) {
   const std::string whole = eigen;
   EXPECT_NO_THROW(parse_gravity_field("field.gfc", whole + "gfc 1 0 0.0 0.0 0 0\n", {0, {5}}));
-  expect_field_refused(whole + "gfc 1 0 1e-9 0.0 0 0\n",
-                       {"C(1,0): must be 0, got \"1e-9\": the origin must be"});
   expect_field_refused(whole + "gfct 0 0 0.9999 0 0 0 20041001\n", {"C(0,0): must be 1"});
+  expect_field_refused(whole + "gfc 1 0 1.5 0.0 0 0\n", {":21: C(1,0): out of range"});
 }
 
 TEST(GravityFieldFile, RefusesWhatIsDamagedByFileAndLine) {
@@ -310,8 +310,9 @@ TEST_F(SceneWithGravityFile, KeysAreChecked) {
   expect_error("gravity_file = \"none.gfc\"\nzonals = [5]\n",
                {":5:16: system.gravity_file: ", "none.gfc cannot be read"},
                ErrorKind::input_output);
-  expect_error(file + "highest_zonal = 6\n", {"field.gfc:16: gfct: C(2,0) varies with time"},
-               ErrorKind::input_output);
+  expect_error("mu_km3_s2 = 1\nepoch = \"2005-01-01T00:00:00\"\n",
+               {"epoch: without a gravity_file"});
+  expect_error("mu_km3_s2 = 1\nleave_out_C10 = true\n", {"leave_out_C10: without a gravity_file"});
 }
 
 }  // namespace

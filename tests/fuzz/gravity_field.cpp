@@ -3,7 +3,8 @@
 #include "fuzz_target.hpp"
 #include "hamjet/formats/gravity_field_file.hpp"
 
-// Target: a gravity field in the format of ICGEM, all zonal coefficients to degree 6 asked for.
+// Target: a gravity field in the format of ICGEM, all zonal coefficients to degree 6 asked for
+// at an epoch.
 
 namespace hamjet::fuzz {
 namespace {
@@ -15,6 +16,7 @@ void check(const io::GravityField& field) {
   for (int n = ZonalCoefficients::lowest; n <= ZonalCoefficients::highest; ++n) {
     require(std::abs(field.J[n]) <= 1, "zonal coefficient");
   }
+  require(field.origin_offset_km && std::isfinite(*field.origin_offset_km), "origin");
   require(field.model_name.find('\n') == std::string::npos && field.model_name.size() < 1000,
           "name of the model");
 }
@@ -25,10 +27,8 @@ void check(const io::GravityField& field) {
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace hamjet;
   const std::string_view text(reinterpret_cast<const char*>(data), size);
-  fuzz::is_read(
-      [&] {
-        fuzz::check(io::parse_gravity_field("field.gfc", text, {6, {}}));
-      },
-      {{ErrorKind::input_output}, {"field.gfc:"}});
+  const io::ZonalChoice choice = {6, {}, [] { return io::parse_epoch("2006-01-01T06:00:00"); }};
+  fuzz::is_read([&] { fuzz::check(io::parse_gravity_field("field.gfc", text, choice)); },
+                {{ErrorKind::input_output}, {"field.gfc:"}});
   return 0;
 }

@@ -2,11 +2,14 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "hamjet/detail/dynamics/zonal_coefficients.hpp"
+#include "hamjet/detail/formats/epoch.hpp"
 
 namespace hamjet::io {
 
@@ -21,7 +24,12 @@ struct GravityField {
   double mu_km3_s2 = 0;
   double radius_km = 0;
   int max_degree = 0;
-  ZonalCoefficients J;  ///< not normalised, J_n = -C_n0; those asked for
+  ZonalCoefficients J;         ///< not normalised, J_n = -C_n0; those asked for
+  std::optional<Epoch> epoch;  ///< at which what varies with time was taken; absent if nothing does
+  /// How far the origin lies from the centre of mass along the axis, that centre being at positive
+  /// z: sqrt(3) R C10 with the normalised C(1,0). Absent if that varies with time and there is no
+  /// epoch.
+  std::optional<double> origin_offset_km = 0;
 };
 
 /// Which zonal coefficients to take from a file: those of `degrees`, or, if there are none, all
@@ -29,20 +37,23 @@ struct GravityField {
 struct ZonalChoice {
   int highest = 0;
   std::vector<int> degrees = {};
+  /// When: asked once, and only if a coefficient varies with time.
+  std::function<std::optional<Epoch>()> epoch = {};
 };
 
-/// Reads the text of a gravity field file (ICGEM); `name` is the file's, for messages. Coefficients
-/// with the norm `fully_normalized`, the default, are multiplied by sqrt(2n + 1), in extended
-/// precision, and every number is rounded once. Exponents may be Fortran's (D). Tesseral
-/// coefficients are passed over: a scene's field has none. Throws Error(input_output), one line
-/// `name:line: ...`, for
+/// Reads the text of a gravity field file (ICGEM, formats 1.0 and 2.0); `name` is the file's, for
+/// messages. Coefficients with the norm `fully_normalized`, the default, are multiplied by
+/// sqrt(2n + 1), in extended precision, and every number is rounded once. Exponents may be
+/// Fortran's (D). Coefficients that vary with time (gfct, trnd, dot, asin, acos) are taken at the
+/// epoch of the choice. Tesseral coefficients are passed over: a scene's field has none. Throws
+/// Error(input_output), one line `name:line: ...`, for
 ///  - a header without end_of_head, a gravity constant, a radius or max_degree, a keyword that is
-///    there twice, a product_type other than gravity_field, another norm;
-///  - a record with an unknown key, another number of columns than 5, 7 or 9, or degree and order
-///    that are not valid numbers;
+///    there twice, a product_type other than gravity_field, another norm or format;
+///  - a record with an unknown key, another number of columns than it has, or degree and order that
+///    are not valid numbers;
 ///  - a coefficient that is asked for and is missing, there twice, no finite number, beyond 1 in
-///    magnitude, or time-variable (gfct, trnd, dot, asin, acos): a scene's field is constant;
-///  - C(0,0) that is not 1, or C(1,0) that is not 0: the origin is not the centre of mass.
+///    magnitude, or varies with time while there is no epoch, or none at which it is given;
+///  - C(0,0) that is not 1.
 GravityField parse_gravity_field(const std::string& name, std::string_view text,
                                  const ZonalChoice& choice);
 

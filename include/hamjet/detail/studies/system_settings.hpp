@@ -46,6 +46,11 @@ struct GravityFile {
   std::string file;         ///< as the scene names it
   std::string model_name;   ///< from the file's header; empty where it has none
   std::string tide_system;  ///< from the header; "unknown" where it has none
+  /// At which coefficients that vary with time were taken, ISO 8601; empty where none does.
+  std::string epoch;
+  /// How far the file's origin lies from the centre of mass along the axis, by C(1,0), which is
+  /// left out; absent where that varies with time and nothing says when.
+  std::optional<double> origin_offset_m = 0;
 };
 
 /// Table `[system]`.
@@ -66,7 +71,7 @@ struct SystemSettings {
   std::size_t own_degrees_of_freedom = 1;  ///< own: 1 to 8
 };
 
-HAMJET_FIELDS(GravityFile, file, model_name, tide_system)
+HAMJET_FIELDS(GravityFile, file, model_name, tide_system, epoch, origin_offset_m)
 HAMJET_FIELDS(SystemSettings, model, mu_km3_s2, radius_km, J, mass_kg, stiffness_N_per_m,
               second_stiffness_N_per_m, length_m, gravity_m_s2, omega_rad_per_s, pairs,
               gravity_file, own_degrees_of_freedom)

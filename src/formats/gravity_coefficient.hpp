@@ -1,0 +1,88 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hamjet/algebra/extended.hpp"
+#include "hamjet/detail/formats/epoch.hpp"
+
+// A zonal coefficient of a gravity field file, which may vary with time. Source: F. Barthelmes,
+// C. Förste, The ICGEM-format, GFZ Potsdam (2011), and its version 2.0, in which every record of
+// what varies has an interval in which it holds.
+
+namespace hamjet::io {
+
+/// A file whose lines messages are about.
+struct NamedFile {
+  std::string name;  ///< printable
+
+  /// Throws Error(input_output) with `name:line: problem`.
+  [[noreturn]] void fail_at(int line, const std::string& problem) const;
+};
+
+enum class GravityFormat { icgem1, icgem2 };
+
+/// A number with an exponent of C or of Fortran, if it is finite, within double precision too.
+std::optional<Extended> gravity_number(std::string_view word);
+
+/// The keys of the records of coefficients: the first is that of constants, all others are about
+/// what varies with time.
+const std::vector<std::string_view>& gravity_record_keys();
+
+/// C(n,0) as in its file, normalised or not, record by record.
+class GravityCoefficient {
+ public:
+  explicit GravityCoefficient(int degree) : degree_(degree) {}
+
+  /// Takes a record: a line of the file as words, of which the first five are there. Throws
+  /// Error(input_output) for another number of columns than its key has in this format, for what is
+  /// no number, date or period, for an empty interval, and for a second constant.
+  void add(const NamedFile& file, int line, const std::vector<std::string_view>& words,
+           GravityFormat format);
+
+  bool varies() const;
+  /// The line of the record that gives the value, or the first one.
+  int line() const;
+
+  /// The value. At time t, in Julian years of 365.25 days, it is
+  ///   gfct + trnd (t - t0) + asin sin(2 pi (t - t0) / T) + acos cos(2 pi (t - t0) / T) + ...
+  /// In format 1.0 t0 is that of gfct, and this holds always; in format 2.0 a record has its own t0
+  /// and holds from then until before t1. Time systems are not told apart: a minute is 2e-6 years,
+  /// in which no digit changes that is known. Throws Error(input_output) for what varies without an
+  /// epoch, and for an epoch at which no value holds, or two, or a term twice.
+  Extended at(const NamedFile& file, const std::optional<Epoch>& epoch) const;
+
+ private:
+  enum class Kind { constant, value, trend, sine, cosine };
+
+  struct Record {
+    Kind kind = Kind::constant;
+    std::string key;
+    int line = 0;
+    Extended amplitude;
+    std::optional<Epoch> start;  ///< t0
+    std::optional<Epoch> end;    ///< t1
+    Extended period_years;       ///< of sine and cosine
+
+    bool is_value() const { return kind == Kind::constant || kind == Kind::value; }
+    bool holds_at(const Epoch& epoch) const { return !end || (*start <= epoch && epoch < *end); }
+    bool is_same_term(const Record& other) const {
+      return (is_value() && other.is_value()) ||
+             (kind == other.kind && period_years == other.period_years);
+    }
+  };
+
+  static Kind kind_of(std::string_view key);
+  std::string name() const;
+  const Record& value_at(const NamedFile& file, const std::vector<const Record*>& in_force,
+                         const Epoch& epoch) const;
+  Extended contribution(const NamedFile& file, const Record& record, const Record& value,
+                        const Epoch& epoch) const;
+
+  int degree_;
+  std::vector<Record> records_;
+};
+
+}  // namespace hamjet::io
