@@ -23,4 +23,6 @@ if(HAMJET_COMMAND)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/data/scenes ${PROJECT_SOURCE_DIR}/data/gravity
     DESTINATION ${CMAKE_INSTALL_DATADIR}/hamjet
     FILES_MATCHING PATTERN *.toml PATTERN *.opm PATTERN *.oem PATTERN *.gfc)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/data/examples/two-satellites
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/hamjet/examples FILES_MATCHING PATTERN *.toml)
 endif()

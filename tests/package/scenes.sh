@@ -4,6 +4,7 @@
 set -euo pipefail
 prefix=$1
 scenes=$prefix/share/hamjet/scenes
+examples=$prefix/share/hamjet/examples
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work"
@@ -22,6 +23,6 @@ while read -r scene; do
   if [ -n "$without_cvode" ] && grep -q 'no CVODE' said; then continue; fi
   echo "$scene: exit code $status: $(tail -1 said)"
   failed=$((failed + 1))
-done < <(find "$scenes" -name '*.toml' | sort)
+done < <(find "$scenes" "$examples" -name '*.toml' | sort)
 [ $count -ge 150 ] || { echo "only $count scenes in $scenes"; exit 1; }
 [ $failed -eq 0 ]
