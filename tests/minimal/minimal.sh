@@ -18,11 +18,11 @@ fail() {
   exit 1
 }
 
-for package in SUNDIALS HDF5 TBB Python Python3 PythonInterp PythonLibs pybind11 GTest rapidcheck \
+for package in SUNDIALS HDF5 pugixml TBB Python Python3 PythonInterp PythonLibs pybind11 GTest rapidcheck \
   benchmark MPI OpenMP; do
   options+=("-DCMAKE_DISABLE_FIND_PACKAGE_$package=ON")
 done
-for option in CVODE HDF5 PYTHON TESTS BENCHMARKS; do
+for option in CVODE HDF5 XML PYTHON TESTS BENCHMARKS; do
   options+=("-DHAMJET_$option=OFF")
 done
 if [ -n "$other" ]; then

@@ -10,10 +10,10 @@
 #include "hamjet/detail/formats/epoch.hpp"
 
 // Orbit messages of the Consultative Committee for Space Data Systems, versions 2.0 and 3.0, and
-// ephemerides of version 1.0, in keyword = value notation (KVN); the XML notation is not read.
-// Source: CCSDS 502.0-B-3, Orbit Data Messages (2023), sections 3 (OPM), 5 (OEM) and 7 (syntax),
-// CCSDS 502.0-B-2 (2009), and CCSDS 502.0-B-1 (2004), whose OEM is that of version 2.0 without
-// accelerations, covariances and REF_FRAME_EPOCH.
+// ephemerides of version 1.0, in keyword = value notation (KVN), and on reading, in builds with
+// XML, in that notation too (CCSDS 505.0-B-3 (2023)). Source: CCSDS 502.0-B-3, Orbit Data Messages
+// (2023), sections 3 (OPM), 5 (OEM) and 7 (syntax), CCSDS 502.0-B-2 (2009), and CCSDS 502.0-B-1
+// (2004), whose OEM is that of version 2.0 without accelerations, covariances and REF_FRAME_EPOCH.
 
 namespace hamjet::io {
 
@@ -83,7 +83,7 @@ struct OrbitParameterMessage {
 
 /// Reads an OEM. `name` is the file's, printable, for messages. Accelerations and covariances are
 /// checked and left out. Throws Error(input_output), one line `name:line: keyword: what is wrong,
-/// got, must be`, for whatever is not such a message, among others: other versions, XML, a missing
+/// got, must be`, for whatever is not such a message, among others: other versions, a missing
 /// or doubled keyword, a keyword that the standard does not have, blocks that do not end, epochs
 /// out of order or outside of the span, what is no finite number, a frame that rotates with its
 /// body or is not known, a time system in which a second is not a second of the model.

@@ -30,10 +30,26 @@ MessageLines::MessageLines(const std::string& name, std::string_view text)
   if (text.starts_with("\xef\xbb\xbf")) rest_.remove_prefix(3);
   const std::size_t first = rest_.find_first_not_of(" \t\r\n");
   if (first != std::string_view::npos && rest_[first] == '<') {
-    fail(1, "",
-         "XML notation, got \"<\" at the start, must be in keyword = value notation (KVN), the "
-         "only one that is read");
+    statements_ = statements_of_xml(name, rest_);
+    number_of_lines_ = static_cast<std::size_t>(std::count(rest_.begin(), rest_.end(), '\n')) + 1;
+    rest_ = {};
   }
+}
+
+/// The next line's text without blanks around it, with its number.
+bool MessageLines::take_statement(std::string_view& text) {
+  if (next_statement_ < statements_.size()) {
+    number_ = statements_[next_statement_].line;
+    text = trimmed(statements_[next_statement_++].text);
+    return true;
+  }
+  if (rest_.empty()) {
+    number_ = std::max(number_ + 1, number_of_lines_);
+    return false;
+  }
+  ++number_;
+  text = trimmed(take());
+  return true;
 }
 
 /// A line ends with LF, CR, CR LF or LF CR.
@@ -56,9 +72,8 @@ void MessageLines::check_characters(std::string_view line) const {
 }
 
 bool MessageLines::next(MessageLine& line) {
-  while (!rest_.empty()) {
-    ++number_;
-    line = {number_, trimmed(take()), {}, {}, false};
+  for (std::string_view text; take_statement(text);) {
+    line = {number_, text, {}, {}, false};
     // Comments may be in any language; nothing depends on them.
     if (line.text.empty() || line.is_comment()) continue;
     check_characters(line.text);
@@ -68,7 +83,6 @@ bool MessageLines::next(MessageLine& line) {
     if (line.is_assignment) line.value = trimmed(line.text.substr(equals + 1));
     return true;
   }
-  ++number_;
   line = {};
   return false;
 }

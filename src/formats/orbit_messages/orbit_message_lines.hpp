@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "../xml/orbit_message_xml.hpp"
 #include "hamjet/formats/orbit_message.hpp"
 
 // The syntax that all orbit messages share (CCSDS 502.0-B-3, 7.3 to 7.5).
@@ -28,11 +29,15 @@ struct MessageLine {
   }
 };
 
-/// The lines of a message one after the other, without comments and blank lines.
+/// The lines of a message one after the other, without comments and blank lines; of a message in
+/// XML notation the statements of its elements.
 class MessageLines {
  public:
-  /// Throws for XML, and for UTF-16.
+  /// Throws for UTF-16, and what statements_of_xml throws.
   MessageLines(const std::string& name, std::string_view text);
+  /// Lines that have been read point into this.
+  MessageLines(const MessageLines&) = delete;
+  MessageLines& operator=(const MessageLines&) = delete;
 
   /// Reads the next line; false at the end of the text. Throws for a control character, or one that
   /// is not ASCII.
@@ -46,11 +51,15 @@ class MessageLines {
 
  private:
   std::string_view take();
+  bool take_statement(std::string_view& text);
   void check_characters(std::string_view line) const;
 
   std::string name_;
   std::string_view rest_;
   std::size_t number_ = 0;
+  std::vector<XmlStatement> statements_;  ///< of XML
+  std::size_t next_statement_ = 0;
+  std::size_t number_of_lines_ = 0;  ///< of XML
 };
 
 /// The first line must give the version of this message, one of `versions`.

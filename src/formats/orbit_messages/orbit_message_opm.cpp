@@ -3,70 +3,15 @@
 #include <algorithm>
 
 #include "orbit_message_lines.hpp"
+#include "orbit_message_units.hpp"
 
 namespace hamjet::io {
 namespace {
-
-/// Keywords that are numbers, with their units (CCSDS 502.0-B-3, table 3-3).
-struct Quantity {
-  std::string_view keyword;
-  std::string_view unit;
-};
-
-/// A part of the message that is checked and not used.
-struct UnusedPart {
-  std::string_view name;
-  std::vector<Quantity> quantities;
-};
-
-const std::vector<Quantity> state_vector = {
-    {"X", "km"}, {"Y", "km"}, {"Z", "km"}, {"X_DOT", "km/s"}, {"Y_DOT", "km/s"}, {"Z_DOT", "km/s"}};
 
 std::vector<std::string_view> keywords_of(const std::vector<Quantity>& quantities) {
   std::vector<std::string_view> keywords;
   for (const Quantity& quantity : quantities) keywords.push_back(quantity.keyword);
   return keywords;
-}
-
-const std::vector<UnusedPart>& unused_parts() {
-  static const std::vector<UnusedPart> parts = {{"Keplerian elements",
-                                                 {{"SEMI_MAJOR_AXIS", "km"},
-                                                  {"ECCENTRICITY", ""},
-                                                  {"INCLINATION", "deg"},
-                                                  {"RA_OF_ASC_NODE", "deg"},
-                                                  {"ARG_OF_PERICENTER", "deg"},
-                                                  {"TRUE_ANOMALY", "deg"},
-                                                  {"MEAN_ANOMALY", "deg"},
-                                                  {"GM", "km**3/s**2"}}},
-                                                {"spacecraft parameters",
-                                                 {{"MASS", "kg"},
-                                                  {"SOLAR_RAD_AREA", "m**2"},
-                                                  {"SOLAR_RAD_COEFF", ""},
-                                                  {"DRAG_AREA", "m**2"},
-                                                  {"DRAG_COEFF", ""}}},
-                                                {"covariance",
-                                                 {{"CX_X", "km**2"},
-                                                  {"CY_X", "km**2"},
-                                                  {"CY_Y", "km**2"},
-                                                  {"CZ_X", "km**2"},
-                                                  {"CZ_Y", "km**2"},
-                                                  {"CZ_Z", "km**2"},
-                                                  {"CX_DOT_X", "km**2/s"},
-                                                  {"CX_DOT_Y", "km**2/s"},
-                                                  {"CX_DOT_Z", "km**2/s"},
-                                                  {"CX_DOT_X_DOT", "km**2/s**2"},
-                                                  {"CY_DOT_X", "km**2/s"},
-                                                  {"CY_DOT_Y", "km**2/s"},
-                                                  {"CY_DOT_Z", "km**2/s"},
-                                                  {"CY_DOT_X_DOT", "km**2/s**2"},
-                                                  {"CY_DOT_Y_DOT", "km**2/s**2"},
-                                                  {"CZ_DOT_X", "km**2/s"},
-                                                  {"CZ_DOT_Y", "km**2/s"},
-                                                  {"CZ_DOT_Z", "km**2/s"},
-                                                  {"CZ_DOT_X_DOT", "km**2/s**2"},
-                                                  {"CZ_DOT_Y_DOT", "km**2/s**2"},
-                                                  {"CZ_DOT_Z_DOT", "km**2/s**2"}}}};
-  return parts;
 }
 
 std::vector<std::string_view> all_keywords() {
@@ -78,7 +23,7 @@ std::vector<std::string_view> all_keywords() {
     const auto more = keywords_of(quantities);
     keywords.insert(keywords.end(), more.begin(), more.end());
   };
-  add(state_vector);
+  add(state_quantities());
   for (const UnusedPart& part : unused_parts()) add(part.quantities);
   keywords.push_back("COV_REF_FRAME");
   return keywords;
@@ -110,6 +55,7 @@ OrbitParameterMessage read_opm(const std::string& name, std::string_view text) {
   message.originator = block.text("ORIGINATOR");
   message.metadata = block.metadata();
   message.state.epoch = block.epoch("EPOCH");
+  const std::vector<Quantity>& state_vector = state_quantities();
   for (std::size_t i = 0; i < 3; ++i) {
     message.state.position_km[i] = block.number(state_vector[i].keyword, state_vector[i].unit);
     message.state.velocity_km_s[i] =

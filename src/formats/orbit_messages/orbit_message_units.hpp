@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+// The keywords of orbit messages that are numbers, with their units (CCSDS 502.0-B-3, tables 3-3
+// and 5-3, and 8.2).
+
+namespace hamjet::io {
+
+struct Quantity {
+  std::string_view keyword;
+  std::string_view unit;  ///< empty: none
+};
+
+/// A part of an OPM that is checked and not used.
+struct UnusedPart {
+  std::string_view name;
+  std::vector<Quantity> quantities;
+};
+
+/// Position and velocity.
+const std::vector<Quantity>& state_quantities();
+const std::vector<UnusedPart>& unused_parts();
+
+/// The unit of a keyword; empty if it has none.
+std::string_view unit_of_keyword(std::string_view keyword);
+
+}  // namespace hamjet::io

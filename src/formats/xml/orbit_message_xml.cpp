@@ -1,0 +1,211 @@
+#include "orbit_message_xml.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <pugixml.hpp>
+
+#include "../../text/scene_message.hpp"
+#include "../orbit_messages/orbit_message_units.hpp"
+#include "hamjet/error.hpp"
+
+namespace hamjet::io {
+namespace {
+
+using Node = pugi::xml_node;
+
+/// Position and velocity, and acceleration where there is one, in the order of the standard.
+constexpr std::array<std::string_view, 10> state_elements = {
+    "EPOCH", "X", "Y", "Z", "X_DOT", "Y_DOT", "Z_DOT", "X_DDOT", "Y_DDOT", "Z_DDOT"};
+constexpr std::size_t without_acceleration = 7;
+
+/// What the data of an OPM consist of; all of them are keywords in the other notation.
+const std::vector<std::string_view> parts_of_opm = {
+    "stateVector",      "keplerianElements",  "spacecraftParameters",
+    "covarianceMatrix", "maneuverParameters", "userDefinedParameters"};
+const std::vector<std::string_view> parts_of_oem = {"stateVector", "covarianceMatrix"};
+
+class XmlReader {
+ public:
+  XmlReader(const std::string& name, std::string_view text) : name_(name) {
+    for (std::size_t i = text.find('\n'); i != text.npos; i = text.find('\n', i + 1)) {
+      ends_of_lines_.push_back(i);
+    }
+    // Entities that a document defines itself are not known to the library, and not expanded.
+    const pugi::xml_parse_result result =
+        document_.load_buffer(text.data(), text.size(),
+                              pugi::parse_default | pugi::parse_trim_pcdata, pugi::encoding_utf8);
+    if (!result) {
+      fail_at(line_of(result.offset), "",
+              fmt::format("no XML, got an error of syntax here ({}), must be an orbit message",
+                          result.description()));
+    }
+  }
+
+  std::vector<XmlStatement> read() {
+    const Node root = document_.document_element();
+    const std::string_view kind = root.name();
+    if (kind != "oem" && kind != "opm") {
+      fail(root, "unknown message, got this root, must be oem or opm");
+    }
+    if (root.next_sibling()) fail(root.next_sibling(), "got a second root, must be one message");
+    is_ephemeris_ = kind == "oem";
+    add(root,
+        fmt::format("{} = {}", root.attribute("id").value(), root.attribute("version").value()));
+    const std::vector<Node> parts = children(root, {"header", "body"});
+    if (parts.size() != 2 || std::string_view(parts[0].name()) != "header" ||
+        std::string_view(parts[1].name()) != "body") {
+      fail(root, "incomplete, must have one header and one body behind it");
+    }
+    add_leaves(parts[0]);
+    const std::vector<Node> segments = children(parts[1], {"segment"});
+    if (!is_ephemeris_ && segments.size() != 1) {
+      fail(parts[1], fmt::format("got {} segments, must have one", segments.size()));
+    }
+    for (const Node segment : segments) read_segment(segment);
+    return std::move(statements_);
+  }
+
+ private:
+  [[noreturn]] void fail_at(std::size_t line, std::string_view element,
+                            const std::string& problem) const {
+    throw Error(ErrorKind::input_output,
+                fmt::format("{}:{}: {}{}{}", name_, line, printable(element),
+                            element.empty() ? "" : ": ", problem));
+  }
+  [[noreturn]] void fail(Node node, const std::string& problem) const {
+    fail_at(line_of(node.offset_debug()), node.name(), problem);
+  }
+
+  std::size_t line_of(std::ptrdiff_t offset) const {
+    if (offset < 0) return 1;
+    const auto end = std::lower_bound(ends_of_lines_.begin(), ends_of_lines_.end(),
+                                      static_cast<std::size_t>(offset));
+    return static_cast<std::size_t>(end - ends_of_lines_.begin()) + 1;
+  }
+
+  void add(Node node, std::string text) {
+    statements_.push_back({line_of(node.offset_debug()), std::move(text)});
+  }
+
+  /// The elements within one that holds elements alone, without comments; all names must be among
+  /// `names`, unless that is empty.
+  std::vector<Node> children(Node parent, const std::vector<std::string_view>& names) const {
+    std::vector<Node> found;
+    for (const Node child : parent) {
+      if (child.type() != pugi::node_element) {
+        fail(parent, fmt::format("got the text {} between elements, must be elements alone",
+                                 in_quotes(child.value())));
+      }
+      const std::string_view name = child.name();
+      if (name == "COMMENT") continue;
+      if (!names.empty() && std::find(names.begin(), names.end(), name) == names.end()) {
+        fail(child,
+             fmt::format("unknown element in {}, {}", parent.name(), suggestion(name, names)));
+      }
+      found.push_back(child);
+    }
+    return found;
+  }
+
+  /// The text of an element that holds no others, with the standard's unit if it says one.
+  std::string leaf_text(Node leaf) const {
+    const Node child = leaf.first_child();
+    if (child.type() == pugi::node_element || child != leaf.last_child()) {
+      fail(leaf, "got elements or comments within, must be a text alone");
+    }
+    if (const pugi::xml_attribute units = leaf.attribute("units")) {
+      const std::string_view right = unit_of_keyword(leaf.name());
+      if (units.value() != right) {
+        fail(leaf, fmt::format("wrong unit, got {}, must be {}", in_quotes(units.value()),
+                               right.empty() ? "without a unit" : in_quotes(right)));
+      }
+    }
+    return leaf.text().get();
+  }
+
+  void add_leaves(Node parent) {
+    for (const Node leaf : children(parent, {})) {
+      const std::string_view name = leaf.name();
+      const bool is_own = name == "USER_DEFINED";
+      add(leaf, fmt::format("{}{} = {}", is_own ? "USER_DEFINED_" : name,
+                            is_own ? leaf.attribute("parameter").value() : "", leaf_text(leaf)));
+    }
+  }
+
+  void read_segment(Node segment) {
+    const std::vector<Node> parts = children(segment, {"metadata", "data"});
+    if (parts.size() != 2 || std::string_view(parts[0].name()) != "metadata" ||
+        std::string_view(parts[1].name()) != "data") {
+      fail(segment, "incomplete, must have one element metadata and one element data behind it");
+    }
+    if (is_ephemeris_) add(parts[0], "META_START");
+    add_leaves(parts[0]);
+    const Node last = parts[0].last_child();
+    if (is_ephemeris_) add(last ? last : parts[0], "META_STOP");
+    const std::vector<Node> data = children(parts[1], is_ephemeris_ ? parts_of_oem : parts_of_opm);
+    if (!is_ephemeris_) {
+      for (const Node part : data) add_leaves(part);
+      return;
+    }
+    const auto is_state = [](Node part) { return std::string_view(part.name()) == "stateVector"; };
+    if (!std::is_partitioned(data.begin(), data.end(), is_state)) {
+      fail(parts[1], "out of order, got a stateVector behind a covarianceMatrix, must be before");
+    }
+    const auto matrices = std::find_if_not(data.begin(), data.end(), is_state);
+    std::for_each(data.begin(), matrices, [&](Node state) { add_state(state); });
+    if (matrices == data.end()) return;
+    add(*matrices, "COVARIANCE_START");
+    std::for_each(matrices, data.end(), [&](Node matrix) { add_covariance(matrix); });
+    add(data.back(), "COVARIANCE_STOP");
+  }
+
+  void add_state(Node state) {
+    const std::vector<Node> leaves = children(state, {});
+    std::string line;
+    for (std::size_t i = 0; i < leaves.size(); ++i) {
+      const std::string_view right = i < state_elements.size() ? state_elements[i] : "no other one";
+      if (leaves[i].name() != right) {
+        fail(leaves[i], fmt::format("out of place in a stateVector, must be {} here", right));
+      }
+      const std::string text = leaf_text(leaves[i]);
+      if (text.empty() || text.find_first_of(" \t\r\n") != text.npos) {
+        fail(leaves[i],
+             fmt::format("got {}, must be one {}", in_quotes(text), i == 0 ? "epoch" : "number"));
+      }
+      line += (i == 0 ? "" : " ") + text;
+    }
+    if (leaves.size() != without_acceleration && leaves.size() != state_elements.size()) {
+      fail(state, fmt::format("got {} elements, must be an epoch, a position and a velocity, and "
+                              "an acceleration or none",
+                              leaves.size()));
+    }
+    add(state, std::move(line));
+  }
+
+  /// One number a row: the reader checks that they are numbers, and leaves them out.
+  void add_covariance(Node matrix) {
+    for (const Node leaf : children(matrix, {})) {
+      const std::string text = leaf_text(leaf);
+      const bool is_number = !unit_of_keyword(leaf.name()).empty();
+      add(leaf, is_number ? text : fmt::format("{} = {}", leaf.name(), text));
+    }
+  }
+
+  std::string name_;
+  std::vector<std::size_t> ends_of_lines_;
+  pugi::xml_document document_;
+  bool is_ephemeris_ = false;
+  std::vector<XmlStatement> statements_;
+};
+
+}  // namespace
+
+bool is_xml_built() { return true; }
+
+std::vector<XmlStatement> statements_of_xml(const std::string& name, std::string_view text) {
+  return XmlReader(name, text).read();
+}
+
+}  // namespace hamjet::io

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+// Orbit messages in XML notation (CCSDS 505.0-B-3, XML Specification for Navigation Data Messages,
+// 2023, and CCSDS 502.0-B-3, section 8).
+
+namespace hamjet::io {
+
+/// What an element of a message says, as a line of the keyword = value notation would.
+struct XmlStatement {
+  std::size_t line = 0;  ///< of the element
+  std::string text;
+};
+
+/// Whether this build reads XML.
+bool is_xml_built();
+
+/// The statements of an OEM or OPM in XML, in order, so that whoever reads the other notation reads
+/// this one with the same checks. Throws Error(input_output), `name:line: element: problem`, for
+/// what is no XML, for another root, for elements where the standard has none of that name or that
+/// are out of the order that it has, and for units other than the standard's; and in a build
+/// without XML for everything.
+std::vector<XmlStatement> statements_of_xml(const std::string& name, std::string_view text);
+
+}  // namespace hamjet::io

@@ -1,0 +1,19 @@
+#include <fmt/format.h>
+
+#include "hamjet/error.hpp"
+#include "orbit_message_xml.hpp"
+
+// A build without XML.
+
+namespace hamjet::io {
+
+bool is_xml_built() { return false; }
+
+std::vector<XmlStatement> statements_of_xml(const std::string& name, std::string_view) {
+  throw Error(ErrorKind::input_output,
+              fmt::format("{}:1: XML notation, got \"<\" at the start, must be in keyword = value "
+                          "notation (KVN), the only one that this build reads (HAMJET_XML is OFF)",
+                          name));
+}
+
+}  // namespace hamjet::io
