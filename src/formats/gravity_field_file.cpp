@@ -149,7 +149,7 @@ class Reader {
       line_ = found->second.line;
       const auto number = gravity_number(found->second.value);
       const double converted = number ? static_cast<double>(Extended(*number / divisor)) : 0;
-      if (!(converted > 0)) {
+      if (!(converted > 0) || !std::isnormal(converted)) {
         fail(fmt::format("{}: must be a positive number, got {}", keyword,
                          in_quotes(found->second.value)));
       }

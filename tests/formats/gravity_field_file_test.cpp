@@ -151,6 +151,9 @@ TEST(GravityFieldFile, RefusesWhatIsDamagedByFileAndLine) {
                        {":7: earth_gravity_constant: ", "\"GM\""});
   expect_field_refused(changed_field("0.3986004415E+15", "-1"),
                        {"must be a positive number, got \"-1\""});
+  // In kilometres it would be subnormal, with fewer digits than the file has.
+  expect_field_refused(changed_field("0.3986004415E+15", "1E-305"),
+                       {"must be a positive number, got \"1E-305\""});
   expect_field_refused(changed_field("8\n", "eight\n"),
                        {":9: max_degree: must be a natural number"});
   expect_field_refused(changed_field("errors", "radius 1\nerrors"),
