@@ -71,28 +71,30 @@ Json facts(const RunOptions& options, const Scene& scene) {
   return json;
 }
 
-/// One object for each line of the message.
-Json errors_json(const std::string& file, std::string_view message) {
-  Json errors = Json::array();
+/// One object for each line of the message, but the warnings, which are texts as in a summary.
+Json failure_json(const std::string& file, std::string_view message) {
+  Json json = {{"errors", Json::array()}, {"warnings", Json::array()}};
   while (!message.empty()) {
-    const io::PlacedMessage error = io::placed(io::take_line(message), file);
-    errors.push_back({{"file", io::or_null(error.file)},
-                      {"line", io::or_null(error.line)},
-                      {"column", io::or_null(error.column)},
-                      {"key", io::or_null(error.key)},
-                      {"message", error.problem}});
+    const std::string_view line = io::take_line(message);
+    if (line.starts_with(io::warning_head)) {
+      json["warnings"].push_back(line);
+      continue;
+    }
+    const io::PlacedMessage error = io::placed(line, file);
+    json["errors"].push_back({{"file", io::or_null(error.file)},
+                              {"line", io::or_null(error.line)},
+                              {"column", io::or_null(error.column)},
+                              {"key", io::or_null(error.key)},
+                              {"message", error.problem}});
   }
-  return errors;
+  return json;
 }
 
 }  // namespace
 
 int check_as_json(const RunOptions& options) {
   const std::string file = io::printable(*options.scene_file, std::string::npos);
-  const auto head = [&](int exit_code, const Json& errors) {
-    return Json{{"file", file}, {"exit_code", exit_code}, {"errors", errors}};
-  };
-  Json json = head(0, Json::array());
+  Json json = {{"file", file}, {"exit_code", 0}, {"errors", Json::array()}};
   try {
     std::visit(
         [&](const auto& study) {
@@ -104,7 +106,9 @@ int check_as_json(const RunOptions& options) {
         },
         read_study(options));
   } catch (const Error& error) {
-    print(head(error.exit_code(), errors_json(file, error.what())).dump(2) + "\n");
+    json["exit_code"] = error.exit_code();
+    json.update(failure_json(file, error.what()));
+    print(json.dump(2) + "\n");
     throw;
   }
   print(json.dump(2) + "\n");

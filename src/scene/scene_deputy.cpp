@@ -16,7 +16,7 @@ DeputySettings read_deputy(const TableReader& deputy, const Scene& scene, const 
   deputy.check_keys();
   require_relative_motion(deputy, scene);
   DeputySettings settings;
-  settings.frame = read_relative_frame_or_rtn(deputy);
+  settings.frame = read_relative_frame(deputy);
   settings.start = read_relative_state(deputy, nominal, settings.frame);
   return settings;
 }

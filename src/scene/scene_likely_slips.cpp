@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "../dynamics/celestial_bodies.hpp"
+#include "../text/quantity_text.hpp"
 #include "../text/scene_message.hpp"
 #include "scene_elements.hpp"
 #include "scene_sections.hpp"
@@ -74,7 +75,7 @@ class LikelySlips {
 
  private:
   void add(const TableReader& table, std::string_view key, const std::string& what) {
-    found_.push_back(fmt::format("warning: {}: {}", table.head(key), what));
+    found_.push_back(fmt::format("{}{}: {}", warning_head, table.head(key), what));
   }
 
   void check_radius() {
@@ -152,8 +153,9 @@ class LikelySlips {
     const std::string of_body = body_ != nullptr ? fmt::format(" of {}", body_->name) : "";
     if (*length >= farthest_start * radius && !is_sun) {
       add(nominal_, key,
-          fmt::format("{:.6g} km {} are {:.0f} radii{}; if these are metres, it must be {:.6g} km",
-                      *length, key.ends_with("height_km") ? "above the surface" : "from the centre",
+          fmt::format("{} {} are {:.0f} radii{}; if these are metres, it must be {:.6g} km",
+                      length_text(1000 * *length, 8),
+                      key.ends_with("height_km") ? "above the surface" : "from the centre",
                       *length / radius, of_body, 1e-3 * *length));
     } else if (key == "a_km" && *length < radius) {
       add(nominal_, key,

@@ -9,6 +9,7 @@
 #include "../formats/relative_frame_text.hpp"
 #include "../text/quantity_text.hpp"
 #include "../text/scene_message.hpp"
+#include "hamjet/relative_motion/deputy_coordinates.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -133,20 +134,36 @@ std::vector<double> read_transfer_times(const TableReader& table, const Scene& s
 
 namespace {
 
-/// The frame from the tables that have the keys `frame` and `derivatives`.
-RelativeFrame read_frame(const TableReader& of_frame, const TableReader& of_derivatives,
-                         bool is_rtn_by_default) {
-  if (of_frame.has("frame") && lower_case(of_frame.text("frame")) == "lvlh") {
-    of_frame.fail("frame",
-                  fmt::format("ambiguous, got {}, which means x radial outward and y along the "
-                              "motion (here RTN) to some, and to others z toward the Earth's "
-                              "centre, y opposite to the orbit normal and x along the motion; "
-                              "must be \"RTN\", into which coordinates of the latter are to be "
-                              "turned: R = -z, T = x, N = -y",
-                              in_quotes(of_frame.text("frame"))));
+/// Refuses what is no frame here: the name of other axes, and of a form that has keys of its own.
+void refuse_other_frames(const TableReader& table) {
+  const std::string given = table.text("frame");
+  if (lower_case(given) == "lvlh") {
+    table.fail("frame",
+               fmt::format("ambiguous, got {}, which means x radial outward and y along the "
+                           "motion (here RTN) to some, and to others z toward the Earth's "
+                           "centre, y opposite to the orbit normal and x along the motion; "
+                           "must be \"RTN\", into which coordinates of the latter are to be "
+                           "turned: R = -z, T = x, N = -y",
+                           in_quotes(given)));
   }
-  const bool is_named = of_frame.has("frame") || !is_rtn_by_default;
-  const bool is_inertial = is_named && of_frame.choice("frame") == 1;
+  for (const DeputyForm form : nonlinear_forms) {
+    if (!nearest(lower_case(given), {name_of(form)})) continue;
+    std::vector<std::string_view> keys;
+    for (const DeputyComponent& component : components_of(form)) keys.push_back(component.name);
+    table.fail("frame", fmt::format("a form and no frame, got {}, must be \"RTN\", \"inertial\" or "
+                                    "left out: a deputy in the form {} has, where it starts, the "
+                                    "keys {} in place of position_m and velocity_m_s",
+                                    in_quotes(given), name_of(form), listed(keys)));
+  }
+}
+
+}  // namespace
+
+RelativeFrame read_relative_frame(const TableReader& table, const TableReader& fallback) {
+  const TableReader& of_frame = table.has("frame") ? table : fallback;
+  const TableReader& of_derivatives = table.has("derivatives") ? table : fallback;
+  if (of_frame.has("frame")) refuse_other_frames(of_frame);
+  const bool is_inertial = of_frame.has("frame") && of_frame.choice("frame") == 1;
   if (!of_derivatives.has("derivatives")) {
     return is_inertial ? RelativeFrame::inertial : RelativeFrame::rtn_rotating;
   }
@@ -160,15 +177,8 @@ RelativeFrame read_frame(const TableReader& of_frame, const TableReader& of_deri
   return are_inertial ? RelativeFrame::rtn_inertial : RelativeFrame::rtn_rotating;
 }
 
-}  // namespace
-
-RelativeFrame read_relative_frame(const TableReader& table, const TableReader& fallback) {
-  return read_frame(table.has("frame") || !fallback.has("frame") ? table : fallback,
-                    table.has("derivatives") ? table : fallback, false);
-}
-
-RelativeFrame read_relative_frame_or_rtn(const TableReader& table) {
-  return read_frame(table, table, true);
+RelativeFrame read_relative_frame(const TableReader& table) {
+  return read_relative_frame(table, table);
 }
 
 std::vector<std::string> distant_deputies(const TableReader& root, const Scene& scene) {
@@ -178,11 +188,11 @@ std::vector<std::string> distant_deputies(const TableReader& root, const Scene& 
   const auto look = [&](const TableReader& table, const RelativeState& state) {
     const double separation_m = state.position_m.stableNorm();
     if (separation_m < distance_m / 20) return;
-    warnings.push_back(
-        fmt::format("warning: {}: far from its chief, got {}, should be well below {}: polynomials "
-                    "are right near the "
-                    "chief alone, and hamjet validity says how far",
-                    table.head(""), length_text(separation_m), length_text(distance_m / 20)));
+    warnings.push_back(fmt::format(
+        "{}{}: far from its chief, got {}, should be well below {}: polynomials "
+        "are right near the "
+        "chief alone, and hamjet validity says how far",
+        warning_head, table.head(""), length_text(separation_m), length_text(distance_m / 20)));
   };
   if (scene.deputy) look(root.table("deputy"), scene.deputy->start);
   if (!scene.transfer) return warnings;

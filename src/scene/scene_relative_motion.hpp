@@ -35,11 +35,9 @@ std::vector<double> read_transfer_times(const TableReader& table, const Scene& s
                                         std::optional<int> default_count = std::nullopt);
 
 /// The frame of the keys `frame` and `derivatives`, each from `fallback` where the table does not
-/// have it. Derivatives are rotating ones unless the key says otherwise.
+/// have it; RTN with rotating derivatives unless the keys say otherwise.
 RelativeFrame read_relative_frame(const TableReader& table, const TableReader& fallback);
-
-/// The frame of one table; RTN if it has no key `frame`.
-RelativeFrame read_relative_frame_or_rtn(const TableReader& table);
+RelativeFrame read_relative_frame(const TableReader& table);
 
 /// A deputy at the start, in the given frame: `position_m` and, optional, `velocity_m_s` in that
 /// frame; numbers of another form (components_of); or its own orbit in the keys of [nominal], whose

@@ -9,6 +9,7 @@
 
 #include "../dynamics/celestial_bodies.hpp"
 #include "../formats/relative_frame_text.hpp"
+#include "../text/quantity_text.hpp"
 #include "../text/scene_message.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/formats/orbit_message.hpp"
@@ -96,11 +97,11 @@ void require_near(const TableReader& table, const Nominal& nominal,
   const double separation = Eigen::Vector3d(deviation.data()).stableNorm();
   if (!(separation < distance_of(nominal))) {
     const double unit_km = canonical_units(nominal.scale).length_km;
-    table.fail(
-        "", fmt::format("too far from its chief, got {:.6g} km between the two, must be "
-                        "below {:.6g} km, the chief's distance from the centre; beside the chief "
-                        "are position_m and velocity_m_s",
-                        separation * unit_km, distance_of(nominal) * unit_km));
+    table.fail("", fmt::format("too far from its chief, got {} between the two, must be "
+                               "below {}, the chief's distance from the centre; beside the chief "
+                               "are position_m and velocity_m_s",
+                               length_text(1000 * separation * unit_km, 6),
+                               length_text(1000 * distance_of(nominal) * unit_km, 6)));
   }
   const double speed = Eigen::Vector3d(deviation.data() + 3).stableNorm();
   if (!(speed < circular_speed_of(nominal))) {

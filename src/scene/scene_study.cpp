@@ -176,6 +176,7 @@ Study parse_study(std::string_view text, const std::string& file_name,
 
 Study read_document(const SceneDocument& document, const std::string& file_name) {
   SceneErrors errors;
+  const std::vector<std::string> no_warnings;
   const auto reader_of = [&](std::size_t study) {
     return TableReader(document.table, "", document.source, &all_studies()[study].top, &errors);
   };
@@ -185,13 +186,14 @@ Study read_document(const SceneDocument& document, const std::string& file_name)
   // A newer schema may have other keys, so that its number comes before all else.
   if (root.has("schema")) root.integer("schema");
   attempt_misspelt_study(root, document.table);
-  if (!errors.empty()) errors.raise(document.source.name);
+  if (!errors.empty()) errors.raise(document.source.name, no_warnings);
   Study study = read_tables(root, number);
   std::string title = default_title(file_name);
   root.attempt([&] { root.read_if_any("title", title); });
   if (!errors.empty()) {
     root.attempt_declared_keys(kind_of_model(document.table));
-    errors.raise(document.source.name);
+    const Scene* const scene = std::get_if<Scene>(&study);
+    errors.raise(document.source.name, scene != nullptr ? scene->warnings : no_warnings);
   }
   std::visit(
       [&](auto& scene) {

@@ -38,17 +38,23 @@ bool names_frame(const TableReader& table) {
   return table.has("frame") || table.has("derivatives");
 }
 
-/// Reads one end of the transfer; `fallback` is the table [transfer], and the frame is that of the
-/// scene's deputy where neither names one.
+/// The frame that a table or [transfer] names, else that of the scene's deputy, else RTN.
+RelativeFrame frame_of(const TableReader& table, const TableReader& transfer,
+                       const std::optional<DeputySettings>& deputy) {
+  const bool is_named = names_frame(table) || names_frame(transfer);
+  return deputy && !is_named ? deputy->frame : read_relative_frame(table, transfer);
+}
+
+/// Reads one end of the transfer; `fallback` is the table [transfer].
 FramedTable read_end(const TableReader& fallback, std::string_view key, const Nominal& nominal,
                      const std::optional<DeputySettings>& deputy, RelativeState& state) {
   const TableReader end = fallback.table(key);
   end.check_keys();
-  const bool is_named = names_frame(end) || names_frame(fallback);
-  const RelativeFrame frame =
-      deputy && !is_named ? deputy->frame : read_relative_frame(end, fallback);
+  const RelativeFrame frame = frame_of(end, fallback, deputy);
   state = key == "start" ? read_relative_state(end, nominal, frame) : read_arrival(end, nominal);
-  return {end, frame, (end.has("frame") ? end : fallback).head("frame")};
+  const bool is_of_fallback = !end.has("frame") && fallback.has("frame");
+  const TableReader& named = is_of_fallback ? fallback : end;
+  return {end, frame, named.head(named.has("frame") ? "frame" : "")};
 }
 
 std::string read_kind(const TableReader& transfer) {
@@ -112,7 +118,7 @@ const TableDescription& transfer_table() {
   const auto end = absent::other("required, but beside `[assignment]`");
   const auto margin = form::words("number from 0", form::number());
   static const TableDescription table = {joined<SceneKey>(
-      {relative_frame_keys(absent::other("required, or of `start` and `end`, or of `[deputy]`")),
+      {relative_frame_keys(absent::other("that of `[deputy]`, else `\"RTN\"`")),
        {{"start", form::table(start_table()),
          absent::other("`[deputy]`; none beside `[assignment]`"),
          "velocity before the first impulse"},
@@ -144,7 +150,7 @@ TransferSettings read_transfer(const TableReader& transfer, const Scene& scene,
   TransferSettings settings;
   std::optional<FramedTable> first;
   if (transfer.has("frame")) {
-    first = {transfer, read_relative_frame(transfer, transfer), transfer.head("frame")};
+    first = {transfer, read_relative_frame(transfer), transfer.head("frame")};
   }
   if (needs_ends || transfer.has("start") || transfer.has("end")) {
     std::optional<FramedTable> start;
@@ -160,8 +166,7 @@ TransferSettings read_transfer(const TableReader& transfer, const Scene& scene,
     first = start ? *start : end;
     if (!start) settings.start = in_other_frame(transfer, nominal, *scene.deputy, end.frame);
   }
-  if (!first) transfer.choice("frame");  // says what is missing
-  settings.frame = first->frame;
+  settings.frame = first ? first->frame : frame_of(transfer, transfer, scene.deputy);
   settings.times = read_transfer_times(transfer, scene, nominal);
   settings.kind = read_kind(transfer);
   transfer.read_if_any("tolerance_m", settings.tolerance_m);

@@ -48,7 +48,7 @@ ValiditySettings read_validity(const TableReader& validity, const Scene& scene,
   ValiditySettings settings;
   validity.read_if_any("tolerance_m", settings.tolerance_m);
   settings.times = read_transfer_times(validity, scene, nominal, default_times);
-  settings.frame = read_relative_frame_or_rtn(validity);
+  settings.frame = read_relative_frame(validity);
   if (validity.has("semi_axes")) settings.semi_axes = read_semi_axes(validity);
   validity.read_if_any("samples", settings.samples);
   return settings;

@@ -2,26 +2,52 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 #include <string_view>
 
 namespace hamjet {
 namespace {
 
+/// The value as it is shown with so many significant digits.
+double rounded_to(double value, int digits) {
+  const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value)) + 1e-12) + 1 - digits);
+  return std::round(value / unit) * unit;
+}
+
 /// A value as three digits and the prefix that leaves one to three of them before the point.
 std::string prefixed(double value, std::string_view unit) {
   static constexpr const char* prefixes[] = {"f", "p", "n", "μ", "m", "", "k", "M", "G", "T"};
   if (value == 0 || !std::isfinite(value)) return fmt::format("{:g} {}", value, unit);
-  const int thousands = static_cast<int>(std::floor(std::log10(std::abs(value)) / 3 + 1e-12));
+  const double shown = std::abs(rounded_to(value, 3));
+  const int thousands = static_cast<int>(std::floor(std::log10(shown) / 3 + 1e-12));
   if (thousands < -5 || thousands > 4) return fmt::format("{:.2e} {}", value, unit);
   return fmt::format("{:.3g} {}{}", value / std::pow(1000.0, thousands), prefixes[thousands + 5],
                      unit);
 }
 
+/// A number with a comma before every three digits of its whole part, from five digits on.
+std::string grouped(std::string number) {
+  const std::size_t first = number.starts_with('-') ? 1 : 0;
+  const std::size_t end = std::min(number.find('.'), number.size());
+  if (end - first < 5) return number;
+  for (std::size_t at = end - 3; at > first && at < end; at -= 3) number.insert(at, ",");
+  return number;
+}
+
 }  // namespace
 
 std::string duration_text(double seconds) { return prefixed(seconds, "s"); }
-std::string length_text(double metres) { return prefixed(metres, "m"); }
+std::string length_text(double metres, int digits) {
+  const double km = metres / 1000;
+  if (!(std::abs(km) >= 1 - 1e-12) || !(std::abs(km) < 1e12)) return prefixed(metres, "m");
+  const bool has_fraction = std::abs(km) < std::pow(10.0, digits - 1);
+  return grouped(has_fraction ? fmt::format("{:.{}g}", km, digits)
+                              : fmt::format("{:.0f}", rounded_to(km, digits))) +
+         " km";
+}
+
 std::string memory_text(double bytes) { return prefixed(bytes, "B"); }
 
 std::string count_text(double count) {

@@ -62,6 +62,9 @@ struct SceneSource {
 /// `--set reference.tol` for a mistake in `--set reference={tol=1}`.
 std::string message_head(const SceneSource& source, std::string_view where, std::string_view key);
 
+/// What a line begins with that warns of a scene and does not refuse it.
+inline constexpr std::string_view warning_head = "warning: ";
+
 /// Throws Error(scene) with the message `head: problem`.
 [[noreturn]] void throw_scene_error(std::string_view head, std::string_view problem);
 

@@ -63,6 +63,16 @@ TEST_F(CheckJson, SaysWhereAMistakeIs) {
   EXPECT_EQ(syntax["message"].get<std::string>().rfind("not valid TOML: ", 0), 0U);
 }
 
+// What is warned of is no error, and is a text as in the summary of a run.
+TEST_F(CheckJson, TellsWarningsFromMistakes) {
+  const std::string flat = changed(quick_scene(), "J2 = ", "J2 = -");
+  write("warned.toml", changed(flat, "order = 2", "order = 0"));
+  const Json said = wrong({"check", "warned.toml", "--json"}, 3);
+  EXPECT_EQ(said["errors"][0]["key"], "jet.order");
+  ASSERT_EQ(said["warnings"].size(), 1U);
+  EXPECT_EQ(said["warnings"][0].get<std::string>().rfind("warning: warned.toml:", 0), 0U);
+}
+
 TEST_F(CheckJson, SaysWhatHasNoPlace) {
   const Json missing = wrong({"check", "missing.toml", "--json"}, 5)["errors"][0];
   EXPECT_EQ(missing["file"], "missing.toml");

@@ -136,6 +136,18 @@ TEST(AllErrors, OfOverridesComeLastAndTheKindIsThatOfAScene) {
 
 /// Every shipped scene with one more key at its end has one error: no other key of it is refused
 /// by what is declared alone.
+// A start in metres is warned of, and an error of the deputy may only follow from it.
+TEST(AllErrors, AreFollowedByWhatIsWarnedOf) {
+  const std::string metres = changed(orbit, "[7000, 0, 0]", "[7000000, 0, 0]");
+  const std::string deputy = "[deputy]\nposition_km = [7000, 1]\nvelocity_km_s = [0, 7.5, 1]\n";
+  const char* warning =
+      "warning: file.toml:9:15: nominal.position_km: 7,000,000 km from the centre";
+  expect_lines(errors_of(metres + deputy), {"deputy.position_km: wrong length", warning});
+  expect_lines(errors_of(changed(metres, "stages = 8", "stages = 99") + deputy),
+               {"integrator.0.stages: out of range", "deputy.position_km: wrong length", warning});
+  expect_lines(errors_of(orbit + deputy), {"deputy.position_km: wrong length"});
+}
+
 TEST(AllErrors, OneErrorOfAGoodSceneIsSaidAlone) {
   const std::filesystem::path scenes = std::string(HAMJET_SOURCE_DIR) + "/data/scenes";
   std::size_t count = 0;

@@ -132,9 +132,14 @@ TEST(SceneInputErrors, Overrides) {
   expect_override_error({"jet.order", "0"}, scene, {"--set jet.order: out of range"});
   expect_override_error({"jet.order", "99"}, ErrorKind::too_large,
                         {"--set jet.order", "1609344100"});
-  expect_override_error({"jet.order", "1e400"}, scene, {"the string \"1e400\""});
+  // A number that does not fit is no text.
+  expect_override_error({"jet.order", "1e400"}, scene,
+                        {"--set jet.order: out of range, got 1e400, must be a number"});
+  expect_override_error({"jet.order", "12345678901234567890"}, scene,
+                        {"out of range, got 12345678901234567890", "or an exponent"});
   expect_override_error({"jet.order", "3\nvariables=[]"}, scene, {"the string \"3\\x0avariables"});
-  expect_override_error({"system.J2", "1e-400"}, scene, {"J2: wrong type, got the string"});
+  expect_override_error({"system.J2", "1e-400"}, scene,
+                        {"--set system.J2: out of range, got 1e-400"});
   expect_override_error({"jet.ordre", "3"}, scene, {"--set jet.ordre: ", "did you mean order?"});
   expect_override_error({"a.b", "3"}, scene, {"--set a.b: unknown key, got a,"});
   expect_override_error({"reference", "{tol = 1}"}, scene, {"--set reference.tol: unknown key"});

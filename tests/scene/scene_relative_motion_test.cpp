@@ -149,9 +149,38 @@ TEST(SceneTransfer, FramesOfTheEnds) {
       {"transfer.end.derivatives: different frames, got RTN with inertial derivatives"});
   expect_different("[transfer]\nframe = \"inertial\"\n" + with(rtn, rtn).substr(11),
                    {"transfer.start.frame", "transfer.frame has inertial"});
-  expect_scene_error(circle + none, {"transfer.start.frame: missing", "RTN, inertial"});
+  expect_different(with("", inertial), {"transfer.end.frame: ", "got inertial",
+                                        "file.toml:18:1: transfer.start has RTN with rotating"});
   expect_scene_error(circle + with(inertial, "frame = \"inertial\"\nderivatives = \"rotating\""),
                      {"transfer.end.derivatives: the frame inertial has one kind"});
+}
+
+// As [deputy] and [validity] have it.
+TEST(SceneTransfer, TheFrameIsThatOfTheDeputyElseRtn) {
+  const std::string none = changed(transfer, "frame = \"RTN\"\n", "");
+  EXPECT_EQ(scene_of(none).transfer->frame, RelativeFrame::rtn_rotating);
+  EXPECT_EQ(scene_of(changed(none, "[transfer]", "[transfer]\nderivatives = \"inertial\""))
+                .transfer->frame,
+            RelativeFrame::rtn_inertial);
+  const std::string deputy = "[deputy]\nposition_m = [1, 0, 0]\nframe = \"inertial\"\n";
+  EXPECT_EQ(scene_of(deputy + none).transfer->frame, RelativeFrame::inertial);
+  // Deputies and slots of an assignment likewise, which need neither start nor end.
+  const std::string unnamed = changed(assignment, "frame = \"inertial\"\n", "");
+  EXPECT_EQ(scene_of(unnamed).transfer->frame, RelativeFrame::rtn_rotating);
+  EXPECT_EQ(scene_of(deputy + unnamed).transfer->frame, RelativeFrame::inertial);
+}
+
+TEST(SceneTransfer, AFormIsNoFrameAndItsKeysAreSaid) {
+  const std::string deputy = "[deputy]\nposition_m = [1, 0, 0]\nframe = ";
+  expect_scene_error(
+      circle + deputy + "\"relative-elements\"\n",
+      {"file.toml:18:9: deputy.frame: a form and no frame, got \"relative-elements\"",
+       "must be \"RTN\", \"inertial\" or left out",
+       "the keys a_da_m, a_dlambda_m, a_dex_m, a_dey_m, a_dix_m, a_diy_m"});
+  expect_scene_error(circle + deputy + "\"Relative_Elements\"\n", {"a form and no frame"});
+  expect_scene_error(circle + deputy + "\"curvilinear\"\n", {"a form and no frame", "arc_m"});
+  expect_scene_error(circle + changed(transfer, "\"RTN\"", "\"element-differences\""),
+                     {"transfer.frame: a form and no frame", "where it starts, the keys da_m"});
 }
 
 TEST(SceneTransfer, LocalVerticalIsRefusedWithItsTwoMeanings) {
@@ -321,7 +350,6 @@ TEST(SceneAssignment, Errors) {
        {"[4, 0, 0]",
         "[4, 0, 0]\nframe = \"RTN\"",
         {"assignment.slot.1.frame: a slot, which is in the frame of the table [transfer], has no"}},
-       {"frame = \"inertial\"\n", "", {":16:1: transfer.frame: missing", "RTN, inertial"}},
        {"[transfer]\nframe = \"inertial\"\ncount = 4\n",
         "",
         {"assignment: no table [transfer]", "frame and transfer times"}},

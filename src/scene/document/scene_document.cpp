@@ -65,6 +65,25 @@ toml::table parse_value(const std::string& value_as_toml, const std::string& sou
   return parse_toml("value = " + value_as_toml, source);
 }
 
+/// Refuses a number that does not fit, which would otherwise be taken for a text.
+void refuse_number_out_of_range(const Override& change) {
+  std::string_view digits = change.value;
+  if (digits.starts_with('+') || digits.starts_with('-')) digits.remove_prefix(1);
+  const char* const end = digits.data() + digits.size();
+  double number = 0;
+  const auto [rest, error] = std::from_chars(digits.data(), end, number);
+  const bool is_integer = digits.find_first_not_of("0123456789") == std::string_view::npos;
+  const bool is_long = is_integer && digits.size() > 18 && !digits.starts_with('0');
+  if (rest != end || (error != std::errc::result_out_of_range && !is_long)) return;
+  throw_scene_error(override_source(change.key),
+                    fmt::format("out of range, got {}, must be a number that binary64 holds, from "
+                                "2.2e-308 to 1.8e308 in size{}",
+                                printable(change.value),
+                                is_integer ? ", with a point or an exponent where it does not fit "
+                                             "64 bits"
+                                           : ""));
+}
+
 toml::table override_value(const Override& change) {
   const std::string source = override_source(change.key);
   try {
@@ -74,6 +93,7 @@ toml::table override_value(const Override& change) {
   } catch (const Error&) {
     // Not TOML, hence a string.
   }
+  refuse_number_out_of_range(change);
   try {
     return parse_value(toml_string(change.value), source);
   } catch (const Error&) {

@@ -65,8 +65,10 @@ bool SceneErrors::take_excuse(std::string_view table, std::string_view key) {
   return true;
 }
 
-void SceneErrors::raise(std::string_view source) const {
-  if (kept_.size() == 1) std::rethrow_exception(kept_[0].thrown);
+void SceneErrors::raise(std::string_view source, const std::vector<std::string>& warnings) const {
+  const bool is_alone =
+      kept_.size() == 1 && (warnings.empty() || kept_[0].kind != ErrorKind::scene);
+  if (is_alone) std::rethrow_exception(kept_[0].thrown);
   std::vector<std::pair<Place, const Kept*>> placed;
   for (const Kept& kept : kept_) placed.emplace_back(place_of(kept.message, source), &kept);
   std::stable_sort(placed.begin(), placed.end(),
@@ -78,6 +80,7 @@ void SceneErrors::raise(std::string_view source) const {
     more = fmt::format("\nand {} more", lines.size() - most_errors_said);
     lines.resize(most_errors_said);
   }
+  for (const std::string& warning : warnings) more += "\n" + warning;
   const bool is_of_scene = std::any_of(
       kept_.begin(), kept_.end(), [](const Kept& kept) { return kept.kind == ErrorKind::scene; });
   throw Error(is_of_scene ? ErrorKind::scene : kept_[0].kind,

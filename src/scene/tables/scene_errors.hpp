@@ -38,8 +38,10 @@ class SceneErrors {
   bool take_excuse(std::string_view table, std::string_view key);
 
   /// Throws the only error as it was, or one Error with a line for each in the order of the lines
-  /// of `source`; those without a line come last. It is of the kind scene if one of them is.
-  [[noreturn]] void raise(std::string_view source) const;
+  /// of `source`; those without a line come last. It is of the kind scene if one of them is. The
+  /// warnings, any of which may be the cause, follow in lines of their own, but where the only
+  /// error is of another kind.
+  [[noreturn]] void raise(std::string_view source, const std::vector<std::string>& warnings) const;
 
  private:
   struct Kept {
