@@ -16,6 +16,7 @@
 #include "../app/stored_chief.hpp"
 #include "../formats/number_table.hpp"
 #include "../store/text_file.hpp"
+#include "../text/quantity_text.hpp"
 #include "../text/scene_message.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/relative_motion/chief_frame.hpp"
@@ -253,19 +254,19 @@ void report(const EvalCoordinates& coordinates, const io::StoredJet& stored,
                          miss_covers(stored)));
   if (output.outside() > 0) {
     print_note(fmt::format(
-        "{} of {} rows marked outside, beyond the polynomial's reach: its degrees do not decay at "
+        "{} of {} marked outside, beyond the polynomial's reach: its degrees do not decay at "
         "such deviations, and the numbers are sizes alone",
-        output.outside(), evaluation.points()));
+        output.outside(), counted(evaluation.points(), "row")));
   }
   if (output.undefined() > 0) {
     print_note(fmt::format(
-        "{} of {} rows without numbers: their final state is no elliptic orbit with a node, or not "
+        "{} of {} without numbers: their final state is no elliptic orbit with a node, or not "
         "finite, and has no coordinates of this kind",
-        output.undefined(), evaluation.points()));
+        output.undefined(), counted(evaluation.points(), "row")));
   }
   if (output.unknown() > 0) {
-    print_note(fmt::format("{} of {} rows marked unknown: {}", output.unknown(),
-                           evaluation.points(),
+    print_note(fmt::format("{} of {} marked unknown: {}", output.unknown(),
+                           counted(evaluation.points(), "row"),
                            is_linear ? "degree 1 alone has no decay to judge by"
                                      : "their numbers are beyond double precision"));
   }
@@ -307,8 +308,8 @@ int eval(const EvalOptions& options) {
   if (!options.quiet) report(coordinates, stored, evaluation, output);
   const std::size_t not_inside = std::max(output.outside() + output.unknown(), output.undefined());
   if (!options.strict || not_inside == 0) return 0;
-  print_error(fmt::format("--strict: {} of {} rows are not inside the polynomial's reach",
-                          not_inside, evaluation.points()));
+  print_error(fmt::format("--strict: {} of {} not inside the polynomial's reach", not_inside,
+                          counted(evaluation.points(), "row")));
   return static_cast<int>(ErrorKind::check_failed);
 }
 

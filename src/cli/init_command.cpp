@@ -184,12 +184,14 @@ bool has_period(const io::Study& study) {
   return orbit && orbit->period_s;
 }
 
-/// The commands that the scene's first comment names, a line each.
-std::string commands_in(std::string_view scene) {
+/// The commands that the scene's first comment names, a line each, of the program as it was called.
+std::string commands_in(std::string_view scene, const std::string& program) {
   std::string commands;
   while (!scene.empty()) {
     const std::string_view line = io::take_line(scene);
-    if (line.starts_with(command_line)) commands += fmt::format("  {}\n", line.substr(4));
+    if (line.starts_with(command_line)) {
+      commands += fmt::format("  {} {}\n", program, line.substr(command_line.size()));
+    }
   }
   return commands;
 }
@@ -245,7 +247,8 @@ int init(const InitOptions& options) {
   }
   const std::string title = std::visit([](const auto& any) { return any.title; }, study);
   output.write(scene);
-  print(fmt::format("wrote {}: {}\nnext:\n{}", file_text, title, commands_in(scene)));
+  print(fmt::format("wrote {}: {}\nnext:\n{}", file_text, title,
+                    commands_in(scene, options.program)));
   return 0;
 }
 

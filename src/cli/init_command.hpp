@@ -7,6 +7,7 @@
 namespace hamjet::cli {
 
 struct InitOptions {
+  std::string program = "hamjet";      ///< as it was called, in quotes where a shell needs them
   std::optional<std::string> kind;     ///< one of those that the command's help names
   std::optional<std::string> message;  ///< an orbit message to start from, in place of a kind
   std::optional<std::string> output;   ///< absent: named after the kind or the message, here

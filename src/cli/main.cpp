@@ -326,7 +326,10 @@ int dispatch(int argc, char** argv) {
     hamjet::cli::print(hamjet::cli::help_text(app, topic));
     return 0;
   }
-  if (*init) return hamjet::cli::init(start);
+  if (*init) {
+    start.program = hamjet::io::in_shell_quotes(argv[0]);
+    return hamjet::cli::init(start);
+  }
   if (*list) return hamjet::cli::list(what);
   if (*completion) return hamjet::cli::completion(app, shell);
   if (*eval) return hamjet::cli::eval(evaluation);

@@ -56,7 +56,7 @@ int run_flow_jet(const RunOptions& options, const Scene& scene) {
   if (options.json || options.quiet) {
     for (const RunResult& run : result.runs) {
       for (const std::string& warning : run_warnings(scene, run)) {
-        print_error(fmt::format("warning: {}: {}", run.settings.label, warning));
+        print_error(fmt::format("{}{}: {}", io::warning_head, run.settings.label, warning));
       }
     }
   }
@@ -131,11 +131,11 @@ void check_flow_jet(const RunOptions& options, const std::string& file, const Sc
   if (const auto orbit = io::orbit_summary(scene)) text += io::orbit_text(*orbit);
   text += fmt::format(
       "  duration     {:.17g} canonical = {:.10g} s\n"
-      "  jet          order {} in {} variables: {} coefficients for each of{}\n"
+      "  jet          order {} in {}: {} for each of{}\n"
       "  memory       about {:.0f} MB\n",
-      scene.duration, scene.duration * scene.units.time_s, scene.order, scene.variables.size(),
-      problem.space->size(), components,
-      estimate_memory(scene, *problem.system, scene.variables.size(), threads) / 1e6);
+      scene.duration, scene.duration * scene.units.time_s, scene.order,
+      counted(scene.variables.size(), "variable"), counted(problem.space->size(), "coefficient"),
+      components, estimate_memory(scene, *problem.system, scene.variables.size(), threads) / 1e6);
   for (const IntegratorSettings& settings : scene.integrators) {
     text += fmt::format("  integrator   {}: {}", settings.label, method_name(settings.method));
     for (const MethodSetting& setting : description_of(settings.method).settings) {
@@ -159,21 +159,23 @@ void check_flow_jet(const RunOptions& options, const std::string& file, const Sc
                         letters[2], place[2]);
   }
   if (scene.transfer) {
-    text +=
-        fmt::format("  transfer     {} times to {:.6g} s, kind {}\n", scene.transfer->times.size(),
-                    scene.transfer->times.back() * scene.units.time_s, scene.transfer->kind);
+    text += fmt::format("  transfer     {} to {:.6g} s, kind {}\n",
+                        counted(scene.transfer->times.size(), "time"),
+                        scene.transfer->times.back() * scene.units.time_s, scene.transfer->kind);
   }
   if (scene.validity) {
-    text += fmt::format("  validity     {} times to {:.6g} s, {} samples\n",
-                        scene.validity->times.size(),
-                        scene.validity->times.back() * scene.units.time_s, scene.validity->samples);
+    text += fmt::format("  validity     {} to {:.6g} s, {}\n",
+                        counted(scene.validity->times.size(), "time"),
+                        scene.validity->times.back() * scene.units.time_s,
+                        counted(scene.validity->samples, "sample"));
   }
   if (scene.assignment) {
-    text += fmt::format("  assignment   {} deputies to {} slots\n",
-                        scene.assignment->deputies.size(), scene.assignment->slots.size());
+    text += fmt::format("  assignment   {} to {}\n",
+                        counted(scene.assignment->deputies.size(), "deputy"),
+                        counted(scene.assignment->slots.size(), "slot"));
   }
   text += fmt::format("  inversions   {}\n  reference    {}\n",
-                      scene.kinds ? fmt::format("{} kinds", scene.kinds->size()) : "none",
+                      scene.kinds ? counted(scene.kinds->size(), "kind") : "none",
                       scene.reference ? "in extended precision" : "none");
   print(io::fitted(text));
 }

@@ -13,6 +13,7 @@
 #include "../scene/scene_name.hpp"
 #include "../studies/arcs.hpp"
 #include "../studies/descriptions/method_description.hpp"
+#include "../text/quantity_text.hpp"
 #include "../text/scene_message.hpp"
 #include "demo_scene.hpp"
 #include "hamjet/error.hpp"
@@ -42,7 +43,8 @@ void leave_out_what_is_not_built(Scene& scene) {
     return !description_of(settings.method).is_built();
   });
   if (removed > 0) {
-    print_error(fmt::format("this build has no CVODE: {} runs of the scene are left out", removed));
+    print_error(
+        fmt::format("this build has no CVODE; left out: {} of the scene", counted(removed, "run")));
   }
 }
 

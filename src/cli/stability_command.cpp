@@ -8,6 +8,7 @@
 #include "../app/report_origin.hpp"
 #include "../report/stability/stability_report.hpp"
 #include "../studies/descriptions/method_description.hpp"
+#include "../text/quantity_text.hpp"
 #include "../text/terminal_text.hpp"
 #include "hamjet/error.hpp"
 #include "process/standard_streams.hpp"
@@ -39,7 +40,8 @@ void leave_out_what_is_not_built(std::vector<StabilityCase>& cases) {
                                              return !description_of(settings.method).is_built();
                                            });
   });
-  if (count > 0) print_error(fmt::format("this build has no CVODE: {} cases are left out", count));
+  if (count > 0)
+    print_error(fmt::format("this build has no CVODE; left out: {}", counted(count, "case")));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "../app/stored_chief.hpp"
 #include "../report/formation/deputy_motion_report.hpp"
 #include "../studies/formation/deputy_motion.hpp"
+#include "../studies/formation/flown_trajectory.hpp"
 #include "../text/scene_message.hpp"
 #include "hamjet/algebra/composition.hpp"
 #include "hamjet/error.hpp"
@@ -21,9 +22,6 @@
 
 namespace hamjet::cli {
 namespace {
-
-/// Points of the trajectory that is drawn.
-constexpr int trajectory_intervals = 400;
 
 [[noreturn]] void refuse_jet(const TransferOptions& transfers, const io::StoredJet& stored,
                              const std::string& problem) {
@@ -106,7 +104,8 @@ int transfer(const RunOptions& options, const TransferOptions& transfers) {
     });
     std::optional<RelativeTrajectory> trajectory;
     if (const auto best = result.best_point()) {
-      trajectory = fly_relative(result, *best, trajectory_intervals);
+      trajectory =
+          fly_relative(result, *best, interval_count(scene, result.points[*best].time, drawn_path));
     }
     std::optional<ValidityResult> validity;
     if (scene.validity) validity = study_validity(scene, progress);

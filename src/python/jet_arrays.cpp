@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "../scene/scene_sections.hpp"
+#include "../text/quantity_text.hpp"
 #include "../text/scene_message.hpp"
 #include "arrays.hpp"
 #include "interruptible.hpp"
@@ -54,9 +55,9 @@ Array array_from(const py::object& given, py::ssize_t dimensions, const std::str
   const std::string kinds = is_whole ? "iu" : "fiu";
   if (!array || kinds.find(array.dtype().kind()) == std::string::npos ||
       array.dtype().itemsize() > 8 || array.ndim() != dimensions) {
-    refuse(fmt::format("from_arrays: {}: must be an array of {} with {} dimension{}", what,
-                       is_whole ? "integers" : "real numbers of at most 64 bits", dimensions,
-                       dimensions == 1 ? "" : "s"));
+    refuse(fmt::format("from_arrays: {}: must be an array of {} with {}", what,
+                       is_whole ? "integers" : "real numbers of at most 64 bits",
+                       counted(dimensions, "dimension")));
   }
   return Array::ensure(array);
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 
+#include "../text/quantity_text.hpp"
 #include "arithmetic_scope.hpp"
 #include "bindings.hpp"
 #include "by_degree.hpp"
@@ -159,8 +160,8 @@ void warn_if_not_inside(const std::vector<unsigned char>& support, bool is_stric
                                    [&](unsigned char mark) { return mark != inside; });
   if (count == 0) return;
   const std::string text = fmt::format(
-      "evaluate_relative: {} of {} rows are not inside the polynomial's reach; see their support",
-      count, support.size());
+      "evaluate_relative: {} of {} not inside the polynomial's reach; see their support", count,
+      counted(support.size(), "row"));
   if (is_strict) throw Error(ErrorKind::numerical, text);
   if (PyErr_WarnEx(PyExc_RuntimeWarning, text.c_str(), 1) != 0) throw py::error_already_set();
 }

@@ -8,6 +8,7 @@
 #include "../app/required_tables.hpp"
 #include "../report/formation/transfer_view.hpp"
 #include "../studies/arcs.hpp"
+#include "../studies/formation/flown_trajectory.hpp"
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "given_scene.hpp"
@@ -65,10 +66,10 @@ Studied<TransferResult> study_transfers(const GivenScene& given, const py::objec
     std::optional<ValidityResult> validity;
     if (scene.validity) validity = study_validity(scene, report);
     return Studied<TransferResult>(std::move(result), [validity](const TransferResult& studied) {
-      constexpr int trajectory_intervals = 400;
       std::optional<RelativeTrajectory> trajectory;
       if (const auto best = studied.best_point()) {
-        trajectory = fly_relative(studied, *best, trajectory_intervals);
+        trajectory = fly_relative(
+            studied, *best, interval_count(studied.scene, studied.points[*best].time, drawn_path));
       }
       return io::transfer_report(studied, trajectory, validity, origin());
     });

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "../text/quantity_text.hpp"
 #include "../text/scene_message.hpp"
 #include "scene_sections.hpp"
 
@@ -70,10 +71,10 @@ std::vector<std::string> read_generating_function(const TableReader& generating_
     if (kind.empty()) {
       generating_function.fail_element(
           "kinds", i,
-          fmt::format("unknown kind, got {}, must be F1, F2, F3, F4, auto, or {} letter{} q or p "
+          fmt::format("unknown kind, got {}, must be F1, F2, F3, F4, auto, or {} q or p "
                       "for the final variables, a hyphen, and as many for the initial ones, as in "
                       "{}",
-                      in_quotes(kinds[i]), degrees_of_freedom, degrees_of_freedom == 1 ? "" : "s",
+                      in_quotes(kinds[i]), counted(degrees_of_freedom, "letter"),
                       explicit_kind("F2", degrees_of_freedom)));
     }
     const auto [first, is_new] = named.emplace(kind, kinds[i]);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../text/quantity_text.hpp"
 #include "../text/scene_message.hpp"
 #include "scene_sections.hpp"
 
@@ -48,8 +49,8 @@ std::vector<double> read_components(const TableReader& table, std::string_view k
   std::vector<double> values = table.numbers(key);
   if (values.size() != names.size()) {
     table.fail(key,
-               fmt::format("wrong size, got {} number{}, must be {} for {} ({})", values.size(),
-                           values.size() == 1 ? "" : "s", names.size(), model, listed(names)));
+               fmt::format("wrong size, got {}, must be {} for {} ({})",
+                           counted(values.size(), "number"), names.size(), model, listed(names)));
   }
   return values;
 }

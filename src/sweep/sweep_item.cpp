@@ -6,6 +6,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "../report/formation/deputy_motion_report.hpp"
 #include "../report/formation/transfer_json.hpp"
 #include "../report/formation/transfer_view.hpp"
 #include "../report/formation/validity_json.hpp"
@@ -77,6 +78,7 @@ Scene scene_with(Study study, const std::string& file, std::string_view table) {
   Scene scene = require_flow_jet(std::move(study), file);
   const bool is_there = table == "transfer"   ? scene.transfer.has_value()
                         : table == "validity" ? scene.validity.has_value()
+                        : table == "deputy"   ? scene.deputy.has_value()
                                               : scene.assignment.has_value();
   if (!is_there) {
     throw Error(ErrorKind::scene, fmt::format("{}: {}: missing, must be a table [{}]",
@@ -87,7 +89,7 @@ Scene scene_with(Study study, const std::string& file, std::string_view table) {
 
 /// The table that a command works on; none for `run`.
 std::string_view table_of(SweepCommand command) {
-  constexpr std::string_view tables[] = {"", "transfer", "validity", "assignment"};
+  constexpr std::string_view tables[] = {"", "transfer", "validity", "assignment", "deputy"};
   return tables[static_cast<std::size_t>(command)];
 }
 
@@ -102,6 +104,8 @@ ItemOutcome run_command(const SweepStudy& study, std::size_t item,
       return run_transfer(scene, progress);
     case SweepCommand::validity:
       return {validity_report_json(study_validity(scene, progress)).dump(), 0, ""};
+    case SweepCommand::motion:
+      return {deputy_motion_json(study_deputy_motion(scene, progress)).dump(), 0, ""};
     default:
       return outcome_of(assignment_report(study_assignment(scene, progress)));
   }

@@ -10,6 +10,7 @@
 #include "../store/csv_values.hpp"
 #include "../store/json_values.hpp"
 #include "../store/sealed_summary.hpp"
+#include "../text/quantity_text.hpp"
 #include "../text/scene_message.hpp"
 #include "hamjet/error.hpp"
 #include "sweep_map.hpp"
@@ -123,9 +124,10 @@ std::string terminal_table(const SweepStudy& study, const SweepRows& rows, const
                         fmt::format("exit code {}", code), number, (*first)->item,
                         sweep_item_text(study, (*first)->item), (*first)->error);
   }
-  if (rows.damaged > 0) text += fmt::format("  {:<16} {} rows\n", "damaged", rows.damaged);
+  if (rows.damaged > 0)
+    text += fmt::format("  {:<16} {}\n", "damaged", counted(rows.damaged, "row"));
   if (rows.foreign > 0) {
-    text += fmt::format("  {:<16} {} rows are of another study\n", "foreign", rows.foreign);
+    text += fmt::format("  {:<16} {} of another study\n", "foreign", counted(rows.foreign, "row"));
   }
   for (std::size_t c = 0; c < study.columns.size(); ++c) {
     const SweepColumn& column = study.columns[c];

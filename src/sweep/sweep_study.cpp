@@ -208,7 +208,8 @@ void read_sweep_table(const TableReader& sweep, const toml::table& table,
 }  // namespace
 
 const std::vector<std::string_view>& sweep_command_names() {
-  static const std::vector<std::string_view> names = {"run", "transfer", "validity", "assign"};
+  static const std::vector<std::string_view> names = {"run", "transfer", "validity", "assign",
+                                                      "motion"};
   return names;
 }
 

@@ -12,9 +12,9 @@
 
 namespace hamjet::io {
 
-/// Which command the items of a sweep are: what `hamjet run`, `transfer`, `validity` or `assign`
-/// computes, without files and plots.
-enum class SweepCommand { run, transfer, validity, assign };
+/// Which command the items of a sweep are: what `hamjet run`, `transfer`, `validity`, `assign` or
+/// `motion` computes, without files and plots.
+enum class SweepCommand { run, transfer, validity, assign, motion };
 /// The commands' names, in the order of the enumeration.
 const std::vector<std::string_view>& sweep_command_names();
 

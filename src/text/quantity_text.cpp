@@ -54,4 +54,11 @@ std::string count_text(double count) {
   return count < 1e6 ? fmt::format("{:.0f}", count) : fmt::format("{:.2e}", count);
 }
 
+std::string counted(std::string_view number, std::string_view noun) {
+  if (number == "1" || number == "-1") return fmt::format("{} {}", number, noun);
+  if (!noun.ends_with('y')) return fmt::format("{} {}s", number, noun);
+  noun.remove_suffix(1);
+  return fmt::format("{} {}ies", number, noun);
+}
+
 }  // namespace hamjet

@@ -64,6 +64,8 @@ std::string message_head(const SceneSource& source, std::string_view where, std:
 
 /// What a line begins with that warns of a scene and does not refuse it.
 inline constexpr std::string_view warning_head = "warning: ";
+/// And one that says what a person may want to know.
+inline constexpr std::string_view note_head = "note: ";
 
 /// Throws Error(scene) with the message `head: problem`.
 [[noreturn]] void throw_scene_error(std::string_view head, std::string_view problem);

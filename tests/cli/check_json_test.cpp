@@ -65,8 +65,9 @@ TEST_F(CheckJson, SaysWhereAMistakeIs) {
 
 // What is warned of is no error, and is a text as in the summary of a run.
 TEST_F(CheckJson, TellsWarningsFromMistakes) {
-  const std::string flat = changed(quick_scene(), "J2 = ", "J2 = -");
-  write("warned.toml", changed(flat, "order = 2", "order = 0"));
+  write("warned.toml",
+        changed(changed(quick_scene(), "mu_km3_s2 = 398600.4415", "mu_km3_s2 = 398600.4415e9"),
+                "order = 2", "order = 0"));
   const Json said = wrong({"check", "warned.toml", "--json"}, 3);
   EXPECT_EQ(said["errors"][0]["key"], "jet.order");
   ASSERT_EQ(said["warnings"].size(), 1U);

@@ -39,6 +39,9 @@ std::string ephemeris_block(const std::string& name, const std::string& id, cons
 
 class Init : public CommandTest {
  protected:
+  /// What a line begins with that names the program as it was called.
+  const std::string called = std::string("  ") + HAMJET_COMMAND + " ";
+
   /// Runs what the command said to go on with, at least two lines of plain words.
   void run_what_is_next(const std::string& said) const {
     const std::size_t next = said.find("\nnext:\n");
@@ -46,8 +49,8 @@ class Init : public CommandTest {
     std::istringstream lines(said.substr(next + 7));
     int count = 0;
     for (std::string line; std::getline(lines, line); ++count) {
-      ASSERT_EQ(line.rfind("  hamjet ", 0), 0U) << line;
-      std::istringstream words(line.substr(9));
+      ASSERT_EQ(line.rfind(called, 0), 0U) << line;
+      std::istringstream words(line.substr(called.size()));
       std::vector<std::string> arguments;
       for (std::string word; words >> word;) arguments.push_back(word);
       const CommandResult result = hamjet(arguments);
@@ -94,7 +97,7 @@ TEST_F(Init, NothingIsReplaced) {
   expect_error({"init", "geo"}, 5, {"geo.toml: is there already"});
   fs::create_directory(directory_ / "a b");
   run_what_is_next(succeed({"init", "leo", "-o", "other.toml"}).out);
-  EXPECT_NE(succeed({"init", "leo", "-o", "a b/c.toml"}).out.find("  hamjet run 'a b/c.toml'\n"),
+  EXPECT_NE(succeed({"init", "leo", "-o", "a b/c.toml"}).out.find(called + "run 'a b/c.toml'\n"),
             std::string::npos);
 }
 

@@ -163,7 +163,7 @@ TEST_F(RunFiles, AWarningIsInTheSummaryAndOnStandardErrorWhereThereIsNoTable) {
         "checks.energy = false\n");
   for (const char* quiet : {"-q", "--json"}) {
     const CommandResult result = hamjet({"run", "lost.toml", "-o", "lost", quiet});
-    EXPECT_NE(result.err.find("hamjet: warning: coarse: not one digit of degree"),
+    EXPECT_NE(in_one_line(result.err).find("hamjet: warning: coarse: not one digit of degree"),
               std::string::npos)
         << result.err;
     const Json run = read_json(directory_ / "lost/summary.json")["runs"][0];

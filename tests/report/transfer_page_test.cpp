@@ -42,8 +42,10 @@ TEST(TransferPage, BeginsWithTheLeastVelocityChangeItsTimeAndTheMisses) {
             "min): flown with the full equations of motion the deputy misses its place by 33.3 μm "
             "after refinement (300 mm by order 2 alone), with the linear answer by 1.23 km. "
             "That is the last of the times searched: beyond it the change may fall further, which "
-            "longer times would show. Of 6 times it leaves out 1 nearer to a singularity than the "
-            "margin, 1 without an answer; transfers.csv has them, marked. "
+            "longer times would show. Of 6 times it compares 4 and leaves out 1 nearer to a "
+            "singularity than the margin, 1 without an answer, which transfers.csv has, marked. "
+            "Why a time has no answer is in the column failure; one a little earlier or later may "
+            "have one. "
             "Between the listed times nothing was searched.");
   const std::string page = page_of(
       transfer_report(result, sample_trajectory(), sample_validity(), sample_transfer_origin()));
@@ -218,6 +220,56 @@ TEST(TransferCharts, TheRendezvousIsDrawnBesideTheDeputyByItself) {
   EXPECT_EQ(chart.curves[1].points.size(), trajectory.states.size());
   EXPECT_EQ(chart.curves[4].title, "chief");
   EXPECT_EQ(chart.curves[4].points[0], std::pair(0.0, 0.0));
+}
+
+// A deputy 500 km ahead that moves by some km would be a dot beside its chief, and so would a
+// transfer beside a drift of 500 km.
+TEST(TransferCharts, WhatMovesIsNoDot) {
+  RelativeTrajectory far = sample_trajectory();
+  for (RelativeState& state : far.states) state.position_m.y() += 500e3;
+  auto charts = relative_trajectory_charts(far, 3600);
+  fit(charts[0]);
+  EXPECT_NEAR(charts[0].x.upper - charts[0].x.lower, 8.1 * 1.1, 1e-9);
+  for (const ChartCurve& curve : charts[0].curves) EXPECT_NE(curve.title, "chief");
+  EXPECT_NE(charts[0].notes[0].find("the chief, 496 km away, is not shown"), std::string::npos)
+      << charts[0].notes[0];
+  Chart rendezvous = rendezvous_chart(far);
+  EXPECT_NE(rendezvous.title.find("the chief, 496 km away, is not shown"), std::string::npos);
+  fit(rendezvous);
+  EXPECT_LT(rendezvous.x.upper - rendezvous.x.lower, 9);
+
+  RelativeTrajectory drifting = sample_trajectory();
+  RelativeState state = drifting.states.front();
+  for (int k = 0; k <= 100; ++k) {
+    drifting.unchanged.push_back(state);
+    state.position_m.y() -= 5000;
+  }
+  Chart chart = rendezvous_chart(drifting);
+  EXPECT_EQ(chart.curves[0].title, "by itself, at first");
+  EXPECT_NE(chart.notes[0].find("By itself it ends 508 km from its chief"), std::string::npos)
+      << chart.notes[0];
+  fit(chart);
+  EXPECT_LT(chart.x.upper - chart.x.lower, 6 * 8.1);
+}
+
+// One tick on an axis says nothing of its scale.
+TEST(TransferCharts, EachAxisHasThreeTicks) {
+  RelativeTrajectory trajectory = sample_trajectory();
+  for (RelativeState& state : trajectory.states) state.position_m.x() *= 0.64;  // to 1.6 km
+  Chart chart = rendezvous_chart(trajectory);
+  fit(chart);
+  const std::string script = gnuplot_script(chart, Drawing::wide_svg);
+  EXPECT_NE(script.find("set xtics 1\nset ytics 0.5\n"), std::string::npos) << script;
+}
+
+// The linear answer is as good as the others for near deputies, and would hide the line below.
+TEST(TransferCharts, TheLinearAnswerLeavesTheOthersVisible) {
+  const Chart chart = velocity_change_chart(sample_transfer());
+  const ChartCurve* linear = curve_named(chart, "both, linear answer");
+  ASSERT_NE(linear, nullptr);
+  EXPECT_FALSE(linear->has_line || linear->is_filled);
+  EXPECT_TRUE(linear->has_markers);
+  EXPECT_TRUE(curve_named(chart, "both impulses")->has_line);
 }
 
 TEST(TransferCharts, ValidityLinesAreProvedAndHollowMarkersPredicted) {

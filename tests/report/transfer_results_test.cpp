@@ -105,6 +105,7 @@ TEST(TransferCsv, SingularTimesAndConditions) {
 TEST(TransferView, CountsAndMisses) {
   const TransferCounts counts = count_points(sample_transfer());
   EXPECT_EQ(counts.times, 6U);
+  EXPECT_EQ(counts.compared, 4U);
   EXPECT_EQ(counts.answered, 5U);
   EXPECT_EQ(counts.near_singular, 1U);
   EXPECT_EQ(counts.beyond_tolerance, 1U);
@@ -125,6 +126,30 @@ TEST(TransferView, CountsAndMisses) {
   EXPECT_EQ(misses[2].count, 3U);
   EXPECT_EQ(*costliest_point(result), 4U);
   EXPECT_EQ(time_text(5432), "5432 s (90.5 min)");
+}
+
+// Every time has one outcome, so that they add up to the times.
+TEST(TransferView, OutcomesAddUpAndSayWhatToDo) {
+  TransferResult result = sample_transfer();
+  result.points[4].is_beyond_tolerance = true;  // its refinement failed
+  result.points[5].is_beyond_tolerance = true;  // refined
+  const auto outcomes = transfer_outcomes(result);
+  ASSERT_EQ(outcomes.size(), 4U);
+  std::size_t sum = 0;
+  for (const TransferOutcome& outcome : outcomes) sum += outcome.count;
+  EXPECT_EQ(sum, result.points.size());
+  EXPECT_EQ(outcomes[0].count, 3U);
+  EXPECT_EQ(outcomes[0].text,
+            "with an answer within 1 m, 1 of them only after correction by flying");
+  EXPECT_EQ(outcomes[2].text, "missing by more than 1 m, which flying did not correct");
+  const std::string verdict = transfer_verdict(result);
+  for (const char* words :
+       {"Of 6 times it compares 3 and leaves out 1 nearer to a singularity than the margin, 1 "
+        "missing",
+        "1 without an answer, which transfers.csv has, marked.", "A higher jet.order",
+        "Why a time has no answer is in the column failure"}) {
+    EXPECT_NE(verdict.find(words), std::string::npos) << words << "\n" << verdict;
+  }
 }
 
 TEST(TransferSummary, HoldsTheBestPointCountsAndSeconds) {
@@ -215,12 +240,12 @@ TEST(TransferView, SaysWhatToTryForWhatIsLeftOut) {
   EXPECT_FALSE(has("A higher jet.order"));
   // The fifth time has no refined answer: now it is also beyond the tolerance.
   result.points[4].is_beyond_tolerance = true;
-  EXPECT_TRUE(has("1 beyond the tolerance of 1 m and not to be refined"));
+  EXPECT_TRUE(has("1 missing by more than 1 m, which flying did not correct"));
   EXPECT_TRUE(has("A higher jet.order reaches further"));
   result.points[4].is_beyond_tolerance = false;
   EXPECT_FALSE(has("The kind auto"));
   result.scene.transfer->kind = "F1";
-  EXPECT_TRUE(has("The kind auto may have an answer"));
+  EXPECT_TRUE(has("the kind auto may have one"));
   EXPECT_TRUE(has("the last of the times searched"));
   EXPECT_TRUE(has("longer times"));
   result.points[0] = sample_point(1, 0.5);
@@ -252,7 +277,11 @@ TEST(TransferTable, HoldsBestWorstAndSingularTimes) {
           "F1 singular      at 2792.0760, 5843.8800 (double, or a pair closer than 7e-06 s) s"),
       std::string::npos)
       << table;
-  EXPECT_NE(table.find("5 answered, 1 near a singularity"), std::string::npos) << table;
+  EXPECT_NE(table.find(":\n                   4 with an answer within 1 m\n"
+                       "                   1 nearer to a singularity than the margin\n"
+                       "                   1 without an answer\n"),
+            std::string::npos)
+      << table;
   EXPECT_NE(table.find("greatest"), std::string::npos) << table;
 }
 

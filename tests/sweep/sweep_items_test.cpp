@@ -8,6 +8,7 @@
 #include "hamjet/error.hpp"
 #include "hamjet/scene/scene_reader.hpp"
 #include "hamjet/studies/propagation.hpp"
+#include "studies/formation/deputy_motion.hpp"
 #include "sweep/sweep_report.hpp"
 #include "sweep_samples.hpp"
 
@@ -39,6 +40,28 @@ TEST_F(SweepItems, AnItemIsTheScenesOwnResult) {
   ASSERT_EQ(row.values.size(), 2U);
   EXPECT_EQ(std::get<double>(row.values[0]), result.runs[0].kinds[0].condition);
   EXPECT_EQ(std::get<double>(row.values[1]), result.runs[0].nominal_final[0]);
+}
+
+// What `hamjet motion` has in its summary: here the deputy's own start is the farthest it comes,
+// since it is carried toward a chief of the same period.
+TEST_F(SweepItems, AMotionHasItsSeparationsAndErrors) {
+  study_.command = SweepCommand::motion;
+  study_.constants = {{"jet.duration_canonical", "0.01"},
+                      {"deputy", "{position_m = [0, -1000, 0], velocity_m_s = [0, 0.5, 0]}"}};
+  study_.columns = {{"nearest", "m", "/nearest/separation_m"},
+                    {"farthest", "m", "/farthest/separation_m"},
+                    {"error", "m", "/largest_error_m"}};
+  const SweepRow row = run_sweep_item(study_, 4);
+  ASSERT_EQ(row.exit_code, 0) << row.error;
+  EXPECT_LT(std::get<double>(row.values[0]), 999);
+  EXPECT_NEAR(std::get<double>(row.values[1]), 1000, 1e-6);
+  const DeputyMotion motion =
+      study_deputy_motion(parse_scene(sweep_scene, "base.toml", sweep_overrides(study_, 4)));
+  EXPECT_EQ(std::get<double>(row.values[2]), motion.largest_error_m(2));
+  study_.constants.pop_back();
+  const SweepRow without = run_sweep_item(study_, 4);
+  EXPECT_NE(without.error.find("deputy: missing, must be a table [deputy]"), std::string::npos)
+      << without.error;
 }
 
 TEST_F(SweepItems, WhatFailsIsARow) {

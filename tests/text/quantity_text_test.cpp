@@ -31,5 +31,13 @@ TEST(QuantityText, LengthsAreInKilometresFromOneOn) {
   EXPECT_EQ(length_text(999.7), "1 km");
 }
 
+TEST(QuantityText, OneOfSomethingIsSingular) {
+  EXPECT_EQ(counted(1, "revolution"), "1 revolution");
+  EXPECT_EQ(counted(0, "deputy"), "0 deputies");
+  EXPECT_EQ(counted(2U, "slot"), "2 slots");
+  EXPECT_EQ(counted("1", "revolution"), "1 revolution");
+  EXPECT_EQ(counted("1.5", "revolution"), "1.5 revolutions");
+}
+
 }  // namespace
 }  // namespace hamjet

@@ -8,8 +8,10 @@
 #include <array>
 #include <cerrno>
 #include <cstdio>
+#include <exception>
 #include <system_error>
 
+#include "../../text/scene_message.hpp"
 #include "../../text/terminal_text.hpp"
 #include "hamjet/error.hpp"
 
@@ -48,19 +50,44 @@ void print(const std::string& text) {
                                                    std::generic_category().message(errno)));
 }
 
+namespace {
+
+constexpr std::string_view head = "hamjet: ";
+
+/// Whether a line is no error and so may be broken: a script looks for errors, a person reads the
+/// rest.
+bool is_to_be_fitted(std::string_view line) {
+  return line.starts_with(io::warning_head) || line.starts_with(io::note_head);
+}
+
+void print_error_line(std::string_view line) {
+  std::fwrite(head.data(), 1, head.size(), stderr);
+  std::fwrite(line.data(), 1, line.size(), stderr);
+  std::fputs("\n", stderr);
+}
+
+}  // namespace
+
 void print_error(const std::string& message) noexcept {
   // stdio is used, not fmt::print, which throws if the stream is closed or full. The errors of a
   // scene are a line each.
   for (std::size_t begin = 0, end = 0; end != std::string::npos; begin = end + 1) {
     end = message.find('\n', begin);
-    std::fputs("hamjet: ", stderr);
-    std::fwrite(message.data() + begin, 1, std::min(end, message.size()) - begin, stderr);
-    std::fputs("\n", stderr);
+    const std::string_view line =
+        std::string_view(message).substr(begin, std::min(end, message.size()) - begin);
+    if (is_to_be_fitted(line)) {
+      try {
+        print_note(std::string(line));
+        continue;
+      } catch (const std::exception&) {
+        // Without memory for the lines it is one line.
+      }
+    }
+    print_error_line(line);
   }
 }
 
 void print_note(const std::string& text) {
-  const std::string_view head = "hamjet: ";
   std::string lines = io::fitted(text, io::terminal_width - head.size());
   for (std::size_t end = lines.find('\n'); end != std::string::npos;
        end = lines.find('\n', end + 1)) {

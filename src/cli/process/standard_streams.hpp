@@ -17,7 +17,8 @@ std::string read_standard_input(std::size_t most_bytes);
 /// full disk is: throws Error(input_output).
 void print(const std::string& text);
 
-/// Prints "hamjet: message" as a line of standard error. There is nobody to tell if that fails.
+/// Prints "hamjet: message" on standard error: each line of it as a line, but a warning or a note
+/// broken as print_note does. There is nobody to tell if that fails.
 void print_error(const std::string& message) noexcept;
 
 /// Prints "hamjet: text" on standard error, broken as tables are, for explanations that are no

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "../../text/quantity_text.hpp"
 #include "../drawing/chart_drawer.hpp"
 #include "../drawing/report_page.hpp"
 #include "comparison_charts.hpp"
@@ -15,8 +16,8 @@ std::string facts_html(const ComparisonResult& result, const ReportOrigin& origi
   const UnfinishedCount count = count_unfinished(result);
   return origin_facts_html(origin) +
          fact_html("Scene",
-                   fmt::format("{}, order {} in {} of {} variables", scene.name, scene.order,
-                               scene.variables.size(), scene.nominal.size())) +
+                   fmt::format("{}, order {} in {} of {}", scene.name, scene.order,
+                               scene.variables.size(), counted(scene.nominal.size(), "variable"))) +
          fact_html("Duration", fmt::format("{:.6g} canonical = {:.6g} s", scene.duration,
                                            scene.duration * scene.units.time_s)) +
          fact_html("Wanted",

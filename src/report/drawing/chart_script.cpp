@@ -129,16 +129,35 @@ std::string top_axis(const ChartAxis& x) {
       x.lower / x.top_unit, x.upper / x.top_unit, gnuplot_literal(x.top_label));
 }
 
-/// Equal ticks along both axes, few enough that their numbers find room on the shorter one: 1, 2 or
-/// 5 times a power of ten.
+/// The largest of 1, 2 or 5 times a power of ten that is no larger than the number.
+double round_number_below(double number) {
+  const double power = std::pow(10, std::floor(std::log10(number) + 1e-9));
+  const double digit = number / power * (1 + 1e-9);
+  return power * (digit >= 5 ? 5 : digit >= 2 ? 2 : 1);
+}
+
+/// The step between ticks: the same along both axes where their numbers find room on the shorter
+/// one and are at least three there, else smaller on that.
+double isometric_step(const ChartAxis& axis, double longer) {
+  constexpr double fewest_ticks = 3;
+  double step = longer;
+  const auto ticks = [&] {
+    return std::floor(axis.upper / step + 1e-9) - std::ceil(axis.lower / step - 1e-9) + 1;
+  };
+  while (ticks() < fewest_ticks) step = round_number_below(0.99 * step);
+  return step;
+}
+
 std::string isometric_ticks(const Chart& chart) {
   const double most_ticks = chart.is_panel ? 6 : 10;
   const double width =
       std::max(chart.x.upper - chart.x.lower, chart.y.upper - chart.y.lower) / most_ticks;
-  const double power = std::pow(10, std::floor(std::log10(width)));
-  const double digit = width / power;
-  const double step = power * (digit <= 1 ? 1 : digit <= 2 ? 2 : digit <= 5 ? 5 : 10);
-  return fmt::format("set size ratio -1\nset xtics {0:.6g}\nset ytics {0:.6g}\n", step);
+  double step = round_number_below(width);
+  if (step < width * (1 - 1e-9)) step = round_number_below(2.5 * step * (1 + 1e-9));
+  return fmt::format(
+      "set size ratio -1\nset format x '%.10g'\nset format y '%.10g'\nset xtics {:.6g}\nset ytics "
+      "{:.6g}\n",
+      isometric_step(chart.x, step), isometric_step(chart.y, step));
 }
 
 std::string decorations(const Chart& chart) {

@@ -48,10 +48,11 @@ std::string left_line(std::string_view what, const std::vector<std::size_t>& lef
 }
 
 std::string terminal_table(const AssignmentResult& result) {
-  std::string text = fmt::format("{}\n{} deputies to {} slots, {} time\nframe {}, order {}\n",
-                                 result.scene.title, result.scene.assignment->deputies.size(),
-                                 result.scene.assignment->slots.size(), time_choice(result),
-                                 frame_text(result.scene.transfer->frame), result.scene.order);
+  std::string text =
+      fmt::format("{}\n{} to {}, {} time\nframe {}, order {}\n", result.scene.title,
+                  counted(result.scene.assignment->deputies.size(), "deputy"),
+                  counted(result.scene.assignment->slots.size(), "slot"), time_choice(result),
+                  frame_text(result.scene.transfer->frame), result.scene.order);
   if (!result.failure.empty()) text += fmt::format("NOT ASSIGNED: {}\n", result.failure);
   const double unit = result.scene.units.time_s;
   const TimeAxis axis = time_axis(result.scene.transfer->times.back() * unit);

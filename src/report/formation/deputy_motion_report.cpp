@@ -8,6 +8,7 @@
 #include "../../store/columns.hpp"
 #include "../../store/json_values.hpp"
 #include "../../text/html_text.hpp"
+#include "../../text/quantity_text.hpp"
 #include "../../text/terminal_text.hpp"
 #include "../../text/time_axis.hpp"
 #include "../drawing/along_time_charts.hpp"
@@ -104,33 +105,6 @@ Json state_json(const DeputyMotion& motion, double time, const RelativeState& st
           {"velocity_m_s", vector(state.velocity_m_s)}};
 }
 
-Json summary_json(const DeputyMotion& motion) {
-  const RelativeFrame frame = motion.scene.deputy->frame;
-  Json json = study_head_json(motion.scene, "motion", motion.integrator);
-  json["frame"] = frame_name(frame);
-  json["derivatives"] = text_or_null(std::string(derivatives_name(frame)));
-  json["axes"] = axis_letters(frame);
-  json["verdict"] = deputy_motion_verdict(motion);
-  json["duration_s"] = seconds_at(motion, motion.points.size() - 1);
-  json["times"] = motion.points.size();
-  const DeputyMotionPoint& start = motion.points.front();
-  const DeputyMotionPoint& end = motion.points.back();
-  const auto& [nearest, farthest] = motion.extremes;
-  json["start"] = state_json(motion, start.time, start.state);
-  json["end"] = state_json(motion, end.time, end.state);
-  json["nearest"] = state_json(motion, nearest.time, nearest.state);
-  json["farthest"] = state_json(motion, farthest.time, farthest.state);
-  json["largest_error_m_by_order"] = Json::array();
-  for (int order = 1; order <= motion.scene.order; ++order) {
-    json["largest_error_m_by_order"].push_back(json_number(motion.largest_error_m(order)));
-  }
-  json["is_resolved"] = is_resolved(motion);
-  json["flight_floor_m"] = json_number(motion.flight_floor_m);
-  json["seconds"] = {{"propagation", motion.propagation_seconds}};
-  json["exit_code"] = 0;
-  return json;
-}
-
 }  // namespace
 
 std::string deputy_motion_verdict(const DeputyMotion& motion) {
@@ -164,6 +138,34 @@ std::string deputy_motion_verdict(const DeputyMotion& motion) {
         order);
   }
   return text;
+}
+
+Json deputy_motion_json(const DeputyMotion& motion) {
+  const RelativeFrame frame = motion.scene.deputy->frame;
+  Json json = study_head_json(motion.scene, "motion", motion.integrator);
+  json["frame"] = frame_name(frame);
+  json["derivatives"] = text_or_null(std::string(derivatives_name(frame)));
+  json["axes"] = axis_letters(frame);
+  json["verdict"] = deputy_motion_verdict(motion);
+  json["duration_s"] = seconds_at(motion, motion.points.size() - 1);
+  json["times"] = motion.points.size();
+  const DeputyMotionPoint& start = motion.points.front();
+  const DeputyMotionPoint& end = motion.points.back();
+  const auto& [nearest, farthest] = motion.extremes;
+  json["start"] = state_json(motion, start.time, start.state);
+  json["end"] = state_json(motion, end.time, end.state);
+  json["nearest"] = state_json(motion, nearest.time, nearest.state);
+  json["farthest"] = state_json(motion, farthest.time, farthest.state);
+  json["largest_error_m"] = json_number(motion.largest_error_m(motion.scene.order));
+  json["largest_error_m_by_order"] = Json::array();
+  for (int order = 1; order <= motion.scene.order; ++order) {
+    json["largest_error_m_by_order"].push_back(json_number(motion.largest_error_m(order)));
+  }
+  json["is_resolved"] = is_resolved(motion);
+  json["flight_floor_m"] = json_number(motion.flight_floor_m);
+  json["seconds"] = {{"propagation", motion.propagation_seconds}};
+  json["exit_code"] = 0;
+  return json;
 }
 
 std::string deputy_motion_csv(const DeputyMotion& motion) {
@@ -224,10 +226,10 @@ StudyReport deputy_motion_report(const DeputyMotion& motion, const ReportOrigin&
   report.files = {{"motion.csv", deputy_motion_csv(motion)},
                   {"report.html", page(motion, origin, drawer)}};
   report.drawing_problem = drawer.problem();
-  report.files.push_back({"summary.json", summary_json(motion).dump(2) + "\n"});
+  report.files.push_back({"summary.json", deputy_motion_json(motion).dump(2) + "\n"});
   report.table = terminal_table(motion);
   report.details =
-      fmt::format("{} times; {} for the jets (flight floor {})\n", motion.points.size(),
+      fmt::format("{}; {} for the jets (flight floor {})\n", counted(motion.points.size(), "time"),
                   duration_text(motion.propagation_seconds), length_text(motion.flight_floor_m));
   return report;
 }

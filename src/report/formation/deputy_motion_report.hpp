@@ -1,5 +1,6 @@
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,9 @@ std::string deputy_motion_csv(const DeputyMotion& motion);
 
 /// The polynomials' errors along time, not fitted.
 Chart deputy_motion_error_chart(const DeputyMotion& motion);
+
+/// `summary.json`.
+nlohmann::ordered_json deputy_motion_json(const DeputyMotion& motion);
 
 /// The files of `hamjet motion`: `motion.csv`, `report.html`, `summary.json`.
 StudyReport deputy_motion_report(const DeputyMotion& motion, const ReportOrigin& origin);

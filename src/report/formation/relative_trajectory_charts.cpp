@@ -8,6 +8,7 @@
 #include "../../formats/relative_frame_text.hpp"
 #include "../../text/quantity_text.hpp"
 #include "../../text/time_axis.hpp"
+#include "relative_extent.hpp"
 #include "transfer_charts.hpp"
 
 namespace hamjet::io {
@@ -23,22 +24,13 @@ struct Projection {
 /// and R-N.
 constexpr std::array<Projection, 3> projections = {{{1, 0}, {1, 2}, {0, 2}}};
 
-/// How far a trajectory reaches along each axis, the chief included.
-struct Extent {
-  Eigen::Vector3d least = Eigen::Vector3d::Zero();
-  Eigen::Vector3d most = Eigen::Vector3d::Zero();
-
-  double largest_m() const { return std::max(most.maxCoeff(), -least.minCoeff()); }
-  /// The width of a square that holds the trajectory in every projection.
-  double span_m() const { return std::max((most - least).maxCoeff(), 1e-6); }
-};
-
-Extent extent_of(const RelativeTrajectory& trajectory) {
-  Extent extent;
-  for (const RelativeState& state : trajectory.states) {
-    extent.least = extent.least.cwiseMin(state.position_m);
-    extent.most = extent.most.cwiseMax(state.position_m);
-  }
+/// The places that are drawn: the path, and the chief unless the path would be a dot beside it.
+RelativeExtent extent_of(const RelativeTrajectory& trajectory) {
+  RelativeExtent extent;
+  extent.include(trajectory.states);
+  const Eigen::Vector3d chief = Eigen::Vector3d::Zero();
+  if (trajectory.states.empty() || extent.is_near(chief, most_spans_to_chief))
+    extent.include(chief);
   return extent;
 }
 
@@ -59,7 +51,8 @@ std::string amplitude_text(const RelativeTrajectory& trajectory, Eigen::Index ax
 }  // namespace
 
 std::vector<Chart> relative_trajectory_charts(const RelativeTrajectory& trajectory, double time_s) {
-  const Extent extent = extent_of(trajectory);
+  const RelativeExtent extent = extent_of(trajectory);
+  const bool has_chief = extent.is_near(Eigen::Vector3d::Zero(), 1);
   const bool is_in_km = extent.largest_m() >= 1000;
   const double unit = is_in_km ? 1e-3 : 1;
   const auto letters = axis_letters(trajectory.frame);
@@ -110,10 +103,14 @@ std::vector<Chart> relative_trajectory_charts(const RelativeTrajectory& trajecto
       mark("start", 3, place(trajectory.states.front()));
       mark("end", 1, place(trajectory.states.back()));
     }
-    mark("chief", 2, {0, 0});
+    if (has_chief) mark("chief", 2, {0, 0});
     charts.push_back(std::move(chart));
   }
   const bool is_inertial = trajectory.frame == RelativeFrame::inertial;
+  if (!has_chief) {
+    charts.front().notes.push_back(
+        fmt::format("So that the path can be seen {}.", far_chief_text(extent)));
+  }
   charts.front().notes.push_back(fmt::format(
       "Of the deputy: {}; {}; {}.", amplitude_text(trajectory, 0, letters[0]),
       amplitude_text(trajectory, 1, letters[1]), amplitude_text(trajectory, 2, letters[2])));

@@ -88,6 +88,20 @@ ChartCurve marks(const TransferResult& result, std::string title, std::size_t st
   return curve;
 }
 
+/// Hollow markers in place of the line, few enough to be told apart, which leave a line visible
+/// that runs through them.
+void show_beside_line(ChartCurve& curve) {
+  constexpr std::size_t most_markers = 120;
+  const std::size_t interval = (curve.points.size() + most_markers - 1) / most_markers;
+  std::vector<std::pair<double, double>> kept;
+  for (std::size_t i = 0; i < curve.points.size(); i += interval) kept.push_back(curve.points[i]);
+  curve.points = std::move(kept);
+  curve.gaps.clear();
+  curve.has_line = false;
+  curve.has_markers = true;
+  curve.is_filled = false;
+}
+
 constexpr const char* shading =
     " Shaded: nearer than the scene's margin to a time at which F1 does not exist, where no "
     "initial velocity commands the final position in one direction of space; lines are broken at "
@@ -132,6 +146,7 @@ Chart velocity_change_chart(const TransferResult& result) {
           if (linear == nullptr) return std::nullopt;
           return linear->total_change_m_s();
         }));
+    show_beside_line(chart.curves.back());
   }
   chart.curves.push_back(marks(result, "near a singularity", 7,
                                [](const TransferPoint& point) { return point.is_near_singular; }));
@@ -146,7 +161,8 @@ Chart velocity_change_chart(const TransferResult& result) {
   }
   chart.reading = fmt::format(
       "What leaving the start and stopping at the end costs together, for every transfer time: the "
-      "magnitudes of both impulses and their sum, of the {}. The vertical line is the least "
+      "magnitudes of both impulses and their sum, of the {}; hollow markers are the sum of the "
+      "linear answer, and lie on the line where it is as good. The vertical line is the least "
       "sum, among answers that come within the tolerance and are not near a singularity.{}",
       is_refined ? "answer that flying refined (where that failed, of the highest order)"
                  : fmt::format("polynomials of order {}", result.scene.order),

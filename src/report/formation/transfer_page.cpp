@@ -31,18 +31,18 @@ std::string scene_text(const Scene& scene) {
 
 std::string facts_html(const TransferResult& result, const ReportOrigin& origin) {
   const TransferSettings& settings = *result.scene.transfer;
-  const TransferCounts counts = count_points(result);
   const double unit = result.scene.units.time_s;
+  std::string outcomes;
+  for (const TransferOutcome& outcome : transfer_outcomes(result)) {
+    outcomes += fmt::format("; {} {}", outcome.count, outcome.text);
+  }
   return origin_facts_html(origin) + fact_html("Scene", scene_text(result.scene)) +
          fact_html("Frame", frame_text(settings.frame)) +
          fact_html("Start", state_text(settings.start)) +
          fact_html("End", state_text(settings.end)) +
-         fact_html("Transfer times",
-                   fmt::format("{}, {:.6g} s to {:.6g} s; {} answered, {} near a singularity, {} "
-                               "miss by more than {}",
-                               counts.times, settings.times.front() * unit,
-                               settings.times.back() * unit, counts.answered, counts.near_singular,
-                               counts.beyond_tolerance, length_text(settings.tolerance_m))) +
+         fact_html("Transfer times", fmt::format("{}, {:.6g} s to {:.6g} s{}", result.points.size(),
+                                                 settings.times.front() * unit,
+                                                 settings.times.back() * unit, outcomes)) +
          fact_html("Generating function", settings.kind) +
          fact_html("Time", fmt::format("{} for the answers, {} to prove them by flying",
                                        duration_text(result.seconds.study()),

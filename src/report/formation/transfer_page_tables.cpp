@@ -2,6 +2,7 @@
 
 #include "../../formats/relative_frame_text.hpp"
 #include "../../text/html_text.hpp"
+#include "../../text/quantity_text.hpp"
 #include "../drawing/report_page.hpp"
 #include "transfer_page.hpp"
 #include "transfer_view.hpp"
@@ -68,7 +69,7 @@ std::string best_transfer_table_html(const TransferResult& result) {
     rows += answer_row(fmt::format("order {}", answer.order), answer, result.flight_floor_m);
   }
   if (point.refined) {
-    rows += answer_row(fmt::format("refined, {} more flights", point.refinement_flights),
+    rows += answer_row(fmt::format("refined, {}", counted(point.refinement_flights, "more flight")),
                        *point.refined, result.flight_floor_m);
   }
   return table_html(

@@ -50,12 +50,12 @@ std::string terminal_table(const TransferResult& result) {
   std::string text = fmt::format(
       "{}\n{}\n"
       "  frame            {}; order {}, kind {}\n"
-      "  transfer times   {}, {:.6g} s to {:.6g} s: {} answered, {} near a singularity, {} of "
-      "the others beyond the tolerance of {}\n",
+      "  transfer times   {}, {:.6g} s to {:.6g} s:\n",
       result.scene.title, transfer_verdict(result), frame_text(settings.frame), result.scene.order,
-      settings.kind, counts.times, settings.times.front() * unit, settings.times.back() * unit,
-      counts.answered, counts.near_singular, counts.beyond_tolerance_away,
-      length_text(settings.tolerance_m));
+      settings.kind, counts.times, settings.times.front() * unit, settings.times.back() * unit);
+  for (const TransferOutcome& outcome : transfer_outcomes(result)) {
+    text += fmt::format("{:19}{} {}\n", "", outcome.count, outcome.text);
+  }
   text += change_line(result, "least", result.best_point()) +
           change_line(result, "greatest", costliest_point(result));
   text += impulse_lines(result);
@@ -76,8 +76,8 @@ std::string terminal_table(const TransferResult& result) {
         length_text(result.chief_error_m));
   }
   if (counts.refinement_failed > 0) {
-    text +=
-        fmt::format("  not refined      {} times; see transfers.csv\n", counts.refinement_failed);
+    text += fmt::format("  not refined      {}; see transfers.csv\n",
+                        counted(counts.refinement_failed, "time"));
   }
   return text;
 }

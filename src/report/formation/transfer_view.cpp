@@ -62,6 +62,7 @@ TransferCounts count_points(const TransferResult& result) {
     const bool is_answered = shown_answer(point) != nullptr;
     const bool is_away = !point.is_near_singular;
     const bool has_failed_refinement = point.refined && !point.is_refined();
+    counts.compared += point.is_candidate();
     counts.answered += is_answered;
     counts.near_singular += point.is_near_singular;
     counts.beyond_tolerance += is_answered && point.is_beyond_tolerance;
@@ -74,6 +75,23 @@ TransferCounts count_points(const TransferResult& result) {
     counts.refinement_failed_away += has_failed_refinement && is_away;
   }
   return counts;
+}
+
+std::vector<TransferOutcome> transfer_outcomes(const TransferResult& result) {
+  const TransferCounts counts = count_points(result);
+  const std::string tolerance = length_text(result.scene.transfer->tolerance_m);
+  std::string compared = "with an answer within " + tolerance;
+  if (counts.corrected_away > 0) {
+    compared += fmt::format(", {} of them only after correction by flying", counts.corrected_away);
+  }
+  std::vector<TransferOutcome> outcomes = {
+      {counts.compared, compared},
+      {counts.near_singular, "nearer to a singularity than the margin"},
+      {counts.beyond_tolerance_away - counts.corrected_away,
+       fmt::format("missing by more than {}, which flying did not correct", tolerance)},
+      {counts.unanswered_away, "without an answer"}};
+  std::erase_if(outcomes, [](const TransferOutcome& outcome) { return outcome.count == 0; });
+  return outcomes;
 }
 
 std::vector<MissStatistics> miss_statistics(const TransferResult& result) {
@@ -143,29 +161,37 @@ std::string edge_text(const TransferResult& result, std::size_t best) {
 
 /// What may answer the times that have no answer within the tolerance.
 std::string remedy_text(const TransferResult& result, const TransferCounts& counts) {
+  std::string text;
   if (counts.beyond_tolerance_away > counts.corrected_away) {
-    return " A higher jet.order reaches further and may answer those beyond the tolerance.";
+    text += " A higher jet.order reaches further and may answer those beyond the tolerance.";
   }
-  return counts.unanswered_away > 0 && result.scene.transfer->kind != "auto"
-             ? " The kind auto may have an answer where this one has none."
-             : "";
+  if (counts.unanswered_away > 0) {
+    text += fmt::format(" Why a time has no answer is in the column failure; {}.",
+                        result.scene.transfer->kind == "auto"
+                            ? "one a little earlier or later may have one"
+                            : "the kind auto may have one");
+  }
+  return text;
+}
+
+/// The times that cannot be the least, by their outcome.
+std::string left_out(const TransferResult& result) {
+  std::vector<std::string> reasons;
+  for (const TransferOutcome& outcome : transfer_outcomes(result)) {
+    reasons.push_back(fmt::format("{} {}", outcome.count, outcome.text));
+  }
+  if (count_points(result).compared > 0) reasons.erase(reasons.begin());
+  return fmt::format("{}", fmt::join(reasons, ", "));
 }
 
 /// Which times the least change leaves out, and why.
 std::string left_out_text(const TransferResult& result) {
   const TransferCounts counts = count_points(result);
-  std::vector<std::string> reasons;
-  const auto add = [&](std::size_t count, const std::string& reason) {
-    if (count > 0) reasons.push_back(fmt::format("{} {}", count, reason));
-  };
-  add(counts.near_singular, "nearer to a singularity than the margin");
-  add(counts.beyond_tolerance_away - counts.corrected_away,
-      fmt::format("beyond the tolerance of {} and not to be refined",
-                  length_text(result.scene.transfer->tolerance_m)));
-  add(counts.unanswered_away, "without an answer");
-  if (reasons.empty()) return "";
-  return fmt::format(" Of {} times it leaves out {}; transfers.csv has them, marked.{}",
-                     counts.times, fmt::join(reasons, ", "), remedy_text(result, counts));
+  if (counts.compared == counts.times) return "";
+  return fmt::format(
+      " Of {} times it compares {} and leaves out {}, which transfers.csv has, "
+      "marked.{}",
+      counts.times, counts.compared, left_out(result), remedy_text(result, counts));
 }
 
 std::string between_text(const TransferResult& result) {
@@ -191,16 +217,9 @@ std::string transfer_verdict(const TransferResult& result) {
   if (!best) {
     const TransferCounts counts = count_points(result);
     return fmt::format(
-               "No velocity change can be named: of {} transfer times {} have an answer, {} of "
-               "them "
-               "nearer to a singularity than the margin, and {} of the others miss by more than {} "
-               "and "
-               "could not be refined.{}{}",
-               counts.times, counts.answered, counts.near_singular, counts.beyond_tolerance_away,
-               length_text(result.scene.transfer->tolerance_m), remedy_text(result, counts),
-               counts.near_singular > 0
-                   ? " The answers near a singularity are in transfers.csv, marked."
-                   : "") +
+               "No velocity change can be named: of {} {}, which transfers.csv has, marked.{}",
+               counted(counts.times, "transfer time"), left_out(result),
+               remedy_text(result, counts)) +
            optimal_text;
   }
   const TransferPoint& point = result.points[*best];

@@ -26,6 +26,7 @@ std::string failure_text(const TransferPoint& point);
 /// Counts of a study's points by their outcome.
 struct TransferCounts {
   std::size_t times = 0;
+  std::size_t compared = 0;  ///< may be the least: away, and within the tolerance or corrected
   std::size_t answered = 0;
   std::size_t near_singular = 0;
   std::size_t beyond_tolerance = 0;       ///< among all
@@ -37,6 +38,14 @@ struct TransferCounts {
   std::size_t refinement_failed_away = 0;
 };
 TransferCounts count_points(const TransferResult& result);
+
+/// A part of the times in words, such as "nearer to a singularity than the margin".
+struct TransferOutcome {
+  std::size_t count = 0;
+  std::string text;
+};
+/// The outcomes that some times have, first those that are compared; each time has one of them.
+std::vector<TransferOutcome> transfer_outcomes(const TransferResult& result);
 
 /// Misses away from singularities, metres.
 struct MissStatistics {

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "../../text/html_text.hpp"
+#include "../../text/quantity_text.hpp"
 #include "../drawing/along_time_charts.hpp"
 #include "transfer_charts.hpp"
 #include "transfer_view.hpp"
@@ -40,10 +41,11 @@ void add_curves(Chart& chart, const std::string& title, std::size_t style,
 
 std::string meaning(const ValidityResult& result) {
   return fmt::format(
-      "The line with filled markers is proved: {} sampled deputies of that separation flew, and "
+      "The line with filled markers is proved: {} of that separation flew, and "
       "the polynomial's final positions differ from theirs by no more than {}. Hollow markers are "
       "predicted from the decay of the jet's degrees alone.",
-      result.scene.validity->samples, length_text(result.scene.validity->tolerance_m));
+      counted(result.scene.validity->samples, "sampled deputy"),
+      length_text(result.scene.validity->tolerance_m));
 }
 
 void note_limits(const ValidityResult& result, Chart& chart) {

@@ -39,9 +39,9 @@ std::string terminal_table(const ValidityResult& result) {
 }
 
 std::string terminal_details(const ValidityResult& result) {
-  return fmt::format("{} flights; {} for the jets, {} to fly (floor {})\n", result.flights,
-                     duration_text(result.propagation_seconds), duration_text(result.proof_seconds),
-                     length_text(result.flight_floor_m));
+  return fmt::format("{}; {} for the jets, {} to fly (floor {})\n",
+                     counted(result.flights, "flight"), duration_text(result.propagation_seconds),
+                     duration_text(result.proof_seconds), length_text(result.flight_floor_m));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "../../store/json_values.hpp"
+#include "../../text/quantity_text.hpp"
 #include "../drawing/study_figure.hpp"
 #include "hamjet/version.hpp"
 #include "optimal_control_charts.hpp"
@@ -187,10 +188,10 @@ std::string table(const OptimalControlResult& result) {
   const ShootingSolution& solution = result.solution;
   std::string text = fmt::format(
       "{}\n"
-      "  problem            {}, {}, {} steps over {:g}\n"
+      "  problem            {}, {}, {} over {:g}\n"
       "  cost               {:.15g}   (sum of tau <u, u>: {:.15g})\n",
-      study.title, model_of(result), method_of(result), study.steps, study.duration, result.cost,
-      result.squared_control);
+      study.title, model_of(result), method_of(result), counted(study.steps, "step"),
+      study.duration, result.cost, result.squared_control);
   if (result.closed_form) {
     text += fmt::format(
         "  closed forms       {:.15g} continuous, {:.15g} with these steps\n"
@@ -201,13 +202,13 @@ std::string table(const OptimalControlResult& result) {
     text += "  closed forms       none for these ends\n";
   }
   text += fmt::format(
-      "  shooting           {} iterations, residual {:.1e}; rank {} of {}, nullity {}\n"
+      "  shooting           {}, residual {:.1e}; rank {} of {}, nullity {}\n"
       "  dx(T)/dp(0)        rank {} of {}\n"
       "  second order       {}\n"
       "  symplecticity      {:.1e}, the advance map's largest scaled defect\n",
-      solution.iterations, solution.residual, solution.rank, solution.unknowns,
-      solution.unknowns - solution.rank, result.end_point_rank, study.start.size(),
-      second_order_text(result), result.symplecticity_defect);
+      counted(solution.iterations, "iteration"), solution.residual, solution.rank,
+      solution.unknowns, solution.unknowns - solution.rank, result.end_point_rank,
+      study.start.size(), second_order_text(result), result.symplecticity_defect);
   if (result.routes) {
     text += fmt::format(
         "  both routes        differ by {:.1e} (states), {:.1e} (costates), {:.1e} (controls), "

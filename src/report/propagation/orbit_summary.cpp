@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "../../dynamics/celestial_bodies.hpp"
+#include "../../text/quantity_text.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -145,8 +146,9 @@ std::string orbit_text(const OrbitSummary& orbit) {
   };
   std::string text = "  orbit        ";
   if (orbit.period_s) {
-    text += fmt::format("period {:.2f} s ({}), {:.6g} revolutions in the duration", *orbit.period_s,
-                        period_text(*orbit.period_s), *orbit.revolutions);
+    text += fmt::format("period {:.2f} s ({}), {} in the duration", *orbit.period_s,
+                        period_text(*orbit.period_s),
+                        counted(fmt::format("{:.6g}", *orbit.revolutions), "revolution"));
   } else {
     text += "open, without a period";
   }

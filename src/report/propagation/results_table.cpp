@@ -202,10 +202,11 @@ std::string arcs_text(const Scene& scene, const ArcPlan& plan) {
 std::string summary_table(const PropagationResult& result) {
   const Scene& scene = result.scene;
   std::string text = fmt::format(
-      "{}\norder {} in {} of {} variables, {} coefficients a component\n"
+      "{}\norder {} in {} of {}, {} a component\n"
       "duration {:.10g} s, which is {:.10g} canonical\n",
-      scene.title, scene.order, scene.variables.size(), scene.nominal.size(),
-      result.problem.space->size(), scene.duration * scene.units.time_s, scene.duration);
+      scene.title, scene.order, scene.variables.size(), counted(scene.nominal.size(), "variable"),
+      counted(result.problem.space->size(), "coefficient"), scene.duration * scene.units.time_s,
+      scene.duration);
   if (result.problem.components.size() < scene.nominal.size()) {
     text +=
         "the nominal stays in an invariant subspace: the components outside it are not computed\n";

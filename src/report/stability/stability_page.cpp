@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "../../text/html_text.hpp"
+#include "../../text/quantity_text.hpp"
 #include "../drawing/report_page.hpp"
 
 namespace hamjet::io {
@@ -145,9 +146,10 @@ std::string stability_verdict(const std::vector<StabilityResult>& results) {
                          [&](const auto& result) { return result.outcome == outcome; });
   };
   const auto wrong = count(CaseOutcome::wrong);
-  return fmt::format("{} cases: {} right, {} refused, {} marked, {} wrong.", results.size(),
-                     count(CaseOutcome::right), count(CaseOutcome::refused),
-                     count(CaseOutcome::marked), wrong == 0 ? "none" : fmt::format("{}", wrong));
+  return fmt::format("{}: {} right, {} refused, {} marked, {} wrong.",
+                     counted(results.size(), "case"), count(CaseOutcome::right),
+                     count(CaseOutcome::refused), count(CaseOutcome::marked),
+                     wrong == 0 ? "none" : fmt::format("{}", wrong));
 }
 
 std::string stability_page(const std::vector<StabilityResult>& results, const ReportOrigin& origin,

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "../../store/text_file.hpp"
+#include "../../text/quantity_text.hpp"
 #include "hamjet/error.hpp"
 
 namespace hamjet::io {
@@ -89,11 +90,11 @@ std::optional<std::int64_t> TableReader::integer_if_any(std::string_view key) co
 }
 
 std::vector<double> TableReader::numbers(std::string_view key, std::size_t count) const {
-  const std::string right =
-      fmt::format("an array of {} finite number{}", count, count == 1 ? "" : "s");
+  const std::string right = "an array of " + counted(count, "finite number");
   const toml::array& array = required_array(key, right);
   if (array.size() != count) {
-    fail(key, fmt::format("wrong length, got {} elements, must be {}", array.size(), right));
+    fail(key,
+         fmt::format("wrong length, got {}, must be {}", counted(array.size(), "element"), right));
   }
   std::vector<double> values;
   for (std::size_t i = 0; i < count; ++i) {
@@ -130,14 +131,13 @@ std::vector<double> TableReader::square_matrix(std::string_view key, std::size_t
   const std::string right = fmt::format("an array of {0} arrays of {0} finite numbers", size);
   const toml::array& rows = required_array(key, right);
   if (rows.size() != size) {
-    fail(key, fmt::format("wrong size, got {} rows, must be {}", rows.size(), right));
+    fail(key, fmt::format("wrong size, got {}, must be {}", counted(rows.size(), "row"), right));
   }
   std::vector<double> values;
   for (std::size_t i = 0; i < size; ++i) {
     const toml::array* row = rows[i].as_array();
     if (row == nullptr || row->size() != size) {
-      const std::string got =
-          row == nullptr ? describe(rows[i]) : fmt::format("{} elements", row->size());
+      const std::string got = row == nullptr ? describe(rows[i]) : counted(row->size(), "element");
       fail_element(key, i, fmt::format("wrong size, got {}, the matrix must be {}", got, right));
     }
     for (std::size_t j = 0; j < size; ++j) {

@@ -8,6 +8,7 @@
 
 #include "../../integrators/momentum_unit.hpp"
 #include "../../integrators/phase_space_scale.hpp"
+#include "../../text/quantity_text.hpp"
 #include "../descriptions/method_description.hpp"
 #include "../largest_coefficient.hpp"
 #include "../stopwatch.hpp"
@@ -62,12 +63,13 @@ void check_convergence(SelfCheck& check, const RunResult& run) {
   check.state = SelfCheckState::passed;
   if (check.limit && iterations > *check.limit) {
     check.state = SelfCheckState::failed;
-    check.text = fmt::format("Newton's iteration took {} iterations in a step", iterations);
+    check.text =
+        fmt::format("Newton's iteration took {} in a step", counted(iterations, "iteration"));
   } else {
     check.text = "the equations of every step were solved to round-off (else it is an error), ";
     check.text += iterations == 0 ? "by fixed-point iteration"
-                                  : fmt::format("some by Newton's method, in {} iterations at most",
-                                                iterations);
+                                  : fmt::format("some by Newton's method, in at most {}",
+                                                counted(iterations, "iteration"));
   }
 }
 

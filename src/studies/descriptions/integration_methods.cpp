@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "../../text/quantity_text.hpp"
 #include "hamjet/integrators/cvode.hpp"
 #include "hamjet/integrators/explicit_runge_kutta.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
@@ -51,7 +52,7 @@ MethodDescription gauss() {
                     .member = &Settings::stages,
                     .least = 1,
                     .most = most_gauss_stages,
-                    .text = [](const Settings& s) { return fmt::format("{} stages", s.stages); }},
+                    .text = [](const Settings& s) { return counted(s.stages, "stage"); }},
                    {.key = "compensated_summation",
                     .help = "what a sum rounds off is added to the next",
                     .member = &Settings::compensated_summation,

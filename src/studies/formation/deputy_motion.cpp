@@ -13,6 +13,13 @@
 #include "single_transfer.hpp"
 
 namespace hamjet {
+namespace {
+
+/// A jet takes longer than a flight does: long motions have fewer points than their path needs.
+constexpr IntervalCount points_of_motion = {48, 64, 1024};
+
+}  // namespace
+
 double DeputyMotion::largest_error_m(int order) const {
   double largest = 0;
   for (const DeputyMotionPoint& point : points) {
@@ -32,9 +39,10 @@ DeputyMotion study_deputy_motion(const Scene& scene, const ProgressCallback& pro
   const RelativeFrame frame = scene.deputy->frame;
   const std::vector<double> deviation =
       ChiefFrame(scene.nominal, units, frame).deviation(scene.deputy->start);
-  const int count = smooth_intervals(scene);
+  const int count = interval_count(scene, scene.duration, points_of_motion);
+  const int parts = (interval_count(scene, scene.duration, drawn_path) + count - 1) / count;
   if (progress) progress("flight", 0);
-  result.flown = flown_trajectory(scene, deviation, frame, scene.duration, count);
+  result.flown = flown_trajectory(scene, deviation, frame, scene.duration, count, parts);
   result.extremes = extreme_separations(scene, result.flown);
   const auto orders = static_cast<std::size_t>(scene.order);
   result.points.push_back({0, scene.deputy->start, std::vector<double>(orders, 0.0)});
@@ -44,12 +52,18 @@ DeputyMotion study_deputy_motion(const Scene& scene, const ProgressCallback& pro
   values.set_point(deviation);
   const IntegratorSettings& integrator = symplectic_integrator(scene);
   result.integrator = integrator.label;
-  const std::vector<double> times(result.flown.times.begin() + 1, result.flown.times.end());
+  const auto flown_index = [&](std::size_t index) {
+    return (index + 1) * static_cast<std::size_t>(parts);
+  };
+  std::vector<double> times;
+  for (std::size_t index = 0; index < static_cast<std::size_t>(count); ++index) {
+    times.push_back(result.flown.times[flown_index(index)]);
+  }
   const auto visit = [&](std::size_t index, const FlowJet<double>& jet) {
     if (progress) progress("motion", static_cast<double>(index) / count);
-    const std::vector<double>& flown_chief = result.flown.chief[index + 1];
-    const std::vector<double>& flown_deputy = result.flown.deputy[index + 1];
-    DeputyMotionPoint point{times[index], result.flown.states[index + 1], {}};
+    const std::vector<double>& flown_chief = result.flown.chief[flown_index(index)];
+    const std::vector<double>& flown_deputy = result.flown.deputy[flown_index(index)];
+    DeputyMotionPoint point{times[index], result.flown.states[flown_index(index)], {}};
     // Degree by degree: what is relative to the chief would lose its digits in the chief's place.
     std::vector<double> relative(jet.size(), 0.0);
     for (int order = 1; order <= scene.order; ++order) {

@@ -21,7 +21,7 @@ struct DeputyMotion {
   Scene scene;  ///< with `deputy`
   std::string integrator;
   std::vector<DeputyMotionPoint> points;  ///< the first one is the start
-  RelativeTrajectory flown;               ///< at the same times
+  RelativeTrajectory flown;               ///< at these times and at equal ones between them
   ExtremeSeparations extremes;            ///< as it flew, between the times too
   double flight_floor_m = 0;              ///< see TransferResult; errors below it say nothing
   double propagation_seconds = 0;

@@ -247,7 +247,8 @@ RelativeTrajectory fly_relative(const TransferResult& result, std::size_t point,
                             time, intervals);
   };
   RelativeState start = scene.transfer->start;
-  std::vector<RelativeState> unchanged = fly(start, scene.duration, smooth_intervals(scene)).states;
+  std::vector<RelativeState> unchanged =
+      fly(start, scene.duration, interval_count(scene, scene.duration, drawn_path)).states;
   start.velocity_m_s += transfer.best().start_change_m_s;
   RelativeTrajectory trajectory = fly(start, transfer.time, count);
   trajectory.unchanged = std::move(unchanged);

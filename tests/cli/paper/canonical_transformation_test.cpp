@@ -175,14 +175,14 @@ TEST_F(CanonicalTransformationCommand, MatrixThatIsNotSymplectic) {
                      {"not symplectic", "1.9e-05 as the largest entry"});
   expect_scene_error(with_matrix("[[1, 0, 0], [0, 1, 0]]"),
                      {"matrix.0: wrong size, got 3 elements", "2 arrays of 2 finite numbers"});
-  expect_scene_error(with_matrix("[[1, 0]]"), {"matrix: wrong size, got 1 rows"});
+  expect_scene_error(with_matrix("[[1, 0]]"), {"matrix: wrong size, got 1 row,"});
   expect_scene_error(with_matrix("[1, 0]"), {"matrix.0: wrong size, got 1, the matrix must be"});
   expect_scene_error(with_matrix("[[1, 0], [0, \"1\"]]"),
                      {"matrix.1.1: wrong type, got the string \"1\""});
   expect_scene_error(with_matrix("[[1, inf], [0, 1]]"), {"matrix.0.1: not finite"});
   expect_scene_error(with_matrix("3"), {"matrix: wrong type, got 3"});
   expect_scene_error(with_matrix("[[1, 0], [0, 1]]\nshift = [1]"),
-                     {"shift: wrong length, got 1 elements", "2 finite numbers"});
+                     {"shift: wrong length, got 1 element,", "2 finite numbers"});
   expect_scene_error(std::string(orbit_scene) + "matrix = [[1, 0], [0, 1]]\n",
                      {"matrix: wrong size, got 2 rows", "6 arrays of 6"});
 }
