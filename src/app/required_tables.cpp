@@ -31,7 +31,7 @@ void refuse_scene(const std::string& file, const std::string& key, const std::st
 
 void require_transfer(const Scene& scene, const std::string& file) {
   require_table(file, scene.transfer.has_value(), "transfer",
-                "frame = \"RTN\", times_s = [1200, 1800], start = {position_m = [0, -1000, 0]}, "
+                "times_s = [1200, 1800], start = {position_m = [0, -1000, 0]}, "
                 "end = {position_m = [0, -100, 0]}");
   if (scene.assignment && is_zero(scene.transfer->start) && is_zero(scene.transfer->end)) {
     refuse_scene(

@@ -73,7 +73,8 @@ const TableDescription& compare_table() {
        {"repeats", form::integer(1, most_repeats), absent::value(preset.repeats),
         "timings of each run, in turns"},
        {"time_budget_s", form::positive(), absent::value(preset.time_budget_s),
-        "of all integrations; what would exceed it is left out, and said"},
+        "of the runs that are compared, with their repeats; what would exceed it is left out, and "
+        "said. Reference, errors along time and fits of orders come on top"},
        {"wanted_error_m", form::positive(), absent::value(preset.wanted_error_m),
         "at the separation of `[formation]`, for the verdict and the advice"}}};
   return table;

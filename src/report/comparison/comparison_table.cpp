@@ -58,6 +58,12 @@ std::string comparison_table(const ComparisonResult& result) {
   if (count.failed + count.left_out > 0) {
     text += fmt::format("runs that failed: {}; runs left out: {}; the reasons are in the results\n",
                         count.failed, count.left_out);
+    if (count.left_out > 0) {
+      text += fmt::format(
+          "compare.time_budget_s of {:g} s covers the runs that are compared, with their repeats; "
+          "the reference, the errors along time and the fits of orders came on top\n",
+          result.scene.comparison.time_budget_s);
+    }
   }
   return fitted(text);
 }
