@@ -74,6 +74,21 @@ TEST_F(CheckJson, TellsWarningsFromMistakes) {
   EXPECT_EQ(said["warnings"][0].get<std::string>().rfind("warning: warned.toml:", 0), 0U);
 }
 
+// An error is one line, for scripts; a warning is for people, and fits the terminal.
+TEST_F(CheckJson, AWarningFitsTheTerminal) {
+  write("warned.toml",
+        changed(quick_scene(), "mu_km3_s2 = 398600.4415", "mu_km3_s2 = 398600.4415e9"));
+  const CommandResult result = hamjet({"check", "warned.toml"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_NE(in_one_line(result.err)
+                .find("warned.toml:5:13: system.mu_km3_s2: 3.986e+14 is the mu of "
+                      "EARTH in m^3/s^2; in km^3/s^2 it is"),
+            std::string::npos)
+      << result.err;
+  std::istringstream lines(result.err);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80U) << line;
+}
+
 TEST_F(CheckJson, SaysWhatHasNoPlace) {
   const Json missing = wrong({"check", "missing.toml", "--json"}, 5)["errors"][0];
   EXPECT_EQ(missing["file"], "missing.toml");

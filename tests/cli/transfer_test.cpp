@@ -178,15 +178,15 @@ TEST_F(TransferCommand, BeyondValidityIsMarkedAndFailsOnlyAStrictScene) {
 }
 
 TEST_F(TransferCommand, ScenesWithoutTheTableAreShownTheSmallestOne) {
-  expect_error({"transfer", "circle.toml"}, 3,
-               {"circle.toml: transfer: missing, must be a table [transfer]",
-                "transfer = {frame = \"RTN\""});
+  expect_error(
+      {"transfer", "circle.toml"}, 3,
+      {"circle.toml: transfer: missing, must be a table [transfer]", "transfer = {times_s"});
   expect_error({"validity", "circle.toml"}, 3,
                {"validity: missing", "validity = {tolerance_m = 1"});
   expect_error({"assign", "circle.toml"}, 3, {"assignment: missing", "assignment = {deputy = ["});
   // The examples are as good as they say.
   write("small.toml", changed(circle, "[system]",
-                              "transfer = {frame = \"RTN\", times_s = [1200, 1800], start = "
+                              "transfer = {times_s = [1200, 1800], start = "
                               "{position_m = [0, -1000, 0]}, end = {position_m = [0, -100, 0]}}\n"
                               "validity = {tolerance_m = 1, count = 12}\n"
                               "assignment = {deputy = [{position_m = [0, -100, 0]}], slot = "

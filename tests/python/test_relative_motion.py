@@ -46,9 +46,9 @@ def test_relative_states_are_those_of_eval(tmp_path, frame, derivatives, degree)
     printed = command("eval", tmp_path / "out", "--deviations", tmp_path / "in.csv", "--frame",
                       frame, "-q", *options, directory=tmp_path)
     expected = columns(printed.stdout)
-    with pytest.warns(RuntimeWarning, match="1 of 50 rows are not inside"):
+    with pytest.warns(RuntimeWarning, match="1 of 50 rows not inside"):
         found = jet.evaluate_relative(states, frame=frame, derivatives=derivatives, degree=degree)
-    with pytest.raises(hamjet.NumericalError, match="1 of 50 rows are not inside"):
+    with pytest.raises(hamjet.NumericalError, match="1 of 50 rows not inside"):
         jet.evaluate_relative(states, degree=degree, strict=True)
     for i, name in enumerate(names.split(",")):
         assert (found.states[:-1, i] == numbers(expected[name])[:-1]).all(), name
