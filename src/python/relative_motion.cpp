@@ -6,8 +6,11 @@
 
 #include "../app/report_origin.hpp"
 #include "../app/required_tables.hpp"
+#include "../formats/relative_frame_text.hpp"
+#include "../report/formation/deputy_motion_report.hpp"
 #include "../report/formation/transfer_view.hpp"
 #include "../studies/arcs.hpp"
+#include "../studies/formation/deputy_motion.hpp"
 #include "../studies/formation/flown_trajectory.hpp"
 #include "arrays.hpp"
 #include "bindings.hpp"
@@ -74,6 +77,17 @@ Studied<TransferResult> study_transfers(const GivenScene& given, const py::objec
       return io::transfer_report(studied, trajectory, validity, origin());
     });
   });
+}
+
+Studied<DeputyMotion> study_motion(const GivenScene& given, const py::object& progress) {
+  const Scene checked = unsplit(given, "hamjet motion");
+  cli::require_deputy(checked, given.file);
+  return interruptibly(
+      progress, [scene = checked, file = given.file](const ProgressCallback& report) {
+        return Studied<DeputyMotion>(
+            cli::study_of(file, [&] { return study_deputy_motion(scene, report); }),
+            [](const DeputyMotion& motion) { return io::deputy_motion_report(motion, origin()); });
+      });
 }
 
 Studied<ValidityResult> study_separations(const GivenScene& given, const py::object& progress) {
@@ -210,7 +224,44 @@ py::dict validity_arrays(const ValidityResult& result) {
   return arrays;
 }
 
-/// Binds what both studies have in common.
+/// A place at one time as (time in s, separation, position, velocity), in m and m/s.
+py::tuple separation(const DeputyMotion& motion, const SeparationAt& at) {
+  Table position, velocity;
+  position.add(at.state.position_m);
+  velocity.add(at.state.velocity_m_s);
+  return py::make_tuple(at.time * motion.scene.units.time_s, separation_m(at.state),
+                        position.array(), velocity.array());
+}
+
+py::dict motion_arrays(const DeputyMotion& motion) {
+  Table time, position, velocity, distance, error;
+  for (const DeputyMotionPoint& point : motion.points) {
+    time.add(point.time * motion.scene.units.time_s);
+    position.add(point.state.position_m);
+    velocity.add(point.state.velocity_m_s);
+    distance.add(separation_m(point.state));
+    for (const double error_m : point.errors_m) error.add(error_m);
+  }
+  const auto points = size_of(motion.points.size());
+  py::dict arrays;
+  arrays["frame"] = io::frame_text(motion.scene.deputy->frame);
+  arrays["times_s"] = time.array();
+  arrays["position_m"] = position.array({points, 3});
+  arrays["velocity_m_s"] = velocity.array({points, 3});
+  arrays["separation_m"] = distance.array();
+  arrays["error_by_order_m"] = error.array({points, motion.scene.order});
+  arrays["flight_floor_m"] = motion.flight_floor_m;
+  arrays["verdict"] = io::deputy_motion_verdict(motion);
+  return arrays;
+}
+
+/// Where the deputy is nearest to its chief, and where farthest.
+py::tuple extremes(const DeputyMotion& motion) {
+  return py::make_tuple(separation(motion, motion.extremes.nearest),
+                        separation(motion, motion.extremes.farthest));
+}
+
+/// Binds what the studies have in common.
 template <class Result>
 py::class_<Studied<Result>> bind_study(py::module_& module, const char* name) {
   return py::class_<Studied<Result>>(module, name)
@@ -232,11 +283,17 @@ void bind_relative_motion(py::module_& module) {
           "csv", [](const Studied<TransferResult>& s) { return io::transfers_csv(*s.result()); })
       .def("arrays", [](const Studied<TransferResult>& s) { return transfer_arrays(*s.result()); })
       .def("fly", &fly);
+  bind_study<DeputyMotion>(module, "MotionStudy")
+      .def_property_readonly(
+          "csv", [](const Studied<DeputyMotion>& s) { return io::deputy_motion_csv(*s.result()); })
+      .def("arrays", [](const Studied<DeputyMotion>& s) { return motion_arrays(*s.result()); })
+      .def("extremes", [](const Studied<DeputyMotion>& s) { return extremes(*s.result()); });
   bind_study<ValidityResult>(module, "ValidityStudy")
       .def_property_readonly(
           "csv", [](const Studied<ValidityResult>& s) { return io::validity_csv(*s.result()); })
       .def("arrays", [](const Studied<ValidityResult>& s) { return validity_arrays(*s.result()); });
   module.def("study_transfers", &study_transfers, py::arg("scene"), py::arg("progress"));
+  module.def("study_motion", &study_motion, py::arg("scene"), py::arg("progress"));
   module.def("study_separations", &study_separations, py::arg("scene"), py::arg("progress"));
 }
 

@@ -27,6 +27,8 @@ def use(points: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
     scene = hamjet.orbit(a_km=7078, e=0.001, i_deg=98, order=4, duration_orbits=0.8)
     hamjet.validity({**scene, "validity": {"frame": "RTN"}}).plot()
     print(hamjet.transfer(scene).to_dataframe().head(), matrices.shape)
+    nearest: hamjet.Separation = hamjet.motion({**scene, "deputy": {}}).nearest
+    print(nearest.time_s, nearest.position_m @ nearest.velocity_m_s)
     stored = hamjet.load(pathlib.Path("out"), run=names[0])
     assert isinstance(stored, hamjet.StudyResult)
     try:

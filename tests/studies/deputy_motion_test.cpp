@@ -105,7 +105,7 @@ TEST(DeputyMotion, TheExtremesAreFoundBetweenTheTimes) {
   // 7 m, where the nearest of the listed times is hundreds of metres away.
   double listed = 1e9;
   for (std::size_t k = 0; k < motion.points.size(); ++k) {
-    listed = std::min(listed, motion.separation_m(k));
+    listed = std::min(listed, hamjet::separation_m(motion.points[k].state));
   }
   EXPECT_GT(listed, 10 * nearest.state.position_m.norm());
 }

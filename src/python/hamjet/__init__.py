@@ -19,13 +19,14 @@ from ._hamjet import GeneratingFunction, Jet, Units, __version__
 from .errors import (Error, InputOutputError, MissingFileError, NumericalError, SceneError,
                      TooLargeError, UsageError)
 from .orbits import orbit
-from .relative_motion import Transfers, Validity, transfer, validity
+from .relative_motion import (Motion, Separation, Transfers, Validity, motion, transfer,
+                              validity)
 from .relative_states import RelativeStates
 from .results import AlongTime, Nominal, Result, Run, StudyResult, load, run
 
 __all__ = [
     "AlongTime", "Error", "GeneratingFunction", "InputOutputError", "Jet", "MissingFileError",
-    "Nominal", "NumericalError", "RelativeStates", "Result", "Run", "SceneError", "StudyResult",
-    "TooLargeError", "Transfers", "Units", "UsageError", "Validity", "__version__", "load",
-    "orbit", "run", "transfer", "validity",
+    "Motion", "Nominal", "NumericalError", "RelativeStates", "Result", "Run", "SceneError",
+    "Separation", "StudyResult", "TooLargeError", "Transfers", "Units", "UsageError", "Validity",
+    "__version__", "load", "motion", "orbit", "run", "transfer", "validity",
 ]

@@ -16,7 +16,7 @@ _ANGLES = {"raan_deg": 0, "argp_deg": 0}
 
 
 def orbit(**keys: Any) -> dict[str, Any]:
-    """A scene of an orbit from keyword arguments, for ``run``, ``transfer`` and ``validity``.
+    """A scene of an orbit from keyword arguments, for ``run``, ``motion`` and others.
 
         jet = hamjet.run(hamjet.orbit(a_km=7078, e=0.001, i_deg=98, J2=1.0826e-3, order=4,
                                       duration_orbits=0.8)).runs["gauss8"].jet

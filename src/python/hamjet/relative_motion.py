@@ -1,4 +1,4 @@
-"""Transfers between relative positions, and how far polynomials can be trusted."""
+"""Motion of a deputy, transfers between places, and how far polynomials can be trusted."""
 
 from __future__ import annotations
 
@@ -22,13 +22,65 @@ Flags = npt.NDArray[np.bool_]
 _MOST_INTERVALS = 1_000_000
 
 
-_Study = TypeVar("_Study", _hamjet.TransferStudy, _hamjet.ValidityStudy)
+_Study = TypeVar("_Study", _hamjet.MotionStudy, _hamjet.TransferStudy, _hamjet.ValidityStudy)
 
 
 def _required(study: _Study | None, what: str) -> _Study:
     if study is None:
         raise UsageError(f"{what}: these results were unpickled, which leaves their study behind")
     return study
+
+
+@dataclass(frozen=True, eq=False)
+class Separation(Immutable):
+    """Where a deputy is beside its chief at one time; immutable, arrays read-only."""
+
+    time_s: float  #: since the start
+    separation_m: float  #: the distance of the two
+    position_m: Floats  #: (3,): along the axes of the motion's frame
+    velocity_m_s: Floats  #: (3,)
+
+
+@dataclass(frozen=True, eq=False)
+class Motion(Immutable):
+    """How a deputy moves relative to its chief, at T equal times; immutable, arrays read-only.
+
+    Places are those of the deputy as it flew with the full equations of motion, and errors the
+    distances from there to where the polynomials of the orders 1 to N have it.
+    """
+
+    frame: str  #: the scene's, in words: "RTN with rotating derivatives" unless it says another
+    times_s: Floats  #: (T,): the first is 0
+    position_m: Floats  #: (T, 3): along the axes of the frame; of RTN: R, T, N
+    velocity_m_s: Floats  #: (T, 3)
+    separation_m: Floats  #: (T,): the distance of the two
+    error_by_order_m: Floats  #: (T, N): of the polynomial orders 1 to N
+    flight_floor_m: float  #: errors below this say nothing
+    nearest: Separation  #: the least separation, between the times too
+    farthest: Separation  #: the greatest, likewise
+    verdict: str  #: how near, how far and how wrong: what ``hamjet motion`` says first
+    table: Table = field(repr=False)  #: the columns of ``motion.csv``, by name
+    _study: _hamjet.MotionStudy | None = field(repr=False)
+
+    @property
+    def summary(self) -> dict[str, Any]:
+        """What ``hamjet motion`` writes as summary.json. Draws the report when first asked."""
+        return dict(json.loads(_required(self._study, "summary").summary))
+
+    def write(self, directory: str | os.PathLike[str]) -> None:
+        """Writes what ``hamjet motion`` writes, the report among it. Raises InputOutputError."""
+        _required(self._study, "write").write(arguments.path(directory, "directory"))
+
+    def to_dataframe(self) -> Any:
+        """A pandas.DataFrame with the columns of ``motion.csv``, a row a time.
+
+        Raises ImportError where pandas is not installed.
+        """
+        return data_frame(self.table)
+
+    def __getstate__(self) -> dict[str, Any]:
+        # The study, which files are written from, is the C++ library's.
+        return {**super().__getstate__(), "_study": None}
 
 
 @dataclass(frozen=True, eq=False)
@@ -146,6 +198,19 @@ class Validity(Immutable):
     def __getstate__(self) -> dict[str, Any]:
         # The study, which trajectories are flown and files are written from, is the C++ library's.
         return {**super().__getstate__(), "_study": None}
+
+
+def motion(scene: scenes.Scene, *, overrides: scenes.Overrides | None = None,
+           progress: Progress | None = None) -> Motion:
+    """Where a deputy goes by itself, as seen from its chief, as ``hamjet motion`` finds it.
+
+    The scene has a table [deputy]; arguments as of ``run``. Raises SceneError, UsageError,
+    NumericalError, TooLargeError, InputOutputError.
+    """
+    study = _hamjet.study_motion(scenes.read(scene, overrides), progress)
+    nearest, farthest = (Separation(*place) for place in study.extremes())
+    return Motion(**study.arrays(), nearest=nearest, farthest=farthest,
+                  table=read_table(study.csv), _study=study)
 
 
 def transfer(scene: scenes.Scene, *, overrides: scenes.Overrides | None = None,

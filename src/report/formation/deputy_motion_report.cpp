@@ -39,7 +39,8 @@ std::string error_text(const DeputyMotion& motion, double error_m) {
 
 bool is_resolved(const DeputyMotion& motion) {
   for (std::size_t i = 1; i < motion.points.size(); ++i) {
-    const double most = std::max(resolved_share * motion.separation_m(i), motion.flight_floor_m);
+    const double most =
+        std::max(resolved_share * separation_m(motion.points[i].state), motion.flight_floor_m);
     if (!(motion.points[i].errors_m.back() <= most)) return false;
   }
   return true;
@@ -59,7 +60,7 @@ std::string terminal_table(const DeputyMotion& motion) {
     const DeputyMotionPoint& point = motion.points[i];
     rows.push_back({fmt::format("{:.4g}", seconds_at(motion, i) / axis.seconds)});
     for (const double x : point.state.position_m) rows.back().push_back(fmt::format("{:.1f}", x));
-    rows.back().push_back(length_text(motion.separation_m(i)));
+    rows.back().push_back(length_text(separation_m(motion.points[i].state)));
     const auto error = [&](double error_m) {
       return i == 0 ? std::string("0 m")
              : error_m < motion.flight_floor_m
@@ -100,7 +101,7 @@ Json state_json(const DeputyMotion& motion, double time, const RelativeState& st
     return Json{json_number(v[0]), json_number(v[1]), json_number(v[2])};
   };
   return {{"time_s", time * motion.scene.units.time_s},
-          {"separation_m", json_number(state.position_m.norm())},
+          {"separation_m", json_number(separation_m(state))},
           {"position_m", vector(state.position_m)},
           {"velocity_m_s", vector(state.velocity_m_s)}};
 }
@@ -115,14 +116,14 @@ std::string deputy_motion_verdict(const DeputyMotion& motion) {
     return fmt::format("{:.3g} {}", canonical * motion.scene.units.time_s / axis.seconds,
                        axis.name);
   };
-  const auto place = [](const SeparationAt& at) { return length_text(at.state.position_m.norm()); };
+  const auto place = [](const SeparationAt& at) { return length_text(separation_m(at.state)); };
   const int order = motion.scene.order;
   const std::string error = error_text(motion, motion.largest_error_m(order));
   std::string text = fmt::format(
       "Within {} the deputy is nearest to its chief after {}, {} away, and farthest after {}, {} "
       "away; at the end it is {} away. Polynomials of order {} are never wrong by {}{}",
       time(motion.points[last].time), time(nearest.time), place(nearest), time(farthest.time),
-      place(farthest), length_text(motion.separation_m(last)), order,
+      place(farthest), length_text(separation_m(motion.points[last].state)), order,
       error.starts_with("less") ? "as much as " : "more than ",
       error.starts_with("less") ? length_text(motion.flight_floor_m) : error);
   if (order > 1) {
@@ -184,7 +185,7 @@ std::string deputy_motion_csv(const DeputyMotion& motion) {
     columns.add(fmt::format("v{}_m_s", letters[i]),
                 [=](MotionPoint point) { return point.state.velocity_m_s[axis]; });
   }
-  columns.add("separation_m", [](MotionPoint point) { return point.state.position_m.norm(); });
+  columns.add("separation_m", [](MotionPoint point) { return separation_m(point.state); });
   for (std::size_t k = 0; k < motion.points.front().errors_m.size(); ++k) {
     columns.add(fmt::format("error_m_order_{}", k + 1),
                 [=](MotionPoint point) { return point.errors_m[k]; });

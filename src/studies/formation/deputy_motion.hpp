@@ -26,7 +26,6 @@ struct DeputyMotion {
   double flight_floor_m = 0;              ///< see TransferResult; errors below it say nothing
   double propagation_seconds = 0;
 
-  double separation_m(std::size_t point) const { return points[point].state.position_m.norm(); }
   /// The largest error of an order over all times.
   double largest_error_m(int order) const;
 };

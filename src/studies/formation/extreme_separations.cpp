@@ -58,8 +58,8 @@ class Extremes {
         [&](const Turn& a, const Turn& b) { return sign * a.square < sign * b.square; });
     for (std::size_t i = 0; i < tried; ++i) {
       const SeparationAt found = flown_to_turn(turns[i].first);
-      const double least = extreme.state.position_m.norm();
-      if (sign * found.state.position_m.norm() < sign * least) extreme = found;
+      const double least = separation_m(extreme.state);
+      if (sign * separation_m(found.state) < sign * least) extreme = found;
     }
     return extreme;
   }
@@ -115,6 +115,8 @@ class Extremes {
 };
 
 }  // namespace
+
+double separation_m(const RelativeState& state) { return state.position_m.norm(); }
 
 ExtremeSeparations extreme_separations(const Scene& scene, const RelativeTrajectory& flown) {
   const Extremes extremes(scene, flown);

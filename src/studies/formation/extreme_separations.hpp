@@ -4,6 +4,10 @@
 
 namespace hamjet {
 
+/// The distance of a deputy from its chief. It is computed here alone, so that all who show it have
+/// the same digits.
+double separation_m(const RelativeState& state);
+
 /// Where a deputy is at a time of its own.
 struct SeparationAt {
   double time = 0;  ///< canonical
