@@ -10,7 +10,7 @@ from typing import Any, TypeVar
 import numpy as np
 import numpy.typing as npt
 
-from . import _hamjet, arguments, plots, scenes
+from . import _hamjet, arguments, plots, scenes, shown
 from .errors import UsageError
 from .immutable import Immutable
 from .results import Floats, Progress
@@ -40,6 +40,9 @@ class Separation(Immutable):
     position_m: Floats  #: (3,): along the axes of the motion's frame
     velocity_m_s: Floats  #: (3,)
 
+    def __repr__(self) -> str:
+        return shown.of(self, f": {self.separation_m:.6g} m at {self.time_s:.6g} s")
+
 
 @dataclass(frozen=True, eq=False)
 class Motion(Immutable):
@@ -61,6 +64,14 @@ class Motion(Immutable):
     verdict: str  #: how near, how far and how wrong: what ``hamjet motion`` says first
     table: Table = field(repr=False)  #: the columns of ``motion.csv``, by name
     _study: _hamjet.MotionStudy | None = field(repr=False)
+
+    def __repr__(self) -> str:
+        return shown.of(self, f": {shown.span(self.times_s)}, {self.frame}\n"
+                        f" nearest {self.nearest.separation_m:.6g} m at {self.nearest.time_s:.6g} "
+                        f"s, farthest {self.farthest.separation_m:.6g} m at "
+                        f"{self.farthest.time_s:.6g} s\n"
+                        f" order {self.error_by_order_m.shape[1]} is wrong by up to "
+                        f"{shown.largest(self.error_by_order_m[:, -1])} m")
 
     @property
     def summary(self) -> dict[str, Any]:
@@ -119,6 +130,18 @@ class Transfers(Immutable):
     table: Table = field(repr=False)  #: the columns of ``transfers.csv``, by name
     _study: _hamjet.TransferStudy | None = field(repr=False)
 
+    def __repr__(self) -> str:
+        best = "no answer within the tolerance and away from singularities"
+        if self.best is not None:
+            best = (f"best={self.best}: {self.total_change_m_s[self.best]:.6g} m/s in "
+                    f"{self.times_s[self.best]:.6g} s, missing by "
+                    f"{self.miss_m[self.best]:.3g} m")
+        answered = int(np.isfinite(self.total_change_m_s).sum())
+        return shown.of(self, f": {shown.span(self.times_s)}, orders 1 to "
+                        f"{self.miss_by_order_m.shape[1]}\n {answered} answered, "
+                        f"{int(self.near_singular.sum())} near a singularity, "
+                        f"{int(self.beyond_tolerance.sum())} beyond the tolerance\n {best}")
+
     @property
     def summary(self) -> dict[str, Any]:
         """What ``hamjet transfer`` writes as summary.json. Draws the report when first asked."""
@@ -170,6 +193,11 @@ class Validity(Immutable):
     is_lower_bound: Flags  #: (T, N): still right at the largest separation tried
     table: Table = field(repr=False)  #: the columns of ``validity.csv``, by name
     _study: _hamjet.ValidityStudy | None = field(repr=False)
+
+    def __repr__(self) -> str:
+        least = shown.listed(f"order {order} {proved_m.min():.4g} m"
+                             for order, proved_m in enumerate(self.proved_m.T, start=1))
+        return shown.of(self, f": {shown.span(self.times_s)}\n right at all times up to: {least}")
 
     @property
     def summary(self) -> dict[str, Any]:

@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from . import shown
 from .tables import data_frame
 
 
@@ -33,6 +34,15 @@ class RelativeStates(_RelativeStates):
 
     #: The names of the columns of ``states``, as `hamjet eval` has them.
     columns: tuple[str, ...]
+
+    def __repr__(self) -> str:
+        if len(self.states) == 1:
+            named = ", ".join(f"{name} {x + 0:.6g}" for name, x in zip(self.columns, self.states[0]))
+            return shown.of(self, f": {named}\n {self.support[0]}, miss about "
+                            f"{shown.largest(self.miss_m)} m")
+        inside = int((self.support == "inside").sum())
+        return shown.of(self, f" of {len(self.states)} deputies in {', '.join(self.columns)}\n "
+                        f"{inside} inside, miss up to about {shown.largest(self.miss_m)} m")
 
     def to_dataframe(self) -> Any:
         """A pandas.DataFrame with the columns that `hamjet eval` writes, a row a state.

@@ -12,7 +12,7 @@ from typing import Any, TypeVar
 import numpy as np
 import numpy.typing as npt
 
-from . import _hamjet, arguments, scenes
+from . import _hamjet, arguments, scenes, shown
 from ._hamjet import Jet
 from .errors import InputOutputError, NumericalError, UsageError
 from .immutable import Immutable
@@ -37,6 +37,10 @@ class Nominal(Immutable):
     states: Floats  #: (M, 2n): (q, p), canonical
     energy_error: Floats  #: (M,): (H - H(0)) / abs(H(0)); H - H(0) where H(0) = 0
 
+    def __repr__(self) -> str:
+        return shown.of(self, f": {shown.span(self.times_s, 'points')}, energy error up to "
+                        f"{shown.largest(self.energy_error)}")
+
 
 @dataclass(frozen=True, eq=False)
 class AlongTime(Immutable):
@@ -48,6 +52,12 @@ class AlongTime(Immutable):
     condition: Floats  #: (M,): of the kind's linear part
     energy_error: Floats  #: (M,): relative, signed
     singular_times_canonical: Floats  #: at which the kind does not exist
+
+    def __repr__(self) -> str:
+        return shown.of(self, f": {shown.span(self.times_s)}, exactness up to "
+                        f"{shown.largest(self.exactness)}, energy error up to "
+                        f"{shown.largest(self.energy_error)}, "
+                        f"{len(self.singular_times_canonical)} singular times")
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,6 +74,14 @@ class Run(Immutable):
     #: None unless the scene has a [figure].
     along_time: AlongTime | None = field(repr=False)
     _summary: str = field(repr=False)
+
+    def __repr__(self) -> str:
+        if self.error is not None:
+            return shown.of(self, f" {self.label}, failed: {self.error}")
+        checks = "".join(f"\n failed check: {check}" for check in self.failed_checks[:2])
+        more = len(self.failed_checks) - 2
+        return shown.of(self, f" {self.label} with {self.jet!r}{checks}"
+                        + (f"\n and {more} more" if more > 0 else ""))
 
     @property
     def jet(self) -> Jet:
@@ -109,6 +127,13 @@ class Result(Immutable):
     _summary: str = field(repr=False)
     _propagation: _hamjet.Propagation | None = field(repr=False)
 
+    def __repr__(self) -> str:
+        runs = shown.listed(label + (" (failed)" if run.error is not None else "")
+                            for label, run in self.runs.items())
+        return shown.of(self, f" of {self.summary['scene']}: {len(self.runs)} "
+                        f"{'run' if len(self.runs) == 1 else 'runs'}, {runs}; exit code "
+                        f"{self.exit_code}")
+
     @property
     def summary(self) -> dict[str, Any]:
         """What the command writes as summary.json; a new dict each time."""
@@ -137,6 +162,12 @@ class StudyResult(Immutable):
     tables: Mapping[str, Table]
     _summary: str = field(repr=False)
     _report: _hamjet.StudyReport | None = field(repr=False)
+
+    def __repr__(self) -> str:
+        tables = shown.listed(f"{name} ({len(next(iter(table.values()), ()))} rows)"
+                              for name, table in self.tables.items())
+        return shown.of(self, f" with the tables {tables}; exit code {self.exit_code}"
+                        + (f"\n {self.failure}" if self.failure else ""))
 
     @property
     def summary(self) -> dict[str, Any]:
