@@ -34,16 +34,15 @@ DeputyForm form_of(const std::string& frame, const std::optional<std::string>& d
                        [&](DeputyForm form) { return name_of(form) == frame; });
 }
 
-void check_one_frame(const std::string& option, const std::string& frame) {
+void check_one_frame(Caller caller, std::string_view name, const std::string& frame) {
+  const std::string given = argument(caller, name, io::printable(frame));
   if (frame == "LVLH") {
-    refuse(
-        option +
-        " LVLH: has two meanings: x radially outward and z along the orbit's normal, or z toward "
-        "the nadir and y opposite the normal; say RTN, which is radial, transverse, normal");
+    refuse(given +
+           ": has two meanings: x radially outward and z along the orbit's normal, or z toward "
+           "the nadir and y opposite the normal; say RTN, which is radial, transverse, normal");
   }
   if (std::find(frames().begin(), frames().end(), frame) == frames().end()) {
-    refuse(fmt::format("{} {}: no such frame; {}", option, io::printable(frame),
-                       io::suggestion(frame, frames())));
+    refuse(fmt::format("{}: no such frame; {}", given, io::suggestion(frame, frames())));
   }
 }
 
@@ -72,20 +71,23 @@ const std::vector<DeputyForm>& forms() {
 }
 
 void EvalFrames::check() const {
-  check_one_frame("--frame", frame);
-  if (to) check_one_frame("--to", *to);
+  check_one_frame(caller, "frame", frame);
+  if (to) check_one_frame(caller, "to", *to);
+  const std::string given_frame = argument(caller, "frame", frame);
   if (to && (frame == canonical_frame) != (*to == canonical_frame)) {
-    refuse(fmt::format("--to {}: got --frame {}, must both be canonical or neither", *to, frame));
+    refuse(fmt::format("{}: got {}, must both be canonical or neither", argument(caller, "to", *to),
+                       given_frame));
   }
   if (!derivatives) return;
   const std::string_view rtn = name_of(DeputyForm::rtn_rotating);
   if (frame != rtn && final_frame() != rtn) {
-    refuse(fmt::format("--derivatives: goes with RTN alone, as --frame or --to, got --frame {}",
-                       frame));
+    refuse(fmt::format("{}: goes with RTN alone, as {} or {}, got {}",
+                       argument(caller, "derivatives"), argument(caller, "frame"),
+                       argument(caller, "to"), given_frame));
   }
   if (*derivatives != "rotating" && *derivatives != "inertial") {
-    refuse(
-        fmt::format("--derivatives {}: must be rotating or inertial", io::printable(*derivatives)));
+    refuse(fmt::format("{}: must be rotating or inertial",
+                       argument(caller, "derivatives", io::printable(*derivatives))));
   }
 }
 
@@ -99,8 +101,11 @@ EvalCoordinates::EvalCoordinates(const io::StoredJet& stored, const EvalFrames& 
     return;
   }
   if (!is_orbit(stored.model)) {
-    refuse(fmt::format("--frame {}: the model {} is no orbit; say --frame canonical", frames.frame,
-                       model_name(stored.model)));
+    refuse(fmt::format("{}: the model {} is no orbit; {}",
+                       argument(frames.caller, "frame", frames.frame), model_name(stored.model),
+                       frames.caller == Caller::command
+                           ? "say " + argument(frames.caller, "frame", canonical_frame)
+                           : "evaluate() takes canonical deviations"));
   }
   const DeputyForm initial = form_of(frames.frame, frames.derivatives);
   const DeputyForm final = form_of(frames.final_frame(), frames.derivatives);

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "argument_words.hpp"
 #include "hamjet/formats/stored_jet.hpp"
 #include "hamjet/relative_motion/deputy_coordinates.hpp"
 
@@ -17,11 +18,12 @@ inline constexpr std::string_view canonical_frame = "canonical";
 /// The forms of deputies that have words of their own.
 const std::vector<DeputyForm>& forms();
 
-/// The words of the command line.
+/// The words of the command line, or of the module's evaluate_relative.
 struct EvalFrames {
   std::string frame = "RTN";                    ///< name of a form, or canonical
   std::optional<std::string> to = {};           ///< likewise, of the results; as `frame` if absent
   std::optional<std::string> derivatives = {};  ///< of RTN: rotating (default) or inertial
+  Caller caller = Caller::command;
 
   const std::string& final_frame() const { return to ? *to : frame; }
   /// Throws Error(usage) if they are no such words or do not fit each other.

@@ -15,7 +15,9 @@ namespace {
 
 cli::EvalCoordinates frame_of(const io::StoredJet& stored, const RelativeCoordinates& coordinates) {
   if (coordinates.frames.frame == cli::canonical_frame) {
-    throw Error(ErrorKind::usage, "--frame canonical: evaluate() takes canonical deviations");
+    throw Error(ErrorKind::usage,
+                cli::argument(cli::Caller::module, "frame", cli::canonical_frame) +
+                    ": evaluate() takes canonical deviations");
   }
   return {stored, coordinates.frames};
 }

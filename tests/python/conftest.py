@@ -45,6 +45,13 @@ def message(result: subprocess.CompletedProcess[str]) -> str:
     return result.stderr[len("hamjet: "):-1]
 
 
+def message_of_module(result: subprocess.CompletedProcess[str]) -> str:
+    """The same with changes of the scene named as the argument of Python."""
+    first, *rest = message(result).split("--set ")
+    return first + ("override " if first else "overrides: ") + "override ".join(rest) if rest \
+        else first
+
+
 def scene(base: dict, **tables: object) -> dict:
     """A copy of a scene with other tables."""
     return {**copy.deepcopy(base), **tables}

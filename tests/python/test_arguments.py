@@ -46,17 +46,17 @@ SURROGATE = "not a text, got a string with a lone surrogate, must be Unicode"
 
 
 @pytest.mark.parametrize("overrides, text", [
-    ({"title": "a\udcff"}, f"--set title: {SURROGATE}"),
-    ({"jet": {"b\ud800": 1}}, f"--set jet: {SURROGATE}"),
-    ({"jet": {"order": ["c\ud800"]}}, f"--set jet.order.0: {SURROGATE}"),
-    ({"d\ud800": 1}, f"--set d\\ud800: {SURROGATE}"),
-    (["title='e\ud800'"], f"--set title='e\\ud800': {SURROGATE}"),
+    ({"title": "a\udcff"}, f"overrides: title: {SURROGATE}"),
+    ({"jet": {"b\ud800": 1}}, f"overrides: jet: {SURROGATE}"),
+    ({"jet": {"order": ["c\ud800"]}}, f"overrides: jet.order.0: {SURROGATE}"),
+    ({"d\ud800": 1}, f"overrides: d\\ud800: {SURROGATE}"),
+    (["title='e\ud800'"], f"overrides: title='e\\ud800': {SURROGATE}"),
     ({"jet.variables": ["x", None]},
-     "--set jet.variables.1: wrong type, got NoneType, must be a bool, int, float, str, list, dict "
-     "or NumPy array; None, which removes a key, must be its whole value"),
+     "overrides: jet.variables.1: wrong type, got NoneType, must be a bool, int, float, str, list, "
+     "dict or NumPy array; None, which removes a key, must be its whole value"),
     ({"jet": {"order": {2}}},
-     "--set jet.order: wrong type, got set, must be a bool, int, float, str, list, dict or NumPy "
-     "array; None, which removes a key, must be its whole value"),
+     "overrides: jet.order: wrong type, got set, must be a bool, int, float, str, list, dict or "
+     "NumPy array; None, which removes a key, must be its whole value"),
 ])
 def test_overrides_that_are_no_toml_are_refused(overrides, text):
     for given in (OSCILLATOR, "scene.toml", "schema = 1\n"):

@@ -1,5 +1,6 @@
 """Jets in files: what the command writes and reads, in both directions."""
 
+import errno
 import os
 import pickle
 
@@ -85,7 +86,7 @@ def test_lost_digits_are_warned_of(tmp_path):
 
 def test_composed_and_inverted_jets_are_kept_too(h5, jet):
     for made in (jet.inverse(), jet.inverse() @ jet):
-        made.save(h5)
+        made.save(h5, overwrite=True)
         assert same(hamjet.Jet.load(h5), made)
 
 
@@ -126,9 +127,30 @@ def test_a_file_is_replaced_whole_or_not_at_all(tmp_path, jet):
     jet.save(file)
     before = file.read_bytes()
     other = scene(ORBIT, jet={"order": 1, "duration_canonical": 1})
-    hamjet.run(other).runs["gauss8"].jet.save(file)
+    small = hamjet.run(other).runs["gauss8"].jet
+    with pytest.raises(FileExistsError) as raised:
+        small.save(file)
+    assert isinstance(raised.value, hamjet.ExistingFileError)
+    assert isinstance(raised.value, hamjet.InputOutputError)
+    assert str(raised.value) == f"{file}: is there; overwrite=True would replace it"
+    assert raised.value.filename == str(file) and raised.value.errno == errno.EEXIST
+    assert str(pickle.loads(pickle.dumps(raised.value))) == str(raised.value)
+    assert file.read_bytes() == before
+    small.save(file, overwrite=True)
     assert file.read_bytes() != before
     assert os.listdir(tmp_path) == ["jet.csv"]
+
+
+def test_no_folder_is_made(tmp_path, jet):
+    file = tmp_path / "none" / "jet.csv"
+    for overwrite in (False, True):
+        with pytest.raises(FileNotFoundError) as raised:
+            jet.save(file, overwrite=overwrite)
+        assert isinstance(raised.value, hamjet.MissingFileError)
+        assert str(raised.value) == (
+            f"{file}: cannot be written: the folder {file.parent} is not there")
+        assert raised.value.filename == str(file.parent)
+    assert os.listdir(tmp_path) == []
 
 
 def test_polynomials_from_elsewhere(tmp_path):
@@ -145,5 +167,5 @@ def test_polynomials_from_elsewhere(tmp_path):
     assert again.units.length_km == jet.units.length_km
     assert (again.nominal_initial == jet.nominal_initial).all()
     del told["units"]
-    with pytest.raises(hamjet.UsageError, match="needs length_unit_km, time_unit_s as well"):
+    with pytest.raises(hamjet.UsageError, match="^load: a jet from elsewhere needs units as"):
         hamjet.Jet.load(tmp_path / "x.dace", **told)

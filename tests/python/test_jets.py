@@ -180,6 +180,20 @@ def test_a_jet_and_its_inverse_are_the_identity(jet):
             assert miss < 1e-12 * size, degree
 
 
+@pytest.mark.parametrize("revolutions", [0.25, 1, 4, 10])
+def test_what_an_inverse_loses_is_the_condition_number_for_each_degree(revolutions):
+    jet = hamjet.run(hamjet.orbit(a_km=7078, e=0.01, i_deg=98, J2=1e-3, order=4,
+                                  duration_orbits=revolutions)).runs["gauss8"].jet
+    condition = np.linalg.cond(jet.linear_part)
+    degrees = jet.exponents.sum(axis=1)
+    expected = np.zeros_like(jet.coefficients)
+    expected[:, 1:7] = np.eye(6)
+    miss = np.abs((jet.inverse() @ jet).coefficients - expected)
+    for degree in range(1, 5):
+        # About: the sums that rounding enters have tens of terms.
+        assert miss[:, degrees == degree].max() < 1e-14 * condition**degree
+
+
 def test_two_halves_composed_are_the_whole(jet):
     # The flow's identity, to the integrator's tolerance.
     half = {"order": 3, "duration_canonical": 2.5}

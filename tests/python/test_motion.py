@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import hamjet
-from conftest import ORBIT, SOURCE, command, message
+from conftest import ORBIT, SOURCE, command, message_of_module
 from test_relative_motion import columns, numbers, table_of_command
 from test_results import without_times
 
@@ -127,6 +127,6 @@ def test_scenes_without_a_motion_are_refused_as_by_the_command(tmp_path, file, o
     printed = command("motion", file, "--set", option, directory=tmp_path)
     with pytest.raises(hamjet.SceneError) as raised:
         hamjet.motion(file, overrides=[option])
-    assert str(raised.value) == message(printed)
+    assert str(raised.value) == message_of_module(printed)
     with pytest.raises(hamjet.SceneError, match="^scene: deputy: missing, must be a table"):
         hamjet.motion(ORBIT)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import hamjet
-from conftest import ORBIT, OSCILLATOR, SOURCE, command, message, scene
+from conftest import ORBIT, OSCILLATOR, SOURCE, command, message, message_of_module, scene
 from test_results import without_times
 
 TRANSFER = scene(
@@ -87,11 +87,19 @@ def test_frames_that_do_not_fit_are_refused(jet):
     momenta = hamjet.run(ORBIT, overrides={"jet.variables": ["px", "py", "pz"]}).runs["gauss8"].jet
     state = np.ones(6)
     for call, text in (
-        (lambda: jet.evaluate_relative(state, frame="LVLH"), "--frame LVLH: has two meanings"),
-        (lambda: jet.evaluate_relative(state, frame="canonical"), "--frame canonical"),
+        (lambda: jet.evaluate_relative(state, frame="LVLH"), "^frame='LVLH': has two meanings"),
+        (lambda: jet.evaluate_relative(state, frame="xyz"), "^frame='xyz': no such frame; "),
+        (lambda: jet.evaluate_relative(state, to="RTM"), "^to='RTM': no such frame; did you mean"),
+        (lambda: jet.evaluate_relative(state, to="canonical"),
+         "^to='canonical': got frame='RTN', must both be canonical or neither"),
+        (lambda: jet.evaluate_relative(state, derivatives="x"),
+         "^derivatives='x': must be rotating or inertial"),
+        (lambda: jet.evaluate_relative(state, frame="canonical"),
+         "^frame='canonical': evaluate.. takes"),
         (lambda: jet.evaluate_relative(state, frame="inertial", derivatives="rotating"),
-         "--derivatives: goes with RTN alone"),
-        (lambda: oscillator.evaluate_relative(state), "harmonic-oscillator is no orbit"),
+         "^derivatives: goes with RTN alone, as frame or to, got frame='inertial'"),
+        (lambda: oscillator.evaluate_relative(state),
+         "^frame='RTN': the model harmonic-oscillator is no orbit; evaluate.. takes"),
         (lambda: momenta.evaluate_relative(np.vstack([state * [0, 0, 0, 1, 1, 1], state]),
                                            derivatives="inertial"), "row 1: the deviation leaves"),
     ):
@@ -171,7 +179,7 @@ def test_flows_in_arcs_are_refused_as_by_the_command(tmp_path, study, table):
     printed = command(study, TRANSFER_SCENE, "--set", "jet.arcs=2", directory=tmp_path)
     with pytest.raises(hamjet.SceneError) as raised:
         getattr(hamjet, study)(TRANSFER_SCENE, overrides={"jet.arcs": 2, **table})
-    assert str(raised.value) == message(printed)
+    assert str(raised.value) == message_of_module(printed)
 
 
 def test_scenes_without_the_table_are_refused_as_by_the_command(tmp_path):

@@ -17,7 +17,7 @@ def use(points: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
     function: hamjet.GeneratingFunction = jet.invert_partially("F1")
     values = function.evaluate(jet.compose(jet.inverse()).evaluate(points, out=points))
     states: npt.NDArray[np.float64] = jet.evaluate_relative(points).states
-    jet.save(pathlib.Path("jet.h5"))
+    jet.save(pathlib.Path("jet.h5"), overwrite=True)
     again: hamjet.Jet = hamjet.Jet.load("jet.h5", run=names[0]) @ jet
     made = hamjet.Jet.from_arrays(again.coefficients, again.exponents, model=jet.model,
                                   nominal_initial=jet.nominal_initial,

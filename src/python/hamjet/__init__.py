@@ -16,8 +16,8 @@ text that the command prints. Long work lets other threads run and ends within a
 """
 
 from ._hamjet import GeneratingFunction, Jet, Units, __version__
-from .errors import (Error, InputOutputError, MissingFileError, NumericalError, SceneError,
-                     TooLargeError, UsageError)
+from .errors import (Error, ExistingFileError, InputOutputError, MissingFileError, NumericalError,
+                     SceneError, TooLargeError, UsageError)
 from .orbits import orbit
 from .relative_motion import (Motion, Separation, Transfers, Validity, motion, transfer,
                               validity)
@@ -25,8 +25,8 @@ from .relative_states import RelativeStates
 from .results import AlongTime, Nominal, Result, Run, StudyResult, load, run
 
 __all__ = [
-    "AlongTime", "Error", "GeneratingFunction", "InputOutputError", "Jet", "MissingFileError",
-    "Motion", "Nominal", "NumericalError", "RelativeStates", "Result", "Run", "SceneError",
-    "Separation", "StudyResult", "TooLargeError", "Transfers", "Units", "UsageError", "Validity",
-    "__version__", "load", "motion", "orbit", "run", "transfer", "validity",
+    "AlongTime", "Error", "ExistingFileError", "GeneratingFunction", "InputOutputError", "Jet",
+    "MissingFileError", "Motion", "Nominal", "NumericalError", "RelativeStates", "Result", "Run",
+    "SceneError", "Separation", "StudyResult", "TooLargeError", "Transfers", "Units", "UsageError",
+    "Validity", "__version__", "load", "motion", "orbit", "run", "transfer", "validity",
 ]

@@ -53,7 +53,4 @@ def threads(value: Any) -> int | None:
     """None: as many as the process may use at once."""
     if value is None:
         return None
-    try:
-        return integer(value, "--threads", 1, _MOST_THREADS)
-    except UsageError:
-        raise UsageError(f"--threads: Value {value} not in range 1 to {_MOST_THREADS}") from None
+    return integer(value, "threads", 1, _MOST_THREADS)

@@ -36,20 +36,34 @@ class InputOutputError(Error, OSError):
     exit_code = 5
 
 
-class MissingFileError(InputOutputError, FileNotFoundError):
-    """A file that was to be read is not there; ``filename`` says which."""
+class _FileError(InputOutputError):
+    """An error about one file, with what Python's own errors of this kind have."""
+
+    _errno: int
 
     def __init__(self, text: str, filename: str | os.PathLike[str]) -> None:
         super().__init__(text)
-        self.errno = errno.ENOENT
-        self.strerror = os.strerror(errno.ENOENT)
+        self.errno = self._errno
+        self.strerror = os.strerror(self._errno)
         self.filename = os.fspath(filename)
 
     def __str__(self) -> str:
         return str(self.args[0])
 
-    def __reduce__(self) -> tuple[type[MissingFileError], tuple[str, str]]:
+    def __reduce__(self) -> tuple[type[_FileError], tuple[str, str]]:
         return type(self), (str(self), self.filename)
+
+
+class MissingFileError(_FileError, FileNotFoundError):
+    """A file to read, or a folder to write into, is not there; ``filename`` says which."""
+
+    _errno = errno.ENOENT
+
+
+class ExistingFileError(_FileError, FileExistsError):
+    """A file to write is there already, and was not to be replaced; ``filename`` says which."""
+
+    _errno = errno.EEXIST
 
 
 class TooLargeError(Error):

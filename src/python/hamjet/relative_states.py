@@ -37,7 +37,8 @@ class RelativeStates(_RelativeStates):
 
     def __repr__(self) -> str:
         if len(self.states) == 1:
-            named = ", ".join(f"{name} {x + 0:.6g}" for name, x in zip(self.columns, self.states[0]))
+            named = ", ".join(f"{name} {x + 0:.6g}"
+                              for name, x in zip(self.columns, self.states[0]))
             return shown.of(self, f": {named}\n {self.support[0]}, miss about "
                             f"{shown.largest(self.miss_m)} m")
         inside = int((self.support == "inside").sum())

@@ -33,32 +33,32 @@ def _toml(value: Any, key: str) -> str:
     if isinstance(value, (int, float)):
         return repr(value)
     if isinstance(value, str):
-        return _toml_string(value, f"--set {key}")
+        return _toml_string(value, f"overrides: {key}")
     if isinstance(value, Mapping):
-        entries = [_toml_string(str(k), f"--set {key}") + " = " + _toml(v, f"{key}.{k}")
+        entries = [_toml_string(str(k), f"overrides: {key}") + " = " + _toml(v, f"{key}.{k}")
                    for k, v in value.items()]
         return "{" + ", ".join(entries) + "}"
     if isinstance(value, (list, tuple)):
         return "[" + ", ".join(_toml(v, f"{key}.{i}") for i, v in enumerate(value)) + "]"
-    raise UsageError(f"--set {key}: wrong type, got {type(value).__name__}, must be a bool, int, "
-                     "float, str, list, dict or NumPy array; None, which removes a key, must be "
-                     "its whole value")
+    raise UsageError(f"overrides: {key}: wrong type, got {type(value).__name__}, must be a bool, "
+                     "int, float, str, list, dict or NumPy array; None, which removes a key, must "
+                     "be its whole value")
 
 
 def _pairs(overrides: Overrides | None) -> list[tuple[str, str]]:
     if overrides is None:
         return []
     if isinstance(overrides, Mapping):
-        return [(arguments.text(str(key), f"--set {key}"),
+        return [(arguments.text(str(key), f"overrides: {key}"),
                  "null" if value is None else _toml(value, str(key)))
                 for key, value in overrides.items()]
     if isinstance(overrides, str):
         overrides = [overrides]
     pairs = []
     for text in overrides:
-        key, equals, value = arguments.text(str(text), f"--set {text}").partition("=")
+        key, equals, value = arguments.text(str(text), f"overrides: {text}").partition("=")
         if not key or not equals:
-            raise UsageError(f"--set {text}: must be key=value, for example jet.order=3")
+            raise UsageError(f"overrides: {text}: must be key=value, for example jet.order=3")
         pairs.append((key, value))
     return pairs
 
