@@ -8,6 +8,7 @@
 #include <map>
 #include <utility>
 
+#include "../scene/key_title.hpp"
 #include "../text/html_text.hpp"
 
 namespace hamjet::io {
@@ -77,8 +78,8 @@ Chart sweep_map(const SweepStudy& study, const SweepRows& rows) {
   Chart chart;
   chart.name = "map";
   chart.title = study.title;
-  chart.x.label = study.keys[settings.x].name;
-  chart.y.label = study.keys[settings.y].name;
+  chart.x.label = key_title(study.keys[settings.x].name);
+  chart.y.label = key_title(study.keys[settings.y].name);
   chart.x.is_logarithmic = study.keys[settings.x].is_logarithmic;
   chart.y.is_logarithmic = study.keys[settings.y].is_logarithmic;
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "plot_program.hpp"
 
 // stability.html.
@@ -19,6 +21,28 @@ TEST(StabilityPage, SaysWhichErrorsAreFarBelowTheirFloor) {
   const std::string page = stability_page({result}, {}, drawer);
   EXPECT_NE(page.find("Errors below 0.001 of their floor, zeros too, are drawn at it: 2."),
             std::string::npos);
+}
+
+TEST(StabilityPage, GrowthIsDrawnAlongHoursAndRevolutions) {
+  if (!has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
+  Scene scene;
+  scene.system.model = SystemModel::kepler;
+  scene.system.mu_km3_s2 = 398600.4415;
+  scene.units = {7000, 1000};
+  scene.nominal = {1, 0, 0, 0, 1, 0};
+  StabilityCase subject{"case", "a case", "group", "why", {}, scene};
+  StabilityResult result;
+  result.subject = &subject;
+  // 2 to 200 revolutions of 2 pi thousand seconds.
+  const double turn = 2 * std::numbers::pi;
+  result.growth = {{"state error", {{2 * turn, 1e-15}, {200 * turn, 1e-12}}, 1.5, 1.5}};
+  ChartDrawer drawer("gnuplot");
+  const std::string page = stability_page({result}, {}, drawer);
+  EXPECT_NE(page.find("time (h)"), std::string::npos);
+  EXPECT_NE(page.find("revolutions"), std::string::npos);
+  EXPECT_EQ(page.find("time (canonical)"), std::string::npos);
+  // Decades of revolutions, as the hours beside them.
+  EXPECT_NE(page.find(">100<"), std::string::npos);
 }
 
 }  // namespace

@@ -267,7 +267,7 @@ TEST_F(SweepItems, TheMapIsDrawn) {
                                 [](const auto& file) { return file.path == "map.svg"; });
   ASSERT_NE(map, report.files.end());
   for (const char* text :
-       {"nominal.e", "nominal.i_deg", "condition", "least: 1", "missing", "no value"}) {
+       {"eccentricity", "inclination (degrees)", "condition", "least: 1", "missing", "no value"}) {
     EXPECT_NE(map->content.find(text), std::string::npos) << text;
   }
 }

@@ -124,9 +124,10 @@ std::string axis_commands(const char* axis, const ChartAxis& settings, int most_
 std::string top_axis(const ChartAxis& x) {
   if (!(x.top_unit > 0)) return "";
   return fmt::format(
-      "set border 7 lc rgb '#444444'\nset x2range [{:.17g}:{:.17g}]\nset x2tics format '%g'\n"
+      "set border 7 lc rgb '#444444'\n{}set x2range [{:.17g}:{:.17g}]\nset x2tics format '%g'\n"
       "set x2label {} noenhanced\n",
-      x.lower / x.top_unit, x.upper / x.top_unit, gnuplot_literal(x.top_label));
+      x.is_logarithmic ? "set logscale x2 10\n" : "", x.lower / x.top_unit, x.upper / x.top_unit,
+      gnuplot_literal(x.top_label));
 }
 
 /// The largest of 1, 2 or 5 times a power of ten that is no larger than the number.

@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "../../text/html_text.hpp"
 #include "../../text/quantity_text.hpp"
+#include "../../text/time_axis.hpp"
+#include "../drawing/along_time_charts.hpp"
 #include "../drawing/report_page.hpp"
 
 namespace hamjet::io {
@@ -57,14 +60,22 @@ Chart growth_chart(const StabilityResult& result) {
   Chart chart;
   chart.name = "growth-" + result.subject->name;
   chart.title = "Growth: " + result.subject->title;
-  chart.x = logarithmic_axis("time (canonical)");
+  const Scene& scene = std::get<Scene>(result.subject->scene);
+  double longest = 0;
+  for (const GrowthCurve& growth : result.growth) {
+    for (const auto& point : growth.points) longest = std::max(longest, std::abs(point.first));
+  }
+  const TimeAxis axis = time_axis(longest * scene.units.time_s);
+  const double unit = scene.units.time_s / axis.seconds;
+  chart.x = logarithmic_axis(fmt::format("time ({})", axis.name));
+  add_revolutions(scene, axis.seconds, chart.x);
   chart.y = logarithmic_axis("size");
   for (const GrowthCurve& growth : result.growth) {
     ChartCurve curve;
     curve.title = growth.quantity;
     curve.style = chart.curves.size();
     for (const auto& [time, value] : growth.points) {
-      curve.points.emplace_back(std::abs(time), value);
+      curve.points.emplace_back(std::abs(time) * unit, value);
     }
     chart.curves.push_back(std::move(curve));
     chart.reading +=

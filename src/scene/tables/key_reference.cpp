@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "../../text/scene_message.hpp"
+#include "key_unit.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -16,29 +17,6 @@ This page is what `hamjet list keys` prints; [the page on scenes](../README.md) 
 ranges include both ends. Canonical units are those of `[units]`; times in orbits are periods of the nominal. What a
 key belongs to, where not every scene can have it, stands in brackets.
 )";
-
-/// The unit that the end of a key's name stands for; empty: none.
-std::string_view unit_of(std::string_view name) {
-  static constexpr std::pair<std::string_view, std::string_view> units[] = {
-      {"_kg_m_s", "kg m/s"},
-      {"_km3_s2", "km^3/s^2"},
-      {"_km_s", "km/s"},
-      {"_m_s2", "m/s^2"},
-      {"_m_s", "m/s"},
-      {"_N_per_m", "N/m"},
-      {"_rad_per_s", "rad/s"},
-      {"_km", "km"},
-      {"_kg", "kg"},
-      {"_deg", "degrees"},
-      {"_rad", "rad"},
-      {"_m", "m"},
-      {"_s", "s"},
-      {"_canonical", "canonical"},
-      {"_orbits", "orbits"}};
-  const auto* const unit = std::find_if(std::begin(units), std::end(units),
-                                        [&](const auto& u) { return name.ends_with(u.first); });
-  return unit != std::end(units) ? unit->second : std::string_view();
-}
 
 std::string in_code(std::string_view text) { return fmt::format("`{}`", text); }
 
