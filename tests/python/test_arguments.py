@@ -42,6 +42,7 @@ def test_integers_of_numpy_are_integers(transfers):
     assert times.shape == (4,)
 
 
+NO_PROGRESS = "progress: wrong type, got int, must be a function of (task, fraction), or None"
 SURROGATE = "not a text, got a string with a lone surrogate, must be Unicode"
 
 
@@ -71,6 +72,10 @@ def test_overrides_that_are_no_toml_are_refused(overrides, text):
     (lambda: hamjet.run("a\0b"), "scene: not a path, got a NUL character in it"),
     (lambda: hamjet.load("a\0b"), "directory: not a path, got a NUL character in it"),
     (lambda: hamjet.load(None), "directory: wrong type, got NoneType, must be a path"),
+    (lambda: hamjet.run(OSCILLATOR, overrides=3),
+     "overrides: wrong type, got int, must be a dict or strings key=value"),
+    (lambda: hamjet.run(OSCILLATOR, progress=3), NO_PROGRESS),
+    (lambda: hamjet.transfer(TRANSFER, progress=3), NO_PROGRESS),
     (lambda: hamjet.run(OSCILLATOR).write(3), "directory: wrong type, got int, must be a path"),
 ])
 def test_what_is_no_path_or_text_is_refused(call, text):

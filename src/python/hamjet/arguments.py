@@ -45,6 +45,14 @@ def integer(value: Any, place: str, least: int, most: int) -> int:
     return number
 
 
+def progress(value: Any) -> Any:
+    """Refused before the work, which else would stop at its first report."""
+    if value is not None and not callable(value):
+        raise UsageError(f"progress: wrong type, got {type(value).__name__}, must be a function of "
+                         "(task, fraction), or None")
+    return value
+
+
 #: The most that the command's option --threads takes.
 _MOST_THREADS = 1024
 

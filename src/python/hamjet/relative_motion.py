@@ -235,7 +235,7 @@ def motion(scene: scenes.Scene, *, overrides: scenes.Overrides | None = None,
     The scene has a table [deputy]; arguments as of ``run``. Raises SceneError, UsageError,
     NumericalError, TooLargeError, InputOutputError.
     """
-    study = _hamjet.study_motion(scenes.read(scene, overrides), progress)
+    study = _hamjet.study_motion(scenes.read(scene, overrides), arguments.progress(progress))
     nearest, farthest = (Separation(*place) for place in study.extremes())
     return Motion(**study.arrays(), nearest=nearest, farthest=farthest,
                   table=read_table(study.csv), _study=study)
@@ -248,7 +248,7 @@ def transfer(scene: scenes.Scene, *, overrides: scenes.Overrides | None = None,
     The scene has a table [transfer]; arguments as of ``run``. Raises SceneError, UsageError,
     NumericalError, TooLargeError, InputOutputError.
     """
-    study = _hamjet.study_transfers(scenes.read(scene, overrides), progress)
+    study = _hamjet.study_transfers(scenes.read(scene, overrides), arguments.progress(progress))
     return Transfers(**study.arrays(), exit_code=study.exit_code,
                      table=read_table(study.csv), _study=study)
 
@@ -259,5 +259,5 @@ def validity(scene: scenes.Scene, *, overrides: scenes.Overrides | None = None,
 
     The scene has a table [validity]; arguments as of ``run``. Raises as ``transfer``.
     """
-    study = _hamjet.study_separations(scenes.read(scene, overrides), progress)
+    study = _hamjet.study_separations(scenes.read(scene, overrides), arguments.progress(progress))
     return Validity(**study.arrays(), table=read_table(study.csv), _study=study)

@@ -230,15 +230,16 @@ def run(scene: scenes.Scene, *, overrides: scenes.Overrides | None = None,
     Raises SceneError, UsageError, InputOutputError, TooLargeError. Other threads run meanwhile.
     """
     most_threads = arguments.threads(threads)
+    reported = arguments.progress(progress)
     given = scenes.read(scene, overrides)
     if not given.is_flow_jet:
-        report = _hamjet.run_other_study(given, progress)
+        report = _hamjet.run_other_study(given, reported)
         files = report.files
         tables = {name.removesuffix(".csv"): read_table(text)
                   for name, text in files.items() if name.endswith(".csv")}
         return StudyResult(report.exit_code, report.failure, types.MappingProxyType(tables),
                            report.summary, report)
-    propagation = _hamjet.run_flow_jet(given, most_threads, progress)
+    propagation = _hamjet.run_flow_jet(given, most_threads, reported)
     summary = json.loads(propagation.summary)
     time_s = summary["units"]["time_s"]
     runs = {entry["label"]: _computed_run(propagation, index, entry, time_s)

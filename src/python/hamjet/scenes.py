@@ -54,6 +54,9 @@ def _pairs(overrides: Overrides | None) -> list[tuple[str, str]]:
                 for key, value in overrides.items()]
     if isinstance(overrides, str):
         overrides = [overrides]
+    if not isinstance(overrides, Iterable):
+        raise UsageError(f"overrides: wrong type, got {type(overrides).__name__}, must be a dict or "
+                         "strings key=value")
     pairs = []
     for text in overrides:
         key, equals, value = arguments.text(str(text), f"overrides: {text}").partition("=")
