@@ -111,6 +111,39 @@ TEST_F(TransferCommand, PrintsItsSummaryAsJson) {
   EXPECT_EQ(succeed({"transfer", "transfer.toml", "-q"}).out, "");
 }
 
+TEST_F(TransferCommand, OptimalImpulsesAreInTableSummaryAndPage) {
+  const CommandResult result =
+      succeed({"transfer", "transfer.toml", "--set", "transfer.impulses=optimal"});
+  EXPECT_NE(result.out.find("  optimal          "), std::string::npos);
+  const std::filesystem::path directory = directory_ / "out/transfer-transfer";
+  const Json summary = read_json(directory / "summary.json");
+  const Json plan = summary["optimal_impulses"]["plan"];
+  const Table table = read_table(directory / "impulses.csv");
+  ASSERT_EQ(table.rows.size(), plan["impulses"].size());
+  double total = 0;
+  for (const auto& row : table.rows) total += std::stod(row.back());
+  EXPECT_NEAR(total, plan["total_change_m_s"].get<double>(), 1e-12);
+  EXPECT_LE(total, summary["best"]["total_change_m_s"].get<double>());
+  EXPECT_LE(plan["miss_m"].get<double>(), 1e-3);
+  EXPECT_TRUE(summary["primer_vector"]["further_impulse_helps"].get<bool>());
+  const std::string page = content(directory / "report.html");
+  EXPECT_NE(page.find("Primer vector along the transfer"), std::string::npos);
+  EXPECT_NE(page.find("to first order about this plan no impulses cost less"), std::string::npos);
+  succeed({"transfer", "transfer.toml", "-q"});
+  EXPECT_FALSE(std::filesystem::exists(directory / "impulses.csv"));
+  EXPECT_TRUE(read_json(directory / "summary.json")["optimal_impulses"].is_null());
+}
+
+// Nobody flies to a picometre.
+TEST_F(TransferCommand, OptimalImpulsesThatMissFailTheCommand) {
+  expect_error({"transfer", "transfer.toml", "--set", "transfer.impulses=optimal", "--set",
+                "transfer.refined_miss_m=1e-12"},
+               1, {"optimal impulses: the plan of the linear theory was not brought to its end"});
+  const Json summary = read_json(directory_ / "out/transfer-transfer/summary.json");
+  EXPECT_EQ(summary["exit_code"], 1);
+  EXPECT_TRUE(summary["optimal_impulses"]["failure"].is_string());
+}
+
 TEST_F(TransferCommand, StartAndEndInDifferentFrames) {
   expect_error({"transfer", with("[0, 100, 0]", "[0, 100, 0]\nframe = \"inertial\"")}, 3,
                {"changed.toml:28:9: transfer.end.frame: different frames, got inertial, where "

@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <sstream>
+
 #include "../../formats/relative_frame_text.hpp"
 #include "../../store/columns.hpp"
 #include "../../store/json_values.hpp"
 #include "../../text/html_text.hpp"
+#include "../../text/quantity_text.hpp"
 #include "../../text/terminal_text.hpp"
 #include "../drawing/report_page.hpp"
 #include "transfer_view.hpp"
@@ -26,10 +29,6 @@ double seconds(const TransferResult& result, double time) {
 std::string end_text(const TransferResult& result, const ImpulsePlan& plan) {
   return fmt::format("{} and {:.2g} m/s", miss_text(plan.miss_m, result.flight_floor_m),
                      plan.velocity_miss_m_s);
-}
-
-std::string impulses_text(const ImpulsePlan& plan) {
-  return plan.impulses.size() == 1 ? "1 impulse" : fmt::format("{} impulses", plan.impulses.size());
 }
 
 std::vector<std::string> axis_names(const TransferResult& result) {
@@ -73,7 +72,7 @@ std::string optimal_impulses_verdict(const TransferResult& result) {
       "With {} in {} the same takes {}, flown with a miss of {} ({} in the linear theory); to "
       "first "
       "order about this plan no impulses cost less than {}.",
-      impulses_text(plan), time_text(seconds(result, plan.duration)),
+      counted(plan.impulses.size(), "impulse"), time_text(seconds(result, plan.duration)),
       velocity_text(plan.total_change_m_s()), end_text(result, plan),
       velocity_text(plan.linear_change_m_s), velocity_text(plan.lower_bound_m_s));
 }
@@ -86,7 +85,8 @@ std::string impulse_lines(const TransferResult& result) {
   const ImpulsePlan* plan = plan_of(result);
   if (plan == nullptr) return text;
   text += fmt::format("  optimal          {} by {} in {}: misses by {}\n",
-                      velocity_text(plan->total_change_m_s()), impulses_text(*plan),
+                      velocity_text(plan->total_change_m_s()),
+                      counted(plan->impulses.size(), "impulse"),
                       time_text(seconds(result, plan->duration)), end_text(result, *plan));
   std::vector<std::vector<std::string>> rows = {{"at time (s)", "change (m/s)"}};
   for (std::string& name : axis_names(result)) rows[0].push_back(std::move(name));
@@ -95,7 +95,9 @@ std::string impulse_lines(const TransferResult& result) {
                     fmt::format("{:.6f}", impulse.change_m_s.norm())});
     for (const double x : impulse.change_m_s) rows.back().push_back(fmt::format("{:.6f}", x));
   }
-  return text + aligned_table(rows) + "\n";
+  std::istringstream table(aligned_table(rows));
+  for (std::string line; std::getline(table, line);) text += "    " + line + "\n";
+  return text;
 }
 
 std::string impulse_table_html(const TransferResult& result) {
