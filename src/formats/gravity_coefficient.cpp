@@ -177,8 +177,8 @@ Extended GravityCoefficient::at(const NamedFile& file, const std::optional<Epoch
     });
     file.fail_at(variable->line,
                  fmt::format("{}: {} varies with time, and nothing says when: must have the key "
-                             "epoch in [system] or [ephemeris] of the scene, or a nominal from an "
-                             "orbit message",
+                             "gravity_epoch in [system], epoch in [ephemeris], or a nominal from "
+                             "an orbit message",
                              variable->key, name()));
   }
   std::vector<const Record*> in_force;

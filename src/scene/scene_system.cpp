@@ -41,7 +41,7 @@ std::vector<SceneKey> zonal_gravity_keys() {
        "to take from the file", owner},
       {"zonals", form::array(form::integer(lowest, highest)),
        absent::other("`highest_zonal`, beside a file"), "to take from the file, ascending", owner},
-      {"epoch", form_of_epoch(), absent::other("that of the nominal's start"),
+      {"gravity_epoch", form_of_epoch(), absent::other("that of the nominal's start"),
        "of a file's coefficients that vary with time", owner},
       {"leave_out_C10", form::boolean(), absent::value(false),
        "of a file whose origin is not the centre of mass", owner}};
@@ -91,7 +91,7 @@ void read_zonals(const TableReader& system, SystemSettings& settings) {
   for (const std::string_view key : {"highest_zonal", "zonals"}) {
     refuse(key, "J2 to J20 one by one");
   }
-  for (const std::string_view key : {"epoch", "leave_out_C10"}) refuse(key, "left out");
+  for (const std::string_view key : {"gravity_epoch", "leave_out_C10"}) refuse(key, "left out");
   settings.mu_km3_s2 = system.number("mu_km3_s2");
   bool needs_radius = system.has("radius_km");
   for (int n = ZonalCoefficients::lowest; n <= ZonalCoefficients::highest; ++n) {
@@ -106,8 +106,8 @@ void read_zonals(const TableReader& system, SystemSettings& settings) {
 ZonalChoice read_zonal_choice(const TableReader& root) {
   const TableReader system = root.table("system");
   ZonalChoice choice;
-  if (system.has("epoch")) {
-    choice.epoch = [epoch = read_epoch(system, "epoch")] { return epoch; };
+  if (system.has("gravity_epoch")) {
+    choice.epoch = [epoch = read_epoch(system, "gravity_epoch")] { return epoch; };
   } else {
     choice.epoch = [&root] { return epoch_of_start(root); };
   }
@@ -138,8 +138,8 @@ void require_centre_of_mass(const TableReader& system, const GravityField& field
   if (!field.origin_offset_km) {
     system.fail("gravity_file",
                 fmt::format("C(1,0) varies with time, got a file whose origin moves about the "
-                            "centre of mass, must be one with an epoch in [system] or "
-                            "[ephemeris], or {}",
+                            "centre of mass, must be one with gravity_epoch in [system] "
+                            "or epoch in [ephemeris], or {}",
                             remedy));
   }
   if (std::abs(*field.origin_offset_km) <= largest_origin_offset * field.radius_km) return;

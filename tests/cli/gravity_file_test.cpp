@@ -54,7 +54,7 @@ TEST_F(GravityFile, ThatVariesWithTimeIsTakenAtTheEpoch) {
   write("field.gfc", field.substr(0, line) + "gfct" + row.substr(3) + " 20200101\n" + "trnd" +
                          row.substr(3) + "\ngfc 1 0 1e-9 0" + field.substr(end));
   const double J5 = -std::sqrt(11.0) * 0.685323475630e-7;
-  const std::vector<std::string> overrides = {"system.epoch=\"2020-12-31T06:00:00\"",
+  const std::vector<std::string> overrides = {"system.gravity_epoch=\"2020-12-31T06:00:00\"",
                                               "system.leave_out_C10=true"};
   succeed(with_overrides({"run", "scenes/scene.toml", "-q", "-o", "out"}, overrides));
   const Json system = read_json(directory_ / "out/summary.json")["system"];
@@ -69,8 +69,9 @@ TEST_F(GravityFile, ThatVariesWithTimeIsTakenAtTheEpoch) {
         "what varies with time is of 2020-12-31T06:00:00", "the centre of mass at z = 0.01105 m"}) {
     EXPECT_NE(check.find(words), std::string::npos) << check;
   }
-  expect_error({"run", "scenes/scene.toml"}, 5,
-               {"scenes/../field.gfc:23: gfct: C(5,0) varies with time", "epoch in [system]"});
+  expect_error(
+      {"run", "scenes/scene.toml"}, 5,
+      {"scenes/../field.gfc:23: gfct: C(5,0) varies with time", "gravity_epoch in [system]"});
 }
 
 TEST_F(GravityFile, DamagedItIsOneLineAndExitCode5) {

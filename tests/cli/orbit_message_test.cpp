@@ -370,7 +370,7 @@ TEST_F(OrbitMessages, TheTablesOutputAndEphemeris) {
   write("unknown.toml", quick_scene() + changed(dated, "\"EARTH\"", "\"TERRA\""));
   const CommandResult unknown = hamjet({"check", "unknown.toml"});
   EXPECT_EQ(unknown.exit_code, 0);
-  EXPECT_NE(unknown.err.find("ephemeris.center_name: \"TERRA\" is none of the Sun"),
+  EXPECT_NE(unwrapped(unknown.err).find("ephemeris.center_name: \"TERRA\" is none of the Sun"),
             std::string::npos)
       << unknown.err;
   refuse("[ephemeris]", "[ephemeris]\noem_version = 1.0",

@@ -128,7 +128,7 @@ TEST(TimeVariableField, TellsItsEpochAndAsksForNoneWhereNothingVaries) {
   EXPECT_EQ(constant.J[3], -9e-7);
   EXPECT_FALSE(constant.epoch.has_value());
   const std::string words =
-      "C(2,0) varies with time, and nothing says when: must have the key epoch";
+      "C(2,0) varies with time, and nothing says when: must have the key gravity_epoch";
   expect_field_refused(format_1, "field.gfc:10: gfct: " + words, {2});
   expect_field_refused(format_1, "field.gfc:10: gfct: " + words,
                        {2, {}, [] { return std::optional<Epoch>(); }});
@@ -232,7 +232,7 @@ TEST_F(SceneAtAnEpoch, TakesItFromItsKeyOrFromWhatDatesTheNominal) {
   ASSERT_TRUE(dated.system.gravity_file.has_value());
   EXPECT_EQ(dated.system.gravity_file->epoch, "2006-01-01T06:00:00.000000000000");
   // The key goes before, so that a field may be that of another moment than the start.
-  const Scene keyed = read("zonals = [2]\nepoch = \"2005-001T00:00:00\"\n", ephemeris);
+  const Scene keyed = read("zonals = [2]\ngravity_epoch = \"2005-001T00:00:00\"\n", ephemeris);
   EXPECT_NEAR(keyed.system.J[2], 4.84e-4 - 5e-11, rounding);
   EXPECT_EQ(keyed.system.gravity_file->epoch, "2005-01-01T00:00:00.000000000000");
   EXPECT_EQ(read("zonals = [3]\n", ephemeris).system.gravity_file->epoch, "");
@@ -254,11 +254,12 @@ TEST_F(SceneAtAnEpoch, TakesItFromTheOrbitMessageOfTheNominal) {
 
 TEST_F(SceneAtAnEpoch, IsRefusedWithTheKeyThatHelps) {
   expect_error("zonals = [2]\n",
-               {"field.gfc:10: gfct: C(2,0) varies with time", "epoch in [system] or [ephemeris]"},
+               {"field.gfc:10: gfct: C(2,0) varies with time", "gravity_epoch in [system]",
+                "epoch in [ephemeris]"},
                ErrorKind::input_output);
-  expect_error("zonals = [2]\nepoch = \"2005-13-01T00:00:00\"\n",
-               {"system.epoch: no moment of the calendar, got \"2005-13-01T00:00:00\""});
-  expect_error("zonals = [2]\nepoch = 2005\n", {"system.epoch: wrong type"});
+  expect_error("zonals = [2]\ngravity_epoch = \"2005-13-01T00:00:00\"\n",
+               {"system.gravity_epoch: no moment of the calendar, got \"2005-13-01T00:00:00\""});
+  expect_error("zonals = [2]\ngravity_epoch = 2005\n", {"system.gravity_epoch: wrong type"});
 }
 
 // 2e-8 radii are 0.1276 m of the Earth.
@@ -284,10 +285,11 @@ TEST_F(SceneAtAnEpoch, ASmallOffsetIsWarnedOfAndALargeOneRefused) {
   EXPECT_EQ(asked.system.J[3], -9e-7);
 
   write(format_1 + "gfct 1 0 1e-9 0 20050101\ntrnd 1 0 1e-12 0\n");
-  expect_error("zonals = [3]\n", {"system.gravity_file: C(1,0) varies with time", "epoch in "});
+  expect_error("zonals = [3]\n",
+               {"system.gravity_file: C(1,0) varies with time", "epoch in [ephemeris]"});
   EXPECT_FALSE(read("zonals = [3]\nleave_out_C10 = true\n")
                    .system.gravity_file->origin_offset_m.has_value());
-  EXPECT_EQ(read("zonals = [3]\nepoch = \"2005-01-01T00:00:00\"\n").warnings.size(), 1U);
+  EXPECT_EQ(read("zonals = [3]\ngravity_epoch = \"2005-01-01T00:00:00\"\n").warnings.size(), 1U);
 }
 
 }  // namespace

@@ -27,12 +27,18 @@ void check_line(const std::string& message, const Refusal& refusal) {
   }
 }
 
-/// Errors that are said together are a line each; behind the last a line may count the others.
+/// Errors that are said together are a line each; behind the last a line may count the others, and
+/// then come warnings.
 void check_message(const std::string& message, const Refusal& refusal) {
   std::size_t lines = 0;
   for (std::size_t begin = 0, end = 0; end != std::string::npos; begin = end + 1) {
     end = message.find('\n', begin);
     const std::string line = message.substr(begin, end - begin);
+    constexpr std::string_view warning = "warning: ";
+    if (lines > 0 && refusal.most_errors > 1 && line.starts_with(warning)) {
+      check_line(line.substr(warning.size()), refusal);
+      continue;
+    }
     require(++lines <= refusal.most_errors + (refusal.most_errors > 1 ? 1 : 0),
             "a message of too many lines: " + message);
     if (lines <= refusal.most_errors) check_line(line, refusal);

@@ -117,7 +117,7 @@ const std::map<std::string, Place>& special_places() {
       {"system.gravity_file", {"", {field, highest}, "\"../gravity/EGM96-zonals.gfc\""}},
       {"system.highest_zonal", {"", {field}}},
       {"system.zonals", {"", {field}}},
-      {"system.epoch", {"", {field, highest}, "\"2005-01-01T00:00:00\""}},
+      {"system.gravity_epoch", {"", {field, highest}, "\"2005-01-01T00:00:00\""}},
       {"system.leave_out_C10", {"", {field, highest}}},
       {"system.pairs", {"", {}, "1"}},
       {"nominal.a_km", {"", {}, "10000"}},

@@ -55,11 +55,11 @@ std::string primer_text(const TransferResult& result) {
 std::string optimal_impulses_failure(const TransferResult& result) {
   if (!result.optimal) return "";
   const ImpulsePlan* plan = plan_of(result);
-  if (plan == nullptr) return "optimal impulses: " + result.optimal->failure;
-  return plan->failure.empty() ? ""
-                               : "optimal impulses: the plan of the linear theory was not brought "
-                                 "to its end by flying: " +
-                                     plan->failure;
+  if (plan == nullptr) return result.optimal->failure;
+  return plan->failure.empty()
+             ? ""
+             : "the plan of the linear theory was not brought to its end by flying: " +
+                   plan->failure;
 }
 
 std::string optimal_impulses_verdict(const TransferResult& result) {
@@ -81,6 +81,9 @@ std::string impulse_lines(const TransferResult& result) {
   std::string text;
   if (const std::string primer = primer_text(result); !primer.empty()) {
     text += fmt::format("  another impulse  {}\n", primer);
+  }
+  if (const std::string failure = optimal_impulses_failure(result); !failure.empty()) {
+    return text + fmt::format("  optimal          not found: {}\n", failure);
   }
   const ImpulsePlan* plan = plan_of(result);
   if (plan == nullptr) return text;
@@ -107,7 +110,7 @@ std::string impulse_table_html(const TransferResult& result) {
   }
   html += "<p>" + escape_html(optimal_impulses_verdict(result)) + "</p>\n";
   const ImpulsePlan* plan = plan_of(result);
-  if (plan == nullptr) return html + "</section>\n";
+  if (plan == nullptr || !plan->failure.empty()) return html + "</section>\n";
   std::vector<std::string> names = {"time (s)", "change (m/s)"};
   for (std::string& name : axis_names(result)) names.push_back(std::move(name));
   std::string rows;

@@ -252,7 +252,7 @@ std::string transfer_failure(const TransferResult& result) {
                        result.points.size(), reason);
   }
   if (const std::string failure = optimal_impulses_failure(result); !failure.empty()) {
-    return failure;
+    return "optimal impulses: " + failure;
   }
   const TransferCounts counts = count_points(result);
   return fmt::format(
