@@ -105,7 +105,8 @@ TEST(GravityFieldFile, TakesHeadersOfOtherKinds) {
 }
 
 TEST(GravityFieldFile, RefusesWhatVariesWithoutAnEpochOnlyWhereItIsAskedFor) {
-  expect_field_refused(eigen, {"field.gfc:16: gfct: C(2,0) varies with time", "key epoch"}, {2});
+  expect_field_refused(eigen, {"field.gfc:16: gfct: C(2,0) varies with time", "key gravity_epoch"},
+                       {2});
   for (const char* record : {"trnd 6 0 1e-11 0 0 0", "dot 6 0 1e-11 0", "asin 6 0 1e-11 0 0 0 1.0",
                              "acos 6 0 1e-11 0 0 0 0 0 0.5"}) {
     const std::string text = std::string(eigen) + record + "\n";
@@ -313,8 +314,8 @@ TEST_F(SceneWithGravityFile, KeysAreChecked) {
   expect_error("gravity_file = \"none.gfc\"\nzonals = [5]\n",
                {":5:16: system.gravity_file: ", "none.gfc cannot be read"},
                ErrorKind::input_output);
-  expect_error("mu_km3_s2 = 1\nepoch = \"2005-01-01T00:00:00\"\n",
-               {"epoch: without a gravity_file"});
+  expect_error("mu_km3_s2 = 1\ngravity_epoch = \"2005-01-01T00:00:00\"\n",
+               {"gravity_epoch: without a gravity_file"});
   expect_error("mu_km3_s2 = 1\nleave_out_C10 = true\n", {"leave_out_C10: without a gravity_file"});
 }
 

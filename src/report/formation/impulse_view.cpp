@@ -91,6 +91,7 @@ std::string impulse_lines(const TransferResult& result) {
                       velocity_text(plan->total_change_m_s()),
                       counted(plan->impulses.size(), "impulse"),
                       time_text(seconds(result, plan->duration)), end_text(result, *plan));
+  if (plan->impulses.empty()) return text;
   std::vector<std::vector<std::string>> rows = {{"at time (s)", "change (m/s)"}};
   for (std::string& name : axis_names(result)) rows[0].push_back(std::move(name));
   for (const Impulse& impulse : plan->impulses) {
