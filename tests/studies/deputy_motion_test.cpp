@@ -7,6 +7,7 @@
 
 #include "formation_scenes.hpp"
 #include "hamjet/error.hpp"
+#include "studies/exact_flow.hpp"
 
 namespace hamjet {
 namespace {
@@ -108,6 +109,29 @@ TEST(DeputyMotion, TheExtremesAreFoundBetweenTheTimes) {
     listed = std::min(listed, hamjet::separation_m(motion.points[k].state));
   }
   EXPECT_GT(listed, 10 * nearest.state.position_m.norm());
+}
+
+// The flights go on from time to time, and each rounds its start: over fifteen revolutions they end
+// elsewhere than one flight does, by no more than the floor says.
+TEST(DeputyMotion, TheFloorCountsTheFlights) {
+  RelativeState start;
+  start.position_m = {0, -1000, 0};
+  Scene scene = circle(1, start);
+  scene.duration = 30 * std::numbers::pi;
+  const DeputyMotion motion = study_deputy_motion(scene);
+  const std::vector<double> once =
+      exact_flow(make_system(scene), motion.flown.deputy.front(), scene.duration);
+  double square = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    square += std::pow(once[i] - motion.flown.deputy.back()[i], 2);
+  }
+  const double gap_m = std::sqrt(square) * length_km * 1000;
+  EXPECT_LT(gap_m, motion.flight_floor_m);
+  EXPECT_GT(gap_m, motion.flight_floor_m / 1000);
+  EXPECT_EQ(motion.flight_floor_m, motion.points.back().flight_floor_m);
+  for (std::size_t i = 1; i < motion.points.size(); ++i) {
+    EXPECT_GT(motion.points[i].flight_floor_m, 0);
+  }
 }
 
 TEST(DeputyMotion, NeedsADeputyAndATime) {

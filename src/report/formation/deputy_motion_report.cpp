@@ -39,8 +39,8 @@ std::string error_text(const DeputyMotion& motion, double error_m) {
 
 bool is_resolved(const DeputyMotion& motion) {
   for (std::size_t i = 1; i < motion.points.size(); ++i) {
-    const double most =
-        std::max(resolved_share * separation_m(motion.points[i].state), motion.flight_floor_m);
+    const double most = std::max(resolved_share * separation_m(motion.points[i].state),
+                                 motion.points[i].flight_floor_m);
     if (!(motion.points[i].errors_m.back() <= most)) return false;
   }
   return true;
@@ -63,8 +63,8 @@ std::string terminal_table(const DeputyMotion& motion) {
     rows.back().push_back(length_text(separation_m(motion.points[i].state)));
     const auto error = [&](double error_m) {
       return i == 0 ? std::string("0 m")
-             : error_m < motion.flight_floor_m
-                 ? fmt::format("<{}", length_text(motion.flight_floor_m))
+             : error_m < point.flight_floor_m
+                 ? fmt::format("<{}", length_text(point.flight_floor_m))
                  : length_text(error_m);
     };
     rows.back().push_back(error(point.errors_m.back()));

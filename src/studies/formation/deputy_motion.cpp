@@ -45,7 +45,7 @@ DeputyMotion study_deputy_motion(const Scene& scene, const ProgressCallback& pro
   result.flown = flown_trajectory(scene, deviation, frame, scene.duration, count, parts);
   result.extremes = extreme_separations(scene, result.flown);
   const auto orders = static_cast<std::size_t>(scene.order);
-  result.points.push_back({0, scene.deputy->start, std::vector<double>(orders, 0.0)});
+  result.points.push_back({0, scene.deputy->start, std::vector<double>(orders, 0.0), 0});
 
   const ComputedProblem problem = make_problem(scene, available_memory());
   MonomialValues values(problem.space);
@@ -63,7 +63,7 @@ DeputyMotion study_deputy_motion(const Scene& scene, const ProgressCallback& pro
     if (progress) progress("motion", static_cast<double>(index) / count);
     const std::vector<double>& flown_chief = result.flown.chief[flown_index(index)];
     const std::vector<double>& flown_deputy = result.flown.deputy[flown_index(index)];
-    DeputyMotionPoint point{times[index], result.flown.states[flown_index(index)], {}};
+    DeputyMotionPoint point{times[index], result.flown.states[flown_index(index)], {}, 0};
     // Degree by degree: what is relative to the chief would lose its digits in the chief's place.
     std::vector<double> relative(jet.size(), 0.0);
     for (int order = 1; order <= scene.order; ++order) {
@@ -75,10 +75,11 @@ DeputyMotion study_deputy_motion(const Scene& scene, const ProgressCallback& pro
       }
       point.errors_m.push_back(std::sqrt(square) * units.length_m);
     }
+    // Every flight from time to time rounds its start anew, and independently.
+    point.flight_floor_m = std::sqrt(static_cast<double>(index + 1)) *
+                           rounding_of_flights(problem, jet) * units.length_m;
+    result.flight_floor_m = std::max(result.flight_floor_m, point.flight_floor_m);
     result.points.push_back(std::move(point));
-    if (index + 1 == times.size()) {
-      result.flight_floor_m = rounding_of_flights(problem, jet) * units.length_m;
-    }
   };
   const auto statistics = visit_jets(problem, integrator, times, visit);
   result.propagation_seconds = statistics.wall_seconds;

@@ -14,6 +14,8 @@ struct DeputyMotionPoint {
   double time = 0;               ///< canonical
   RelativeState state;           ///< as it flew
   std::vector<double> errors_m;  ///< of the polynomials of orders 1..N: distance from there
+  /// Rounding of the flights to here, which go on from time to time; errors below it say nothing.
+  double flight_floor_m = 0;
 };
 
 /// How the scene's deputy moves relative to the chief.
@@ -23,7 +25,7 @@ struct DeputyMotion {
   std::vector<DeputyMotionPoint> points;  ///< the first one is the start
   RelativeTrajectory flown;               ///< at these times and at equal ones between them
   ExtremeSeparations extremes;            ///< as it flew, between the times too
-  double flight_floor_m = 0;              ///< see TransferResult; errors below it say nothing
+  double flight_floor_m = 0;              ///< the largest of the times
   double propagation_seconds = 0;
 
   /// The largest error of an order over all times.
