@@ -10,6 +10,7 @@
 #include "../../text/html_text.hpp"
 #include "../../text/quantity_text.hpp"
 #include "../../text/terminal_text.hpp"
+#include "../drawing/along_time_charts.hpp"
 #include "../drawing/report_page.hpp"
 #include "transfer_view.hpp"
 
@@ -136,6 +137,7 @@ Chart primer_chart(const TransferResult& result) {
   chart.title = "Primer vector along the transfer";
   const TimeAxis axis = time_axis(seconds(result, result.scene.transfer->times.back()));
   chart.x.label = fmt::format("time since the start ({})", axis.name);
+  add_revolutions(result.scene, axis.seconds, chart.x);
   chart.y.label = "magnitude of the primer vector";
   chart.y.includes = {0, 1};
   const auto add = [&](std::string title, std::size_t style, const auto& magnitudes) {

@@ -156,6 +156,16 @@ Chart velocity_change_chart(const TransferResult& result) {
                                6, [](const TransferPoint& point) {
                                  return point.is_beyond_tolerance && !point.is_near_singular;
                                }));
+  if (result.optimal) {
+    ChartCurve optimal;
+    optimal.title = "optimal impulses";
+    optimal.style = 2;
+    for (const LeastChange& one : result.optimal->by_time) {
+      optimal.points.emplace_back(one.time * time_unit(result), one.change_m_s);
+    }
+    chart.curves.push_back(std::move(optimal));
+    chart.notes.emplace_back("Optimal impulses are those of the linear theory.");
+  }
   if (const auto best = result.best_point()) {
     chart.rules.push_back({true, result.points[*best].time * time_unit(result), "least"});
   }
