@@ -97,13 +97,10 @@ std::string page(const DeputyMotion& motion, const ReportOrigin& origin, ChartDr
 }
 
 Json state_json(const DeputyMotion& motion, double time, const RelativeState& state) {
-  const auto vector = [](const Eigen::Vector3d& v) {
-    return Json{json_number(v[0]), json_number(v[1]), json_number(v[2])};
-  };
   return {{"time_s", time * motion.scene.units.time_s},
           {"separation_m", json_number(separation_m(state))},
-          {"position_m", vector(state.position_m)},
-          {"velocity_m_s", vector(state.velocity_m_s)}};
+          {"position_m", vector_json(state.position_m)},
+          {"velocity_m_s", vector_json(state.velocity_m_s)}};
 }
 
 }  // namespace

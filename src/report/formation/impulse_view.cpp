@@ -12,6 +12,7 @@
 #include "../../text/terminal_text.hpp"
 #include "../drawing/along_time_charts.hpp"
 #include "../drawing/report_page.hpp"
+#include "transfer_json.hpp"
 #include "transfer_view.hpp"
 
 namespace hamjet::io {
@@ -192,10 +193,9 @@ Json optimal_impulses_json(const TransferResult& result) {
   if (plan == nullptr) return json;
   Json impulses = Json::array();
   for (const Impulse& impulse : plan->impulses) {
-    const auto& v = impulse.change_m_s;
     impulses.push_back({{"time_s", seconds(result, impulse.time)},
-                        {"change_m_s", {json_number(v[0]), json_number(v[1]), json_number(v[2])}},
-                        {"magnitude_m_s", json_number(v.norm())}});
+                        {"change_m_s", vector_json(impulse.change_m_s)},
+                        {"magnitude_m_s", json_number(impulse.change_m_s.norm())}});
   }
   json["plan"] = {{"duration_s", seconds(result, plan->duration)},
                   {"impulses", std::move(impulses)},

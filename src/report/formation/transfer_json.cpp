@@ -12,10 +12,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json vector_json(const Eigen::Vector3d& vector) {
-  return {json_number(vector[0]), json_number(vector[1]), json_number(vector[2])};
-}
-
 Json seconds_json(const TransferSeconds& seconds) {
   return {{"propagation", seconds.propagation}, {"singularities", seconds.singularities},
           {"inversion", seconds.inversion},     {"solution", seconds.solution},
@@ -59,6 +55,10 @@ Json singular_time_json(const SingularTime& singular, const CanonicalUnits& unit
 }
 
 }  // namespace
+
+Json vector_json(const Eigen::Vector3d& vector) {
+  return {json_number(vector[0]), json_number(vector[1]), json_number(vector[2])};
+}
 
 Json study_head_json(const Scene& scene, const std::string& study, const std::string& integrator) {
   return {{"scene", scene.name},

@@ -9,6 +9,9 @@
 
 namespace hamjet::io {
 
+/// Three components; null for one that is not finite.
+nlohmann::ordered_json vector_json(const Eigen::Vector3d& vector);
+
 /// What the summaries of all studies of relative motion begin with.
 nlohmann::ordered_json study_head_json(const Scene& scene, const std::string& study,
                                        const std::string& integrator);

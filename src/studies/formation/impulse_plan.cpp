@@ -256,12 +256,11 @@ std::optional<PrimerHistory> primer_history(const Scene& scene, const ComputedPr
   const MetricUnits units = metric_units(scene);
   const ImpulseGrid grid = impulse_grid(flow, point.time);
   const TransferAnswer& answer = point.best();
-  // The primer is along the impulse at each, from the frame's axes back in inertial ones.
+  // The primer is along the impulse at each end, in inertial axes.
   const auto direction = [&](const std::vector<double>& chief, const Eigen::Vector3d& change) {
-    const ChiefFrame frame(chief, units, scene.transfer->frame);
-    Eigen::Matrix3d axes;
-    for (Eigen::Index i = 0; i < 3; ++i) axes.col(i) = frame.along_axes(Eigen::Vector3d::Unit(i));
-    return Eigen::Vector3d(axes.transpose() * change.normalized());
+    const std::vector<double> z = ChiefFrame(chief, units, scene.transfer->frame)
+                                      .deviation({Eigen::Vector3d::Zero(), change});
+    return Eigen::Vector3d(Eigen::Vector3d(z[3], z[4], z[5]).normalized());
   };
   Matrix6 both;
   both << grid.effects.front().transpose(), grid.effects.back().transpose();
@@ -270,14 +269,13 @@ std::optional<PrimerHistory> primer_history(const Scene& scene, const ComputedPr
       direction(flow.nominal(point.time), answer.end_change_m_s);
   Eigen::FullPivLU<Matrix6> solver(both);
   solver.setThreshold(1e-9);
-  if (!ends.allFinite() || !solver.isInvertible()) return std::nullopt;
+  const bool has_impulses = !answer.start_change_m_s.isZero(0) && !answer.end_change_m_s.isZero(0);
+  if (!has_impulses || !solver.isInvertible()) return std::nullopt;
   const Vector6 costate = solver.solve(ends);
-  PrimerHistory history;
-  for (std::size_t k = 0; k < grid.times.size(); ++k) {
-    const double magnitude = (grid.effects[k].transpose() * costate).norm();
-    history.magnitudes.push_back({grid.times[k], magnitude});
-    if (magnitude > history.largest.magnitude) history.largest = history.magnitudes.back();
-  }
+  PrimerHistory history{primer_along(grid, costate), {}};
+  history.largest =
+      *std::max_element(history.magnitudes.begin(), history.magnitudes.end(),
+                        [](const auto& a, const auto& b) { return a.magnitude < b.magnitude; });
   return history;
 }
 

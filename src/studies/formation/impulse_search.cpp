@@ -38,6 +38,14 @@ ImpulseGrid impulse_grid(const LinearFlow& flow, double time) {
   return grid;
 }
 
+std::vector<PrimerMagnitude> primer_along(const ImpulseGrid& grid, const Vector6& costate) {
+  std::vector<PrimerMagnitude> primer;
+  for (std::size_t k = 0; k < grid.times.size(); ++k) {
+    primer.push_back({grid.times[k], (grid.effects[k].transpose() * costate).norm()});
+  }
+  return primer;
+}
+
 namespace {
 
 /// The grid with finer times about those at which the primer is a local maximum of almost 1.
@@ -46,15 +54,13 @@ ImpulseGrid refined(const LinearFlow& flow, const ImpulseGrid& grid, const Least
   constexpr std::size_t most_maxima = 64;
   constexpr int parts = 7;
   const std::size_t last = grid.times.size() - 1;
-  std::vector<double> primer;
-  for (const ImpulseEffect& effect : grid.effects) {
-    primer.push_back((effect.transpose() * least.costate).norm());
-  }
+  const std::vector<PrimerMagnitude> primer = primer_along(grid, least.costate);
   std::vector<std::size_t> maxima;
   for (const ChosenImpulse& impulse : least.impulses) maxima.push_back(impulse.time);
   for (std::size_t k = 1; k < last && maxima.size() < most_maxima; ++k) {
-    const bool is_maximum = primer[k] > primer[k - 1] && primer[k] >= primer[k + 1];
-    if (is_maximum && primer[k] >= 1 - nearness) maxima.push_back(k);
+    const double here = primer[k].magnitude;
+    const bool is_maximum = here > primer[k - 1].magnitude && here >= primer[k + 1].magnitude;
+    if (is_maximum && here >= 1 - nearness) maxima.push_back(k);
   }
   std::set<std::size_t> gaps;
   for (const std::size_t k : maxima) {
@@ -85,10 +91,7 @@ ImpulseOptimum search_impulses(const LinearFlow& flow, double duration, const Ve
     optimum.grid = refined(flow, optimum.grid, optimum.least, nearness);
     optimum.least = least_impulses(optimum.grid.effects, change);
   }
-  for (std::size_t k = 0; k < coarse.times.size(); ++k) {
-    optimum.primer.push_back(
-        {coarse.times[k], (coarse.effects[k].transpose() * optimum.least.costate).norm()});
-  }
+  optimum.primer = primer_along(coarse, optimum.least.costate);
   return optimum;
 }
 

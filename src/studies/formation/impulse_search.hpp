@@ -25,6 +25,10 @@ struct ImpulseGrid {
 /// than some thousands, and the time itself.
 ImpulseGrid impulse_grid(const LinearFlow& flow, double time);
 
+/// The magnitude of the primer vector along a grid.
+std::vector<PrimerMagnitude> primer_along(const ImpulseGrid& grid,
+                                          const Eigen::Matrix<double, 6, 1>& costate);
+
 /// The least impulses on a grid, and the primer vector along the coarse one.
 struct ImpulseOptimum {
   ImpulseGrid grid;
