@@ -21,6 +21,7 @@
 #include "hamjet/integrators/error_estimate.hpp"
 #include "hamjet/integrators/explicit_runge_kutta.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
+#include "hamjet/integrators/jet_trajectory.hpp"
 #include "hamjet/integrators/midpoint.hpp"
 #include "hamjet/integrators/newmark.hpp"
 #include "hamjet/integrators/stormer_verlet.hpp"
