@@ -14,6 +14,7 @@
 #include "../studies/arcs.hpp"
 #include "../studies/checks/run_warnings.hpp"
 #include "../studies/descriptions/method_description.hpp"
+#include "../studies/integration.hpp"
 #include "../text/quantity_text.hpp"
 #include "../text/scene_message.hpp"
 #include "../text/terminal_text.hpp"
@@ -145,6 +146,11 @@ void check_flow_jet(const RunOptions& options, const std::string& file, const Sc
     if (settings.tolerance) text += fmt::format(", tolerance {:g}", *settings.tolerance);
     if (settings.step_canonical)
       text += fmt::format(", step {:g} canonical", *settings.step_canonical);
+    if (left_out(scene, problem, settings) == FlowSymmetry::rotation) {
+      const std::size_t all = scene.variables.size();
+      text += fmt::format("; integrates {} of {} variables, the rotation about the axis put back",
+                          all - 1, all);
+    }
     text += "\n";
     if (scene.arcs == std::optional<std::size_t>(1)) continue;
     const ArcPlan plan = plan_arcs(scene, problem, settings,

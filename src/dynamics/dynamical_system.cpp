@@ -126,6 +126,18 @@ DynamicalSystem restrict_system(const DynamicalSystem& system, std::span<const s
       make_system(system.name, restrict_list(system.hamiltonian, indices, scalar),
                   restrict_list(system.vector_field, indices, indices));
   restricted.waves_on_a_circle = system.waves_on_a_circle;
+  // A rotation is one of the subspace if all that it turns is kept.
+  for (const auto& [i, j] : system.rotated_planes) {
+    const auto place = [&](std::size_t index) {
+      return static_cast<std::size_t>(std::find(indices.begin(), indices.end(), index) -
+                                      indices.begin());
+    };
+    if (place(i) == indices.size() || place(j) == indices.size()) {
+      restricted.rotated_planes.clear();
+      break;
+    }
+    restricted.rotated_planes.push_back({place(i), place(j)});
+  }
   return restricted;
 }
 

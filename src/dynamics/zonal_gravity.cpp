@@ -95,6 +95,7 @@ struct Force {
 DynamicalSystem zonal_gravity(const ZonalGravity& field) {
   DynamicalSystem system = make_system("zonal-gravity", 3, Hamiltonian{field}, Force{field});
   system.waves_on_a_circle = field.J.highest_present();
+  system.rotated_planes = {{0, 1}, {3, 4}};  // about the axis of the zonal harmonics
   return system;
 }
 

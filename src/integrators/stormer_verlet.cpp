@@ -7,6 +7,7 @@
 #include "../algebra/instantiated_real.hpp"
 #include "../dynamics/operation_count.hpp"
 #include "hamjet/detail/dynamics/slice_evaluator.hpp"
+#include "rotation_reduction.hpp"
 #include "splitting_integration.hpp"
 
 namespace hamjet {
@@ -147,10 +148,13 @@ FlowJet<Real> integrate_splitting(const FlowProblem<Real>& problem, Splitting<Re
   validate_splitting(*problem.system, splitting.step, splitting.method);
   if (problem.duration == 0) return starting_jet(problem);
   const long steps = equal_step_count(problem.duration, splitting.step, splitting.method);
-  ExplicitForce<Real> force(problem);
-  return SplittingIntegration<Real, ExplicitForce<Real>>(problem, std::move(splitting), force,
-                                                         steps, statistics, observer)
-      .run();
+  const auto run = [&](const FlowProblem<Real>& integrated, const StepObserver<Real>& watch) {
+    ExplicitForce<Real> force(integrated);
+    return SplittingIntegration<Real, ExplicitForce<Real>>(integrated, std::move(splitting), force,
+                                                           steps, statistics, watch)
+        .run();
+  };
+  return integrate_without_rotation<Real>(problem, statistics, observer, run);
 }
 
 template <class Real>

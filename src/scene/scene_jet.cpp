@@ -108,6 +108,8 @@ const TableDescription& jet_table() {
         form::words(fmt::format("integer from 1 to {}, or `\"auto\"`", most_arcs),
                     form::integer(1, most_arcs)),
         absent::value(1), "pieces of the flow, computed on threads; `auto` decides from counts"},
+       {"symmetry", form::choice({"none", "rotation"}), absent::value("rotation"),
+        "left out of the integration and put back exactly: `rotation` about the field's axis"},
        {"duration_orbits", form::number(), other_duration, "in periods of the nominal", {orbits}}}};
   return table;
 }
@@ -147,6 +149,7 @@ JetSettings read_jet(const TableReader& jet, const SystemSettings& system, Preci
   settings.variables = read_variables(jet, names);
   settings.duration = read_duration(jet, is_orbit(system.model), nominal);
   settings.arcs = read_arcs(jet);
+  jet.read_if_any("symmetry", settings.symmetry);
   return settings;
 }
 

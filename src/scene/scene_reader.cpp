@@ -84,6 +84,7 @@ Scene read_flow_jet(const TableReader& root) {
     scene.variables = jet.variables;
     scene.duration = jet.duration;
     scene.arcs = jet.arcs;
+    scene.symmetry = jet.symmetry;
   });
   if (!has_jet || !has_precision) return scene;
 

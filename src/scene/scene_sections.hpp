@@ -9,6 +9,7 @@
 
 #include "hamjet/algebra/extended.hpp"
 #include "hamjet/detail/formats/epoch.hpp"
+#include "hamjet/detail/integrators/flow_symmetry.hpp"
 #include "scene_nominal_file.hpp"
 #include "study_reader.hpp"
 #include "tables/scene_table.hpp"
@@ -125,6 +126,7 @@ struct JetSettings {
   std::vector<std::size_t> variables;   ///< indices into (q, p), ascending
   double duration = 0;                  ///< canonical
   std::optional<std::size_t> arcs = 1;  ///< none: auto
+  FlowSymmetry symmetry = FlowSymmetry::rotation;
 };
 
 /// Table `[jet]`. Throws Error(too_large) for an order above the largest.

@@ -14,6 +14,7 @@
 #include "../algebra/raise_to.hpp"
 #include "../integrators/gauss/gauss_tolerance.hpp"
 #include "../integrators/momentum_unit.hpp"
+#include "../integrators/rotation_reduction.hpp"
 #include "arcs.hpp"
 #include "checks/error_promise.hpp"
 #include "descriptions/method_description.hpp"
@@ -27,6 +28,7 @@ template <class Real>
 FlowProblem<Real> flow_problem(const ComputedProblem& problem, double duration) {
   FlowProblem<Real> flow{problem.system, problem.space, problem.variables, {}, Real(duration)};
   for (const double x : problem.nominal) flow.initial_state.emplace_back(x);
+  flow.symmetry = problem.symmetry;
   return flow;
 }
 
@@ -115,6 +117,15 @@ FlowJet<Real> integrate_split(const FlowProblem<Real>& flow, const IntegratorSet
   }
   return integrate_in_arcs<Real>(flow, method, arcs, statistics, arc_statistics, observer,
                                  progress);
+}
+
+FlowSymmetry left_out(const Scene& scene, const ComputedProblem& problem,
+                      const IntegratorSettings& settings) {
+  const bool is_whole = scene.arcs == std::optional<std::size_t>(1);
+  if (!is_whole || !description_of(settings.method).splittable(settings)) return FlowSymmetry::none;
+  const auto reduction =
+      RotationReduction<double>::of(flow_problem<double>(problem, scene.duration));
+  return reduction ? FlowSymmetry::rotation : FlowSymmetry::none;
 }
 
 template <class Real>

@@ -19,6 +19,11 @@ FlowJet<Real> integrate(const FlowProblem<Real>& flow, const IntegratorSettings&
                         IntegrationStatistics& statistics, const StepObserver<Real>& observer,
                         bool records_step_error = false);
 
+/// The symmetry that the run of an integrator leaves out of its integration and puts back: none in
+/// arcs, and with methods that do not commute with it.
+FlowSymmetry left_out(const Scene& scene, const ComputedProblem& problem,
+                      const IntegratorSettings& settings);
+
 /// Integrates in arcs, with a method that can be split; otherwise as integrate. See
 /// integrate_in_arcs.
 template <class Real>

@@ -1,32 +1,49 @@
 #include "jets_along_time.hpp"
 
+#include <utility>
+
+#include "../integrators/rotation_reduction.hpp"
+#include "descriptions/method_description.hpp"
 #include "exact_flow.hpp"
 #include "integration.hpp"
 
 namespace hamjet {
 
+JetPropagation::JetPropagation(const ComputedProblem& problem, const IntegratorSettings& settings)
+    : settings_(&settings), flow_(flow_problem<double>(problem, 0)) {
+  if (description_of(settings.method).splittable(settings)) {
+    // A rotation is left out of any duration but none.
+    FlowProblem<double> moving = flow_;
+    moving.duration = 1;
+    if (auto reduction = RotationReduction<double>::of(moving)) {
+      reduction_ = std::make_shared<const RotationReduction<double>>(std::move(*reduction));
+      flow_ = reduction_->problem();
+    }
+  }
+  if (!flow_.initial_jet) flow_.initial_jet = starting_jet(flow_);
+}
+
+FlowJet<double> JetPropagation::advance_to(double time) {
+  flow_.duration = time - reached_;
+  flow_.initial_state = nominal_of(*flow_.initial_jet);
+  IntegrationStatistics statistics;
+  flow_.initial_jet = integrate<double>(flow_, *settings_, statistics, {});
+  total_.steps += statistics.steps;
+  total_.rejected_steps += statistics.rejected_steps;
+  total_.vector_field_evaluations += statistics.vector_field_evaluations;
+  total_.nominal_evaluations += statistics.nominal_evaluations;
+  total_.wall_seconds += statistics.wall_seconds;
+  reached_ = time;
+  return reduction_ ? reduction_->expand(*flow_.initial_jet) : *flow_.initial_jet;
+}
+
 IntegrationStatistics visit_jets(
     const ComputedProblem& problem, const IntegratorSettings& settings,
     std::span<const double> times,
     const std::function<void(std::size_t index, const FlowJet<double>& jet)>& visit) {
-  IntegrationStatistics total;
-  FlowProblem<double> flow = flow_problem<double>(problem, 0);
-  flow.initial_jet = starting_jet(flow);
-  double reached = 0;
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    flow.duration = times[i] - reached;
-    flow.initial_state = nominal_of(*flow.initial_jet);
-    IntegrationStatistics statistics;
-    flow.initial_jet = integrate<double>(flow, settings, statistics, {});
-    total.steps += statistics.steps;
-    total.rejected_steps += statistics.rejected_steps;
-    total.vector_field_evaluations += statistics.vector_field_evaluations;
-    total.nominal_evaluations += statistics.nominal_evaluations;
-    total.wall_seconds += statistics.wall_seconds;
-    reached = times[i];
-    visit(i, *flow.initial_jet);
-  }
-  return total;
+  JetPropagation propagation(problem, settings);
+  for (std::size_t i = 0; i < times.size(); ++i) visit(i, propagation.advance_to(times[i]));
+  return propagation.statistics();
 }
 
 }  // namespace hamjet

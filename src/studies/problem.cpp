@@ -145,6 +145,7 @@ ComputedProblem make_problem(const Scene& scene, double memory_limit, std::size_
         static_cast<std::size_t>(std::distance(problem.components.begin(), place)));
   }
   problem.is_full_jet = problem.variables.size() == problem.components.size();
+  problem.symmetry = scene.symmetry;
   problem.momentum_exponent =
       natural_momentum_exponent(is_orbit(scene.system.model), scene.nominal);
   const double needed = estimate_memory(scene, *problem.system, scene.variables.size(), threads);

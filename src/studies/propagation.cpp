@@ -39,7 +39,8 @@ void run_integrator(const Scene& scene, const ComputedProblem& problem, std::siz
   if (scene.figure) {
     along_time.emplace(run.settings.label, scene.duration, figure_kind(scene, problem), problem);
   }
-  const FlowProblem<Real> flow = flow_problem<Real>(problem, scene.duration);
+  FlowProblem<Real> flow = flow_problem<Real>(problem, scene.duration);
+  flow.observes_constant_terms = !along_time;
   const auto record = [&](const Real& time, const FlowJet<Real>& state) {
     std::vector<Extended> point;
     for (const auto& component : state) point.push_back(convert<Extended>(component[0]));

@@ -24,6 +24,8 @@ ReferenceResult compute_reference(const ComputedProblem& problem, double duratio
                                   const ReferenceSettings& settings,
                                   const std::function<void(double)>& keep_going) {
   FlowProblem<Extended> flow{problem.system, problem.space, problem.variables, {}, duration};
+  // What judges the runs shares nothing with them that could be wrong in both.
+  flow.symmetry = FlowSymmetry::none;
   for (const double x : problem.nominal) flow.initial_state.emplace_back(x);
   std::atomic<bool> stop = false;
   const auto run = [&](int stages, double tolerance, IntegrationStatistics& statistics,

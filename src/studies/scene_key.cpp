@@ -90,6 +90,7 @@ std::string system_text(const DynamicalSystem& system) {
   std::string text = operations_text(system.hamiltonian) + "; " +
                      operations_text(system.vector_field) +
                      fmt::format("; {} waves", system.waves_on_a_circle);
+  for (const auto& [i, j] : system.rotated_planes) text += fmt::format("; turned {} {}", i, j);
   if (!system.second_order) return text;
   text += "; " + operations_text(system.second_order->force) + "; inverse mass";
   for (const Extended& entry : system.second_order->inverse_mass) text += " " + entry.str();
@@ -102,7 +103,7 @@ enum class KeyOf { reference, comparison };
 /// what it determines.
 std::string scene_key(const Scene& scene, int jet_order, KeyOf whose) {
   const auto& [name, title, precision, system, units, canonical_radius, nominal, duration, order,
-               arcs, variables, integrators, separation, kinds, reference,
+               arcs, symmetry, variables, integrators, separation, kinds, reference,
                relative_hamiltonian_times, checks, comparison, figure, deputy, transfer, validity,
                assignment, output, ephemeris, nominal_file, warnings, own_system] = scene;
   KeyText key;
@@ -123,6 +124,7 @@ std::string scene_key(const Scene& scene, int jet_order, KeyOf whose) {
   key.add("units", units);
   key.add("separation", separation);
   key.add("kinds", kinds);
+  key.add("symmetry", static_cast<int>(symmetry));
   key.add("compare", comparison);
   key.add("along time", integrators);
   for (const CandidateSeries& series : candidate_series(scene)) {

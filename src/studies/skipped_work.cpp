@@ -67,6 +67,19 @@ void add_dynamics(const PropagationResult& result, std::vector<SkippedWork>& ski
   }
 }
 
+void add_symmetry(const PropagationResult& result, std::vector<SkippedWork>& skipped) {
+  std::vector<std::string> labels;
+  for (const RunResult& run : result.runs) {
+    if (run.statistics.left_out == FlowSymmetry::rotation) labels.push_back(run.settings.label);
+  }
+  if (labels.empty()) return;
+  const std::size_t all = result.scene.variables.size();
+  skipped.push_back({"the variable of the rotation about the axis",
+                     fmt::format("the field is symmetric: {} of {} variables were integrated and "
+                                 "the rotation put back, by {}",
+                                 all - 1, all, fmt::join(labels, ", "))});
+}
+
 void add_parts(const PropagationResult& result, std::vector<SkippedWork>& skipped) {
   const Scene& scene = result.scene;
   if (!scene.reference) {
@@ -94,6 +107,7 @@ void add_parts(const PropagationResult& result, std::vector<SkippedWork>& skippe
 std::vector<SkippedWork> skipped_work(const PropagationResult& result) {
   std::vector<SkippedWork> skipped;
   add_dynamics(result, skipped);
+  add_symmetry(result, skipped);
   add_parts(result, skipped);
   return skipped;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <concepts>
 #include <cstddef>
 #include <memory>
@@ -32,6 +33,11 @@ struct DynamicalSystem {
   /// the highest degree of a gravity field; 0 where no such wave is known. Adaptive Gauss methods
   /// take no step that undersamples the shortest.
   int waves_on_a_circle = 0;
+  /// Planes (i, j) of coordinates of z that may be turned together by one angle, z_i to c z_i - s
+  /// z_j and z_j to s z_i + c z_j, without a change of the Hamiltonian, both of a plane positions
+  /// or both momenta; each position's plane has its momenta's. Empty: none is known. Integrators
+  /// leave this rotation out and put it back exactly; with_rotation declares one.
+  std::vector<std::array<std::size_t, 2>> rotated_planes;
 
   std::size_t dimension() const noexcept { return 2 * degrees_of_freedom; }
   /// What an integrator evaluates: the force alone where there is a second-order form.
@@ -98,6 +104,14 @@ DynamicalSystem make_system(std::string name, std::size_t degrees_of_freedom, co
                        return field;
                      }));
 }
+
+/// The system with a rotation declared that leaves its Hamiltonian as it is: of the positions i and
+/// j of each plane and of their momenta by the same angle (an axis of symmetry along q_3 is {{0,
+/// 1}}). Throws Error(usage) for indices that are out of range or stand twice, and if the
+/// Hamiltonian changes, at one of a few random points, by more than the rounding of extended
+/// precision.
+DynamicalSystem with_rotation(DynamicalSystem system,
+                              std::vector<std::array<std::size_t, 2>> planes_of_positions);
 
 /// The degrees of freedom that a scene needs, ascending: those of the variables to expand in, those
 /// in which the nominal is not exactly at rest in the origin, and all that these drive.

@@ -11,6 +11,7 @@
 #include "hamjet/algebra/extended.hpp"
 #include "hamjet/algebra/truncated_power_series.hpp"
 #include "hamjet/detail/dynamics/series_work.hpp"
+#include "hamjet/detail/integrators/flow_symmetry.hpp"
 #include "hamjet/dynamics/dynamical_system.hpp"
 
 namespace hamjet {
@@ -33,6 +34,10 @@ struct FlowProblem {
   /// The jet that an earlier integration reached, to go on from; its constant terms are
   /// `initial_state`. None: the identity.
   std::optional<FlowJet<Real>> initial_jet = {};
+  FlowSymmetry symmetry = FlowSymmetry::rotation;  ///< to be left out of the integration
+  /// The observer of steps looks at constant terms alone, so that it may be given a jet in other
+  /// variables, before a symmetry that was left out is put back.
+  bool observes_constant_terms = false;
 };
 
 /// The flow's jet along a straight line of initial deviations, s times `direction`, which has an
@@ -58,6 +63,7 @@ struct IntegrationStatistics {
   long nominal_evaluations = 0;  ///< on plain numbers, of all stages at once for implicit methods
   double wall_seconds = 0;       ///< of the integration alone
   SeriesWork series_work;        ///< products of series, of all evaluations and stages
+  FlowSymmetry left_out = FlowSymmetry::none;  ///< of the integration, and put back
   /// Most iterations of Newton's method that one solution on the nominal took; 0 where fixed-point
   /// iteration contracted in every step, for explicit methods, and for CVODE, which has an
   /// iteration of its own.

@@ -109,6 +109,7 @@ struct ComputedProblem {
   SharedSystem system;
   std::vector<double> nominal;  ///< of the components
   bool is_full_jet = false;     ///< all components are expanded in: a map of phase space
+  FlowSymmetry symmetry = FlowSymmetry::rotation;  ///< left out by the integrators that can
   /// Binary exponent of the unit in which momenta are compared with positions: for an orbit that of
   /// the chief's own motion, so that no verdict depends on the unit of length.
   int momentum_exponent = 0;

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "hamjet/detail/integrators/flow_symmetry.hpp"
 #include "hamjet/detail/studies/integration_method.hpp"
 #include "hamjet/detail/studies/self_check_settings.hpp"
 #include "hamjet/detail/studies/system_settings.hpp"
@@ -102,6 +103,8 @@ struct Scene {
   int order = 1;
   /// `jet.arcs`: pieces that the flow is split into; absent ("auto"): from the operation counts.
   std::optional<std::size_t> arcs = 1;
+  /// `jet.symmetry`: left out of the integration of jets and put back.
+  FlowSymmetry symmetry = FlowSymmetry::rotation;
   std::vector<std::size_t> variables;  ///< indices into (q, p) to expand in, ascending
   std::vector<IntegratorSettings> integrators;
   /// `[formation]`, canonical length (metres where that is the unit).

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "../../algebra/instantiated_real.hpp"
+#include "../rotation_reduction.hpp"
 #include "gauss_lanes.hpp"
 #include "gauss_tolerance.hpp"
 
@@ -18,10 +19,12 @@ FlowJet<Real> integrate_gauss(const FlowProblem<Real>& problem, const GaussSetti
   GaussSettings used = settings;
   StepTolerance<Real> choice = choose_step_tolerance(problem, settings);
   if (settings.tolerance) used.tolerance = choice.tolerance;
-  FlowJet<Real> jet =
-      with_lanes(settings.stages, [&]<int Lanes>(std::integral_constant<int, Lanes>) {
-        return run_gauss<Lanes>(problem, used, statistics, observer);
-      });
+  const auto run = [&](const FlowProblem<Real>& integrated, const StepObserver<Real>& watch) {
+    return with_lanes(settings.stages, [&]<int Lanes>(std::integral_constant<int, Lanes>) {
+      return run_gauss<Lanes>(integrated, used, statistics, watch);
+    });
+  };
+  FlowJet<Real> jet = integrate_without_rotation(problem, statistics, observer, run);
   record_choice(std::move(choice), statistics);
   return jet;
 }

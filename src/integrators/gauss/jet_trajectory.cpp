@@ -27,9 +27,10 @@ JetTrajectory<Real>::JetTrajectory(const FlowProblem<Real>& problem, const Gauss
                                    double most_bytes, const StepObserver<Real>& observer)
     : problem_(problem), settings_(settings), most_kept_(most_jets(problem, most_bytes)) {
   validate(problem);
+  problem_.observes_constant_terms = false;  // for the jets at the steps are kept
   times_.push_back(Real(0));
   kept_.push_back(starting_jet(problem));
-  final_ = integrate_gauss<Real>(problem, settings, statistics_,
+  final_ = integrate_gauss<Real>(problem_, settings, statistics_,
                                  [&](const Real& time, const FlowJet<Real>& jet) {
                                    times_.push_back(time);
                                    keep(jet);

@@ -22,20 +22,23 @@ long checks_done(const RunResult& run) {
 Json operations_json(const PropagationResult& result, const RunResult& run) {
   const OperationList& list = result.problem.system->evaluated_list();
   const int order = working_order(*result.problem.system, result.scene.order);
-  return {
-      {"operations_per_evaluation", list.operations().size() - list.inputs()},
-      {"nonlinear_operations_per_evaluation", list.nonlinear_operations()},
-      {"multiply_adds_per_evaluation", series_multiply_adds(list, *result.problem.space, order)},
-      {"evaluations", run.statistics.vector_field_evaluations},
-      {"nominal_evaluations", run.statistics.nominal_evaluations},
-      {"slice_products", run.statistics.series_work.slice_products},
-      {"multiply_adds", run.statistics.series_work.multiply_adds},
-      {"poisson_brackets", run.counts.poisson_brackets},
-      {"inversions", run.counts.inversions},
-      {"compositions", run.counts.compositions + (run.arcs ? run.arcs->compositions : 0)},
-      {"exactness_residuals", run.counts.exactness_residuals},
-      {"self_checks", checks_done(run)},
-      {"points_watched_for_figure", run.along_time ? run.along_time->points.size() : 0}};
+  const SpacePointer& whole = result.problem.space;
+  const bool has_less = run.statistics.left_out != FlowSymmetry::none;
+  const SpacePointer integrated =
+      has_less ? SeriesSpace::create(whole->variables() - 1, whole->order()) : whole;
+  return {{"operations_per_evaluation", list.operations().size() - list.inputs()},
+          {"nonlinear_operations_per_evaluation", list.nonlinear_operations()},
+          {"multiply_adds_per_evaluation", series_multiply_adds(list, *integrated, order)},
+          {"evaluations", run.statistics.vector_field_evaluations},
+          {"nominal_evaluations", run.statistics.nominal_evaluations},
+          {"slice_products", run.statistics.series_work.slice_products},
+          {"multiply_adds", run.statistics.series_work.multiply_adds},
+          {"poisson_brackets", run.counts.poisson_brackets},
+          {"inversions", run.counts.inversions},
+          {"compositions", run.counts.compositions + (run.arcs ? run.arcs->compositions : 0)},
+          {"exactness_residuals", run.counts.exactness_residuals},
+          {"self_checks", checks_done(run)},
+          {"points_watched_for_figure", run.along_time ? run.along_time->points.size() : 0}};
 }
 
 Json operations_json(const PropagationResult& result) {

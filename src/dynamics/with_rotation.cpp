@@ -1,0 +1,114 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include "hamjet/detail/dynamics/slice_evaluator.hpp"
+#include "hamjet/dynamics/dynamical_system.hpp"
+#include "hamjet/error.hpp"
+
+namespace hamjet {
+namespace {
+
+using Numbers = std::vector<Extended>;
+
+/// The vector field at a point.
+Numbers field_at(const DynamicalSystem& system, const Numbers& z) {
+  SliceEvaluator<Extended, Extended> field(system.vector_field, SeriesSpace::create(1, 0), 0);
+  for (std::size_t i = 0; i < z.size(); ++i) *field.input(i) = z[i];
+  field.evaluate_constant_terms();
+  Numbers result;
+  for (std::size_t i = 0; i < z.size(); ++i) result.push_back(*field.output(i));
+  return result;
+}
+
+Numbers rotated(Numbers z, const std::vector<std::array<std::size_t, 2>>& planes,
+                const Extended& cosine, const Extended& sine) {
+  for (const auto& [i, j] : planes) {
+    const Extended first = cosine * z[i] - sine * z[j];
+    z[j] = sine * z[i] + cosine * z[j];
+    z[i] = first;
+  }
+  return z;
+}
+
+bool are_finite(const Numbers& z) {
+  return std::all_of(z.begin(), z.end(), [](const Extended& x) { return isfinite(x); });
+}
+
+/// The largest change of the field under a rotation of points and field together, relative to the
+/// field; none where it is not finite.
+std::optional<Extended> largest_change(const DynamicalSystem& system, const Numbers& z,
+                                       const Extended& cosine, const Extended& sine) {
+  const Numbers first = rotated(field_at(system, z), system.rotated_planes, cosine, sine);
+  const Numbers last = field_at(system, rotated(z, system.rotated_planes, cosine, sine));
+  if (!are_finite(first) || !are_finite(last)) return std::nullopt;
+  Extended change = 0;
+  Extended size = 0;
+  for (std::size_t i = 0; i < z.size(); ++i) {
+    change = std::max(change, Extended(abs(first[i] - last[i])));
+    size = std::max(size, Extended(abs(first[i])));
+  }
+  return size > 0 ? Extended(change / size) : change;
+}
+
+}  // namespace
+
+DynamicalSystem with_rotation(DynamicalSystem system,
+                              std::vector<std::array<std::size_t, 2>> planes_of_positions) {
+  const std::size_t n = system.degrees_of_freedom;
+  std::vector<bool> is_turned(n, false);
+  system.rotated_planes.clear();
+  for (const auto& [i, j] : planes_of_positions) {
+    for (const std::size_t k : {i, j}) {
+      if (k >= n || is_turned[k]) {
+        throw Error(ErrorKind::usage,
+                    fmt::format("rotation of system '{}': the position {} is out of range or "
+                                "stands twice, must be from 0 to {} and there once",
+                                system.name, k, n - 1));
+      }
+      is_turned[k] = true;
+    }
+    system.rotated_planes.push_back({i, j});
+  }
+  for (const auto& [i, j] : planes_of_positions) system.rotated_planes.push_back({n + i, n + j});
+
+  constexpr int wanted_points = 4;
+  constexpr int most_points = 100;
+  // A field of some hundred operations rounds by less; one that is not symmetric, by however little
+  // that a double shows, changes by far more.
+  const Extended allowed = 1e4 * std::numeric_limits<Extended>::epsilon();
+  const Extended angle = 1;
+  std::mt19937_64 random(20261123);
+  const auto draw = [&] {
+    return Extended(static_cast<std::int64_t>(random() >> 11U)) * 0x1p-52 - 1;
+  };
+  int points = 0;
+  for (int i = 0; i < most_points && points < wanted_points; ++i) {
+    Numbers z(2 * n);
+    for (Extended& x : z) x = draw();
+    const auto change = largest_change(system, z, cos(angle), sin(angle));
+    if (!change) continue;
+    ++points;
+    if (*change > allowed) {
+      throw Error(ErrorKind::usage,
+                  fmt::format("rotation of system '{}': its vector field changes by {:.2g} of "
+                              "itself at a random point, must stay as it is",
+                              system.name, static_cast<double>(*change)));
+    }
+  }
+  if (points < wanted_points) {
+    throw Error(ErrorKind::usage,
+                fmt::format("rotation of system '{}': its vector field is not finite at most "
+                            "random points between -1 and 1, so that it cannot be judged",
+                            system.name));
+  }
+  return system;
+}
+
+}  // namespace hamjet
