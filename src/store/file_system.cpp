@@ -1,5 +1,6 @@
 #include "file_system.hpp"
 
+#include <dirent.h>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -7,6 +8,7 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <memory>
 #include <system_error>
 
 #include "../text/whole_number.hpp"
@@ -26,6 +28,23 @@ std::string host_name() {
   std::array<char, 64> host{};
   ::gethostname(host.data(), host.size() - 1);
   return host.data();
+}
+
+struct CloseDirectory {
+  void operator()(DIR* directory) const { ::closedir(directory); }
+};
+
+void add_entries_below(const fs::path& folder, std::vector<fs::path>& entries) {
+  const std::unique_ptr<DIR, CloseDirectory> directory(::opendir(folder.c_str()));
+  if (!directory) return;
+  while (const dirent* entry = ::readdir(directory.get())) {
+    const std::string_view name = entry->d_name;
+    if (name == "." || name == "..") continue;
+    const fs::path path = folder / name;
+    entries.push_back(path);
+    std::error_code error;
+    if (fs::is_directory(fs::symlink_status(path, error))) add_entries_below(path, entries);
+  }
 }
 
 /// Whether to wait until the disk has what was written.
@@ -102,6 +121,12 @@ std::vector<fs::path> create_folders(const fs::path& folder, std::string_view pr
   const std::string reason = error ? error.message() : "something else has this name";
   remove_empty(missing);
   throw_file_error(folder, problem, reason);
+}
+
+std::vector<fs::path> entries_below(const fs::path& folder) {
+  std::vector<fs::path> entries;
+  add_entries_below(folder, entries);
+  return entries;
 }
 
 void remove_empty(const std::vector<fs::path>& folders) {

@@ -55,6 +55,12 @@ void flush_folder(const std::filesystem::path& folder);
 std::vector<std::filesystem::path> create_folders(const std::filesystem::path& folder,
                                                   std::string_view problem);
 
+/// Everything below a folder, each folder before what is in it; links are not followed. Nothing
+/// where the folder is not there; what cannot be read is left out. It is no recursive iterator of
+/// the standard library, for libstdc++ declares its step noexcept and allocates in it, so that the
+/// program ends where memory runs out.
+std::vector<std::filesystem::path> entries_below(const std::filesystem::path& folder);
+
 /// Removes the folders that are empty, the last of the list first; one with files in it stays.
 void remove_empty(const std::vector<std::filesystem::path>& folders);
 

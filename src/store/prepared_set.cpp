@@ -31,9 +31,8 @@ void remove_folder(const fs::path& folder) {
 std::vector<fs::path> files_below(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code error;
-  for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
-       entry.increment(error)) {
-    if (entry->is_regular_file(error)) files.push_back(entry->path().lexically_relative(folder));
+  for (const fs::path& entry : entries_below(folder)) {
+    if (fs::is_regular_file(entry, error)) files.push_back(entry.lexically_relative(folder));
   }
   return files;
 }
@@ -41,9 +40,8 @@ std::vector<fs::path> files_below(const fs::path& folder) {
 void flush_folders_below(const fs::path& folder) {
   flush_folder(folder);
   std::error_code error;
-  for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
-       entry.increment(error)) {
-    if (entry->is_directory(error)) flush_folder(entry->path());
+  for (const fs::path& entry : entries_below(folder)) {
+    if (fs::is_directory(entry, error)) flush_folder(entry);
   }
 }
 

@@ -148,11 +148,9 @@ std::optional<SweepRow> SweepDirectory::read(std::size_t item, RowState* state) 
 }
 
 void SweepDirectory::remove_leftovers() const {
-  std::error_code error;
-  for (fs::recursive_directory_iterator entry(path_ / "rows", error), end; !error && entry != end;
-       entry.increment(error)) {
-    std::error_code ignored;
-    if (is_leftover(entry->path())) fs::remove(entry->path(), ignored);
+  std::error_code ignored;
+  for (const fs::path& entry : entries_below(path_ / "rows")) {
+    if (is_leftover(entry)) fs::remove(entry, ignored);
   }
 }
 
