@@ -98,6 +98,23 @@ double read_singular_margin(const TableReader& transfer, const Nominal& nominal)
   return margin;
 }
 
+/// The ellipsoid to keep out of, in which neither end may lie.
+Eigen::Vector3d read_keep_out(const TableReader& transfer, const TransferSettings& settings,
+                              bool has_ends) {
+  const std::vector<double> axes = transfer.positive_numbers("keep_out_m", 3);
+  const Eigen::Vector3d semi_axes(axes[0], axes[1], axes[2]);
+  // Along inertial axes the flight alone tells.
+  if (!has_ends || settings.frame == RelativeFrame::inertial) return semi_axes;
+  for (const bool is_start : {true, false}) {
+    const RelativeState& state = is_start ? settings.start : settings.end;
+    if (state.position_m.cwiseQuotient(semi_axes).norm() >= 1) continue;
+    transfer.fail("keep_out_m",
+                  fmt::format("the {} lies in the ellipsoid, got [{}, {}, {}], must be smaller",
+                              is_start ? "start" : "end", axes[0], axes[1], axes[2]));
+  }
+  return semi_axes;
+}
+
 const TableDescription& start_table() {
   static const TableDescription table = {joined<SceneKey>(
       {relative_frame_keys(absent::other("of `[transfer]`")), relative_state_keys()})};
@@ -138,6 +155,13 @@ const TableDescription& transfer_table() {
          "likewise, in periods of the nominal"},
         {"impulses", form::choice({"two", "optimal"}), absent::value("two"),
          "also the least velocity change with as many impulses, at such times, as it takes"},
+        {"budget_m_s", form::positive(), absent::other("none is looked for"),
+         "the times at which the whole change is no more than this are found"},
+        {"largest_impulse_m_s", form::positive(), absent::other("any"),
+         "transfers with a larger impulse are marked, and not the least"},
+        {"keep_out_m", form::array(form::positive(), 3), absent::other("none"),
+         "semi-axes along R, T, N of an ellipsoid about the chief: transfers that enter it are "
+         "marked, and not the least"},
         {"strict", form::boolean(), absent::value(preset.strict),
          "a miss beyond the tolerance is exit code 1"}}})};
   return table;
@@ -152,7 +176,8 @@ TransferSettings read_transfer(const TableReader& transfer, const Scene& scene,
   if (transfer.has("frame")) {
     first = {transfer, read_relative_frame(transfer), transfer.head("frame")};
   }
-  if (needs_ends || transfer.has("start") || transfer.has("end")) {
+  const bool has_ends = needs_ends || transfer.has("start") || transfer.has("end");
+  if (has_ends) {
     std::optional<FramedTable> start;
     if (!transfer.has("start") && !scene.deputy) {
       transfer.fail("start", "missing, must be a table, or the scene must have a table [deputy]");
@@ -174,6 +199,11 @@ TransferSettings read_transfer(const TableReader& transfer, const Scene& scene,
   transfer.read_if_any("refined_miss_m", settings.refined_miss_m);
   settings.singular_margin = read_singular_margin(transfer, nominal);
   transfer.read_if_any("impulses", settings.impulses);
+  transfer.read_if_any("budget_m_s", settings.budget_m_s);
+  transfer.read_if_any("largest_impulse_m_s", settings.largest_impulse_m_s);
+  if (transfer.has("keep_out_m")) {
+    settings.keep_out_m = read_keep_out(transfer, settings, has_ends);
+  }
   transfer.read_if_any("strict", settings.strict);
   return settings;
 }

@@ -13,13 +13,7 @@ constexpr int most_samples = 10000;
 
 /// The semi-axes, relative to the largest.
 std::vector<double> read_semi_axes(const TableReader& validity) {
-  std::vector<double> axes = validity.numbers("semi_axes", 3);
-  for (std::size_t i = 0; i < axes.size(); ++i) {
-    if (!(axes[i] > 0)) {
-      validity.fail_element("semi_axes", i,
-                            fmt::format("not positive, got {}, must be a number above 0", axes[i]));
-    }
-  }
+  std::vector<double> axes = validity.positive_numbers("semi_axes", 3);
   const double largest = *std::max_element(axes.begin(), axes.end());
   for (double& axis : axes) axis /= largest;
   return axes;

@@ -315,6 +315,25 @@ TEST_F(TransferCommand, AStoredJetNeedsNoTimeOfTheScene) {
   expect_error({"transfer", "circle.toml", "--jet", "jets"}, 3, {"transfer: missing"});
 }
 
+TEST_F(TransferCommand, OnShippedScenesTheLeastIsThatOfAListTenTimesAsFine) {
+  for (const std::string scene : {"scenes/transfer-earth-orbit", "scenes/transfer-sun-synchronous",
+                                  "examples/two-satellites/two-satellites"}) {
+    const std::string file = std::string(HAMJET_SOURCE_DIR) + "/data/" + scene + ".toml";
+    const auto summary_of = [&](int count, const std::string& out) {
+      succeed(
+          with_overrides({"transfer", file, "-q", "-o", out},
+                         {"transfer.impulses=\"two\"", "transfer.count=" + std::to_string(count)}));
+      return read_json(directory_ / out / "summary.json");
+    };
+    const int count = scene.find("two-satellites") == std::string::npos ? 200 : 96;
+    const Json coarse = summary_of(count, "coarse");
+    const Json fine = summary_of(10 * count, "fine");
+    const double least = coarse["least_between_listed_times"]["total_change_m_s"];
+    EXPECT_LE(least, fine["best"]["total_change_m_s"].get<double>()) << scene;
+    EXPECT_LT(least, coarse["best"]["total_change_m_s"].get<double>()) << scene;
+  }
+}
+
 TEST_F(TransferCommand, DeputiesGoToTheSlotsThatCostLeast) {
   succeed({"assign", "assignment.toml", "-q"});
   const Json summary = read_json(directory_ / "out/assignment-assign/summary.json");

@@ -168,6 +168,29 @@ TEST(ImpulsePlan, FourImpulsesLieSymmetrically) {
   EXPECT_LT(plan.total_change_m_s(), 0.999 * result.points[0].best().total_change_m_s());
 }
 
+// Half of the plan's cost is one radial impulse, and the way is half an ellipse of 2 by 1 along the
+// orbit, a quarter of the distance above or below the chief's orbit at its middle (Fehse, the
+// same).
+TEST(ImpulsePlan, IsMarkedWhereTheSceneDoesNotAllowIt) {
+  Scene scene = metres_from_circle({{0, -1, 0}, {}}, pi);
+  scene.transfer->end.position_m = {0, 1, 0};
+  const double impulse = 0.5 / scene.units.time_s;
+  const auto plan = [&] {
+    const TransferResult result = study_transfer(scene);
+    EXPECT_EQ(result.optimal->is_found(), result.optimal->plan->forbidden.empty());
+    EXPECT_EQ(exit_code(result), result.optimal->is_found() ? 0 : 1);
+    return *result.optimal->plan;
+  };
+  scene.transfer->largest_impulse_m_s = 1.01 * impulse;
+  scene.transfer->keep_out_m = Eigen::Vector3d(0.45, 0.9, 1);
+  EXPECT_EQ(plan().forbidden, "");
+  scene.transfer->keep_out_m = Eigen::Vector3d(0.55, 0.9, 1);
+  EXPECT_NE(plan().forbidden.find("its way comes to 0.9"), std::string::npos) << plan().forbidden;
+  scene.transfer->keep_out_m.reset();
+  scene.transfer->largest_impulse_m_s = 0.99 * impulse;
+  EXPECT_NE(plan().forbidden.find("above largest_impulse_m_s"), std::string::npos);
+}
+
 // A whole number of revolutions along the orbit by tangential impulses at both ends costs
 // 2 x / (3 T), and no more is needed than that.
 TEST(ImpulsePlan, DriftAlongTheOrbit) {

@@ -44,16 +44,32 @@ struct TransferPoint {
   /// Scaled residual of the Hamilton-Jacobi equation of the kind used, at the transfer's own
   /// boundary values, see HamiltonJacobiTerms::scaled.
   std::optional<double> hamilton_jacobi_residual;
+  bool exceeds_impulse = false;  ///< one of the two changes is larger than the scene allows
+  /// Where the scene has an ellipsoid to keep out of: the least of |(R/a, T/b, N/c)| along the way
+  /// of the best answer, 1 on the ellipsoid.
+  std::optional<double> keep_out_ratio;
   std::string failure;  ///< not empty: no kind exists, and why; `answers` is empty
 
   bool has_answer() const { return !answers.empty() && answers.back().failure.empty(); }
   bool is_refined() const { return refined && refined->failure.empty(); }
   /// Whether it is proved to come within the tolerance, and is away from singularities.
-  bool is_candidate() const {
+  bool is_proved() const {
     return has_answer() && !is_near_singular && (!is_beyond_tolerance || is_refined());
   }
+  bool enters_keep_out() const { return keep_out_ratio && *keep_out_ratio < 1; }
+  /// Whether it may be the least: proved, and as the scene allows.
+  bool is_candidate() const { return is_proved() && !exceeds_impulse && !enters_keep_out(); }
   /// The refined answer, where the refinement succeeded, else that of the highest order.
   const TransferAnswer& best() const { return is_refined() ? *refined : answers.back(); }
+  double change_m_s() const { return best().total_change_m_s(); }
+};
+
+/// A span of transfer times that take no more than the scene's budget.
+struct BudgetWindow {
+  double first = 0;  ///< canonical
+  double last = 0;
+  bool begins_before = false;  ///< `first` is the first of the times searched
+  bool ends_after = false;     ///< `last` is the last of them
 };
 
 /// Condition numbers of the linear parts of all 64 kinds along time.
@@ -94,10 +110,13 @@ struct TransferResult {
   /// Rounding floor of the largest Hamilton-Jacobi residual: the most that changes of an ulp in the
   /// jet's coefficients change it, in a sample of sixteen.
   std::optional<double> hamilton_jacobi_floor;
-  /// The least answer between the listed times, looked for about the lowest of them, where it is
+  /// The least answer between the listed times, minimised about the lowest of them, where it is
   /// lower than at any listed time.
   std::optional<TransferPoint> least_between;
-  std::size_t times_between = 0;  ///< number of further times answered for it
+  std::size_t times_between = 0;  ///< number of further times answered between the listed ones
+  /// Where the scene has a budget: its windows, to a 4000th of the listed spacing. One between two
+  /// listed times, neither of which is in it, is found only if `least_between` is.
+  std::vector<BudgetWindow> budget_windows;
   /// Of the least answer at the listed times; absent where there is none.
   std::optional<PrimerHistory> primer;
   std::optional<OptimalImpulses> optimal;  ///< if the scene asks for it

@@ -58,10 +58,11 @@ std::string optimal_impulses_failure(const TransferResult& result) {
   if (!result.optimal) return "";
   const ImpulsePlan* plan = plan_of(result);
   if (plan == nullptr) return result.optimal->failure;
-  return plan->failure.empty()
-             ? ""
-             : "the plan of the linear theory was not brought to its end by flying: " +
-                   plan->failure;
+  if (!plan->failure.empty()) {
+    return "the plan of the linear theory was not brought to its end by flying: " + plan->failure;
+  }
+  return plan->forbidden.empty() ? ""
+                                 : "the plan of the least sum is not allowed: " + plan->forbidden;
 }
 
 std::string optimal_impulses_verdict(const TransferResult& result) {

@@ -58,6 +58,8 @@ std::string transfers_csv(const TransferResult& result) {
   columns.add("near_singular", &TransferPoint::is_near_singular);
   columns.add("beyond_tolerance", &TransferPoint::is_beyond_tolerance);
   columns.add("answer", answer_name);
+  columns.add("exceeds_impulse", &TransferPoint::exceeds_impulse);
+  columns.add("keep_out_ratio", &TransferPoint::keep_out_ratio);
   add_answer_columns<TransferPoint>(columns, result.scene.transfer->frame,
                                     [](Point point) -> Point { return point; });
   add_orders(columns, result.scene.order);

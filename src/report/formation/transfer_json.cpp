@@ -28,7 +28,9 @@ Json counts_json(const TransferCounts& counts) {
           {"unanswered_away_from_singularities", counts.unanswered_away},
           {"refined", counts.refined},
           {"beyond_tolerance_and_refined_away_from_singularities", counts.corrected_away},
-          {"refinement_failed", counts.refinement_failed}};
+          {"refinement_failed", counts.refinement_failed},
+          {"impulse_too_large", counts.over_impulse},
+          {"through_keep_out", counts.kept_out}};
 }
 
 Json misses_json(const TransferResult& result) {
@@ -38,6 +40,18 @@ Json misses_json(const TransferResult& result) {
                     {"count", entry.count},
                     {"median_m", json_number(entry.median_m)},
                     {"largest_m", json_number(entry.largest_m)}});
+  }
+  return json;
+}
+
+Json windows_json(const TransferResult& result) {
+  const double unit = result.scene.units.time_s;
+  Json json = Json::array();
+  for (const BudgetWindow& window : result.budget_windows) {
+    json.push_back({{"first_s", window.first * unit},
+                    {"last_s", window.last * unit},
+                    {"begins_at_first_time", window.begins_before},
+                    {"ends_at_last_time", window.ends_after}});
   }
   return json;
 }
@@ -81,6 +95,8 @@ Json transfer_point_json(const TransferPoint& point, const CanonicalUnits& units
                {"condition", point.kind ? json_number(point.condition) : Json(nullptr)},
                {"near_singular", point.is_near_singular},
                {"beyond_tolerance", point.is_beyond_tolerance},
+               {"exceeds_impulse", point.exceeds_impulse},
+               {"keep_out_ratio", json_number(point.keep_out_ratio)},
                {"answer", text_or_null(answer_name(point))},
                {"start_change_m_s", nullptr},
                {"end_change_m_s", nullptr},
@@ -119,6 +135,9 @@ Json transfer_summary_json(const TransferResult& result) {
   json["refine"] = settings.refine;
   json["refined_miss_m"] = settings.refine ? Json(settings.refined_miss_m) : Json(nullptr);
   json["singular_margin_s"] = settings.singular_margin * scene.units.time_s;
+  json["budget_m_s"] = json_number(settings.budget_m_s);
+  json["largest_impulse_m_s"] = json_number(settings.largest_impulse_m_s);
+  json["keep_out_m"] = settings.keep_out_m ? vector_json(*settings.keep_out_m) : Json(nullptr);
   json["strict"] = settings.strict;
   json["ephemeris"] = ephemeris_json(scene);
   json["nominal_file"] = nominal_file_json(scene);
@@ -131,6 +150,7 @@ Json transfer_summary_json(const TransferResult& result) {
                                            ? transfer_point_json(*result.least_between, scene.units)
                                            : Json(nullptr);
   json["times_between_listed"] = result.times_between;
+  json["budget_windows"] = settings.budget_m_s ? windows_json(result) : Json(nullptr);
   json["primer_vector"] = primer_json(result);
   json["optimal_impulses"] = optimal_impulses_json(result);
   json["counts"] = counts_json(count_points(result));

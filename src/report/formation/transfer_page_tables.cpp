@@ -47,6 +47,8 @@ std::string marks_text(const TransferPoint& point) {
   if (point.is_beyond_tolerance && shown_answer(point) != nullptr) {
     text += (text.empty() ? "" : ", ") + std::string("beyond the tolerance");
   }
+  if (point.exceeds_impulse) text += (text.empty() ? "" : ", ") + std::string("impulse too large");
+  if (point.enters_keep_out()) text += (text.empty() ? "" : ", ") + std::string("kept out");
   return text;
 }
 

@@ -73,6 +73,8 @@ TransferCounts count_points(const TransferResult& result) {
     counts.refined += point.is_refined();
     counts.refinement_failed += has_failed_refinement;
     counts.refinement_failed_away += has_failed_refinement && is_away;
+    counts.over_impulse += point.is_proved() && point.exceeds_impulse;
+    counts.kept_out += point.is_proved() && !point.exceeds_impulse && point.enters_keep_out();
   }
   return counts;
 }
@@ -89,7 +91,9 @@ std::vector<TransferOutcome> transfer_outcomes(const TransferResult& result) {
       {counts.near_singular, "nearer to a singularity than the margin"},
       {counts.beyond_tolerance_away - counts.corrected_away,
        fmt::format("missing by more than {}, which flying did not correct", tolerance)},
-      {counts.unanswered_away, "without an answer"}};
+      {counts.unanswered_away, "without an answer"},
+      {counts.over_impulse, "with an impulse larger than largest_impulse_m_s"},
+      {counts.kept_out, "through the ellipsoid keep_out_m"}};
   std::erase_if(outcomes, [](const TransferOutcome& outcome) { return outcome.count == 0; });
   return outcomes;
 }
@@ -198,14 +202,33 @@ std::string between_text(const TransferResult& result) {
   if (result.times_between == 0) {
     return result.points.size() > 1 ? " Between the listed times nothing was searched." : "";
   }
-  const std::string searched = fmt::format(
-      "Between the listed times, at {} more about the lowest of them,", result.times_between);
+  // How many times it took depends on the last digit, and stands in the summary.
+  const std::string searched = "Between the listed times, about the lowest of them,";
   if (!result.least_between) return fmt::format(" {} nothing less was found.", searched);
   const TransferPoint& point = *result.least_between;
   return fmt::format(" {} the least is {} in {}, flown with a miss of {}.", searched,
                      velocity_text(point.best().total_change_m_s()),
                      time_text(point.time * result.scene.units.time_s),
                      miss_text(point.best().miss_m, result.flight_floor_m));
+}
+
+/// The spans of time within the budget.
+std::string budget_text(const TransferResult& result) {
+  const std::optional<double>& budget = result.scene.transfer->budget_m_s;
+  if (!budget) return "";
+  if (result.budget_windows.empty()) {
+    return fmt::format(" No time was found that takes {} or less.", velocity_text(*budget));
+  }
+  std::vector<std::string> spans;
+  const double unit = result.scene.units.time_s;
+  for (const BudgetWindow& window : result.budget_windows) {
+    spans.push_back(fmt::format("{} to {}{}{}", time_text(window.first * unit),
+                                time_text(window.last * unit),
+                                window.begins_before ? " (from the first time searched)" : "",
+                                window.ends_after ? " (to the last time searched)" : ""));
+  }
+  return fmt::format(" {} or less suffices in {} of time: {}.", velocity_text(*budget),
+                     counted(spans.size(), "span"), fmt::join(spans, "; "));
 }
 
 }  // namespace
@@ -240,7 +263,7 @@ std::string transfer_verdict(const TransferResult& result) {
     text += fmt::format(", with the linear answer by {}", length_text(linear->miss_m));
   }
   return text + "." + edge_text(result, *best) + left_out_text(result) + between_text(result) +
-         optimal_text;
+         budget_text(result) + optimal_text;
 }
 
 std::string transfer_failure(const TransferResult& result) {

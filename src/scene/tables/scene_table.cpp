@@ -103,6 +103,15 @@ std::vector<double> TableReader::numbers(std::string_view key, std::size_t count
   return values;
 }
 
+std::vector<double> TableReader::positive_numbers(std::string_view key, std::size_t count) const {
+  std::vector<double> values = numbers(key, count);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (values[i] > 0) continue;
+    fail_element(key, i, fmt::format("not positive, got {}, must be a number above 0", values[i]));
+  }
+  return values;
+}
+
 std::vector<double> TableReader::numbers(std::string_view key) const {
   constexpr std::string_view right = "an array of finite numbers, at least one";
   const std::size_t count = required_array(key, right).size();

@@ -78,6 +78,8 @@ class TableReader {
   std::optional<std::int64_t> integer_if_any(std::string_view key) const;
   /// Required: an array of `count` finite numbers.
   std::vector<double> numbers(std::string_view key, std::size_t count) const;
+  /// Required: an array of `count` finite numbers above 0.
+  std::vector<double> positive_numbers(std::string_view key, std::size_t count) const;
   /// Required: an array of finite numbers, not empty.
   std::vector<double> numbers(std::string_view key) const;
   /// Required: an array of integers between the two, both included; not empty.

@@ -73,6 +73,8 @@ void TableReader::read_declared(const SceneKey& key) const {
     integers(name, least(), most());
   } else if (form.type == Type::integer) {
     integer_between(name, least(), most());
+  } else if (form.is_array && form.count > 0 && form.is_positive) {
+    positive_numbers(name, form.count);
   } else if (form.is_array && form.count > 0) {
     numbers(name, form.count);
   } else if (form.is_array) {

@@ -12,21 +12,11 @@
 namespace hamjet {
 namespace {
 
-/// The squared separation and half its derivative by time, from the difference of two states.
+/// The squared separation, in semi-axes of an ellipsoid, and half its derivative by time.
 struct Separation {
   double square = 0;
   double half_rate = 0;
 };
-
-Separation separation_of(const std::vector<double>& chief, const std::vector<double>& deputy) {
-  Separation found;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double place = deputy[i] - chief[i];
-    found.square += place * place;
-    found.half_rate += place * (deputy[i + 3] - chief[i + 3]);
-  }
-  return found;
-}
 
 /// An interval in which the separation turns, and the extreme that cubic interpolation has there.
 struct Turn {
@@ -36,11 +26,11 @@ struct Turn {
 
 class Extremes {
  public:
-  Extremes(const Scene& scene, const RelativeTrajectory& flown)
-      : scene_(scene), flown_(flown), system_(make_system(scene)) {
-    for (std::size_t k = 0; k < flown.times.size(); ++k) {
-      separations_.push_back(separation_of(flown.chief[k], flown.deputy[k]));
-    }
+  /// Of a sphere of 1 m the frame may be any, for then the velocity of its axes does not matter.
+  Extremes(const Scene& scene, const RelativeTrajectory& flown,
+           const Eigen::Vector3d& semi_axes_m = Eigen::Vector3d::Ones())
+      : scene_(scene), flown_(flown), semi_axes_m_(semi_axes_m), system_(make_system(scene)) {
+    for (const RelativeState& state : flown.states) separations_.push_back(separation_of(state));
   }
 
   /// `sign` is 1 for the nearest and -1 for the farthest.
@@ -58,13 +48,23 @@ class Extremes {
         [&](const Turn& a, const Turn& b) { return sign * a.square < sign * b.square; });
     for (std::size_t i = 0; i < tried; ++i) {
       const SeparationAt found = flown_to_turn(turns[i].first);
-      const double least = separation_m(extreme.state);
-      if (sign * separation_m(found.state) < sign * least) extreme = found;
+      const double least = ratio(extreme.state);
+      if (sign * ratio(found.state) < sign * least) extreme = found;
     }
     return extreme;
   }
 
+  double ratio(const RelativeState& state) const {
+    return state.position_m.cwiseQuotient(semi_axes_m_).norm();
+  }
+
  private:
+  Separation separation_of(const RelativeState& state) const {
+    const Eigen::Vector3d place = state.position_m.cwiseQuotient(semi_axes_m_);
+    const Eigen::Vector3d velocity = state.velocity_m_s.cwiseQuotient(semi_axes_m_);
+    return {place.squaredNorm(), place.dot(velocity) * scene_.units.time_s};
+  }
+
   std::vector<Turn> turns_of(double sign) const {
     std::vector<Turn> turns;
     for (std::size_t k = 0; k + 1 < separations_.size(); ++k) {
@@ -90,26 +90,24 @@ class Extremes {
 
   SeparationAt flown_to_turn(std::size_t first) const {
     const double h = flown_.times[first + 1] - flown_.times[first];
-    std::vector<double> chief, deputy;
     const auto fly = [&](double time) {
-      chief = exact_flow(system_, flown_.chief[first], time);
-      deputy = exact_flow(system_, flown_.deputy[first], time);
-      return separation_of(chief, deputy).half_rate;
+      const std::vector<double> chief = exact_flow(system_, flown_.chief[first], time);
+      std::vector<double> difference = exact_flow(system_, flown_.deputy[first], time);
+      for (std::size_t i = 0; i < difference.size(); ++i) difference[i] -= chief[i];
+      return ChiefFrame(chief, metric_units(scene_), flown_.frame).relative(difference);
     };
     std::uintmax_t most_flights = 40;
     const auto bracket = boost::math::tools::toms748_solve(
-        fly, 0.0, h, separations_[first].half_rate, separations_[first + 1].half_rate,
+        [&](double time) { return separation_of(fly(time)).half_rate; }, 0.0, h,
+        separations_[first].half_rate, separations_[first + 1].half_rate,
         boost::math::tools::eps_tolerance<double>(30), most_flights);
     const double time = (bracket.first + bracket.second) / 2;
-    fly(time);
-    std::vector<double> difference;
-    for (std::size_t i = 0; i < deputy.size(); ++i) difference.push_back(deputy[i] - chief[i]);
-    return {flown_.times[first] + time,
-            ChiefFrame(chief, metric_units(scene_), flown_.frame).relative(difference)};
+    return {flown_.times[first] + time, fly(time)};
   }
 
   const Scene& scene_;
   const RelativeTrajectory& flown_;
+  Eigen::Vector3d semi_axes_m_;
   SharedSystem system_;
   std::vector<Separation> separations_;
 };
@@ -121,6 +119,12 @@ double separation_m(const RelativeState& state) { return state.position_m.norm()
 ExtremeSeparations extreme_separations(const Scene& scene, const RelativeTrajectory& flown) {
   const Extremes extremes(scene, flown);
   return {extremes.find(1), extremes.find(-1)};
+}
+
+double least_ratio(const Scene& scene, const RelativeTrajectory& flown,
+                   const Eigen::Vector3d& semi_axes_m) {
+  const Extremes extremes(scene, flown, semi_axes_m);
+  return extremes.ratio(extremes.find(1).state);
 }
 
 }  // namespace hamjet

@@ -25,4 +25,9 @@ struct ExtremeSeparations {
 /// cubic interpolation of the squared separation has as the most extreme. Throws as exact_flow.
 ExtremeSeparations extreme_separations(const Scene& scene, const RelativeTrajectory& flown);
 
+/// The least of |(R/a, T/b, N/c)| along a flown trajectory, between its times too, likewise. The
+/// trajectory is in rotating RTN, and the semi-axes a, b, c in metres. Throws as exact_flow.
+double least_ratio(const Scene& scene, const RelativeTrajectory& flown,
+                   const Eigen::Vector3d& semi_axes_m);
+
 }  // namespace hamjet

@@ -5,6 +5,8 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <utility>
 
 #include "../../integrators/momentum_unit.hpp"
@@ -12,6 +14,7 @@
 #include "hamjet/error.hpp"
 #include "hamjet/relative_motion/chief_frame.hpp"
 #include "impulse_search.hpp"
+#include "keep_out.hpp"
 #include "single_transfer.hpp"
 
 namespace hamjet {
@@ -88,6 +91,7 @@ class PlannedTransfer {
     plan.lower_bound_m_s = metres_per_second(optimum.least.lower_bound);
     plan.primer = optimum.primer;
     tell(plan, impulses);
+    if (plan.failure.empty()) judge_limits(plan, impulses);
     return plan;
   }
 
@@ -143,22 +147,56 @@ class PlannedTransfer {
     return effects;
   }
 
+  /// Called with the time at which a leg of the flight begins, its duration, and the state then.
+  using OnLeg = std::function<void(double, double, const std::vector<double>&)>;
+
   /// The deviation from the chief at the end of a deputy that flies the impulses.
   std::vector<double> fly(const std::vector<double>& times,
-                          const std::vector<Eigen::Vector3d>& changes) const {
+                          const std::vector<Eigen::Vector3d>& changes,
+                          const OnLeg& on_leg = {}) const {
     std::vector<double> state = problem_.nominal;
     for (std::size_t i = 0; i < 6; ++i) state[i] += start_[i];
     double now = 0;
+    const auto fly_to = [&](double time) {
+      if (time == now) return;
+      if (on_leg) on_leg(now, time - now, state);
+      state = exact_flow(problem_.system, state, time - now);
+      now = time;
+    };
     for (std::size_t k = 0; k < times.size(); ++k) {
-      if (times[k] != now) state = exact_flow(problem_.system, state, times[k] - now);
-      now = times[k];
+      fly_to(times[k]);
       for (std::size_t i = 0; i < 3; ++i) {
         state[3 + i] += changes[k][static_cast<Eigen::Index>(i)] * momentum_unit_;
       }
     }
-    if (now != duration_) state = exact_flow(problem_.system, state, duration_ - now);
+    fly_to(duration_);
     for (std::size_t i = 0; i < 6; ++i) state[i] -= chief_end_[i];
     return state;
+  }
+
+  /// Says what of the plan the scene does not allow.
+  void judge_limits(ImpulsePlan& plan, const TimedImpulses& impulses) const {
+    const TransferSettings& settings = *scene_.transfer;
+    double largest = 0;
+    for (const Impulse& impulse : plan.impulses) {
+      largest = std::max(largest, impulse.change_m_s.norm());
+    }
+    if (settings.largest_impulse_m_s && largest > *settings.largest_impulse_m_s) {
+      plan.forbidden = fmt::format("an impulse is {:.4g} m/s, above largest_impulse_m_s", largest);
+      return;
+    }
+    if (!settings.keep_out_m) return;
+    double least = std::numeric_limits<double>::infinity();
+    fly(impulses.times, impulses.changes,
+        [&](double time, double duration, const std::vector<double>& state) {
+          const std::vector<double> chief = flow_.nominal(time);
+          std::vector<double> deviation = state;
+          for (std::size_t i = 0; i < 6; ++i) deviation[i] -= chief[i];
+          least = std::min(least, keep_out_ratio(scene_, chief, deviation, duration));
+        });
+    if (least < 1) {
+      plan.forbidden = fmt::format("its way comes to {:.3g} of the ellipsoid keep_out_m", least);
+    }
   }
 
   /// Flies the plan and takes the linear flow's word on how to mend what it misses by.

@@ -11,26 +11,22 @@
 #include "../exact_flow.hpp"
 #include "../jets_along_time.hpp"
 #include "../stopwatch.hpp"
+#include "budget_windows.hpp"
 #include "flown_trajectory.hpp"
 #include "formation_problem.hpp"
 #include "hamjet/error.hpp"
 #include "impulse_plan.hpp"
+#include "least_time.hpp"
 #include "single_transfer.hpp"
 #include "transfer_points.hpp"
 
 namespace hamjet {
 
-namespace {
-
-double change_of(const TransferPoint& point) { return point.best().total_change_m_s(); }
-
-}  // namespace
-
 std::optional<std::size_t> TransferResult::best_point() const {
   std::optional<std::size_t> best;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!points[i].is_candidate()) continue;
-    if (!best || change_of(points[i]) < change_of(points[*best])) best = i;
+    if (!best || points[i].change_m_s() < points[*best].change_m_s()) best = i;
   }
   return best;
 }
@@ -57,94 +53,6 @@ void require_same_chief(const Scene& scene, const EarlierJet& earlier, double di
               fmt::format("transfer: the earlier jet {} is not of this scene: its chief comes to a "
                           "place {:.3g} km from where the scene's does",
                           earlier.label, distance_m / 1000));
-}
-
-/// The spans between the neighbours of the lowest listed answers, at most `most_spans` of them.
-std::vector<std::pair<double, double>> lowest_spans(const TransferResult& result) {
-  constexpr std::size_t most_spans = 3;
-  const std::vector<double>& times = result.scene.transfer->times;
-  const auto change_at = [&](std::size_t i) {
-    const bool is_there = i < result.points.size() && result.points[i].is_candidate();
-    return is_there ? change_of(result.points[i]) : std::numeric_limits<double>::infinity();
-  };
-  std::vector<std::size_t> minima;
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    const double before = i > 0 ? change_at(i - 1) : std::numeric_limits<double>::infinity();
-    if (std::isfinite(change_at(i)) && change_at(i) <= before && change_at(i) <= change_at(i + 1)) {
-      minima.push_back(i);
-    }
-  }
-  std::stable_sort(minima.begin(), minima.end(),
-                   [&](std::size_t a, std::size_t b) { return change_at(a) < change_at(b); });
-  if (minima.size() > most_spans) minima.resize(most_spans);
-  std::vector<std::pair<double, double>> spans;
-  for (const std::size_t i : minima) {
-    spans.emplace_back(times[i > 0 ? i - 1 : 0], times[std::min(i + 1, times.size() - 1)]);
-  }
-  return spans;
-}
-
-/// Inner points of the spans, moving away from 0.
-std::vector<double> times_within(const std::vector<std::pair<double, double>>& spans) {
-  constexpr int parts = 12;
-  std::vector<double> times;
-  for (const auto& [left, right] : spans) {
-    for (int k = 1; k < parts; ++k) times.push_back(left + (right - left) * k / parts);
-  }
-  std::sort(times.begin(), times.end(),
-            [](double a, double b) { return std::abs(a) < std::abs(b); });
-  times.erase(std::unique(times.begin(), times.end()), times.end());
-  return times;
-}
-
-}  // namespace
-
-namespace {
-
-/// Looks for a smaller velocity change between the listed times, about the lowest answers: twelve
-/// times in the span between the neighbours of each, then twelve about the least of these, so that
-/// the least is known to a thirtieth of the listed spacing.
-void search_between(TransferResult& result, TransferPoints& points,
-                    const IntegratorSettings& integrator, const RelativeTransfer& ends,
-                    const ProgressCallback& progress) {
-  constexpr int rounds = 2;
-  const auto listed = result.best_point();
-  if (!listed || result.points.size() < 2) return;
-  double least = change_of(result.points[*listed]);
-  std::vector<std::pair<double, double>> spans = lowest_spans(result);
-  points.forget_last_kind();
-  for (int round = 0; round < rounds; ++round) {
-    const std::vector<double> times = times_within(spans);
-    std::optional<double> lowest;
-    double lowest_time = 0;
-    const auto statistics = visit_jets(
-        points.problem(), integrator, times, [&](std::size_t index, const FlowJet<double>& jet) {
-          if (progress) {
-            progress("between the times",
-                     static_cast<double>(index) / static_cast<double>(times.size()));
-          }
-          ++result.times_between;
-          const TransferPoint point =
-              points.answer(points.choose_kind(times[index], jet, {ends}), jet, ends);
-          if (!point.is_candidate()) return;
-          if (!lowest || change_of(point) < *lowest) {
-            lowest = change_of(point);
-            lowest_time = times[index];
-          }
-          if (change_of(point) < least) {
-            least = change_of(point);
-            result.least_between = point;
-          }
-        });
-    result.seconds.propagation += statistics.wall_seconds;
-    if (!lowest) return;
-    const auto place = std::find(times.begin(), times.end(), lowest_time) - times.begin();
-    const auto at = [&](std::ptrdiff_t i) {
-      return times[static_cast<std::size_t>(
-          std::clamp<std::ptrdiff_t>(i, 0, static_cast<std::ptrdiff_t>(times.size()) - 1))];
-    };
-    spans = {{at(place - 1), at(place + 1)}};
-  }
 }
 
 }  // namespace
@@ -187,7 +95,10 @@ TransferResult study_transfer(const Scene& asked, const ProgressCallback& progre
     result.integrator = integrator.label;
     result.statistics = visit_jets(points.problem(), integrator, settings.times, visit);
     result.seconds.propagation = result.statistics.wall_seconds;
-    search_between(result, points, integrator, ends, progress);
+    find_least_between(result, points, integrator, ends, progress);
+    if (settings.budget_m_s) {
+      result.budget_windows = find_budget_windows(result, points, integrator, ends, progress);
+    }
   }
   {
     const Stopwatch watch(result.seconds.impulses);

@@ -13,6 +13,7 @@
 #include "../random_direction.hpp"
 #include "../stopwatch.hpp"
 #include "hamjet/error.hpp"
+#include "keep_out.hpp"
 
 namespace hamjet {
 namespace {
@@ -204,10 +205,26 @@ TransferPoint TransferPoints::answer(const ChosenKind& chosen, const FlowJet<dou
     }
   }
   if (point.has_answer()) {
+    judge_limits(ends, point);
     measure_residual(chosen, jet, transfer.variables(chosen.inversion->kind, momenta.back()),
                      point);
   }
   return point;
+}
+
+void TransferPoints::judge_limits(const RelativeTransfer& ends, TransferPoint& point) {
+  const TransferAnswer& answer = point.best();
+  if (settings_.largest_impulse_m_s) {
+    point.exceeds_impulse = std::max(answer.start_change_m_s.norm(), answer.end_change_m_s.norm()) >
+                            *settings_.largest_impulse_m_s;
+  }
+  if (!settings_.keep_out_m) return;
+  const Stopwatch watch(seconds_.proof);
+  RelativeState start = ends.start;
+  start.velocity_m_s += answer.start_change_m_s;
+  const std::vector<double> deviation =
+      ChiefFrame(problem_.nominal, metric_units(scene_), settings_.frame).deviation(start);
+  point.keep_out_ratio = keep_out_ratio(scene_, problem_.nominal, deviation, point.time);
 }
 
 void TransferPoints::measure_residual(const ChosenKind& chosen, const FlowJet<double>& jet,

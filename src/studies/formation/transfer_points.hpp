@@ -75,6 +75,8 @@ class TransferPoints {
   std::optional<double> singular_distance(double time) const;
   /// The chief flown to a time; the last one is kept, for several deputies and the chief's error.
   const std::vector<double>& flown_chief(double time);
+  /// Whether the best answer is as the scene allows.
+  void judge_limits(const RelativeTransfer& ends, TransferPoint& point);
   void measure_residual(const ChosenKind& chosen, const FlowJet<double>& jet,
                         const std::vector<double>& w, TransferPoint& point);
 

@@ -45,7 +45,8 @@ struct ImpulsePlan {
   /// Where the deputy that flies the plan comes to, beside the wanted end.
   double miss_m = 0;
   double velocity_miss_m_s = 0;
-  std::string failure;  ///< not empty: the plan was not brought to its end, and why
+  std::string failure;    ///< not empty: the plan was not brought to its end, and why
+  std::string forbidden;  ///< not empty: the scene's limits do not allow it, and why
 
   double total_change_m_s() const;
 };
@@ -63,7 +64,7 @@ struct OptimalImpulses {
   std::optional<ImpulsePlan> plan;
   std::string failure;  ///< not empty: there is no plan, and why
 
-  bool is_found() const { return plan && plan->failure.empty(); }
+  bool is_found() const { return plan && plan->failure.empty() && plan->forbidden.empty(); }
 };
 
 }  // namespace hamjet

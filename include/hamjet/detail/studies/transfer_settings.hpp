@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,10 @@ struct TransferSettings {
   /// canonical.
   double singular_margin = 0;
   TransferImpulses impulses = TransferImpulses::two;
+  std::optional<double> budget_m_s;           ///< times are sought that take no more than this
+  std::optional<double> largest_impulse_m_s;  ///< that a transfer may have
+  /// Semi-axes along the chief's R, T, N of an ellipsoid about it that the deputy keeps out of.
+  std::optional<Eigen::Vector3d> keep_out_m;
   bool strict = false;  ///< an answer beyond the tolerance fails the command
 };
 
