@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "../formats/relative_frame_text.hpp"
+#include "../report/propagation/orbit_summary.hpp"
 #include "../scene/system_json.hpp"
 #include "../store/json_values.hpp"
 #include "../store/text_file.hpp"
@@ -28,6 +29,19 @@ template <class Settings>
 Json times_json(const Settings& settings, const Scene& scene) {
   return {{"count", settings.times.size()},
           {"last_s", io::json_number(settings.times.back() * scene.units.time_s)}};
+}
+
+Json mean_elements_json(const Scene& scene) {
+  const auto orbit = io::orbit_summary(scene);
+  if (!orbit || !orbit->mean_elements) return nullptr;
+  const OsculatingElements& mean = *orbit->mean_elements;
+  return {{"a_km", convert<double>(mean.semi_major_axis_km)},
+          {"e", convert<double>(mean.eccentricity)},
+          {"i_deg", convert<double>(mean.inclination_deg)},
+          {"raan_deg", convert<double>(mean.ascending_node_deg)},
+          {"argp_deg", convert<double>(mean.argument_of_perigee_deg)},
+          {"ma_deg", orbit->mean_anomaly_deg},
+          {"relative_truncation", orbit->mean_truncation}};
 }
 
 Json facts(const RunOptions& options, const Scene& scene) {
@@ -56,6 +70,7 @@ Json facts(const RunOptions& options, const Scene& scene) {
     }
     json["integrators"].push_back(integrator);
   }
+  json["mean_elements"] = mean_elements_json(scene);
   json["deputy"] = nullptr;
   if (scene.deputy) {
     const auto array = [](const Eigen::Vector3d& v) { return Json{v[0], v[1], v[2]}; };

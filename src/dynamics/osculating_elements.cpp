@@ -40,6 +40,12 @@ void check(const OsculatingElements& elements, double mu_km3_s2) {
   }
 }
 
+/// The direction (x, y) as an angle from 0 to 360 degrees.
+Extended positive_degrees(const Extended& y, const Extended& x) {
+  const Extended angle = atan2(y, x) * 180 / pi();
+  return without_sign_of_zero(angle < 0 ? Extended(angle + 360) : angle);
+}
+
 void check_anomaly(const Extended& anomaly_deg, const Extended& eccentricity) {
   if (!isfinite(anomaly_deg) || !(eccentricity >= 0 && eccentricity < 1)) {
     throw Error(ErrorKind::usage, "an anomaly must be finite, with 0 <= e < 1");
@@ -100,6 +106,48 @@ CartesianState state_from_elements(const OsculatingElements& elements, double mu
   return state;
 }
 
+OsculatingElements elements_from_state(const CartesianState& state, double mu_km3_s2) {
+  const auto& r = state.position_km;
+  const auto& v = state.velocity_km_s;
+  const bool is_finite =
+      std::all_of(r.begin(), r.end(), [](const auto& x) { return isfinite(x); }) &&
+      std::all_of(v.begin(), v.end(), [](const auto& x) { return isfinite(x); });
+  if (!is_finite || !(std::isfinite(mu_km3_s2) && mu_km3_s2 > 0)) {
+    throw Error(ErrorKind::usage, "elements: state and mu must be finite, and mu above 0");
+  }
+  const Extended mu = mu_km3_s2;
+  const std::array<Extended, 3> h = {r[1] * v[2] - r[2] * v[1], r[2] * v[0] - r[0] * v[2],
+                                     r[0] * v[1] - r[1] * v[0]};
+  const Extended momentum = sqrt(norm_squared(h)), distance = sqrt(norm_squared(r));
+  const Extended inverse_a = 2 / distance - norm_squared(v) / mu;
+  if (!(inverse_a > 0) || !(momentum > 0)) {
+    throw Error(ErrorKind::numerical, "elements: the orbit is no ellipse");
+  }
+  OsculatingElements elements;
+  elements.semi_major_axis_km = 1 / inverse_a;
+  const Extended radial = r[0] * v[0] + r[1] * v[1] + r[2] * v[2];
+  const Extended e_cosine = momentum * momentum / (mu * distance) - 1;
+  const Extended e_sine = momentum * radial / (mu * distance);
+  elements.eccentricity = sqrt(e_cosine * e_cosine + e_sine * e_sine);
+  const Extended across = sqrt(h[0] * h[0] + h[1] * h[1]);
+  elements.inclination_deg = atan2(across, h[2]) * 180 / pi();
+  // The line of nodes; the x axis in the equatorial plane.
+  const Extended node_x = across > 0 ? Extended(-h[1] / across) : Extended(1);
+  const Extended node_y = across > 0 ? Extended(h[0] / across) : Extended(0);
+  elements.ascending_node_deg = positive_degrees(node_y, node_x);
+  const Extended along_node = r[0] * node_x + r[1] * node_y;
+  const Extended beyond_node = (r[2] * across + h[2] * (node_x * r[1] - node_y * r[0])) / momentum;
+  const Extended latitude_deg = positive_degrees(beyond_node, along_node);
+  if (elements.eccentricity > 0) {
+    elements.true_anomaly_deg = positive_degrees(e_sine, e_cosine);
+  } else {
+    elements.true_anomaly_deg = latitude_deg;
+  }
+  const Extended perigee_deg = latitude_deg - elements.true_anomaly_deg;
+  elements.argument_of_perigee_deg = perigee_deg < 0 ? Extended(perigee_deg + 360) : perigee_deg;
+  return elements;
+}
+
 Extended eccentric_anomaly_of_mean_deg(const Extended& mean_anomaly_deg,
                                        const Extended& eccentricity) {
   check_anomaly(mean_anomaly_deg, eccentricity);
@@ -119,6 +167,17 @@ Extended true_anomaly_of_eccentric_deg(const Extended& eccentric_anomaly_deg,
   const Extended b = eccentricity / (1 + sqrt(Extended((1 - eccentricity) * (1 + eccentricity))));
   const auto [sine, cosine] = sine_cosine_of_degrees(eccentric_anomaly_deg);
   return eccentric_anomaly_deg + 2 * atan(Extended(b * sine / (1 - b * cosine))) * 180 / pi();
+}
+
+Extended mean_anomaly_of_true_deg(const Extended& true_anomaly_deg, const Extended& eccentricity) {
+  check_anomaly(true_anomaly_deg, eccentricity);
+  const auto [sine, cosine] = sine_cosine_of_degrees(true_anomaly_deg);
+  const Extended eta = sqrt(Extended((1 - eccentricity) * (1 + eccentricity)));
+  // sin E and cos E times 1 + e cos nu.
+  const Extended E_deg = positive_degrees(eta * sine, eccentricity + cosine);
+  const Extended sine_of_E = eta * sine / (1 + eccentricity * cosine);
+  const Extended mean_deg = E_deg - eccentricity * sine_of_E * 180 / pi();
+  return without_sign_of_zero(mean_deg < 0 ? Extended(mean_deg + 360) : mean_deg);
 }
 
 Extended semi_major_axis_of_period_km(const Extended& period_s, double mu_km3_s2) {

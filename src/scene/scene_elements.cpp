@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <optional>
 
+#include "hamjet/dynamics/mean_elements.hpp"
+#include "hamjet/error.hpp"
+
 namespace hamjet::io {
 namespace {
 
@@ -189,6 +192,28 @@ void read_place(const TableReader& table, const std::optional<Ellipse>& ellipse,
   }
 }
 
+/// The osculating state of one whose elements are mean ones.
+CartesianState osculating_of_mean_elements(const TableReader& table, const SystemSettings& system,
+                                           const CartesianState& mean) {
+  if (system.J[2] == 0) {
+    table.fail("elements",
+               "mean elements in a field without J2, got \"mean\", must be \"osculating\", which "
+               "are the same there");
+  }
+  try {
+    const OblateBody body{system.mu_km3_s2, system.radius_km, system.J[2]};
+    const CartesianState state = osculating_of_mean(mean, body);
+    // That the way back exists says that J2 is small enough for the theory.
+    mean_of_osculating(state, body);
+    return state;
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::numerical) throw;
+    table.fail("elements", fmt::format("no mean elements here, got \"mean\", must be "
+                                       "\"osculating\": {}",
+                                       error.what()));
+  }
+}
+
 }  // namespace
 
 const std::vector<std::string_view>& size_keys() {
@@ -229,7 +254,10 @@ std::vector<SceneKey> element_keys(const std::vector<std::string_view>& owners) 
       {"ea_deg", angle, other_form, "eccentric anomaly", owners},
       {"ma_deg", angle, other_form, "mean anomaly", owners},
       {"u_deg", angle, other_form,
-       "true argument of latitude, argument of perigee plus true anomaly", owners}};
+       "true argument of latitude, argument of perigee plus true anomaly", owners},
+      {"elements", form::choice({"osculating", "mean"}), absent::value("osculating"),
+       "what the elements are: `mean` without the periodic terms of Brouwer's first order in J2",
+       owners}};
 }
 
 CartesianState read_elements(const TableReader& table, const SceneCentre& centre) {
@@ -244,7 +272,9 @@ CartesianState read_elements(const TableReader& table, const SceneCentre& centre
   elements.eccentricity = ellipse->e;
   elements.inclination_deg = table.number("i_deg");
   elements.ascending_node_deg = table.number("raan_deg");
-  return state_from_elements(elements, centre.system.mu_km3_s2);
+  const CartesianState state = state_from_elements(elements, centre.system.mu_km3_s2);
+  const bool are_mean = table.has("elements") && table.choice("elements") == 1;
+  return are_mean ? osculating_of_mean_elements(table, centre.system, state) : state;
 }
 
 }  // namespace hamjet::io

@@ -243,6 +243,50 @@ TEST(SemiMajorAxisOfPeriod, FollowsKeplersThirdLaw) {
   EXPECT_THROW(semi_major_axis_of_period_km(1, -1), Error);
 }
 
+// Expected: Vallado's example 2-5 (the same book), which prints the state of its example 2-6 with
+// more digits.
+TEST(ElementsFromState, AgreeWithPublishedExample) {
+  const OsculatingElements found = elements_from_state(
+      {{6524.834, 6862.875, 6448.296}, {4.901327, 5.533756, -1.976341}}, 398600.4418);
+  EXPECT_NEAR(static_cast<double>(found.semi_major_axis_km), 36127.343, 0.02);
+  EXPECT_NEAR(static_cast<double>(found.eccentricity), 0.832853, 2e-6);
+  EXPECT_NEAR(static_cast<double>(found.inclination_deg), 87.870, 1e-3);
+  EXPECT_NEAR(static_cast<double>(found.ascending_node_deg), 227.898, 1e-3);
+  EXPECT_NEAR(static_cast<double>(found.argument_of_perigee_deg), 53.38, 1e-2);
+  EXPECT_NEAR(static_cast<double>(found.true_anomaly_deg), 92.335, 1e-3);
+}
+
+TEST(ElementsFromState, AreTheInverseOfTheState) {
+  for (const double e : {0.0, 1e-6, 0.3, 0.95}) {
+    for (const double i : {0.0, 1e-5, 63.4, 90.0, 179.0}) {
+      for (const double angle : {0.0, 100.0, 250.0}) {
+        const OsculatingElements given = {7000, e, i, i > 0 ? 200.0 : 0, e > 0 ? 300.0 : 0, angle};
+        const CartesianState state = state_from_elements(given, earth_mu);
+        const CartesianState again =
+            state_from_elements(elements_from_state(state, earth_mu), earth_mu);
+        for (std::size_t k = 0; k < 3; ++k) {
+          // Angles of nearly singular orbits are ill-conditioned, their state is not.
+          EXPECT_LE(abs(again.position_km[k] - state.position_km[k]), 1e-25) << e << " " << i;
+          EXPECT_LE(abs(again.velocity_km_s[k] - state.velocity_km_s[k]), 1e-28) << e << " " << i;
+        }
+      }
+    }
+  }
+  EXPECT_THROW(elements_from_state({{7000, 0, 0}, {0, 12, 0}}, earth_mu), Error);
+  EXPECT_THROW(elements_from_state({{7000, 0, 0}, {0, 7, 0}}, -1), Error);
+}
+
+// Expected: Kepler's equation the other way.
+TEST(MeanAnomaly, IsThatOfTheEccentricOne) {
+  for (const double e : {0.0, 0.3, 0.97}) {
+    for (const double mean_deg : {0.0, 10.0, 179.0, 180.0, 300.0}) {
+      const Extended anomaly =
+          true_anomaly_of_eccentric_deg(eccentric_anomaly_of_mean_deg(mean_deg, e), e);
+      EXPECT_LE(abs(mean_anomaly_of_true_deg(anomaly, e) - mean_deg), 1e-29) << e;
+    }
+  }
+}
+
 // Expected: Kepler's third law, T = 2 pi sqrt(a^3 / mu), with the a that the state was made from.
 TEST(OsculatingPeriod, FollowsKeplersThirdLaw) {
   const CartesianState circle = {{Extended(1), Extended(0), Extended(0)},

@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "hamjet/dynamics/mean_elements.hpp"
 #include "scene_samples.hpp"
+#include "support/errors.hpp"
 
 // Size and shape of an orbit, and the place on it, in every way that a scene may say them.
 // Expected: the same orbit by a_km, e, argp_deg and ta_deg.
@@ -125,6 +127,33 @@ TEST(SceneElements, ADeputyHasThemToo) {
   const RelativeState found = deputy("height_km = 623\nu_deg = -0.01\n");
   EXPECT_EQ(found.position_m, expected.position_m);
   EXPECT_EQ(found.velocity_m_s, expected.velocity_m_s);
+}
+
+// The start is the osculating state of the mean one, which MeanElements judges.
+TEST(SceneElements, MayBeMeanOnes) {
+  const auto field = [](const std::string& J2, const std::string& elements) {
+    return parse_scene("[system]\nmodel = \"zonal-gravity\"\nmu_km3_s2 = 398600.4415\n" + J2 +
+                           "radius_km = 6378\n[jet]\nduration_orbits = 1\n[nominal]\n"
+                           "height_km = 622\nu_deg = 30\ni_deg = 98\nraan_deg = 10\n" +
+                           elements,
+                       "file.toml");
+  };
+  const std::string flat = "J2 = 1.0826e-3\n";
+  const Scene mean = field(flat, "elements = \"mean\"\n");
+  const CartesianState expected = osculating_of_mean(
+      state_from_elements({7000, 0, 98, 10, 0, 30}, 398600.4415), {398600.4415, 6378, 1.0826e-3});
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(mean.nominal[i] * mean.units.length_km, convert<double>(expected.position_km[i]),
+                1e-11);
+  }
+  const Scene osculating = field(flat, "elements = \"osculating\"\n");
+  EXPECT_EQ(osculating.nominal, field(flat, "").nominal);
+  EXPECT_GT(std::abs(mean.nominal[0] - osculating.nominal[0]), 1e-5);
+  test::expect_error(ErrorKind::scene,
+                     "nominal.elements: mean elements in a field without J2, got \"mean\"",
+                     [&] { field("", "elements = \"mean\"\n"); });
+  test::expect_error(ErrorKind::scene, "nominal.elements: no mean elements here",
+                     [&] { field("J2 = 0.9\n", "elements = \"mean\"\n"); });
 }
 
 TEST(SceneElements, EachPieceIsThereOnce) {

@@ -144,6 +144,7 @@ const std::map<std::string, Place>& special_places() {
       {"nominal.position_m", {"", {}, "[2]"}},
       {"nominal.momentum_kg_m_s", {"", {}, "[2]"}},
       {"deputy.a_km", {"", {no_deputy, ellipse}, "7087"}},
+      {"deputy.elements", {"", {no_deputy, ellipse}, "\"mean\""}},
       {"deputy.e", {"", {no_deputy, ellipse}, "0.0011"}},
       {"deputy.i_deg", {"", {no_deputy, ellipse}, "98.3"}},
       {"deputy.raan_deg", {"", {no_deputy, ellipse}, "0.1"}},

@@ -46,6 +46,16 @@ SineCosine sine_cosine_of_degrees(const Extended& angle_deg);
 /// 2.6 (algorithm COE2RV), its rotation written out with the argument of latitude.
 CartesianState state_from_elements(const OsculatingElements& elements, double mu_km3_s2);
 
+/// The elements of a state: the inverse of state_from_elements, with angles from 0 to 360 degrees,
+/// the inclination to 180. In the equatorial plane the node is the x axis, and on a circle the
+/// perigee is the node: the angles from there are defined, those to there are 0.
+///
+/// Throws Error(usage) unless mu > 0 and every number is finite; Error(numerical) where the orbit
+/// is no ellipse.
+///
+/// Source: Vallado, the same section (algorithm RV2COE), angles by two-argument arctangents.
+OsculatingElements elements_from_state(const CartesianState& state, double mu_km3_s2);
+
 /// Eccentric anomaly of a mean one on an ellipse, by Kepler's equation M = E - e sin E, good to
 /// about 33 digits. On the same turn as the mean anomaly; multiples of 180 degrees, and all angles
 /// where e = 0, stay as they are.
@@ -66,6 +76,11 @@ Extended eccentric_anomaly_of_mean_deg(const Extended& mean_anomaly_deg,
 /// P. Cefola, Celestial Mechanics 7 (1973) 388.
 Extended true_anomaly_of_eccentric_deg(const Extended& eccentric_anomaly_deg,
                                        const Extended& eccentricity);
+
+/// Mean anomaly of a true one on an ellipse, good to about 33 digits, from 0 to 360 degrees.
+///
+/// Throws Error(usage) unless 0 <= e < 1 and the anomaly is finite.
+Extended mean_anomaly_of_true_deg(const Extended& true_anomaly_deg, const Extended& eccentricity);
 
 /// Semi-major axis of the ellipse with a period, a^3 = mu (T/2 pi)^2.
 ///

@@ -16,6 +16,7 @@ text that the command prints. Long work lets other threads run and ends within a
 """
 
 from ._hamjet import GeneratingFunction, Jet, Units, __version__
+from .elements import elements_of_states, mean_states, osculating_states, states_of_elements
 from .errors import (Error, ExistingFileError, InputOutputError, MissingFileError, NumericalError,
                      SceneError, TooLargeError, UsageError)
 from .orbits import orbit
@@ -28,5 +29,6 @@ __all__ = [
     "AlongTime", "Error", "ExistingFileError", "GeneratingFunction", "InputOutputError", "Jet",
     "MissingFileError", "Motion", "Nominal", "NumericalError", "RelativeStates", "Result", "Run",
     "SceneError", "Separation", "StudyResult", "TooLargeError", "Transfers", "Units", "UsageError",
-    "Validity", "__version__", "load", "motion", "orbit", "run", "transfer", "validity",
+    "Validity", "__version__", "elements_of_states", "load", "mean_states", "motion", "orbit",
+    "osculating_states", "run", "states_of_elements", "transfer", "validity",
 ]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import operator
 import os
 from typing import Any
@@ -43,6 +44,24 @@ def integer(value: Any, place: str, least: int, most: int) -> int:
         raise UsageError(f"{place}: out of range, got {number}, must be an integer from {least} to "
                          f"{most}")
     return number
+
+
+def number(value: Any, place: str) -> float:
+    try:
+        result = float(value)
+    except (TypeError, ValueError):
+        raise UsageError(f"{place}: wrong type, got {type(value).__name__}, must be a "
+                         "number") from None
+    if not math.isfinite(result):
+        raise UsageError(f"{place}: not finite, got {result}, must be a finite number")
+    return result
+
+
+def positive(value: Any, place: str) -> float:
+    result = number(value, place)
+    if not result > 0:
+        raise UsageError(f"{place}: not positive, got {result:g}, must be a number above 0")
+    return result
 
 
 def progress(value: Any) -> Any:

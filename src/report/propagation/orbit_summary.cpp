@@ -8,6 +8,8 @@
 
 #include "../../dynamics/celestial_bodies.hpp"
 #include "../../text/quantity_text.hpp"
+#include "hamjet/dynamics/mean_elements.hpp"
+#include "hamjet/error.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -95,6 +97,41 @@ std::string period_text(double seconds) {
   return fmt::format("{:.3f} days", seconds / day);
 }
 
+void add_mean_elements(const Scene& scene, OrbitSummary& summary) {
+  const double speed_km_s = scene.units.length_km / scene.units.time_s;
+  CartesianState start;
+  for (std::size_t i = 0; i < 3; ++i) {
+    start.position_km[i] = Extended(scene.nominal[i]) * scene.units.length_km;
+    start.velocity_km_s[i] = Extended(scene.nominal[3 + i]) * speed_km_s;
+  }
+  const SystemSettings& system = scene.system;
+  const double J2 = system.J[2];
+  try {
+    const OsculatingElements mean = elements_from_state(
+        mean_of_osculating(start, {system.mu_km3_s2, system.radius_km, J2}), system.mu_km3_s2);
+    const double a = convert<double>(mean.semi_major_axis_km);
+    const double e = convert<double>(mean.eccentricity);
+    summary.mean_elements = mean;
+    summary.mean_anomaly_deg =
+        convert<double>(mean_anomaly_of_true_deg(mean.true_anomaly_deg, mean.eccentricity));
+    summary.mean_truncation =
+        std::pow(1.5 * J2 * std::pow(system.radius_km / (a * (1 - e * e)), 2), 2);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::numerical) throw;
+  }
+}
+
+std::string mean_elements_text(const OrbitSummary& orbit) {
+  const OsculatingElements& mean = *orbit.mean_elements;
+  return fmt::format(
+      "  mean orbit   a {:.4f} km, e {:.7f}, i {:.5f} deg, node {:.5f} deg,\n"
+      "               perigee {:.4f} deg, mean anomaly {:.4f} deg (Brouwer's first order in J2, "
+      "which leaves out some {:.0e} of them)\n",
+      convert<double>(mean.semi_major_axis_km), convert<double>(mean.eccentricity),
+      convert<double>(mean.inclination_deg), convert<double>(mean.ascending_node_deg),
+      convert<double>(mean.argument_of_perigee_deg), orbit.mean_anomaly_deg, orbit.mean_truncation);
+}
+
 }  // namespace
 
 std::optional<OrbitSummary> orbit_summary(const Scene& scene) {
@@ -124,6 +161,7 @@ std::optional<OrbitSummary> orbit_summary(const Scene& scene) {
         (orbit.is_ellipse() ? orbit.perigee() + orbit.apogee() : 2 * orbit.perigee()) / 2 *
         units.length_km;
     summary.perturbation_km = std::abs(scene.system.J[2]) * radius_km * radius_km / size_km;
+    add_mean_elements(scene, summary);
   }
   if (scene.system.radius_km > 0) {
     summary.surface_km = scene.system.radius_km;
@@ -154,6 +192,7 @@ std::string orbit_text(const OrbitSummary& orbit) {
   }
   text += fmt::format("\n               eccentricity {:.6f}, inclination {:.4f} deg\n",
                       orbit.eccentricity, orbit.inclination_deg);
+  if (orbit.mean_elements) text += mean_elements_text(orbit);
   text += line("start", orbit.start) + line("perigee", orbit.perigee);
   if (orbit.apogee) text += line("apogee", *orbit.apogee);
   text += "  lowest       ";

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "hamjet/dynamics/osculating_elements.hpp"
 #include "hamjet/studies/scene.hpp"
 
 namespace hamjet::io {
@@ -24,6 +25,11 @@ struct OrbitSummary {
   std::optional<double> period_s;     ///< of an ellipse
   std::optional<double> revolutions;  ///< periods in the duration, whatever its sign
   double lowest_km = 0;               ///< smallest distance from the centre within the duration
+  /// Mean elements of the start, with the mean anomaly, where J2 makes them others than the
+  /// osculating ones and the theory holds; what it leaves out is some `mean_truncation` of them.
+  std::optional<OsculatingElements> mean_elements;
+  double mean_anomaly_deg = 0;
+  double mean_truncation = 0;
   /// J2 R^2/a, several times of which zonal coefficients move heights by; none without J2.
   std::optional<double> perturbation_km;
   /// Of the scene, or of the equator of the body whose mu the scene has.
