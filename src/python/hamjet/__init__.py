@@ -24,11 +24,12 @@ from .relative_motion import (Motion, Separation, Transfers, Validity, motion, t
                               validity)
 from .relative_states import RelativeStates
 from .results import AlongTime, Nominal, Result, Run, StudyResult, load, run
+from .trajectory import Trajectory, trajectory
 
 __all__ = [
     "AlongTime", "Error", "ExistingFileError", "GeneratingFunction", "InputOutputError", "Jet",
     "MissingFileError", "Motion", "Nominal", "NumericalError", "RelativeStates", "Result", "Run",
-    "SceneError", "Separation", "StudyResult", "TooLargeError", "Transfers", "Units", "UsageError",
-    "Validity", "__version__", "elements_of_states", "load", "mean_states", "motion", "orbit",
-    "osculating_states", "run", "states_of_elements", "transfer", "validity",
+    "SceneError", "Separation", "StudyResult", "TooLargeError", "Trajectory", "Transfers", "Units",
+    "UsageError", "Validity", "__version__", "elements_of_states", "load", "mean_states", "motion",
+    "orbit", "osculating_states", "run", "states_of_elements", "trajectory", "transfer", "validity",
 ]

@@ -64,3 +64,13 @@ def _relative_states(states: npt.NDArray[np.float64], miss_m: npt.NDArray[np.flo
     result = RelativeStates(states, miss_m, words)
     result.columns = columns
     return result
+
+
+def joined(parts: list[RelativeStates]) -> RelativeStates:
+    """The rows of several, one after the other; they have the same columns."""
+    arrays = [np.concatenate(part) for part in zip(*parts)]
+    for array in arrays:
+        array.flags.writeable = False
+    result = RelativeStates(*arrays)
+    result.columns = parts[0].columns
+    return result

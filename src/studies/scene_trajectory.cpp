@@ -1,0 +1,100 @@
+#include "scene_trajectory.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "../text/scene_message.hpp"
+#include "arcs.hpp"
+#include "descriptions/method_description.hpp"
+#include "hamjet/algebra/composition.hpp"
+#include "hamjet/error.hpp"
+#include "integration.hpp"
+
+namespace hamjet {
+namespace {
+
+/// A run may keep this much of its jets; between those that it keeps steps are taken again.
+constexpr double most_bytes = 1e9;
+
+bool is_gauss(const IntegratorSettings& settings) {
+  return settings.method == IntegrationMethod::gauss;
+}
+
+const IntegratorSettings& chosen(const Scene& scene, std::string_view label) {
+  const auto& all = scene.integrators;
+  if (label.empty()) {
+    const auto first = std::find_if(all.begin(), all.end(), is_gauss);
+    if (first != all.end()) return *first;
+    throw Error(ErrorKind::scene,
+                "trajectory: no integrator has jets between its steps, must have one of the method "
+                "gauss");
+  }
+  const auto named = std::find_if(all.begin(), all.end(),
+                                  [&](const IntegratorSettings& s) { return s.label == label; });
+  if (named == all.end()) {
+    throw Error(ErrorKind::usage, fmt::format("trajectory: no run has the label {}",
+                                              io::in_quotes(std::string(label))));
+  }
+  if (!is_gauss(*named)) {
+    throw Error(ErrorKind::scene,
+                fmt::format("trajectory: {} has no jets between its steps, must be of the method "
+                            "gauss, got {}",
+                            named->label, description_of(named->method).name));
+  }
+  return *named;
+}
+
+template <class Real>
+std::unique_ptr<const JetTrajectory<Real>> trajectory_of(const ComputedProblem& problem,
+                                                         const IntegratorSettings& settings,
+                                                         double duration,
+                                                         const ProgressCallback& progress) {
+  StepObserver<Real> observer;
+  if (progress) {
+    observer = [&](const Real& time, const FlowJet<Real>&) {
+      progress("trajectory", static_cast<double>(time) / duration);
+    };
+  }
+  return std::make_unique<const JetTrajectory<Real>>(
+      flow_problem<Real>(problem, duration), std::get<GaussSettings>(splittable_method(settings)),
+      most_bytes, observer);
+}
+
+}  // namespace
+
+SceneTrajectory::SceneTrajectory(const Scene& scene, std::string_view label,
+                                 const ProgressCallback& progress)
+    : scene_(scene), problem_(make_problem(scene_, available_memory())) {
+  require_unsplit(scene_, "a trajectory");
+  settings_ = &chosen(scene_, label);
+  if (scene_.precision == Precision::extended) {
+    trajectory_ = trajectory_of<Extended>(problem_, *settings_, scene_.duration, progress);
+  } else {
+    trajectory_ = trajectory_of<double>(problem_, *settings_, scene_.duration, progress);
+  }
+}
+
+const IntegrationStatistics& SceneTrajectory::statistics() const {
+  return std::visit(
+      [](const auto& trajectory) -> const IntegrationStatistics& { return trajectory->statistics(); },
+      trajectory_);
+}
+
+std::vector<double> SceneTrajectory::step_times() const {
+  std::vector<double> times;
+  std::visit(
+      [&](const auto& trajectory) {
+        for (const auto& time : trajectory->step_times()) times.push_back(static_cast<double>(time));
+      },
+      trajectory_);
+  return times;
+}
+
+FlowJet<Extended> SceneTrajectory::at(double time) const {
+  return std::visit(
+      [time](const auto& trajectory) { return convert_map<Extended>(trajectory->at(time)); },
+      trajectory_);
+}
+
+}  // namespace hamjet

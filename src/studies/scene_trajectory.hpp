@@ -1,0 +1,42 @@
+#pragma once
+
+#include <memory>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "hamjet/integrators/jet_trajectory.hpp"
+#include "hamjet/studies/propagation.hpp"
+
+namespace hamjet {
+
+/// The jets of a scene's flow at every time of its duration, from one run (JetTrajectory), in the
+/// scene's precision.
+class SceneTrajectory {
+ public:
+  /// Integrates with the scene's integrator of this label; empty: its first Gauss method. Throws
+  /// Error(usage) if there is none of this label, Error(scene) for an integrator that is no Gauss
+  /// method and for a scene in arcs, and as make_problem and integrate_gauss.
+  SceneTrajectory(const Scene& scene, std::string_view label, const ProgressCallback& progress);
+
+  const Scene& scene() const { return scene_; }
+  const ComputedProblem& problem() const { return problem_; }
+  const IntegratorSettings& settings() const { return *settings_; }
+  const IntegrationStatistics& statistics() const;
+  /// Ends of the steps, canonical; 0 and the duration among them.
+  std::vector<double> step_times() const;
+  /// The jet at a canonical time between 0 and the duration. Throws as JetTrajectory::at. May be
+  /// called on several threads at once.
+  FlowJet<Extended> at(double time) const;
+
+ private:
+  template <class Real>
+  using Pointer = std::unique_ptr<const JetTrajectory<Real>>;
+
+  Scene scene_;
+  ComputedProblem problem_;
+  const IntegratorSettings* settings_ = nullptr;  ///< of scene_
+  std::variant<Pointer<double>, Pointer<Extended>> trajectory_;
+};
+
+}  // namespace hamjet
