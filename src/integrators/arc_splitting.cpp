@@ -346,11 +346,15 @@ FlowJet<Real> integrate_in_arcs(const FlowProblem<Real>& problem, const Splittab
     return starting_jet(problem);
   }
   StepTolerance<Real> choice;
+  const IntegrationClock clock;
   const SplittableMethod used = with_step_tolerance(problem, method, choice);
+  const double choice_seconds = clock.seconds();
   const auto arcs = make_arcs(problem, used);
   FlowJet<Real> jet = ArcSplitting<Real>(problem, used, choice, *arcs, settings, statistics,
                                          arc_statistics, progress)
                           .run(observer);
+  statistics.choice_seconds = choice_seconds;
+  statistics.wall_seconds += choice_seconds;
   record_choice(std::move(choice), statistics);
   return jet;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <random>
 #include <span>
 
@@ -14,6 +15,11 @@
 
 namespace hamjet {
 namespace {
+
+/// Up to this order two lines cost less together (measured: 0.6 of the time at order 1, 0.85 at 3):
+/// what the nominal takes, once instead of twice, is more than what the products of both variables
+/// do.
+constexpr int highest_order_together = 3;
 
 /// A number with a random sign and a size between 1/2 and 1. The standard library's distributions
 /// differ between implementations.
@@ -62,6 +68,9 @@ DirectionalFlow<Real>::DirectionalFlow(const FlowProblem<Real>& problem, std::si
 template <class Real>
 typename DirectionalFlow<Real>::Lines DirectionalFlow<Real>::integrate(
     const Integrate& integrate) const {
+  const bool is_cheaper_together =
+      starts_.size() == 2 && problem_.space->order() <= highest_order_together;
+  if (is_cheaper_together) return integrate_together(integrate);
   Lines result;
   for (const FlowJet<Real>& start : starts_) {
     FlowProblem<Real> line = problem_;
@@ -70,6 +79,44 @@ typename DirectionalFlow<Real>::Lines DirectionalFlow<Real>::integrate(
     line.initial_jet = start;
     result.push_back(integrate(line));
   }
+  return result;
+}
+
+template <class Real>
+typename DirectionalFlow<Real>::Lines DirectionalFlow<Real>::integrate_together(
+    const Integrate& integrate) const {
+  const std::size_t count = starts_.size();
+  FlowProblem<Real> all = problem_;
+  all.space = SeriesSpace::create(count, problem_.space->order());
+  all.variables.resize(count);
+  std::iota(all.variables.begin(), all.variables.end(), std::size_t{0});
+  // Where the powers of each line's variable stand, by line and degree.
+  std::vector<std::vector<std::size_t>> places(count);
+  for (std::size_t j = 0; j < count; ++j) {
+    std::vector<std::uint8_t> exponents(count, 0);
+    for (std::size_t d = 0; d < line_space_->size(); ++d) {
+      exponents[j] = static_cast<std::uint8_t>(d);
+      places[j].push_back(all.space->index(exponents));
+    }
+  }
+  const std::size_t components = starts_[0].size();
+  FlowJet<Real> start(components, Series<Real>(all.space));
+  Lines result(count, FlowJet<Real>(components, Series<Real>(line_space_)));
+  const auto for_each = [&](const auto& visit) {
+    for (std::size_t j = 0; j < count; ++j) {
+      for (std::size_t i = 0; i < components; ++i) {
+        for (std::size_t d = 0; d < line_space_->size(); ++d) visit(j, i, d, places[j][d]);
+      }
+    }
+  };
+  for_each([&](std::size_t j, std::size_t i, std::size_t d, std::size_t place) {
+    start[i][place] = starts_[j][i][d];
+  });
+  all.initial_jet = std::move(start);
+  const FlowJet<Real> end = integrate(all);
+  for_each([&](std::size_t j, std::size_t i, std::size_t d, std::size_t place) {
+    result[j][i][d] = end[i][place];
+  });
   return result;
 }
 

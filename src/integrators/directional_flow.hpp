@@ -24,13 +24,16 @@ class DirectionalFlow {
  public:
   /// For each line the flow's jet, of order N in one variable.
   using Lines = std::vector<FlowJet<Real>>;
-  /// Integrates a problem in one variable.
+  /// Integrates a problem in one variable, or in one a line.
   using Integrate = std::function<FlowJet<Real>(const FlowProblem<Real>&)>;
 
   DirectionalFlow(const FlowProblem<Real>& problem, std::size_t count);
 
   const std::vector<Real>& direction(std::size_t line) const { return directions_[line]; }
 
+  /// All lines, by one integration or one each, whichever costs less: the lines' nominal is one,
+  /// and in one variable a line the pure powers of each variable are that line's series, for
+  /// whatever the products of several are they do not enter them.
   Lines integrate(const Integrate& integrate) const;
 
   /// Restricts a jet of the problem's variables to the lines: sum over |a| = k of c_a d^a for each
@@ -43,6 +46,8 @@ class DirectionalFlow {
   std::vector<double> relative_difference(const Lines& lines, const Lines& reference) const;
 
  private:
+  Lines integrate_together(const Integrate& integrate) const;
+
   FlowProblem<Real> problem_;
   SpacePointer line_space_;
   std::vector<std::vector<Real>> directions_;  ///< by line, one number per variable

@@ -61,8 +61,10 @@ struct IntegrationStatistics {
   /// first.
   long vector_field_evaluations = 0;
   long nominal_evaluations = 0;  ///< on plain numbers, of all stages at once for implicit methods
-  double wall_seconds = 0;       ///< of the integration alone
-  SeriesWork series_work;        ///< products of series, of all evaluations and stages
+  double wall_seconds = 0;       ///< of the integration, without what its observer takes
+  /// Of choosing the steps of an adaptive Gauss method (`step_tolerance`); in wall_seconds.
+  double choice_seconds = 0;
+  SeriesWork series_work;  ///< products of series, of all evaluations and stages
   FlowSymmetry left_out = FlowSymmetry::none;  ///< of the integration, and put back
   /// Most iterations of Newton's method that one solution on the nominal took; 0 where fixed-point
   /// iteration contracted in every step, for explicit methods, and for CVODE, which has an

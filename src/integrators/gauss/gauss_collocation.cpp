@@ -3,11 +3,34 @@
 #include <utility>
 
 #include "../../algebra/instantiated_real.hpp"
+#include "../integration_clock.hpp"
 #include "../rotation_reduction.hpp"
 #include "gauss_lanes.hpp"
 #include "gauss_tolerance.hpp"
 
 namespace hamjet {
+
+namespace {
+
+/// Up to this order the whole jet is the first trial of a tolerance: it takes hardly longer than
+/// the lines that would be (1.5 times at orders 1 to 4), and is there already where the tolerance
+/// suffices.
+constexpr int highest_order_tried_whole = 4;
+
+/// Integrates with the steps of a tolerance, with what rotation the problem allows left out.
+template <class Real>
+FlowJet<Real> integrate_with(const FlowProblem<Real>& problem, const GaussSettings& settings,
+                             IntegrationStatistics& statistics,
+                             const StepObserver<Real>& observer) {
+  const auto run = [&](const FlowProblem<Real>& integrated, const StepObserver<Real>& watch) {
+    return with_lanes(settings.stages, [&]<int Lanes>(std::integral_constant<int, Lanes>) {
+      return run_gauss<Lanes>(integrated, settings, statistics, watch);
+    });
+  };
+  return integrate_without_rotation(problem, statistics, observer, run);
+}
+
+}  // namespace
 
 template <class Real>
 FlowJet<Real> integrate_gauss(const FlowProblem<Real>& problem, const GaussSettings& settings,
@@ -17,14 +40,31 @@ FlowJet<Real> integrate_gauss(const FlowProblem<Real>& problem, const GaussSetti
   statistics = {};
   validate_gauss(settings);
   GaussSettings used = settings;
-  StepTolerance<Real> choice = choose_step_tolerance(problem, settings);
+  const IntegrationClock clock;
+  // An observer, or a profile, must see one integration alone.
+  const bool is_tried_whole = needs_choice(problem, settings) && !observer &&
+                              settings.profile == nullptr &&
+                              problem.space->order() <= highest_order_tried_whole;
+  StepTolerance<Real> choice;
+  if (is_tried_whole) {
+    FlowJet<Real> jet = integrate_with(problem, used, statistics, observer);
+    const FirstTrial<Real> first{jet, statistics};
+    choice = choose_step_tolerance(problem, settings, &first);
+    if (choice.tolerance == *settings.tolerance) {
+      statistics.choice_seconds = clock.seconds() - statistics.wall_seconds;
+      statistics.wall_seconds = clock.seconds();
+      record_choice(std::move(choice), statistics);
+      return jet;
+    }
+    statistics = {};
+  } else {
+    choice = choose_step_tolerance(problem, settings);
+  }
   if (settings.tolerance) used.tolerance = choice.tolerance;
-  const auto run = [&](const FlowProblem<Real>& integrated, const StepObserver<Real>& watch) {
-    return with_lanes(settings.stages, [&]<int Lanes>(std::integral_constant<int, Lanes>) {
-      return run_gauss<Lanes>(integrated, used, statistics, watch);
-    });
-  };
-  FlowJet<Real> jet = integrate_without_rotation(problem, statistics, observer, run);
+  const double choice_seconds = clock.seconds();
+  FlowJet<Real> jet = integrate_with(problem, used, statistics, observer);
+  statistics.choice_seconds = choice_seconds;
+  statistics.wall_seconds += choice_seconds;
   record_choice(std::move(choice), statistics);
   return jet;
 }

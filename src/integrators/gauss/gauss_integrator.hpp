@@ -341,15 +341,17 @@ class GaussIntegrator {
 
   /// Solves the degrees 1..N of the stages; false if their equations cannot be solved.
   bool solve_degrees(Clock::time_point& mark) {
-    // Univariate series are too few for a factorisation. Others are all solved by one, so that the
-    // first degrees do not depend on the order.
-    bool iterates = problem_.space->variables() == 1;
+    // Univariate series, and the first degrees of bivariate ones, are too few for a factorisation.
+    // What decides is the degree, so that the first ones do not depend on the order.
+    const std::size_t variables = problem_.space->variables();
+    const int last_iterated = variables == 1 ? order_ : (variables == 2 ? 3 : 0);
+    bool iterates = true;
     bool is_factorised = false;
     auto& evaluator = stages_.evaluator();
     for (int d = 1; d <= order_; ++d) {
       evaluator.evaluate_remainder(d);
       account(&GaussProfile::series, mark);
-      iterates = iterates && stages_.iterate_degree(d, state_);
+      iterates = iterates && d <= last_iterated && stages_.iterate_degree(d, state_);
       if (!iterates) {
         if (!is_factorised && !stages_.factorise()) return false;
         is_factorised = true;

@@ -67,7 +67,7 @@ FlowJet<Real> integrate_as_given(const FlowProblem<Real>& problem, const GaussSe
 
 template <class Real>
 Trial<Real> try_tolerance(const DirectionalFlow<Real>& flow, const GaussSettings& settings,
-                          double tolerance) {
+                          double tolerance, const FirstTrial<Real>* known = nullptr) {
   GaussSettings coarse = settings;
   coarse.tolerance = tolerance;
   coarse.profile = nullptr;
@@ -79,8 +79,8 @@ Trial<Real> try_tolerance(const DirectionalFlow<Real>& flow, const GaussSettings
   };
   Trial<Real> trial;
   trial.tolerance = tolerance;
-  trial.lines = with(coarse);
-  trial.steps = statistics.steps;
+  trial.lines = known != nullptr ? flow.restrict(known->jet) : with(coarse);
+  trial.steps = known != nullptr ? known->statistics.steps : statistics.steps;
   trial.finer_lines = with(fine);
   trial.error_by_degree = flow.relative_difference(trial.lines, trial.finer_lines);
   trial.limit = allowed_excess * *settings.tolerance * std::max(1.0, statistics.periods);
@@ -133,18 +133,24 @@ GaussSettings finer_gauss(const GaussSettings& settings, double tolerance) {
 }
 
 template <class Real>
-StepTolerance<Real> choose_step_tolerance(const FlowProblem<Real>& problem,
-                                          const GaussSettings& settings) {
-  const double asked = settings.tolerance.value_or(0);
+bool needs_choice(const FlowProblem<Real>& problem, const GaussSettings& settings) {
   const bool is_chosen_in_steps = !settings.tolerance || settings.controls_all_degrees;
   // For the nominal alone the step control suffices, unless the field has waves that are much
   // shorter than the rest of it.
   const bool is_known =
       problem.space->order() == 0 && problem.system->waves_on_a_circle < least_short_waves;
-  if (is_chosen_in_steps || is_known || problem.duration == 0) return {asked, {}, {}, {}, {}};
+  return !is_chosen_in_steps && !is_known && problem.duration != 0;
+}
+
+template <class Real>
+StepTolerance<Real> choose_step_tolerance(const FlowProblem<Real>& problem,
+                                          const GaussSettings& settings,
+                                          const FirstTrial<Real>* first) {
+  const double asked = settings.tolerance.value_or(0);
+  if (!needs_choice(problem, settings)) return {asked, {}, {}, {}, {}};
   const double smallest = smallest_step_tolerance<Real>();
   const DirectionalFlow<Real> flow(problem, 2);
-  Trial<Real> before = try_tolerance(flow, settings, asked);
+  Trial<Real> before = try_tolerance(flow, settings, asked, first);
   if (!(before.largest_excess() > 1)) return chosen(asked, flow, std::move(before));
   double power = 1;
   double largest_reduction = 0.1;
@@ -195,8 +201,10 @@ FlowJet<Real> integrate_with_step_tolerance(const FlowProblem<Real>& problem,
   return integrate_as_given(problem, settings, statistics);
 }
 
+template bool needs_choice(const FlowProblem<InstantiatedReal>&, const GaussSettings&);
 template StepTolerance<InstantiatedReal> choose_step_tolerance(const FlowProblem<InstantiatedReal>&,
-                                                               const GaussSettings&);
+                                                               const GaussSettings&,
+                                                               const FirstTrial<InstantiatedReal>*);
 template void record_choice(StepTolerance<InstantiatedReal>, IntegrationStatistics&);
 template FlowJet<InstantiatedReal> integrate_with_step_tolerance(
     const FlowProblem<InstantiatedReal>&, GaussSettings, double);

@@ -21,6 +21,18 @@ struct StepTolerance {
   std::vector<FlowJet<Real>> lines;
 };
 
+/// A jet that was integrated with the tolerance asked for, before it is known whether that
+/// suffices.
+template <class Real>
+struct FirstTrial {
+  const FlowJet<Real>& jet;
+  const IntegrationStatistics& statistics;
+};
+
+/// Whether a tolerance has to be chosen: see choose_step_tolerance.
+template <class Real>
+bool needs_choice(const FlowProblem<Real>& problem, const GaussSettings& settings);
+
 /// The largest local tolerance, at most that of the settings, with which the error of every degree
 /// of the jet stays below
 ///
@@ -39,9 +51,12 @@ struct StepTolerance {
 ///
 /// Settings of fixed steps, and jets of order 0 in a field without short waves, need none: the
 /// settings' tolerance is returned, or 0. Throws what integrate_gauss throws.
+///
+/// A jet that was integrated with the settings' own tolerance may be given as the first trial.
 template <class Real>
 StepTolerance<Real> choose_step_tolerance(const FlowProblem<Real>& problem,
-                                          const GaussSettings& settings);
+                                          const GaussSettings& settings,
+                                          const FirstTrial<Real>* first = nullptr);
 
 /// Adds what the choice has found to the statistics of the integration that it was made for.
 template <class Real>
