@@ -270,9 +270,9 @@ int dispatch(int argc, char** argv) {
   const CLI::App* validity =
       add_study("validity", "how far from the chief the polynomials are right, along time",
                 "report.html, validity.csv and summary.json", hamjet::cli::validity_suffix);
-  const CLI::App* assign =
-      add_study("assign", "send deputies to slots at the least total velocity change",
-                "assignment.csv, costs.csv and summary.json", hamjet::cli::assignment_suffix);
+  const CLI::App* assign = add_study(
+      "assign", "send deputies to slots at the least total velocity change",
+      "assignment.csv, costs.csv, pairs.csv and summary.json", hamjet::cli::assignment_suffix);
 
   std::optional<std::string> suite;
   CLI::App* stability = app.add_subcommand(

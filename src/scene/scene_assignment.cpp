@@ -46,6 +46,8 @@ const TableDescription& assignment_table() {
   static const TableDescription table = {
       {{"time", form::choice({"per-pair", "common"}), absent::value("per-pair"),
         "each pair its best transfer time, or one time for all"},
+       {"keep_apart_m", form::positive(), absent::other("any"),
+        "deputies that come nearer to each other on their ways fail the command"},
        {"deputy", tables(assigned_deputy_table()), absent::refused(), "where the deputies start"},
        {"slot", tables(slot_table()), absent::refused(),
         "where they may end; of deputies and slots the fewer all find one"}},
@@ -64,6 +66,7 @@ AssignmentSettings read_assignment(const TableReader& assignment, const Scene& s
   }
   AssignmentSettings settings;
   assignment.read_if_any("time", settings.time);
+  assignment.read_if_any("keep_apart_m", settings.keep_apart_m);
   settings.deputies =
       read_states(assignment, "deputy", assigned_deputy_table(), [&](const auto& table) {
         return read_relative_state(table, nominal, scene.transfer->frame);

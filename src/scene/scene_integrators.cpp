@@ -32,8 +32,8 @@ bool is_reserved(std::string_view label) {
                                                "figure.svg",         "transfers.csv",
                                                "singular_times.csv", "conditions.csv",
                                                "validity.csv",       "assignment.csv",
-                                               "costs.csv",          "stability.csv",
-                                               "stability.html"};
+                                               "costs.csv",          "pairs.csv",
+                                               "stability.csv",      "stability.html"};
   const auto& formats = output_formats();
   return std::find(std::begin(names), std::end(names), label) != std::end(names) ||
          std::any_of(formats.begin(), formats.end(), [&](const OutputFormat* format) {

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <random>
 
 #include "../../src/studies/formation/least_assignment.hpp"
+#include "../../src/studies/formation/nearest_pairs.hpp"
 #include "formation_scenes.hpp"
 #include "hamjet/error.hpp"
 
@@ -172,6 +174,52 @@ TEST(Assignment, EachPairsTimeIsItsBest) {
       }
     }
   }
+}
+
+// Two deputies change places on the chief's circle by radial impulses in half a revolution: each
+// way is half an ellipse of 2 by 1, one above and the other below, a quarter of the distance each
+// (Fehse, Automated Rendezvous and Docking of Spacecraft, 2003, section 3.3), where they are
+// nearest. Flown at a thousand times of its own, each way has the same least.
+TEST(NearestPairs, IsWhereTwoWaysComeNearest) {
+  Scene scene = kepler_chief(0, 7000, 1000, 2);
+  TransferSettings settings;
+  settings.times = {std::numbers::pi - 0.02};
+  settings.singular_margin = 1e-3;
+  scene.transfer = settings;
+  scene.assignment = AssignmentSettings{};
+  std::vector<AssignedTransfer> transfers;
+  std::vector<RelativeTrajectory> flown;
+  for (const double place : {-1000.0, 1000.0}) {
+    scene.transfer->start.position_m = {0, place, 0};
+    scene.transfer->end.position_m = {0, -place, 0};
+    scene.assignment->deputies.push_back(scene.transfer->start);
+    const TransferResult result = study_transfer(scene);
+    transfers.push_back({transfers.size(), transfers.size(), result.points[0]});
+    flown.push_back(fly_relative(result, 0, 1000));
+  }
+  const std::vector<DeputyPair> pairs = nearest_of_pairs(scene, transfers);
+  ASSERT_EQ(pairs.size(), 1U);
+  EXPECT_EQ(pairs[0].second, 1U);
+  EXPECT_NEAR(pairs[0].separation_m, 1000, 20);
+  double least = 1e9;
+  for (std::size_t k = 0; k < flown[0].states.size(); ++k) {
+    least = std::min(least, (flown[0].states[k].position_m - flown[1].states[k].position_m).norm());
+  }
+  EXPECT_LE(pairs[0].separation_m, least + 1e-3);
+  EXPECT_GT(pairs[0].separation_m, least - 0.01);
+}
+
+TEST(Assignment, DeputiesKeepApart) {
+  Scene scene = swarm();
+  const AssignmentResult result = study_assignment(scene);
+  ASSERT_EQ(result.pairs.size(), 6U);
+  const auto nearest = nearest_pair(result);
+  ASSERT_TRUE(nearest.has_value());
+  EXPECT_GT(nearest->separation_m, 0);
+  scene.assignment->keep_apart_m = 1.01 * nearest->separation_m;
+  EXPECT_EQ(exit_code(study_assignment(scene)), 1);
+  scene.assignment->keep_apart_m = 0.99 * nearest->separation_m;
+  EXPECT_EQ(exit_code(study_assignment(scene)), 0);
 }
 
 TEST(Assignment, NoAnswerAtAnyTimeIsAFailure) {

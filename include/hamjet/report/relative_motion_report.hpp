@@ -25,6 +25,8 @@ std::string validity_csv(const ValidityResult& result);
 std::string assignment_csv(const AssignmentResult& result);
 /// `costs.csv`: one row a deputy and slot.
 std::string costs_csv(const AssignmentResult& result);
+/// The least separation of each pair of deputies on their ways.
+std::string pairs_csv(const AssignmentResult& result);
 
 /// The files of `hamjet transfer`: the CSV files, `report.html`, `summary.json`. `trajectory` is
 /// that of the best point, if there is one; `validity` is there if the scene asks for it.

@@ -22,6 +22,14 @@ struct AssignedTransfer {
   TransferPoint transfer;  ///< proved by flying
 };
 
+/// The least separation of two deputies on their ways.
+struct DeputyPair {
+  std::size_t first = 0;
+  std::size_t second = 0;
+  double time = 0;  ///< canonical
+  double separation_m = 0;
+};
+
 /// All results of the study of table `[assignment]`.
 struct AssignmentResult {
   Scene scene;  ///< with `transfer` and `assignment`
@@ -30,6 +38,8 @@ struct AssignmentResult {
                                                    ///< the common one)
   std::optional<std::size_t> common_time;          ///< index, where the scene asks for one
   std::vector<AssignedTransfer> transfers;         ///< in the order of the deputies that have one
+  /// Of each pair of deputies that fly, while they do; see AssignmentSettings::keep_apart_m.
+  std::vector<DeputyPair> pairs;
   double total_change_m_s = 0;
   double flight_floor_m = 0;
   double study_seconds = 0;
@@ -44,12 +54,16 @@ struct AssignmentResult {
 /// singularities count; those chosen are proved by flying. Throws as study_transfer.
 AssignmentResult study_assignment(const Scene& scene, const ProgressCallback& progress = {});
 
+/// The pair that comes nearest; none of fewer than two deputies.
+std::optional<DeputyPair> nearest_pair(const AssignmentResult& result);
+
 /// Those of `count` deputies, or slots, that no transfer has.
 std::vector<std::size_t> left_out(const std::vector<AssignedTransfer>& transfers, std::size_t count,
                                   std::size_t AssignedTransfer::*which);
 
-/// Exit code: 0; 1 if the scene is strict and a chosen transfer is beyond its tolerance or could
-/// not be refined; 4 if there is no assignment, or a chosen transfer has no answer.
+/// Exit code: 0; 1 if two deputies come nearer than the scene's `keep_apart_m`, or if the scene is
+/// strict and a chosen transfer is beyond its tolerance or could not be refined; 4 if there is no
+/// assignment, or a chosen transfer has no answer.
 int exit_code(const AssignmentResult& result);
 
 }  // namespace hamjet

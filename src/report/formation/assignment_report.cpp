@@ -19,6 +19,13 @@ std::string_view time_choice(const AssignmentResult& result) {
   return result.scene.assignment->time == AssignmentTime::common ? "common" : "per-pair";
 }
 
+/// As in "deputies 0 and 2 come to 1.2 km of each other at 3600 s (60.0 min)".
+std::string pair_text(const AssignmentResult& result, const DeputyPair& pair) {
+  return fmt::format("deputies {} and {} come to {} of each other at {}", pair.first, pair.second,
+                     length_text(pair.separation_m),
+                     time_text(pair.time * result.scene.units.time_s));
+}
+
 /// Why the exit code is not 0.
 std::string failure_line(const AssignmentResult& result) {
   if (exit_code(result) == 0) return "";
@@ -28,6 +35,12 @@ std::string failure_line(const AssignmentResult& result) {
     if (!failure.empty()) {
       return fmt::format("deputy {} to slot {}: {}", assigned.deputy, assigned.slot, failure);
     }
+  }
+  const auto pair = nearest_pair(result);
+  const auto& keep_apart = result.scene.assignment->keep_apart_m;
+  if (pair && keep_apart && pair->separation_m < *keep_apart) {
+    return fmt::format("{}, must keep {} apart", pair_text(result, *pair),
+                       length_text(*keep_apart));
   }
   return fmt::format("strict: a transfer misses by more than {}; see assignment.csv",
                      length_text(result.scene.transfer->tolerance_m));
@@ -78,8 +91,10 @@ std::string terminal_table(const AssignmentResult& result) {
     }
   }
   if (!result.transfers.empty()) {
-    text += fmt::format("\n{}total: {}\n{}{}{}{}", aligned_table(rows),
+    const auto pair = nearest_pair(result);
+    text += fmt::format("\n{}total: {}\n{}{}{}{}{}", aligned_table(rows),
                         velocity_text(result.total_change_m_s),
+                        pair ? "nearest: " + pair_text(result, *pair) + "\n" : "",
                         left_line("deputies without a slot", deputies_left(result)),
                         left_line("slots without a deputy", slots_left(result)),
                         failures.empty() ? "" : "\n", failures);
@@ -123,6 +138,13 @@ std::string summary(const AssignmentResult& result) {
   json["total_change_m_s"] = is_assigned ? json_number(result.total_change_m_s) : Json(nullptr);
   json["deputies_without_slot"] = is_assigned ? Json(deputies_left(result)) : Json(nullptr);
   json["slots_without_deputy"] = is_assigned ? Json(slots_left(result)) : Json(nullptr);
+  json["keep_apart_m"] = json_number(result.scene.assignment->keep_apart_m);
+  json["nearest_pair"] = nullptr;
+  if (const auto pair = nearest_pair(result)) {
+    json["nearest_pair"] = {{"deputies", {pair->first, pair->second}},
+                            {"time_s", pair->time * result.scene.units.time_s},
+                            {"separation_m", json_number(pair->separation_m)}};
+  }
   json["failure"] = text_or_null(result.failure);
   json["flight_floor_m"] = json_number(result.flight_floor_m);
   json["seconds"] = {{"study", result.study_seconds}, {"proof", result.proof_seconds}};
@@ -171,10 +193,22 @@ std::string costs_csv(const AssignmentResult& result) {
   return text;
 }
 
+std::string pairs_csv(const AssignmentResult& result) {
+  const double unit = result.scene.units.time_s;
+  Columns<DeputyPair> columns;
+  columns.add("deputy", &DeputyPair::first);
+  columns.add("other_deputy", &DeputyPair::second);
+  columns.add("time_canonical", &DeputyPair::time);
+  columns.add("time_s", [=](const DeputyPair& pair) { return pair.time * unit; });
+  columns.add("least_separation_m", &DeputyPair::separation_m);
+  return columns.csv(result.pairs);
+}
+
 StudyReport assignment_report(const AssignmentResult& result) {
   StudyReport report;
   report.files = {{"assignment.csv", assignment_csv(result)},
                   {"costs.csv", costs_csv(result)},
+                  {"pairs.csv", pairs_csv(result)},
                   {"summary.json", summary(result)}};
   report.table = terminal_table(result);
   report.details = terminal_details(result);

@@ -10,6 +10,7 @@
 #include "formation_problem.hpp"
 #include "hamjet/error.hpp"
 #include "least_assignment.hpp"
+#include "nearest_pairs.hpp"
 #include "transfer_points.hpp"
 
 namespace hamjet {
@@ -53,6 +54,10 @@ class AssignmentStudy {
       if (transfer.transfer.has_answer()) {
         result_.total_change_m_s += transfer.transfer.best().total_change_m_s();
       }
+    }
+    {
+      const Stopwatch watch(seconds_.proof);
+      result_.pairs = nearest_of_pairs(scene_, result_.transfers);
     }
     result_.study_seconds = seconds_.study() + statistics.wall_seconds;
     result_.proof_seconds = seconds_.proof;
@@ -197,6 +202,13 @@ AssignmentResult study_assignment(const Scene& scene, const ProgressCallback& pr
   return AssignmentStudy(scene, progress).run();
 }
 
+std::optional<DeputyPair> nearest_pair(const AssignmentResult& result) {
+  const auto nearest = std::min_element(
+      result.pairs.begin(), result.pairs.end(),
+      [](const auto& a, const auto& b) { return a.separation_m < b.separation_m; });
+  return nearest != result.pairs.end() ? std::optional(*nearest) : std::nullopt;
+}
+
 std::vector<std::size_t> left_out(const std::vector<AssignedTransfer>& transfers, std::size_t count,
                                   std::size_t AssignedTransfer::*which) {
   std::vector<std::size_t> rest;
@@ -217,7 +229,11 @@ int exit_code(const AssignmentResult& result) {
     has_fault =
         has_fault || transfer.is_beyond_tolerance || (transfer.refined && !transfer.is_refined());
   }
-  return result.scene.transfer->strict && has_fault ? static_cast<int>(ErrorKind::check_failed) : 0;
+  const auto pair = nearest_pair(result);
+  const auto& keep_apart = result.scene.assignment->keep_apart_m;
+  const bool are_too_near = pair && keep_apart && pair->separation_m < *keep_apart;
+  const bool has_failed = are_too_near || (result.scene.transfer->strict && has_fault);
+  return has_failed ? static_cast<int>(ErrorKind::check_failed) : 0;
 }
 
 }  // namespace hamjet

@@ -69,6 +69,7 @@ struct AssignmentSettings {
   std::vector<RelativeState> deputies;
   std::vector<RelativeState> slots;  ///< as many as deputies
   AssignmentTime time = AssignmentTime::per_pair;
+  std::optional<double> keep_apart_m;  ///< that deputies on their ways may not come nearer than
 };
 
 }  // namespace hamjet
