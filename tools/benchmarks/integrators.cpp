@@ -33,8 +33,9 @@ void print_parts(const Case& c, double tolerance) {
     settings.profile = &profile;
     IntegrationStatistics statistics;
     integrate_gauss<double>(problem, settings, statistics);
-    if (statistics.wall_seconds < least) {
-      least = statistics.wall_seconds;
+    const double seconds = statistics.wall_seconds - statistics.choice_seconds;
+    if (seconds < least) {
+      least = seconds;
       best = profile;
       steps = statistics.steps;
     }
