@@ -44,7 +44,8 @@ struct DrawnScene {
   double duration_s = 0;
   int arcs = 1;  ///< 0: auto
   bool checks_surface = false;
-  bool has_zeros = false;  ///< zonal coefficients that are absent are written as 0
+  bool keeps_rotation = false;  ///< it is integrated, in place of being left out and put back
+  bool has_zeros = false;       ///< zonal coefficients that are absent are written as 0
   std::string method = "gauss";
   int stages = 8;
   int verlet_order = 2;

@@ -92,6 +92,7 @@ std::string toml(const DrawnScene& scene) {
       "\n[jet]\norder = {}\nduration_s = {:.17g}\n",
       scene.seed, scene.number, scene.precision, system_table(scene), nominal_table(scene),
       scene.order, scene.duration_s);
+  if (scene.keeps_rotation) text += "symmetry = \"none\"\n";
   if (scene.arcs == 0) text += "arcs = \"auto\"\n";
   if (scene.arcs > 1) text += fmt::format("arcs = {}\n", scene.arcs);
   if (!scene.variables.empty()) {

@@ -164,7 +164,7 @@ Variation draw_variation(const DrawnScene& drawn, RandomNumbers& random) {
     variation.kind = kind;
     variation.name = std::move(name);
   };
-  const int choice = random.integer(0, 49);
+  const int choice = random.integer(0, 59);
   if (choice == 0) {
     become(Kind::command, "by the command");
   } else if (choice < 5 && drawn.precision == "double" && drawn.order <= 3 &&
@@ -183,6 +183,9 @@ Variation draw_variation(const DrawnScene& drawn, RandomNumbers& random) {
   } else if (choice < 38 && drawn.arcs != 1) {
     other.arcs = 1;
     become(Kind::unsplit, "in one piece");
+  } else if (choice >= 50 && drawn.is_orbit && drawn.arcs == 1) {
+    other.keeps_rotation = true;
+    become(Kind::symmetry, "with its rotation integrated");
   } else if (drawn.is_orbit && drawn.precision == "double") {
     // The start is rounded to binary64 in the unit, which extended precision would see.
     other.length_km = random.log_uniform(1e-3, 1.5e8);

@@ -7,13 +7,13 @@
 #include "judge.hpp"
 
 // Two scenes that should give the same: the same motion in another unit of length, in one piece, to
-// a lower order, in fewer variables, with zeros written out, in another precision, and by the
-// command instead of the library.
+// a lower order, in fewer variables, with its rotation integrated, with zeros written out, in
+// another precision, and by the command instead of the library.
 
 namespace hamjet::attack {
 
 struct Variation {
-  enum class Kind { none, unit, unsplit, order, variables, zeros, precision, command };
+  enum class Kind { none, unit, unsplit, order, variables, symmetry, zeros, precision, command };
   Kind kind = Kind::none;
   std::string name;
   DrawnScene drawn;  ///< the other scene
