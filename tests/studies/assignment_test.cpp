@@ -222,6 +222,29 @@ TEST(Assignment, DeputiesKeepApart) {
   EXPECT_EQ(exit_code(study_assignment(scene)), 0);
 }
 
+// The largest impulse decides which transfers are chosen; an ellipsoid marks those that are.
+TEST(Assignment, KeepsTheLimitsOfTransfers) {
+  Scene scene = swarm();
+  const AssignmentResult free = study_assignment(scene);
+  double largest = 0;
+  for (const AssignedTransfer& one : free.transfers) {
+    largest = std::max(largest, one.transfer.best().largest_impulse_m_s());
+  }
+  scene.transfer->largest_impulse_m_s = 0.999 * largest;
+  const AssignmentResult limited = study_assignment(scene);
+  for (const AssignedTransfer& one : limited.transfers) {
+    EXPECT_LE(one.transfer.best().largest_impulse_m_s(), *scene.transfer->largest_impulse_m_s);
+  }
+  EXPECT_TRUE(!limited.failure.empty() || limited.total_change_m_s > free.total_change_m_s);
+  scene.transfer->largest_impulse_m_s.reset();
+  scene.transfer->keep_out_m = Eigen::Vector3d(1e6, 1e6, 1e6);
+  const AssignmentResult kept_out = study_assignment(scene);
+  for (const AssignedTransfer& one : kept_out.transfers) {
+    EXPECT_TRUE(one.transfer.enters_keep_out());
+  }
+  EXPECT_EQ(exit_code(kept_out), 1);
+}
+
 TEST(Assignment, NoAnswerAtAnyTimeIsAFailure) {
   Scene scene = swarm();
   scene.transfer->singular_margin = 100;  // everything is near a singularity

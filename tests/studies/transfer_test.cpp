@@ -157,7 +157,9 @@ TEST(Transfer, MarksWhatTheSceneDoesNotAllow) {
   EXPECT_TRUE(point().exceeds_impulse);
   EXPECT_TRUE(point().is_proved());
   EXPECT_FALSE(study_transfer(scene).best_point().has_value());
+  EXPECT_EQ(exit_code(study_transfer(scene)), 1);
   scene.transfer->largest_impulse_m_s.reset();
+  EXPECT_EQ(exit_code(study_transfer(scene)), 0);
   // At its middle the way is some 500 m from the chief, radially.
   scene.transfer->keep_out_m = Eigen::Vector3d(250, 900, 10);
   // At its start, or a little after it, for it does not leave radially.

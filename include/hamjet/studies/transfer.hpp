@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
@@ -21,6 +22,9 @@ struct TransferAnswer {
   Eigen::Vector3d end_change_m_s = Eigen::Vector3d::Zero();
   /// Sum of the two magnitudes.
   double total_change_m_s() const { return start_change_m_s.norm() + end_change_m_s.norm(); }
+  double largest_impulse_m_s() const {
+    return std::max(start_change_m_s.norm(), end_change_m_s.norm());
+  }
   /// Distance, in metres, of the deputy, flown with the full equations of motion, from the wanted
   /// end position.
   double miss_m = 0;
@@ -57,8 +61,9 @@ struct TransferPoint {
     return has_answer() && !is_near_singular && (!is_beyond_tolerance || is_refined());
   }
   bool enters_keep_out() const { return keep_out_ratio && *keep_out_ratio < 1; }
+  bool is_allowed() const { return !exceeds_impulse && !enters_keep_out(); }
   /// Whether it may be the least: proved, and as the scene allows.
-  bool is_candidate() const { return is_proved() && !exceeds_impulse && !enters_keep_out(); }
+  bool is_candidate() const { return is_proved() && is_allowed(); }
   /// The refined answer, where the refinement succeeded, else that of the highest order.
   const TransferAnswer& best() const { return is_refined() ? *refined : answers.back(); }
   double change_m_s() const { return best().total_change_m_s(); }
@@ -148,9 +153,9 @@ struct EarlierJet {
 TransferResult study_transfer(const Scene& scene, const ProgressCallback& progress = {},
                               const EarlierJet* earlier = nullptr);
 
-/// Exit code: 0; 1 if optimal impulses were asked for and not found, or if the scene is strict and
-/// an answer away from singularities is missing, beyond its tolerance or could not be refined; 4 if
-/// no transfer time has an answer.
+/// Exit code: 0; 1 if the scene's limits allow none of the answers, if optimal impulses were asked
+/// for and not found, or if the scene is strict and an answer away from singularities is missing,
+/// beyond its tolerance or could not be refined; 4 if no transfer time has an answer.
 int exit_code(const TransferResult& result);
 
 /// A flown deputy relative to its chief, along R, T, N whatever the scene's frame (along the

@@ -26,6 +26,18 @@ std::string pair_text(const AssignmentResult& result, const DeputyPair& pair) {
                      time_text(pair.time * result.scene.units.time_s));
 }
 
+/// What of a transfer the scene does not allow; empty if it does.
+std::string limit_text(const TransferPoint& point) {
+  if (point.exceeds_impulse) {
+    return fmt::format("an impulse is {}, above largest_impulse_m_s",
+                       velocity_text(point.best().largest_impulse_m_s()));
+  }
+  return point.enters_keep_out()
+             ? fmt::format("its way comes to {:.3g} of the ellipsoid keep_out_m",
+                           *point.keep_out_ratio)
+             : "";
+}
+
 /// Why the exit code is not 0.
 std::string failure_line(const AssignmentResult& result) {
   if (exit_code(result) == 0) return "";
@@ -34,6 +46,9 @@ std::string failure_line(const AssignmentResult& result) {
     const std::string failure = failure_text(assigned.transfer);
     if (!failure.empty()) {
       return fmt::format("deputy {} to slot {}: {}", assigned.deputy, assigned.slot, failure);
+    }
+    if (const std::string limit = limit_text(assigned.transfer); !limit.empty()) {
+      return fmt::format("deputy {} to slot {}: {}", assigned.deputy, assigned.slot, limit);
     }
   }
   const auto pair = nearest_pair(result);
@@ -76,6 +91,7 @@ std::string terminal_table(const AssignmentResult& result) {
     const TransferPoint& point = assigned.transfer;
     const TransferAnswer* answer = shown_answer(point);
     const std::string name = fmt::format("deputy {} to slot {}", assigned.deputy, assigned.slot);
+    const std::string limit = limit_text(point);
     if (answer == nullptr) {
       rows.push_back({name, "", "", "", "no answer"});
       failures += fmt::format("{}: {}\n", name, failure_text(point));
@@ -84,7 +100,8 @@ std::string terminal_table(const AssignmentResult& result) {
     rows.push_back({name, velocity_text(answer->total_change_m_s()),
                     fmt::format("{:.6g}", point.time * unit / axis.seconds),
                     miss_text(answer->miss_m, result.flight_floor_m),
-                    point.is_beyond_tolerance ? "BEYOND" : "ok"});
+                    limit.empty() ? (point.is_beyond_tolerance ? "BEYOND" : "ok") : "NOT ALLOWED"});
+    if (!limit.empty()) failures += fmt::format("{}: {}\n", name, limit);
     if (point.is_beyond_tolerance) {
       failures += fmt::format("{}: misses by more than the tolerance of {}\n", name,
                               length_text(result.scene.transfer->tolerance_m));

@@ -278,6 +278,12 @@ std::string transfer_failure(const TransferResult& result) {
     return "optimal impulses: " + failure;
   }
   const TransferCounts counts = count_points(result);
+  if (counts.compared == 0 && counts.over_impulse + counts.kept_out > 0) {
+    return fmt::format(
+        "no transfer is as the scene allows: of {} that are proved {} have an impulse larger than "
+        "largest_impulse_m_s, and {} go through the ellipsoid keep_out_m",
+        counts.over_impulse + counts.kept_out, counts.over_impulse, counts.kept_out);
+  }
   return fmt::format(
       "strict: of {} transfer times away from singularities {} have no answer, {} miss by more "
       "than {}, and the refinement of {} failed",

@@ -87,9 +87,12 @@ class AssignmentStudy {
         const SingleTransfer transfer(scene_, points_.problem(), times[index], chief_end,
                                       settings_.deputies[i], settings_.slots[j]);
         try {
-          const double cost = transfer.answer(transfer.solve(boundary, scene_.order), scene_.order)
-                                  .total_change_m_s();
-          if (std::isfinite(cost)) costs_.back()[i][j] = cost;
+          const TransferAnswer answer =
+              transfer.answer(transfer.solve(boundary, scene_.order), scene_.order);
+          const double cost = answer.total_change_m_s();
+          const double most = scene_.transfer->largest_impulse_m_s.value_or(no_cost);
+          const bool is_allowed = answer.largest_impulse_m_s() <= most;
+          if (std::isfinite(cost) && is_allowed) costs_.back()[i][j] = cost;
         } catch (const Error& error) {
           if (error.kind() != ErrorKind::numerical) throw;
         }
@@ -223,16 +226,19 @@ std::vector<std::size_t> left_out(const std::vector<AssignedTransfer>& transfers
 int exit_code(const AssignmentResult& result) {
   if (!result.failure.empty()) return static_cast<int>(ErrorKind::numerical);
   bool has_fault = false;
+  bool is_forbidden = false;
   for (const AssignedTransfer& assigned : result.transfers) {
     const TransferPoint& transfer = assigned.transfer;
     if (!transfer.has_answer()) return static_cast<int>(ErrorKind::numerical);
+    is_forbidden = is_forbidden || !transfer.is_allowed();
     has_fault =
         has_fault || transfer.is_beyond_tolerance || (transfer.refined && !transfer.is_refined());
   }
   const auto pair = nearest_pair(result);
   const auto& keep_apart = result.scene.assignment->keep_apart_m;
   const bool are_too_near = pair && keep_apart && pair->separation_m < *keep_apart;
-  const bool has_failed = are_too_near || (result.scene.transfer->strict && has_fault);
+  const bool has_failed =
+      are_too_near || is_forbidden || (result.scene.transfer->strict && has_fault);
   return has_failed ? static_cast<int>(ErrorKind::check_failed) : 0;
 }
 

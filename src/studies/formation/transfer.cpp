@@ -118,13 +118,16 @@ TransferResult study_transfer(const Scene& asked, const ProgressCallback& progre
 int exit_code(const TransferResult& result) {
   bool has_answer = false;
   bool has_fault = false;
+  bool is_forbidden = false;
   for (const TransferPoint& point : result.points) {
     has_answer = has_answer || point.has_answer();
+    is_forbidden = is_forbidden || (point.is_proved() && !point.is_allowed());
     if (point.is_near_singular) continue;
     has_fault = has_fault || !point.has_answer() || point.is_beyond_tolerance ||
                 (point.refined && !point.is_refined());
   }
   if (!has_answer) return static_cast<int>(ErrorKind::numerical);
+  if (is_forbidden && !result.best_point()) return static_cast<int>(ErrorKind::check_failed);
   if (result.optimal && !result.optimal->is_found()) {
     return static_cast<int>(ErrorKind::check_failed);
   }

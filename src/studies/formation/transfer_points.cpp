@@ -215,8 +215,7 @@ TransferPoint TransferPoints::answer(const ChosenKind& chosen, const FlowJet<dou
 void TransferPoints::judge_limits(const RelativeTransfer& ends, TransferPoint& point) {
   const TransferAnswer& answer = point.best();
   if (settings_.largest_impulse_m_s) {
-    point.exceeds_impulse = std::max(answer.start_change_m_s.norm(), answer.end_change_m_s.norm()) >
-                            *settings_.largest_impulse_m_s;
+    point.exceeds_impulse = answer.largest_impulse_m_s() > *settings_.largest_impulse_m_s;
   }
   if (!settings_.keep_out_m) return;
   const Stopwatch watch(seconds_.proof);
