@@ -50,6 +50,28 @@ TEST(OrbitMessageNotation, XmlIsReadOrRefusedWithItsOption) {
   }
 }
 
+// A combined message holds both examples of the standard, one of them twice, and others.
+TEST_F(OrbitMessageXml, OfACombinedMessageTheKindThatIsWantedIsRead) {
+  const auto body = [](const std::string& text) { return text.substr(text.find("?>") + 2); };
+  const std::string oem = body(standard_oem_xml), opm = body(standard_opm_xml);
+  const auto combined = [](const std::string& messages) {
+    return "<?xml version=\"1.0\"?>\n<ndm>\n<MESSAGE_ID>1</MESSAGE_ID><COMMENT>all</COMMENT>" +
+           messages + "</ndm>\n";
+  };
+  const std::string all = combined(oem + opm + "<cdm/>" + oem);
+  EXPECT_EQ(opm_text(read_opm("a.xml", all)), opm_text(read_opm("a.xml", standard_opm_xml)));
+  const OrbitEphemerisMessage one = read_oem("a.xml", standard_oem_xml);
+  const OrbitEphemerisMessage two = read_oem("a.xml", all);
+  EXPECT_EQ(oem_text(read_oem("a.xml", combined(oem))), oem_text(one));
+  ASSERT_EQ(two.segments.size(), 2 * one.segments.size());
+  EXPECT_EQ(two.segments[2].states.size(), one.segments[0].states.size());
+  expect_refused(read_oem, combined(opm), "a.xml:2: ndm: got no oem in it, must have one");
+  expect_refused(read_opm, combined(opm + opm), "opm: got a second opm, must be one state");
+  expect_refused(read_oem, combined(oem + changed(oem, "version=\"", "version=\"1")),
+                 "oem: another version than the first one, got CCSDS_OEM_VERS = 1");
+  expect_refused(read_oem, combined("<eom/>"), "eom: unknown element in ndm, did you mean oem?");
+}
+
 TEST_F(OrbitMessageXml, TheStandardsEphemerisSaysTheSameInBothNotations) {
   const OrbitEphemerisMessage xml = read_oem("a.xml", standard_oem_xml);
   const OrbitEphemerisMessage lines = read_oem("a.oem", standard_oem);
@@ -113,7 +135,7 @@ TEST_F(OrbitMessageXml, ParametersAreRefusedByLineAndElement) {
   refuse("</segment>", "</segment><segment/>", "a.xml:7: body: got 2 segments, must have one");
   refuse("<data>", "<data><x/>", "a.xml:16: x: unknown element in data, must be one of: stateV");
   refuse("</opm>\n", "</opm>\n<opm/>", "a.xml:46: opm: got a second root");
-  expect_refused(read_opm, "<ndm></ndm>", "a.xml:1: ndm: unknown message, got this root, must be");
+  expect_refused(read_opm, "<cdm></cdm>", "a.xml:1: cdm: unknown message, got this root, must be");
   expect_refused(read_opm, "<opm id=\"CCSDS_OPM_VERS\" version=\"3.0\"/>",
                  "a.xml:1: opm: incomplete, must have one header and one body");
   expect_refused(read_opm, "  <", "a.xml:1: no XML");

@@ -22,7 +22,7 @@ constexpr std::string_view any_text = "a text";
 
 }  // namespace
 
-MessageLines::MessageLines(const std::string& name, std::string_view text)
+MessageLines::MessageLines(const std::string& name, std::string_view text, std::string_view kind)
     : name_(name), rest_(text) {
   if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) {
     fail(1, "", "not ASCII, got a UTF-16 byte order mark, must be ASCII");
@@ -30,7 +30,7 @@ MessageLines::MessageLines(const std::string& name, std::string_view text)
   if (text.starts_with("\xef\xbb\xbf")) rest_.remove_prefix(3);
   const std::size_t first = rest_.find_first_not_of(" \t\r\n");
   if (first != std::string_view::npos && rest_[first] == '<') {
-    statements_ = statements_of_xml(name, rest_);
+    statements_ = statements_of_xml(name, rest_, kind);
     number_of_lines_ = static_cast<std::size_t>(std::count(rest_.begin(), rest_.end(), '\n')) + 1;
     rest_ = {};
   }

@@ -33,8 +33,9 @@ struct MessageLine {
 /// XML notation the statements of its elements.
 class MessageLines {
  public:
-  /// Throws for UTF-16, and what statements_of_xml throws.
-  MessageLines(const std::string& name, std::string_view text);
+  /// Of a message of this kind, "oem" or "opm". Throws for UTF-16, and what statements_of_xml
+  /// throws.
+  MessageLines(const std::string& name, std::string_view text, std::string_view kind);
   /// Lines that have been read point into this.
   MessageLines(const MessageLines&) = delete;
   MessageLines& operator=(const MessageLines&) = delete;

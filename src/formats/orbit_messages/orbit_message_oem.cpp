@@ -28,7 +28,7 @@ void split_at_blanks(std::string_view text, std::vector<std::string_view>& field
 
 class OemReader {
  public:
-  OemReader(const std::string& name, std::string_view text) : lines_(name, text) {}
+  OemReader(const std::string& name, std::string_view text) : lines_(name, text, "oem") {}
 
   OrbitEphemerisMessage read() {
     OrbitEphemerisMessage message;

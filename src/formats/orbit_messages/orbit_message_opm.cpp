@@ -33,7 +33,7 @@ std::vector<std::string_view> all_keywords() {
 
 OrbitParameterMessage read_opm(const std::string& name, std::string_view text) {
   const std::vector<std::string_view> keywords = all_keywords();
-  MessageLines lines(name, text);
+  MessageLines lines(name, text, "opm");
   OrbitParameterMessage message;
   message.version = read_version(lines, "CCSDS_OPM_VERS", {"2.0", "3.0"});
   MessageBlock block(lines);

@@ -26,6 +26,10 @@ const std::vector<std::string_view> parts_of_opm = {
     "covarianceMatrix", "maneuverParameters", "userDefinedParameters"};
 const std::vector<std::string_view> parts_of_oem = {"stateVector", "covarianceMatrix"};
 
+/// What a combined message consists of (CCSDS 505.0-B-3, section 4.3).
+const std::vector<std::string_view> names_in_ndm = {"MESSAGE_ID", "acm", "aem", "apm", "cdm", "ocm",
+                                                    "oem",        "omm", "opm", "rdm", "tdm"};
+
 class XmlReader {
  public:
   XmlReader(const std::string& name, std::string_view text) : name_(name) {
@@ -43,27 +47,17 @@ class XmlReader {
     }
   }
 
-  std::vector<XmlStatement> read() {
+  std::vector<XmlStatement> read(std::string_view wanted) {
     const Node root = document_.document_element();
     const std::string_view kind = root.name();
-    if (kind != "oem" && kind != "opm") {
-      fail(root, "unknown message, got this root, must be oem or opm");
+    if (kind != "oem" && kind != "opm" && kind != "ndm") {
+      fail(root, "unknown message, got this root, must be oem, opm or ndm");
     }
     if (root.next_sibling()) fail(root.next_sibling(), "got a second root, must be one message");
-    is_ephemeris_ = kind == "oem";
-    add(root,
-        fmt::format("{} = {}", root.attribute("id").value(), root.attribute("version").value()));
-    const std::vector<Node> parts = children(root, {"header", "body"});
-    if (parts.size() != 2 || std::string_view(parts[0].name()) != "header" ||
-        std::string_view(parts[1].name()) != "body") {
-      fail(root, "incomplete, must have one header and one body behind it");
-    }
-    add_leaves(parts[0]);
-    const std::vector<Node> segments = children(parts[1], {"segment"});
-    if (!is_ephemeris_ && segments.size() != 1) {
-      fail(parts[1], fmt::format("got {} segments, must have one", segments.size()));
-    }
-    for (const Node segment : segments) read_segment(segment);
+    const std::vector<Node> messages =
+        kind == "ndm" ? messages_of(root, wanted) : std::vector<Node>{root};
+    is_ephemeris_ = std::string_view(messages[0].name()) == "oem";
+    for (const Node message : messages) read_message(message, message == messages[0]);
     return std::move(statements_);
   }
 
@@ -83,6 +77,45 @@ class XmlReader {
     const auto end = std::lower_bound(ends_of_lines_.begin(), ends_of_lines_.end(),
                                       static_cast<std::size_t>(offset));
     return static_cast<std::size_t>(end - ends_of_lines_.begin()) + 1;
+  }
+
+  static std::string version_of(Node message) {
+    return fmt::format("{} = {}", message.attribute("id").value(),
+                       message.attribute("version").value());
+  }
+
+  /// The messages of a kind in a combined one, which may have others.
+  std::vector<Node> messages_of(Node combined, std::string_view wanted) const {
+    std::vector<Node> found;
+    for (const Node child : children(combined, names_in_ndm)) {
+      if (child.name() == wanted) found.push_back(child);
+    }
+    if (found.empty()) fail(combined, fmt::format("got no {} in it, must have one", wanted));
+    for (const Node other : found) {
+      if (other == found[0]) continue;
+      if (wanted == "opm") fail(other, "got a second opm, must be one state");
+      if (version_of(other) != version_of(found[0])) {
+        fail(other, fmt::format("another version than the first one, got {}, must be {}",
+                                version_of(other), version_of(found[0])));
+      }
+    }
+    return found;
+  }
+
+  /// The header of the first message stands for all.
+  void read_message(Node message, bool is_first) {
+    if (is_first) add(message, version_of(message));
+    const std::vector<Node> parts = children(message, {"header", "body"});
+    if (parts.size() != 2 || std::string_view(parts[0].name()) != "header" ||
+        std::string_view(parts[1].name()) != "body") {
+      fail(message, "incomplete, must have one header and one body behind it");
+    }
+    if (is_first) add_leaves(parts[0]);
+    const std::vector<Node> segments = children(parts[1], {"segment"});
+    if (!is_ephemeris_ && segments.size() != 1) {
+      fail(parts[1], fmt::format("got {} segments, must have one", segments.size()));
+    }
+    for (const Node segment : segments) read_segment(segment);
   }
 
   void add(Node node, std::string text) {
@@ -204,8 +237,9 @@ class XmlReader {
 
 bool is_xml_built() { return true; }
 
-std::vector<XmlStatement> statements_of_xml(const std::string& name, std::string_view text) {
-  return XmlReader(name, text).read();
+std::vector<XmlStatement> statements_of_xml(const std::string& name, std::string_view text,
+                                            std::string_view kind) {
+  return XmlReader(name, text).read(kind);
 }
 
 }  // namespace hamjet::io

@@ -20,10 +20,13 @@ struct XmlStatement {
 bool is_xml_built();
 
 /// The statements of an OEM or OPM in XML, in order, so that whoever reads the other notation reads
-/// this one with the same checks. Throws Error(input_output), `name:line: element: problem`, for
+/// this one with the same checks. `kind` is the message that is wanted, "oem" or "opm": of a
+/// combined message (ndm) the one of this kind is taken, and of several OEM all segments together.
+/// Throws Error(input_output), `name:line: element: problem`, for
 /// what is no XML, for another root, for elements where the standard has none of that name or that
 /// are out of the order that it has, and for units other than the standard's; and in a build
 /// without XML for everything.
-std::vector<XmlStatement> statements_of_xml(const std::string& name, std::string_view text);
+std::vector<XmlStatement> statements_of_xml(const std::string& name, std::string_view text,
+                                            std::string_view kind);
 
 }  // namespace hamjet::io

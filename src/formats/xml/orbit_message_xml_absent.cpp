@@ -9,7 +9,8 @@ namespace hamjet::io {
 
 bool is_xml_built() { return false; }
 
-std::vector<XmlStatement> statements_of_xml(const std::string& name, std::string_view) {
+std::vector<XmlStatement> statements_of_xml(const std::string& name, std::string_view,
+                                            std::string_view) {
   throw Error(ErrorKind::input_output,
               fmt::format("{}:1: XML notation, got \"<\" at the start, must be in keyword = value "
                           "notation (KVN), the only one that this build reads (HAMJET_XML is OFF)",
