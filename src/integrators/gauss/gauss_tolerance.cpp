@@ -65,17 +65,9 @@ FlowJet<Real> integrate_as_given(const FlowProblem<Real>& problem, const GaussSe
   });
 }
 
-/// Lines that are there already: of the settings' own tolerance, or the finer ones of a trial with a
-/// larger tolerance. Either may be null.
-template <class Real>
-struct KnownLines {
-  const FirstTrial<Real>* first = nullptr;
-  const Trial<Real>* before = nullptr;
-};
-
 template <class Real>
 Trial<Real> try_tolerance(const DirectionalFlow<Real>& flow, const GaussSettings& settings,
-                          double tolerance, const KnownLines<Real>& known) {
+                          double tolerance, const FirstTrial<Real>* known = nullptr) {
   GaussSettings coarse = settings;
   coarse.tolerance = tolerance;
   coarse.profile = nullptr;
@@ -87,20 +79,11 @@ Trial<Real> try_tolerance(const DirectionalFlow<Real>& flow, const GaussSettings
   };
   Trial<Real> trial;
   trial.tolerance = tolerance;
-  trial.lines = known.first != nullptr ? flow.restrict(known.first->jet) : with(coarse);
-  const IntegrationStatistics& of_lines =
-      known.first != nullptr ? known.first->statistics : statistics;
-  trial.steps = of_lines.steps;
-  trial.limit = allowed_excess * *settings.tolerance * std::max(1.0, of_lines.periods);
-  // Lines as near to finer ones of an earlier trial as is allowed are as near to the flow, unless
-  // both had the same error, which other steps of another order do not.
-  if (known.before != nullptr) {
-    trial.finer_lines = known.before->finer_lines;
-    trial.error_by_degree = flow.relative_difference(trial.lines, trial.finer_lines);
-    if (!(trial.largest_excess() > 1)) return trial;
-  }
+  trial.lines = known != nullptr ? flow.restrict(known->jet) : with(coarse);
+  trial.steps = known != nullptr ? known->statistics.steps : statistics.steps;
   trial.finer_lines = with(fine);
   trial.error_by_degree = flow.relative_difference(trial.lines, trial.finer_lines);
+  trial.limit = allowed_excess * *settings.tolerance * std::max(1.0, statistics.periods);
   return trial;
 }
 
@@ -167,7 +150,7 @@ StepTolerance<Real> choose_step_tolerance(const FlowProblem<Real>& problem,
   if (!needs_choice(problem, settings)) return {asked, {}, {}, {}, {}};
   const double smallest = smallest_step_tolerance<Real>();
   const DirectionalFlow<Real> flow(problem, 2);
-  Trial<Real> before = try_tolerance<Real>(flow, settings, asked, {first, nullptr});
+  Trial<Real> before = try_tolerance(flow, settings, asked, first);
   if (!(before.largest_excess() > 1)) return chosen(asked, flow, std::move(before));
   double power = 1;
   double largest_reduction = 0.1;
@@ -176,7 +159,7 @@ StepTolerance<Real> choose_step_tolerance(const FlowProblem<Real>& problem,
     const double wanted = std::isfinite(excess) ? std::pow(aim / excess, 1 / power) : 0;
     const double next = std::max(
         std::clamp(wanted, least_reduction, largest_reduction) * before.tolerance, smallest);
-    Trial<Real> trial = try_tolerance<Real>(flow, settings, next, {nullptr, &before});
+    Trial<Real> trial = try_tolerance(flow, settings, next);
     if (!(trial.largest_excess() > 1)) return chosen(next, flow, std::move(trial));
     const bool is_shorter = trial.steps > before.steps;
     // Steps that much shorter would take away far more of a truncation error.
