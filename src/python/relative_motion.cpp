@@ -1,6 +1,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 
@@ -17,6 +18,7 @@
 #include "given_scene.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/report/relative_motion_report.hpp"
+#include "hamjet/studies/assignment.hpp"
 #include "interruptible.hpp"
 #include "written_set.hpp"
 
@@ -90,6 +92,17 @@ Studied<DeputyMotion> study_motion(const GivenScene& given, const py::object& pr
       });
 }
 
+Studied<AssignmentResult> assign(const GivenScene& given, const py::object& progress) {
+  const Scene checked = unsplit(given, "hamjet assign");
+  cli::require_assignment(checked, given.file);
+  return interruptibly(
+      progress, [scene = checked, file = given.file](const ProgressCallback& report) {
+        return Studied<AssignmentResult>(
+            cli::study_of(file, [&] { return study_assignment(scene, report); }),
+            [](const AssignmentResult& studied) { return io::assignment_report(studied); });
+      });
+}
+
 Studied<ValidityResult> study_separations(const GivenScene& given, const py::object& progress) {
   const Scene checked = unsplit(given, "hamjet validity");
   cli::require_validity(checked, given.file);
@@ -137,7 +150,7 @@ void add_orders(const TransferResult& result, py::dict& arrays) {
 py::dict transfer_arrays(const TransferResult& result) {
   const double unit = result.scene.units.time_s;
   Table time, condition, position_condition, distance, start, end, total, miss, residual;
-  std::vector<bool> near, beyond, refined;
+  std::vector<bool> near, beyond, refined, forbidden;
   py::list kinds, failures;
   for (const TransferPoint& point : result.points) {
     const TransferAnswer* answer = io::shown_answer(point);
@@ -153,6 +166,7 @@ py::dict transfer_arrays(const TransferResult& result) {
     near.push_back(point.is_near_singular);
     beyond.push_back(point.is_beyond_tolerance);
     refined.push_back(point.is_refined());
+    forbidden.push_back(!point.is_allowed());
     kinds.append(point.kind ? py::object(py::str(point.kind->name())) : py::none());
     failures.append(py::str(io::failure_text(point)));
   }
@@ -171,7 +185,14 @@ py::dict transfer_arrays(const TransferResult& result) {
   arrays["near_singular"] = flags(near);
   arrays["beyond_tolerance"] = flags(beyond);
   arrays["refined"] = flags(refined);
+  arrays["forbidden"] = flags(forbidden);
   arrays["failures"] = py::tuple(failures);
+  Table windows;
+  for (const BudgetWindow& window : result.budget_windows) {
+    windows.add(window.first * unit);
+    windows.add(window.last * unit);
+  }
+  arrays["budget_windows_s"] = windows.array({size_of(result.budget_windows.size()), 2});
   add_orders(result, arrays);
   Table singular;
   for (const SingularTime& entry : result.position_singularities()) singular.add(entry.time * unit);
@@ -221,6 +242,55 @@ py::dict validity_arrays(const ValidityResult& result) {
   arrays["proved_m"] = proved.array(shape);
   arrays["miss_m"] = miss.array(shape);
   arrays["is_lower_bound"] = flags(limit, shape);
+  return arrays;
+}
+
+/// Which deputy goes where, and how near all come to each other.
+py::dict assignment_arrays(const AssignmentResult& result) {
+  const double unit = result.scene.units.time_s;
+  std::vector<std::int64_t> deputies, slots, pairs;
+  Table time, start, end, total, miss, costs, separation, pair_time;
+  std::vector<bool> beyond;
+  for (const AssignedTransfer& assigned : result.transfers) {
+    const TransferAnswer* answer = io::shown_answer(assigned.transfer);
+    deputies.push_back(static_cast<std::int64_t>(assigned.deputy));
+    slots.push_back(static_cast<std::int64_t>(assigned.slot));
+    time.add(assigned.transfer.time * unit);
+    start.add(answer != nullptr ? answer->start_change_m_s : no_vector);
+    end.add(answer != nullptr ? answer->end_change_m_s : no_vector);
+    total.add(answer != nullptr ? answer->total_change_m_s() : none);
+    miss.add(answer != nullptr ? answer->miss_m : none);
+    beyond.push_back(assigned.transfer.is_beyond_tolerance);
+  }
+  for (const auto& row : result.costs) {
+    for (const AssignmentCost& cost : row) costs.add(cost.time ? cost.total_change_m_s : none);
+  }
+  for (const DeputyPair& pair : result.pairs) {
+    pairs.push_back(static_cast<std::int64_t>(pair.first));
+    pairs.push_back(static_cast<std::int64_t>(pair.second));
+    separation.add(pair.separation_m);
+    pair_time.add(pair.time * unit);
+  }
+  const auto count = size_of(result.transfers.size());
+  const AssignmentSettings& settings = *result.scene.assignment;
+  py::dict arrays;
+  arrays["deputies"] = python::array_of(std::move(deputies));
+  arrays["slots"] = python::array_of(std::move(slots));
+  arrays["times_s"] = time.array();
+  arrays["start_change_m_s"] = start.array({count, 3});
+  arrays["end_change_m_s"] = end.array({count, 3});
+  arrays["total_change_m_s"] = total.array();
+  arrays["miss_m"] = miss.array();
+  arrays["beyond_tolerance"] = flags(beyond);
+  arrays["costs_m_s"] =
+      result.costs.empty()
+          ? costs.array({0, 0})
+          : costs.array({size_of(settings.deputies.size()), size_of(settings.slots.size())});
+  arrays["pairs"] = python::array_of(std::move(pairs), {size_of(result.pairs.size()), 2});
+  arrays["pair_separation_m"] = separation.array();
+  arrays["pair_times_s"] = pair_time.array();
+  arrays["flight_floor_m"] = result.flight_floor_m;
+  arrays["failure"] = result.failure;
   return arrays;
 }
 
@@ -292,6 +362,14 @@ void bind_relative_motion(py::module_& module) {
       .def_property_readonly(
           "csv", [](const Studied<ValidityResult>& s) { return io::validity_csv(*s.result()); })
       .def("arrays", [](const Studied<ValidityResult>& s) { return validity_arrays(*s.result()); });
+  bind_study<AssignmentResult>(module, "AssignmentStudy")
+      .def_property_readonly(
+          "exit_code", [](const Studied<AssignmentResult>& s) { return exit_code(*s.result()); })
+      .def_property_readonly(
+          "csv", [](const Studied<AssignmentResult>& s) { return io::assignment_csv(*s.result()); })
+      .def("arrays",
+           [](const Studied<AssignmentResult>& s) { return assignment_arrays(*s.result()); });
+  module.def("study_assignment", &assign, py::arg("scene"), py::arg("progress"));
   module.def("study_transfers", &study_transfers, py::arg("scene"), py::arg("progress"));
   module.def("study_motion", &study_motion, py::arg("scene"), py::arg("progress"));
   module.def("study_separations", &study_separations, py::arg("scene"), py::arg("progress"));

@@ -34,9 +34,8 @@ class TrajectoryStudy {
     // The ends in seconds are the ends in canonical units, whatever the rounding between.
     const double time = time_s == duration_s() ? scene.duration : time_s / unit_s();
     FlowJet<Extended> jet = interruptibly(
-        py::none(), [trajectory = trajectory_, time](const ProgressCallback&) {
-          return trajectory->at(time);
-        });
+        py::none(),
+        [trajectory = trajectory_, time](const ProgressCallback&) { return trajectory->at(time); });
     PropagationResult result;
     result.scene = scene;
     result.problem = trajectory_->problem();

@@ -4,10 +4,14 @@ import numpy as np
 import pytest
 
 import hamjet
+from conftest import ORBIT, scene
 from test_relative_motion import TRANSFER
 from test_to_dataframe import VALIDITY
 
 pyplot = pytest.importorskip("matplotlib.pyplot")
+
+
+MOTION = scene(ORBIT, deputy={"position_m": [0, -500, 100]})
 
 
 def drawn(axes):
@@ -39,6 +43,17 @@ def test_validity_is_drawn_for_every_order():
         assert (points[:, 0] == validity.times_s / 3600).all()
         proved = validity.proved_m[:, order]
         assert np.array_equal(points[:, 1], np.where(proved > 0, proved, np.nan), equal_nan=True)
+
+
+def test_motion_is_drawn_with_its_extremes():
+    motion = hamjet.motion(MOTION)
+    axes = motion.plot()
+    lines = drawn(axes)
+    expected = np.column_stack([motion.times_s / 3600, motion.separation_m])
+    assert (lines["separation"] == expected).all()
+    for name, at in (("nearest", motion.nearest), ("farthest", motion.farthest)):
+        assert (lines[name] == [[at.time_s / 3600, at.separation_m]]).all()
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("time (h)", "separation (m)")
 
 
 def test_axes_that_are_given_are_drawn_in():

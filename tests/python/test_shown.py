@@ -22,7 +22,9 @@ def objects():
                        overrides=["canonical_transformation.duration_canonical=5"])
     return [result, run, run.nominal, run.along_time, run.jet, run.jet.units,
             run.jet.invert_partially("F1"), run.jet.evaluate_relative(np.ones((500, 6))),
-            motion, motion.nearest, hamjet.transfer(TRANSFER), hamjet.validity(VALIDITY), study]
+            motion, motion.nearest, hamjet.transfer(TRANSFER), hamjet.validity(VALIDITY), study,
+            hamjet.assign(SOURCE / "data" / "scenes" / "assignment-tetrahedron.toml",
+                          overrides=["transfer.count=3"])]
 
 
 @pytest.mark.parametrize("value", objects(), ids=lambda value: type(value).__name__)

@@ -20,16 +20,17 @@ from .elements import elements_of_states, mean_states, osculating_states, states
 from .errors import (Error, ExistingFileError, InputOutputError, MissingFileError, NumericalError,
                      SceneError, TooLargeError, UsageError)
 from .orbits import orbit
-from .relative_motion import (Motion, Separation, Transfers, Validity, motion, transfer,
-                              validity)
+from .relative_motion import (Assignment, Motion, Separation, Transfers, Validity, assign, motion,
+                              transfer, validity)
 from .relative_states import RelativeStates
 from .results import AlongTime, Nominal, Result, Run, StudyResult, load, run
 from .trajectory import Trajectory, trajectory
 
 __all__ = [
-    "AlongTime", "Error", "ExistingFileError", "GeneratingFunction", "InputOutputError", "Jet",
-    "MissingFileError", "Motion", "Nominal", "NumericalError", "RelativeStates", "Result", "Run",
-    "SceneError", "Separation", "StudyResult", "TooLargeError", "Trajectory", "Transfers", "Units",
-    "UsageError", "Validity", "__version__", "elements_of_states", "load", "mean_states", "motion",
-    "orbit", "osculating_states", "run", "states_of_elements", "trajectory", "transfer", "validity",
+    "AlongTime", "Assignment", "Error", "ExistingFileError", "GeneratingFunction",
+    "InputOutputError", "Jet", "MissingFileError", "Motion", "Nominal", "NumericalError",
+    "RelativeStates", "Result", "Run", "SceneError", "Separation", "StudyResult", "TooLargeError",
+    "Trajectory", "Transfers", "Units", "UsageError", "Validity", "__version__", "assign",
+    "elements_of_states", "load", "mean_states", "motion", "orbit", "osculating_states", "run",
+    "states_of_elements", "trajectory", "transfer", "validity",
 ]

@@ -1,4 +1,4 @@
-"""Plots of transfers and of validity, with matplotlib."""
+"""Plots of motions, transfers and validity, with matplotlib."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 from .optional_packages import required
 
 if TYPE_CHECKING:
-    from .relative_motion import Transfers, Validity
+    from .relative_motion import Motion, Transfers, Validity
 
 _SECONDS_PER_HOUR = 3600.0
 
@@ -18,6 +18,17 @@ def _axes(given: Any) -> Any:
     """The axes to draw in: those given, or those of a new figure."""
     pyplot = required("matplotlib.pyplot", "plot")
     return pyplot.subplots()[1] if given is None else given
+
+
+def draw_motion(motion: Motion, axes: Any) -> Any:
+    axes = _axes(axes)
+    hours = motion.times_s / _SECONDS_PER_HOUR
+    axes.plot(hours, motion.separation_m, ".-", label="separation")
+    for name, at in (("nearest", motion.nearest), ("farthest", motion.farthest)):
+        axes.plot(at.time_s / _SECONDS_PER_HOUR, at.separation_m, "o", label=name)
+    axes.set(xlabel="time (h)", ylabel="separation (m)", ylim=(0, None))
+    axes.legend()
+    return axes
 
 
 def draw_transfers(transfers: Transfers, axes: Any) -> Any:

@@ -17,12 +17,14 @@ from .results import Floats, Progress
 from .tables import Table, data_frame, read_table
 
 Flags = npt.NDArray[np.bool_]
+Indices = npt.NDArray[np.int64]
 
 #: Most intervals of one trajectory: more would be gigabytes of a smooth curve.
 _MOST_INTERVALS = 1_000_000
 
 
-_Study = TypeVar("_Study", _hamjet.MotionStudy, _hamjet.TransferStudy, _hamjet.ValidityStudy)
+_Study = TypeVar("_Study", _hamjet.MotionStudy, _hamjet.TransferStudy, _hamjet.ValidityStudy,
+                 _hamjet.AssignmentStudy)
 
 
 def _required(study: _Study | None, what: str) -> _Study:
@@ -89,6 +91,14 @@ class Motion(Immutable):
         """
         return data_frame(self.table)
 
+    def plot(self, axes: Any = None) -> Any:
+        """Draws the separation along time, with its least and its greatest.
+
+        axes: of matplotlib; None: those of a new figure. Returns the axes. Raises ImportError where
+        matplotlib is not installed.
+        """
+        return plots.draw_motion(self, axes)
+
     def __getstate__(self) -> dict[str, Any]:
         # The study, which files are written from, is the C++ library's.
         return {**super().__getstate__(), "_study": None}
@@ -118,14 +128,18 @@ class Transfers(Immutable):
     near_singular: Flags  #: (T,): nearer to a singularity than the scene's margin
     beyond_tolerance: Flags  #: (T,): the miss of the order N exceeds the scene's tolerance
     hamilton_jacobi_residuals: Floats  #: (T,): worst scaled residual over all degrees
+    #: (T,): an impulse is above the scene's largest_impulse_m_s, or the way enters its keep_out_m
+    forbidden: Flags
     failures: tuple[str, ...]  #: what failed at each time; empty where nothing did
+    #: (K, 2): spans of time that take no more than the scene's budget_m_s; empty without one
+    budget_windows_s: Floats
     singular_times_s: Floats  #: at which F1 does not exist, all within the span
     flight_floor_m: float  #: misses below this say nothing
-    #: Index of the least total change among answers within the tolerance and away from
-    #: singularities; None if there is none.
+    #: Index of the least total change among answers within the tolerance, away from singularities
+    #: and not forbidden; None if there is none.
     best: int | None
-    #: The command's exit code: 0; 1, if strict and an answer is missing or too far off; 4, without
-    #: answers.
+    #: The command's exit code: 0; 1, if all answers are forbidden, optimal impulses asked for were
+    #: not found, or strict and an answer is missing or too far off; 4, without answers.
     exit_code: int
     table: Table = field(repr=False)  #: the columns of ``transfers.csv``, by name
     _study: _hamjet.TransferStudy | None = field(repr=False)
@@ -228,6 +242,62 @@ class Validity(Immutable):
         return {**super().__getstate__(), "_study": None}
 
 
+@dataclass(frozen=True, eq=False)
+class Assignment(Immutable):
+    """Deputies sent to slots at the least total velocity change, K transfers; immutable."""
+
+    deputies: Indices  #: (K,): of each transfer, from 0
+    slots: Indices  #: (K,): where it goes
+    times_s: Floats  #: (K,): transfer times
+    start_change_m_s: Floats  #: (K, 3): along the axes of the scene's frame
+    end_change_m_s: Floats  #: (K, 3)
+    total_change_m_s: Floats  #: (K,): sum of the two magnitudes
+    miss_m: Floats  #: (K,): of the deputy, flown, from its slot
+    beyond_tolerance: Flags  #: (K,): the miss of the highest order exceeds the scene's tolerance
+    costs_m_s: Floats  #: (deputies, slots): the least change of each; NaN where there is no answer
+    pairs: Indices  #: (P, 2): two deputies each
+    pair_separation_m: Floats  #: (P,): the least while both fly
+    pair_times_s: Floats  #: (P,): when it is
+    flight_floor_m: float  #: misses below this say nothing
+    failure: str  #: not empty: there are not as many transfers as deputies or slots, and why
+    #: The command's exit code: 0; 1, if a transfer is forbidden, deputies come nearer than the
+    #: scene's keep_apart_m, or strict and one is too far off; 4, without an assignment.
+    exit_code: int
+    table: Table = field(repr=False)  #: the columns of ``assignment.csv``, by name
+    _study: _hamjet.AssignmentStudy | None = field(repr=False)
+
+    def __repr__(self) -> str:
+        if self.failure:
+            return shown.of(self, f": {self.failure}")
+        nearest = ""
+        if len(self.pairs):
+            k = int(self.pair_separation_m.argmin())
+            nearest = (f"\n nearest: deputies {self.pairs[k, 0]} and {self.pairs[k, 1]}, "
+                       f"{self.pair_separation_m[k]:.6g} m at {self.pair_times_s[k]:.6g} s")
+        return shown.of(self, f" of {len(self.deputies)} deputies: "
+                        f"{self.total_change_m_s.sum():.6g} m/s in all{nearest}")
+
+    @property
+    def summary(self) -> dict[str, Any]:
+        """What ``hamjet assign`` writes as summary.json."""
+        return dict(json.loads(_required(self._study, "summary").summary))
+
+    def write(self, directory: str | os.PathLike[str]) -> None:
+        """Writes what ``hamjet assign`` writes. Raises InputOutputError."""
+        _required(self._study, "write").write(arguments.path(directory, "directory"))
+
+    def to_dataframe(self) -> Any:
+        """A pandas.DataFrame with the columns of ``assignment.csv``, a row a deputy.
+
+        Raises ImportError where pandas is not installed.
+        """
+        return data_frame(self.table)
+
+    def __getstate__(self) -> dict[str, Any]:
+        # The study, which files are written from, is the C++ library's.
+        return {**super().__getstate__(), "_study": None}
+
+
 def motion(scene: scenes.Scene, *, overrides: scenes.Overrides | None = None,
            progress: Progress | None = None) -> Motion:
     """Where a deputy goes by itself, as seen from its chief, as ``hamjet motion`` finds it.
@@ -261,3 +331,15 @@ def validity(scene: scenes.Scene, *, overrides: scenes.Overrides | None = None,
     """
     study = _hamjet.study_separations(scenes.read(scene, overrides), arguments.progress(progress))
     return Validity(**study.arrays(), table=read_table(study.csv), _study=study)
+
+
+def assign(scene: scenes.Scene, *, overrides: scenes.Overrides | None = None,
+           progress: Progress | None = None) -> Assignment:
+    """Which deputy goes to which slot, and when, as ``hamjet assign`` finds it.
+
+    The scene has tables [transfer] and [assignment]; arguments as of ``run``. Raises as
+    ``transfer``.
+    """
+    study = _hamjet.study_assignment(scenes.read(scene, overrides), arguments.progress(progress))
+    return Assignment(**study.arrays(), exit_code=study.exit_code, table=read_table(study.csv),
+                      _study=study)
