@@ -10,6 +10,7 @@
 #include "hamjet/algebra/series_space.hpp"
 #include "hamjet/algebra/truncated_power_series.hpp"
 #include "hamjet/dynamics/dynamical_system.hpp"
+#include "hamjet/dynamics/mean_elements.hpp"
 #include "hamjet/dynamics/osculating_elements.hpp"
 #include "hamjet/dynamics/relative_hamiltonian.hpp"
 #include "hamjet/dynamics/zonal_gravity.hpp"
