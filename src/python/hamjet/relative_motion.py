@@ -46,8 +46,35 @@ class Separation(Immutable):
         return shown.of(self, f": {self.separation_m:.6g} m at {self.time_s:.6g} s")
 
 
+class Study(Immutable):
+    """What the results of studies of two spacecraft and more have in common."""
+
+    table: Table
+    _study: Any
+
+    @property
+    def summary(self) -> dict[str, Any]:
+        """What the command writes as summary.json. Draws the report when first asked."""
+        return dict(json.loads(_required(self._study, "summary").summary))
+
+    def write(self, directory: str | os.PathLike[str]) -> None:
+        """Writes what the command writes, the report among it. Raises InputOutputError."""
+        _required(self._study, "write").write(arguments.path(directory, "directory"))
+
+    def to_dataframe(self) -> Any:
+        """A pandas.DataFrame with the columns of ``table``, one row each of the command's CSV.
+
+        Raises ImportError where pandas is not installed.
+        """
+        return data_frame(self.table)
+
+    def __getstate__(self) -> dict[str, Any]:
+        # The study, which trajectories are flown and files are written from, is the C++ library's.
+        return {**super().__getstate__(), "_study": None}
+
+
 @dataclass(frozen=True, eq=False)
-class Motion(Immutable):
+class Motion(Study):
     """How a deputy moves relative to its chief, at T equal times; immutable, arrays read-only.
 
     Places are those of the deputy as it flew with the full equations of motion, and errors the
@@ -75,22 +102,6 @@ class Motion(Immutable):
                         f" order {self.error_by_order_m.shape[1]} is wrong by up to "
                         f"{shown.largest(self.error_by_order_m[:, -1])} m")
 
-    @property
-    def summary(self) -> dict[str, Any]:
-        """What ``hamjet motion`` writes as summary.json. Draws the report when first asked."""
-        return dict(json.loads(_required(self._study, "summary").summary))
-
-    def write(self, directory: str | os.PathLike[str]) -> None:
-        """Writes what ``hamjet motion`` writes, the report among it. Raises InputOutputError."""
-        _required(self._study, "write").write(arguments.path(directory, "directory"))
-
-    def to_dataframe(self) -> Any:
-        """A pandas.DataFrame with the columns of ``motion.csv``, a row a time.
-
-        Raises ImportError where pandas is not installed.
-        """
-        return data_frame(self.table)
-
     def plot(self, axes: Any = None) -> Any:
         """Draws the separation along time, with its least and its greatest.
 
@@ -99,13 +110,9 @@ class Motion(Immutable):
         """
         return plots.draw_motion(self, axes)
 
-    def __getstate__(self) -> dict[str, Any]:
-        # The study, which files are written from, is the C++ library's.
-        return {**super().__getstate__(), "_study": None}
-
 
 @dataclass(frozen=True, eq=False)
-class Transfers(Immutable):
+class Transfers(Study):
     """Velocity changes for T transfer times; immutable, arrays read-only.
 
     Velocity changes are along the axes of the scene's frame; misses are distances of the flown
@@ -156,11 +163,6 @@ class Transfers(Immutable):
                         f"{int(self.near_singular.sum())} near a singularity, "
                         f"{int(self.beyond_tolerance.sum())} beyond the tolerance\n {best}")
 
-    @property
-    def summary(self) -> dict[str, Any]:
-        """What ``hamjet transfer`` writes as summary.json. Draws the report when first asked."""
-        return dict(json.loads(_required(self._study, "summary").summary))
-
     def trajectory(self, index: int, count: int = 400) -> tuple[Floats, Floats]:
         """The flown deputy of one transfer time's best answer, at ``count`` equal intervals.
 
@@ -172,17 +174,6 @@ class Transfers(Immutable):
             arguments.integer(index, "trajectory: index", 0, len(self.times_s) - 1),
             arguments.integer(count, "trajectory: count", 1, _MOST_INTERVALS))
 
-    def write(self, directory: str | os.PathLike[str]) -> None:
-        """Writes what ``hamjet transfer`` writes, the report among it. Raises InputOutputError."""
-        _required(self._study, "write").write(arguments.path(directory, "directory"))
-
-    def to_dataframe(self) -> Any:
-        """A pandas.DataFrame with the columns of ``transfers.csv``, a row a transfer time.
-
-        Raises ImportError where pandas is not installed.
-        """
-        return data_frame(self.table)
-
     def plot(self, axes: Any = None) -> Any:
         """Draws the least velocity change of each transfer time, with what is singular marked.
 
@@ -191,13 +182,9 @@ class Transfers(Immutable):
         """
         return plots.draw_transfers(self, axes)
 
-    def __getstate__(self) -> dict[str, Any]:
-        # The study, which trajectories are flown and files are written from, is the C++ library's.
-        return {**super().__getstate__(), "_study": None}
-
 
 @dataclass(frozen=True, eq=False)
-class Validity(Immutable):
+class Validity(Study):
     """Separations up to which the polynomials are right, for T times; immutable."""
 
     times_s: Floats  #: (T,)
@@ -213,22 +200,6 @@ class Validity(Immutable):
                              for order, proved_m in enumerate(self.proved_m.T, start=1))
         return shown.of(self, f": {shown.span(self.times_s)}\n right at all times up to: {least}")
 
-    @property
-    def summary(self) -> dict[str, Any]:
-        """What ``hamjet validity`` writes as summary.json. Draws the report when first asked."""
-        return dict(json.loads(_required(self._study, "summary").summary))
-
-    def write(self, directory: str | os.PathLike[str]) -> None:
-        """Writes what ``hamjet validity`` writes. Raises InputOutputError."""
-        _required(self._study, "write").write(arguments.path(directory, "directory"))
-
-    def to_dataframe(self) -> Any:
-        """A pandas.DataFrame with the columns of ``validity.csv``, a row a time and order.
-
-        Raises ImportError where pandas is not installed.
-        """
-        return data_frame(self.table)
-
     def plot(self, axes: Any = None) -> Any:
         """Draws the proved separation of each order along time.
 
@@ -237,13 +208,9 @@ class Validity(Immutable):
         """
         return plots.draw_validity(self, axes)
 
-    def __getstate__(self) -> dict[str, Any]:
-        # The study, which trajectories are flown and files are written from, is the C++ library's.
-        return {**super().__getstate__(), "_study": None}
-
 
 @dataclass(frozen=True, eq=False)
-class Assignment(Immutable):
+class Assignment(Study):
     """Deputies sent to slots at the least total velocity change, K transfers; immutable."""
 
     deputies: Indices  #: (K,): of each transfer, from 0
@@ -276,26 +243,6 @@ class Assignment(Immutable):
                        f"{self.pair_separation_m[k]:.6g} m at {self.pair_times_s[k]:.6g} s")
         return shown.of(self, f" of {len(self.deputies)} deputies: "
                         f"{self.total_change_m_s.sum():.6g} m/s in all{nearest}")
-
-    @property
-    def summary(self) -> dict[str, Any]:
-        """What ``hamjet assign`` writes as summary.json."""
-        return dict(json.loads(_required(self._study, "summary").summary))
-
-    def write(self, directory: str | os.PathLike[str]) -> None:
-        """Writes what ``hamjet assign`` writes. Raises InputOutputError."""
-        _required(self._study, "write").write(arguments.path(directory, "directory"))
-
-    def to_dataframe(self) -> Any:
-        """A pandas.DataFrame with the columns of ``assignment.csv``, a row a deputy.
-
-        Raises ImportError where pandas is not installed.
-        """
-        return data_frame(self.table)
-
-    def __getstate__(self) -> dict[str, Any]:
-        # The study, which files are written from, is the C++ library's.
-        return {**super().__getstate__(), "_study": None}
 
 
 def motion(scene: scenes.Scene, *, overrides: scenes.Overrides | None = None,
