@@ -144,7 +144,7 @@ TEST(ImpulsePlan, Hohmann) {
 // Along the orbit in half a revolution: two radial impulses of n x / 4. (Fehse, Automated
 // Rendezvous and Docking of Spacecraft, 2003, section 3.3.)
 TEST(ImpulsePlan, RadialAlongTheOrbit) {
-  const TransferResult result = study_transfer(metres_from_circle({{0, -1, 0}, {}}, pi));
+  const TransferResult result = study_transfer(metres_from_circle({{0, -1, 0}, {0, 0, 0}}, pi));
   expect_flown(result);
   EXPECT_NEAR(total_of(result), 0.5, 1e-5);
   EXPECT_FALSE(result.primer.has_value());  // F1 is singular after half a revolution.
@@ -154,7 +154,8 @@ TEST(ImpulsePlan, RadialAlongTheOrbit) {
 // two exceeds 1, and four are, which lie symmetrically. (Prussing, AIAA Journal 8, 1970.)
 TEST(ImpulsePlan, FourImpulsesLieSymmetrically) {
   const double duration = 2.9 * pi;
-  const TransferResult result = study_transfer(metres_from_circle({{0, 1, 0}, {}}, duration));
+  const TransferResult result =
+      study_transfer(metres_from_circle({{0, 1, 0}, {0, 0, 0}}, duration));
   expect_flown(result);
   ASSERT_TRUE(result.primer.has_value());
   EXPECT_TRUE(result.primer->calls_for_impulse());
@@ -172,7 +173,7 @@ TEST(ImpulsePlan, FourImpulsesLieSymmetrically) {
 // orbit, a quarter of the distance above or below the chief's orbit at its middle (Fehse, the
 // same).
 TEST(ImpulsePlan, IsMarkedWhereTheSceneDoesNotAllowIt) {
-  Scene scene = metres_from_circle({{0, -1, 0}, {}}, pi);
+  Scene scene = metres_from_circle({{0, -1, 0}, {0, 0, 0}}, pi);
   scene.transfer->end.position_m = {0, 1, 0};
   const double impulse = 0.5 / scene.units.time_s;
   const auto plan = [&] {
@@ -195,7 +196,8 @@ TEST(ImpulsePlan, IsMarkedWhereTheSceneDoesNotAllowIt) {
 // 2 x / (3 T), and no more is needed than that.
 TEST(ImpulsePlan, DriftAlongTheOrbit) {
   const double duration = 20 * pi;
-  const TransferResult result = study_transfer(metres_from_circle({{0, 1, 0}, {}}, duration));
+  const TransferResult result =
+      study_transfer(metres_from_circle({{0, 1, 0}, {0, 0, 0}}, duration));
   expect_flown(result);
   EXPECT_LT(total_of(result), 2 / (3 * duration) * (1 + 1e-6));
   EXPECT_GT(total_of(result), 2 / (3 * duration) * (1 - 1e-3));

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cstddef>
 #include <memory>
+#include <new>
 #include <optional>
 #include <utility>
 
@@ -23,11 +24,23 @@ constexpr std::size_t longest_override_key = 1000;
 /// The value that removes a key; TOML has none of this name.
 constexpr std::string_view removal = "null";
 
+/// Whether a text that was refused is TOML all the same: where memory runs out while it reads a
+/// number, the library takes the number for wrong.
+bool is_toml(std::string_view text) {
+  try {
+    static_cast<void>(toml::parse(text));
+    return true;
+  } catch (const toml::parse_error&) {
+    return false;
+  }
+}
+
 toml::table parse_toml(std::string_view text, const std::string& source) {
   text = check_scene_text(text, source);
   try {
     return toml::parse(text, std::string_view(source));
   } catch (const toml::parse_error& error) {
+    if (is_toml(text)) throw std::bad_alloc();
     const auto& begin = error.source().begin;
     std::string problem = fmt::format("not valid TOML: {}", printable(error.description(), 300));
     if (error.description().find("redefine") != std::string_view::npos) {
