@@ -205,6 +205,24 @@ TEST(ElementaryFunctionsOfSeveralVariables, GiveMultinomialCoefficients) {
   }
 }
 
+// The polar form: a point at the angle and at its distance is the point itself.
+TEST(ElementaryFunctionsOfTwo, AngleIsThatOfThePoint) {
+  RandomNumbers numbers(7);
+  const auto space = SeriesSpace::create(3, 6);
+  for (const auto& [x0, y0] : {std::pair{1.0, 0.5}, {-1.0, 0.5}, {-0.5, -1.0}, {0.2, -1.0}}) {
+    Series<double> x = test::random_series<double>(space, numbers);
+    Series<double> y = test::random_series<double>(space, numbers);
+    x[0] = x0;
+    y[0] = y0;
+    const Series<double> angle = atan2(y, x);
+    EXPECT_EQ(angle[0], std::atan2(y0, x0));
+    const auto [s, c] = sin_cos(angle);
+    const Series<double> r = sqrt(square(x) + square(y));
+    expect_near<double>(r * s, y, {&r, &s}, "sine");
+    expect_near<double>(r * c, x, {&r, &c}, "cosine");
+  }
+}
+
 TEST(PowerOfANumber, IsExactForWholeAndHalfExponents) {
   EXPECT_EQ(power(4.0, -1.5), 0.125);
   EXPECT_EQ(power(4.0, 2.5), 32.0);

@@ -120,4 +120,23 @@ Series<T> cos(const Series<T>& u) {
   return sin_cos(u).second;
 }
 
+/// The angle of the point (x, y) from the x axis, its constant term in (-pi, pi]. With E f the sum
+/// of d f_d over the degrees d, which is a derivation,
+///
+///   E angle = (x E y - y E x) / (x^2 + y^2) .
+template <class T>
+Series<T> atan2(const Series<T>& y, const Series<T>& x) {
+  using std::atan2;
+  const SeriesSpace& space = x.space();
+  const auto by_degree = [&](const Series<T>& u) {
+    Series<T> result = u;
+    for (std::size_t k = 0; k < space.size(); ++k) result[k] *= T(space.degree(k));
+    return result;
+  };
+  Series<T> angle = (x * by_degree(y) - y * by_degree(x)) / (square(x) + square(y));
+  for (std::size_t k = 1; k < space.size(); ++k) angle[k] /= T(space.degree(k));
+  angle[0] = T(atan2(y[0], x[0]));
+  return angle;
+}
+
 }  // namespace hamjet

@@ -51,6 +51,7 @@ class SliceEvaluator {
   /// The coefficients of the i-th input, to be written by the caller; inputs stand first in the
   /// list.
   T* input(std::size_t i) { return value(i); }
+  const T* input(std::size_t i) const { return value(i); }
   /// The coefficients of the i-th output.
   const T* output(std::size_t i) const { return value(list_->outputs()[i]); }
   /// The coefficients of the i-th output, to be overwritten; null where the output is one of the

@@ -1,0 +1,100 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "hamjet/charts/canonical_chart.hpp"
+#include "hamjet/charts/flow_box.hpp"
+#include "hamjet/detail/algebra/matrix.hpp"
+#include "hamjet/maps/flow_map.hpp"
+
+namespace hamjet {
+
+/// What polynomials say of one deputy at the end; canonical.
+struct DeputyPrediction {
+  SixNumbers<double> deviation;  ///< from the chief, (dq, dp)
+  /// What the two highest degrees add to the deviation, to first order where the coordinates are
+  /// curved.
+  SixNumbers<double> last;
+  SixNumbers<double> last_but_one;
+};
+
+/// A chief's flow of one duration as a function from a deputy's initial deviation to its final one:
+/// into the coordinates that polynomials are in, through these, and out of the coordinates of the
+/// end. A deviation is (dq, dp) along the inertial axes, canonical.
+///
+/// Immutable: threads may share one.
+class DeputyFlow {
+ public:
+  virtual ~DeputyFlow() = default;
+  DeputyFlow(const DeputyFlow&) = delete;
+  DeputyFlow& operator=(const DeputyFlow&) = delete;
+
+  int order() const { return polynomials_.front().order(); }
+  /// The number of the polynomials' variables.
+  std::size_t variables() const { return polynomials_.front().space().variables(); }
+  const std::vector<Series<double>>& polynomials() const { return polynomials_; }
+
+  /// Predicts the final deviations of deputies, by the terms of the polynomials up to a degree; of
+  /// those that have no coordinates in the start's chart, or not in the end's, they are not finite.
+  /// Throws Error(usage) for a degree outside 1 to the order, and for lists of different size.
+  void predict(std::span<const SixNumbers<double>> initial, int degree,
+               std::span<DeputyPrediction> predictions) const;
+  /// The same of one.
+  DeputyPrediction predict(const SixNumbers<double>& initial, int degree) const;
+
+  /// The chief's state at the end, from which deviations are counted.
+  const SixNumbers<double>& chief_end() const { return chief_end_; }
+
+  /// The derivative of the polynomials' variables by the initial deviation at the chief, variables
+  /// x 6.
+  virtual Matrix<double> entry_derivative() const = 0;
+  /// The derivative of the final deviation by the polynomials' values at the chief, 6 x values.
+  virtual Matrix<double> exit_derivative() const = 0;
+
+ protected:
+  /// Polynomials of the values, in one space.
+  DeputyFlow(std::vector<Series<double>> polynomials, const SixNumbers<double>& chief_end);
+
+  /// How many deputies are carried into and out of the coordinates at once.
+  static constexpr std::size_t block = 8;
+
+  /// Carries a block of deputies, or fewer, into the variables and out of the values, with work
+  /// space of its own.
+  class Passage {
+   public:
+    virtual ~Passage() = default;
+    /// The variables of deviations, `variables` numbers each, and in `carried` what goes by beside
+    /// the polynomials.
+    virtual void enter(std::span<const SixNumbers<double>> deviations, std::span<double> variables,
+                       std::span<SixNumbers<double>> carried) = 0;
+    /// The final deviations of the polynomials' values, of so many numbers each.
+    virtual void leave(std::span<const SixNumbers<double>> carried, std::span<const double> values,
+                       std::span<SixNumbers<double>> deviations) = 0;
+  };
+  virtual std::unique_ptr<Passage> passage() const = 0;
+
+ private:
+  std::vector<Series<double>> polynomials_;
+  SixNumbers<double> chief_end_;
+  std::vector<MapEvaluator> evaluators_;  ///< by degree, from 1
+};
+
+/// The flow by the jet in positions and momenta themselves.
+std::unique_ptr<DeputyFlow> cartesian_deputy_flow(const FlowMap<double>& jet);
+
+/// The flow between the coordinates of two charts, at the start's state and at the end's, by a map
+/// of their deviations (see in_charts).
+std::unique_ptr<DeputyFlow> charted_deputy_flow(const CanonicalChart<double>& start,
+                                                const SixNumbers<double>& start_state,
+                                                const CanonicalChart<double>& end,
+                                                const SixNumbers<double>& end_state,
+                                                const FlowMap<double>& map);
+
+/// The flow by a flow-box map of a zonal field.
+std::unique_ptr<DeputyFlow> flow_box_deputy_flow(const ZonalGravity& field,
+                                                 const FlowBoxMap<double>& map);
+
+}  // namespace hamjet

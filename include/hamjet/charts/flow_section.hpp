@@ -1,0 +1,72 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "hamjet/charts/canonical_chart.hpp"
+#include "hamjet/dynamics/zonal_gravity.hpp"
+
+namespace hamjet {
+
+/// A surface across the flow of a zonal field through one state, the chief's: the states whose
+/// first coordinate in a chart (the angle along the orbit) is the chief's. On it the energy and the
+/// chart's other coordinates, without the momentum of that angle, are coordinates; that momentum
+/// follows from H = E. With the time tau from the surface, (tau, E) is a canonical pair beside
+/// them: a state z is flown to the surface, and back in time tau.
+///
+/// The variables u of the surface are
+///
+///   u_0       of the energy: where the chief is bound, P/P_chief - 1 with the period
+///             P = 2 pi mu (-2 E)^(-3/2) of Kepler's ellipse of that energy; otherwise the
+///             difference of E in units of mu over the chief's distance
+///   u_1, ...  differences from the chief's of the coordinates in `places`, in the chart's units
+///
+/// five, or four in the nodal chart, whose node the field does not contain (`ignored`). The period
+/// is taken because a time of flight is nearly linear in it, and far from linear in the energy.
+///
+/// Source: the reduction of the energy, in V. I. Arnold, Mathematical Methods of Classical
+/// Mechanics, 2nd ed., section 45.
+template <class Real>
+class FlowSection {
+ public:
+  /// The surface through the chief's state. Throws Error(numerical) where the chart does not exist
+  /// there, Error(usage) for a chart without an angle along the orbit.
+  FlowSection(const ZonalGravity& field, ChartName chart, const SixNumbers<Real>& chief);
+
+  const CanonicalChart<Real>& chart() const noexcept { return chart_; }
+  /// The chief's coordinates in the chart.
+  const SixNumbers<Real>& chief() const noexcept { return chief_; }
+  const Real& energy() const noexcept { return energy_; }
+  const Real& energy_unit() const noexcept { return energy_unit_; }
+  bool is_bound() const noexcept { return energy_ < 0; }
+  /// The rate of the angle at the chief.
+  const Real& rate() const noexcept { return rate_; }
+  std::size_t variables() const noexcept { return places_.size() + 1; }
+  /// Places among the chart's coordinates of u_1, ...
+  const std::vector<std::size_t>& places() const noexcept { return places_; }
+  std::optional<std::size_t> ignored() const noexcept { return ignored_; }
+
+  /// The energy of u_0, and back.
+  Real energy_of(const Real& u0) const;
+  Real variable_of(const Real& energy) const;
+  /// The energy and P/P_chief (1 where the chief is not bound) as series in u.
+  Series<Real> energies(const SpacePointer& space) const;
+  Series<Real> periods(const SpacePointer& space) const;
+
+  /// The states on the surface as series in u, with the chief's ignored coordinate.
+  SixNumbers<Series<Real>> states(const SpacePointer& space) const;
+
+ private:
+  SharedSystem system_;
+  CanonicalChart<Real> chart_;
+  SixNumbers<Real> chief_;
+  Real energy_;
+  Real energy_unit_;
+  Real rate_;
+  std::vector<std::size_t> places_;
+  std::optional<std::size_t> ignored_;
+};
+
+}  // namespace hamjet

@@ -1,0 +1,121 @@
+#include "hamjet/charts/deputy_flow.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "hamjet/error.hpp"
+
+namespace hamjet {
+
+DeputyFlow::DeputyFlow(std::vector<Series<double>> polynomials, const SixNumbers<double>& chief_end)
+    : polynomials_(std::move(polynomials)), chief_end_(chief_end) {
+  for (int degree = 1; degree <= order(); ++degree) evaluators_.emplace_back(polynomials_, degree);
+}
+
+void DeputyFlow::predict(std::span<const SixNumbers<double>> initial, int degree,
+                         std::span<DeputyPrediction> predictions) const {
+  if (degree < 1 || degree > order()) {
+    throw Error(ErrorKind::usage, "deputy: the polynomials have not that degree");
+  }
+  if (initial.size() != predictions.size()) {
+    throw Error(ErrorKind::usage, "deputy: as many predictions as deviations are needed");
+  }
+  constexpr std::size_t most_at_once = 512 * block;  // few enough to stay in the cache
+  const MapEvaluator& evaluator = evaluators_[static_cast<std::size_t>(degree - 1)];
+  const Matrix<double> exit = exit_derivative();
+  const std::unique_ptr<Passage> passage = this->passage();
+  const std::size_t width = variables();
+  const std::size_t values = polynomials_.size();
+  std::array<double, 8 * block> numbers;
+  std::array<SixNumbers<double>, block> finals;
+  std::vector<SixNumbers<double>> carried(std::min(most_at_once, initial.size()));
+  std::vector<double> points;
+  std::vector<double> results[3];
+  for (std::size_t first = 0; first < initial.size(); first += most_at_once) {
+    const std::size_t count = std::min(most_at_once, initial.size() - first);
+    points.resize(count * width);
+    for (auto& result : results) result.resize(count * values);
+    for (std::size_t j = 0; j < count; j += block) {
+      const std::size_t some = std::min(block, count - j);
+      passage->enter(initial.subspan(first + j, some), std::span(numbers).first(some * width),
+                     std::span(carried).subspan(j, some));
+      for (std::size_t k = 0; k < some; ++k) {
+        for (std::size_t i = 0; i < width; ++i) points[i * count + j + k] = numbers[k * width + i];
+      }
+    }
+    evaluator.evaluate(points, {results[0], results[1], results[2]});
+    for (std::size_t j = 0; j < count; j += block) {
+      const std::size_t some = std::min(block, count - j);
+      for (std::size_t k = 0; k < some; ++k) {
+        for (std::size_t c = 0; c < values; ++c) {
+          numbers[k * values + c] = results[0][c * count + j + k];
+        }
+      }
+      passage->leave(std::span(carried).subspan(j, some), std::span(numbers).first(some * values),
+                     std::span(finals).first(some));
+      for (std::size_t k = 0; k < some; ++k) {
+        DeputyPrediction& prediction = predictions[first + j + k];
+        prediction = {finals[k], {}, {}};
+        for (std::size_t i = 0; i < 6; ++i) {
+          for (std::size_t c = 0; c < values; ++c) {
+            const double share = exit(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(c));
+            prediction.last[i] += share * results[1][c * count + j + k];
+            prediction.last_but_one[i] += share * results[2][c * count + j + k];
+          }
+        }
+      }
+    }
+  }
+}
+
+DeputyPrediction DeputyFlow::predict(const SixNumbers<double>& initial, int degree) const {
+  DeputyPrediction prediction;
+  predict(std::span(&initial, 1), degree, std::span(&prediction, 1));
+  return prediction;
+}
+
+namespace {
+
+SixNumbers<double> end_of(const FlowMap<double>& jet) {
+  if (jet.components() != 6 || jet.variables() != 6) {
+    throw Error(ErrorKind::usage, "deputy: a jet of six components in six variables is needed");
+  }
+  SixNumbers<double> end;
+  for (std::size_t i = 0; i < 6; ++i) end[i] = jet.jet()[i][0];
+  return end;
+}
+
+class CartesianDeputyFlow : public DeputyFlow {
+ public:
+  explicit CartesianDeputyFlow(const FlowMap<double>& jet)
+      : DeputyFlow(without_constants(jet.jet()), end_of(jet)) {}
+
+  Matrix<double> entry_derivative() const override { return Matrix<double>::Identity(6, 6); }
+  Matrix<double> exit_derivative() const override { return Matrix<double>::Identity(6, 6); }
+
+ private:
+  struct Through : Passage {
+    void enter(std::span<const SixNumbers<double>> deviations, std::span<double> variables,
+               std::span<SixNumbers<double>>) override {
+      for (std::size_t k = 0; k < deviations.size(); ++k) {
+        std::copy_n(deviations[k].begin(), 6, variables.begin() + 6 * static_cast<long>(k));
+      }
+    }
+    void leave(std::span<const SixNumbers<double>>, std::span<const double> values,
+               std::span<SixNumbers<double>> deviations) override {
+      for (std::size_t k = 0; k < deviations.size(); ++k) {
+        std::copy_n(values.begin() + 6 * static_cast<long>(k), 6, deviations[k].begin());
+      }
+    }
+  };
+  std::unique_ptr<Passage> passage() const override { return std::make_unique<Through>(); }
+};
+
+}  // namespace
+
+std::unique_ptr<DeputyFlow> cartesian_deputy_flow(const FlowMap<double>& jet) {
+  return std::make_unique<CartesianDeputyFlow>(jet);
+}
+
+}  // namespace hamjet

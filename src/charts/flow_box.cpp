@@ -1,0 +1,186 @@
+#include "hamjet/charts/flow_box.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "../algebra/instantiated_real.hpp"
+#include "hamjet/algebra/elementary_functions.hpp"
+#include "secular_motion.hpp"
+#include "time_scaled_system.hpp"
+#include "turned_pair.hpp"
+
+namespace hamjet {
+namespace {
+
+template <class Real>
+SixNumbers<Real> constants_of(const SixNumbers<Series<Real>>& z) {
+  return {z[0][0], z[1][0], z[2][0], z[3][0], z[4][0], z[5][0]};
+}
+
+/// The states carried along the flow by times that vanish at the chief. What one step of a Gauss
+/// method solves then is a polynomial in the step of no higher degree than the series', and of as
+/// many stages as that it makes no error.
+template <class Real>
+SixNumbers<Series<Real>> carried(const SharedSystem& crossing, const SixNumbers<Series<Real>>& z,
+                                 const Series<Real>& time) {
+  const SpacePointer& space = time.space_pointer();
+  FlowProblem<Real> flow;
+  flow.system = crossing;
+  flow.space = space;
+  for (std::size_t k = 0; k < space->variables(); ++k) flow.variables.push_back(k);
+  flow.duration = Real(1);
+  flow.symmetry = FlowSymmetry::none;
+  flow.initial_jet = FlowJet<Real>{z[0], z[1], z[2], time, z[3], z[4], z[5], Series<Real>(space)};
+  for (const auto& component : *flow.initial_jet) flow.initial_state.push_back(component[0]);
+  GaussSettings settings;
+  settings.stages = std::clamp(space->order(), 2, 16);
+  settings.step = 1;
+  IntegrationStatistics statistics;
+  const FlowJet<Real> end = integrate_gauss<Real>(flow, settings, statistics);
+  return {end[0], end[1], end[2], end[4], end[5], end[6]};
+}
+
+/// L - G and H of an energy and the coordinates of a section, and the rate of its angle.
+template <class Real, class T>
+SteadyMotion<T> steady_motion(const FlowBoxMap<Real>& map, const T& energy,
+                              const SixNumbers<T>& z) {
+  using std::sqrt;
+  const bool is_nodal = map.start->chart().name() == ChartName::nodal;
+  const std::size_t pair = is_nodal ? 2 : 1;
+  const T eccentric = (z[pair] * z[pair] + z[pair + 3] * z[pair + 3]) / Real(2);
+  const T L = map.mu / sqrt(T(Real(-2) * energy));
+  const T H = is_nodal ? z[4] : T(L - eccentric - (z[2] * z[2] + z[5] * z[5]) / Real(2));
+  const SecularRates<T> rates =
+      secular_rates<Real, T>(energy, eccentric, H, map.mu, map.oblateness);
+  const T pericentre = is_nodal ? rates.pericentre : T(rates.pericentre + rates.node);
+  const T time = map.advance / (rates.anomaly + pericentre);
+  return {time, pericentre * time, rates.node * time};
+}
+
+}  // namespace
+
+template <class Real>
+SteadyMotion<Real> FlowBoxMap<Real>::steady(const Real& energy, const SixNumbers<Real>& z) const {
+  if (advance != Real(0)) return steady_motion(*this, energy, z);
+  return {start->is_bound() ? Real(duration * (Real(1) + start->variable_of(energy))) : duration,
+          Real(0), Real(0)};
+}
+
+template <class Real>
+SteadyMotion<Series<Real>> FlowBoxMap<Real>::steady() const {
+  const SpacePointer& space = time.space_pointer();
+  if (advance == Real(0)) {
+    return {start->periods(space) * duration, Series<Real>(space), Series<Real>(space)};
+  }
+  const auto constant = [&](std::size_t i) { return Series<Real>(space, start->chief()[i]); };
+  SixNumbers<Series<Real>> z = {constant(0), constant(1), constant(2),
+                                constant(3), constant(4), constant(5)};
+  for (std::size_t k = 0; k < start->places().size(); ++k) {
+    if (space->order() >= 1) z[start->places()[k]][space->linear_index(k + 1)] = Real(1);
+  }
+  return steady_motion(*this, start->energies(space), z);
+}
+
+template <class Real>
+FlowBoxPropagation<Real>::FlowBoxPropagation(const ZonalGravity& field, ChartName chart,
+                                             const SixNumbers<Real>& chief, int order,
+                                             const GaussSettings& settings)
+    : field_(field),
+      crossing_(time_scaled_first_order(zonal_gravity(field))),
+      settings_(settings),
+      chart_(chart),
+      start_(std::make_shared<const FlowSection<Real>>(field, chart, chief)),
+      periods_(start_->periods(SeriesSpace::create(start_->variables(), order))) {
+  const SpacePointer& space = periods_.space_pointer();
+  const auto z = start_->states(space);
+  flow_.system = time_scaled(zonal_gravity(field));
+  flow_.space = space;
+  flow_.symmetry = FlowSymmetry::none;
+  // The initial jet says what each variable moves; for the sizes of lines all count as positions.
+  for (std::size_t k = 0; k < space->variables(); ++k) flow_.variables.push_back(k % 3);
+  flow_.initial_jet = FlowJet<Real>{z[0],
+                                    z[1],
+                                    z[2],
+                                    (square(periods_) - Real(1)) * Real(scale_parameter_unit),
+                                    z[3] * periods_,
+                                    z[4] * periods_,
+                                    z[5] * periods_,
+                                    Series<Real>(space)};
+}
+
+template <class Real>
+FlowBoxMap<Real> FlowBoxPropagation<Real>::advance_to(const Real& time) {
+  flow_.duration = time - reached_;
+  FlowJet<Real>& jet = *flow_.initial_jet;
+  flow_.initial_state.clear();
+  for (const auto& component : jet) flow_.initial_state.push_back(component[0]);
+  IntegrationStatistics statistics;
+  jet = integrate_gauss<Real>(flow_, settings_, statistics);
+  total_.steps += statistics.steps;
+  total_.rejected_steps += statistics.rejected_steps;
+  total_.vector_field_evaluations += statistics.vector_field_evaluations;
+  total_.nominal_evaluations += statistics.nominal_evaluations;
+  total_.wall_seconds += statistics.wall_seconds;
+  reached_ = time;
+
+  SixNumbers<Series<Real>> z = {
+      jet[0], jet[1], jet[2], jet[4] / periods_, jet[5] / periods_, jet[6] / periods_};
+  const auto end = std::make_shared<const FlowSection<Real>>(field_, chart_, constants_of(z));
+  Series<Real> flight = periods_ * time;
+  SixNumbers<Series<Real>> c = end->chart().coordinates(z);
+  // Each iteration of Newton's method with the chief's rate gains a degree.
+  for (int i = 0; i < z[0].order(); ++i) {
+    Series<Real> left = (end->chief()[0] - c[0]) / end->rate();
+    left[0] = Real(0);
+    z = carried(crossing_, z, left);
+    flight += left;
+    c = end->chart().coordinates(z);
+  }
+
+  FlowBoxMap<Real> map{start_,
+                       end,
+                       time,
+                       Real(0),
+                       Real(field_.J[2]) * Real(field_.radius) * Real(field_.radius),
+                       Real(field_.mu),
+                       flight,
+                       {}};
+  const bool is_of_elements = chart_ != ChartName::spherical && chart_ != ChartName::cylindrical;
+  if (is_of_elements) {
+    map.advance = Real(1);
+    map.advance = time / map.steady(start_->energy(), start_->chief()).time;
+  }
+  const SteadyMotion<Series<Real>> steady = map.steady();
+  map.time -= steady.time;
+  if (is_of_elements) {
+    const std::size_t pair = end->ignored() ? 2 : 1;
+    turn_pair<Real>(c[pair], c[pair + 3], -steady.pericentre);
+    if (!end->ignored()) turn_pair<Real>(c[2], c[5], -steady.node);
+  }
+  for (const std::size_t place : end->places()) map.coordinates.push_back(c[place]);
+  if (end->ignored()) {
+    map.coordinates.push_back(c[*end->ignored()] - start_->chief()[*end->ignored()] - steady.node);
+    map.coordinates.back()[0] = within_half_a_turn(map.coordinates.back()[0]);
+  }
+  return map;
+}
+
+template <class Real>
+ChartName section_chart(const SixNumbers<Real>& z, const Real& mu) {
+  for (const ChartName chart : {ChartName::nodal, ChartName::poincare}) {
+    try {
+      CanonicalChart<Real>(chart, z, mu);
+      return chart;
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::numerical) throw;
+    }
+  }
+  return ChartName::spherical;
+}
+
+template struct FlowBoxMap<InstantiatedReal>;
+template class FlowBoxPropagation<InstantiatedReal>;
+template ChartName section_chart(const SixNumbers<InstantiatedReal>&, const InstantiatedReal&);
+
+}  // namespace hamjet

@@ -1,0 +1,344 @@
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "../integrators/taylor_flow.hpp"
+#include "hamjet/charts/deputy_flow.hpp"
+#include "hamjet/error.hpp"
+#include "linear_chart.hpp"
+#include "turned_pair.hpp"
+
+namespace hamjet {
+namespace {
+
+constexpr double infinitesimal = 4 * std::numeric_limits<double>::epsilon();
+
+/// What goes by beside the polynomials.
+enum Carried : std::size_t {
+  time_since_section,
+  energy,
+  ignored_coordinate,
+  steady_time,
+  steady_pericentre,
+  steady_node
+};
+
+std::vector<Series<double>> values_of(const FlowBoxMap<double>& map) {
+  std::vector<Series<double>> values = {map.time};
+  values.insert(values.end(), map.coordinates.begin(), map.coordinates.end());
+  return values;
+}
+
+/// A field's Hamiltonian at single states.
+class Energy {
+ public:
+  explicit Energy(const SharedSystem& system)
+      : system_(system), list_(system_->hamiltonian, SeriesSpace::create(1, 0), 0) {}
+
+  double operator()(const SixNumbers<double>& state) {
+    for (std::size_t i = 0; i < 6; ++i) *list_.input(i) = state[i];
+    list_.evaluate_constant_values();
+    return *list_.output(0);
+  }
+
+  SixNumbers<double> gradient(const SixNumbers<double>& state) {
+    for (std::size_t i = 0; i < 6; ++i) *list_.input(i) = state[i];
+    list_.evaluate_constant_terms();
+    SixNumbers<double> result;
+    for (std::size_t i = 0; i < 6; ++i) result[i] = list_.output_gradient(0, i);
+    return result;
+  }
+
+ private:
+  SharedSystem system_;
+  SliceEvaluator<double, double> list_;
+};
+
+class FlowBoxDeputyFlow : public DeputyFlow {
+ public:
+  FlowBoxDeputyFlow(const ZonalGravity& field, const FlowBoxMap<double>& map)
+      : DeputyFlow(values_of(map), map.end->chart().state(map.end->chief())),
+        system_(zonal_gravity(field)),
+        map_(map),
+        start_state_(map.start->chart().state(map.start->chief())) {}
+
+  Matrix<double> entry_derivative() const override {
+    const FlowSection<double>& section = *map_.start;
+    const Matrix<double> coordinates = coordinates_derivative(section.chart(), start_state_);
+    Energy energy(system_);
+    const SixNumbers<double> gradient = energy.gradient(start_state_);
+    Eigen::Matrix<double, 1, 6> by_state;
+    Eigen::Matrix<double, 6, 1> field;
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      by_state[i] = gradient[k];
+      by_state[i + 3] = gradient[k + 3];
+      field[i] = gradient[k + 3];
+      field[i + 3] = -gradient[k];
+    }
+    Matrix<double> result(variables(), 6);
+    const double slope = section.is_bound() ? -1.5 / section.energy() : 1 / section.energy_unit();
+    result.row(0) = slope * by_state;
+    // A state is carried back along the flow until its angle is the chief's.
+    const Eigen::Matrix<double, 6, 1> rates = coordinates * field;
+    for (std::size_t k = 0; k < section.places().size(); ++k) {
+      const auto place = static_cast<Eigen::Index>(section.places()[k]);
+      result.row(static_cast<Eigen::Index>(k) + 1) =
+          coordinates.row(place) - rates[place] / rates[0] * coordinates.row(0);
+    }
+    return result;
+  }
+
+  Matrix<double> exit_derivative() const override {
+    const FlowSection<double>& section = *map_.end;
+    const Matrix<double> by_variables =
+        linear_part(section.states(SeriesSpace::create(section.variables(), 1)));
+    Matrix<double> result =
+        Matrix<double>::Zero(6, static_cast<Eigen::Index>(polynomials().size()));
+    Energy energy(system_);
+    const SixNumbers<double> gradient = energy.gradient(chief_end());
+    for (std::size_t i = 0; i < 3; ++i) {
+      result(static_cast<Eigen::Index>(i), 0) = -gradient[i + 3];
+      result(static_cast<Eigen::Index>(i) + 3, 0) = gradient[i];
+    }
+    const auto column = [&](std::size_t place) {
+      const auto& places = section.places();
+      return 1 + std::find(places.begin(), places.end(), place) - places.begin();
+    };
+    for (const std::size_t place : section.places()) {
+      result.col(column(place)) = by_variables.col(column(place));
+    }
+    // The values are turned by the steady motion before they are coordinates.
+    const SteadyMotion<double> steady = map_.steady(map_.start->energy(), map_.start->chief());
+    const auto turn = [&](std::size_t pair, double angle) {
+      const Eigen::Matrix<double, 6, 1> q = result.col(column(pair));
+      const Eigen::Matrix<double, 6, 1> p = result.col(column(pair + 3));
+      result.col(column(pair)) = q * std::cos(angle) + p * std::sin(angle);
+      result.col(column(pair + 3)) = p * std::cos(angle) - q * std::sin(angle);
+    };
+    if (map_.advance != 0) {
+      turn(pericentre_pair(), steady.pericentre);
+      if (!section.ignored()) turn(2, steady.node);
+    }
+    if (section.ignored()) {
+      result.col(result.cols() - 1) = state_derivative(section.chart(), section.chief())
+                                          .col(static_cast<Eigen::Index>(*section.ignored()));
+    }
+    return result;
+  }
+
+ private:
+  std::size_t pericentre_pair() const { return map_.end->ignored() ? 2 : 1; }
+
+  struct Through : Passage {
+    explicit Through(const FlowBoxDeputyFlow& of)
+        : flow(of), taylor(of.system_), energy_of(of.system_) {}
+
+    /// The search for the time at which a lane's angle is the chief's.
+    struct Search {
+      SixNumbers<double> base;         ///< what the polynomial in time is about
+      double until_base = 0;           ///< time from the deputy to there
+      double time = 0;                 ///< from there
+      SixNumbers<double> coordinates;  ///< at that time
+      double angle = 0;                ///< then, less the chief's
+      double rate = 0;                 ///< about that of the angle
+      int iterations = 0;
+      bool is_over = false;
+      bool has_moved = false;  ///< the base, since the last expansion
+    };
+
+    double angle_of(const SixNumbers<double>& coordinates) const {
+      return within_half_a_turn(coordinates[0] - flow.map_.start->chief()[0]);
+    }
+
+    void begin(Search& search) const {
+      search.coordinates = flow.map_.start->chart().coordinates(search.base);
+      search.angle = angle_of(search.coordinates);
+      search.rate = rate_of(search.coordinates);
+    }
+
+    /// Goes on by the secant method until the angle vanishes, or to the end of what the lane's
+    /// polynomial reaches.
+    void go_on(Search& search, std::size_t lane) const {
+      constexpr int most_iterations = 100;
+      const double reach = taylor.reach(lane);
+      search.has_moved = false;
+      while (!search.is_over && !search.has_moved) {
+        double change = -search.angle / search.rate;
+        const bool is_lost =
+            !std::isfinite(change) || reach == 0 || ++search.iterations == most_iterations;
+        if (is_lost) search.coordinates.fill(std::numeric_limits<double>::quiet_NaN());
+        search.is_over = is_lost || std::abs(search.angle) <= infinitesimal;
+        if (search.is_over) return;
+        const double wanted = search.time + change;
+        const double time = std::clamp(wanted, -reach, reach);
+        SixNumbers<double> there;
+        taylor.evaluate(lane, time, there);
+        change = time - search.time;
+        search.time = time;
+        search.coordinates = flow.map_.start->chart().coordinates(there);
+        const double next = angle_of(search.coordinates);
+        const double about = rate_of(search.coordinates);
+        const double secant = (next - search.angle) / change;
+        search.rate = secant > 0.2 * about && secant < 5 * about ? secant : about;
+        search.angle = next;
+        if (time == wanted) continue;
+        search.has_moved = true;
+        search.base = there;
+        search.until_base += time;
+        search.time = 0;
+      }
+    }
+
+    /// Flies the deputies to the section.
+    void fly_to_section(std::span<Search> searches) {
+      for (Search& search : searches) begin(search);
+      for (std::size_t lane = 0; lane < block; ++lane) {
+        taylor.set_state(lane, searches[lane < searches.size() ? lane : 0].base);
+      }
+      bool is_over = false;
+      while (!is_over) {
+        taylor.expand();
+        is_over = true;
+        for (std::size_t lane = 0; lane < searches.size(); ++lane) {
+          Search& search = searches[lane];
+          if (search.is_over) continue;
+          go_on(search, lane);
+          if (search.has_moved) taylor.set_state(lane, search.base);
+          is_over = is_over && search.is_over;
+        }
+      }
+    }
+
+    /// About the rate of the angle.
+    double rate_of(const SixNumbers<double>& z) const {
+      switch (flow.map_.start->chart().name()) {
+        case ChartName::spherical:
+          return z[3] / std::pow(z[1] * std::cos(z[2]), 2);
+        case ChartName::cylindrical:
+          return z[3] / (z[1] * z[1]);
+        default:
+          return flow.map_.mu * flow.map_.mu / (z[3] * z[3] * z[3]);
+      }
+    }
+
+    void enter(std::span<const SixNumbers<double>> deviations, std::span<double> variables,
+               std::span<SixNumbers<double>> carried) override {
+      const FlowSection<double>& section = *flow.map_.start;
+      std::array<Search, block> searches;
+      for (std::size_t k = 0; k < deviations.size(); ++k) {
+        searches[k].base = flow.start_state_;
+        for (std::size_t i = 0; i < 6; ++i) searches[k].base[i] += deviations[k][i];
+        carried[k][energy] = energy_of(searches[k].base);
+      }
+      fly_to_section(std::span(searches).first(deviations.size()));
+      for (std::size_t k = 0; k < deviations.size(); ++k) {
+        const SixNumbers<double>& coordinates = searches[k].coordinates;
+        double* const u = &variables[k * section.variables()];
+        u[0] = section.variable_of(carried[k][energy]);
+        for (std::size_t v = 0; v < section.places().size(); ++v) {
+          const std::size_t place = section.places()[v];
+          u[v + 1] = coordinates[place] - section.chief()[place];
+          if (section.chart().is_angle(place)) u[v + 1] = within_half_a_turn(u[v + 1]);
+        }
+        const SteadyMotion<double> steady = flow.map_.steady(carried[k][energy], coordinates);
+        carried[k][time_since_section] = -(searches[k].until_base + searches[k].time);
+        carried[k][ignored_coordinate] = section.ignored() ? coordinates[*section.ignored()] : 0;
+        carried[k][steady_time] = steady.time;
+        carried[k][steady_pericentre] = steady.pericentre;
+        carried[k][steady_node] = steady.node;
+      }
+    }
+
+    void leave(std::span<const SixNumbers<double>> carried, std::span<const double> values,
+               std::span<SixNumbers<double>> deviations) override {
+      std::array<double, 6 * block> states;
+      std::array<double, block> times;
+      const std::size_t count = carried.size();
+      const std::size_t width = values.size() / count;
+      for (std::size_t k = 0; k < count; ++k) {
+        const std::span<const double> of_one = values.subspan(k * width, width);
+        times[k] = carried[k][time_since_section] + flow.map_.duration - carried[k][steady_time] -
+                   of_one[0];
+        const SixNumbers<double> state = state_on_section(carried[k], of_one);
+        std::copy_n(state.begin(), 6, &states[6 * k]);
+        if (!std::isfinite(times[k])) times[k] = 0;
+      }
+      taylor.advance(std::span(states).first(6 * count), std::span(times).first(count));
+      for (std::size_t k = 0; k < count; ++k) {
+        for (std::size_t i = 0; i < 6; ++i) {
+          deviations[k][i] = states[6 * k + i] - flow.chief_end()[i];
+        }
+      }
+    }
+
+    /// The state on the end's section, of what was carried there and the polynomials' values.
+    SixNumbers<double> state_on_section(const SixNumbers<double>& carried,
+                                        std::span<const double> values) {
+      const FlowSection<double>& section = *flow.map_.end;
+      SixNumbers<double> z = section.chief();
+      for (std::size_t k = 0; k < section.places().size(); ++k) {
+        z[section.places()[k]] = values[k + 1];
+      }
+      if (flow.map_.advance != 0) {
+        const std::size_t pair = flow.pericentre_pair();
+        turn_pair<double>(z[pair], z[pair + 3], carried[steady_pericentre]);
+        if (!section.ignored()) turn_pair<double>(z[2], z[5], carried[steady_node]);
+      }
+      if (section.ignored()) {
+        z[*section.ignored()] = carried[ignored_coordinate] + carried[steady_node] + values.back();
+      }
+      SixNumbers<double> state;
+      if (!find_state(carried[energy], z, state)) {
+        state.fill(std::numeric_limits<double>::quiet_NaN());
+      }
+      return state;
+    }
+
+    /// The state of the end's section of an energy, by the secant method on the momentum of the
+    /// angle; false if there is none near the chief's.
+    bool find_state(double wanted, SixNumbers<double> z, SixNumbers<double>& state) {
+      constexpr int most_iterations = 40;
+      const FlowSection<double>& section = *flow.map_.end;
+      if (section.is_bound() && flow.map_.advance != 0) {
+        z[3] *= std::sqrt(section.energy() / wanted);
+      }
+      double slope = section.rate();
+      double last_excess = 0;
+      double change = 0;
+      for (int i = 0; i < most_iterations; ++i) {
+        state = section.chart().state(z);
+        const double excess = energy_of(state) - wanted;
+        if (!std::isfinite(excess)) return false;
+        if (std::abs(excess) <= infinitesimal * std::abs(section.energy_unit())) return true;
+        const double secant = (excess - last_excess) / change;
+        if (i > 0 && secant > 0.2 * slope && secant < 5 * slope) slope = secant;
+        change = -excess / slope;
+        last_excess = excess;
+        z[3] += change;
+      }
+      return false;
+    }
+
+    const FlowBoxDeputyFlow& flow;
+    TaylorFlow taylor;
+    Energy energy_of;
+  };
+  std::unique_ptr<Passage> passage() const override { return std::make_unique<Through>(*this); }
+
+  SharedSystem system_;
+  FlowBoxMap<double> map_;
+  SixNumbers<double> start_state_;
+};
+
+}  // namespace
+
+std::unique_ptr<DeputyFlow> flow_box_deputy_flow(const ZonalGravity& field,
+                                                 const FlowBoxMap<double>& map) {
+  return std::make_unique<FlowBoxDeputyFlow>(field, map);
+}
+
+}  // namespace hamjet

@@ -1,0 +1,104 @@
+#include "hamjet/charts/flow_section.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "../algebra/instantiated_real.hpp"
+#include "hamjet/algebra/elementary_functions.hpp"
+#include "hamjet/detail/dynamics/slice_evaluator.hpp"
+#include "hamjet/error.hpp"
+
+namespace hamjet {
+namespace {
+
+template <class Real>
+Series<Real> hamiltonian(const DynamicalSystem& system, const SixNumbers<Series<Real>>& state) {
+  const SpacePointer& space = state[0].space_pointer();
+  SliceEvaluator<Real, Real> h(system.hamiltonian, space, space->order());
+  for (std::size_t i = 0; i < 6; ++i) {
+    std::copy_n(state[i].coefficients().data(), space->size(), h.input(i));
+  }
+  h.evaluate_all();
+  return {space, std::vector<Real>(h.output(0), h.output(0) + space->size())};
+}
+
+template <class Real>
+SixNumbers<Series<Real>> constant_series(const SpacePointer& space, const SixNumbers<Real>& z) {
+  const auto constant = [&](std::size_t i) { return Series<Real>(space, z[i]); };
+  return {constant(0), constant(1), constant(2), constant(3), constant(4), constant(5)};
+}
+
+}  // namespace
+
+template <class Real>
+FlowSection<Real>::FlowSection(const ZonalGravity& field, ChartName chart,
+                               const SixNumbers<Real>& chief)
+    : system_(zonal_gravity(field)),
+      chart_(chart, chief, Real(field.mu)),
+      chief_(chart_.coordinates(chief)) {
+  using std::sqrt;
+  if (chart == ChartName::cartesian) {
+    throw Error(ErrorKind::usage, "flow box: Cartesian coordinates have no angle along the orbit");
+  }
+  const Real r = sqrt(Real(chief[0] * chief[0] + chief[1] * chief[1] + chief[2] * chief[2]));
+  energy_unit_ = Real(field.mu) / r;
+  if (chart == ChartName::nodal) ignored_ = 1;
+  for (const std::size_t i : {std::size_t{1}, std::size_t{2}, std::size_t{4}, std::size_t{5}}) {
+    if (i != ignored_) places_.push_back(i);
+  }
+  // The rate of the angle is the derivative of the energy by its momentum.
+  SixNumbers<Series<Real>> z = constant_series(SeriesSpace::create(1, 1), chief_);
+  z[3][1] = Real(1);
+  const Series<Real> energy = hamiltonian(*system_, chart_.state(z));
+  energy_ = energy[0];
+  rate_ = energy[1];
+}
+
+template <class Real>
+Real FlowSection<Real>::energy_of(const Real& u0) const {
+  using std::pow;
+  if (!is_bound()) return energy_ + u0 * energy_unit_;
+  return energy_ * pow(Real(Real(1) + u0), Real(Real(-2) / Real(3)));
+}
+
+template <class Real>
+Real FlowSection<Real>::variable_of(const Real& energy) const {
+  using std::expm1;
+  using std::log1p;
+  if (!is_bound()) return (energy - energy_) / energy_unit_;
+  // (E / E_chief)^(-3/2) - 1 without the loss of digits near 0.
+  return expm1(Real(Real(-1.5) * log1p(Real((energy - energy_) / energy_))));
+}
+
+template <class Real>
+Series<Real> FlowSection<Real>::energies(const SpacePointer& space) const {
+  if (is_bound()) return energy_ * pow(periods(space), Real(Real(-2) / Real(3)));
+  return Series<Real>::variable(space, 0) * energy_unit_ + energy_;
+}
+
+template <class Real>
+Series<Real> FlowSection<Real>::periods(const SpacePointer& space) const {
+  if (!is_bound()) return Series<Real>(space, Real(1));
+  return Series<Real>::variable(space, 0, Real(1));
+}
+
+template <class Real>
+SixNumbers<Series<Real>> FlowSection<Real>::states(const SpacePointer& space) const {
+  SixNumbers<Series<Real>> z = constant_series(space, chief_);
+  for (std::size_t k = 0; k < places_.size(); ++k) {
+    if (space->order() >= 1) z[places_[k]][space->linear_index(k + 1)] = Real(1);
+  }
+  const Series<Real> wanted = energies(space);
+  // Newton's method with the chief's derivative gains a degree an iteration; the last one takes
+  // away what rounding has left.
+  for (int i = 0; i <= space->order(); ++i) {
+    Series<Real> excess = hamiltonian(*system_, chart_.state(z)) - wanted;
+    excess[0] = Real(0);
+    z[3] -= excess / rate_;
+  }
+  return chart_.state(z);
+}
+
+template class FlowSection<InstantiatedReal>;
+
+}  // namespace hamjet

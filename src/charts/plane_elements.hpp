@@ -1,0 +1,139 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "hamjet/algebra/elementary_functions.hpp"
+
+namespace hamjet {
+
+/// The constant term of a series, or a number itself.
+template <class Real>
+const Real& constant_of(const Real& number) {
+  return number;
+}
+template <class Real>
+const Real& constant_of(const Series<Real>& series) {
+  return series[0];
+}
+
+/// Sine and cosine of a number or a series.
+template <class T>
+struct SineAndCosine {
+  T sine;
+  T cosine;
+};
+template <class Real>
+SineAndCosine<Real> sine_and_cosine(const Real& angle) {
+  using std::cos;
+  using std::sin;
+  return {sin(angle), cos(angle)};
+}
+template <class Real>
+SineAndCosine<Series<Real>> sine_and_cosine(const Series<Real>& angle) {
+  auto [sine, cosine] = sin_cos(angle);
+  return {std::move(sine), std::move(cosine)};
+}
+
+/// The root F of Kepler's equation in elements that are regular on a circle,
+///
+///   F - k sin F + h cos F = lambda ,   k^2 + h^2 < 1 ,
+///
+/// by Newton's method inside the bracket lambda - e, lambda + e.
+template <class Real>
+Real eccentric_longitude(const Real& lambda, const Real& k, const Real& h) {
+  using std::cos;
+  using std::sin;
+  using std::sqrt;
+  constexpr int most_iterations = 200;
+  const Real e = sqrt(Real(k * k + h * h));
+  Real low = lambda - e;
+  Real high = lambda + e;
+  Real f = lambda + k * sin(lambda) - h * cos(lambda);
+  for (int i = 0; i < most_iterations; ++i) {
+    const Real s = sin(f);
+    const Real c = cos(f);
+    const Real excess = f - k * s + h * c - lambda;
+    (excess > 0 ? high : low) = f;
+    const Real change = excess / (Real(1) - k * c - h * s);
+    Real next = f - change;
+    if (!(next >= low && next <= high)) next = (low + high) / Real(2);
+    f = next;
+    // Newton's method doubles the digits: after a change this small none is left to be found.
+    if (change * change <= std::numeric_limits<Real>::epsilon() / Real(1024)) break;
+  }
+  return f;
+}
+
+/// Of series: Newton's method from the constant terms doubles the degrees that are right.
+template <class Real>
+Series<Real> eccentric_longitude(const Series<Real>& lambda, const Series<Real>& k,
+                                 const Series<Real>& h) {
+  Series<Real> f(lambda.space_pointer(), eccentric_longitude(lambda[0], k[0], h[0]));
+  for (int right = 0; right < lambda.order(); right = 2 * right + 1) {
+    const auto [s, c] = sine_and_cosine(f);
+    f -= (f - k * s + h * c - lambda) / (Real(1) - k * c - h * s);
+  }
+  return f;
+}
+
+/// An ellipse in its plane by elements that are regular on a circle, mu the gravitational
+/// parameter: k = e cos w and h = e sin w, w the angle of the pericentre from the x axis.
+template <class T>
+struct PlaneElements {
+  T lambda;  ///< mean longitude, w + M
+  T L;       ///< sqrt(mu a)
+  T k;
+  T h;
+};
+
+/// Position (X, Y) and velocity in the plane.
+template <class T>
+struct PlaneState {
+  T x;
+  T y;
+  T x_velocity;
+  T y_velocity;
+};
+
+/// Source: Broucke and Cefola, with beta = 1 / (1 + sqrt(1 - h^2 - k^2)),
+///
+///   X = a [(1 - h^2 beta) cos F + h k beta sin F - k] ,
+///   Y = a [(1 - k^2 beta) sin F + h k beta cos F - h] ,   r = a (1 - k cos F - h sin F) .
+template <class Real, class T>
+PlaneState<T> plane_state(const PlaneElements<T>& elements, const Real& mu) {
+  using std::sqrt;
+  const auto& [lambda, L, k, h] = elements;
+  const auto [s, c] = sine_and_cosine(eccentric_longitude(lambda, k, h));
+  const T beta = Real(1) / (Real(1) + sqrt(T(Real(1) - k * k - h * h)));
+  const T hh = Real(1) - h * h * beta;
+  const T kk = Real(1) - k * k * beta;
+  const T hk = h * k * beta;
+  const T a = L * L / mu;
+  const T rate = L / (Real(1) - k * c - h * s) / a;  // sqrt(mu a) / r
+  return {a * (hh * c + hk * s - k), a * (kk * s + hk * c - h), rate * (hk * c - hh * s),
+          rate * (kk * c - hk * s)};
+}
+
+/// The elements of position and velocity in the plane; those of no ellipse are not finite.
+template <class Real, class T>
+PlaneElements<T> plane_elements(const PlaneState<T>& state, const Real& mu) {
+  using std::atan2;
+  using std::sqrt;
+  const auto& [x, y, u, v] = state;
+  const T r = sqrt(T(x * x + y * y));
+  const T momentum = x * v - y * u;
+  const T k = v * momentum / mu - x / r;
+  const T h = -(u * momentum) / mu - y / r;
+  const T a = Real(1) / (Real(2) / r - (u * u + v * v) / mu);
+  const T eta = sqrt(T(Real(1) - h * h - k * k));
+  const T beta = Real(1) / (Real(1) + eta);
+  const T hk = h * k * beta;
+  const T unit = Real(1) / (a * eta);
+  const T cosine = k + ((Real(1) - k * k * beta) * x - hk * y) * unit;
+  const T sine = h + ((Real(1) - h * h * beta) * y - hk * x) * unit;
+  return {atan2(sine, cosine) - k * sine + h * cosine, sqrt(T(mu * a)), k, h};
+}
+
+}  // namespace hamjet

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "hamjet/detail/algebra/pack.hpp"
+#include "hamjet/detail/dynamics/slice_evaluator.hpp"
+#include "hamjet/dynamics/dynamical_system.hpp"
+
+namespace hamjet {
+
+/// Short flights of several states side by side, in double precision, by Taylor's method: with
+/// z(t) = sum of z_k t^k,
+///
+///   z_(k+1) = f_k(z_0..z_k) / (k + 1) ,
+///
+/// f_k the k-th coefficient of the vector field on the series, of which each operation is done
+/// once. For flights of a part of a revolution, where an implicit method spends most on its set-up;
+/// each state is a lane of the machine's vectors and has a time of its own. Source: A. Jorba and M.
+/// Zou, "A software package for the numerical integration of ODEs by means of high-order Taylor
+/// methods", Experimental Mathematics 14 (2005) 99.
+///
+/// An object has work space of its own: each thread needs one.
+class TaylorFlow {
+ public:
+  static constexpr std::size_t lanes = 8;
+  /// The highest power of time.
+  static constexpr int order = 24;
+
+  explicit TaylorFlow(SharedSystem system);
+
+  /// Sets the state, of 2n numbers, that a lane is to be expanded about.
+  void set_state(std::size_t lane, std::span<const double> state);
+  /// Expands the flow of all lanes.
+  void expand();
+  /// The time, either way, within which a lane's polynomial leaves out no more than rounding; 0
+  /// where the vector field is not finite.
+  double reach(std::size_t lane) const;
+  /// A lane's state at a time from the one that it was expanded about.
+  void evaluate(std::size_t lane, double time, std::span<double> state) const;
+
+  /// Carries the states of so many lanes along the flow, each by a time of its own, in as many
+  /// expansions as it takes; those of collisions, or of a field that is not finite, become NaN.
+  /// `states` has 2n numbers for each.
+  void advance(std::span<double> states, std::span<const double> times);
+
+ private:
+  SharedSystem system_;
+  SliceEvaluator<Pack<double, static_cast<int>(lanes)>, double> field_;
+};
+
+}  // namespace hamjet

@@ -1,0 +1,73 @@
+#include "integrators/taylor_flow.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "hamjet/dynamics/zonal_gravity.hpp"
+#include "support/flow.hpp"
+
+namespace hamjet {
+namespace {
+
+const std::vector<double> start = {1, 0, 0, 0.1, 0.9, 0.5};
+
+SharedSystem oblate() {
+  ZonalGravity field{.mu = 1, .radius = 0.9};
+  field.J[2] = 1e-3;
+  field.J[3] = -2.5e-6;
+  return zonal_gravity(field);
+}
+
+// Against Gauss's method in extended precision, which shares no step, each lane with its own time.
+TEST(TaylorFlow, CarriesEachLaneByItsOwnTime) {
+  const SharedSystem system = oblate();
+  const std::vector<double> times = {0.0, 1e-9, 0.3, -2.0, 12.0, -0.01};
+  std::vector<double> states;
+  for (std::size_t k = 0; k < times.size(); ++k)
+    states.insert(states.end(), start.begin(), start.end());
+  TaylorFlow(system).advance(states, times);
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    test::Flow<Extended> flow{*system, {start.begin(), start.end()}, Extended(times[k]), 1, {}};
+    const auto exact = test::final_state(test::run_gauss(flow, test::adaptive(8, 1e-22)));
+    for (std::size_t i = 0; i < 6; ++i) {
+      // Rounding of the way, which grows along the orbit.
+      EXPECT_NEAR(states[6 * k + i], static_cast<double>(exact[i]),
+                  3e-15 * (1 + std::abs(times[k])))
+          << times[k];
+    }
+  }
+}
+
+TEST(TaylorFlow, SaysHowFarItsPolynomialReaches) {
+  const SharedSystem system = oblate();
+  TaylorFlow flow(system);
+  for (std::size_t lane = 0; lane < TaylorFlow::lanes; ++lane) flow.set_state(lane, start);
+  flow.expand();
+  const double reach = flow.reach(0);
+  EXPECT_GT(reach, 0.1);
+  for (const double time : {reach, -reach}) {
+    std::vector<double> state(6);
+    flow.evaluate(3, time, state);
+    test::Flow<Extended> exact{*system, {start.begin(), start.end()}, Extended(time), 1, {}};
+    const auto end = test::final_state(test::run_gauss(exact, test::adaptive(8, 1e-22)));
+    for (std::size_t i = 0; i < 6; ++i) {
+      EXPECT_NEAR(state[i], static_cast<double>(end[i]), 2e-15) << time;
+    }
+  }
+}
+
+TEST(TaylorFlow, MarksCollisionsAndLeavesTheOthers) {
+  std::vector<double> states = {1, 0, 0, 0, 0, 0};  // falls into the centre at 1.11
+  states.insert(states.end(), start.begin(), start.end());
+  std::vector<double> alone(start);
+  TaylorFlow flow{SharedSystem(kepler())};
+  flow.advance(states, std::vector<double>{2.0, 2.0});
+  flow.advance(alone, std::vector<double>{2.0});
+  EXPECT_TRUE(std::isnan(states[0]));
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(states[6 + i], alone[i]);
+}
+
+}  // namespace
+}  // namespace hamjet
