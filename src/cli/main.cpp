@@ -19,6 +19,7 @@
 #include "completion/completion.hpp"
 #include "convert_command.hpp"
 #include "eval_command.hpp"
+#include "hamjet/charts/jet_coordinates.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/version.hpp"
 #include "help_formatter.hpp"
@@ -267,9 +268,18 @@ int dispatch(int argc, char** argv) {
   transfer->add_option("--run", transfers.run, "whose jet: the label of the integrator")
       ->needs(jet)
       ->type_name("LABEL");
-  const CLI::App* validity =
+  CLI::App* validity =
       add_study("validity", "how far from the chief the polynomials are right, along time",
                 "report.html, validity.csv and summary.json", hamjet::cli::validity_suffix);
+  std::optional<std::string> coordinates;
+  std::vector<std::string> coordinates_names(hamjet::jet_coordinates_names.begin(),
+                                             hamjet::jet_coordinates_names.end());
+  coordinates_names.emplace_back(hamjet::cli::all_coordinates);
+  validity
+      ->add_option("--coordinates", coordinates,
+                   "of the polynomials, in place of jet.coordinates; all: a table and a plot of "
+                   "the reach in each")
+      ->check(CLI::IsMember(coordinates_names));
   const CLI::App* assign = add_study(
       "assign", "send deputies to slots at the least total velocity change",
       "assignment.csv, costs.csv, pairs.csv and summary.json", hamjet::cli::assignment_suffix);
@@ -345,7 +355,7 @@ int dispatch(int argc, char** argv) {
   if (*stability) return hamjet::cli::stability(options, suite);
   if (*sweep) return hamjet::cli::sweep(options, sweeps);
   if (*motion) return hamjet::cli::motion(options);
-  if (*validity) return hamjet::cli::validity(options);
+  if (*validity) return hamjet::cli::validity(options, coordinates);
   if (*assign) return hamjet::cli::assign(options);
   return hamjet::cli::run(options);
 }

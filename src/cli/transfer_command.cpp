@@ -123,10 +123,20 @@ int motion(const RunOptions& options) {
   });
 }
 
-int validity(const RunOptions& options) {
+int validity(const RunOptions& given, const std::optional<std::string>& coordinates) {
+  const bool is_of_all = coordinates == all_coordinates;
+  RunOptions options = given;
+  if (coordinates && !is_of_all) {
+    options.overrides.push_back(fmt::format("jet.coordinates=\"{}\"", *coordinates));
+  }
   const Scene scene = read_unsplit_scene(options, "hamjet validity");
   require_validity(scene, *options.scene_file);
   return report_study(options, scene.name + validity_suffix, [&](const ProgressCallback& progress) {
+    if (is_of_all) {
+      return io::coordinates_report(
+          study_of(*options.scene_file, [&] { return study_validity_in_all(scene, progress); }),
+          report_origin(options.command));
+    }
     return io::validity_report(
         study_of(*options.scene_file, [&] { return study_validity(scene, progress); }),
         report_origin(options.command));

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "scene_options.hpp"
 
@@ -28,8 +29,12 @@ int transfer(const RunOptions& options, const TransferOptions& transfers);
 /// Where the deputy goes by itself, relative to the chief.
 int motion(const RunOptions& options);
 
-/// How far from the chief each order's polynomial is right.
-int validity(const RunOptions& options);
+/// The word for all coordinates in place of one of them.
+inline constexpr std::string_view all_coordinates = "all";
+
+/// How far from the chief each order's polynomial is right, in the scene's coordinates, or in those
+/// of a name, or in all.
+int validity(const RunOptions& options, const std::optional<std::string>& coordinates);
 
 /// Deputies sent to slots at the least total velocity change.
 int assign(const RunOptions& options);

@@ -47,4 +47,9 @@ std::array<std::string_view, 3> axis_columns(RelativeFrame frame) {
   return {"r", "t", "n"};
 }
 
+std::string coordinates_text(JetCoordinates coordinates) {
+  if (coordinates == JetCoordinates::cartesian) return "";
+  return fmt::format("; {} coordinates", name_of(coordinates));
+}
+
 }  // namespace hamjet::io

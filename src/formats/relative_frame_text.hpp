@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "hamjet/charts/jet_coordinates.hpp"
 #include "hamjet/relative_motion/chief_frame.hpp"
 
 namespace hamjet::io {
@@ -23,5 +24,9 @@ std::string_view velocities_text(RelativeFrame frame);
 std::array<std::string_view, 3> axis_letters(RelativeFrame frame);
 /// Letters of the three axes in names of columns: r, t, n or x, y, z.
 std::array<std::string_view, 3> axis_columns(RelativeFrame frame);
+
+/// What stands behind the frame where polynomials are in other coordinates than Cartesian ones;
+/// else nothing.
+std::string coordinates_text(JetCoordinates coordinates);
 
 }  // namespace hamjet::io

@@ -110,6 +110,12 @@ const TableDescription& jet_table() {
         absent::value(1), "pieces of the flow, computed on threads; `auto` decides from counts"},
        {"symmetry", form::choice({"none", "rotation"}), absent::value("rotation"),
         "left out of the integration and put back exactly: `rotation` about the field's axis"},
+       {"coordinates",
+        form::choice({jet_coordinates_names.begin(), jet_coordinates_names.end()}),
+        absent::value("cartesian"),
+        "of the polynomials that predict deputies: `flow-box` (time and energy) reaches furthest, "
+        "`auto` measures which does",
+        {orbits}},
        {"duration_orbits", form::number(), other_duration, "in periods of the nominal", {orbits}}}};
   return table;
 }
@@ -150,6 +156,7 @@ JetSettings read_jet(const TableReader& jet, const SystemSettings& system, Preci
   settings.duration = read_duration(jet, is_orbit(system.model), nominal);
   settings.arcs = read_arcs(jet);
   jet.read_if_any("symmetry", settings.symmetry);
+  jet.read_if_any("coordinates", settings.coordinates);
   return settings;
 }
 

@@ -85,6 +85,7 @@ Scene read_flow_jet(const TableReader& root) {
     scene.duration = jet.duration;
     scene.arcs = jet.arcs;
     scene.symmetry = jet.symmetry;
+    scene.coordinates = jet.coordinates;
   });
   if (!has_jet || !has_precision) return scene;
 

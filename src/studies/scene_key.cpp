@@ -103,7 +103,7 @@ enum class KeyOf { reference, comparison };
 /// what it determines.
 std::string scene_key(const Scene& scene, int jet_order, KeyOf whose) {
   const auto& [name, title, precision, system, units, canonical_radius, nominal, duration, order,
-               arcs, symmetry, variables, integrators, separation, kinds, reference,
+               arcs, symmetry, coordinates, variables, integrators, separation, kinds, reference,
                relative_hamiltonian_times, checks, comparison, figure, deputy, transfer, validity,
                assignment, output, ephemeris, nominal_file, warnings, own_system] = scene;
   KeyText key;
@@ -119,6 +119,8 @@ std::string scene_key(const Scene& scene, int jet_order, KeyOf whose) {
   key.add("duration", duration);
   key.add("order", jet_order);
   key.add("variables", variables);
+  // A comparison is of jets in positions and momenta, whatever a scene predicts deputies by.
+  static_cast<void>(coordinates);
   if (whose == KeyOf::reference) return key.text();
   key.add("version", std::string(version));
   key.add("units", units);

@@ -36,6 +36,9 @@ StudyReport transfer_report(const TransferResult& result,
                             const ReportOrigin& origin);
 /// The files of `hamjet validity`: `validity.csv`, `report.html`, `summary.json`.
 StudyReport validity_report(const ValidityResult& result, const ReportOrigin& origin);
+/// The files of `hamjet validity --coordinates all`, of the same names: the reach in each of the
+/// coordinates.
+StudyReport coordinates_report(const ValidityInCoordinates& all, const ReportOrigin& origin);
 /// The files of `hamjet assign`: `assignment.csv`, `costs.csv`, `summary.json`.
 StudyReport assignment_report(const AssignmentResult& result);
 

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "hamjet/charts/jet_coordinates.hpp"
 #include "hamjet/detail/integrators/flow_symmetry.hpp"
 #include "hamjet/detail/studies/integration_method.hpp"
 #include "hamjet/detail/studies/self_check_settings.hpp"
@@ -105,6 +106,8 @@ struct Scene {
   std::optional<std::size_t> arcs = 1;
   /// `jet.symmetry`: left out of the integration of jets and put back.
   FlowSymmetry symmetry = FlowSymmetry::rotation;
+  /// `jet.coordinates`, of the polynomials by which deputies are predicted.
+  JetCoordinates coordinates = JetCoordinates::cartesian;
   std::vector<std::size_t> variables;  ///< indices into (q, p) to expand in, ascending
   std::vector<IntegratorSettings> integrators;
   /// `[formation]`, canonical length (metres where that is the unit).

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,7 @@ struct ValidityPoint {
 struct ValidityResult {
   Scene scene;  ///< with `validity`
   std::string integrator;
+  JetCoordinates coordinates = JetCoordinates::cartesian;  ///< of the polynomials; not automatic
   std::vector<ValidityPoint> points;
   double flight_floor_m = 0;  ///< see TransferResult
   long flights = 0;
@@ -35,7 +37,26 @@ struct ValidityResult {
   double proof_seconds = 0;
 };
 
-/// The study of table `[validity]`: deviations fill an ellipsoid in position along the axes of the
+/// The study of table `[validity]` in all coordinates.
+struct ValidityInCoordinates {
+  struct Refused {
+    JetCoordinates coordinates;
+    std::string reason;
+  };
+  std::vector<ValidityResult> results;  ///< the first is Cartesian
+  std::vector<Refused> refused;         ///< those that the orbit has not
+
+  /// The result whose highest order reaches furthest at the last time.
+  const ValidityResult& furthest() const;
+};
+
+/// The coordinates that are measured, in the order in which they are told.
+inline constexpr std::array<JetCoordinates, 6> measured_coordinates = {
+    JetCoordinates::cartesian, JetCoordinates::spherical, JetCoordinates::cylindrical,
+    JetCoordinates::poincare,  JetCoordinates::nodal,     JetCoordinates::flow_box};
+
+/// The study of table `[validity]` in the scene's coordinates; with automatic ones in all, of which
+/// the furthest is given. Deviations fill an ellipsoid in position along the axes of the
 /// scene's frame, of largest semi-axis the separation, and the same ellipsoid times the mean motion
 /// in the velocity of that frame (as seen from the turning axes, by default); the samples are
 /// random ones and, for each order, those at which its error is largest by the next degree's part
@@ -45,5 +66,14 @@ struct ValidityResult {
 /// k + 1, for the error of order k; that of the highest order is extrapolated from the ratio of the
 /// last two. Throws as study_transfer.
 ValidityResult study_validity(const Scene& scene, const ProgressCallback& progress = {});
+
+/// The scene's coordinates; where they are automatic, those whose polynomials of the highest order
+/// reach furthest at the end of the scene's duration, measured by some flights.
+JetCoordinates measured_coordinates_of(const Scene& scene);
+
+/// The same study in every coordinates, on the same deputies. Throws as study_validity; coordinates
+/// that the orbit has not are told.
+ValidityInCoordinates study_validity_in_all(const Scene& scene,
+                                            const ProgressCallback& progress = {});
 
 }  // namespace hamjet

@@ -71,7 +71,8 @@ std::string terminal_table(const DeputyMotion& motion) {
     rows.back().push_back(error(point.errors_m.front()));
   }
   return fmt::format("{}\n{}\nframe {}; order {}\n\n{}", motion.scene.title,
-                     deputy_motion_verdict(motion), frame_text(motion.scene.deputy->frame),
+                     deputy_motion_verdict(motion),
+                     frame_text(motion.scene.deputy->frame) + coordinates_text(motion.coordinates),
                      motion.scene.order, aligned_table(rows));
 }
 
@@ -87,7 +88,8 @@ std::string page(const DeputyMotion& motion, const ReportOrigin& origin, ChartDr
   page.facts =
       origin_facts_html(origin) +
       fact_html("Scene", fmt::format("{}, order {}", motion.scene.name, motion.scene.order)) +
-      fact_html("Frame", frame_text(motion.scene.deputy->frame)) +
+      fact_html("Frame",
+                frame_text(motion.scene.deputy->frame) + coordinates_text(motion.coordinates)) +
       fact_html("Times", std::to_string(motion.points.size())) +
       fact_html("Flight floor", length_text(motion.flight_floor_m)) +
       fact_html("Time", duration_text(motion.propagation_seconds) + " for the jets");
@@ -141,6 +143,7 @@ std::string deputy_motion_verdict(const DeputyMotion& motion) {
 Json deputy_motion_json(const DeputyMotion& motion) {
   const RelativeFrame frame = motion.scene.deputy->frame;
   Json json = study_head_json(motion.scene, "motion", motion.integrator);
+  json["coordinates"] = name_of(motion.coordinates);
   json["frame"] = frame_name(frame);
   json["derivatives"] = text_or_null(std::string(derivatives_name(frame)));
   json["axes"] = axis_letters(frame);

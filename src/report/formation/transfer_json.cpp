@@ -127,6 +127,7 @@ Json transfer_summary_json(const TransferResult& result) {
   const Scene& scene = result.scene;
   const TransferSettings& settings = *scene.transfer;
   Json json = study_head_json(scene, "transfer", result.integrator);
+  json["coordinates"] = name_of(result.coordinates);
   json["frame"] = frame_name(settings.frame);
   json["derivatives"] = text_or_null(std::string(derivatives_name(settings.frame)));
   json["axes"] = axis_letters(settings.frame);

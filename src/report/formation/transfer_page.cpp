@@ -37,7 +37,7 @@ std::string facts_html(const TransferResult& result, const ReportOrigin& origin)
     outcomes += fmt::format("; {} {}", outcome.count, outcome.text);
   }
   return origin_facts_html(origin) + fact_html("Scene", scene_text(result.scene)) +
-         fact_html("Frame", frame_text(settings.frame)) +
+         fact_html("Frame", frame_text(settings.frame) + coordinates_text(result.coordinates)) +
          fact_html("Start", state_text(settings.start)) +
          fact_html("End", state_text(settings.end)) +
          fact_html("Transfer times", fmt::format("{}, {:.6g} s to {:.6g} s{}", result.points.size(),
@@ -130,7 +130,8 @@ std::string validity_page(const ValidityResult& result, const ReportOrigin& orig
   fit(first);
   page.first_figure = figure_html(first, drawer);
   page.facts = origin_facts_html(origin) + fact_html("Scene", scene_text(result.scene)) +
-               fact_html("Frame", frame_text(result.scene.validity->frame)) +
+               fact_html("Frame", frame_text(result.scene.validity->frame) +
+                                      coordinates_text(result.coordinates)) +
                fact_html("Tolerance", length_text(result.scene.validity->tolerance_m)) +
                fact_html("Flights", std::to_string(result.flights)) +
                fact_html("Flight floor", length_text(result.flight_floor_m)) +

@@ -33,8 +33,10 @@ std::string terminal_table(const ValidityResult& result) {
       rows.back().push_back((entry.is_at_limit ? ">" : "") + length_text(entry.proved_m));
     }
   }
-  return fmt::format("{}\n{}\nframe {}\n\n{}", result.scene.title, validity_verdict(result),
-                     frame_text(result.scene.validity->frame), aligned_table(rows)) +
+  return fmt::format(
+             "{}\n{}\nframe {}\n\n{}", result.scene.title, validity_verdict(result),
+             frame_text(result.scene.validity->frame) + coordinates_text(result.coordinates),
+             aligned_table(rows)) +
          (has_limit ? "> still right at the largest separation tried\n" : "");
 }
 
@@ -64,6 +66,7 @@ Json validity_json(const ValidityResult& result) {
   }
   return {
       {"tolerance_m", settings.tolerance_m},
+      {"coordinates", name_of(result.coordinates)},
       {"frame", frame_name(settings.frame)},
       {"derivatives", text_or_null(std::string(derivatives_name(settings.frame)))},
       {"axes", axis_letters(settings.frame)},
@@ -86,14 +89,15 @@ Json validity_report_json(const ValidityResult& result) {
 std::string validity_csv(const ValidityResult& result) {
   const RelativeFrame frame = result.scene.validity->frame;
   std::string text =
-      "time_canonical,time_s,order,predicted_m,proved_m,miss_m,at_limit,frame,derivatives\n";
+      "time_canonical,time_s,order,predicted_m,proved_m,miss_m,at_limit,frame,derivatives,"
+      "coordinates\n";
   for (const ValidityPoint& point : result.points) {
     for (const ValidityEntry& entry : point.entries) {
-      text += fmt::format("{},{},{},{},{},{},{},{},{}\n", csv_number(point.time),
+      text += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", csv_number(point.time),
                           csv_number(point.time * result.scene.units.time_s), entry.order,
                           csv_number(entry.predicted_m), csv_number(entry.proved_m),
                           csv_number(entry.miss_m), entry.is_at_limit, frame_name(frame),
-                          derivatives_name(frame));
+                          derivatives_name(frame), name_of(result.coordinates));
     }
   }
   return text;

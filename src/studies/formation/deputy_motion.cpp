@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../deputy_flows.hpp"
 #include "../exact_flow.hpp"
 #include "../formation_scale.hpp"
-#include "../jets_along_time.hpp"
 #include "flown_trajectory.hpp"
 #include "formation_problem.hpp"
-#include "hamjet/detail/algebra/monomial_values.hpp"
 #include "hamjet/error.hpp"
+#include "hamjet/studies/validity.hpp"
 #include "single_transfer.hpp"
 
 namespace hamjet {
@@ -48,41 +48,38 @@ DeputyMotion study_deputy_motion(const Scene& scene, const ProgressCallback& pro
   result.points.push_back({0, scene.deputy->start, std::vector<double>(orders, 0.0), 0});
 
   const ComputedProblem problem = make_problem(scene, available_memory());
-  MonomialValues values(problem.space);
-  values.set_point(deviation);
   const IntegratorSettings& integrator = symplectic_integrator(scene);
   result.integrator = integrator.label;
-  const auto flown_index = [&](std::size_t index) {
-    return (index + 1) * static_cast<std::size_t>(parts);
-  };
-  std::vector<double> times;
-  for (std::size_t index = 0; index < static_cast<std::size_t>(count); ++index) {
-    times.push_back(result.flown.times[flown_index(index)]);
-  }
-  const auto visit = [&](std::size_t index, const FlowJet<double>& jet) {
+  result.coordinates = measured_coordinates_of(scene);
+  DeputyFlowPropagation propagation(scene, problem, integrator, result.coordinates);
+  ComputedProblem linear = problem;
+  linear.space = SeriesSpace::create(problem.variables.size(), 1);
+  JetPropagation linear_flow(linear, integrator);
+  const SixNumbers<double> start = six_numbers(deviation);
+  for (int index = 0; index < count; ++index) {
     if (progress) progress("motion", static_cast<double>(index) / count);
-    const std::vector<double>& flown_chief = result.flown.chief[flown_index(index)];
-    const std::vector<double>& flown_deputy = result.flown.deputy[flown_index(index)];
-    DeputyMotionPoint point{times[index], result.flown.states[flown_index(index)], {}, 0};
-    // Degree by degree: what is relative to the chief would lose its digits in the chief's place.
-    std::vector<double> relative(jet.size(), 0.0);
+    const auto flown = static_cast<std::size_t>((index + 1) * parts);
+    const double time = result.flown.times[flown];
+    const std::vector<double>& chief = result.flown.chief[flown];
+    const std::vector<double>& deputy = result.flown.deputy[flown];
+    const std::unique_ptr<DeputyFlow> flow = propagation.advance_to(time);
+    DeputyMotionPoint point{time, result.flown.states[flown], {}, 0};
     for (int order = 1; order <= scene.order; ++order) {
+      const SixNumbers<double> predicted = flow->predict(start, order).deviation;
       double square = 0;
-      for (std::size_t i = 0; i < jet.size(); ++i) {
-        relative[i] += values.slice(jet[i], order);
-        if (i >= 3) continue;
-        square += std::pow(relative[i] - (flown_deputy[i] - flown_chief[i]), 2);
+      for (std::size_t i = 0; i < 3; ++i) {
+        square += std::pow(predicted[i] - (deputy[i] - chief[i]), 2);
       }
       point.errors_m.push_back(std::sqrt(square) * units.length_m);
     }
     // Every flight from time to time rounds its start anew, and independently.
-    point.flight_floor_m = std::sqrt(static_cast<double>(index + 1)) *
-                           rounding_of_flights(problem, jet) * units.length_m;
+    point.flight_floor_m = std::sqrt(index + 1.0) *
+                           rounding_of_flights(problem, linear_flow.advance_to(time)) *
+                           units.length_m;
     result.flight_floor_m = std::max(result.flight_floor_m, point.flight_floor_m);
     result.points.push_back(std::move(point));
-  };
-  const auto statistics = visit_jets(problem, integrator, times, visit);
-  result.propagation_seconds = statistics.wall_seconds;
+  }
+  result.propagation_seconds = propagation.statistics().wall_seconds;
   return result;
 }
 

@@ -9,6 +9,7 @@
 #include "../../integrators/momentum_unit.hpp"
 #include "../exact_flow.hpp"
 #include "hamjet/error.hpp"
+#include "hamjet/integrators/gauss_collocation.hpp"
 
 namespace hamjet {
 
@@ -23,6 +24,16 @@ double rounding_of_flights(const ComputedProblem& problem, const FlowJet<double>
       in_momentum_unit<Matrix<double>>(linear_part(jet), problem.momentum_exponent);
   const double growth = flow.norm() * initial_distance(problem.nominal);
   return std::numeric_limits<double>::epsilon() * (position + growth);
+}
+
+double rounding_of_flights(const ComputedProblem& problem, double time) {
+  FlowProblem<double> flow{problem.system, SeriesSpace::create(problem.nominal.size(), 1),
+                           problem.variables, problem.nominal, time};
+  flow.symmetry = FlowSymmetry::none;  // saves nothing at order 1
+  GaussSettings settings;
+  settings.tolerance = 1e-10;  // of a size, of which two digits would do
+  IntegrationStatistics statistics;
+  return rounding_of_flights(problem, integrate_gauss<double>(flow, settings, statistics));
 }
 
 SingleTransfer::SingleTransfer(const Scene& scene, const ComputedProblem& problem, double time,
@@ -50,6 +61,11 @@ std::vector<double> SingleTransfer::linear_deviation(
 
 BoundaryMomenta SingleTransfer::solve(PositionBoundaryValues& boundary, int order) const {
   return boundary.solve(std::span(start_).first(3), std::span(end_).first(3), order);
+}
+
+BoundaryMomenta SingleTransfer::solve(const DeputyFlow& flow, int degree,
+                                      std::span<const double> guess) const {
+  return solve_positions(flow, std::span(start_).first(3), std::span(end_).first(3), degree, guess);
 }
 
 std::vector<double> SingleTransfer::variables(const GeneratingFunctionKind& kind,
@@ -97,8 +113,8 @@ double SingleTransfer::miss_m(const std::vector<double>& flown) const {
   return std::hypot(flown[0] - end_[0], flown[1] - end_[1], flown[2] - end_[2]) * units_.length_m;
 }
 
-TransferAnswer SingleTransfer::refine(const FlowJet<double>& jet, BoundaryMomenta momenta,
-                                      int& flights) const {
+TransferAnswer SingleTransfer::refine(const FlowJet<double>& jet, const DeputyFlow* flow,
+                                      BoundaryMomenta momenta, int& flights) const {
   constexpr int most_flights = 12;
   const int order = scene_.order;
   MonomialValues values(jet[0].space_pointer());
@@ -127,10 +143,14 @@ TransferAnswer SingleTransfer::refine(const FlowJet<double>& jet, BoundaryMoment
     Eigen::Vector3d distance;
     for (std::size_t i = 0; i < 3; ++i) {
       distance[static_cast<Eigen::Index>(i)] = flown[i] - end_[i];
-      for (std::size_t j = 0; j < 3; ++j) {
+      for (std::size_t j = 0; j < 3 && flow == nullptr; ++j) {
         commanded(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
             values.derivative(jet[i], 3 + j, order);
       }
+    }
+    if (flow != nullptr) {
+      commanded = commanded_positions(
+          *flow, {point[0], point[1], point[2], point[3], point[4], point[5]}, order);
     }
     const Eigen::Vector3d correction = commanded.partialPivLu().solve(distance);
     for (std::size_t j = 0; j < 3; ++j) {

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "charted_boundary_values.hpp"
 #include "hamjet/maps/position_boundary_values.hpp"
 #include "hamjet/relative_motion/chief_frame.hpp"
 #include "hamjet/studies/transfer.hpp"
@@ -14,6 +15,8 @@ MetricUnits metric_units(const Scene& scene);
 /// Rounding of the positions of two flights: that of the end, and that of the chief's start grown
 /// with the jet's linear part; canonical.
 double rounding_of_flights(const ComputedProblem& problem, const FlowJet<double>& jet);
+/// The same from the linear flow of a time, which is integrated.
+double rounding_of_flights(const ComputedProblem& problem, double time);
 
 /// One transfer of a deputy, from one relative state to another in one time. What it looks at must
 /// outlive it.
@@ -28,6 +31,9 @@ class SingleTransfer {
   std::vector<double> linear_deviation(const Eigen::Matrix<double, 6, 6>& flow) const;
   /// The momenta of one order. Throws as PositionBoundaryValues::solve.
   BoundaryMomenta solve(PositionBoundaryValues& boundary, int order) const;
+  /// The momenta of one degree of a flow in other coordinates, from a guess of the first. Throws as
+  /// solve_positions.
+  BoundaryMomenta solve(const DeputyFlow& flow, int degree, std::span<const double> guess) const;
   /// The variables of a kind's generating function with these momenta.
   std::vector<double> variables(const GeneratingFunctionKind& kind,
                                 const BoundaryMomenta& momenta) const;
@@ -41,7 +47,9 @@ class SingleTransfer {
   /// Newton's method on the flown miss with the derivatives of the jet at this time, from the
   /// momenta of the highest order until the scene's `refined_miss_m` is reached. The failure of an
   /// answer that does not get there is recorded in it. Adds the number of flights to `flights`.
-  TransferAnswer refine(const FlowJet<double>& jet, BoundaryMomenta momenta, int& flights) const;
+  /// The derivatives are those of `flow` where it is not null.
+  TransferAnswer refine(const FlowJet<double>& jet, const DeputyFlow* flow, BoundaryMomenta momenta,
+                        int& flights) const;
 
   /// The state of the deputy at the start, after the first impulse.
   std::vector<double> deputy(const std::vector<double>& initial_momentum) const;

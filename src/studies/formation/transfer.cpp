@@ -71,6 +71,7 @@ TransferResult study_transfer(const Scene& asked, const ProgressCallback& progre
   const RelativeTransfer ends{settings.start, settings.end};
   TransferPoints points(scene, progress, result.seconds);
   result.conditions.kinds = points.kinds();
+  result.coordinates = points.coordinates();
   const auto visit = [&](std::size_t index, const FlowJet<double>& jet) {
     const double time = settings.times[index];
     if (progress) {

@@ -12,7 +12,9 @@
 #include "../exact_flow.hpp"
 #include "../random_direction.hpp"
 #include "../stopwatch.hpp"
+#include "formation_problem.hpp"
 #include "hamjet/error.hpp"
+#include "hamjet/studies/validity.hpp"
 #include "keep_out.hpp"
 
 namespace hamjet {
@@ -53,8 +55,22 @@ TransferPoints::TransferPoints(const Scene& scene, const ProgressCallback& progr
       settings_(*scene.transfer),
       seconds_(seconds),
       problem_(make_problem(scene, available_memory())),
-      kinds_(all_kinds(3)) {
+      kinds_(all_kinds(3)),
+      coordinates_(measured_coordinates_of(scene)) {
   find_singular_times(progress);
+}
+
+const DeputyFlow* TransferPoints::charted_flow(double time) {
+  if (coordinates_ == JetCoordinates::cartesian) return nullptr;
+  if (charted_flow_ && propagated_ == time) return charted_flow_.get();
+  const Stopwatch watch(seconds_.propagation);
+  const bool is_behind = propagation_ && std::abs(time) < std::abs(propagated_);
+  if (!propagation_ || is_behind) {
+    propagation_.emplace(scene_, problem_, symplectic_integrator(scene_), coordinates_);
+  }
+  charted_flow_ = propagation_->advance_to(time);
+  propagated_ = time;
+  return charted_flow_.get();
 }
 
 void TransferPoints::find_singular_times(const ProgressCallback& progress) {
@@ -174,13 +190,18 @@ TransferPoint TransferPoints::answer(const ChosenKind& chosen, const FlowJet<dou
   const SingleTransfer transfer(scene_, problem_, chosen.time, flown_chief(chosen.time), ends.start,
                                 ends.end);
   std::vector<BoundaryMomenta> momenta(static_cast<std::size_t>(scene_.order));
+  const DeputyFlow* const flow = charted_flow(chosen.time);
   {
     const Stopwatch watch(seconds_.solution);
     PositionBoundaryValues boundary(*chosen.inversion);
+    const std::vector<double> linear = transfer.linear_deviation(linear_part(jet));
+    std::vector<double> guess(linear.begin() + 3, linear.end());
     for (int order = 1; order <= scene_.order; ++order) {
       point.answers.push_back(attempt(order, [&] {
         BoundaryMomenta& found = momenta[static_cast<std::size_t>(order - 1)];
-        found = transfer.solve(boundary, order);
+        found =
+            flow != nullptr ? transfer.solve(*flow, order, guess) : transfer.solve(boundary, order);
+        if (flow != nullptr) guess = found.initial;
         return transfer.answer(found, order);
       }));
     }
@@ -201,11 +222,13 @@ TransferPoint TransferPoints::answer(const ChosenKind& chosen, const FlowJet<dou
     const bool is_to_refine =
         settings_.refine || (point.is_beyond_tolerance && !point.is_near_singular);
     if (is_to_refine && last.failure.empty()) {
-      point.refined = transfer.refine(jet, momenta.back(), point.refinement_flights);
+      point.refined = transfer.refine(jet, flow, momenta.back(), point.refinement_flights);
     }
   }
   if (point.has_answer()) {
     judge_limits(ends, point);
+    // The generating function is one of positions and momenta, which may not reach so far.
+    if (flow != nullptr) return point;
     measure_residual(chosen, jet, transfer.variables(chosen.inversion->kind, momenta.back()),
                      point);
   }

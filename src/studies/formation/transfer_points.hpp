@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "../../maps/hamilton_jacobi.hpp"
+#include "../deputy_flows.hpp"
 #include "../kind_choice.hpp"
 #include "hamjet/studies/transfer.hpp"
 #include "single_transfer.hpp"
@@ -34,6 +35,8 @@ class TransferPoints {
   const ComputedProblem& problem() const noexcept { return problem_; }
   const std::vector<GeneratingFunctionKind>& kinds() const noexcept { return kinds_; }
   const std::vector<SingularTime>& singular_times() const noexcept { return singular_times_; }
+  /// The coordinates of the polynomials that answer; not automatic.
+  JetCoordinates coordinates() const noexcept { return coordinates_; }
 
   /// About the chief, beyond the scene's last transfer time.
   const LinearFlow& linear_flow() const noexcept { return *flow_; }
@@ -73,6 +76,9 @@ class TransferPoints {
                                            double time) const;
   void find_singular_times(const ProgressCallback& progress);
   std::optional<double> singular_distance(double time) const;
+  /// The flow in the scene's coordinates, where they are not Cartesian; null where they are. Times
+  /// that move on cost least.
+  const DeputyFlow* charted_flow(double time);
   /// The chief flown to a time; the last one is kept, for several deputies and the chief's error.
   const std::vector<double>& flown_chief(double time);
   /// Whether the best answer is as the scene allows.
@@ -89,6 +95,10 @@ class TransferPoints {
   KindChoice choice_;
   double chief_time_ = 0;
   std::vector<double> flown_chief_;  ///< at the time of the last flight
+  JetCoordinates coordinates_ = JetCoordinates::cartesian;
+  std::optional<DeputyFlowPropagation> propagation_;  ///< of the flows in other coordinates
+  double propagated_ = 0;                             ///< its time
+  std::unique_ptr<DeputyFlow> charted_flow_;          ///< at that time
   std::vector<SingularTime> singular_times_;
   std::optional<LargestResidual> largest_residual_;
 };

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "../../integrators/momentum_unit.hpp"
+#include "../deputy_flows.hpp"
 #include "../exact_flow.hpp"
 #include "../formation_scale.hpp"
-#include "../jets_along_time.hpp"
 #include "../random_direction.hpp"
 #include "../stopwatch.hpp"
 #include "formation_problem.hpp"
@@ -38,19 +38,25 @@ class ValidityStudy {
         metres_(metric_units(scene).length_m),
         distance_(initial_distance(problem_.nominal)),
         largest_separation_(largest_separation * distance_),
-        tolerance_(settings_.tolerance_m / metres_),
-        values_(problem_.space) {
+        tolerance_(settings_.tolerance_m / metres_) {
     result_.scene = scene;
     make_samples();
   }
 
-  ValidityResult run() {
+  ValidityResult run(JetCoordinates coordinates) {
     const IntegratorSettings& integrator = symplectic_integrator(scene_);
     result_.integrator = integrator.label;
-    const auto statistics =
-        visit_jets(problem_, integrator, settings_.times,
-                   [&](std::size_t index, const FlowJet<double>& jet) { visit(index, jet); });
-    result_.propagation_seconds = statistics.wall_seconds;
+    result_.coordinates = coordinates;
+    DeputyFlowPropagation propagation(scene_, problem_, integrator, coordinates);
+    for (std::size_t index = 0; index < settings_.times.size(); ++index) {
+      time_ = settings_.times[index];
+      std::unique_ptr<DeputyFlow> flow;
+      {
+        const Stopwatch watch(result_.propagation_seconds);
+        flow = propagation.advance_to(time_);
+      }
+      visit(index, *flow);
+    }
     return std::move(result_);
   }
 
@@ -86,42 +92,63 @@ class ValidityStudy {
     }
   }
 
-  std::vector<double> deviation(const Vector6& coordinates) const {
+  SixNumbers<double> deviation(const Vector6& coordinates) const {
     const Vector6 z = axes_ * coordinates;
-    return {z.begin(), z.end()};
+    return {z[0], z[1], z[2], z[3], z[4], z[5]};
+  }
+
+  /// What the degrees of the polynomials add to the final position, to first order in the
+  /// coordinates at both ends: three series, and the variables of a sample.
+  void linearise_ends(const DeputyFlow& flow) {
+    const Matrix<double> exit = flow.exit_derivative();
+    positions_.clear();
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      Series<double> position(flow.polynomials()[0].space_pointer());
+      for (std::size_t c = 0; c < flow.polynomials().size(); ++c) {
+        position += exit(i, static_cast<Eigen::Index>(c)) * flow.polynomials()[c];
+      }
+      positions_.push_back(std::move(position));
+    }
+    variables_ = flow.entry_derivative() * axes_;
+    values_.emplace(flow.polynomials()[0].space_pointer());
+  }
+
+  void set_point(const Vector6& coordinates) {
+    const Matrix<double> point = variables_ * coordinates;
+    values_->set_point({point.data(), static_cast<std::size_t>(point.size())});
   }
 
   /// Size of one degree's part of the position at a sample.
-  double slice_size(const FlowJet<double>& jet, const Vector6& coordinates, int degree) {
-    values_.set_point(deviation(coordinates));
-    return std::hypot(values_.slice(jet[0], degree), values_.slice(jet[1], degree),
-                      values_.slice(jet[2], degree));
+  double slice_size(const Vector6& coordinates, int degree) {
+    set_point(coordinates);
+    return std::hypot(values_->slice(positions_[0], degree), values_->slice(positions_[1], degree),
+                      values_->slice(positions_[2], degree));
   }
 
   /// Ascent from a sample to a deviation at which the part of one degree is largest: the next point
   /// is the gradient's direction, in position and in velocity apart. Random samples alone come out
   /// at half of the worst.
-  Vector6 worst_from(const FlowJet<double>& jet, Vector6 point, int degree) {
+  Vector6 worst_from(Vector6 point, int degree) {
     constexpr int most_iterations = 30;
-    double size = slice_size(jet, point, degree);
+    double size = slice_size(point, degree);
     for (int iteration = 0; iteration < most_iterations; ++iteration) {
-      values_.set_point(deviation(point));
-      Vector6 gradient = Vector6::Zero();
-      for (std::size_t c = 0; c < 3; ++c) {
-        const double value = values_.slice(jet[c], degree);
-        for (std::size_t v = 0; v < 6; ++v) {
-          gradient[static_cast<Eigen::Index>(v)] +=
-              value *
-              (values_.derivative(jet[c], v, degree) - values_.derivative(jet[c], v, degree - 1));
+      set_point(point);
+      Matrix<double> by_variable = Matrix<double>::Zero(variables_.rows(), 1);
+      for (const Series<double>& position : positions_) {
+        const double value = values_->slice(position, degree);
+        for (Eigen::Index v = 0; v < variables_.rows(); ++v) {
+          const auto variable = static_cast<std::size_t>(v);
+          by_variable(v, 0) += value * (values_->derivative(position, variable, degree) -
+                                        values_->derivative(position, variable, degree - 1));
         }
       }
-      gradient = axes_.transpose() * gradient;
+      const Vector6 gradient = variables_.transpose() * by_variable;
       Vector6 next = point;
       for (Eigen::Index first : {Eigen::Index{0}, Eigen::Index{3}}) {
         const double length = gradient.segment<3>(first).norm();
         if (length > 0) next.segment<3>(first) = gradient.segment<3>(first) / length;
       }
-      const double found = slice_size(jet, next, degree);
+      const double found = slice_size(next, degree);
       if (!(found > size * (1 + 1e-6))) break;
       size = found;
       point = next;
@@ -130,16 +157,16 @@ class ValidityStudy {
   }
 
   /// The samples, and the worst deviations of one degree that are reached from the largest of them.
-  std::vector<Vector6> samples_with_worst(const FlowJet<double>& jet, int degree) {
+  std::vector<Vector6> samples_with_worst(int degree) {
     constexpr std::size_t starts = 6;
     std::vector<Vector6> samples = samples_;
     std::vector<std::pair<double, std::size_t>> sizes;
     for (std::size_t k = 0; k < samples_.size(); ++k) {
-      sizes.emplace_back(slice_size(jet, samples_[k], degree), k);
+      sizes.emplace_back(slice_size(samples_[k], degree), k);
     }
     std::sort(sizes.rbegin(), sizes.rend());
     for (std::size_t k = 0; k < std::min(starts, sizes.size()); ++k) {
-      samples.push_back(worst_from(jet, samples_[sizes[k].second], degree));
+      samples.push_back(worst_from(samples_[sizes[k].second], degree));
     }
     // The worst samples come first: a deputy that misses by far ends the trial.
     std::rotate(samples.begin(), samples.begin() + static_cast<std::ptrdiff_t>(samples_.size()),
@@ -147,11 +174,11 @@ class ValidityStudy {
     return samples;
   }
 
-  void visit(std::size_t index, const FlowJet<double>& jet) {
-    time_ = settings_.times[index];
+  void visit(std::size_t index, const DeputyFlow& flow) {
     ValidityPoint point;
     point.time = time_;
-    const std::vector<double> sizes = slice_sizes(jet);
+    linearise_ends(flow);
+    const std::vector<double> sizes = slice_sizes();
     for (int order = 1; order <= scene_.order; ++order) {
       if (progress_) {
         const double share = static_cast<double>(order - 1) / scene_.order;
@@ -167,23 +194,23 @@ class ValidityStudy {
       const Stopwatch watch(result_.proof_seconds);
       // The worst deviations for an order's error are those of the next degree, or of the last one
       // known.
-      flown_samples_ = samples_with_worst(jet, std::min(order + 1, scene_.order));
-      prove(jet, std::min(predicted, largest_separation_), entry);
+      flown_samples_ = samples_with_worst(std::min(order + 1, scene_.order));
+      prove(flow, std::min(predicted, largest_separation_), entry);
       point.entries.push_back(entry);
     }
     if (index + 1 == settings_.times.size()) {
-      result_.flight_floor_m = rounding_of_flights(problem_, jet) * metres_;
+      result_.flight_floor_m = rounding_of_flights(problem_, time_) * metres_;
     }
     result_.points.push_back(std::move(point));
   }
 
   /// The largest size of each degree's part of the position; degree N + 1 is extrapolated.
-  std::vector<double> slice_sizes(const FlowJet<double>& jet) {
+  std::vector<double> slice_sizes() {
     std::vector<double> sizes(static_cast<std::size_t>(scene_.order) + 2, 0);
     for (int d = 1; d <= scene_.order; ++d) {
-      for (const Vector6& sample : samples_with_worst(jet, d)) {
+      for (const Vector6& sample : samples_with_worst(d)) {
         double& size = sizes[static_cast<std::size_t>(d)];
-        size = std::max(size, slice_size(jet, sample, d));
+        size = std::max(size, slice_size(sample, d));
       }
     }
     const std::size_t last = sizes.size() - 2;
@@ -195,14 +222,14 @@ class ValidityStudy {
   }
 
   /// The largest miss over the samples at a separation; infinite if a deputy cannot be flown.
-  double miss(const FlowJet<double>& jet, int order, double separation) {
+  double miss(const DeputyFlow& flow, int order, double separation) {
     double largest = 0;
     for (const Vector6& sample : flown_samples_) {
       if (progress_) {
         progress_("validity", static_cast<double>(result_.points.size()) /
                                   static_cast<double>(settings_.times.size()));
       }
-      const std::vector<double> start = deviation(separation * sample);
+      const SixNumbers<double> start = deviation(separation * sample);
       std::vector<double> deputy = problem_.nominal;
       for (std::size_t k = 0; k < start.size(); ++k) deputy[k] += start[k];
       ++result_.flights;
@@ -213,10 +240,10 @@ class ValidityStudy {
         if (error.kind() != ErrorKind::numerical) throw;
         return std::numeric_limits<double>::infinity();
       }
-      values_.set_point(start);
+      const SixNumbers<double> predicted = flow.predict(start, order).deviation;
       double square = 0;
       for (std::size_t i = 0; i < 3; ++i) {
-        const double difference = values_.value(jet[i], order) - flown[i];
+        const double difference = flow.chief_end()[i] + predicted[i] - flown[i];
         square += difference * difference;
       }
       if (!std::isfinite(square)) return std::numeric_limits<double>::infinity();
@@ -229,14 +256,14 @@ class ValidityStudy {
   /// The miss grows as the separation to the power order + 1: from the prediction on, the next
   /// separation tried is the one at which that law meets the tolerance, until the largest that
   /// holds is known to a few percent.
-  void prove(const FlowJet<double>& jet, double predicted, ValidityEntry& entry) {
+  void prove(const DeputyFlow& flow, double predicted, ValidityEntry& entry) {
     constexpr int most_trials = 12;
     constexpr double close = 1.03;
     double good = 0;
     double bad = 0;
     double trial = predicted;
     for (int k = 0; k < most_trials; ++k) {
-      const double found = miss(jet, entry.order, trial);
+      const double found = miss(flow, entry.order, trial);
       if (found <= tolerance_) {
         good = trial;
         entry.miss_m = found * metres_;
@@ -267,11 +294,13 @@ class ValidityStudy {
   const ProgressCallback& progress_;
   ComputedProblem problem_;
   double metres_;
-  double distance_;            ///< of the chief at the start, canonical
-  double largest_separation_;  ///< canonical
-  double tolerance_;           ///< canonical
-  MonomialValues values_;
-  Matrix6 axes_;                        ///< see make_samples
+  double distance_;                        ///< of the chief at the start, canonical
+  double largest_separation_;              ///< canonical
+  double tolerance_;                       ///< canonical
+  Matrix6 axes_;                           ///< see make_samples
+  std::vector<Series<double>> positions_;  ///< see linearise_ends
+  Matrix<double> variables_;
+  std::optional<MonomialValues> values_;
   std::vector<Vector6> samples_;        ///< of separation 1
   std::vector<Vector6> flown_samples_;  ///< those that one order is proved on
   double time_ = 0;
@@ -282,7 +311,41 @@ class ValidityStudy {
 
 ValidityResult study_validity(const Scene& scene, const ProgressCallback& progress) {
   require_formation_problem(scene, scene.validity.has_value(), "validity");
-  return ValidityStudy(scene, progress).run();
+  if (scene.coordinates != JetCoordinates::automatic) {
+    return ValidityStudy(scene, progress).run(scene.coordinates);
+  }
+  return study_validity_in_all(scene, progress).furthest();
+}
+
+ValidityInCoordinates study_validity_in_all(const Scene& scene, const ProgressCallback& progress) {
+  require_formation_problem(scene, scene.validity.has_value(), "validity");
+  ValidityInCoordinates all;
+  for (const JetCoordinates coordinates : measured_coordinates) {
+    try {
+      all.results.push_back(ValidityStudy(scene, progress).run(coordinates));
+    } catch (const Error& error) {
+      // An orbit may lack some coordinates; those in which it was given, it has.
+      if (error.kind() != ErrorKind::numerical || coordinates == JetCoordinates::cartesian) throw;
+      all.refused.push_back({coordinates, error.what()});
+    }
+  }
+  return all;
+}
+
+JetCoordinates measured_coordinates_of(const Scene& scene) {
+  if (scene.coordinates != JetCoordinates::automatic) return scene.coordinates;
+  constexpr int few_samples = 10;
+  Scene measured = scene;
+  measured.validity = scene.validity.value_or(ValiditySettings{});
+  measured.validity->times = {scene.duration};
+  measured.validity->samples = few_samples;
+  return study_validity(measured).coordinates;
+}
+
+const ValidityResult& ValidityInCoordinates::furthest() const {
+  return *std::max_element(results.begin(), results.end(), [](const auto& a, const auto& b) {
+    return a.points.back().entries.back().proved_m < b.points.back().entries.back().proved_m;
+  });
 }
 
 }  // namespace hamjet

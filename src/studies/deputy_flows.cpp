@@ -1,0 +1,74 @@
+#include "deputy_flows.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <variant>
+
+#include "descriptions/method_description.hpp"
+#include "hamjet/charts/charted_map.hpp"
+#include "hamjet/error.hpp"
+
+namespace hamjet {
+namespace {
+
+/// An orbit's gravitational parameter in its canonical units.
+constexpr double canonical_mu = 1;
+
+GaussSettings gauss_settings_of(const IntegratorSettings& settings) {
+  const auto splittable = description_of(settings.method).splittable(settings);
+  const GaussSettings* gauss = splittable ? std::get_if<GaussSettings>(&*splittable) : nullptr;
+  if (gauss == nullptr) {
+    throw Error(ErrorKind::scene,
+                fmt::format("jet.coordinates: flow-box is integrated by Gauss methods, got the "
+                            "integrator {}, must be gauss, or other coordinates",
+                            settings.label));
+  }
+  return *gauss;
+}
+
+}  // namespace
+
+ZonalGravity orbit_field(const Scene& scene) {
+  return {canonical_mu, scene.canonical_radius, scene.system.J};
+}
+
+SixNumbers<double> six_numbers(std::span<const double> state) {
+  SixNumbers<double> result;
+  std::copy_n(state.begin(), result.size(), result.begin());
+  return result;
+}
+
+ChartName chart_of(JetCoordinates coordinates) {
+  return chart_of(name_of(coordinates)).value_or(ChartName::cartesian);
+}
+
+DeputyFlowPropagation::DeputyFlowPropagation(const Scene& scene, const ComputedProblem& problem,
+                                             const IntegratorSettings& settings,
+                                             JetCoordinates coordinates)
+    : field_(orbit_field(scene)), start_(six_numbers(problem.nominal)), coordinates_(coordinates) {
+  if (coordinates == JetCoordinates::flow_box) {
+    boxes_.emplace(field_, section_chart(start_, canonical_mu), start_, scene.order,
+                   gauss_settings_of(settings));
+  } else {
+    CanonicalChart<double>(chart_of(coordinates), start_, canonical_mu);  // throws where it must
+    jets_.emplace(problem, settings);
+  }
+}
+
+std::unique_ptr<DeputyFlow> DeputyFlowPropagation::advance_to(double time) {
+  if (boxes_) return flow_box_deputy_flow(field_, boxes_->advance_to(time));
+  const FlowMap<double> jet(jets_->advance_to(time));
+  if (coordinates_ == JetCoordinates::cartesian) return cartesian_deputy_flow(jet);
+  SixNumbers<double> end;
+  for (std::size_t i = 0; i < end.size(); ++i) end[i] = jet.jet()[i][0];
+  const CanonicalChart<double> first(chart_of(coordinates_), start_, canonical_mu);
+  const CanonicalChart<double> last(chart_of(coordinates_), end, canonical_mu);
+  return charted_deputy_flow(first, start_, last, end, in_charts(jet, first, start_, last));
+}
+
+const IntegrationStatistics& DeputyFlowPropagation::statistics() const {
+  return boxes_ ? boxes_->statistics() : jets_->statistics();
+}
+
+}  // namespace hamjet

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "hamjet/charts/deputy_flow.hpp"
+#include "hamjet/charts/jet_coordinates.hpp"
+#include "hamjet/studies/propagation.hpp"
+#include "jets_along_time.hpp"
+
+namespace hamjet {
+
+/// The gravity field of a scene about an orbit, canonical.
+ZonalGravity orbit_field(const Scene& scene);
+
+/// The six numbers of an orbit's state.
+SixNumbers<double> six_numbers(std::span<const double> state);
+
+/// What a scene's polynomials say of deputies, in some coordinates, from time to time.
+class DeputyFlowPropagation {
+ public:
+  /// `scene` and `problem`, of an orbit in all six variables, must outlive it; `settings` are those
+  /// of the integrator. `coordinates` must not be automatic. Throws Error(numerical) where the
+  /// orbit has not such coordinates at its start, and Error(scene) for flow-box coordinates with an
+  /// integrator that is no Gauss method.
+  DeputyFlowPropagation(const Scene& scene, const ComputedProblem& problem,
+                        const IntegratorSettings& settings, JetCoordinates coordinates);
+
+  /// The flow to a time, canonical, further on than the last one. Throws as the integrator, and as
+  /// the constructor for the coordinates at the end.
+  std::unique_ptr<DeputyFlow> advance_to(double time);
+
+  JetCoordinates coordinates() const noexcept { return coordinates_; }
+  /// Summed over the integrations.
+  const IntegrationStatistics& statistics() const;
+
+ private:
+  ZonalGravity field_;
+  SixNumbers<double> start_;
+  JetCoordinates coordinates_;
+  std::optional<JetPropagation> jets_;  ///< unless of flow boxes
+  std::optional<FlowBoxPropagation<double>> boxes_;
+};
+
+/// The chart that coordinates other than flow boxes are of.
+ChartName chart_of(JetCoordinates coordinates);
+
+}  // namespace hamjet

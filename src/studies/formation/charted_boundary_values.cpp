@@ -1,0 +1,81 @@
+#include "charted_boundary_values.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "hamjet/error.hpp"
+
+namespace hamjet {
+namespace {
+
+Eigen::Vector3d position_of(const SixNumbers<double>& z) { return {z[0], z[1], z[2]}; }
+Eigen::Vector3d momentum_of(const SixNumbers<double>& z) { return {z[3], z[4], z[5]}; }
+
+double size_of(const SixNumbers<double>& z) { return position_of(z).norm(); }
+
+}  // namespace
+
+Eigen::Matrix3d commanded_positions(const DeputyFlow& flow, const SixNumbers<double>& deviation,
+                                    int degree) {
+  // In units of the chief's own speed; the cube of the machine's precision balances rounding
+  // against the third derivative.
+  const double step =
+      std::cbrt(std::numeric_limits<double>::epsilon()) * momentum_of(flow.chief_end()).norm();
+  std::array<SixNumbers<double>, 6> moved;
+  std::array<DeputyPrediction, 6> predicted;
+  for (std::size_t i = 0; i < 6; ++i) {
+    moved[i] = deviation;
+    moved[i][3 + i / 2] += i % 2 == 0 ? step : -step;
+  }
+  flow.predict(moved, degree, predicted);
+  Eigen::Matrix3d result;
+  for (std::size_t i = 0; i < 3; ++i) {
+    result.col(static_cast<Eigen::Index>(i)) =
+        (position_of(predicted[2 * i].deviation) - position_of(predicted[2 * i + 1].deviation)) /
+        (2 * step);
+  }
+  return result;
+}
+
+BoundaryMomenta solve_positions(const DeputyFlow& flow, std::span<const double> first,
+                                std::span<const double> last, int degree,
+                                std::span<const double> guess) {
+  constexpr int most_iterations = 30;
+  constexpr double least_part = 1e-3;  // of a step of Newton's method
+  const Eigen::Vector3d wanted(last[0], last[1], last[2]);
+  const double rounding = 64 * std::numeric_limits<double>::epsilon() * size_of(flow.chief_end());
+  SixNumbers<double> start = {first[0], first[1], first[2], guess[0], guess[1], guess[2]};
+  SixNumbers<double> end = flow.predict(start, degree).deviation;
+  Eigen::Vector3d miss = position_of(end) - wanted;
+  for (int i = 0; i < most_iterations && std::isfinite(miss.norm()); ++i) {
+    const Eigen::Vector3d step =
+        commanded_positions(flow, start, degree).partialPivLu().solve(miss);
+    double part = 1;
+    bool is_nearer = false;
+    for (; part >= least_part && !is_nearer; part /= 2) {
+      SixNumbers<double> next = start;
+      for (std::size_t k = 0; k < 3; ++k) next[3 + k] -= part * step[static_cast<Eigen::Index>(k)];
+      const SixNumbers<double> reached = flow.predict(next, degree).deviation;
+      const Eigen::Vector3d left = position_of(reached) - wanted;
+      is_nearer = left.norm() < miss.norm();
+      if (!is_nearer) continue;
+      start = next;
+      end = reached;
+      miss = left;
+    }
+    // Where no step comes nearer, rounding is all that is left, or there is no solution.
+    if (!is_nearer || miss.norm() == 0) break;
+  }
+  if (!(miss.norm() <= rounding)) {
+    throw Error(ErrorKind::numerical,
+                fmt::format("the polynomials of order {} lead to no such place from here", degree));
+  }
+  return {{start.begin() + 3, start.end()}, {end.begin() + 3, end.end()}};
+}
+
+}  // namespace hamjet

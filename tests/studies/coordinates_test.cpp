@@ -1,0 +1,179 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "../../src/studies/deputy_flows.hpp"
+#include "../../src/studies/exact_flow.hpp"
+#include "../../src/studies/formation/single_transfer.hpp"
+#include "../charts/orbits.hpp"
+#include "formation_scenes.hpp"
+#include "hamjet/studies/transfer.hpp"
+#include "hamjet/studies/validity.hpp"
+
+// What flow-box coordinates are for: how much further their polynomials reach than Cartesian ones
+// do, on the same flown deputies.
+
+namespace hamjet {
+namespace {
+
+using test::ChiefOrbit;
+
+/// A scene of an orbit, canonical.
+Scene scene_of(const ChiefOrbit& orbit, double time, int order) {
+  Scene scene = paper_chief(order);
+  scene.system.J = orbit.field.J;
+  scene.canonical_radius = orbit.field.radius;
+  scene.nominal = {orbit.start.begin(), orbit.start.end()};
+  scene.units.length_km = 6378.1363 / orbit.field.radius;
+  scene.units.time_s = std::sqrt(std::pow(scene.units.length_km, 3) / 398600.4415);
+  scene.duration = time;
+  return scene;
+}
+
+/// Proved reaches to 1 m by order, over 200 random deputies and those of the ascent.
+std::vector<double> reaches(Scene scene, JetCoordinates coordinates) {
+  scene.coordinates = coordinates;
+  scene.validity = ValiditySettings{};
+  scene.validity->times = {scene.duration};
+  scene.validity->samples = 200;
+  const ValidityResult result = study_validity(scene);
+  EXPECT_EQ(result.coordinates, coordinates);
+  std::vector<double> found;
+  for (const ValidityEntry& entry : result.points[0].entries) found.push_back(entry.proved_m);
+  return found;
+}
+
+/// The ratio of the reaches of both coordinates, by order.
+std::vector<double> reach_ratios(const ChiefOrbit& orbit, double revolutions) {
+  const Scene scene = scene_of(orbit, revolutions * orbit.period, 4);
+  const auto cartesian = reaches(scene, JetCoordinates::cartesian);
+  std::vector<double> ratios = reaches(scene, JetCoordinates::flow_box);
+  for (std::size_t k = 0; k < ratios.size(); ++k) ratios[k] /= cartesian[k];
+  return ratios;
+}
+
+const ChiefOrbit sun_synchronous = test::orbit_of(7086, 0.001042, 98.2, 0, 90, 0);
+
+TEST(FlowBoxReach, OfASunSynchronousOrbitAfterTwoRevolutions) {
+  const auto ratios = reach_ratios(sun_synchronous, 2);
+  EXPECT_GT(ratios[0], 80);
+  EXPECT_GT(ratios[1], 20);
+  EXPECT_GT(ratios[3], 9);
+}
+
+TEST(FlowBoxReach, OfASunSynchronousOrbitAfterADay) {
+  EXPECT_GT(reach_ratios(sun_synchronous, 15)[3], 10);
+}
+
+TEST(FlowBoxReach, OfThePapersOrbit) {
+  const auto ratios =
+      reach_ratios(test::orbit_of(10000, 0.3, 60, 0, 0, 0, 1.082626675e-3, 2.532436e-6), 2);
+  EXPECT_GT(ratios[0], 150);
+  EXPECT_GT(ratios[3], 15);
+}
+
+TEST(FlowBoxReach, OfMolniya) {
+  EXPECT_GT(reach_ratios(test::orbit_of(26600, 0.74, 63.4, 0, 270, 11), 1)[3], 15);
+}
+
+/// By how much order 2 misses a deputy of other elements after a day.
+double miss_m(const ChiefOrbit& chief, const ChiefOrbit& other, JetCoordinates coordinates) {
+  Scene scene = scene_of(chief, 0, 2);
+  scene.duration = 86400 / scene.units.time_s;
+  const double ratio = chief.field.radius / other.field.radius;
+  SixNumbers<double> deviation;
+  std::vector<double> deputy = scene.nominal;
+  for (std::size_t i = 0; i < 6; ++i) {
+    const double unit = i < 3 ? ratio : 1 / std::sqrt(ratio);
+    deviation[i] = other.start[i] * unit - chief.start[i];
+    deputy[i] += deviation[i];
+  }
+  const ComputedProblem problem = make_problem(scene, 1e10);
+  const auto flown = exact_flow(problem.system, deputy, scene.duration);
+  DeputyFlowPropagation propagation(scene, problem, scene.integrators[0], coordinates);
+  const auto flow = propagation.advance_to(scene.duration);
+  const auto predicted = flow->predict(deviation, 2).deviation;
+  double square = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    square += std::pow(flow->chief_end()[i] + predicted[i] - flown[i], 2);
+  }
+  return std::sqrt(square) * scene.units.length_km * 1000;
+}
+
+// Deputies whose elements differ by 100 m in a, 1e-3 rad in the inclination, the node and the
+// argument of latitude, and 5e-5 in e cos w and e sin w, of either sign: some 30 km away after a
+// day.
+TEST(FlowBoxReach, PredictsDeputiesOfOtherElements) {
+  const double degree = std::numbers::pi / 180;
+  const double e = 0.1, w = 40, anomaly = 30;
+  const ChiefOrbit chief = test::orbit_of(8500, e, 70, 20, w, anomaly, 1.0826267e-3, 0);
+  double worst = 0;
+  for (int signs = 0; signs < 8; ++signs) {
+    const auto sign = [&](int bit) { return (signs >> bit & 1) == 0 ? 1.0 : -1.0; };
+    const double x = e * std::cos(w * degree) + 5e-5 * sign(0);
+    const double y = e * std::sin(w * degree) + 5e-5 * sign(1);
+    const double angle = 1e-3 / degree * sign(2);
+    const double pericentre = std::atan2(y, x) / degree;
+    const ChiefOrbit other =
+        test::orbit_of(8500.1, std::hypot(x, y), 70 + angle, 20 + angle, pericentre,
+                       w + anomaly + angle - pericentre, 1.0826267e-3, 0);
+    EXPECT_LT(miss_m(chief, other, JetCoordinates::flow_box), 1);
+    worst = std::max(worst, miss_m(chief, other, JetCoordinates::cartesian));
+  }
+  EXPECT_GT(worst, 10);
+}
+
+// A transfer of 10 km on the paper's orbit: order 2 between sections is as good as order 4 of
+// positions and momenta.
+TEST(FlowBoxTransfer, OfOrderTwoIsAsGoodAsCartesianOfOrderFour) {
+  Scene scene =
+      scene_of(test::orbit_of(10000, 0.3, 60, 0, 0, 0, 1.082626675e-3, 2.532436e-6), 0, 4);
+  scene.transfer = TransferSettings{};
+  for (const double seconds : {7000.0, 12000.0, 17000.0}) {
+    scene.transfer->times.push_back(seconds / scene.units.time_s);
+  }
+  scene.duration = scene.transfer->times.back();
+  scene.transfer->start.position_m = {10000, 0, 0};
+  scene.transfer->end.position_m = {0, -100, 0};
+  const TransferResult cartesian = study_transfer(scene);
+  scene.coordinates = JetCoordinates::flow_box;
+  const TransferResult charted = study_transfer(scene);
+  ASSERT_EQ(charted.points.size(), 3U);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto& wanted = cartesian.points[k].answers;
+    const auto& found = charted.points[k].answers;
+    ASSERT_TRUE(found[1].failure.empty()) << found[1].failure;
+    EXPECT_LE(found[1].miss_m, wanted[3].miss_m + charted.flight_floor_m);
+    EXPECT_LT(found[3].miss_m, 10 * charted.flight_floor_m);
+    // Both lead to the same place, so that their changes differ by what the misses are of them.
+    EXPECT_NEAR(found[3].start_change_m_s.norm(), wanted[3].start_change_m_s.norm(), 1e-3);
+  }
+}
+
+// Coordinates that are chosen are those whose reach is the largest.
+TEST(AutomaticCoordinates, AreTheFurthest) {
+  Scene scene = scene_of(sun_synchronous, sun_synchronous.period, 2);
+  scene.coordinates = JetCoordinates::automatic;
+  scene.validity = ValiditySettings{};
+  scene.validity->times = {scene.duration};
+  const ValidityInCoordinates all = study_validity_in_all(scene);
+  EXPECT_EQ(all.results.size(), measured_coordinates.size());
+  for (const ValidityResult& result : all.results) {
+    EXPECT_LE(result.points[0].entries[1].proved_m, all.furthest().points[0].entries[1].proved_m);
+  }
+  EXPECT_EQ(study_validity(scene).coordinates, all.furthest().coordinates);
+  EXPECT_EQ(measured_coordinates_of(scene), JetCoordinates::flow_box);
+  // Above the equator no node is defined; what is missing says why.
+  const ChiefOrbit equatorial = test::orbit_of(42164, 0.0002, 0.05, 10, 20, 30);
+  Scene still = scene_of(equatorial, equatorial.period, 2);
+  still.validity = scene.validity;
+  still.validity->times = {still.duration};
+  const ValidityInCoordinates some = study_validity_in_all(still);
+  ASSERT_EQ(some.refused.size(), 1U);
+  EXPECT_EQ(some.refused[0].coordinates, JetCoordinates::nodal);
+  EXPECT_NE(some.refused[0].reason.find("equatorial"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace hamjet
