@@ -115,7 +115,9 @@ StudyReport transfer_report(const TransferResult& result,
                   {"conditions.csv", conditions_csv(result)}};
   if (result.optimal) report.files.push_back({"impulses.csv", impulses_csv(result)});
   if (validity) report.files.push_back({"validity.csv", validity_csv(*validity)});
-  if (result.scene.output.has(oem_format.name) && trajectory) {
+  const OutputSettings& output = result.scene.output;
+  const bool has_messages = output.has(oem_format.name) || output.has(oem_xml_format.name);
+  if (has_messages && trajectory) {
     for (ReportFile& file : transfer_oems(result, *trajectory)) {
       report.files.push_back(std::move(file));
     }
