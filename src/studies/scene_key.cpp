@@ -103,7 +103,7 @@ enum class KeyOf { reference, comparison };
 /// what it determines.
 std::string scene_key(const Scene& scene, int jet_order, KeyOf whose) {
   const auto& [name, title, precision, system, units, canonical_radius, nominal, duration, order,
-               arcs, symmetry, variables, integrators, separation, kinds, reference,
+               arcs, symmetry, variables, jet_times, integrators, separation, kinds, reference,
                relative_hamiltonian_times, checks, comparison, figure, deputy, transfer, validity,
                assignment, output, ephemeris, nominal_file, warnings, own_system] = scene;
   KeyText key;

@@ -106,6 +106,9 @@ struct Scene {
   /// `jet.symmetry`: left out of the integration of jets and put back.
   FlowSymmetry symmetry = FlowSymmetry::rotation;
   std::vector<std::size_t> variables;  ///< indices into (q, p) to expand in, ascending
+  /// `jet.times_...`: canonical times before the duration at which runs, all of Gauss and in one
+  /// arc, have their jets too, moving away from 0; empty: at the duration alone.
+  std::vector<double> jet_times;
   std::vector<IntegratorSettings> integrators;
   /// `[formation]`, canonical length (metres where that is the unit).
   std::optional<double> separation;
