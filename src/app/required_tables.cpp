@@ -33,7 +33,8 @@ void require_transfer(const Scene& scene, const std::string& file) {
   require_table(file, scene.transfer.has_value(), "transfer",
                 "times_s = [1200, 1800], start = {position_m = [0, -1000, 0]}, "
                 "end = {position_m = [0, -100, 0]}");
-  if (scene.assignment && is_zero(scene.transfer->start) && is_zero(scene.transfer->end)) {
+  const bool has_end = !scene.transfer->end.is_along_axes() || !is_zero(scene.transfer->end);
+  if (scene.assignment && is_zero(scene.transfer->start) && !has_end) {
     refuse_scene(
         file, "transfer.start",
         "missing, must be a table with position_m, as must transfer.end; `hamjet assign` works "

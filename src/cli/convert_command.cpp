@@ -62,6 +62,17 @@ void add_description_options(CLI::App& command, io::JetDescription& foreign) {
   }
 }
 
+io::StoredJet read_jet(const ConvertOptions& options) {
+  if (!options.time) return read_noted_jet(options.from, options.run, options.foreign);
+  const io::WantedTimes wanted = wanted_times(*options.time);
+  if (wanted.seconds.size() != 1) {
+    refuse(
+        fmt::format("--time: must be one time in seconds, got {}", io::in_quotes(*options.time)));
+  }
+  if (io::is_any_given(options.foreign)) refuse("--time: a jet from elsewhere has one time");
+  return read_noted_jets(options.from, options.run, wanted).front();
+}
+
 }  // namespace
 
 CLI::App* add_convert_command(CLI::App& app, ConvertOptions& options) {
@@ -78,6 +89,10 @@ CLI::App* add_convert_command(CLI::App& app, ConvertOptions& options) {
       ->type_name("FILE");
   command->add_option("--run", options.run, "label of the run (default: the first with a result)")
       ->type_name("LABEL");
+  command
+      ->add_option("--time", options.time,
+                   "the jet at this one of the scene's jet.times_s (default: the end)")
+      ->type_name("SECONDS");
   add_description_options(*command, options.foreign);
   return command;
 }
@@ -95,7 +110,7 @@ int convert(const ConvertOptions& options) {
     throw Error(ErrorKind::usage, "from and to: are the same file");
   }
   const OutputFile file(to);
-  const io::StoredJet stored = read_noted_jet(options.from, options.run, options.foreign);
+  const io::StoredJet stored = read_jet(options);
   if (const auto note = rounding_note(stored, format)) print_error("note: " + *note);
   file.write(io::jet_file_content(stored, format));
   return 0;

@@ -40,6 +40,7 @@ void check_options(const EvalOptions& options) {
   refuse_empty(options.deviations, "--deviations", "a file");
   refuse_empty(options.deputy, "--deputy", "a scene");
   refuse_empty(options.run, "--run", "a run");
+  refuse_empty(options.time, "--time", "a time");
   refuse_empty(options.output, "--output", "a file");
   options.frames.check();
   const int given = int(options.deviation.has_value()) + int(options.deviations.has_value()) +
@@ -155,16 +156,19 @@ std::string miss_covers(const io::StoredJet& stored) {
 /// What has been evaluated, as it is printed.
 class Output {
  public:
-  Output(const std::vector<std::string_view>& columns, std::size_t rows)
-      : columns_(columns), has_json_rows_(rows <= most_json_rows) {
-    fmt::format_to(std::back_inserter(csv_), "{},miss_estimate_m,support\n",
-                   fmt::join(columns, ","));
+  /// With a column of the time if `has_time`.
+  Output(const std::vector<std::string_view>& columns, std::size_t rows, bool has_time)
+      : columns_(columns), has_json_rows_(rows <= most_json_rows), has_time_(has_time) {
+    fmt::format_to(std::back_inserter(csv_), "{}{},miss_estimate_m,support\n",
+                   has_time ? "time_s," : "", fmt::join(columns, ","));
   }
 
-  void add(const std::vector<double>& state, const MissEstimate& estimate) {
+  void add(double time_s, const std::vector<double>& state, const MissEstimate& estimate) {
     const bool is_inside = estimate.is_inside();
     const bool is_outside = estimate.support == Support::outside;
     const auto write = std::back_inserter(csv_);
+    ++rows_;
+    if (has_time_) fmt::format_to(write, "{},", time_s);
     for (const double x : state) {
       if (std::isfinite(x)) fmt::format_to(write, "{}", is_outside ? size_alone(x) : x);
       fmt::format_to(write, ",");
@@ -177,6 +181,7 @@ class Output {
     unknown_ += estimate.support == Support::unknown ? 1 : 0;
     if (!has_json_rows_) return;
     Json row;
+    if (has_time_) row["time_s"] = time_s;
     for (std::size_t i = 0; i < state.size(); ++i) {
       row[std::string(columns_[i])] = is_outside ? size_alone(state[i]) : state[i];
     }
@@ -189,6 +194,7 @@ class Output {
 
   std::string csv() const { return fmt::to_string(csv_); }
   Json json_rows() const { return has_json_rows_ ? json_rows_ : Json(nullptr); }
+  std::size_t rows() const { return rows_; }
   std::size_t outside() const { return outside_; }
   std::size_t unknown() const { return unknown_; }
   /// Rows whose final state has no numbers of the form asked for.
@@ -197,8 +203,10 @@ class Output {
   std::optional<double> largest_miss() const { return largest_miss_; }
 
  private:
-  const std::vector<std::string_view>& columns_;
+  std::vector<std::string_view> columns_;
   bool has_json_rows_;
+  bool has_time_;
+  std::size_t rows_ = 0;
   fmt::memory_buffer csv_;
   Json json_rows_ = Json::array();
   std::size_t outside_ = 0;
@@ -207,76 +215,117 @@ class Output {
   std::optional<double> largest_miss_;
 };
 
-std::string summary(const EvalOptions& options, const io::StoredJet& stored,
-                    const JetEvaluation& evaluation, const Output& output) {
+/// What all evaluations took.
+struct Work {
+  double seconds = 0;
+  int degree = 0;
+  std::size_t multiply_adds_per_point = 0;
+  std::size_t products_per_point = 0;
+
+  void add(const JetEvaluation& evaluation) {
+    seconds += evaluation.seconds();
+    degree = evaluation.evaluator().degree();
+    multiply_adds_per_point = evaluation.evaluator().multiply_adds_per_point();
+    products_per_point = evaluation.evaluator().products_per_point();
+  }
+};
+
+std::string summary(const EvalOptions& options, const std::vector<io::StoredJet>& jets,
+                    const Work& work, const Output& output) {
+  const io::StoredJet& stored = jets.front();
   const bool is_rtn = options.frames.frame == "RTN" || options.frames.final_frame() == "RTN";
-  const auto points = static_cast<double>(evaluation.points());
-  const auto multiply_adds = static_cast<double>(evaluation.evaluator().multiply_adds_per_point());
-  const Json json = {
-      {"scene", stored.scene},
-      {"run", stored.label},
-      {"model", model_name(stored.model)},
-      {"order", stored.order()},
-      {"degree", evaluation.evaluator().degree()},
-      {"frame", options.frames.frame},
-      {"final_frame", options.frames.final_frame()},
-      {"derivatives",
-       is_rtn ? Json(options.frames.derivatives.value_or("rotating")) : Json(nullptr)},
-      {"duration_s", stored.duration * stored.units.time_s},
-      {"points", evaluation.points()},
-      {"outside", output.outside()},
-      {"unknown", output.unknown()},
-      {"undefined", output.undefined()},
-      {"miss_estimate_covers", miss_covers(stored)},
-      {"largest_miss_estimate_m",
-       output.largest_miss() ? Json(*output.largest_miss()) : Json(nullptr)},
-      {"evaluation",
-       {{"seconds", evaluation.seconds()},
-        {"nanoseconds_per_point", evaluation.seconds() / points * 1e9},
-        {"multiply_adds_per_point", evaluation.evaluator().multiply_adds_per_point()},
-        {"products_per_point", evaluation.evaluator().products_per_point()},
-        {"multiply_adds_per_second", multiply_adds * points / evaluation.seconds()}}},
-      {"rows", output.json_rows()}};
+  const auto points = static_cast<double>(output.rows());
+  const auto multiply_adds = static_cast<double>(work.multiply_adds_per_point);
+  const Json json = {{"scene", stored.scene},
+                     {"run", stored.label},
+                     {"model", model_name(stored.model)},
+                     {"order", stored.order()},
+                     {"degree", work.degree},
+                     {"frame", options.frames.frame},
+                     {"final_frame", options.frames.final_frame()},
+                     {"derivatives", is_rtn ? Json(options.frames.derivatives.value_or("rotating"))
+                                            : Json(nullptr)},
+                     {"duration_s", jets.back().duration * stored.units.time_s},
+                     {"times", jets.size()},
+                     {"points", output.rows()},
+                     {"outside", output.outside()},
+                     {"unknown", output.unknown()},
+                     {"undefined", output.undefined()},
+                     {"miss_estimate_covers", miss_covers(stored)},
+                     {"largest_miss_estimate_m",
+                      output.largest_miss() ? Json(*output.largest_miss()) : Json(nullptr)},
+                     {"evaluation",
+                      {{"seconds", work.seconds},
+                       {"nanoseconds_per_point", work.seconds / points * 1e9},
+                       {"multiply_adds_per_point", work.multiply_adds_per_point},
+                       {"products_per_point", work.products_per_point},
+                       {"multiply_adds_per_second", multiply_adds * points / work.seconds}}},
+                     {"rows", output.json_rows()}};
   return json.dump(2) + "\n";
 }
 
-void report(const EvalCoordinates& coordinates, const io::StoredJet& stored,
-            const JetEvaluation& evaluation, const Output& output) {
+void report(const EvalCoordinates& coordinates, const io::StoredJet& stored, const Work& work,
+            const Output& output) {
   const bool is_linear = stored.order() < 2;
-  const auto points = static_cast<double>(evaluation.points());
-  const std::size_t multiply_adds = evaluation.evaluator().multiply_adds_per_point();
+  const auto points = static_cast<double>(output.rows());
+  const std::size_t multiply_adds = work.multiply_adds_per_point;
   print_note(fmt::format(
       "points {}, evaluation alone {:.3g} s, {:.3g} ns a point, {} multiply-adds a point, "
       "{:.3g} multiply-adds a second",
-      evaluation.points(), evaluation.seconds(), evaluation.seconds() / points * 1e9, multiply_adds,
-      static_cast<double>(multiply_adds) * points / evaluation.seconds()));
+      output.rows(), work.seconds, work.seconds / points * 1e9, multiply_adds,
+      static_cast<double>(multiply_adds) * points / work.seconds));
   print_note(fmt::format("frame {}; the estimates of the miss cover {}", coordinates.text(),
                          miss_covers(stored)));
   if (output.outside() > 0) {
     print_note(fmt::format(
         "{} of {} marked outside, beyond the polynomial's reach: its degrees do not decay at "
         "such deviations, and the numbers are sizes alone",
-        output.outside(), counted(evaluation.points(), "row")));
+        output.outside(), counted(output.rows(), "row")));
   }
   if (output.undefined() > 0) {
     print_note(fmt::format(
         "{} of {} without numbers: their final state is no elliptic orbit with a node, or not "
         "finite, and has no coordinates of this kind",
-        output.undefined(), counted(evaluation.points(), "row")));
+        output.undefined(), counted(output.rows(), "row")));
   }
   if (output.unknown() > 0) {
     print_note(fmt::format("{} of {} marked unknown: {}", output.unknown(),
-                           counted(evaluation.points(), "row"),
+                           counted(output.rows(), "row"),
                            is_linear ? "degree 1 alone has no decay to judge by"
                                      : "their numbers are beyond double precision"));
   }
+}
+
+std::vector<io::StoredJet> read_jets(const EvalOptions& options) {
+  if (options.time) {
+    return read_noted_jets(options.directory, options.run, wanted_times(*options.time));
+  }
+  return {read_noted_jet(options.directory, options.run)};
+}
+
+/// Carries all deviations through one jet.
+void evaluate(const EvalOptions& options, const io::StoredJet& stored,
+              const EvalCoordinates& coordinates, const io::NumberTable& deviations, Work& work,
+              Output& output) {
+  const double time_s = stored.duration * stored.units.time_s;
+  JetEvaluation evaluation(stored, options.degree);
+  for (std::size_t row = 0; row < deviations.rows(); ++row) {
+    evaluation.add(variables_of(options, coordinates, deviations, row));
+    if (evaluation.pending() < JetEvaluation::most_points && row + 1 < deviations.rows()) continue;
+    stop_if_interrupted();
+    evaluation.run([&](const std::vector<double>& deviation, const MissEstimate& estimate) {
+      output.add(time_s, coordinates.final_state(deviation), estimate);
+    });
+  }
+  work.add(evaluation);
 }
 
 }  // namespace
 
 int eval(const EvalOptions& options) {
   check_options(options);
-  const io::StoredJet stored = read_noted_jet(options.directory, options.run);
+  const std::vector<io::StoredJet> jets = read_jets(options);
+  const io::StoredJet& stored = jets.front();
   if (options.degree && (*options.degree < 1 || *options.degree > stored.order())) {
     refuse(fmt::format("--degree {}: must be 1 to the order of the jet, {}", *options.degree,
                        stored.order()));
@@ -286,30 +335,26 @@ int eval(const EvalOptions& options) {
   if (options.output) file.emplace(*options.output);
   const io::NumberTable deviations = read_deviations(options, stored, coordinates);
 
-  JetEvaluation evaluation(stored, options.degree);
-  Output output(coordinates.final_columns(), deviations.rows());
-  for (std::size_t row = 0; row < deviations.rows(); ++row) {
-    evaluation.add(variables_of(options, coordinates, deviations, row));
-    if (evaluation.pending() < JetEvaluation::most_points && row + 1 < deviations.rows()) continue;
-    stop_if_interrupted();
-    evaluation.run([&](const std::vector<double>& deviation, const MissEstimate& estimate) {
-      output.add(coordinates.final_state(deviation), estimate);
-    });
+  Work work;
+  Output output(coordinates.final_columns(), deviations.rows() * jets.size(),
+                options.time.has_value());
+  for (const io::StoredJet& jet : jets) {
+    evaluate(options, jet, EvalCoordinates(jet, options.frames), deviations, work, output);
   }
 
   if (file) file->write(output.csv());
   // From here on a signal ends the program at once: what is printed cannot be taken back.
   { const UninterruptedWriting results; }
   if (options.json) {
-    print(summary(options, stored, evaluation, output));
+    print(summary(options, jets, work, output));
   } else if (!file) {
     print(output.csv());
   }
-  if (!options.quiet) report(coordinates, stored, evaluation, output);
+  if (!options.quiet) report(coordinates, stored, work, output);
   const std::size_t not_inside = std::max(output.outside() + output.unknown(), output.undefined());
   if (!options.strict || not_inside == 0) return 0;
   print_error(fmt::format("--strict: {} of {} not inside the polynomial's reach", not_inside,
-                          counted(evaluation.points(), "row")));
+                          counted(output.rows(), "row")));
   return static_cast<int>(ErrorKind::check_failed);
 }
 

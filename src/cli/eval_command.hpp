@@ -14,6 +14,7 @@ struct EvalOptions {
   std::optional<std::string> deputy;      ///< a scene, whose deputy it is
   std::optional<std::string> run;         ///< label of the integrator's run
   EvalFrames frames;
+  std::optional<std::string> time;    ///< of the jets: seconds between commas, or all
   std::optional<int> degree;          ///< truncates the jet
   std::optional<std::string> output;  ///< CSV file; absent: standard output
   bool json = false;

@@ -153,6 +153,10 @@ CLI::App* add_eval_command(CLI::App& app, hamjet::cli::EvalOptions& options) {
                    "of RTN: rotating (default: velocities as seen from the turning axes) or "
                    "inertial")
       ->type_name("{rotating,inertial}");
+  eval->add_option("--time", options.time,
+                   "jets at these times that jet.times_s (or _orbits, _canonical, count) of the "
+                   "scene asked for, and a column time_s (default: the end alone, without it)")
+      ->type_name("SECONDS,...|all");
   eval->add_option("--degree", options.degree, "leave out terms above this degree")->type_name("K");
   hamjet::cli::add_output_option(
       *eval, options.output,

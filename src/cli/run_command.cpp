@@ -137,6 +137,11 @@ void check_flow_jet(const RunOptions& options, const std::string& file, const Sc
       scene.duration, scene.duration * scene.units.time_s, scene.order,
       counted(scene.variables.size(), "variable"), counted(problem.space->size(), "coefficient"),
       components, estimate_memory(scene, *problem.system, scene.variables.size(), threads) / 1e6);
+  if (!scene.jet_times.empty()) {
+    text += fmt::format("  jets         at {} to {:.10g} s too\n",
+                        counted(scene.jet_times.size(), "time"),
+                        scene.jet_times.back() * scene.units.time_s);
+  }
   for (const IntegratorSettings& settings : scene.integrators) {
     text += fmt::format("  integrator   {}: {}", settings.label, method_name(settings.method));
     for (const MethodSetting& setting : description_of(settings.method).settings) {

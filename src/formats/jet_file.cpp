@@ -13,6 +13,7 @@
 #include "foreign_jet.hpp"
 #include "hamjet/error.hpp"
 #include "output_formats.hpp"
+#include "results_names.hpp"
 #include "stored_jet_source.hpp"
 
 namespace hamjet::io {
@@ -61,15 +62,23 @@ StoredJet read_beside_summary(const std::filesystem::path& file, const OutputFor
                               std::optional<std::string> label) {
   const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
   std::filesystem::path directory = folder;
+  std::string time_folder;
   if (!has_summary(directory)) {
     directory /= "..";
+    std::filesystem::path of_run = std::filesystem::canonical(folder);
+    const bool is_of_time = of_run.filename().string().starts_with(time_folder_head);
+    if (is_of_time) directory /= "..";
     if (!has_summary(directory)) {
       throw Error(ErrorKind::input_output,
                   fmt::format("{}: no summary.json beside it or one folder up, which says what its "
                               "coefficients are of; give the results directory or an .h5 file{}",
                               printable_path(file), how_to_describe(format)));
     }
-    if (!label) label = std::filesystem::canonical(folder).filename().string();
+    if (is_of_time) {
+      time_folder = of_run.filename().string();
+      of_run = of_run.parent_path();
+    }
+    if (!label) label = of_run.filename().string();
   }
   ResultSet set(directory, "summary.json");
   const std::string relative = std::filesystem::relative(file, directory).generic_string();
@@ -81,7 +90,8 @@ StoredJet read_beside_summary(const std::filesystem::path& file, const OutputFor
     if (wanted == set.path()) return set.summary();
     return is_listed ? set.read(relative) : read_text_file(wanted, largest_jet_bytes);
   };
-  StoredJet stored = read_stored_jet(directory, label, read, {file, format.read_coefficients});
+  StoredJet stored =
+      read_stored_jet(directory, label, read, {file, format.read_coefficients, time_folder});
   if (format.digits > 0) stored.precision = Precision::double_precision;
   set.verify();
   return stored;
@@ -118,6 +128,22 @@ StoredJet read_jet_file(const std::filesystem::path& path, const std::optional<s
   if (format->read == nullptr) return read_beside_summary(path, *format, label);
   if (!format->is_built()) (void)format->read({}, {}, {});  // throws, saying how to get it
   return format->read(printable_path(path), read_text_file(path, largest_jet_bytes), label);
+}
+
+std::vector<StoredJet> read_jets_at_times(const std::filesystem::path& path,
+                                          const std::optional<std::string>& label,
+                                          const WantedTimes& wanted) {
+  std::error_code none;
+  if (std::filesystem::is_directory(path, none)) return read_stored_jets(path, label, wanted);
+  StoredJet stored = read_jet_file(path, label);
+  for (const double time_s : wanted.seconds) {
+    if (is_at(stored, time_s)) continue;
+    throw Error(ErrorKind::usage,
+                fmt::format("{}: has the jet at {:.12g} s alone, got the time {:.12g} s; the "
+                            "results directory has those of all times",
+                            printable_path(path), stored.duration * stored.units.time_s, time_s));
+  }
+  return {std::max<std::size_t>(wanted.seconds.size(), 1), stored};
 }
 
 std::string jet_file_content(const StoredJet& stored, const OutputFormat& format) {

@@ -13,7 +13,9 @@ namespace hamjet::io {
 
 const std::vector<const OutputFormat*>& output_formats() {
   static const std::vector<const OutputFormat*> formats = {
-      &hdf5_format, &dace_format, &csv_format, &oem_format, &start_opm_format, &end_opm_format,
+      &hdf5_format,    &dace_format,          &csv_format,
+      &oem_format,     &oem_xml_format,       &start_opm_format,
+      &end_opm_format, &start_opm_xml_format, &end_opm_xml_format,
   };
   return formats;
 }

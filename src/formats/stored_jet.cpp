@@ -124,30 +124,16 @@ int StoredJet::momentum_exponent() const {
   return natural_momentum_exponent(is_orbit(model), nominal_initial);
 }
 
-StoredJet read_stored_jet(const std::filesystem::path& directory,
-                          const std::optional<std::string>& label) {
-  ResultSet set(directory, "summary.json");
-  StoredJet stored = read_stored_jet(directory, label, [&](const std::filesystem::path& file) {
-    if (file == set.path()) return set.summary();
-    return set.read(file.lexically_relative(directory).generic_string());
-  });
-  // The checksums come last, for the reader's own checks say better what is wrong.
-  set.verify();
-  return stored;
-}
+namespace {
 
-StoredJet read_stored_jet(const std::filesystem::path& directory,
-                          const std::optional<std::string>& label, const FileReader& read) {
-  return read_stored_jet(directory, label, read, {{}, read_coefficients});
-}
+/// What a summary says of a run, but for the coefficients.
+struct DescribedRun {
+  StoredJet stored;  ///< at the duration
+  int order = 0;
+  JsonReader json;
+};
 
-StoredJet read_stored_jet(const std::filesystem::path& directory,
-                          const std::optional<std::string>& label, const FileReader& read,
-                          const CoefficientSource& source) {
-  const std::filesystem::path summary = directory / "summary.json";
-  const std::string summary_name = printable_path(summary);
-  const nlohmann::json json = JsonReader::parse(read(summary), summary_name);
-  const JsonReader root(json, summary_name);
+DescribedRun read_description(const JsonReader& root, const std::optional<std::string>& label) {
   require_this_version(root);
   StoredJet stored;
   stored.scene = root.at("scene").text();
@@ -178,20 +164,148 @@ StoredJet read_stored_jet(const std::filesystem::path& directory,
   stored.label = run.at("label").text();
   stored.nominal_final = state(run.at("nominal_final"), {names.size()});
   stored.error_by_degree = coefficient_errors(run);
-  const std::filesystem::path file =
-      source.file.empty() ? directory / stored.label / "jet.csv" : source.file;
-  stored.jet = source.read(
-      {printable_path(file), names, stored.components, stored.variables, order, stored.precision},
-      read(file));
+  return {stored, order, run};
+}
+
+/// The run's jets before the duration, as the summary describes them.
+std::vector<JsonReader> jets_before(const JsonReader& run) {
+  if (!run.has("jets")) return {};
+  return run.at("jets").list([](const JsonReader& jet) {
+    require_plain(jet.at("folder"));
+    return jet;
+  });
+}
+
+/// The description of one of them.
+DescribedRun at_time(const DescribedRun& run, const JsonReader& jet) {
+  DescribedRun one = run;
+  one.stored.duration = finite_number(jet.at("time_canonical"));
+  one.stored.nominal_final = state(jet.at("nominal"), {run.stored.variable_names().size()});
+  one.stored.error_by_degree = coefficient_errors(jet);
+  one.json = jet;
+  return one;
+}
+
+StoredJet with_coefficients(DescribedRun run, const std::filesystem::path& file,
+                            const FileReader& read, const CoefficientSource& source) {
+  StoredJet& stored = run.stored;
+  const auto names = stored.variable_names();
+  stored.jet = source.read({printable_path(file), names, stored.components, stored.variables,
+                            run.order, stored.precision},
+                           read(file));
+  const JsonReader nominal = run.json.at(run.json.has("nominal") ? "nominal" : "nominal_final");
   for (std::size_t c = 0; c < stored.components.size(); ++c) {
     const std::size_t i = stored.components[c];
     if (static_cast<double>(stored.jet[c].constant()) != stored.nominal_final[i]) {
-      run.at("nominal_final")
-          .fail(fmt::format("the {} is not that of {}: the files are of different runs", names[i],
-                            printable_path(file)));
+      nominal.fail(fmt::format("the {} is not that of {}: the files are of different runs",
+                               names[i], printable_path(file)));
     }
   }
-  return stored;
+  return std::move(stored);
+}
+
+/// The files of a directory of results, whose checksums are judged at the end, for the reader's own
+/// checks say better what is wrong.
+template <class Read>
+auto read_verified(const std::filesystem::path& directory, const Read& read) {
+  ResultSet set(directory, "summary.json");
+  auto result = read([&](const std::filesystem::path& file) {
+    if (file == set.path()) return set.summary();
+    return set.read(file.lexically_relative(directory).generic_string());
+  });
+  set.verify();
+  return result;
+}
+
+[[noreturn]] void refuse_time(const DescribedRun& run, const std::vector<DescribedRun>& all,
+                              double time_s) {
+  constexpr std::size_t most_named = 12;
+  std::vector<std::string> times;
+  for (const DescribedRun& one : all) {
+    times.push_back(fmt::format("{:.12g}", one.stored.duration * one.stored.units.time_s));
+  }
+  const bool has_more = times.size() > most_named;
+  if (has_more) times.erase(times.begin() + most_named - 1, times.end() - 1);
+  const std::string listed =
+      has_more ? fmt::format("{}, ..., {}", fmt::join(times.begin(), times.end() - 1, ", "),
+                             times.back())
+               : fmt::format("{}", fmt::join(times, ", "));
+  throw Error(ErrorKind::usage,
+              fmt::format("no jet of the run {} at {:.12g} s, must be one of {} s; others take a "
+                          "scene with jet.times_s",
+                          printable(run.stored.label), time_s, listed));
+}
+
+}  // namespace
+
+bool is_at(const StoredJet& stored, double time_s) {
+  const double stored_s = stored.duration * stored.units.time_s;
+  return std::abs(time_s - stored_s) <= 1e-9 * std::abs(stored_s);
+}
+
+StoredJet read_stored_jet(const std::filesystem::path& directory,
+                          const std::optional<std::string>& label) {
+  return read_verified(
+      directory, [&](const FileReader& read) { return read_stored_jet(directory, label, read); });
+}
+
+StoredJet read_stored_jet(const std::filesystem::path& directory,
+                          const std::optional<std::string>& label, const FileReader& read) {
+  return read_stored_jet(directory, label, read, {{}, read_coefficients});
+}
+
+StoredJet read_stored_jet(const std::filesystem::path& directory,
+                          const std::optional<std::string>& label, const FileReader& read,
+                          const CoefficientSource& source) {
+  const std::filesystem::path summary = directory / "summary.json";
+  const std::string summary_name = printable_path(summary);
+  const nlohmann::json json = JsonReader::parse(read(summary), summary_name);
+  DescribedRun run = read_description({json, summary_name}, label);
+  if (!source.time_folder.empty()) {
+    const std::vector<JsonReader> jets = jets_before(run.json);
+    const auto found = std::find_if(jets.begin(), jets.end(), [&](const JsonReader& jet) {
+      return jet.at("folder").text() == source.time_folder;
+    });
+    if (found == jets.end()) {
+      run.json.fail(fmt::format("has no jet in the folder {}", printable(source.time_folder)));
+    }
+    run = at_time(run, *found);
+  }
+  const std::filesystem::path file =
+      source.file.empty() ? directory / run.stored.label / "jet.csv" : source.file;
+  return with_coefficients(std::move(run), file, read, source);
+}
+
+std::vector<StoredJet> read_stored_jets(const std::filesystem::path& directory,
+                                        const std::optional<std::string>& label,
+                                        const WantedTimes& wanted) {
+  return read_verified(directory, [&](const FileReader& read) {
+    const std::filesystem::path summary = directory / "summary.json";
+    const std::string summary_name = printable_path(summary);
+    const nlohmann::json json = JsonReader::parse(read(summary), summary_name);
+    const DescribedRun run = read_description({json, summary_name}, label);
+    std::vector<DescribedRun> all;
+    for (const JsonReader& jet : jets_before(run.json)) all.push_back(at_time(run, jet));
+    all.push_back(run);
+    const auto with_file = [&](const DescribedRun& one) {
+      std::filesystem::path folder = directory / run.stored.label;
+      if (one.json.has("folder")) folder /= one.json.at("folder").text();
+      return with_coefficients(one, folder / "jet.csv", read, {{}, read_coefficients});
+    };
+    std::vector<StoredJet> jets;
+    if (wanted.all) {
+      for (const DescribedRun& one : all) jets.push_back(with_file(one));
+      return jets;
+    }
+    for (const double time_s : wanted.seconds) {
+      const auto found = std::find_if(all.begin(), all.end(), [&](const DescribedRun& one) {
+        return is_at(one.stored, time_s);
+      });
+      if (found == all.end()) refuse_time(run, all, time_s);
+      jets.push_back(with_file(*found));
+    }
+    return jets;
+  });
 }
 
 std::vector<Series<double>> evaluation_error(const StoredJet& stored,

@@ -15,6 +15,7 @@ namespace hamjet::io {
 struct CoefficientSource {
   std::filesystem::path file;  ///< empty: the run's jet.csv
   std::function<FlowJet<Extended>(const CoefficientFile&, std::string_view text)> read;
+  std::string time_folder = {};  ///< of the run's jet at a time before the duration; else empty
 };
 
 /// read_stored_jet of stored_jet.hpp with coefficients from another file or format.

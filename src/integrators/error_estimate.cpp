@@ -14,13 +14,14 @@
 #include "../algebra/raise_to.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
+#include "hamjet/integrators/jet_trajectory.hpp"
+#include "jet_directions.hpp"
 #include "line_restriction.hpp"
 #include "momentum_unit.hpp"
 
 namespace hamjet {
 namespace {
 
-constexpr std::size_t candidates = 16;
 constexpr std::size_t rounding_samples = 16;  ///< along each direction
 /// Stages of the run along each direction; other stages make other steps.
 constexpr std::array<int, 2> stages_of_runs = {16, 15};
@@ -36,73 +37,6 @@ constexpr std::array<std::size_t, 1> variable_of_line = {0};
 template <class Real>
 constexpr double rounding() {
   return static_cast<double>(std::numeric_limits<Real>::epsilon());
-}
-
-/// The largest magnitudes of the coefficients of each degree.
-template <class Real>
-std::vector<double> largest_by_degree(const FlowJet<Real>& jet) {
-  const SeriesSpace& space = jet[0].space();
-  std::vector<double> largest(static_cast<std::size_t>(space.order()) + 1, 0);
-  for (const Series<Real>& component : jet) {
-    for (std::size_t k = 0; k < space.size(); ++k) {
-      double& of = largest[static_cast<std::size_t>(space.degree(k))];
-      of = std::max(of, std::abs(static_cast<double>(component[k])));
-    }
-  }
-  return largest;
-}
-
-/// A direction with the jet along it.
-template <class Real>
-struct Direction {
-  std::vector<Real> entries;
-  FlowJet<Real> jet;
-  double distortion = 0;  ///< logarithm of the most that a degree is larger or smaller here
-};
-
-/// A direction of entries about `length` in size.
-template <class Real>
-Direction<Real> direction_of(std::vector<Real> entries, double length, const FlowJet<Real>& jet,
-                             const SpacePointer& line, const std::vector<double>& largest) {
-  Direction<Real> direction{std::move(entries), {}, 0};
-  direction.jet = restrict_to_line(jet, direction.entries, line);
-  const std::vector<double> along = largest_by_degree(direction.jet);
-  double weight = 1;  // of a monomial
-  for (std::size_t d = 1; d < along.size(); ++d) {
-    weight *= length;
-    if (largest[d] == 0) continue;
-    const double distortion = std::abs(std::log(along[d] / (weight * largest[d])));
-    direction.distortion = std::max(direction.distortion, distortion);
-  }
-  return direction;
-}
-
-template <class Real>
-Direction<Real> draw_direction(std::mt19937_64& generator, const FlowJet<Real>& jet,
-                               const SpacePointer& line, const std::vector<double>& largest) {
-  std::vector<Real> entries;
-  for (std::size_t v = 0; v < jet[0].space().variables(); ++v) {
-    const std::uint64_t bits = generator();
-    const double fraction = static_cast<double>(bits >> 12) * 0x1p-52;  // in [0, 1)
-    const double size = std::sqrt(0.5) * (1 + fraction);
-    entries.emplace_back((bits & 1) == 0 ? size : -size);
-  }
-  return direction_of(std::move(entries), 1, jet, line, largest);
-}
-
-/// The directions along which the jet is judged by runs of their own.
-template <class Real>
-std::vector<Direction<Real>> choose_directions(const FlowJet<Real>& jet, const SpacePointer& line,
-                                               const std::vector<double>& largest) {
-  std::mt19937_64 generator(20040693);
-  std::vector<Direction<Real>> drawn;
-  for (std::size_t k = 0; k < candidates; ++k) {
-    drawn.push_back(draw_direction(generator, jet, line, largest));
-  }
-  std::stable_sort(drawn.begin(), drawn.end(),
-                   [](const auto& a, const auto& b) { return a.distortion < b.distortion; });
-  drawn.resize(stages_of_runs.size());
-  return drawn;
 }
 
 /// The directions of known lines, in the estimate's unit of momentum; none unless the degrees of
@@ -246,29 +180,42 @@ void move_by_half_units(FlowProblem<Real>& along, std::mt19937_64& generator) {
   for (std::size_t i = 0; i < start.size(); ++i) along.initial_state[i] = start[i][0];
 }
 
+/// How the run along a direction is integrated.
 template <class Real>
-FlowJet<Real> run_along(const FlowProblem<Real>& problem, const std::vector<Real>& direction,
-                        std::size_t number, const ErrorEstimateSettings& settings) {
+GaussSettings settings_of_run(std::size_t number, const ErrorEstimateSettings& settings) {
   GaussSettings gauss;
   gauss.stages = stages_of_runs[number];
   gauss.tolerance = settings.tolerance.value_or(4 * rounding<Real>());
   gauss.controls_all_degrees = true;
+  return gauss;
+}
+
+/// Counts the steps of the run along a direction.
+template <class Real>
+StepObserver<Real> observer_of_run(const Real& duration, std::size_t number,
+                                   const ErrorEstimateSettings& settings) {
+  return [&settings, duration, number, steps = 0L](const Real& time, const FlowJet<Real>&) mutable {
+    if (++steps > settings.most_steps) {
+      throw Error(ErrorKind::too_large,
+                  fmt::format("error estimate: the independent run would take more than {} "
+                              "steps",
+                              settings.most_steps));
+    }
+    if (!settings.progress) return;
+    const double done = static_cast<double>(Real(time / duration));
+    settings.progress((static_cast<double>(number) + done) /
+                      static_cast<double>(stages_of_runs.size()));
+  };
+}
+
+template <class Real>
+FlowJet<Real> run_along(const FlowProblem<Real>& problem, const std::vector<Real>& direction,
+                        std::size_t number, const ErrorEstimateSettings& settings) {
   const FlowProblem<Real> along = problem_along(problem, direction, settings.momentum_exponent);
   IntegrationStatistics statistics;
-  long steps = 0;
   FlowJet<Real> end =
-      integrate_gauss<Real>(along, gauss, statistics, [&](const Real& time, const FlowJet<Real>&) {
-        if (++steps > settings.most_steps) {
-          throw Error(ErrorKind::too_large,
-                      fmt::format("error estimate: the independent run would take more than {} "
-                                  "steps",
-                                  settings.most_steps));
-        }
-        if (!settings.progress) return;
-        const double done = static_cast<double>(Real(time / problem.duration));
-        settings.progress((static_cast<double>(number) + done) /
-                          static_cast<double>(stages_of_runs.size()));
-      });
+      integrate_gauss<Real>(along, settings_of_run<Real>(number, settings), statistics,
+                            observer_of_run<Real>(problem.duration, number, settings));
   return in_momentum_unit(std::move(end), variable_of_line, settings.momentum_exponent);
 }
 
@@ -288,7 +235,8 @@ std::vector<double> estimate_error(const FlowProblem<Real>& problem, const FlowJ
   const SpacePointer line = SeriesSpace::create(1, problem.space->order());
   const FlowJet<Real> jet = in_momentum_unit(delivered, problem.variables, exponent);
   const std::vector<double> largest = largest_by_degree(jet);
-  const std::vector<Direction<Real>> drawn = choose_directions(jet, line, largest);
+  const std::vector<Direction<Real>> drawn =
+      choose_directions(jet, line, largest, stages_of_runs.size());
   // Steps that were chosen along the known lines are judged along another one too.
   const FlowJet<Real> first = run_along(problem, drawn[0].entries, 0, settings);
   include_run(result, drawn[0], first, false, largest);
@@ -312,6 +260,46 @@ std::vector<double> estimate_error(const FlowProblem<Real>& problem, const FlowJ
 }
 
 template <class Real>
+std::vector<std::vector<double>> estimate_errors(const FlowProblem<Real>& problem,
+                                                 const std::vector<Real>& times,
+                                                 const std::vector<FlowJet<Real>>& delivered,
+                                                 const ErrorEstimateSettings& settings) {
+  validate(problem);
+  if (times.size() != delivered.size()) {
+    throw Error(ErrorKind::usage, "error estimate: times and jets are not of one number");
+  }
+  const auto degrees = static_cast<std::size_t>(problem.space->order()) + 1;
+  std::vector<std::vector<double>> result(times.size(), std::vector<double>(degrees, 0));
+  if (times.empty()) return result;
+  const int exponent = settings.momentum_exponent;
+  const SpacePointer line = SeriesSpace::create(1, problem.space->order());
+  std::vector<FlowJet<Real>> jets;
+  std::vector<std::vector<double>> largest;
+  for (const FlowJet<Real>& jet : delivered) {
+    validate_jet(problem, jet);
+    jets.push_back(in_momentum_unit(jet, problem.variables, exponent));
+    largest.push_back(largest_by_degree(jets.back()));
+  }
+  std::vector<FlowJet<Real>> first(times.size());
+  const std::vector<Direction<Real>> drawn =
+      choose_directions(jets.back(), line, largest.back(), stages_of_runs.size());
+  for (std::size_t number = 0; number < drawn.size(); ++number) {
+    const std::vector<Real>& entries = drawn[number].entries;
+    const JetTrajectory<Real> along(problem_along(problem, entries, exponent),
+                                    settings_of_run<Real>(number, settings), 256e6,
+                                    observer_of_run<Real>(problem.duration, number, settings));
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      FlowJet<Real> run = in_momentum_unit(along.at(times[i]), variable_of_line, exponent);
+      const Direction<Real> direction{entries, restrict_to_line(jets[i], entries, line)};
+      include_run(result[i], direction, run, false, largest[i]);
+      if (number > 0) include_nominals(result[i], first[i], run, largest[i][0]);
+      first[i] = std::move(run);
+    }
+  }
+  return result;
+}
+
+template <class Real>
 std::vector<double> sample_rounding(
     const FlowProblem<Real>& problem, const FlowJet<Real>& delivered,
     const std::function<FlowJet<Real>(const FlowProblem<Real>&)>& integrate,
@@ -325,7 +313,8 @@ std::vector<double> sample_rounding(
   std::vector<double> result(largest.size(), 0);
   std::mt19937_64 generator(1);
   double done = 0;
-  for (const Direction<Real>& direction : choose_directions(jet, line, largest)) {
+  for (const Direction<Real>& direction :
+       choose_directions(jet, line, largest, stages_of_runs.size())) {
     const FlowProblem<Real> along = problem_along(problem, direction.entries, exponent);
     const auto run = [&](const FlowProblem<Real>& start) {
       if (settings.progress) settings.progress(done);
@@ -347,6 +336,9 @@ template std::vector<double> sample_rounding(
     const FlowProblem<InstantiatedReal>&, const FlowJet<InstantiatedReal>&,
     const std::function<FlowJet<InstantiatedReal>(const FlowProblem<InstantiatedReal>&)>&,
     const ErrorEstimateSettings&);
+template std::vector<std::vector<double>> estimate_errors(
+    const FlowProblem<InstantiatedReal>&, const std::vector<InstantiatedReal>&,
+    const std::vector<FlowJet<InstantiatedReal>>&, const ErrorEstimateSettings&);
 template std::vector<double> estimate_error(const FlowProblem<InstantiatedReal>&,
                                             const FlowJet<InstantiatedReal>&,
                                             const ErrorEstimateSettings&,

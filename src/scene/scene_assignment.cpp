@@ -17,16 +17,16 @@ const TableDescription& slot_table() {
 }
 
 /// The states of the tables of a key, each read by `read`.
-template <class Read>
-std::vector<RelativeState> read_states(const TableReader& assignment, std::string_view key,
-                                       const TableDescription& description, const Read& read) {
+template <class State, class Read>
+std::vector<State> read_states(const TableReader& assignment, std::string_view key,
+                               const TableDescription& description, const Read& read) {
   const std::vector<TableReader> tables = assignment.tables(key);
   if (tables.size() > static_cast<std::size_t>(most_deputies)) {
     assignment.fail(key,
                     fmt::format("too many, got {} tables [[assignment.{}]], must be at most {}",
                                 tables.size(), key, most_deputies));
   }
-  std::vector<RelativeState> states;
+  std::vector<State> states;
   for (const TableReader& table : tables) {
     table.check_keys({description.names(),
                       {"frame", "derivatives"},
@@ -67,12 +67,13 @@ AssignmentSettings read_assignment(const TableReader& assignment, const Scene& s
   AssignmentSettings settings;
   assignment.read_if_any("time", settings.time);
   assignment.read_if_any("keep_apart_m", settings.keep_apart_m);
-  settings.deputies =
-      read_states(assignment, "deputy", assigned_deputy_table(), [&](const auto& table) {
+  settings.deputies = read_states<RelativeState>(
+      assignment, "deputy", assigned_deputy_table(), [&](const auto& table) {
         return read_relative_state(table, nominal, scene.transfer->frame);
       });
-  settings.slots = read_states(assignment, "slot", slot_table(),
-                               [&](const auto& table) { return read_arrival(table, nominal); });
+  settings.slots =
+      read_states<ArrivalState>(assignment, "slot", slot_table(),
+                                [&](const auto& table) { return read_arrival(table, nominal); });
   return settings;
 }
 

@@ -7,7 +7,7 @@
 
 #include "../text/scene_message.hpp"
 #include "hamjet/error.hpp"
-#include "scene_sections.hpp"
+#include "scene_relative_motion.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -96,27 +96,41 @@ std::optional<std::size_t> read_arcs(const TableReader& jet) {
 
 const TableDescription& jet_table() {
   const auto other_duration = absent::other("another duration");
+  // Only orbits have periods.
+  std::vector<SceneKey> times = transfer_time_keys(absent::other("the duration alone"));
+  for (SceneKey& key : times) {
+    if (key.name == "times_orbits") key.owners = {orbits};
+  }
   static const TableDescription table = {
-      {{"order", form::integer(1, largest_order), absent::value(JetSettings().order),
-        "degree of the Taylor polynomials in the initial deviations"},
-       {"variables", form::words("array of the model's variables", form::array(form::text())),
-        absent::other("all"),
-        "those to expand in: `x` to `pz`, `q` and `p`, or `q1`, ..., `p1`, ..."},
-       {"duration_s", form::number(), other_duration, "negative is backwards"},
-       {"duration_canonical", form::number(), other_duration, "the same"},
-       {"arcs",
-        form::words(fmt::format("integer from 1 to {}, or `\"auto\"`", most_arcs),
-                    form::integer(1, most_arcs)),
-        absent::value(1), "pieces of the flow, computed on threads; `auto` decides from counts"},
-       {"symmetry", form::choice({"none", "rotation"}), absent::value("rotation"),
-        "left out of the integration and put back exactly: `rotation` about the field's axis"},
-       {"coordinates",
-        form::choice({jet_coordinates_names.begin(), jet_coordinates_names.end()}),
-        absent::value("cartesian"),
-        "of the polynomials that predict deputies: `flow-box` (time and energy) reaches furthest, "
-        "`auto` measures which does",
-        {orbits}},
-       {"duration_orbits", form::number(), other_duration, "in periods of the nominal", {orbits}}}};
+      joined<SceneKey>(
+          {{{"order", form::integer(1, largest_order), absent::value(JetSettings().order),
+             "degree of the Taylor polynomials in the initial deviations"},
+            {"variables", form::words("array of the model's variables", form::array(form::text())),
+             absent::other("all"),
+             "those to expand in: `x` to `pz`, `q` and `p`, or `q1`, ..., `p1`, ..."},
+            {"duration_s", form::number(), other_duration, "negative is backwards"},
+            {"duration_canonical", form::number(), other_duration, "the same"},
+            {"arcs",
+             form::words(fmt::format("integer from 1 to {}, or `\"auto\"`", most_arcs),
+                         form::integer(1, most_arcs)),
+             absent::value(1),
+             "pieces of the flow, computed on threads; `auto` decides from counts"},
+            {"symmetry", form::choice({"none", "rotation"}), absent::value("rotation"),
+             "left out of the integration and put back exactly: `rotation` about the field's axis"},
+            {"coordinates",
+             form::choice({jet_coordinates_names.begin(), jet_coordinates_names.end()}),
+             absent::value("cartesian"),
+             "of the polynomials that predict deputies: `flow-box` (time and energy) reaches "
+             "furthest, `auto` measures which does",
+             {orbits}},
+            {"duration_orbits",
+             form::number(),
+             other_duration,
+             "in periods of the nominal",
+             {orbits}}},
+           times}),
+      "At the times, one integration by `gauss` writes further jets, into a folder each, which "
+      "`hamjet eval --time` takes."};
   return table;
 }
 

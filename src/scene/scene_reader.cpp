@@ -95,6 +95,7 @@ Scene read_flow_jet(const TableReader& root) {
                                                scene.duration, nominal.scale)
                             : std::vector{default_integrator()};
   });
+  root.attempt([&] { scene.jet_times = read_jet_times(root.table("jet"), scene, nominal); });
   read_table("generating_function",
              [&](const auto& table) { scene.kinds = read_generating_function(table, scene); });
   read_table("relative_hamiltonian", [&](const auto& table) {

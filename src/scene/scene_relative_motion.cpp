@@ -17,12 +17,13 @@ namespace {
 /// A time as the key gives it, in canonical units.
 double canonical_time(const TableReader& table, std::string_view key, double given,
                       const Nominal& nominal) {
-  if (key == "times_s") return nominal.scale.time_of_s(given);
-  if (key == "times_canonical") return given;
+  if (key.ends_with("_s")) return nominal.scale.time_of_s(given);
+  if (key.ends_with("_canonical")) return given;
   if (!nominal.period_s) {
+    const std::string_view stem = key.substr(0, key.find('_'));
     table.fail(key, fmt::format("no period, got {} of an orbit that is not elliptic, must be "
-                                "times_s or times_canonical",
-                                table.found(key)));
+                                "{}_s or {}_canonical",
+                                table.found(key), stem, stem));
   }
   return convert<double>(Extended(given) * *nominal.period_s / nominal.scale.time_s);
 }
@@ -67,6 +68,24 @@ std::vector<SceneKey> transfer_time_keys(const Absence& absence) {
            "so many equal parts of the duration"}};
 }
 
+std::vector<SceneKey> instant_keys() {
+  const auto absence = absent::other("another of these three");
+  return {{"time_s", form::number(), absence, "since the start"},
+          {"time_orbits", form::number(), absence, "in periods of the nominal"},
+          {"time_canonical", form::number(), absence, "since the start"}};
+}
+
+std::string_view read_instant(const TableReader& table, const Nominal& nominal, double& time) {
+  const std::string_view key = table.exactly_one_of({"time_s", "time_orbits", "time_canonical"});
+  const double given = table.number(key);
+  time = canonical_time(table, key, given, nominal);
+  if (!std::isfinite(time)) {
+    table.fail(key, fmt::format("out of range, got {}, must be within binary64 in canonical units",
+                                given));
+  }
+  return key;
+}
+
 void require_relative_motion(const TableReader& table, const Scene& scene) {
   if (!is_orbit(scene.system.model)) {
     table.fail("", fmt::format("not available for this model, got {}, must be an orbit: "
@@ -88,14 +107,23 @@ void require_relative_motion(const TableReader& table, const Scene& scene) {
   }
 }
 
-std::vector<double> read_transfer_times(const TableReader& table, const Scene& scene,
-                                        const Nominal& nominal, std::optional<int> default_count) {
+namespace {
+
+const std::vector<std::string_view>& time_keys() {
   static const std::vector<std::string_view> keys =
       TableDescription{transfer_time_keys({})}.names();
-  const bool has_key =
-      std::any_of(keys.begin(), keys.end(), [&](std::string_view key) { return table.has(key); });
-  if (!has_key && default_count) return equal_parts(table, *default_count, scene.duration);
-  const std::string_view key = table.exactly_one_of(keys);
+  return keys;
+}
+
+bool has_times(const TableReader& table) {
+  return std::any_of(time_keys().begin(), time_keys().end(),
+                     [&](std::string_view key) { return table.has(key); });
+}
+
+/// The times of the one key that is there, with what is wrong with a time of 0.
+std::vector<double> read_times(const TableReader& table, const Scene& scene, const Nominal& nominal,
+                               std::string_view of_zero) {
+  const std::string_view key = table.exactly_one_of(time_keys());
   if (key == "count") {
     const auto count = table.integer("count");
     return equal_parts(table, static_cast<int>(count), scene.duration);
@@ -108,11 +136,7 @@ std::vector<double> read_transfer_times(const TableReader& table, const Scene& s
   std::vector<double> times;
   for (std::size_t i = 0; i < given.size(); ++i) {
     const double time = canonical_time(table, key, given[i], nominal);
-    if (given[i] == 0) {
-      table.fail_element(key, i,
-                         "zero transfer time, got 0, must not be 0: in no time only a jump leads "
-                         "from one position to another");
-    }
+    if (given[i] == 0) table.fail_element(key, i, std::string(of_zero));
     if (!std::isfinite(time) || time == 0) {
       table.fail_element(key, i,
                          fmt::format("out of range, got {}, which is {} in canonical units, must "
@@ -129,6 +153,49 @@ std::vector<double> read_transfer_times(const TableReader& table, const Scene& s
     }
     times.push_back(time);
   }
+  return times;
+}
+
+}  // namespace
+
+std::vector<double> read_transfer_times(const TableReader& table, const Scene& scene,
+                                        const Nominal& nominal, std::optional<int> default_count) {
+  if (!has_times(table) && default_count) {
+    return equal_parts(table, *default_count, scene.duration);
+  }
+  return read_times(table, scene, nominal,
+                    "zero transfer time, got 0, must not be 0: in no time only a jump leads from "
+                    "one position to another");
+}
+
+std::vector<double> read_jet_times(const TableReader& jet, const Scene& scene,
+                                   const Nominal& nominal) {
+  if (!has_times(jet)) return {};
+  const std::string_view key = jet.exactly_one_of(time_keys());
+  if (scene.arcs != std::optional<std::size_t>(1)) {
+    jet.fail(key, fmt::format("not possible, got jet.arcs = {}, must be 1 or left out: jets at "
+                              "several times come from one propagation",
+                              jet.found("arcs")));
+  }
+  for (const IntegratorSettings& settings : scene.integrators) {
+    if (settings.method == IntegrationMethod::gauss) continue;
+    jet.fail(key, fmt::format("not possible, got the integrator {} of the method {}, which has no "
+                              "jets between its steps, must be gauss alone",
+                              settings.label, method_name(settings.method)));
+  }
+  std::vector<double> times = read_times(
+      jet, scene, nominal, "zero, got 0, must not be 0: at the start every jet is the identity");
+  // A time that is the duration but for the rounding of its unit is that of the run's own jet.
+  constexpr double rounding = 1e-12;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const double part = times[i] / scene.duration;
+    if (part > 0 && part <= 1 + rounding) continue;
+    jet.fail_element(key, i,
+                     fmt::format("outside the span, got {} times the duration, must lie between 0 "
+                                 "and the duration",
+                                 part));
+  }
+  if (times.back() / scene.duration >= 1 - rounding) times.pop_back();
   return times;
 }
 

@@ -19,13 +19,19 @@ inline constexpr int most_deputies = 200;
 /// six variables, extended precision.
 void require_relative_motion(const TableReader& table, const Scene& scene);
 
-/// The keys of read_relative_state, and of read_arrival.
+/// The keys of read_relative_state, of read_arrival, and of read_place.
 std::vector<SceneKey> relative_state_keys();
 std::vector<SceneKey> arrival_keys();
+std::vector<SceneKey> axes_keys();
 /// The keys of the frame of a table, with what holds where it names none.
 std::vector<SceneKey> relative_frame_keys(const Absence& frame);
 /// The keys of read_transfer_times, with what holds where a table has none of them.
 std::vector<SceneKey> transfer_time_keys(const Absence& absence);
+
+/// A moment of the motion: the only one of `time_s`, `time_orbits` and `time_canonical`. Reads it,
+/// canonical, and returns which it is.
+std::vector<SceneKey> instant_keys();
+std::string_view read_instant(const TableReader& table, const Nominal& nominal, double& time);
 
 /// The only one of `times_s`, `times_orbits`, `times_canonical` (a number or an array) and `count`
 /// (equal parts of the duration, its end included); with a default count none may be there.
@@ -33,6 +39,12 @@ std::vector<SceneKey> transfer_time_keys(const Absence& absence);
 std::vector<double> read_transfer_times(const TableReader& table, const Scene& scene,
                                         const Nominal& nominal,
                                         std::optional<int> default_count = std::nullopt);
+
+/// The times of the table [jet], by the same keys, without the duration, whose jet each run has;
+/// empty where the table has none of them. Throws Error(scene) too where an integrator has no jets
+/// between its steps, or the scene more than one arc.
+std::vector<double> read_jet_times(const TableReader& jet, const Scene& scene,
+                                   const Nominal& nominal);
 
 /// The frame of the keys `frame` and `derivatives`, each from `fallback` where the table does not
 /// have it; RTN with rotating derivatives unless the keys say otherwise.
@@ -45,9 +57,13 @@ RelativeFrame read_relative_frame(const TableReader& table);
 RelativeState read_relative_state(const TableReader& table, const Nominal& nominal,
                                   RelativeFrame frame);
 
-/// A deputy at its arrival, `position_m` and, optional, `velocity_m_s` in the frame of the table:
-/// other forms would need the chief's orbit of that time.
-RelativeState read_arrival(const TableReader& table, const Nominal& nominal);
+/// A deputy at its arrival, in the same forms but a message: what they are relative to the chief
+/// depends on where that is then.
+ArrivalState read_arrival(const TableReader& table, const Nominal& nominal);
+
+/// `position_m` and, optional, `velocity_m_s` in the frame of the table, relative to the chief at
+/// whatever time.
+RelativeState read_place(const TableReader& table, const Nominal& nominal);
 
 /// The start of the scene's deputy in the frame of another table.
 RelativeState in_other_frame(const TableReader& table, const Nominal& nominal,

@@ -134,17 +134,29 @@ RelativeState read_own_orbit(const TableReader& table, const Nominal& nominal,
   return frame_at_chief(table, nominal, frame).relative(deviation);
 }
 
-/// The relative state of a deputy whose table has numbers of this form; those left out are 0.
-RelativeState read_in_form(const TableReader& table, const Nominal& nominal, RelativeFrame frame,
-                           DeputyForm form) {
+/// The first key of a form that the table has.
+std::optional<std::string_view> key_of_form(const TableReader& table, DeputyForm form) {
+  for (const DeputyComponent& component : components_of(form)) {
+    if (table.has(component.name)) return component.name;
+  }
+  return std::nullopt;
+}
+
+/// Its six numbers; those left out are 0.
+std::array<double, 6> numbers_of_form(const TableReader& table, DeputyForm form) {
   std::array<double, 6> numbers{};
-  std::string_view first;
   for (std::size_t i = 0; i < 6; ++i) {
     const std::string_view key = components_of(form)[i].name;
-    if (!table.has(key)) continue;
-    if (first.empty()) first = key;
-    numbers[i] = table.number(key);
+    if (table.has(key)) numbers[i] = table.number(key);
   }
+  return numbers;
+}
+
+/// The relative state of a deputy whose table has numbers of this form.
+RelativeState read_in_form(const TableReader& table, const Nominal& nominal, RelativeFrame frame,
+                           DeputyForm form) {
+  const std::array<double, 6> numbers = numbers_of_form(table, form);
+  const std::string_view first = *key_of_form(table, form);
   std::array<double, 6> deviation{};
   try {
     // In canonical units of an orbit mu is 1.
@@ -157,14 +169,6 @@ RelativeState read_in_form(const TableReader& table, const Nominal& nominal, Rel
   }
   require_near(table, nominal, deviation);
   return frame_at_chief(table, nominal, frame).relative(deviation);
-}
-
-/// The first key of a form that the table has.
-std::optional<std::string_view> key_of_form(const TableReader& table, DeputyForm form) {
-  for (const DeputyComponent& component : components_of(form)) {
-    if (table.has(component.name)) return component.name;
-  }
-  return std::nullopt;
 }
 
 /// A state relative to the chief, along the axes of the frame.
@@ -181,39 +185,21 @@ RelativeState read_along_axes(const TableReader& table, const Nominal& nominal) 
   return state;
 }
 
-}  // namespace
+/// How a table gives a deputy; none of both: along the axes of the frame.
+struct GivenForm {
+  std::optional<DeputyForm> form;
+  bool is_own_orbit = false;
+};
 
-std::vector<SceneKey> arrival_keys() {
-  return {{"position_m", form::array(form::number(), 3), absent::refused(),
-           "relative to the chief, along the axes of the frame; below its distance from the "
-           "centre"},
-          {"velocity_m_s", form::array(form::number(), 3), absent::other("0, at rest in the frame"),
-           "below the speed of a circular orbit through the chief"}};
-}
-
-std::vector<SceneKey> relative_state_keys() {
-  std::vector<SceneKey> keys = arrival_keys();
-  keys[0].absence = absent::other("another form of the deputy");
-  for (const DeputyForm form : nonlinear_forms) {
-    for (const DeputyComponent& component : components_of(form)) {
-      keys.push_back({component.name, form::number(),
-                      absent::other("0, or another form of the deputy"), component.help});
-    }
-  }
-  return joined<SceneKey>({keys, orbit_keys()});
-}
-
-RelativeState read_relative_state(const TableReader& table, const Nominal& nominal,
-                                  RelativeFrame frame) {
+GivenForm form_of(const TableReader& table) {
   struct Given {
     std::string_view key;
-    std::optional<DeputyForm> form;
-    bool is_own_orbit = false;
+    GivenForm form;
   };
   std::vector<Given> given;
-  if (const auto own = orbit_key_of(table)) given.push_back({*own, {}, true});
+  if (const auto own = orbit_key_of(table)) given.push_back({*own, {{}, true}});
   for (const DeputyForm form : nonlinear_forms) {
-    if (const auto key = key_of_form(table, form)) given.push_back({*key, form});
+    if (const auto key = key_of_form(table, form)) given.push_back({*key, {form}});
   }
   for (const std::string_view key : {"position_m", "velocity_m_s"}) {
     if (table.has(key)) given.push_back({key, {}});
@@ -228,19 +214,78 @@ RelativeState read_relative_state(const TableReader& table, const Nominal& nomin
                            components_of(nonlinear_forms[1])[1].name,
                            components_of(nonlinear_forms[2])[1].name));
   }
-  if (!given[0].is_own_orbit && !given[0].form) return read_along_axes(table, nominal);
-  if (given.size() > 1) {
+  const GivenForm& first = given[0].form;
+  if (given.size() > 1 && (first.is_own_orbit || first.form)) {
     table.fail(given[1].key,
                fmt::format("two forms of a deputy, got {} and {}, must be one of: its state "
                            "relative to the chief, {}, {}, {}, or its own orbit",
                            given[0].key, given[1].key, name_of(nonlinear_forms[0]),
                            name_of(nonlinear_forms[1]), name_of(nonlinear_forms[2])));
   }
-  return given[0].is_own_orbit ? read_own_orbit(table, nominal, frame)
-                               : read_in_form(table, nominal, frame, *given[0].form);
+  return first;
 }
 
-RelativeState read_arrival(const TableReader& table, const Nominal& nominal) {
+}  // namespace
+
+std::vector<SceneKey> axes_keys() {
+  return {{"position_m", form::array(form::number(), 3), absent::refused(),
+           "relative to the chief, along the axes of the frame; below its distance from the "
+           "centre"},
+          {"velocity_m_s", form::array(form::number(), 3), absent::other("0, at rest in the frame"),
+           "below the speed of a circular orbit through the chief"}};
+}
+
+std::vector<SceneKey> relative_state_keys() {
+  std::vector<SceneKey> keys = axes_keys();
+  keys[0].absence = absent::other("another form of the deputy");
+  for (const DeputyForm form : nonlinear_forms) {
+    for (const DeputyComponent& component : components_of(form)) {
+      keys.push_back({component.name, form::number(),
+                      absent::other("0, or another form of the deputy"), component.help});
+    }
+  }
+  return joined<SceneKey>({keys, orbit_keys()});
+}
+
+std::vector<SceneKey> arrival_keys() {
+  std::vector<SceneKey> keys = relative_state_keys();
+  // Messages are of a moment, and arrivals of as many as there are transfer times.
+  std::erase_if(keys, [](const SceneKey& key) {
+    return key.name == "opm_file" || key.name == "oem_file" || key.name == "epoch" ||
+           key.name == "object";
+  });
+  return keys;
+}
+
+RelativeState read_relative_state(const TableReader& table, const Nominal& nominal,
+                                  RelativeFrame frame) {
+  const GivenForm given = form_of(table);
+  if (given.is_own_orbit) return read_own_orbit(table, nominal, frame);
+  if (given.form) return read_in_form(table, nominal, frame, *given.form);
+  return read_along_axes(table, nominal);
+}
+
+ArrivalState read_arrival(const TableReader& table, const Nominal& nominal) {
+  const GivenForm given = form_of(table);
+  ArrivalState arrival;
+  if (given.form) {
+    arrival.in_form = {*given.form, numbers_of_form(table, *given.form)};
+  } else if (given.is_own_orbit) {
+    const Orbit orbit = read_orbit(table, nominal.centre);
+    const CanonicalScale& scale = nominal.scale;
+    std::array<double, 6> state{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      state[i] = convert<double>(orbit.state.position_km[i] / scale.length_km);
+      state[3 + i] = convert<double>(orbit.state.velocity_km_s[i] * scale.time_s / scale.length_km);
+    }
+    arrival.own_state = state;
+  } else {
+    arrival = read_along_axes(table, nominal);
+  }
+  return arrival;
+}
+
+RelativeState read_place(const TableReader& table, const Nominal& nominal) {
   return read_along_axes(table, nominal);
 }
 

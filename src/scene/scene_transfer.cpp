@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <type_traits>
 
 #include "../formats/relative_frame_text.hpp"
 #include "../integrators/momentum_unit.hpp"
@@ -46,12 +48,17 @@ RelativeFrame frame_of(const TableReader& table, const TableReader& transfer,
 }
 
 /// Reads one end of the transfer; `fallback` is the table [transfer].
+template <class State>
 FramedTable read_end(const TableReader& fallback, std::string_view key, const Nominal& nominal,
-                     const std::optional<DeputySettings>& deputy, RelativeState& state) {
+                     const std::optional<DeputySettings>& deputy, State& state) {
   const TableReader end = fallback.table(key);
   end.check_keys();
   const RelativeFrame frame = frame_of(end, fallback, deputy);
-  state = key == "start" ? read_relative_state(end, nominal, frame) : read_arrival(end, nominal);
+  if constexpr (std::is_same_v<State, ArrivalState>) {
+    state = read_arrival(end, nominal);
+  } else {
+    state = read_relative_state(end, nominal, frame);
+  }
   const bool is_of_fallback = !end.has("frame") && fallback.has("frame");
   const TableReader& named = is_of_fallback ? fallback : end;
   return {end, frame, named.head(named.has("frame") ? "frame" : "")};
@@ -106,6 +113,8 @@ Eigen::Vector3d read_keep_out(const TableReader& transfer, const TransferSetting
   // Along inertial axes the flight alone tells.
   if (!has_ends || settings.frame == RelativeFrame::inertial) return semi_axes;
   for (const bool is_start : {true, false}) {
+    // Of other forms the flight alone tells, too.
+    if (!is_start && !settings.end.is_along_axes()) continue;
     const RelativeState& state = is_start ? settings.start : settings.end;
     if (state.position_m.cwiseQuotient(semi_axes).norm() >= 1) continue;
     transfer.fail("keep_out_m",
@@ -126,6 +135,59 @@ const TableDescription& end_table() {
       joined<SceneKey>({relative_frame_keys(absent::other("of `[transfer]`")), arrival_keys()}),
       "At the arrival, relative to where the chief is then."};
   return table;
+}
+
+const TableDescription& waypoint_table() {
+  static const TableDescription table = {
+      joined<SceneKey>({instant_keys(), {axes_keys().front()}}),
+      "In the frame of `[transfer]`, relative to where the chief is then; an impulse is there."};
+  return table;
+}
+
+/// Further ones take impulses beyond any spacecraft.
+constexpr int most_revolutions = 20;
+
+std::vector<int> read_revolutions(const TableReader& transfer, bool has_ends) {
+  if (!has_ends) transfer.fail("revolutions", "no start and end, must be there with revolutions");
+  std::vector<int> revolutions;
+  const std::vector<double> given = transfer.numbers("revolutions");
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    const bool is_whole = given[i] == std::floor(given[i]);
+    const auto number = static_cast<int>(given[i]);
+    const bool is_new =
+        std::find(revolutions.begin(), revolutions.end(), number) == revolutions.end();
+    if (!is_whole || std::abs(given[i]) > most_revolutions || !is_new) {
+      transfer.fail_element("revolutions", i,
+                            fmt::format("out of range, or twice, got {}, must be a whole number "
+                                        "from -{} to {} that is there once",
+                                        given[i], most_revolutions, most_revolutions));
+    }
+    revolutions.push_back(number);
+  }
+  return revolutions;
+}
+
+std::vector<Waypoint> read_waypoints(const TableReader& transfer, const Nominal& nominal,
+                                     const std::vector<double>& times) {
+  std::vector<Waypoint> waypoints;
+  for (const TableReader& table : transfer.tables("waypoint")) {
+    table.check_keys({waypoint_table().names(),
+                      {"frame", "derivatives", "velocity_m_s"},
+                      "a waypoint, which is a place in the frame of the table [transfer],"});
+    Waypoint waypoint;
+    const std::string_view key = read_instant(table, nominal, waypoint.time);
+    waypoint.position_m = read_place(table, nominal).position_m;
+    const double before = waypoints.empty() ? 0 : waypoints.back().time;
+    const double last = times.back();
+    if (!(waypoint.time * last > 0) || !(std::abs(waypoint.time) > std::abs(before)) ||
+        !(std::abs(waypoint.time) < std::abs(last))) {
+      table.fail(key, fmt::format("out of order, got {}, must be after the start and the waypoints "
+                                  "before it, and before the last transfer time, of {:.10g} s",
+                                  table.found(key), last * canonical_units(nominal.scale).time_s));
+    }
+    waypoints.push_back(waypoint);
+  }
+  return waypoints;
 }
 
 }  // namespace
@@ -158,10 +220,26 @@ const TableDescription& transfer_table() {
         {"budget_m_s", form::positive(), absent::other("none is looked for"),
          "the times at which the whole change is no more than this are found"},
         {"largest_impulse_m_s", form::positive(), absent::other("any"),
-         "transfers with a larger impulse are marked, and not the least"},
+         "transfers of two with a larger impulse are marked, and not the least; optimal impulses "
+         "are divided into such as are not larger"},
+        {"impulse_gap_s", form::positive(), absent::other("a 72nd of the nominal's period"),
+         "least time between optimal impulses that `largest_impulse_m_s` divides"},
         {"keep_out_m", form::array(form::positive(), 3), absent::other("none"),
          "semi-axes along R, T, N of an ellipsoid about the chief: transfers that enter it are "
          "marked, and not the least"},
+        {"revolutions",
+         form::words(fmt::format("array of integers from -{0} to {0}", most_revolutions),
+                     form::array(form::integer(-most_revolutions, most_revolutions))),
+         absent::other("none"),
+         "also transfers of so many whole revolutions more than the chief's, from Lambert's "
+         "problem; "
+         "0 is the other orbit of as many"},
+        {"longest_coast_s", form::positive(), absent::other("the first impulse is at the start"),
+         "also the least of two impulses whose first one may wait so long while the deputy drifts; "
+         "optimal impulses may wait in any case"},
+        {"waypoint", form::words("tables", form::array(form::table(waypoint_table()))),
+         absent::other("none"),
+         "places on the way: also transfers through all of them, with an impulse at each"},
         {"strict", form::boolean(), absent::value(preset.strict),
          "a miss beyond the tolerance is exit code 1"}}})};
   return table;
@@ -201,8 +279,20 @@ TransferSettings read_transfer(const TableReader& transfer, const Scene& scene,
   transfer.read_if_any("impulses", settings.impulses);
   transfer.read_if_any("budget_m_s", settings.budget_m_s);
   transfer.read_if_any("largest_impulse_m_s", settings.largest_impulse_m_s);
+  if (transfer.has("impulse_gap_s")) {
+    settings.impulse_gap = nominal.scale.time_of_s(transfer.number("impulse_gap_s"));
+  }
   if (transfer.has("keep_out_m")) {
     settings.keep_out_m = read_keep_out(transfer, settings, has_ends);
+  }
+  if (transfer.has("revolutions")) settings.revolutions = read_revolutions(transfer, has_ends);
+  if (transfer.has("longest_coast_s")) {
+    if (!has_ends) transfer.fail("longest_coast_s", "no start and end, must be there with it");
+    settings.longest_coast = nominal.scale.time_of_s(transfer.number("longest_coast_s"));
+  }
+  if (transfer.has("waypoint")) {
+    if (!has_ends) transfer.fail("waypoint", "no start and end, must be there with waypoints");
+    settings.waypoints = read_waypoints(transfer, nominal, settings.times);
   }
   transfer.read_if_any("strict", settings.strict);
   return settings;

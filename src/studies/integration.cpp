@@ -20,6 +20,7 @@
 #include "descriptions/method_description.hpp"
 #include "hamjet/algebra/composition.hpp"
 #include "hamjet/integrators/error_estimate.hpp"
+#include "hamjet/integrators/jet_trajectory.hpp"
 #include "stability_limit.hpp"
 #include "stopwatch.hpp"
 
@@ -150,6 +151,35 @@ JetErrorEstimate estimate_jet_error(const Scene& scene, const FlowProblem<Real>&
 }
 
 template <class Real>
+FlowJet<Real> integrate_with_times(const Scene& scene, const ComputedProblem& problem,
+                                   const FlowProblem<Real>& flow, RunResult& run,
+                                   const StepObserver<Real>& observer, bool records_step_error,
+                                   const std::function<void(double)>& progress) {
+  auto gauss = std::get<GaussSettings>(splittable_method(run.settings));
+  gauss.estimates_step_error = records_step_error;
+  const JetTrajectory<Real> trajectory(flow, gauss, most_trajectory_bytes, observer);
+  run.statistics = trajectory.statistics();
+  std::vector<Real> times;
+  std::vector<FlowJet<Real>> jets;
+  for (const double time : scene.jet_times) {
+    times.emplace_back(time);
+    jets.push_back(trajectory.at(times.back()));
+    run.jets.push_back({time, convert_map<Extended>(jets.back()), {}, {}});
+    run.jets.back().nominal = full_state(run.jets.back().jet, problem, scene.nominal.size());
+  }
+  if (!scene.checks[SelfCheckName::error_estimate].is_on) return trajectory.final_jet();
+  ErrorEstimateSettings settings = estimate_settings(scene, progress);
+  settings.most_steps = std::max(settings.most_steps, 4 * run.statistics.steps);
+  try {
+    const auto estimates = estimate_errors<Real>(flow, times, jets, settings);
+    for (std::size_t i = 0; i < jets.size(); ++i) run.jets[i].error_estimate = estimates[i];
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::numerical && error.kind() != ErrorKind::too_large) throw;
+  }
+  return trajectory.final_jet();
+}
+
+template <class Real>
 void sample_rounding_in_doubt(const Scene& scene, const FlowProblem<Real>& flow,
                               const FlowJet<Real>& jet, RunResult& run,
                               const std::function<void(double)>& progress) {
@@ -172,6 +202,15 @@ void sample_rounding_in_doubt(const Scene& scene, const FlowProblem<Real>& flow,
   }
 }
 
+std::vector<double> full_state(const FlowJet<Extended>& jet, const ComputedProblem& problem,
+                               std::size_t dimension) {
+  std::vector<double> state(dimension, 0);
+  for (std::size_t i = 0; i < jet.size(); ++i) {
+    state[problem.components[i]] = static_cast<double>(jet[i][0]);
+  }
+  return state;
+}
+
 double integration_memory(const IntegratorSettings& settings, const DynamicalSystem& system,
                           double coefficients, double real_bytes) {
   const OperationList& list = system.evaluated_list();
@@ -187,6 +226,14 @@ template FlowJet<double> integrate(const FlowProblem<double>&, const IntegratorS
                                    IntegrationStatistics&, const StepObserver<double>&, bool);
 template FlowJet<Extended> integrate(const FlowProblem<Extended>&, const IntegratorSettings&,
                                      IntegrationStatistics&, const StepObserver<Extended>&, bool);
+template FlowJet<double> integrate_with_times(const Scene&, const ComputedProblem&,
+                                              const FlowProblem<double>&, RunResult&,
+                                              const StepObserver<double>&, bool,
+                                              const std::function<void(double)>&);
+template FlowJet<Extended> integrate_with_times(const Scene&, const ComputedProblem&,
+                                                const FlowProblem<Extended>&, RunResult&,
+                                                const StepObserver<Extended>&, bool,
+                                                const std::function<void(double)>&);
 template void sample_rounding_in_doubt(const Scene&, const FlowProblem<double>&,
                                        const FlowJet<double>&, RunResult&,
                                        const std::function<void(double)>&);

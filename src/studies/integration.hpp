@@ -41,6 +41,15 @@ JetErrorEstimate estimate_jet_error(const Scene& scene, const FlowProblem<Real>&
                                     const IntegrationStatistics& statistics,
                                     const std::function<void(double)>& progress);
 
+/// Integrates by Gauss as integrate does, bit by bit, and adds the jets at the scene's `jet_times`,
+/// with estimates of their errors where the scene has that check on; a failure of those leaves them
+/// out. Throws as integrate_gauss.
+template <class Real>
+FlowJet<Real> integrate_with_times(const Scene& scene, const ComputedProblem& problem,
+                                   const FlowProblem<Real>& flow, RunResult& run,
+                                   const StepObserver<Real>& observer, bool records_step_error,
+                                   const std::function<void(double)>& progress);
+
 /// Where a Gauss method's tolerance has met rounding, of which one draw is known, and the estimate
 /// exceeds what is promised, raises IntegrationStatistics::rounding_by_degree to a sample
 /// (sample_rounding): a verdict must not hang on a single draw. Only then is the work worth its
@@ -50,6 +59,14 @@ template <class Real>
 void sample_rounding_in_doubt(const Scene& scene, const FlowProblem<Real>& flow,
                               const FlowJet<Real>& jet, RunResult& run,
                               const std::function<void(double)>& progress);
+
+/// The state of the whole model from that of the computed components; the others are zero.
+std::vector<double> full_state(const FlowJet<Extended>& jet, const ComputedProblem& problem,
+                               std::size_t dimension);
+
+/// A run with jets at several times may keep this much of those at its steps; between those that it
+/// keeps steps are taken again.
+inline constexpr double most_trajectory_bytes = 256e6;
 
 /// Bytes that the series of one integration take, `coefficients` numbers of `real_bytes` a series.
 double integration_memory(const IntegratorSettings& settings, const DynamicalSystem& system,

@@ -82,8 +82,10 @@ double estimate_memory(const Scene& scene, const DynamicalSystem& system, std::s
     largest_run = std::max(largest_run, run_memory(scene, settings, system, variables, threads));
   }
   double total = largest_run + schedule_bytes(variables, scene.order);
-  const double stored_jets = static_cast<double>(scene.integrators.size()) + 4;
+  const double jets_each = static_cast<double>(scene.jet_times.size()) + 1;
+  const double stored_jets = static_cast<double>(scene.integrators.size()) * jets_each + 4;
   total += stored_jets * components * coefficients * sizeof(Extended);
+  if (!scene.jet_times.empty()) total += most_trajectory_bytes;
   if (scene.reference) total += 2 * values * 16 * sizeof(Extended) * working;
   if (variables == system.dimension()) {
     // Poisson brackets need the derivatives of all components by all variables.
@@ -114,6 +116,10 @@ void require_good_integrators(const Scene& scene) {
       refuse(fmt::format("this build has no {}; configure with {}", method.library,
                          method.build_option));
     }
+    if (!scene.jet_times.empty() && settings.method != IntegrationMethod::gauss) {
+      refuse(fmt::format("{} has no jets between its steps, must be gauss where there are times",
+                         method.name));
+    }
     if (scene.own_system == nullptr) continue;
     if (settings.label.empty() || !labels.insert(settings.label).second) {
       refuse("the label is empty or stands twice, must be there once");
@@ -131,6 +137,7 @@ void require_good_integrators(const Scene& scene) {
 
 ComputedProblem make_problem(const Scene& scene, double memory_limit, std::size_t threads) {
   require_good_integrators(scene);
+  if (!scene.jet_times.empty()) require_unsplit(scene, "a list of times");
   const DynamicalSystem full = make_system(scene);
   const std::size_t n = full.degrees_of_freedom;
   ComputedProblem problem;

@@ -18,16 +18,6 @@
 namespace hamjet {
 namespace {
 
-/// The state of the whole model from that of the computed components; the others are zero.
-std::vector<double> full_state(const FlowJet<Extended>& jet, const ComputedProblem& problem,
-                               std::size_t dimension) {
-  std::vector<double> state(dimension, 0);
-  for (std::size_t i = 0; i < jet.size(); ++i) {
-    state[problem.components[i]] = static_cast<double>(jet[i][0]);
-  }
-  return state;
-}
-
 template <class Real>
 void run_integrator(const Scene& scene, const ComputedProblem& problem, std::size_t threads,
                     const TimesWithoutKind& singular, RunResult& run,
@@ -53,17 +43,17 @@ void run_integrator(const Scene& scene, const ComputedProblem& problem, std::siz
   const auto unsplit = reason_not_to_split(scene, run.settings);
   if (scene.arcs != std::optional<std::size_t>(1)) run.arcs.emplace();
   if (run.arcs && unsplit) run.arcs->plan.reason = *unsplit;
+  const auto on_step = [&](const Real& time, const FlowJet<Real>& state) {
+    record(time, state);
+    progress(static_cast<double>(time) / scene.duration);
+  };
   const FlowJet<Real> jet =
-      run.arcs && !unsplit
+      !scene.jet_times.empty() ? integrate_with_times<Real>(scene, problem, flow, run, on_step,
+                                                            records_step_error, progress)
+      : run.arcs && !unsplit
           ? integrate_split<Real>(flow, run.settings, {scene.arcs, threads}, run.statistics,
                                   *run.arcs, record, progress, records_step_error)
-          : integrate<Real>(
-                flow, run.settings, run.statistics,
-                [&](const Real& time, const FlowJet<Real>& state) {
-                  record(time, state);
-                  progress(static_cast<double>(time) / scene.duration);
-                },
-                records_step_error);
+          : integrate<Real>(flow, run.settings, run.statistics, on_step, records_step_error);
   run.jet = convert_map<Extended>(jet);
   if (scene.checks[SelfCheckName::error_estimate].is_on) {
     run.error_estimate = estimate_jet_error<Real>(scene, flow, jet, run.statistics, progress);

@@ -77,7 +77,9 @@ SceneTrajectory::SceneTrajectory(const Scene& scene, std::string_view label,
 
 const IntegrationStatistics& SceneTrajectory::statistics() const {
   return std::visit(
-      [](const auto& trajectory) -> const IntegrationStatistics& { return trajectory->statistics(); },
+      [](const auto& trajectory) -> const IntegrationStatistics& {
+        return trajectory->statistics();
+      },
       trajectory_);
 }
 
@@ -85,7 +87,8 @@ std::vector<double> SceneTrajectory::step_times() const {
   std::vector<double> times;
   std::visit(
       [&](const auto& trajectory) {
-        for (const auto& time : trajectory->step_times()) times.push_back(static_cast<double>(time));
+        for (const auto& time : trajectory->step_times())
+          times.push_back(static_cast<double>(time));
       },
       trajectory_);
   return times;

@@ -1,6 +1,8 @@
 #include <cmath>
 
 #include "command_test.hpp"
+#include "formats/xml/orbit_message_xml.hpp"
+#include "hamjet/formats/orbit_message.hpp"
 
 // The two ends of a nominal as Orbit Parameter Messages.
 
@@ -57,6 +59,26 @@ TEST_F(OrbitMessageEnds, TheEndsAreWrittenAndReadAgain) {
   EXPECT_NE(text.find("\nOBJECT_NAME = CHIEF\n"), std::string::npos);
   EXPECT_NE(text.find(" [km/s]\n"), std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(directory_ / "ends/gauss8/nominal.oem"));
+}
+
+// Both notations say the same of the motion and of its ends.
+TEST_F(OrbitMessageEnds, AreTheSameInXml) {
+  if (!io::is_xml_built()) GTEST_SKIP() << "a build without XML";
+  write("ends.toml", changed(quick_scene() + dated_ends, "[\"opm\"]",
+                             "[\"opm\", \"opm-xml\", \"oem\", \"oem-xml\"]"));
+  succeed({"run", "ends.toml", "-q", "-o", "ends"});
+  const std::filesystem::path folder = directory_ / "ends/gauss8";
+  for (const std::string name : {"start.opm", "end.opm"}) {
+    io::OrbitParameterMessage lines = io::read_opm(name, content(folder / name));
+    const auto xml = io::read_opm(name, content(folder / (name + ".xml")));
+    lines.creation_date = xml.creation_date;
+    EXPECT_EQ(io::opm_text(xml), io::opm_text(lines)) << name;
+  }
+  io::OrbitEphemerisMessage lines = io::read_oem("a", content(folder / "nominal.oem"));
+  const auto xml = io::read_oem("a", content(folder / "nominal.oem.xml"));
+  lines.creation_date = xml.creation_date;
+  EXPECT_EQ(io::oem_text(xml), io::oem_text(lines));
+  EXPECT_GT(xml.segments.at(0).states.size(), 1U);
 }
 
 }  // namespace

@@ -72,6 +72,25 @@ TEST_F(OrbitMessageXml, OfACombinedMessageTheKindThatIsWantedIsRead) {
   expect_refused(read_oem, combined("<eom/>"), "eom: unknown element in ndm, did you mean oem?");
 }
 
+// What is written in XML is what is written in lines, to the last digit, and marks of XML in texts
+// are texts.
+TEST_F(OrbitMessageXml, WrittenAndReadAgainIsTheSame) {
+  OrbitEphemerisMessage ephemeris = read_oem("a.oem", standard_oem);
+  ephemeris.segments[0].metadata.object_name = "A & B <C> \"D\"";
+  ephemeris.segments[0].comments = {"x < y & z"};
+  ephemeris.segments[1].states[0].position_km = {1.0 / 3, -1e-7 / 3, 2e5 / 3};
+  const std::string written = oem_xml(ephemeris);
+  ephemeris.comments.clear();
+  ephemeris.segments[0].comments.clear();
+  EXPECT_EQ(oem_text(read_oem("a.xml", written)), oem_text(read_oem("b.oem", oem_text(ephemeris))));
+  EXPECT_NE(written.find("<COMMENT>x &lt; y &amp; z</COMMENT>"), std::string::npos);
+  EXPECT_NE(written.find("<X units=\"km\">"), std::string::npos);
+  EXPECT_NE(written.find("<Z_DOT units=\"km/s\">"), std::string::npos);
+  OrbitParameterMessage state = read_opm("a.opm", standard_opm);
+  const std::string one = opm_xml(state);
+  EXPECT_EQ(opm_text(read_opm("a.xml", one)), opm_text(state));
+}
+
 TEST_F(OrbitMessageXml, TheStandardsEphemerisSaysTheSameInBothNotations) {
   const OrbitEphemerisMessage xml = read_oem("a.xml", standard_oem_xml);
   const OrbitEphemerisMessage lines = read_oem("a.oem", standard_oem);

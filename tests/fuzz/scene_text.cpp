@@ -93,6 +93,7 @@ void check(const Scene& scene) {
   check_positive(scene.separation, "separation");
   require(!scene.kinds || !scene.kinds->empty(), "no kinds");
   check_times(scene.relative_hamiltonian_times, "relative_hamiltonian");
+  check_times(scene.jet_times, "times of jets");
   require_finite(scene.comparison.steps_canonical, "compare.steps_canonical");
   require_finite(scene.comparison.tolerances, "compare.tolerances");
   if (scene.transfer) {

@@ -150,22 +150,30 @@ TEST(SceneDeputy, ATransferStartsFromIt) {
   expect_near(inertial.transfer->start.velocity_m_s, {1, 2, 0.5}, 1e-10);
 }
 
-TEST(SceneDeputy, StartsHaveOrbitsAndEndsAreRelative) {
+TEST(SceneDeputy, StartsAndEndsHaveOrbitsToo) {
   const std::string transfer = "[transfer]\nframe = \"RTN\"\ntimes_s = 16\n";
   const std::string relative = "position_m = [0, 1, 0]\n";
   const auto tables = [&](const std::string& end, const std::string& slot) {
     return transfer + "[transfer.start]\n" + beside + "[transfer.end]\n" + end +
            "[[assignment.deputy]]\n" + beside + "[[assignment.slot]]\n" + slot;
   };
-  const Scene scene = scene_of(tables(relative, relative));
+  const Scene scene = scene_of(tables(relative, beside));
   expect_near(scene.transfer->start.velocity_m_s, {1.375, 1.5, 0.5}, 1e-10);
   expect_near(scene.assignment->deputies[0].velocity_m_s, {1.375, 1.5, 0.5}, 1e-10);
-  // At arrival the chief is elsewhere, and an orbit of the start would say nothing of it.
-  const std::string orbit_key = "position_km = [4.004, 0.003, -0.002]\n";
-  expect_scene_error(circle + tables(orbit_key, relative),
-                     {"transfer.end.position_km: unknown key"});
-  expect_scene_error(circle + tables(relative, orbit_key),
-                     {"assignment.slot.0.position_km: unknown key"});
+  EXPECT_TRUE(scene.transfer->end.is_along_axes());
+  // At arrival the chief is elsewhere, so that an orbit stays as it is, in units of 4 km.
+  const ArrivalState& slot = scene.assignment->slots[0];
+  ASSERT_TRUE(slot.own_state.has_value());
+  EXPECT_EQ((*slot.own_state)[0] * 4, 4.004);
+  const Scene in_form = scene_of(tables("arc_m = 4\ncross_rate_m_s = 2\n", relative));
+  ASSERT_TRUE(in_form.transfer->end.in_form.has_value());
+  EXPECT_EQ(in_form.transfer->end.in_form->form, DeputyForm::curvilinear);
+  EXPECT_EQ(in_form.transfer->end.in_form->numbers, (std::array<double, 6>{0, 4, 0, 0, 0, 2}));
+  // A message is of a moment, and an arrival of as many as there are times.
+  expect_scene_error(circle + tables("opm_file = \"a.opm\"\n", relative),
+                     {"transfer.end.opm_file: unknown key"});
+  expect_scene_error(circle + tables(relative, "position_m = [0, 1, 0]\narc_m = 4\n"),
+                     {"assignment.slot.0.position_m: two forms of a deputy"});
 }
 
 // On the chief's own circle, 1/1000 of a radian ahead, the deputy rests in the turning axes; in

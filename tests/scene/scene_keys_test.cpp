@@ -113,6 +113,8 @@ const std::map<std::string, Place>& special_places() {
                                           "i_deg=98.2, raan_deg=0, argp_deg=90, ta_deg=0}"};
   static const Override no_deputy_axis = {"deputy.a_km", "null"};
   static const Override no_deputy_anomaly = {"deputy.ta_deg", "null"};
+  static const Override waypoint = {"transfer.waypoint", "[{time_s=200, position_m=[1, 0, 0]}]"};
+  static const Override no_time = {"transfer.waypoint.0.time_s", "null"};
   static const std::map<std::string, Place> listed = {
       {"system.gravity_file", {"", {field, highest}, "\"../gravity/EGM96-zonals.gfc\""}},
       {"system.highest_zonal", {"", {field}}},
@@ -183,6 +185,10 @@ const std::map<std::string, Place>& special_places() {
       {"transfer.times_s", {"", {no_count}, "[100, 200]"}},
       {"transfer.times_orbits", {"", {no_count}}},
       {"transfer.times_canonical", {"", {no_count}}},
+      {"transfer.waypoint.0.time_s", {"", {waypoint}, "100"}},
+      {"transfer.waypoint.0.time_orbits", {"", {waypoint, no_time}, "0.5"}},
+      {"transfer.waypoint.0.time_canonical", {"", {waypoint, no_time}, "0.5"}},
+      {"transfer.waypoint.0.position_m", {"", {waypoint}, "[0, 1, 0]"}},
       {"transfer.kind", {"", {}, "\"qpq-qqp\""}},
       {"validity.times_s", {"", {no_validity_count}, "[100, 200]"}},
       {"validity.times_orbits", {"", {no_validity_count}}},

@@ -251,6 +251,30 @@ TEST(SceneTransfer, Errors) {
   expect_scene_error(still + changed(transfer, times, "count = 3"), {"count: no time to divide"});
 }
 
+TEST(SceneTransfer, Waypoints) {
+  const std::string tables = std::string(transfer) +
+                             "[[transfer.waypoint]]\ntime_s = 8\nposition_m = [1, 0, 0]\n"
+                             "[[transfer.waypoint]]\ntime_canonical = 2\nposition_m = [0, 7, 0]\n";
+  const TransferSettings settings = *scene_of(tables).transfer;
+  ASSERT_EQ(settings.waypoints.size(), 2U);
+  EXPECT_EQ(settings.waypoints[0].time, 1);
+  EXPECT_EQ(settings.waypoints[1].time, 2);
+  EXPECT_EQ(settings.waypoints[1].position_m, Eigen::Vector3d(0, 7, 0));
+  expect_table_errors(
+      tables,
+      {{"time_s = 8", "time_s = 0", {"waypoint.0.time_s: out of order, got 0", "after the start"}},
+       {"time_s = 8", "time_s = 16", {"waypoint.1.time_canonical: out of order, got 2"}},
+       {"time_s = 8", "time_s = -8", {"waypoint.0.time_s: out of order"}},
+       {"time_canonical = 2", "time_canonical = 4", {"before the last transfer time, of 32 s"}},
+       {"time_canonical = 2", "", {"transfer.waypoint.1: missing", "time_orbits"}},
+       {"position_m = [0, 7, 0]", "", {"waypoint.1.position_m: missing"}},
+       {"position_m = [0, 7, 0]",
+        "position_m = [0, 7, 0]\nvelocity_m_s = [0, 0, 0]",
+        {"waypoint.1.velocity_m_s", "a place in the frame of the table [transfer]"}}});
+  const std::string limit = changed(transfer, "times_s", "impulse_gap_s = 4\ntimes_s");
+  EXPECT_EQ(scene_of(limit).transfer->impulse_gap, 0.5);
+}
+
 TEST(SceneTransfer, HowFarADeputyMayBeDoesNotDependOnTheUnitOfLength) {
   for (const char* length_km : {"1e-6", "0.003", "2", "1e8"}) {
     const std::string orbit = std::string(circle) + "[units]\nlength_km = " + length_km + "\n";

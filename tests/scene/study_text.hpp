@@ -30,8 +30,15 @@ class StudyText {
                          }) {
       if (value) add(*value);
       text_ += "; ";
-    } else if constexpr (std::is_same_v<Value, RelativeState>) {
+    } else if constexpr (std::is_base_of_v<RelativeState, Value>) {
       for (int i = 0; i < 3; ++i) add_all(value.position_m[i], value.velocity_m_s[i]);
+      if constexpr (std::is_same_v<Value, ArrivalState>) {
+        if (value.in_form) add_all(static_cast<int>(value.in_form->form), value.in_form->numbers);
+        add(value.own_state);
+      }
+    } else if constexpr (std::is_same_v<Value, Waypoint>) {
+      add(value.time);
+      for (int i = 0; i < 3; ++i) add(value.position_m[i]);
     } else if constexpr (std::is_arithmetic_v<Value> ||
                          std::is_convertible_v<Value, std::string_view>) {
       text_ += fmt::format("{} ", value);
@@ -46,7 +53,8 @@ class StudyText {
   }
   void add(const TransferSettings& s) {
     add_all(s.frame, s.start, s.end, s.times, s.kind, s.tolerance_m, s.refine, s.refined_miss_m,
-            s.singular_margin, s.strict);
+            s.singular_margin, s.strict, s.impulse_gap, s.longest_coast, s.revolutions,
+            s.waypoints);
   }
   void add(const DeputySettings& s) { add_all(s.frame, s.start); }
   void add(const ValiditySettings& s) {
@@ -61,9 +69,9 @@ class StudyText {
   void add(const SelfCheckSetting& s) { add_all(s.is_on, s.limit); }
   void add(const Scene& s) {
     add_all(s.title, s.precision, s.system, s.units, s.canonical_radius, s.nominal, s.duration,
-            s.order, s.arcs, s.variables, s.integrators, s.separation, s.kinds, s.reference,
-            s.relative_hamiltonian_times, s.comparison, s.figure, s.deputy, s.transfer, s.validity,
-            s.assignment, s.output.formats, s.ephemeris);
+            s.order, s.arcs, s.variables, s.jet_times, s.integrators, s.separation, s.kinds,
+            s.reference, s.relative_hamiltonian_times, s.comparison, s.figure, s.deputy, s.transfer,
+            s.validity, s.assignment, s.output.formats, s.ephemeris);
     for (std::size_t i = 0; i < self_check_count; ++i) add(s.checks[SelfCheckName(i)]);
   }
   void add(const EnergyConservationStudy& s) {

@@ -42,6 +42,11 @@ StoredJet read_jet_file(const std::filesystem::path& path,
                         const std::optional<std::string>& label = {},
                         const JetDescription& foreign = {});
 
+/// read_stored_jets; a file, which has one jet, must be of the time that is wanted, or of all.
+std::vector<StoredJet> read_jets_at_times(const std::filesystem::path& path,
+                                          const std::optional<std::string>& label,
+                                          const WantedTimes& wanted);
+
 /// The content of a file of this format. Throws Error(input_output) if the format cannot hold the
 /// jet, Error(usage) for HDF5 in a build without it.
 std::string jet_file_content(const StoredJet& stored, const OutputFormat& format);

@@ -63,6 +63,22 @@ struct StoredJet {
 StoredJet read_stored_jet(const std::filesystem::path& directory,
                           const std::optional<std::string>& label = {});
 
+/// The times of a run's jets that are wanted, in seconds.
+struct WantedTimes {
+  std::vector<double> seconds = {};
+  bool all = false;  ///< all times that the run has, the duration last
+};
+
+/// The jets of a results directory's run at the wanted times, in their order: those that the
+/// scene's `jet.times_...` asked for, and that of the duration. A time is a stored one's to 1e-9 of
+/// it. Throws as read_stored_jet, and Error(usage) for a time that the run has no jet at.
+std::vector<StoredJet> read_stored_jets(const std::filesystem::path& directory,
+                                        const std::optional<std::string>& label,
+                                        const WantedTimes& wanted);
+
+/// Whether a stored jet is of this time, to 1e-9 of it.
+bool is_at(const StoredJet& stored, double time_s);
+
 /// All that is stored of a run's jet but the coefficients.
 StoredJet describe_jet(const PropagationResult& result, const RunResult& run);
 

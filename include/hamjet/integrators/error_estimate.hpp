@@ -63,6 +63,18 @@ std::vector<double> estimate_error(const FlowProblem<Real>& problem, const FlowJ
                                    const ErrorEstimateSettings& settings = {},
                                    const std::vector<JetAlongLine<Real>>& known = {});
 
+/// estimate_error for jets of one flow at several times, by degree for each, from two runs in all:
+/// those along the two directions, which are drawn for the last of the jets, have their series at
+/// every time (JetTrajectory). Times are between 0, which is none of them, and the problem's
+/// duration. Relative to the largest coefficient of the degree at the time: near the start the high
+/// degrees vanish. Throws as estimate_error and JetTrajectory::at, and Error(usage) if times and
+/// jets are not of one number.
+template <class Real>
+std::vector<std::vector<double>> estimate_errors(const FlowProblem<Real>& problem,
+                                                 const std::vector<Real>& times,
+                                                 const std::vector<FlowJet<Real>>& jets,
+                                                 const ErrorEstimateSettings& settings = {});
+
 /// By degree, what estimate_error makes of rounding alone: the delivered jet's own integration,
 /// `integrate`, along the same two directions, from 16 starts each whose coefficients are moved by
 /// up to half a unit in the last place of the largest position, or momentum, of their degree; the

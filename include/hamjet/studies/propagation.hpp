@@ -51,6 +51,14 @@ struct AnalysisCounts {
   long poisson_brackets = 0;     ///< of two components of the map
 };
 
+/// A run's jet at a time before the duration.
+struct JetAtTime {
+  double time = 0;                     ///< canonical
+  FlowJet<Extended> jet;               ///< of the computed components
+  std::vector<double> nominal;         ///< all components of the model then
+  std::vector<double> error_estimate;  ///< by degree; empty where there is none
+};
+
 /// What one integrator gave.
 struct RunResult {
   IntegratorSettings settings;
@@ -61,7 +69,8 @@ struct RunResult {
   /// The components of the flow's jet that were computed, exact copies in extended precision.
   FlowJet<Extended> jet;
   std::vector<double> nominal_final;
-  double energy_error = 0;  ///< the largest magnitude along the nominal
+  std::vector<JetAtTime> jets;  ///< at the scene's `jet_times`
+  double energy_error = 0;      ///< the largest magnitude along the nominal
   EnergyAlongNominal energy;
   AnalysisCounts counts;
   std::optional<ArcStatistics> arcs;          ///< unless the scene has one arc, as by default

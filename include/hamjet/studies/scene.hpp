@@ -109,6 +109,9 @@ struct Scene {
   /// `jet.coordinates`, of the polynomials by which deputies are predicted.
   JetCoordinates coordinates = JetCoordinates::cartesian;
   std::vector<std::size_t> variables;  ///< indices into (q, p) to expand in, ascending
+  /// `jet.times_...`: canonical times before the duration at which runs, all of Gauss and in one
+  /// arc, have their jets too, moving away from 0; empty: at the duration alone.
+  std::vector<double> jet_times;
   std::vector<IntegratorSettings> integrators;
   /// `[formation]`, canonical length (metres where that is the unit).
   std::optional<double> separation;

@@ -10,6 +10,7 @@
 #include "hamjet/detail/studies/impulse_plan.hpp"
 #include "hamjet/detail/studies/progress.hpp"
 #include "hamjet/detail/studies/singular_times.hpp"
+#include "hamjet/detail/studies/waypoint_plan.hpp"
 #include "hamjet/studies/propagation.hpp"
 
 namespace hamjet {
@@ -125,7 +126,10 @@ struct TransferResult {
   std::vector<BudgetWindow> budget_windows;
   /// Of the least answer at the listed times; absent where there is none.
   std::optional<PrimerHistory> primer;
-  std::optional<OptimalImpulses> optimal;  ///< if the scene asks for it
+  std::optional<OptimalImpulses> optimal;       ///< if the scene asks for it
+  std::optional<WaypointTransfers> waypoints;   ///< if the scene has some
+  std::optional<CoastingTransfer> coasting;     ///< if the scene asks for it
+  std::optional<OtherRevolutions> revolutions;  ///< likewise
   TransferSeconds seconds;
 
   /// Index of the point with the least total velocity change among answers that are within the
@@ -154,9 +158,10 @@ struct EarlierJet {
 TransferResult study_transfer(const Scene& scene, const ProgressCallback& progress = {},
                               const EarlierJet* earlier = nullptr);
 
-/// Exit code: 0; 1 if the scene's limits allow none of the answers, if optimal impulses were asked
-/// for and not found, or if the scene is strict and an answer away from singularities is missing,
-/// beyond its tolerance or could not be refined; 4 if no transfer time has an answer.
+/// Exit code: 0; 1 if the scene's limits allow none of the answers, if optimal impulses, a way
+/// through waypoints, a coasting start or other revolutions were asked for and not found, or if the
+/// scene is strict and an answer away from singularities is missing, beyond its tolerance or could
+/// not be refined; 4 if no transfer time has an answer.
 int exit_code(const TransferResult& result);
 
 /// A flown deputy relative to its chief, along R, T, N whatever the scene's frame (along the

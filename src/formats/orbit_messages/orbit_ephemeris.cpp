@@ -8,6 +8,7 @@
 
 #include "../output_formats.hpp"
 #include "../relative_frame_text.hpp"
+#include "../xml/orbit_message_xml.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/formats/orbit_message.hpp"
 #include "hamjet/version.hpp"
@@ -140,8 +141,9 @@ std::string accuracy_text(const RunResult& run) {
 }
 
 /// The nominal's state at one moment, with what the messages of its whole motion say too.
-std::string opm_at(const PropagationResult& result, const RunResult& run, std::string_view place,
-                   double time, const std::vector<double>& state) {
+OrbitParameterMessage opm_at(const PropagationResult& result, const RunResult& run,
+                             std::string_view place, double time,
+                             const std::vector<double>& state) {
   OrbitEphemerisMessage common = message_of(
       result.scene, fmt::format("The {} of the nominal of the run {}", place, run.settings.label));
   EphemerisSegment& segment = common.segments.front();
@@ -154,23 +156,18 @@ std::string opm_at(const PropagationResult& result, const RunResult& run, std::s
   message.metadata = std::move(segment.metadata);
   message.state_comments = std::move(segment.comments);
   message.state = orbit_state(result.scene, time, state);
-  return opm_text(message);
+  return message;
 }
 
-/// What both messages of the ends have in common.
-OutputFormat opm_format(std::string_view file,
-                        std::string (*of_nominal)(const PropagationResult&, const RunResult&)) {
-  return {.name = "opm",
-          .help = "orbit parameter messages",
-          .file = file,
-          .needs_orbit = true,
-          .needs_date = true,
-          .of_nominal = of_nominal};
+OrbitParameterMessage start_of(const PropagationResult& result, const RunResult& run) {
+  return opm_at(result, run, "start", 0, result.scene.nominal);
 }
 
-}  // namespace
+OrbitParameterMessage end_of(const PropagationResult& result, const RunResult& run) {
+  return opm_at(result, run, "end", result.scene.duration, run.nominal_final);
+}
 
-std::string nominal_oem(const PropagationResult& result, const RunResult& run) {
+OrbitEphemerisMessage nominal_of(const PropagationResult& result, const RunResult& run) {
   OrbitEphemerisMessage message =
       message_of(result.scene, fmt::format("The nominal of the run {}", run.settings.label));
   std::vector<std::string>& comments = message.segments.front().comments;
@@ -183,7 +180,38 @@ std::string nominal_oem(const PropagationResult& result, const RunResult& run) {
     states.push_back(orbit_state(result.scene, point.time, point.state));
   }
   add_states(message, std::move(states));
-  return oem_text(message);
+  return message;
+}
+
+using OfNominal = std::string (*)(const PropagationResult&, const RunResult&);
+
+/// What all formats of messages have in common.
+OutputFormat message_format(std::string_view name, std::string_view help, std::string_view file,
+                            OfNominal of_nominal) {
+  return {.name = name,
+          .help = help,
+          .file = file,
+          .needs_orbit = true,
+          .needs_date = true,
+          .of_nominal = of_nominal};
+}
+
+/// The same in XML, which a build may lack.
+OutputFormat xml_format(std::string_view name, std::string_view help, std::string_view file,
+                        OfNominal of_nominal) {
+  OutputFormat format = message_format(name, help, file, of_nominal);
+  format.library = "pugixml";
+  format.is_built = is_xml_built;
+  return format;
+}
+
+constexpr std::string_view opm_help = "orbit parameter messages";
+constexpr std::string_view oem_help = "an orbit ephemeris message";
+
+}  // namespace
+
+std::string nominal_oem(const PropagationResult& result, const RunResult& run) {
+  return oem_text(nominal_of(result, run));
 }
 
 std::vector<ReportFile> transfer_oems(const TransferResult& result,
@@ -210,24 +238,40 @@ std::vector<ReportFile> transfer_oems(const TransferResult& result,
   segment.comments.push_back("Second change: " + change_text(answer.end_change_m_s, frame));
   segment.comments.push_back(fmt::format("It misses its place by {:.3g} m", answer.miss_m));
   add_states(deputy, flown_states(scene, trajectory.times, trajectory.deputy));
-  return {{"chief.oem", oem_text(chief)}, {"deputy.oem", oem_text(deputy)}};
+  std::vector<ReportFile> files;
+  if (scene.output.has(oem_format.name)) {
+    files = {{"chief.oem", oem_text(chief)}, {"deputy.oem", oem_text(deputy)}};
+  }
+  if (scene.output.has(oem_xml_format.name)) {
+    files.push_back({"chief.oem.xml", oem_xml(chief)});
+    files.push_back({"deputy.oem.xml", oem_xml(deputy)});
+  }
+  return files;
 }
 
-const OutputFormat oem_format = {.name = "oem",
-                                 .help = "an orbit ephemeris message",
-                                 .file = "nominal.oem",
-                                 .needs_orbit = true,
-                                 .needs_date = true,
-                                 .of_nominal = nominal_oem};
+const OutputFormat oem_format = message_format("oem", oem_help, "nominal.oem", nominal_oem);
+const OutputFormat oem_xml_format =
+    xml_format("oem-xml", oem_help, "nominal.oem.xml",
+               [](const PropagationResult& result, const RunResult& run) {
+                 return oem_xml(nominal_of(result, run));
+               });
 
-const OutputFormat start_opm_format =
-    opm_format("start.opm", [](const PropagationResult& result, const RunResult& run) {
-      return opm_at(result, run, "start", 0, result.scene.nominal);
+const OutputFormat start_opm_format = message_format(
+    "opm", opm_help, "start.opm", [](const PropagationResult& result, const RunResult& run) {
+      return opm_text(start_of(result, run));
     });
-
-const OutputFormat end_opm_format =
-    opm_format("end.opm", [](const PropagationResult& result, const RunResult& run) {
-      return opm_at(result, run, "end", result.scene.duration, run.nominal_final);
+const OutputFormat end_opm_format = message_format(
+    "opm", opm_help, "end.opm", [](const PropagationResult& result, const RunResult& run) {
+      return opm_text(end_of(result, run));
+    });
+const OutputFormat start_opm_xml_format =
+    xml_format("opm-xml", opm_help, "start.opm.xml",
+               [](const PropagationResult& result, const RunResult& run) {
+                 return opm_xml(start_of(result, run));
+               });
+const OutputFormat end_opm_xml_format = xml_format(
+    "opm-xml", opm_help, "end.opm.xml", [](const PropagationResult& result, const RunResult& run) {
+      return opm_xml(end_of(result, run));
     });
 
 }  // namespace hamjet::io

@@ -17,16 +17,21 @@ struct OutputFormat;
 
 /// `nominal.oem` of each run.
 extern const OutputFormat oem_format;
+/// `nominal.oem.xml`, the same in XML.
+extern const OutputFormat oem_xml_format;
 
 /// `start.opm` and `end.opm` of each run, the nominal's state at the two ends; asked for together.
 extern const OutputFormat start_opm_format;
 extern const OutputFormat end_opm_format;
+/// `start.opm.xml` and `end.opm.xml`, the same in XML.
+extern const OutputFormat start_opm_xml_format;
+extern const OutputFormat end_opm_xml_format;
 
 /// `nominal.oem` of a run: the nominal at the steps of the integrator.
 std::string nominal_oem(const PropagationResult& result, const RunResult& run);
 
-/// `chief.oem` and `deputy.oem`: one each, for a message holds a single object (CCSDS 502.0-B-3,
-/// 5.1.3).
+/// `chief.oem` and `deputy.oem`, or in XML, or both, as the scene asks: one each, for a message
+/// holds a single object (CCSDS 502.0-B-3, 5.1.3).
 std::vector<ReportFile> transfer_oems(const TransferResult& result,
                                       const RelativeTrajectory& trajectory);
 

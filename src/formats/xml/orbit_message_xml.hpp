@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "hamjet/formats/orbit_message.hpp"
+
 // Orbit messages in XML notation (CCSDS 505.0-B-3, XML Specification for Navigation Data Messages,
 // 2023, and CCSDS 502.0-B-3, section 8).
 
@@ -28,5 +30,11 @@ bool is_xml_built();
 /// without XML for everything.
 std::vector<XmlStatement> statements_of_xml(const std::string& name, std::string_view text,
                                             std::string_view kind);
+
+/// An OEM, and an OPM of the state alone, in XML, with the schema's order and units; numbers have
+/// the digits of oem_text and opm_text, so that what is read back is what is read of those. Throw
+/// Error(usage) in a build without XML.
+std::string oem_xml(const OrbitEphemerisMessage& message);
+std::string opm_xml(const OrbitParameterMessage& message);
 
 }  // namespace hamjet::io

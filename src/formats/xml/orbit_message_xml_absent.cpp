@@ -17,4 +17,15 @@ std::vector<XmlStatement> statements_of_xml(const std::string& name, std::string
                           name));
 }
 
+namespace {
+
+[[noreturn]] void refuse() {
+  throw Error(ErrorKind::usage, "orbit messages in XML: not in this build (HAMJET_XML is OFF)");
+}
+
+}  // namespace
+
+std::string oem_xml(const OrbitEphemerisMessage&) { refuse(); }
+std::string opm_xml(const OrbitParameterMessage&) { refuse(); }
+
 }  // namespace hamjet::io

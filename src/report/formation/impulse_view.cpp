@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <sstream>
 
 #include "../../formats/relative_frame_text.hpp"
@@ -71,13 +72,17 @@ std::string optimal_impulses_verdict(const TransferResult& result) {
     return fmt::format("No optimal impulses can be named: {}.", failure);
   }
   const ImpulsePlan& plan = *plan_of(result);
+  const std::string which =
+      plan.spacing ? fmt::format(" of at most {} each at times {:.4g} s apart",
+                                 velocity_text(*result.scene.transfer->largest_impulse_m_s),
+                                 std::abs(seconds(result, *plan.spacing)))
+                   : "";
   return fmt::format(
       "With {} in {} the same takes {}, flown with a miss of {} ({} in the linear theory); to "
-      "first "
-      "order about this plan no impulses cost less than {}.",
+      "first order about this plan no impulses{} cost less than {}.",
       counted(plan.impulses.size(), "impulse"), time_text(seconds(result, plan.duration)),
       velocity_text(plan.total_change_m_s()), end_text(result, plan),
-      velocity_text(plan.linear_change_m_s), velocity_text(plan.lower_bound_m_s));
+      velocity_text(plan.linear_change_m_s), which, velocity_text(plan.lower_bound_m_s));
 }
 
 std::string impulse_lines(const TransferResult& result) {
@@ -94,15 +99,20 @@ std::string impulse_lines(const TransferResult& result) {
                       velocity_text(plan->total_change_m_s()),
                       counted(plan->impulses.size(), "impulse"),
                       time_text(seconds(result, plan->duration)), end_text(result, *plan));
-  if (plan->impulses.empty()) return text;
+  return text + impulse_rows(result, plan->impulses);
+}
+
+std::string impulse_rows(const TransferResult& result, const std::vector<Impulse>& impulses) {
+  if (impulses.empty()) return "";
   std::vector<std::vector<std::string>> rows = {{"at time (s)", "change (m/s)"}};
   for (std::string& name : axis_names(result)) rows[0].push_back(std::move(name));
-  for (const Impulse& impulse : plan->impulses) {
+  for (const Impulse& impulse : impulses) {
     rows.push_back({fmt::format("{:.1f}", seconds(result, impulse.time)),
                     fmt::format("{:.6f}", impulse.change_m_s.norm())});
     for (const double x : impulse.change_m_s) rows.back().push_back(fmt::format("{:.6f}", x));
   }
   std::istringstream table(aligned_table(rows));
+  std::string text;
   for (std::string line; std::getline(table, line);) text += "    " + line + "\n";
   return text;
 }
@@ -115,22 +125,27 @@ std::string impulse_table_html(const TransferResult& result) {
   html += "<p>" + escape_html(optimal_impulses_verdict(result)) + "</p>\n";
   const ImpulsePlan* plan = plan_of(result);
   if (plan == nullptr || !plan->failure.empty()) return html + "</section>\n";
+  return html +
+         impulse_rows_html(
+             result, plan->impulses,
+             fmt::format("Velocity changes of the optimal plan, flown {} times to correct them, "
+                         "along the axes of the frame {} at their times.",
+                         plan->flights, frame_text(result.scene.transfer->frame))) +
+         "</section>\n";
+}
+
+std::string impulse_rows_html(const TransferResult& result, const std::vector<Impulse>& impulses,
+                              const std::string& caption) {
   std::vector<std::string> names = {"time (s)", "change (m/s)"};
   for (std::string& name : axis_names(result)) names.push_back(std::move(name));
   std::string rows;
-  for (const Impulse& impulse : plan->impulses) {
+  for (const Impulse& impulse : impulses) {
     rows += "<tr>" + row_name_cell(fmt::format("{:.6g}", seconds(result, impulse.time))) +
             cell(fmt::format("{:.5g}", impulse.change_m_s.norm()));
     for (const double x : impulse.change_m_s) rows += cell(fmt::format("{:.5g}", x));
     rows += "</tr>\n";
   }
-  return html +
-         table_html(
-             escape_html(fmt::format("Velocity changes of the optimal plan, flown {} times to "
-                                     "correct them, along the axes of the frame {} at their times.",
-                                     plan->flights, frame_text(result.scene.transfer->frame))),
-             "<tr>" + header_cells(names) + "</tr>", rows) +
-         "</section>\n";
+  return table_html(escape_html(caption), "<tr>" + header_cells(names) + "</tr>", rows);
 }
 
 Chart primer_chart(const TransferResult& result) {
@@ -169,7 +184,8 @@ Chart primer_chart(const TransferResult& result) {
       "By how much a small velocity change at a time lowers the cost of the rest, for each m/s of "
       "its own: above 1 it is worth its cost, and a further impulse makes the transfer cheaper. A "
       "transfer whose primer vector is at most 1, and 1 at its impulses, is the cheapest of all in "
-      "the linear theory, with any number of impulses.";
+      "the linear theory, with any number of impulses. It exceeds 1 where the scene's largest "
+      "impulse allows no more.";
   return chart;
 }
 
@@ -179,6 +195,16 @@ Json primer_json(const TransferResult& result) {
   return {{"largest_magnitude", json_number(largest.magnitude)},
           {"time_s", seconds(result, largest.time)},
           {"further_impulse_helps", result.primer->calls_for_impulse()}};
+}
+
+Json impulses_json(const TransferResult& result, const std::vector<Impulse>& impulses) {
+  Json json = Json::array();
+  for (const Impulse& impulse : impulses) {
+    json.push_back({{"time_s", seconds(result, impulse.time)},
+                    {"change_m_s", vector_json(impulse.change_m_s)},
+                    {"magnitude_m_s", json_number(impulse.change_m_s.norm())}});
+  }
+  return json;
 }
 
 Json optimal_impulses_json(const TransferResult& result) {
@@ -192,17 +218,13 @@ Json optimal_impulses_json(const TransferResult& result) {
   }
   const ImpulsePlan* plan = plan_of(result);
   if (plan == nullptr) return json;
-  Json impulses = Json::array();
-  for (const Impulse& impulse : plan->impulses) {
-    impulses.push_back({{"time_s", seconds(result, impulse.time)},
-                        {"change_m_s", vector_json(impulse.change_m_s)},
-                        {"magnitude_m_s", json_number(impulse.change_m_s.norm())}});
-  }
   json["plan"] = {{"duration_s", seconds(result, plan->duration)},
-                  {"impulses", std::move(impulses)},
+                  {"impulses", impulses_json(result, plan->impulses)},
                   {"total_change_m_s", json_number(plan->total_change_m_s())},
                   {"linear_change_m_s", json_number(plan->linear_change_m_s)},
                   {"lower_bound_m_s", json_number(plan->lower_bound_m_s)},
+                  {"spacing_s",
+                   plan->spacing ? Json(std::abs(seconds(result, *plan->spacing))) : Json(nullptr)},
                   {"miss_m", json_number(plan->miss_m)},
                   {"velocity_miss_m_s", json_number(plan->velocity_miss_m_s)},
                   {"flights", plan->flights}};
@@ -210,6 +232,11 @@ Json optimal_impulses_json(const TransferResult& result) {
 }
 
 std::string impulses_csv(const TransferResult& result) {
+  const ImpulsePlan* plan = plan_of(result);
+  return impulses_csv(result, plan == nullptr ? std::vector<Impulse>() : plan->impulses);
+}
+
+std::string impulses_csv(const TransferResult& result, const std::vector<Impulse>& impulses) {
   const double unit = result.scene.units.time_s;
   Columns<Impulse> columns;
   columns.add("time_canonical", &Impulse::time);
@@ -221,8 +248,7 @@ std::string impulses_csv(const TransferResult& result) {
     ++i;
   }
   columns.add("magnitude_m_s", [](const Impulse& impulse) { return impulse.change_m_s.norm(); });
-  const ImpulsePlan* plan = plan_of(result);
-  return columns.csv(plan == nullptr ? std::vector<Impulse>() : plan->impulses);
+  return columns.csv(impulses);
 }
 
 }  // namespace hamjet::io

@@ -6,6 +6,7 @@
 #include "hamjet/version.hpp"
 #include "impulse_view.hpp"
 #include "transfer_view.hpp"
+#include "waypoint_view.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -154,6 +155,9 @@ Json transfer_summary_json(const TransferResult& result) {
   json["budget_windows"] = settings.budget_m_s ? windows_json(result) : Json(nullptr);
   json["primer_vector"] = primer_json(result);
   json["optimal_impulses"] = optimal_impulses_json(result);
+  json["waypoints"] = waypoints_json(result);
+  json["coasting_start"] = coasting_json(result);
+  json["other_revolutions"] = revolutions_json(result);
   json["counts"] = counts_json(count_points(result));
   json["misses_away_from_singularities"] = misses_json(result);
   json["position_singular_times"] = Json::array();

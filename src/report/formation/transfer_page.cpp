@@ -9,6 +9,7 @@
 #include "transfer_charts.hpp"
 #include "transfer_view.hpp"
 #include "validity_view.hpp"
+#include "waypoint_view.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -25,6 +26,23 @@ std::string state_text(const RelativeState& state) {
                      v[2]);
 }
 
+std::string end_text(const Scene& scene) {
+  const ArrivalState& end = scene.transfer->end;
+  if (end.in_form) {
+    std::string text = std::string(name_of(end.in_form->form)) + ":";
+    for (std::size_t i = 0; i < 6; ++i) {
+      text += fmt::format("{} {} {:g}", i == 0 ? "" : ",", components_of(end.in_form->form)[i].name,
+                          end.in_form->numbers[i]);
+    }
+    return text;
+  }
+  if (!end.own_state) return state_text(end);
+  const auto& z = *end.own_state;
+  const double km = scene.units.length_km, km_s = km / scene.units.time_s;
+  return fmt::format("its own orbit, ({:g}, {:g}, {:g}) km, ({:g}, {:g}, {:g}) km/s at arrival",
+                     z[0] * km, z[1] * km, z[2] * km, z[3] * km_s, z[4] * km_s, z[5] * km_s);
+}
+
 std::string scene_text(const Scene& scene) {
   return fmt::format("{}, order {}", scene.name, scene.order);
 }
@@ -38,8 +56,7 @@ std::string facts_html(const TransferResult& result, const ReportOrigin& origin)
   }
   return origin_facts_html(origin) + fact_html("Scene", scene_text(result.scene)) +
          fact_html("Frame", frame_text(settings.frame) + coordinates_text(result.coordinates)) +
-         fact_html("Start", state_text(settings.start)) +
-         fact_html("End", state_text(settings.end)) +
+         fact_html("Start", state_text(settings.start)) + fact_html("End", end_text(result.scene)) +
          fact_html("Transfer times", fmt::format("{}, {:.6g} s to {:.6g} s{}", result.points.size(),
                                                  settings.times.front() * unit,
                                                  settings.times.back() * unit, outcomes)) +
@@ -84,9 +101,10 @@ std::string transfer_page(const TransferResult& result,
   page.facts = facts_html(result, origin);
   page.sections = "<section>\n<h2>The best transfer</h2>\n" + best_transfer_table_html(result) +
                   "</section>\n" + trajectory_section(result, trajectory, drawer) +
-                  impulse_sections(result, drawer) + fitted_section(miss_chart(result), drawer) +
-                  miss_table_html(result) + fitted_section(condition_chart(result), drawer) +
-                  singular_table_html(result);
+                  impulse_sections(result, drawer) + waypoint_section_html(result) +
+                  coasting_section_html(result) + revolutions_section_html(result) +
+                  fitted_section(miss_chart(result), drawer) + miss_table_html(result) +
+                  fitted_section(condition_chart(result), drawer) + singular_table_html(result);
   if (validity) {
     page.sections += fitted_section(validity_time_chart(*validity), drawer) +
                      validity_sections_html(*validity, drawer);

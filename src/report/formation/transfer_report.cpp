@@ -14,6 +14,7 @@
 #include "transfer_view.hpp"
 #include "validity_json.hpp"
 #include "validity_view.hpp"
+#include "waypoint_view.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -59,7 +60,8 @@ std::string terminal_table(const TransferResult& result) {
   }
   text += change_line(result, "least", result.best_point()) +
           change_line(result, "greatest", costliest_point(result));
-  text += impulse_lines(result);
+  text += impulse_lines(result) + waypoint_lines(result) + coasting_lines(result) +
+          revolutions_lines(result);
   const std::vector<MissStatistics> misses = miss_statistics(result);
   if (!misses.empty()) {
     text += "  misses           away from singularities, the median and the largest:\n";
@@ -115,8 +117,11 @@ StudyReport transfer_report(const TransferResult& result,
                   {"singular_times.csv", singular_times_csv(result)},
                   {"conditions.csv", conditions_csv(result)}};
   if (result.optimal) report.files.push_back({"impulses.csv", impulses_csv(result)});
+  if (result.waypoints) report.files.push_back({"waypoints.csv", waypoints_csv(result)});
   if (validity) report.files.push_back({"validity.csv", validity_csv(*validity)});
-  if (result.scene.output.has(oem_format.name) && trajectory) {
+  const OutputSettings& output = result.scene.output;
+  const bool has_messages = output.has(oem_format.name) || output.has(oem_xml_format.name);
+  if (has_messages && trajectory) {
     for (ReportFile& file : transfer_oems(result, *trajectory)) {
       report.files.push_back(std::move(file));
     }

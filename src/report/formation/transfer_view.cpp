@@ -8,6 +8,7 @@
 #include "../../text/html_text.hpp"
 #include "hamjet/error.hpp"
 #include "impulse_view.hpp"
+#include "waypoint_view.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -235,15 +236,18 @@ std::string budget_text(const TransferResult& result) {
 
 std::string transfer_verdict(const TransferResult& result) {
   const std::optional<std::size_t> best = result.best_point();
-  const std::string optimal = optimal_impulses_verdict(result);
-  const std::string optimal_text = optimal.empty() ? "" : " " + optimal;
+  std::string further;
+  for (const std::string& one : {optimal_impulses_verdict(result), waypoint_verdict(result),
+                                 coasting_verdict(result), revolutions_verdict(result)}) {
+    if (!one.empty()) further += " " + one;
+  }
   if (!best) {
     const TransferCounts counts = count_points(result);
     return fmt::format(
                "No velocity change can be named: of {} {}, which transfers.csv has, marked.{}",
                counted(counts.times, "transfer time"), left_out(result),
                remedy_text(result, counts)) +
-           optimal_text;
+           further;
   }
   const TransferPoint& point = result.points[*best];
   const TransferAnswer& answer = *shown_answer(point);
@@ -263,7 +267,7 @@ std::string transfer_verdict(const TransferResult& result) {
     text += fmt::format(", with the linear answer by {}", length_text(linear->miss_m));
   }
   return text + "." + edge_text(result, *best) + left_out_text(result) + between_text(result) +
-         budget_text(result) + optimal_text;
+         budget_text(result) + further;
 }
 
 std::string transfer_failure(const TransferResult& result) {
@@ -276,6 +280,15 @@ std::string transfer_failure(const TransferResult& result) {
   }
   if (const std::string failure = optimal_impulses_failure(result); !failure.empty()) {
     return "optimal impulses: " + failure;
+  }
+  if (const std::string failure = waypoint_failure(result); !failure.empty()) {
+    return "waypoints: " + failure;
+  }
+  if (const std::string failure = coasting_failure(result); !failure.empty()) {
+    return "drifting first: " + failure;
+  }
+  if (const std::string failure = revolutions_failure(result); !failure.empty()) {
+    return "other revolutions: " + failure;
   }
   const TransferCounts counts = count_points(result);
   if (counts.compared == 0 && counts.over_impulse + counts.kept_out > 0) {

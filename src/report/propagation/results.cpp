@@ -1,5 +1,7 @@
 #include "hamjet/report/results.hpp"
 
+#include <fmt/format.h>
+
 #include "../../formats/output_formats.hpp"
 #include "../../formats/results_names.hpp"
 
@@ -23,6 +25,10 @@ std::string kind_name(const KindResult& kind) {
   return kind.requested == "auto" ? kind.kind.name() : kind.requested;
 }
 
+std::string time_folder(std::size_t index) {
+  return fmt::format("{}{:04}", time_folder_head, index + 1);
+}
+
 bool is_at_floor(const ExactnessEntry& entry) {
   return entry.floor && entry.residual.absolute <= 10 * entry.floor->absolute;
 }
@@ -42,6 +48,25 @@ void write_jets(const PropagationResult& result, const RunResult& run, OutputDir
   }
 }
 
+/// The jets before the duration, a folder each, in every format that holds one jet.
+void write_jets_at_times(const PropagationResult& result, const RunResult& run,
+                         OutputDirectory& output) {
+  if (run.jets.empty()) return;
+  StoredJet stored = describe_jet(result, run);
+  for (std::size_t i = 0; i < run.jets.size(); ++i) {
+    const JetAtTime& one = run.jets[i];
+    const std::filesystem::path folder = std::filesystem::path(run.settings.label) / time_folder(i);
+    stored.duration = one.time;
+    stored.nominal_final = one.nominal;
+    stored.error_by_degree = one.error_estimate;
+    stored.jet = one.jet;
+    output.write(folder / csv_format.file, csv_format.of_jet(stored));
+    for (const OutputFormat* format : wanted_formats(result.scene)) {
+      if (format->of_jet != nullptr) output.write(folder / format->file, format->of_jet(stored));
+    }
+  }
+}
+
 }  // namespace
 
 std::string write_results(const PropagationResult& result, const std::string& figure,
@@ -52,6 +77,7 @@ std::string write_results(const PropagationResult& result, const std::string& fi
     const std::filesystem::path folder = run.settings.label;
     output.write(folder / "jet.csv", jet_csv(result, run));
     write_jets(result, run, output);
+    write_jets_at_times(result, run, output);
     output.write(folder / "nominal.csv", nominal_csv(result, run));
     for (const OutputFormat* format : formats) {
       if (format->of_nominal != nullptr) {

@@ -86,6 +86,22 @@ Json arcs_json(const Scene& scene, const ArcStatistics& arcs) {
           {"composition_seconds", arcs.composition_seconds}};
 }
 
+/// The jets before the duration.
+Json jets_json(const PropagationResult& result, const RunResult& run) {
+  Json json = Json::array();
+  for (std::size_t i = 0; i < run.jets.size(); ++i) {
+    const JetAtTime& one = run.jets[i];
+    const bool is_estimated = !one.error_estimate.empty();
+    json.push_back({{"folder", time_folder(i)},
+                    {"time_canonical", one.time},
+                    {"time_s", one.time * result.scene.units.time_s},
+                    {"nominal", one.nominal},
+                    {"error_estimate_by_degree",
+                     is_estimated ? by_degree_json(one.error_estimate) : Json(nullptr)}});
+  }
+  return json;
+}
+
 Json run_json(const PropagationResult& result, const RunResult& run) {
   Json json = integrator_json(run.settings);
   json["error"] = text_or_null(run.failure);
@@ -124,6 +140,7 @@ Json run_json(const PropagationResult& result, const RunResult& run) {
   json["error_estimate_by_degree"] = by_degree_json(run.error_estimate.by_degree);
   json["position_error_m"] = or_null(run.position_error_m);
   json["operations"] = operations_json(result, run);
+  if (!run.jets.empty()) json["jets"] = jets_json(result, run);
   if (run.arcs) json["arcs"] = arcs_json(result.scene, *run.arcs);
   return json;
 }

@@ -211,6 +211,12 @@ std::string summary_table(const PropagationResult& result) {
     text +=
         "the nominal stays in an invariant subspace: the components outside it are not computed\n";
   }
+  if (!scene.jet_times.empty()) {
+    text += fmt::format("jets at {} before the duration too, from {:.10g} s to {:.10g} s\n",
+                        counted(scene.jet_times.size(), "time"),
+                        scene.jet_times.front() * scene.units.time_s,
+                        scene.jet_times.back() * scene.units.time_s);
+  }
   text += reference_line(result) + "\n";
   text += table_of(result, main_columns(result));
   text += checks_line(scene);

@@ -84,9 +84,9 @@ class AssignmentStudy {
         progress_("costs", static_cast<double>(index) / static_cast<double>(times.size()));
       }
       for (std::size_t j = 0; j < settings_.slots.size(); ++j) {
-        const SingleTransfer transfer(scene_, points_.problem(), times[index], chief_end,
-                                      settings_.deputies[i], settings_.slots[j]);
         try {
+          const SingleTransfer transfer(scene_, points_.problem(), times[index], chief_end,
+                                        settings_.deputies[i], settings_.slots[j]);
           const TransferAnswer answer =
               transfer.answer(transfer.solve(boundary, scene_.order), scene_.order);
           const double cost = answer.total_change_m_s();

@@ -2,15 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include "../../integrators/momentum_unit.hpp"
 #include "../exact_flow.hpp"
+#include "../nominal_period.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/relative_motion/chief_frame.hpp"
 #include "impulse_search.hpp"
@@ -30,20 +31,18 @@ namespace {
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-/// Impulses in the order of time, in the units of the linear flow.
-struct TimedImpulses {
-  std::vector<double> times;
-  std::vector<Eigen::Vector3d> changes;
-
-  double sum() const {
-    double total = 0;
-    for (const Eigen::Vector3d& change : changes) total += change.norm();
-    return total;
-  }
+/// Impulses of the linear theory that make a change, and what proves them the least.
+struct FoundImpulses {
+  ImpulseOptimum optimum;
+  TimedImpulses impulses;
+  bool is_limited = false;  ///< whether they are at spaced times, none above the limit
 };
 
 /// One deputy's way from the scene's start to its end.
 class PlannedTransfer {
+  /// Without a gap of the scene's own.
+  static constexpr double gaps_in_period = 72;
+
  public:
   PlannedTransfer(const Scene& scene, const ComputedProblem& problem, const LinearFlow& flow,
                   double duration)
@@ -55,11 +54,24 @@ class PlannedTransfer {
         momentum_unit_(std::ldexp(1.0, problem.momentum_exponent)),
         chief_end_(flow.nominal(duration)),
         start_(frame(problem.nominal).deviation(scene.transfer->start)),
-        end_(frame(chief_end_).deviation(scene.transfer->end)),
+        end_(scene.transfer->end.deviation(chief_end_, units_, scene.transfer->frame)),
         from_end_(symplectic_inverse(flow.at(duration))),
-        change_(from_end_ * in_flow_units(end_) - in_flow_units(start_)) {}
+        change_(from_end_ * in_flow_units(end_) - in_flow_units(start_)) {
+    const std::optional<double>& limit = scene.transfer->largest_impulse_m_s;
+    if (limit) most_ = *limit / metres_per_second(1);
+    const double circle = 2 * std::numbers::pi * std::pow(initial_distance(scene.nominal), 1.5);
+    gap_ = scene.transfer->impulse_gap.value_or(nominal_period(scene).value_or(circle) /
+                                                gaps_in_period);
+  }
 
-  const Vector6& change() const { return change_; }
+  /// The cost of the least impulses on a coarse grid, in the linear theory.
+  double coarse_cost_m_s() const {
+    const ImpulseGrid grid = impulse_grid(flow_, duration_);
+    const ImpulseOptimum optimum{grid, least_impulses(grid.effects, change_), {}};
+    const FoundImpulses found = within_limit(optimum, change_);
+    return metres_per_second(found.is_limited ? found.impulses.sum() : optimum.least.cost);
+  }
+
   /// A sum of magnitudes in the flow's units in m/s.
   double metres_per_second(double momentum) const {
     return momentum * momentum_unit_ * units_.velocity_m_s();
@@ -68,28 +80,28 @@ class PlannedTransfer {
   ImpulsePlan plan() const {
     ImpulsePlan plan;
     plan.duration = duration_;
-    ImpulseOptimum optimum = search_impulses(flow_, duration_, change_);
-    TimedImpulses impulses = merged(optimum, change_);
+    FoundImpulses found = find(change_);
+    TimedImpulses impulses = found.impulses;
     plan.linear_change_m_s = metres_per_second(impulses.sum());
-    correct(plan, impulses);
+    correct(plan, impulses, found.is_limited);
     // The flown impulses make another change of the linear theory than the wanted one, since that
     // theory does not hold exactly; others may make that change for less.
     constexpr int most_rounds = 4;
     constexpr double worth_it = 1e-5;
     for (int round = 0; round < most_rounds && plan.failure.empty(); ++round) {
-      const Vector6 made = change_by(impulses);
-      optimum = search_impulses(flow_, duration_, made);
-      const bool is_least = impulses.sum() <= optimum.least.lower_bound * (1 + worth_it);
+      found = find(change_by(impulses));
+      const bool is_least = impulses.sum() <= found.optimum.least.lower_bound * (1 + worth_it);
       if (is_least || round + 1 == most_rounds) break;
       ImpulsePlan other = plan;
-      TimedImpulses others = merged(optimum, made);
-      correct(other, others);
+      TimedImpulses others = found.impulses;
+      correct(other, others, found.is_limited);
       if (!other.failure.empty() || !(others.sum() < impulses.sum())) break;
       plan = std::move(other);
       impulses = std::move(others);
     }
-    plan.lower_bound_m_s = metres_per_second(optimum.least.lower_bound);
-    plan.primer = optimum.primer;
+    plan.lower_bound_m_s = metres_per_second(found.optimum.least.lower_bound);
+    if (found.is_limited) plan.spacing = duration_ / spaces();
+    plan.primer = found.optimum.primer;
     tell(plan, impulses);
     if (plan.failure.empty()) judge_limits(plan, impulses);
     return plan;
@@ -106,6 +118,43 @@ class PlannedTransfer {
       z[i] = deviation[static_cast<std::size_t>(i)] / (i < 3 ? 1 : momentum_unit_);
     }
     return z;
+  }
+
+  /// How many spaces of at least the gap there are until the end.
+  int spaces() const {
+    constexpr double most = 4000;
+    const double fit = std::floor(std::abs(duration_) / gap_ * (1 + 1e-12));
+    return static_cast<int>(std::clamp(fit, 1.0, most));
+  }
+  double spaced_time(int k) const { return k == spaces() ? duration_ : duration_ * k / spaces(); }
+
+  FoundImpulses find(const Vector6& change) const {
+    return within_limit(search_impulses(flow_, duration_, change), change);
+  }
+
+  /// The impulses of an optimum, or where one of them is above the limit the least of those that
+  /// are not, at times that are spaced: without a space many small ones would be a large one.
+  FoundImpulses within_limit(ImpulseOptimum optimum, const Vector6& change) const {
+    TimedImpulses impulses = merged(optimum, change);
+    if (impulses.largest() <= most_) return {std::move(optimum), std::move(impulses), false};
+    ImpulseGrid grid;
+    for (int k = 0; k <= spaces(); ++k) grid.add(spaced_time(k), flow_.at(spaced_time(k)));
+    const std::optional<LeastImpulses> least = least_impulses(grid.effects, change, most_);
+    if (!least) {
+      throw Error(
+          ErrorKind::numerical,
+          fmt::format("no impulses of at most {:.6g} m/s each, {:.6g} s apart, do it within "
+                      "{:.6g} s",
+                      metres_per_second(most_),
+                      std::abs(duration_) / spaces() * scene_.units.time_s,
+                      duration_ * scene_.units.time_s));
+    }
+    FoundImpulses found{{grid, *least, primer_along(grid, least->costate)}, {}, true};
+    for (const ChosenImpulse& impulse : least->impulses) {
+      found.impulses.times.push_back(grid.times[impulse.time]);
+      found.impulses.changes.push_back(impulse.change);
+    }
+    return found;
   }
 
   /// Those of neighbouring times become one impulse, at their mean time.
@@ -181,7 +230,8 @@ class PlannedTransfer {
     for (const Impulse& impulse : plan.impulses) {
       largest = std::max(largest, impulse.change_m_s.norm());
     }
-    if (settings.largest_impulse_m_s && largest > *settings.largest_impulse_m_s) {
+    // At the limit they are there to rounding.
+    if (settings.largest_impulse_m_s && largest > *settings.largest_impulse_m_s * (1 + 1e-12)) {
       plan.forbidden = fmt::format("an impulse is {:.4g} m/s, above largest_impulse_m_s", largest);
       return;
     }
@@ -200,7 +250,7 @@ class PlannedTransfer {
   }
 
   /// Flies the plan and takes the linear flow's word on how to mend what it misses by.
-  void correct(ImpulsePlan& plan, TimedImpulses& impulses) const {
+  void correct(ImpulsePlan& plan, TimedImpulses& impulses, bool is_limited) const {
     constexpr int most_flights = 16;
     const double most_miss = scene_.transfer->refined_miss_m / units_.length_m;
     // The same times the mean motion of a circle, to a factor of two.
@@ -222,10 +272,10 @@ class PlannedTransfer {
         plan.velocity_miss_m_s = velocity_miss * units_.velocity_m_s();
         if (miss <= most_miss && velocity_miss <= most_velocity_miss) return;
         const Vector6 mend = from_end_ * in_flow_units(missing);
-        if (!add_change(effects, changes, weights, mend)) {
-          add_trims(impulses, weights);
+        if (!add_below_limit(effects, changes, weights, mend)) {
+          add_trims(impulses, weights, is_limited);
           effects = effects_at(times);
-          if (!add_change(effects, changes, weights, mend)) break;
+          if (!add_below_limit(effects, changes, weights, mend)) break;
         }
       }
       plan.failure = fmt::format("the last of {} flights misses by {:.3g} m", most_flights,
@@ -236,15 +286,29 @@ class PlannedTransfer {
     }
   }
 
+  /// add_change that leaves no impulse above the limit; what is cut off the next flight shows.
+  bool add_below_limit(const std::vector<ImpulseEffect>& effects,
+                       std::vector<Eigen::Vector3d>& changes, const std::vector<double>& weights,
+                       const Vector6& mend) const {
+    const bool is_added = add_change(effects_below(effects, changes, most_), changes,
+                                     weights_below(weights, changes, most_), mend);
+    for (Eigen::Vector3d& change : changes) {
+      if (change.norm() > most_) change *= most_ / change.norm();
+    }
+    return is_added;
+  }
+
   /// Adds times, evenly from start to end, at which small impulses may correct what those of the
   /// plan cannot, such as a way out of the plane of an orbit by impulses half a revolution apart.
-  void add_trims(TimedImpulses& impulses, std::vector<double>& weights) const {
-    constexpr int trims = 5;
+  void add_trims(TimedImpulses& impulses, std::vector<double>& weights, bool is_limited) const {
+    // At spaced times a quarter of a revolution may lie between those of the plan.
+    const int trims = is_limited ? 9 : 5;
     constexpr double share = 1e-2;
     const double weight = share * impulses.sum() / trims;
     auto& [times, changes] = impulses;
     for (int k = 0; k < trims; ++k) {
-      const double time = duration_ * k / (trims - 1);
+      const double time =
+          is_limited ? spaced_time(k * spaces() / (trims - 1)) : duration_ * k / (trims - 1);
       const auto place = std::lower_bound(times.begin(), times.end(), time, [](double a, double b) {
         return std::abs(a) < std::abs(b);
       });
@@ -276,60 +340,23 @@ class PlannedTransfer {
   std::vector<double> end_;
   Matrix6 from_end_;  ///< the flow from the end to the start
   Vector6 change_;    ///< of the deviation at the start that impulses must make
+  double most_ = std::numeric_limits<double>::infinity();  ///< that an impulse may be
+  double gap_ = 0;  ///< between impulses that the limit divides; canonical
 };
 
-/// Some of the listed times, evenly over their list and with the last.
-std::vector<double> some_times(const std::vector<double>& times) {
-  constexpr std::size_t most = 24;
-  const std::size_t count = std::min(most, times.size());
-  std::vector<double> some;
-  for (std::size_t k = 1; k <= count; ++k) some.push_back(times[times.size() * k / count - 1]);
-  return some;
-}
-
 }  // namespace
-
-std::optional<PrimerHistory> primer_history(const Scene& scene, const ComputedProblem& problem,
-                                            const LinearFlow& flow, const TransferPoint& point) {
-  const MetricUnits units = metric_units(scene);
-  const ImpulseGrid grid = impulse_grid(flow, point.time);
-  const TransferAnswer& answer = point.best();
-  // The primer is along the impulse at each end, in inertial axes.
-  const auto direction = [&](const std::vector<double>& chief, const Eigen::Vector3d& change) {
-    const std::vector<double> z = ChiefFrame(chief, units, scene.transfer->frame)
-                                      .deviation({Eigen::Vector3d::Zero(), change});
-    return Eigen::Vector3d(Eigen::Vector3d(z[3], z[4], z[5]).normalized());
-  };
-  Matrix6 both;
-  both << grid.effects.front().transpose(), grid.effects.back().transpose();
-  Vector6 ends;
-  ends << direction(problem.nominal, answer.start_change_m_s),
-      direction(flow.nominal(point.time), answer.end_change_m_s);
-  Eigen::FullPivLU<Matrix6> solver(both);
-  solver.setThreshold(1e-9);
-  const bool has_impulses = !answer.start_change_m_s.isZero(0) && !answer.end_change_m_s.isZero(0);
-  if (!has_impulses || !solver.isInvertible()) return std::nullopt;
-  const Vector6 costate = solver.solve(ends);
-  PrimerHistory history{primer_along(grid, costate), {}};
-  history.largest =
-      *std::max_element(history.magnitudes.begin(), history.magnitudes.end(),
-                        [](const auto& a, const auto& b) { return a.magnitude < b.magnitude; });
-  return history;
-}
 
 OptimalImpulses optimal_impulses(const Scene& scene, const ComputedProblem& problem,
                                  const LinearFlow& flow, const ProgressCallback& progress) {
   OptimalImpulses optimal;
-  const std::vector<double> times = some_times(scene.transfer->times);
+  const std::vector<double> times = some_times(scene.transfer->times, 24);
   for (std::size_t k = 0; k < times.size(); ++k) {
     if (progress) {
       progress("optimal impulses", static_cast<double>(k) / static_cast<double>(times.size()));
     }
-    const PlannedTransfer transfer(scene, problem, flow, times[k]);
     try {
-      const ImpulseGrid grid = impulse_grid(flow, times[k]);
-      const LeastImpulses least = least_impulses(grid.effects, transfer.change());
-      optimal.by_time.push_back({times[k], transfer.metres_per_second(least.cost)});
+      const PlannedTransfer transfer(scene, problem, flow, times[k]);
+      optimal.by_time.push_back({times[k], transfer.coarse_cost_m_s()});
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::numerical) throw;
       optimal.failure = error.what();

@@ -38,6 +38,25 @@ ImpulseGrid impulse_grid(const LinearFlow& flow, double time) {
   return grid;
 }
 
+ImpulseGrid impulse_grid(const LinearFlow& flow, double first, double last) {
+  const ImpulseGrid whole = impulse_grid(flow, last);
+  ImpulseGrid grid;
+  grid.add(first, flow.at(first));
+  for (std::size_t k = 0; k < whole.times.size(); ++k) {
+    if (std::abs(whole.times[k]) <= std::abs(first)) continue;
+    grid.times.push_back(whole.times[k]);
+    grid.effects.push_back(whole.effects[k]);
+  }
+  return grid;
+}
+
+std::vector<double> some_times(const std::vector<double>& times, std::size_t most) {
+  const std::size_t count = std::min(most, times.size());
+  std::vector<double> some;
+  for (std::size_t k = 1; k <= count; ++k) some.push_back(times[times.size() * k / count - 1]);
+  return some;
+}
+
 std::vector<PrimerMagnitude> primer_along(const ImpulseGrid& grid, const Vector6& costate) {
   std::vector<PrimerMagnitude> primer;
   for (std::size_t k = 0; k < grid.times.size(); ++k) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "hamjet/detail/studies/impulse_plan.hpp"
@@ -24,10 +26,37 @@ struct ImpulseGrid {
 /// Every fifth checkpoint of the flow, 48 a revolution, before a time; fewer where that is more
 /// than some thousands, and the time itself.
 ImpulseGrid impulse_grid(const LinearFlow& flow, double time);
+/// The same from one time to another, both included.
+ImpulseGrid impulse_grid(const LinearFlow& flow, double first, double last);
+
+/// So many of the listed times, evenly over their list and with the last.
+std::vector<double> some_times(const std::vector<double>& times, std::size_t most);
 
 /// The magnitude of the primer vector along a grid.
 std::vector<PrimerMagnitude> primer_along(const ImpulseGrid& grid,
                                           const Eigen::Matrix<double, 6, 1>& costate);
+
+/// The primer vector along a grid that is along these unit vectors, in inertial axes, at its ends;
+/// absent where the flow's positions cannot be commanded.
+std::optional<PrimerHistory> primer_between(const ImpulseGrid& grid, const Eigen::Vector3d& first,
+                                            const Eigen::Vector3d& last);
+
+/// Impulses in the order of time, in the units of the linear flow.
+struct TimedImpulses {
+  std::vector<double> times;
+  std::vector<Eigen::Vector3d> changes;
+
+  double sum() const {
+    double total = 0;
+    for (const Eigen::Vector3d& change : changes) total += change.norm();
+    return total;
+  }
+  double largest() const {
+    double size = 0;
+    for (const Eigen::Vector3d& change : changes) size = std::max(size, change.norm());
+    return size;
+  }
+};
 
 /// The least impulses on a grid, and the primer vector along the coarse one.
 struct ImpulseOptimum {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "hamjet/detail/algebra/eigen.hpp"
@@ -34,6 +35,25 @@ struct LeastImpulses {
 /// make every change, as at one time alone.
 LeastImpulses least_impulses(const std::vector<ImpulseEffect>& effects,
                              const Eigen::Matrix<double, 6, 1>& change);
+
+/// The same with no impulse above `most`: least sum |v_k| with sum B_k v_k = change and
+/// |v_k| <= most, by the dual problem, largest
+///
+///   change . y - most sum_k max(0, |B_k^T y| - 1),
+///
+/// so that the primer vector exceeds 1 where an impulse is `most`. Those are beside at most six
+/// others. Absent if no such impulses make the change, which a y tells whose dual value is above
+/// all that they can cost. Throws as above.
+std::optional<LeastImpulses> least_impulses(const std::vector<ImpulseEffect>& effects,
+                                            const Eigen::Matrix<double, 6, 1>& change, double most);
+
+/// The effects of what may be added to impulses of at most `most`: those that are as large may only
+/// be turned.
+std::vector<ImpulseEffect> effects_below(const std::vector<ImpulseEffect>& effects,
+                                         const std::vector<Eigen::Vector3d>& impulses, double most);
+/// Weights of add_change for impulses of at most `most`, likewise; `weights` hold without a limit.
+std::vector<double> weights_below(std::vector<double> weights,
+                                  const std::vector<Eigen::Vector3d>& impulses, double most);
 
 /// Changes the impulses so that they make `change` more, by the least sum of squares over the
 /// weights, which are at least 0. With the magnitudes of optimal impulses as weights the cost is

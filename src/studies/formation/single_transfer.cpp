@@ -38,7 +38,7 @@ double rounding_of_flights(const ComputedProblem& problem, double time) {
 
 SingleTransfer::SingleTransfer(const Scene& scene, const ComputedProblem& problem, double time,
                                const std::vector<double>& chief_end, const RelativeState& start,
-                               const RelativeState& end)
+                               const ArrivalState& end)
     : scene_(scene),
       problem_(problem),
       time_(time),
@@ -47,7 +47,7 @@ SingleTransfer::SingleTransfer(const Scene& scene, const ComputedProblem& proble
       start_frame_(problem.nominal, units_, scene.transfer->frame),
       end_frame_(chief_end, units_, scene.transfer->frame),
       start_(start_frame_.deviation(start)),
-      end_(end_frame_.deviation(end)) {}
+      end_(end.deviation(chief_end, units_, scene.transfer->frame)) {}
 
 std::vector<double> SingleTransfer::linear_deviation(
     const Eigen::Matrix<double, 6, 6>& flow) const {

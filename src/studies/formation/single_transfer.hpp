@@ -25,7 +25,7 @@ class SingleTransfer {
   /// `chief_end` is the chief's state at the end, `time` canonical.
   SingleTransfer(const Scene& scene, const ComputedProblem& problem, double time,
                  const std::vector<double>& chief_end, const RelativeState& start,
-                 const RelativeState& end);
+                 const ArrivalState& end);
 
   /// The deviation at the start, after the first impulse, that the linear flow alone asks for.
   std::vector<double> linear_deviation(const Eigen::Matrix<double, 6, 6>& flow) const;

@@ -12,13 +12,16 @@
 #include "../jets_along_time.hpp"
 #include "../stopwatch.hpp"
 #include "budget_windows.hpp"
+#include "coasting_transfer.hpp"
 #include "flown_trajectory.hpp"
 #include "formation_problem.hpp"
 #include "hamjet/error.hpp"
 #include "impulse_plan.hpp"
 #include "least_time.hpp"
+#include "other_revolutions.hpp"
 #include "single_transfer.hpp"
 #include "transfer_points.hpp"
+#include "waypoint_plan.hpp"
 
 namespace hamjet {
 
@@ -111,6 +114,18 @@ TransferResult study_transfer(const Scene& asked, const ProgressCallback& progre
       result.optimal = optimal_impulses(scene, points.problem(), points.linear_flow(), progress);
     }
   }
+  if (!settings.waypoints.empty()) {
+    const Stopwatch watch(result.seconds.impulses);
+    result.waypoints = waypoint_transfers(scene, points.problem(), points.linear_flow(), progress);
+  }
+  if (settings.longest_coast) {
+    const Stopwatch watch(result.seconds.impulses);
+    result.coasting = coasting_transfer(scene, points.problem(), progress);
+  }
+  if (!settings.revolutions.empty()) {
+    const Stopwatch watch(result.seconds.impulses);
+    result.revolutions = other_revolutions(scene, points.problem(), points.linear_flow(), progress);
+  }
   result.hamilton_jacobi_floor = points.hamilton_jacobi_floor();
   result.singular_times = points.singular_times();
   return result;
@@ -128,8 +143,18 @@ int exit_code(const TransferResult& result) {
                 (point.refined && !point.is_refined());
   }
   if (!has_answer) return static_cast<int>(ErrorKind::numerical);
-  if (is_forbidden && !result.best_point()) return static_cast<int>(ErrorKind::check_failed);
+  // What the limits forbid to two impulses at the listed times another way may do within them.
+  const bool has_allowed = result.best_point() || (result.optimal && result.optimal->is_found()) ||
+                           (result.waypoints && result.waypoints->best_plan) ||
+                           (result.coasting && result.coasting->plan) ||
+                           (result.revolutions && result.revolutions->best);
+  if (is_forbidden && !has_allowed) return static_cast<int>(ErrorKind::check_failed);
   if (result.optimal && !result.optimal->is_found()) {
+    return static_cast<int>(ErrorKind::check_failed);
+  }
+  const bool lacks_way = result.waypoints && !result.waypoints->best_plan;
+  const bool lacks_revolutions = result.revolutions && !result.revolutions->best;
+  if (lacks_way || lacks_revolutions || (result.coasting && !result.coasting->plan)) {
     return static_cast<int>(ErrorKind::check_failed);
   }
   return result.scene.transfer->strict && has_fault ? static_cast<int>(ErrorKind::check_failed) : 0;

@@ -187,8 +187,16 @@ TransferPoint TransferPoints::answer(const ChosenKind& chosen, const FlowJet<dou
   point.kind = chosen.inversion->kind;
   point.condition = chosen.inversion->condition;
   // The ends are relative to the chief as it flies: an inaccurate integrator must not prove itself.
-  const SingleTransfer transfer(scene_, problem_, chosen.time, flown_chief(chosen.time), ends.start,
-                                ends.end);
+  std::optional<SingleTransfer> of_ends;
+  try {
+    of_ends.emplace(scene_, problem_, chosen.time, flown_chief(chosen.time), ends.start, ends.end);
+  } catch (const Error& error) {
+    // The end may have a form that is not defined where the chief is then.
+    if (error.kind() != ErrorKind::numerical) throw;
+    point.failure = error.what();
+    return point;
+  }
+  const SingleTransfer& transfer = *of_ends;
   std::vector<BoundaryMomenta> momenta(static_cast<std::size_t>(scene_.order));
   const DeputyFlow* const flow = charted_flow(chosen.time);
   {

@@ -23,7 +23,7 @@ struct ChosenKind {
 /// The two relative states that a transfer leads from and to.
 struct RelativeTransfer {
   RelativeState start;
-  RelativeState end;
+  ArrivalState end;
 };
 
 /// Answers transfers about one chief, time after time. What it looks at must outlive it.

@@ -40,8 +40,12 @@ struct ImpulsePlan {
   /// No impulses at any time do what these do for less, in the linear theory, in which these lead a
   /// little off the end.
   double lower_bound_m_s = 0;
-  std::vector<PrimerMagnitude> primer;  ///< of that bound: at most 1
-  int flights = 0;                      ///< that corrected the linear answer
+  /// Where the scene's largest impulse divides others: the time between those at which impulses
+  /// may be, canonical. The bound is then that of such impulses, none above the largest.
+  std::optional<double> spacing;
+  /// Of that bound: at most 1, but where an impulse is as large as it may be.
+  std::vector<PrimerMagnitude> primer;
+  int flights = 0;  ///< that corrected the linear answer
   /// Where the deputy that flies the plan comes to, beside the wanted end.
   double miss_m = 0;
   double velocity_miss_m_s = 0;

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "hamjet/relative_motion/chief_frame.hpp"
+#include "hamjet/relative_motion/deputy_coordinates.hpp"
 
 namespace hamjet {
 
@@ -13,6 +15,36 @@ namespace hamjet {
 struct DeputySettings {
   RelativeFrame frame = RelativeFrame::rtn_rotating;  ///< of the state, and of its motion
   RelativeState start;
+};
+
+/// A deputy at its arrival, relative to where its chief is then: a state along the axes of the
+/// frame, or what takes its place.
+struct ArrivalState : RelativeState {
+  ArrivalState() = default;
+  ArrivalState(const RelativeState& state) : RelativeState(state) {}
+  ArrivalState(const Eigen::Vector3d& position, const Eigen::Vector3d& velocity)
+      : RelativeState{position, velocity} {}
+
+  /// Six numbers of a form that is no linear function of the deviation (DeputyCoordinates).
+  struct InForm {
+    DeputyForm form = DeputyForm::curvilinear;
+    std::array<double, 6> numbers{};
+  };
+  std::optional<InForm> in_form = {};
+  /// The deputy's own inertial state (q, p) at its arrival, canonical.
+  std::optional<std::array<double, 6>> own_state = {};
+
+  bool is_along_axes() const { return !in_form && !own_state; }
+  /// The canonical deviation (dq, dp) from a chief of an orbit with mu = 1. Throws
+  /// Error(numerical) where the form is not defined at this chief.
+  std::vector<double> deviation(const std::vector<double>& chief, const MetricUnits& units,
+                                RelativeFrame frame) const;
+};
+
+/// A place on the way of a transfer, along the axes of its frame at that time.
+struct Waypoint {
+  double time = 0;  ///< canonical
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
 };
 
 /// How many impulses a transfer may have.
@@ -27,7 +59,7 @@ struct TransferSettings {
   /// Velocities are those before the first impulse and after the second; absent ones are zero, at
   /// rest in the frame.
   RelativeState start;
-  RelativeState end;
+  ArrivalState end;
   std::vector<double> times;  ///< canonical, moving away from 0; none is 0
   /// F1..F4, letters, or auto: the one whose polynomials decay fastest, with hysteresis.
   std::string kind = "auto";
@@ -42,9 +74,18 @@ struct TransferSettings {
   TransferImpulses impulses = TransferImpulses::two;
   std::optional<double> budget_m_s;           ///< times are sought that take no more than this
   std::optional<double> largest_impulse_m_s;  ///< that a transfer may have
+  /// Least time between optimal impulses that this divides, canonical; absent: a 72nd of a period.
+  std::optional<double> impulse_gap;
   /// Semi-axes along the chief's R, T, N of an ellipsoid about it that the deputy keeps out of.
   std::optional<Eigen::Vector3d> keep_out_m;
-  bool strict = false;  ///< an answer beyond the tolerance fails the command
+  /// The first of two impulses may wait so long for the least change, canonical; absent: it is not
+  /// looked for.
+  std::optional<double> longest_coast;
+  /// By how many whole revolutions more than the chief a deputy is to make, for transfers that are
+  /// far from it; empty: they are not looked for.
+  std::vector<int> revolutions;
+  std::vector<Waypoint> waypoints;  ///< moving away from 0; empty: none
+  bool strict = false;              ///< an answer beyond the tolerance fails the command
 };
 
 /// Table `[validity]`: up to what separation a polynomial's miss stays below a tolerance.
@@ -67,7 +108,7 @@ enum class AssignmentTime {
 /// Table `[assignment]`: deputies and the slots that they may fill, in the frame of `[transfer]`.
 struct AssignmentSettings {
   std::vector<RelativeState> deputies;
-  std::vector<RelativeState> slots;  ///< as many as deputies
+  std::vector<ArrivalState> slots;
   AssignmentTime time = AssignmentTime::per_pair;
   std::optional<double> keep_apart_m;  ///< that deputies on their ways may not come nearer than
 };

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "hamjet/detail/studies/progress.hpp"
+#include "hamjet/detail/studies/waypoint_plan.hpp"
+#include "hamjet/studies/propagation.hpp"
+
+namespace hamjet {
+
+/// The least transfer of two impulses whose first one waits for up to the scene's `longest_coast`
+/// while the deputy drifts: for some of the listed transfer times, which are between the impulses,
+/// the start is found on the linear flow, from a grid of 24 a revolution and Brent's method; the
+/// lowest are then flown.
+CoastingTransfer coasting_transfer(const Scene& scene, const ComputedProblem& problem,
+                                   const ProgressCallback& progress);
+
+}  // namespace hamjet

@@ -1,0 +1,160 @@
+#include "other_revolutions.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "hamjet/error.hpp"
+#include "lambert.hpp"
+#include "route.hpp"
+
+namespace hamjet {
+namespace {
+
+constexpr double turn = 2 * std::numbers::pi;
+
+Eigen::Vector3d position(const std::vector<double>& state) {
+  return {state[0], state[1], state[2]};
+}
+Eigen::Vector3d velocity(const std::vector<double>& state) {
+  return {state[3], state[4], state[5]};
+}
+Eigen::Vector3d momentum(const std::vector<double>& state) {
+  return position(state).cross(velocity(state));
+}
+
+std::vector<double> sum(std::vector<double> a, const std::vector<double>& b) {
+  for (std::size_t i = 0; i < a.size(); ++i) a[i] += b[i];
+  return a;
+}
+
+/// The angle that the chief turns through until each checkpoint of the flow, along its motion.
+std::vector<double> turned_angles(const LinearFlow& flow) {
+  std::vector<double> angles = {0};
+  std::vector<double> last = flow.nominal(0);
+  for (std::size_t k = 1; k < flow.times().size(); ++k) {
+    const std::vector<double> state = flow.nominal(flow.times()[k]);
+    const double cosine = position(last).normalized().dot(position(state).normalized());
+    angles.push_back(angles.back() + std::acos(std::clamp(cosine, -1.0, 1.0)));
+    last = state;
+  }
+  return angles;
+}
+
+/// The transfers of one time.
+class TransfersOfTime {
+ public:
+  TransfersOfTime(const Route& route, const LinearFlow& flow, double time, double chief_angle)
+      : from_(route.start()),
+        time_(time),
+        wanted_(route.end(time)),
+        first_(sum(flow.nominal(0), from_.deviation)),
+        last_(sum(flow.nominal(time), wanted_)),
+        sense_((time > 0 ? 1 : -1) * momentum(flow.nominal(0))) {
+    const double angle = angle_about(position(first_), position(last_), sense_);
+    own_ = static_cast<int>(std::lround((chief_angle - angle) / turn));
+  }
+
+  /// Adds the transfers that make so many revolutions more than the chief.
+  void add(Route& route, int difference, std::vector<RevolutionTransfer>& transfers) const {
+    const int revolutions = own_ + difference;
+    if (revolutions < 0) return;
+    // Backwards in time the same ellipses are flown with the opposite velocity.
+    const std::vector<LambertEllipse> ellipses =
+        lambert_ellipses(position(first_), position(last_), std::abs(time_), revolutions, sense_);
+    const double sign = time_ > 0 ? 1 : -1;
+    std::size_t own = ellipses.size();
+    if (difference == 0) {
+      double nearest = std::numeric_limits<double>::infinity();
+      for (std::size_t k = 0; k < ellipses.size(); ++k) {
+        const double change = (sign * ellipses[k].start_velocity - velocity(first_)).norm();
+        if (change < nearest) own = k;
+        nearest = std::min(nearest, change);
+      }
+    }
+    for (std::size_t k = 0; k < ellipses.size(); ++k) {
+      if (k == own) continue;
+      RevolutionTransfer transfer;
+      transfer.time = time_;
+      transfer.difference = difference;
+      transfer.is_higher = k + 1 == ellipses.size();
+      fly(route, sign * ellipses[k].start_velocity, transfer);
+      transfers.push_back(std::move(transfer));
+    }
+  }
+
+ private:
+  void fly(Route& route, const Eigen::Vector3d& start_velocity,
+           RevolutionTransfer& transfer) const {
+    std::vector<double> guess = first_;
+    for (std::size_t i = 0; i < 3; ++i) {
+      guess[3 + i] = start_velocity[static_cast<Eigen::Index>(i)];
+    }
+    route.keep_legs(0);
+    try {
+      const Underway there =
+          route.fly_from_guess(from_, time_, wanted_, std::move(guess), transfer.plan);
+      // The linear flow about the chief says nothing of a way so far from it.
+      route.finish(there, transfer.plan, false);
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::numerical) throw;
+      transfer.failure = error.what();
+      transfer.plan = {};
+    }
+  }
+
+  Underway from_;
+  double time_;
+  std::vector<double> wanted_;  ///< deviation at the end
+  std::vector<double> first_;   ///< states of the deputy: before the first impulse, at the end
+  std::vector<double> last_;
+  Eigen::Vector3d sense_;  ///< of the motion, as time goes by
+  int own_ = 0;            ///< whole revolutions of the deputy beside its chief
+};
+
+}  // namespace
+
+OtherRevolutions other_revolutions(const Scene& scene, const ComputedProblem& problem,
+                                   const LinearFlow& flow, const ProgressCallback& progress) {
+  const TransferSettings& settings = *scene.transfer;
+  OtherRevolutions result;
+  Route route(scene, problem, flow);
+  const std::vector<double> angles = turned_angles(flow);
+  for (std::size_t k = 0; k < settings.times.size(); ++k) {
+    if (progress) {
+      progress("revolutions", static_cast<double>(k) / static_cast<double>(settings.times.size()));
+    }
+    const double time = settings.times[k];
+    try {
+      const TransfersOfTime transfers(route, flow, time, angles[flow.checkpoint_before(time)]);
+      for (const int difference : settings.revolutions) {
+        transfers.add(route, difference, result.transfers);
+      }
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::numerical) throw;
+      result.failure = error.what();
+    }
+  }
+  for (std::size_t i = 0; i < result.transfers.size(); ++i) {
+    const RevolutionTransfer& one = result.transfers[i];
+    const std::string& problem_with = one.failure.empty() ? one.plan.forbidden : one.failure;
+    if (!problem_with.empty()) {
+      result.failure = problem_with;
+      continue;
+    }
+    const bool is_less = !result.best || one.plan.total_change_m_s() <
+                                             result.transfers[*result.best].plan.total_change_m_s();
+    if (is_less) result.best = i;
+  }
+  if (result.best) {
+    result.failure.clear();
+  } else if (result.failure.empty()) {
+    result.failure = "no ellipse makes so many revolutions in any of the transfer times";
+  }
+  return result;
+}
+
+}  // namespace hamjet

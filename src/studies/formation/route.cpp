@@ -1,0 +1,198 @@
+#include "route.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "../../integrators/momentum_unit.hpp"
+#include "../exact_flow.hpp"
+#include "hamjet/error.hpp"
+#include "impulse_search.hpp"
+#include "keep_out.hpp"
+#include "single_transfer.hpp"
+#include "two_point_flight.hpp"
+
+namespace hamjet {
+namespace {
+
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+Eigen::Vector3d position(const std::vector<double>& z) { return {z[0], z[1], z[2]}; }
+Eigen::Vector3d momentum(const std::vector<double>& z) { return {z[3], z[4], z[5]}; }
+
+std::vector<double> difference(std::vector<double> a, const std::vector<double>& b) {
+  for (std::size_t i = 0; i < a.size(); ++i) a[i] -= b[i];
+  return a;
+}
+
+}  // namespace
+
+Route::Route(const Scene& scene, const ComputedProblem& problem, const LinearFlow& flow)
+    : scene_(scene),
+      problem_(problem),
+      flow_(flow),
+      units_(metric_units(scene)),
+      momentum_unit_(std::ldexp(1.0, problem.momentum_exponent)) {}
+
+ChiefFrame Route::frame(double time) const {
+  return {flow_.nominal(time), units_, scene_.transfer->frame};
+}
+
+Underway Route::start() const { return {0, frame(0).deviation(scene_.transfer->start)}; }
+
+Underway Route::coast_to(double time) const {
+  if (time == 0) return start();
+  std::vector<double> state = problem_.nominal;
+  const std::vector<double> deviation = start().deviation;
+  for (std::size_t i = 0; i < state.size(); ++i) state[i] += deviation[i];
+  return {time, difference(exact_flow(problem_.system, state, time), flow_.nominal(time))};
+}
+
+Underway Route::linear_coast_to(double time) const {
+  const std::vector<double> deviation = start().deviation;
+  Vector6 z;
+  z << position(deviation), momentum(deviation) / momentum_unit_;
+  z = flow_.at(time) * z;
+  z.tail<3>() *= momentum_unit_;
+  return {time, {z.begin(), z.end()}};
+}
+
+Matrix6 Route::flow_between(double first, double last) const {
+  return flow_.at(last) * symplectic_inverse(flow_.at(first));
+}
+
+Eigen::Vector3d Route::linear_momentum(const Underway& from, double time, const Matrix6& between,
+                                       const Eigen::Vector3d& place) const {
+  const Eigen::Matrix3d commanded = between.topRightCorner<3, 3>();
+  const Eigen::Vector3d rest = place - between.topLeftCorner<3, 3>() * position(from.deviation);
+  const Eigen::FullPivLU<Eigen::Matrix3d> solver(commanded);
+  const Eigen::Vector3d found = momentum_unit_ * solver.solve(rest);
+  const double speed = momentum(flow_.nominal(from.time)).norm();
+  if (!solver.isInvertible() || !(found.norm() < speed / 2)) {
+    throw Error(ErrorKind::numerical,
+                fmt::format("from {:.6g} s to {:.6g} s, near a time at which no velocity commands "
+                            "a place in one direction, the leg asks for more than half of the "
+                            "orbital speed",
+                            from.time * scene_.units.time_s, time * scene_.units.time_s));
+  }
+  return found;
+}
+
+double Route::linear_change_m_s(const Underway& from, double time) const {
+  const Matrix6 between = flow_between(from.time, time);
+  const std::vector<double> wanted = end(time);
+  const Eigen::Vector3d begun = linear_momentum(from, time, between, position(wanted));
+  Vector6 z;
+  z << position(from.deviation), begun / momentum_unit_;
+  const Eigen::Vector3d arrived = momentum_unit_ * (between * z).tail<3>();
+  const double total =
+      (begun - momentum(from.deviation)).norm() + (momentum(wanted) - arrived).norm();
+  return total * units_.velocity_m_s();
+}
+
+std::vector<double> Route::place(double time, const Eigen::Vector3d& position_m) const {
+  return frame(time).deviation({position_m, Eigen::Vector3d::Zero()});
+}
+
+std::vector<double> Route::end(double time) const {
+  return scene_.transfer->end.deviation(flow_.nominal(time), units_, scene_.transfer->frame);
+}
+
+Underway Route::fly_to(const Underway& from, double time, const std::vector<double>& wanted,
+                       WaypointPlan& plan) {
+  const Eigen::Vector3d begun =
+      linear_momentum(from, time, flow_between(from.time, time), position(wanted));
+  std::vector<double> guess = flow_.nominal(from.time);
+  for (std::size_t i = 0; i < 3; ++i) {
+    guess[i] += from.deviation[i];
+    guess[3 + i] += begun[static_cast<Eigen::Index>(i)];
+  }
+  return fly_from_guess(from, time, wanted, std::move(guess), plan);
+}
+
+Underway Route::fly_from_guess(const Underway& from, double time, const std::vector<double>& wanted,
+                               std::vector<double> guess, WaypointPlan& plan) {
+  const std::vector<double> chief = flow_.nominal(from.time);
+  const std::vector<double> chief_then = flow_.nominal(time);
+  const TwoPointFlight flight =
+      fly_between(problem_.system, std::move(guess), position(chief_then) + position(wanted),
+                  time - from.time, scene_.transfer->refined_miss_m / units_.length_m);
+  if (!flight.is_found()) {
+    throw Error(
+        ErrorKind::numerical,
+        fmt::format("the leg from {:.6g} s to {:.6g} s was not found: {}",
+                    from.time * scene_.units.time_s, time * scene_.units.time_s, flight.failure));
+  }
+  ways_.push_back(difference(flight.start, chief));
+  add_impulse(plan, from.time, ways_.back(), from.deviation);
+  WaypointLeg leg;
+  leg.start = from.time;
+  leg.end = time;
+  leg.flights = flight.flights;
+  leg.miss_m = flight.miss * units_.length_m;
+  plan.legs.push_back(leg);
+  return {time, difference(flight.end, chief_then)};
+}
+
+void Route::finish(const Underway& there, WaypointPlan& plan, bool has_primer) const {
+  plan.duration = there.time;
+  add_impulse(plan, there.time, end(there.time), there.deviation);
+  for (std::size_t k = 0; has_primer && k < plan.legs.size(); ++k) {
+    plan.legs[k].primer = primer_of_leg(plan, k);
+  }
+  judge_limits(plan);
+}
+
+void Route::add_impulse(WaypointPlan& plan, double time, const std::vector<double>& after,
+                        const std::vector<double>& before) const {
+  plan.impulses.push_back(
+      {time, frame(time).velocity_change_m_s(momentum(after) - momentum(before))});
+}
+
+/// The direction of an impulse in the inertial axes.
+Eigen::Vector3d Route::direction(const Impulse& impulse) const {
+  return momentum(frame(impulse.time).deviation({Eigen::Vector3d::Zero(), impulse.change_m_s}))
+      .normalized();
+}
+
+std::optional<PrimerMagnitude> Route::primer_of_leg(const WaypointPlan& plan, std::size_t k) const {
+  const Impulse& first = plan.impulses[k];
+  const Impulse& last = plan.impulses[k + 1];
+  if (first.change_m_s.isZero(0) || last.change_m_s.isZero(0)) return std::nullopt;
+  const auto history =
+      primer_between(impulse_grid(flow_, first.time, last.time), direction(first), direction(last));
+  if (!history) return std::nullopt;
+  return history->largest;
+}
+
+void Route::judge_limits(WaypointPlan& plan) const {
+  const TransferSettings& settings = *scene_.transfer;
+  for (const Impulse& impulse : plan.impulses) {
+    const double size = impulse.change_m_s.norm();
+    if (!settings.largest_impulse_m_s || size <= *settings.largest_impulse_m_s) continue;
+    plan.forbidden = fmt::format("the impulse at {:.6g} s is {:.4g} m/s, above largest_impulse_m_s",
+                                 impulse.time * scene_.units.time_s, size);
+    return;
+  }
+  if (!settings.keep_out_m) return;
+  double least = std::numeric_limits<double>::infinity();
+  const double begun = plan.legs.front().start;
+  if (begun != 0) {
+    least = keep_out_ratio(scene_, problem_.nominal, start().deviation, begun);
+  }
+  for (std::size_t k = 0; k < plan.legs.size(); ++k) {
+    const WaypointLeg& leg = plan.legs[k];
+    least = std::min(
+        least, keep_out_ratio(scene_, flow_.nominal(leg.start), ways_[k], leg.end - leg.start));
+  }
+  if (least < 1) {
+    plan.forbidden = fmt::format("its way comes to {:.3g} of the ellipsoid keep_out_m", least);
+  }
+}
+
+}  // namespace hamjet

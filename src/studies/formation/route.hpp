@@ -1,0 +1,76 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "hamjet/detail/studies/singular_times.hpp"
+#include "hamjet/detail/studies/waypoint_plan.hpp"
+#include "hamjet/relative_motion/chief_frame.hpp"
+#include "hamjet/studies/scene.hpp"
+
+namespace hamjet {
+
+/// A deputy on its way: its deviation from the chief at a time, before any impulse there.
+struct Underway {
+  double time = 0;
+  std::vector<double> deviation;  ///< canonical (dq, dp)
+};
+
+/// Legs of a deputy's way from the scene's start to its end, each flown from place to place. What
+/// it looks at must outlive it.
+class Route {
+ public:
+  Route(const Scene& scene, const ComputedProblem& problem, const LinearFlow& flow);
+
+  /// Where the deputy starts, and where it is after a time without an impulse, flown. Throws as
+  /// exact_flow.
+  Underway start() const;
+  Underway coast_to(double time) const;
+  /// The same in the linear flow.
+  Underway linear_coast_to(double time) const;
+
+  /// The sum of the magnitudes of both impulses of a leg to the scene's end, in the linear flow.
+  /// Throws Error(numerical) where no velocity commands it.
+  double linear_change_m_s(const Underway& from, double time) const;
+
+  /// Canonical deviations from the chief at a time: of a place along the axes of the scene's frame,
+  /// and of the scene's end.
+  std::vector<double> place(double time, const Eigen::Vector3d& position_m) const;
+  std::vector<double> end(double time) const;
+
+  /// Adds the leg from where the deputy is to the place of a deviation from the chief then, with
+  /// the impulse at its start, from the linear flow's answer by Newton's method until it
+  /// misses by no more than the scene's `refined_miss_m`. Throws Error(numerical) if that is not
+  /// found.
+  Underway fly_to(const Underway& from, double time, const std::vector<double>& wanted,
+                  WaypointPlan& plan);
+  /// The same from a guess of the deputy's state at the start of the leg, the impulse made.
+  Underway fly_from_guess(const Underway& from, double time, const std::vector<double>& wanted,
+                          std::vector<double> guess, WaypointPlan& plan);
+  /// Adds the impulse at the end, and what the whole plan allows to say, of the legs' primer
+  /// vectors if `has_primer`.
+  void finish(const Underway& there, WaypointPlan& plan, bool has_primer = true) const;
+  /// Forgets the legs behind the first ones.
+  void keep_legs(std::size_t count) { ways_.resize(count); }
+
+ private:
+  ChiefFrame frame(double time) const;
+  Eigen::Vector3d linear_momentum(const Underway& from, double time,
+                                  const Eigen::Matrix<double, 6, 6>& between,
+                                  const Eigen::Vector3d& place) const;
+  Eigen::Matrix<double, 6, 6> flow_between(double first, double last) const;
+  void add_impulse(WaypointPlan& plan, double time, const std::vector<double>& after,
+                   const std::vector<double>& before) const;
+  Eigen::Vector3d direction(const Impulse& impulse) const;
+  std::optional<PrimerMagnitude> primer_of_leg(const WaypointPlan& plan, std::size_t k) const;
+  void judge_limits(WaypointPlan& plan) const;
+
+  const Scene& scene_;
+  const ComputedProblem& problem_;
+  const LinearFlow& flow_;
+  MetricUnits units_;
+  double momentum_unit_;
+  std::vector<std::vector<double>> ways_;  ///< deviations at the starts of the legs, impulses made
+};
+
+}  // namespace hamjet

@@ -1,0 +1,76 @@
+#include "two_point_flight.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "../exact_flow.hpp"
+#include "hamjet/algebra/composition.hpp"
+#include "hamjet/error.hpp"
+#include "hamjet/integrators/gauss_collocation.hpp"
+
+namespace hamjet {
+namespace {
+
+/// The flow's jet of order 1 from a state.
+FlowJet<double> linear_jet(const SharedSystem& system, const std::vector<double>& start,
+                           double duration) {
+  std::vector<std::size_t> variables(start.size());
+  std::iota(variables.begin(), variables.end(), std::size_t{0});
+  const FlowProblem<double> problem{system, SeriesSpace::create(start.size(), 1), variables, start,
+                                    duration};
+  GaussSettings settings;
+  settings.tolerance = 1e-12;
+  IntegrationStatistics statistics;
+  return integrate_gauss<double>(problem, settings, statistics);
+}
+
+Eigen::Vector3d position_of(const std::vector<double>& state) {
+  return {state[0], state[1], state[2]};
+}
+
+}  // namespace
+
+TwoPointFlight fly_between(const SharedSystem& system, std::vector<double> guess,
+                           const Eigen::Vector3d& position, double duration, double most_miss) {
+  constexpr int most_flights = 20;
+  constexpr double singular = 1e-10;
+  TwoPointFlight flight;
+  flight.start = std::move(guess);
+  try {
+    while (flight.flights < most_flights) {
+      ++flight.flights;
+      // The place itself is flown to the precision of double.
+      flight.end = exact_flow(system, flight.start, duration);
+      const Eigen::Vector3d missing = position - position_of(flight.end);
+      flight.miss = missing.norm();
+      if (flight.miss <= most_miss) return flight;
+      const Matrix<double> flow = linear_part(linear_jet(system, flight.start, duration));
+      const Eigen::Matrix3d commanded = flow.topRightCorner(3, 3);
+      const Eigen::JacobiSVD<Eigen::Matrix3d> solver(commanded,
+                                                     Eigen::ComputeFullU | Eigen::ComputeFullV);
+      const Eigen::Vector3d& values = solver.singularValues();
+      if (!(values[2] > singular * values[0])) {
+        flight.failure = "no velocity commands the place at its end in one direction";
+        return flight;
+      }
+      Eigen::Vector3d step = solver.solve(missing);
+      const double speed = std::hypot(flight.start[3], flight.start[4], flight.start[5]);
+      if (step.norm() > speed / 2) step *= speed / 2 / step.norm();
+      for (std::size_t i = 0; i < 3; ++i) {
+        flight.start[3 + i] += step[static_cast<Eigen::Index>(i)];
+      }
+    }
+    flight.failure = fmt::format("the last of {} flights is {:.3g} canonical lengths off its end",
+                                 flight.flights, flight.miss);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::numerical) throw;
+    flight.failure = error.what();
+  }
+  return flight;
+}
+
+}  // namespace hamjet

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "hamjet/detail/studies/progress.hpp"
+#include "hamjet/detail/studies/singular_times.hpp"
+#include "hamjet/detail/studies/waypoint_plan.hpp"
+#include "hamjet/studies/scene.hpp"
+
+namespace hamjet {
+
+/// Transfers through the scene's waypoints, to its end at each of its transfer times behind the
+/// last of them: each leg from the linear flow's answer by Newton's method on flown trajectories,
+/// until it misses by no more than the scene's `refined_miss_m`.
+WaypointTransfers waypoint_transfers(const Scene& scene, const ComputedProblem& problem,
+                                     const LinearFlow& flow, const ProgressCallback& progress);
+
+}  // namespace hamjet
