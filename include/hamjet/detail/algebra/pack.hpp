@@ -54,6 +54,20 @@ struct Pack {
     for (auto& v : part) v = Vector(value);
   }
 
+  /// The pack whose lane i is f(i).
+  template <class Function>
+  static Pack of_lanes(const Function& f) {
+    Pack result;
+    if constexpr (std::experimental::is_simd_v<Vector>) {
+      for (std::size_t p = 0; p < parts; ++p) {
+        result.part[p] = Vector([&](auto i) { return f(p * width + i); });
+      }
+    } else {
+      for (std::size_t i = 0; i < lanes; ++i) result.set_lane(static_cast<int>(i), f(i));
+    }
+    return result;
+  }
+
   Real lane(int i) const {
     if constexpr (width == 1) {
       return part[static_cast<std::size_t>(i)];
