@@ -13,50 +13,24 @@ namespace {
 /// Beyond this a single series takes half a gigabyte, and the space itself several.
 constexpr double most_monomials = 5e7;
 
-/// C(n, k) for small arguments.
-std::size_t binomial(std::size_t n, std::size_t k) {
-  std::size_t result = 1;
-  for (std::size_t i = 1; i <= k; ++i) result = result * (n - k + i) / i;
-  return result;
-}
-
-/// All exponent vectors of a degree in lexicographic order, the first exponent falling first.
-std::vector<std::vector<std::uint8_t>> monomials_of_degree(std::size_t variables, int degree) {
-  std::vector<std::vector<std::uint8_t>> result;
-  std::vector<std::uint8_t> exponents(variables, 0);
-  const auto fill = [&](auto&& self, std::size_t variable, int left) -> void {
-    if (variable + 1 == variables) {
-      exponents[variable] = static_cast<std::uint8_t>(left);
-      result.push_back(exponents);
-      return;
-    }
-    for (int e = left; e >= 0; --e) {
-      exponents[variable] = static_cast<std::uint8_t>(e);
-      self(self, variable + 1, left - e);
-    }
-  };
-  if (variables == 0) {
-    if (degree == 0) result.emplace_back();
-  } else {
-    fill(fill, 0, degree);
-  }
-  return result;
-}
+}  // namespace
 
 /// Builds the schedule of one degree of a space whose monomials are already listed.
-class ScheduleBuilder {
+class SeriesSpace::ScheduleBuilder {
  public:
   explicit ScheduleBuilder(const SeriesSpace& space)
-      : space_(space), blocked_(space.variables() >= 3 ? 3 : 0) {}
+      : space_(space),
+        blocked_(space.variables() >= 3 ? 3 : 0),
+        outer_(space.variables() - blocked_),
+        exponents_(outer_),
+        part_(outer_),
+        rest_(outer_) {}
 
-  ProductSchedule build(int degree) const {
+  ProductSchedule build(int degree) {
     ProductSchedule schedule;
-    const std::size_t outer = space_.variables() - blocked_;
     const int lowest = blocked_ > 0 ? 0 : degree;
     for (int outer_degree = lowest; outer_degree <= degree; ++outer_degree) {
-      for (const auto& exponents : monomials_of_degree(outer, outer_degree)) {
-        add_output(schedule, exponents, degree, degree - outer_degree);
-      }
+      add_outputs(schedule, degree, degree - outer_degree, 0, outer_degree);
     }
     return schedule;
   }
@@ -66,44 +40,56 @@ class ScheduleBuilder {
     return blocked_ > 0 ? block_size(static_cast<std::size_t>(m)) : 1;
   }
 
-  /// Offset of the block with these outer exponents and inner degree m: its first monomial.
-  std::uint32_t offset(std::vector<std::uint8_t> outer, int m) const {
-    if (blocked_ > 0) {
-      outer.push_back(static_cast<std::uint8_t>(m));
-      outer.resize(space_.variables(), 0);
+  /// Adds the blocks of inner degree m with all exponents of the outer variables from `variable` on
+  /// that add up to `left`, the first one falling first.
+  void add_outputs(ProductSchedule& schedule, int degree, int m, std::size_t variable, int left) {
+    if (variable == outer_) {
+      if (left == 0) add_output(schedule, degree, m);  // without outer variables all is inner
+      return;
     }
-    return static_cast<std::uint32_t>(space_.index(outer));
+    const int least = variable + 1 == outer_ ? left : 0;
+    for (int e = left; e >= least; --e) {
+      exponents_[variable] = e;
+      add_outputs(schedule, degree, m, variable + 1, left - e);
+    }
   }
 
-  void add_output(ProductSchedule& schedule, const std::vector<std::uint8_t>& exponents, int degree,
-                  int m) const {
+  /// Offset of the block with these outer exponents, `degree` with the inner ones: its first
+  /// monomial, where the first of the inner variables has all of their degree.
+  std::uint32_t offset(const std::vector<int>& outer, int degree) const {
+    std::size_t rank = space_.first(degree);
+    int left = degree;
+    for (std::size_t i = 0; i < outer.size(); ++i) {
+      left -= outer[i];
+      rank += space_.before(i, left);
+    }
+    return static_cast<std::uint32_t>(rank);
+  }
+
+  void add_output(ProductSchedule& schedule, int degree, int m) {
     ProductSchedule::Output output{};
-    output.offset = offset(exponents, m);
+    output.offset = offset(exponents_, degree);
     output.block_degree = static_cast<std::uint32_t>(m);
     output.first_pair = static_cast<std::uint32_t>(schedule.pairs.size());
     output.first_run = static_cast<std::uint32_t>(schedule.run_ends.size());
     output.diagonal = ProductSchedule::no_diagonal;
     schedule.outputs.push_back(output);
     for (int m_x = 0; 2 * m_x <= m; ++m_x) {
-      add_run(schedule, exponents, degree, m_x, m - m_x);
+      add_run(schedule, degree, m_x, m - m_x);
       schedule.run_ends.push_back(static_cast<std::uint32_t>(schedule.pairs.size()));
     }
   }
 
   /// Adds all splits of the outer exponents into two factors, for fixed inner degrees m_x <= m_y.
-  void add_run(ProductSchedule& schedule, const std::vector<std::uint8_t>& exponents, int degree,
-               int m_x, int m_y) const {
-    std::vector<std::uint8_t> part(exponents.size(), 0);
+  void add_run(ProductSchedule& schedule, int degree, int m_x, int m_y) {
+    std::fill(part_.begin(), part_.end(), 0);
     const std::size_t cost = size_of_block(m_x) * size_of_block(m_y);
     while (true) {
-      const int degree_x = std::accumulate(part.begin(), part.end(), m_x);
+      const int degree_x = std::accumulate(part_.begin(), part_.end(), m_x);
       if (degree_x >= 1 && degree_x <= degree - 1) {
-        std::vector<std::uint8_t> rest(exponents);
-        for (std::size_t i = 0; i < rest.size(); ++i) {
-          rest[i] = static_cast<std::uint8_t>(rest[i] - part[i]);
-        }
-        const std::uint32_t x = offset(part, m_x);
-        const std::uint32_t y = offset(rest, m_y);
+        for (std::size_t i = 0; i < outer_; ++i) rest_[i] = exponents_[i] - part_[i];
+        const std::uint32_t x = offset(part_, degree_x);
+        const std::uint32_t y = offset(rest_, degree - degree_x);
         if (x == y) {
           schedule.outputs.back().diagonal = x;
           schedule.multiply_adds += cost;
@@ -115,17 +101,19 @@ class ScheduleBuilder {
         }
       }
       std::size_t i = 0;
-      while (i < part.size() && part[i] == exponents[i]) part[i++] = 0;
-      if (i == part.size()) return;
-      ++part[i];
+      while (i < outer_ && part_[i] == exponents_[i]) part_[i++] = 0;
+      if (i == outer_) return;
+      ++part_[i];
     }
   }
 
   const SeriesSpace& space_;
   std::size_t blocked_;
+  std::size_t outer_;
+  std::vector<int> exponents_;  ///< of the outer variables, of the block that is being added
+  std::vector<int> part_;
+  std::vector<int> rest_;
 };
-
-}  // namespace
 
 double SeriesSpace::monomial_count(std::size_t variables, int order) {
   double result = 1;
@@ -150,17 +138,43 @@ std::shared_ptr<const SeriesSpace> SeriesSpace::create(std::size_t variables, in
   return std::shared_ptr<const SeriesSpace>(new SeriesSpace(variables, order));
 }
 
-SeriesSpace::SeriesSpace(std::size_t variables, int order) : variables_(variables), order_(order) {
+SeriesSpace::SeriesSpace(std::size_t variables, int order)
+    : variables_(variables),
+      order_(order),
+      before_(variables * (static_cast<std::size_t>(order) + 1), 0) {
+  // C(left - 1 + after, after) from C(m, 0) = 1 and C(m + 1, k) = C(m, k) + C(m, k - 1).
+  const std::size_t row = static_cast<std::size_t>(order) + 1;
+  for (std::size_t i = variables; i-- > 0;) {
+    for (std::size_t left = 1; left < row; ++left) {
+      before_[i * row + left] =
+          i + 1 == variables ? 1 : before_[(i + 1) * row + left] + before_[i * row + left - 1];
+    }
+  }
   offsets_.push_back(0);
   for (int d = 0; d <= order; ++d) {
-    for (const auto& exponents : monomials_of_degree(variables, d)) {
-      exponents_.insert(exponents_.end(), exponents.begin(), exponents.end());
-      degrees_.push_back(static_cast<std::uint8_t>(d));
-    }
+    list_monomials(d);
     offsets_.push_back(degrees_.size());
   }
-  const ScheduleBuilder builder(*this);
+  ScheduleBuilder builder(*this);
   for (int d = 0; d <= order; ++d) schedules_.push_back(builder.build(d));
+}
+
+/// Lists the monomials of a degree: the next one takes one from the last exponent before the last
+/// variable that is not zero, and gives it, with all that the last variable has, to the one after.
+void SeriesSpace::list_monomials(int degree) {
+  std::vector<std::uint8_t> exponents(variables_, 0);
+  exponents[0] = static_cast<std::uint8_t>(degree);
+  while (true) {
+    exponents_.insert(exponents_.end(), exponents.begin(), exponents.end());
+    degrees_.push_back(static_cast<std::uint8_t>(degree));
+    std::size_t i = variables_ - 1;
+    while (i > 0 && exponents[i - 1] == 0) --i;
+    if (i == 0) return;
+    const std::uint8_t last = exponents.back();
+    exponents.back() = 0;
+    --exponents[i - 1];
+    exponents[i] = static_cast<std::uint8_t>(last + 1);
+  }
 }
 
 std::size_t SeriesSpace::index(std::span<const std::uint8_t> exponents) const {
@@ -171,16 +185,44 @@ std::size_t SeriesSpace::index(std::span<const std::uint8_t> exponents) const {
                             "variables of order {}",
                             exponents.size(), degree, variables_, order_));
   }
-  // Monomials before this one in its degree: those that agree up to variable i - 1 and have a
-  // larger exponent there; with `after` variables behind, C(left - 1 + after, after) of them.
   std::size_t rank = first(degree);
-  auto left = static_cast<std::size_t>(degree);
-  for (std::size_t i = 0; i + 1 < variables_; ++i) {
-    const std::size_t after = variables_ - i - 1;
+  int left = degree;
+  for (std::size_t i = 0; i < variables_; ++i) {
     left -= exponents[i];
-    if (left > 0) rank += binomial(left - 1 + after, after);
+    rank += before(i, left);
   }
   return rank;
+}
+
+std::span<const std::uint32_t> SeriesSpace::raised(std::size_t variable) const {
+  const std::size_t count = first(order_);
+  std::call_once(is_raised_, [&] {
+    raised_.resize(variables_ * count);
+    for (std::size_t k = 0; k < count; ++k) {
+      // Only what is left behind a variable before x_i grows with its exponent.
+      const int raised_degree = degree(k) + 1;
+      std::size_t rank = first(raised_degree);
+      int left = degree(k);
+      std::size_t behind = 0;
+      for (std::size_t i = 0; i < variables_; ++i) {
+        left -= exponents(k)[i];
+        behind += before(i, left);
+      }
+      left = degree(k);
+      for (std::size_t i = 0; i < variables_; ++i) {
+        raised_[i * count + k] = static_cast<std::uint32_t>(rank + behind);
+        left -= exponents(k)[i];
+        behind -= before(i, left);
+        rank += before(i, left + 1);
+      }
+    }
+  });
+  return {raised_.data() + variable * count, count};
+}
+
+const std::shared_ptr<const SeriesSpace>& SeriesSpace::next_order() const {
+  std::call_once(has_next_order_, [&] { next_order_ = create(variables_, order_ + 1); });
+  return next_order_;
 }
 
 std::size_t SeriesSpace::product_cost() const {

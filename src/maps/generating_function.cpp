@@ -1,6 +1,6 @@
 #include "hamjet/maps/generating_function.hpp"
 
-#include <cstdint>
+#include <cstddef>
 
 #include "../algebra/instantiated_real.hpp"
 
@@ -24,17 +24,13 @@ std::vector<Series<T>> one_form(const PartialInversion<T>& inversion) {
 template <class T>
 Series<T> generating_function(const std::vector<Series<T>>& one_form) {
   const SeriesSpace& space = one_form[0].space();
-  const SpacePointer target = SeriesSpace::create(space.variables(), space.order() + 1);
-  Series<T> result(target);
-  std::vector<std::uint8_t> exponents;
+  Series<T> result(space.next_order());
   for (std::size_t i = 0; i < one_form.size(); ++i) {
-    for (std::size_t k = 1; k < space.size(); ++k) {
-      const auto from = space.exponents(k);
-      exponents.assign(from.begin(), from.end());
-      ++exponents[i];
-      result[target->index(exponents)] +=
-          one_form[i][k] / T(static_cast<double>(space.degree(k) + 1));
-    }
+    const auto raised = result.space().raised(i);
+    for (std::size_t k = 1; k < space.size(); ++k) result[raised[k]] += one_form[i][k];
+  }
+  for (std::size_t k = 0; k < result.size(); ++k) {
+    if (result.space().degree(k) > 1) result[k] /= T(static_cast<double>(result.space().degree(k)));
   }
   return result;
 }

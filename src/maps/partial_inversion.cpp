@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "../algebra/instantiated_real.hpp"
 #include "../algebra/singular_values.hpp"
@@ -20,6 +22,12 @@ std::vector<double> rounded_singular_values(const Matrix<T>& matrix) {
   return result;
 }
 
+/// The condition number, from the singular values.
+double ratio_of_ends(const std::vector<double>& values) {
+  return values.back() > 0 ? values.front() / values.back()
+                           : std::numeric_limits<double>::infinity();
+}
+
 template <class T>
 void require_full_jet(const std::vector<Series<T>>& jet, const GeneratingFunctionKind& kind) {
   const std::size_t n = kind.degrees_of_freedom();
@@ -28,6 +36,94 @@ void require_full_jet(const std::vector<Series<T>>& jet, const GeneratingFunctio
         ErrorKind::usage,
         fmt::format("partial inversion {}: a jet of {} components in {} variables is needed",
                     kind.name(), 2 * n, 2 * n));
+  }
+}
+
+template <class T>
+const T& entry(const Matrix<T>& matrix, std::size_t i, std::size_t j) {
+  return matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+}
+
+/// The part of the linear part with the chosen or the remaining final variables as rows and the
+/// chosen or the remaining initial ones as columns.
+template <class T>
+Matrix<T> part_of(const Matrix<T>& linear, const GeneratingFunctionKind& kind, bool has_chosen_rows,
+                  bool has_chosen_columns) {
+  const std::size_t n = kind.degrees_of_freedom();
+  Matrix<T> result(n, n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto row = static_cast<Eigen::Index>(kind.final_variable(i, has_chosen_rows));
+    for (std::size_t j = 0; j < n; ++j) {
+      const auto column = static_cast<Eigen::Index>(kind.initial_variable(j, has_chosen_columns));
+      result(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = linear(row, column);
+    }
+  }
+  return result;
+}
+
+/// Solves the chosen final variables, f = A u + B v + N(u, v), for the remaining initial deviations
+/// u(w), w = (f, v), v being the chosen ones:
+///
+///   u = A^-1 (f - B v - N(u, v))
+///
+/// gains one degree an iteration, for N begins at degree 2. The remaining final variables
+/// C u + D v + M(u, v) follow from the last iteration: M takes no more of u than N does.
+template <class T>
+void solve_for_the_rest(const std::vector<Series<T>>& jet, PartialInversion<T>& result) {
+  const GeneratingFunctionKind& kind = result.kind;
+  const std::size_t n = kind.degrees_of_freedom();
+  const SpacePointer& space = jet[0].space_pointer();
+  const Matrix<T> linear = linear_part(jet);
+  const Matrix<T> inverse = part_of(linear, kind, true, false).partialPivLu().inverse();
+  const Matrix<T> of_v = -inverse * part_of(linear, kind, true, true);
+  std::vector<Series<T>> initial(2 * n, Series<T>(space));  // by initial variable
+  for (std::size_t i = 0; i < n; ++i) {
+    initial[kind.initial_variable(i)][space->linear_index(n + i)] = T(1);
+    Series<T>& u = initial[kind.initial_variable(i, false)];
+    for (std::size_t j = 0; j < n; ++j) {
+      u[space->linear_index(j)] = entry(inverse, i, j);
+      u[space->linear_index(n + j)] = entry(of_v, i, j);
+    }
+  }
+  std::vector<Series<T>> nonlinear;  // N, and for the last iteration M
+  const auto append_nonlinear = [&](bool is_chosen) {
+    for (std::size_t i = 0; i < n; ++i) {
+      nonlinear.push_back(jet[kind.final_variable(i, is_chosen)]);
+      std::fill_n(nonlinear.back().coefficients().begin(), space->first(2), T(0));
+    }
+  };
+  nonlinear.reserve(2 * n);
+  append_nonlinear(true);
+  for (int d = 2; d <= space->order(); ++d) {
+    if (d == space->order()) append_nonlinear(false);
+    auto composed = detail::compose_up_to(nonlinear, initial, d);
+    for (std::size_t i = 0; i < n; ++i) {
+      Series<T>& u = initial[kind.initial_variable(i, false)];
+      for (std::size_t j = 0; j < n; ++j) {
+        const T factor = entry(inverse, i, j);
+        for (std::size_t k = space->first(d); k < space->first(d + 1); ++k) {
+          u[k] -= factor * composed[j][k];
+        }
+      }
+    }
+    if (d < space->order()) continue;
+    for (std::size_t i = 0; i < n; ++i) {
+      result.remaining_final.push_back(std::move(composed[n + i]));
+    }
+  }
+  result.remaining_final.resize(n, Series<T>(space));  // of order 1: no M
+  const Matrix<T> c = part_of(linear, kind, false, false);
+  const Matrix<T> d = part_of(linear, kind, false, true);
+  for (std::size_t i = 0; i < n; ++i) {
+    Series<T>& rest = result.remaining_final[i];
+    for (std::size_t j = 0; j < n; ++j) {
+      const Series<T>& u = initial[kind.initial_variable(j, false)];
+      for (std::size_t k = 1; k < space->size(); ++k) rest[k] += entry(c, i, j) * u[k];
+      rest[space->linear_index(n + j)] += entry(d, i, j);
+    }
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    result.remaining_initial.push_back(std::move(initial[kind.initial_variable(i, false)]));
   }
 }
 
@@ -55,20 +151,18 @@ Matrix<T> inverted_block(const std::vector<Series<T>>& jet, const GeneratingFunc
 
 template <class T>
 double condition_number(const Matrix<T>& matrix) {
-  const std::vector<double> values = rounded_singular_values(matrix);
-  return values.back() > 0 ? values.front() / values.back()
-                           : std::numeric_limits<double>::infinity();
+  return ratio_of_ends(rounded_singular_values(matrix));
 }
 
 template <class T>
 PartialInversion<T> invert_partially(const std::vector<Series<T>>& jet,
                                      const GeneratingFunctionKind& kind, double precision,
                                      int momentum_exponent) {
-  const Matrix<T> block = inverted_block(jet, kind, momentum_exponent);
+  const std::vector<double> values =
+      rounded_singular_values(inverted_block(jet, kind, momentum_exponent));
   PartialInversion<T> result;
   result.kind = kind;
-  result.condition = condition_number(block);
-  const std::vector<double> values = rounded_singular_values(block);
+  result.condition = ratio_of_ends(values);
   const Matrix<T> linear = in_momentum_unit<Matrix<T>>(linear_part(jet), momentum_exponent);
   const double whole = static_cast<double>(linear.norm());
   if (!(result.condition < largest_condition(precision)) ||
@@ -81,25 +175,7 @@ PartialInversion<T> invert_partially(const std::vector<Series<T>>& jet,
                             kind.name(), values.front(), values.back(), result.condition, whole));
   }
   result.amplification = std::max(result.condition, whole / values.back());
-  // The map w(initial deviations) is inverted as a whole: its last n rows are single variables.
-  const std::size_t n = kind.degrees_of_freedom();
-  const SpacePointer& space = jet[0].space_pointer();
-  std::vector<Series<T>> chosen;
-  for (std::size_t i = 0; i < n; ++i) {
-    chosen.push_back(jet[kind.final_variable(i)]);
-    chosen.back()[0] = T(0);
-  }
-  for (std::size_t i = 0; i < n; ++i) {
-    chosen.push_back(Series<T>::variable(space, kind.initial_variable(i)));
-  }
-  const std::vector<Series<T>> initial = inverse(chosen);
-  std::vector<Series<T>> final_rest;
-  for (std::size_t i = 0; i < n; ++i) {
-    final_rest.push_back(jet[kind.final_variable(i, false)]);
-    final_rest.back()[0] = T(0);
-    result.remaining_initial.push_back(initial[kind.initial_variable(i, false)]);
-  }
-  result.remaining_final = compose(final_rest, initial);
+  solve_for_the_rest(jet, result);
   return result;
 }
 
@@ -114,8 +190,7 @@ GeneratingFunctionKind best_conditioned_kind(const std::vector<Series<T>>& jet,
   for (const auto& kind : kinds) {
     const std::vector<double> values =
         rounded_singular_values(inverted_block(jet, kind, momentum_exponent));
-    const double condition = values.back() > 0 ? values.front() / values.back()
-                                               : std::numeric_limits<double>::infinity();
+    const double condition = ratio_of_ends(values);
     const bool is_better = condition * equal < smallest;
     if (is_better || (condition < equal * smallest && values.back() > size)) {
       smallest = is_better ? condition : std::min(smallest, condition);

@@ -142,8 +142,9 @@ PropagationResult propagate(const Scene& scene, const ProgressCallback& progress
   });
   if (scene.reference) {
     record_failure(result.reference_failure, "reference", [&] {
-      result.reference = compute_reference(result.problem, scene.duration, *scene.reference,
-                                           [&](double done) { report("reference", done); });
+      result.reference =
+          compute_reference(result.problem, scene.duration, *scene.reference, scene.precision,
+                            [&](double done) { report("reference", done); });
     });
   }
   TimesWithoutKind singular;

@@ -5,6 +5,8 @@
 #include <system_error>
 
 #include "../integrators/momentum_unit.hpp"
+#include "hamjet/algebra/composition.hpp"
+#include "hamjet/detail/algebra/double_double.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
 
 namespace hamjet {
@@ -20,24 +22,40 @@ ReferenceResult truncated_reference(const ReferenceResult& reference, const Spac
   return result;
 }
 
-ReferenceResult compute_reference(const ComputedProblem& problem, double duration,
-                                  const ReferenceSettings& settings,
-                                  const std::function<void(double)>& keep_going) {
-  FlowProblem<Extended> flow{problem.system, problem.space, problem.variables, {}, duration};
+namespace {
+
+/// The flow by Gauss's method in the numbers of Real; `observe` is called after every step with the
+/// time.
+template <class Real>
+FlowJet<Extended> integrate_in(const ComputedProblem& problem, double duration,
+                               const GaussSettings& settings, IntegrationStatistics& statistics,
+                               const std::function<void(double)>& observe) {
+  FlowProblem<Real> flow{problem.system, problem.space, problem.variables, {}, Real(duration)};
   // What judges the runs shares nothing with them that could be wrong in both.
   flow.symmetry = FlowSymmetry::none;
   for (const double x : problem.nominal) flow.initial_state.emplace_back(x);
+  return convert_map<Extended>(integrate_gauss<Real>(
+      flow, settings, statistics,
+      [&](const Real& time, const FlowJet<Real>&) { observe(static_cast<double>(time)); }));
+}
+
+}  // namespace
+
+ReferenceResult compute_reference(const ComputedProblem& problem, double duration,
+                                  const ReferenceSettings& settings, Precision judged,
+                                  const std::function<void(double)>& keep_going) {
+  const bool is_extended = reference_arithmetic(judged, settings.tolerance).bits == 113;
+  const auto integrate = is_extended ? integrate_in<Extended> : integrate_in<DoubleDouble>;
   std::atomic<bool> stop = false;
   const auto run = [&](int stages, double tolerance, IntegrationStatistics& statistics,
                        bool reports) {
     GaussSettings gauss;
     gauss.stages = stages;
     gauss.tolerance = tolerance;
-    return integrate_gauss<Extended>(
-        flow, gauss, statistics, [&](const Extended& time, const FlowJet<Extended>&) {
-          if (stop) throw Error(ErrorKind::numerical, "reference: stopped with its other run");
-          if (reports) keep_going(static_cast<double>(time) / duration);
-        });
+    return integrate(problem, duration, gauss, statistics, [&](double time) {
+      if (stop) throw Error(ErrorKind::numerical, "reference: stopped with its other run");
+      if (reports) keep_going(time / duration);
+    });
   };
   ReferenceResult result;
   result.stages = reference_stages;

@@ -107,11 +107,13 @@ std::string scene_key(const Scene& scene, int jet_order, KeyOf whose) {
                reference, relative_hamiltonian_times, checks, comparison, figure, deputy, transfer,
                validity, assignment, output, ephemeris, nominal_file, warnings, own_system] = scene;
   KeyText key;
-  key.add("key", 5);  // version of this text, and of what is kept under it
+  key.add("key", 6);  // version of this text, and of what is kept under it
   key.add("reference stages", reference_stages);
   key.add("compared stages", compared_stages);
   key.add("looser by", looser_tolerance);
-  key.add("reference", reference.value_or(ReferenceSettings{}));
+  const ReferenceSettings settings = reference.value_or(ReferenceSettings{});
+  key.add("reference", settings);
+  key.add("bits", reference_arithmetic(precision, settings.tolerance).bits);
   key.add("system", system);
   if (own_system) key.add("own system", system_text(*own_system));
   key.add("radius", canonical_radius);

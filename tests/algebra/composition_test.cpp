@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/SVD>
+#include <algorithm>
 #include <cmath>
 #include <span>
 #include <vector>
@@ -63,6 +64,30 @@ TEST(Compose, IsLinearAndMultiplicativeInTheOuterMap) {
   const auto cv = composed(v, inner)[0];
   EXPECT_EQ(test::largest_difference(composed({u[0] * v[0]}, inner), {cu * cv}), 0);
   EXPECT_EQ(test::largest_difference(composed({u[0] + v[0]}, inner), {cu + cv}), 0);
+}
+
+/// Linear inner series go another way. A composition is what takes single variables to the inner
+/// series, and products to products.
+TEST(Compose, TakesLinearInnerSeriesForWhatTheyAre) {
+  RandomNumbers random(33);
+  const auto space = SeriesSpace::create(3, 5);
+  const Map<double> u = random_integer_map(space, 1, random);
+  const Map<double> v = random_integer_map(space, 1, random);
+  const Map<double> linear = random_integer_map(SeriesSpace::create(3, 1), 3, random);
+  for (std::size_t count = 1; count <= 3; ++count) {
+    Map<double> inner = random_integer_map(space, 3, random);
+    inner[0] = Series<double>::variable(space, 2);
+    for (std::size_t i = 1; i < count; ++i) {
+      inner[i] = Series<double>(space);
+      std::copy_n(linear[i].coefficients().begin(), linear[i].size(),
+                  inner[i].coefficients().begin());
+    }
+    const auto cu = composed(u, inner)[0];
+    const auto cv = composed(v, inner)[0];
+    EXPECT_EQ(test::largest_difference(composed({u[0] * v[0]}, inner), {cu * cv}), 0);
+    EXPECT_EQ(test::largest_difference(composed(test::identity_map<double>(space), inner), inner),
+              0);
+  }
 }
 
 TEST(Compose, GivesKnownSeries) {

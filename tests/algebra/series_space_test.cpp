@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <numeric>
+#include <thread>
 #include <vector>
 
 #include "support/errors.hpp"
@@ -76,6 +78,36 @@ TEST(SeriesSpace, MonomialsAreGradedAndLexicographicWithinADegree) {
   EXPECT_EQ(exponents_of(*plane, 3), (Exponents{2, 0}));
   EXPECT_EQ(exponents_of(*plane, 4), (Exponents{1, 1}));
   EXPECT_EQ(exponents_of(*plane, 5), (Exponents{0, 2}));
+}
+
+TEST(SeriesSpace, RaisesMonomialsByEachVariable) {
+  for (std::size_t variables = 1; variables <= 7; ++variables) {
+    for (int order = 0; order <= 5; ++order) {
+      const auto space = SeriesSpace::create(variables, order);
+      for (std::size_t i = 0; i < variables; ++i) {
+        const auto raised = space->raised(i);
+        ASSERT_EQ(raised.size(), space->first(order));
+        for (std::size_t k = 0; k < raised.size(); ++k) {
+          auto e = exponents_of(*space, k);
+          ++e[i];
+          ASSERT_EQ(exponents_of(*space, raised[k]), e) << variables << " variables";
+        }
+      }
+    }
+  }
+}
+
+TEST(SeriesSpace, KeepsTheSpaceOfTheNextOrder) {
+  const auto space = SeriesSpace::create(3, 4);
+  std::array<const SeriesSpace*, 2> seen{};
+  {
+    const std::jthread first([&] { seen[0] = space->next_order().get(); });
+    const std::jthread second([&] { seen[1] = space->next_order().get(); });
+  }
+  EXPECT_EQ(seen[0], seen[1]);
+  EXPECT_EQ(*space->next_order(), *SeriesSpace::create(3, 5));
+  test::expect_error(ErrorKind::usage, "order 61",
+                     [] { (void)SeriesSpace::create(1, 60)->next_order(); });
 }
 
 TEST(SeriesSpace, ProductCostCountsEveryPairOfFactorsOnce) {

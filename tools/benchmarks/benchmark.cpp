@@ -4,7 +4,7 @@
 
 #include "cases.hpp"
 
-/// Without arguments all benchmarks; otherwise those named: products, evaluation,
+/// Without arguments all benchmarks; otherwise those named: products, evaluation, inversion,
 /// integrators, orders, savings, zonals, arcs.
 int main(int argc, char** argv) {
   using namespace hamjet::benchmarks;
@@ -20,6 +20,7 @@ int main(int argc, char** argv) {
       "table\n");
   if (wanted("products")) benchmark_products();
   if (wanted("evaluation")) benchmark_evaluation();
+  if (wanted("inversion")) benchmark_inversion();
   if (wanted("integrators")) benchmark_integrators();
   if (wanted("orders")) benchmark_orders();
   if (wanted("savings")) benchmark_savings();

@@ -41,6 +41,7 @@ FlowJet<Extended> reference_jet(const Case& c);
 void benchmark_integrators();
 void benchmark_products();
 void benchmark_evaluation();
+void benchmark_inversion();
 void benchmark_orders();
 void benchmark_savings();
 void benchmark_zonals();

@@ -29,13 +29,9 @@ template <class T>
 Series<T> derivative(const Series<T>& u, std::size_t i) {
   const SeriesSpace& space = u.space();
   Series<T> result(u.space_pointer());
-  std::vector<std::uint8_t> exponents;
-  for (std::size_t k = 1; k < space.size(); ++k) {
-    const auto from = space.exponents(k);
-    if (from[i] == 0) continue;
-    exponents.assign(from.begin(), from.end());
-    --exponents[i];
-    result[space.index(exponents)] = u[k] * T(static_cast<double>(from[i]));
+  const auto raised = space.raised(i);
+  for (std::size_t k = 0; k < raised.size(); ++k) {
+    result[k] = u[raised[k]] * T(static_cast<double>(space.exponents(k)[i] + 1));
   }
   return result;
 }
@@ -46,12 +42,9 @@ template <class T>
 Series<T> integral(const Series<T>& u, std::size_t i) {
   const SeriesSpace& space = u.space();
   Series<T> result(u.space_pointer());
-  std::vector<std::uint8_t> exponents;
-  for (std::size_t k = 0; k < space.first(space.order()); ++k) {
-    const auto from = space.exponents(k);
-    exponents.assign(from.begin(), from.end());
-    ++exponents[i];
-    result[space.index(exponents)] = u[k] / T(static_cast<double>(exponents[i]));
+  const auto raised = space.raised(i);
+  for (std::size_t k = 0; k < raised.size(); ++k) {
+    result[raised[k]] = u[k] / T(static_cast<double>(space.exponents(k)[i] + 1));
   }
   return result;
 }

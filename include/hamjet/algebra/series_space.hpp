@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <vector>
 
@@ -40,6 +41,13 @@ class SeriesSpace {
   std::size_t index(std::span<const std::uint8_t> exponents) const;
   /// Index of the monomial x_i, i = `variable`.
   std::size_t linear_index(std::size_t variable) const { return 1 + variable; }
+  /// For every monomial of a degree below the order, the index of its product with x_i, i =
+  /// `variable`. The table is made at the first call.
+  std::span<const std::uint32_t> raised(std::size_t variable) const;
+
+  /// The space of one order more in as many variables, such as an antiderivative's. It is made at
+  /// the first call and kept. Throws what `create` throws.
+  const std::shared_ptr<const SeriesSpace>& next_order() const;
 
   /// The products that make up the slice of one degree; see ProductSchedule.
   const ProductSchedule& products(int degree) const {
@@ -58,14 +66,28 @@ class SeriesSpace {
   static double monomial_count(std::size_t variables, int order);
 
  private:
+  class ScheduleBuilder;
+
   SeriesSpace(std::size_t variables, int order);
+
+  /// Number of monomials that agree with x^a up to variable i - 1 and have a larger exponent of
+  /// x_i, within a degree: with `left` = a_(i+1) + ... + a_v it is C(left - 1 + v - i, v - i).
+  std::size_t before(std::size_t i, int left) const {
+    return before_[i * (static_cast<std::size_t>(order_) + 1) + static_cast<std::size_t>(left)];
+  }
+  void list_monomials(int degree);
 
   std::size_t variables_;
   int order_;
   std::vector<std::size_t> offsets_;
   std::vector<std::uint8_t> exponents_;
   std::vector<std::uint8_t> degrees_;
+  std::vector<std::size_t> before_;
   std::vector<ProductSchedule> schedules_;
+  mutable std::once_flag is_raised_;
+  mutable std::vector<std::uint32_t> raised_;
+  mutable std::once_flag has_next_order_;
+  mutable std::shared_ptr<const SeriesSpace> next_order_;
 };
 
 using SpacePointer = std::shared_ptr<const SeriesSpace>;

@@ -353,7 +353,7 @@ class GaussIntegrator {
       account(&GaussProfile::series, mark);
       iterates = iterates && d <= last_iterated && stages_.iterate_degree(d, state_);
       if (!iterates) {
-        if (!is_factorised && !stages_.factorise()) return false;
+        if (!is_factorised && !stages_.factorise(order_ >= 2)) return false;
         is_factorised = true;
         account(&GaussProfile::factorisation, mark);
         stages_.solve_degree(d, state_);

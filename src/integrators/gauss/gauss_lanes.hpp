@@ -1,7 +1,9 @@
 #pragma once
 
 #include <memory>
+#include <type_traits>
 
+#include "hamjet/detail/algebra/double_double.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
 
 namespace hamjet {
@@ -20,9 +22,13 @@ std::unique_ptr<ArcIntegrator<Real>> make_gauss_arcs(const FlowProblem<Real>& pr
                                                      const GaussSettings& settings);
 
 /// Calls `call` with the number of lanes, an integral constant: the stages fill the lanes of a
-/// pack, and the smallest of five widths that holds them is taken.
-template <class Call>
+/// pack, and the smallest of five widths that holds them is taken. References alone are made of
+/// double-double numbers, and have many stages: one width is enough for these.
+template <class Real, class Call>
 auto with_lanes(int stages, const Call& call) {
+  if constexpr (std::is_same_v<Real, DoubleDouble>) {
+    return call(std::integral_constant<int, 16>{});
+  }
   if (stages == 1) return call(std::integral_constant<int, 1>{});
   if (stages == 2) return call(std::integral_constant<int, 2>{});
   if (stages <= 4) return call(std::integral_constant<int, 4>{});

@@ -4,11 +4,13 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <type_traits>
 #include <utility>
 
 #include "../../algebra/instantiated_real.hpp"
 #include "../directional_flow.hpp"
 #include "gauss_lanes.hpp"
+#include "hamjet/algebra/composition.hpp"
 #include "hamjet/algebra/extended.hpp"
 
 namespace hamjet {
@@ -60,7 +62,7 @@ template <class Real>
 FlowJet<Real> integrate_as_given(const FlowProblem<Real>& problem, const GaussSettings& settings,
                                  IntegrationStatistics& statistics) {
   statistics = {};
-  return with_lanes(settings.stages, [&]<int Lanes>(std::integral_constant<int, Lanes>) {
+  return with_lanes<Real>(settings.stages, [&]<int Lanes>(std::integral_constant<int, Lanes>) {
     return run_gauss<Lanes>(problem, settings, statistics, StepObserver<Real>{});
   });
 }
@@ -189,7 +191,17 @@ void record_choice(StepTolerance<Real> choice, IntegrationStatistics& statistics
   if (choice.tolerance > 0) statistics.step_tolerance = choice.tolerance;
   statistics.rounding_by_degree = std::move(choice.rounding_by_degree);
   statistics.unmet_by_degree = std::move(choice.unmet_by_degree);
-  statistics.finer_lines = std::move(choice.finer_lines);
+  if constexpr (std::is_same_v<Real, DoubleDouble>) {
+    std::vector<JetAlongLine<Extended>> lines;
+    for (const JetAlongLine<Real>& line : choice.finer_lines) {
+      std::vector<Extended> direction;
+      for (const Real& x : line.direction) direction.push_back(convert<Extended>(x));
+      lines.push_back({std::move(direction), convert_map<Extended>(line.jet)});
+    }
+    statistics.finer_lines = std::move(lines);
+  } else {
+    statistics.finer_lines = std::move(choice.finer_lines);
+  }
 }
 
 template <class Real>

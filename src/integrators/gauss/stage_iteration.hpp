@@ -33,29 +33,43 @@ class StageIteration {
   template <class State, class Evaluate>
   bool solve_constant_terms(const State& state, std::vector<P>& slopes, const Evaluate& evaluate) {
     const std::size_t m = system_.components();
+    const auto set_lost = [&](const std::vector<P>& g) {
+      for (std::size_t c = 0; c < m; ++c) lost_[c] = system_.lost(c, state, g[c]);
+    };
+    set_lost(slopes);
     for (std::size_t c = 0; c < m; ++c) {
       base_[c] = system_.base(c, state);
-      // What the coefficients' rounding residues add hardly changes with the iteration.
-      lost_[c] = system_.lost(c, state, slopes[c]);
       stages_[c] = base_[c] + (system_.couple(slopes[c]) + lost_[c]);
     }
     set_scale(stages_, base_);
     Contraction contraction;
+    bool is_lost_known = false;
     while (true) {
       evaluate(stages_, slopes_);
       const Real size = replace_stages(base_, &lost_);
       const auto outcome = contraction.judge(size);
-      if (outcome == Outcome::goes_on) {
-        // An extrapolated guess can be far off: what counts is the size of the stages as they are.
-        set_scale(stages_, base_);
-        continue;
+      if (outcome == Outcome::fails ||
+          !(outcome == Outcome::goes_on || is_finite_number(stages_))) {
+        return false;
       }
-      if (outcome == Outcome::fails || !is_finite_number(stages_)) return false;
-      // Iterates once more, with what the coefficients' rounding residues add at these slopes.
-      for (std::size_t c = 0; c < m; ++c) lost_[c] = system_.lost(c, state, slopes_[c]);
-      replace_stages(base_, &lost_);
-      evaluate(stages_, slopes);
-      return true;
+      if (outcome == Outcome::is_rounding) {
+        slopes = slopes_;  // those of the stages before were as good
+        return true;
+      }
+      if (outcome == Outcome::converged) {
+        set_lost(slopes_);
+        replace_stages(base_, &lost_);
+        evaluate(stages_, slopes);
+        return true;
+      }
+      // An extrapolated guess can be far off: what counts is the size of the stages as they are. To
+      // take it is a good part of an iteration, and small changes leave it what it is.
+      if (!(size <= smallest_rescaled)) set_scale(stages_, base_);
+      if (!is_lost_known && size <= largest_remainder) {
+        // What the coefficients' rounding residues add is known to this part from now on.
+        set_lost(slopes_);
+        is_lost_known = true;
+      }
     }
   }
 
@@ -76,12 +90,24 @@ class StageIteration {
       const auto outcome = contraction.judge(replace_stages(known));
       if (outcome == Outcome::goes_on) continue;
       stages = stages_;
-      return outcome == Outcome::converged && is_finite_number(stages);
+      return outcome != Outcome::fails && is_finite_number(stages);
     }
   }
 
  private:
-  enum class Outcome { goes_on, converged, fails };
+  /// The part of a rounding that may be left: it has the same sign in every step, so that half a
+  /// rounding would make the energy drift (Hairer, McLachlan and Razakarivony, BIT 48 (2008) 231).
+  static constexpr double largest_remainder = 0x1p-12;
+
+  /// Relative changes up to this leave the scale of the stages as it is.
+  static constexpr double smallest_rescaled = 0x1p-4;
+
+  enum class Outcome {
+    goes_on,
+    converged,    ///< all changes to come add up to less than may be left
+    is_rounding,  ///< and the last change too was rounding alone
+    fails
+  };
 
   /// Follows the sizes of the changes, relative to the stages.
   class Contraction {
@@ -91,20 +117,16 @@ class StageIteration {
       previous_ = size;
       if (!(size <= before * slowest)) {
         // Changes that no longer shrink are rounding, if they are no larger than that.
-        if (size <= 2 * epsilon) return Outcome::converged;
+        if (size <= 2 * epsilon) return Outcome::is_rounding;
         if (++stalls_ > most_stalls) return Outcome::fails;
-      } else if (count_ > 0 && size * size <= remainder * epsilon * (before - size)) {
-        return Outcome::converged;  // all the changes to come add up to less than this
+      } else if (count_ > 0 && size * size <= largest_remainder * epsilon * (before - size)) {
+        return size == 0 ? Outcome::is_rounding : Outcome::converged;
       }
       return ++count_ < largest_count ? Outcome::goes_on : Outcome::fails;
     }
 
    private:
     static constexpr double slowest = 0.5;
-    /// The part of a rounding that may be left: it has the same sign in every step, so that half a
-    /// rounding would make the energy drift (Hairer, McLachlan and Razakarivony, BIT 48 (2008)
-    /// 231).
-    static constexpr double remainder = 0x1p-12;
     static constexpr int most_stalls = 1;  ///< the first changes may grow
     static constexpr int largest_count = 40;
     int count_ = 0;

@@ -75,11 +75,9 @@ class StageSlopes {
   }
 
   double largest_slope() const {
-    double result = 0;
-    for (const P& slope : slopes_) {
-      result = std::max(result, static_cast<double>(largest_magnitude(slope)));
-    }
-    return result;
+    P largest(Real(0));
+    for (const P& slope : slopes_) largest = larger_magnitude(largest, slope);
+    return static_cast<double>(largest_magnitude(largest));
   }
 
   /// The largest entry of Dg at one stage.
@@ -95,24 +93,23 @@ class StageSlopes {
 
   /// The largest entry of Dg over all stages.
   double largest_gradient() const {
-    double result = 0;
+    P largest(Real(0));
     for (std::size_t c = 0; c < system_.components(); ++c) {
       for (std::size_t k = 0; k < system_.components(); ++k) {
-        result = std::max(result, static_cast<double>(largest_magnitude(slope_gradient(c, k))));
+        largest = larger_magnitude(largest, slope_gradient(c, k));
       }
     }
-    return result;
+    return static_cast<double>(largest_magnitude(largest));
   }
 
   /// The largest distance of a stage's component from a point.
   template <class State>
   double displacement(const State& state) {
-    double result = 0;
+    P largest(Real(0));
     for (std::size_t c = 0; c < system_.components(); ++c) {
-      const P moved = evaluator_.input(c)[0] - P(state(c));
-      result = std::max(result, static_cast<double>(largest_magnitude(moved)));
+      largest = larger_magnitude(largest, evaluator_.input(c)[0] - P(state(c)));
     }
-    return result;
+    return static_cast<double>(largest_magnitude(largest));
   }
 
   /// The derivative d g_c / d Y_from at the stages.
@@ -202,10 +199,10 @@ class StageSlopes {
     ++statistics.nominal_evaluations;
   }
 
-  /// Forms K and B at the stages as they stand; false if the matrix is singular.
-  bool factorise() {
+  /// Forms K and B, or B alone, at the stages as they stand; false if the matrix is singular.
+  bool factorise(bool has_remainders = true) {
     return system_.factorise(
-        [&](std::size_t c, std::size_t from) { return slope_gradient(c, from); });
+        [&](std::size_t c, std::size_t from) { return slope_gradient(c, from); }, has_remainders);
   }
 
   /// Does what solve_degree does, by fixed-point iteration without a factorisation. False where it

@@ -54,6 +54,9 @@ class StageSystem {
     matrix_.resize(unknowns_ * components_);
     response_.resize(unknowns_ * components_);
     base_.resize(state_size_ * components_);
+    for (std::size_t i = 0; i < stages_; ++i) {
+      units_.push_back(P::of_lanes([&](std::size_t lane) { return Real(lane == i ? 1 : 0); }));
+    }
     pivot_row_.resize(unknowns_);
     used_.resize(unknowns_);
   }
@@ -122,13 +125,19 @@ class StageSystem {
   /// The block B_(c, k), k an index into the state.
   const P& base_response(std::size_t k, std::size_t c) const { return base_[k * components_ + c]; }
 
-  /// Forms K and B from the slopes' gradients Dg_(c, from), packs over the stages. False if the
-  /// matrix is singular or not finite.
+  /// Forms B, and K where slices with remainders are to be solved for (`has_remainders`; those of
+  /// degree 1 have none), from the slopes' gradients Dg_(c, from), packs over the stages. False if
+  /// the matrix is singular or not finite.
   template <class Gradient>
-  bool factorise(const Gradient& gradient) {
-    fill(gradient);
-    if (!eliminate()) return false;
-    undo_pivoting(response_);
+  bool factorise(const Gradient& gradient, bool has_remainders = true) {
+    const std::size_t response_size = has_remainders ? response_.size() : 0;
+    fill(gradient, response_size);
+    if (is_dominant(gradient)) {
+      eliminate_in_order(response_size);
+      return true;
+    }
+    if (!eliminate(response_size)) return false;
+    if (has_remainders) undo_pivoting(response_);
     undo_pivoting(base_);
     return true;
   }
@@ -145,8 +154,31 @@ class StageSystem {
     return sum;
   }
 
+  /// Whether every row of W (x) Dg has magnitudes that add up to at most 1/2, as at all steps that
+  /// converge well: the matrix I - W (x) Dg is dominated by its diagonal then, and elimination in
+  /// the order of the rows, without pivoting, multiplies no entry by more than 2 (Higham, Accuracy
+  /// and Stability of Numerical Algorithms, 2nd ed., theorem 9.9 and section 14.4). False where a
+  /// number is not finite.
   template <class Gradient>
-  void fill(const Gradient& gradient) {
+  bool is_dominant(const Gradient& gradient) const {
+    P largest(Real(0));
+    for (std::size_t c = 0; c < components_; ++c) {
+      P sum(Real(0));
+      P entries(Real(0));
+      for (std::size_t from = 0; from < components_; ++from) {
+        entries += larger_magnitude(P(Real(0)), gradient(c, from));
+      }
+      for (std::size_t j = 0; j < stages_; ++j) {
+        sum +=
+            larger_magnitude(P(Real(0)), coupling_[j].value) * P(entries.lane(static_cast<int>(j)));
+      }
+      largest = larger_magnitude(largest, sum * P(scale_));
+    }
+    return largest_magnitude(largest) <= Real(0.5);
+  }
+
+  template <class Gradient>
+  void fill(const Gradient& gradient, std::size_t response_size) {
     const P zero(Real(0));
     for (std::size_t from = 0; from < components_; ++from) {
       for (std::size_t j = 0; j < stages_; ++j) {
@@ -155,7 +187,7 @@ class StageSystem {
         P* r = &response_[(from * stages_ + j) * components_];
         for (std::size_t c = 0; c < components_; ++c) {
           m[c] = column * P(Real(-gradient(c, from).lane(static_cast<int>(j))));
-          r[c] = c == from ? column : zero;
+          if (response_size > 0) r[c] = c == from ? column : zero;
         }
         m[from].set_lane(static_cast<int>(j), m[from].lane(static_cast<int>(j)) + Real(1));
       }
@@ -201,7 +233,7 @@ class StageSystem {
   }
 
   /// Gauss-Jordan elimination by columns: rows are lanes, so every update is a run of packs.
-  bool eliminate() {
+  bool eliminate(std::size_t response_size) {
     std::fill(used_.begin(), used_.end(), false);
     for (std::size_t r = 0; r < unknowns_; ++r) {
       const auto pivot = choose_pivot(r);
@@ -211,42 +243,60 @@ class StageSystem {
       P* factor = &matrix_[r * components_];
       const Real inverse = 1 / row_of(factor, *pivot);
       set_row(factor, *pivot, Real(0));
-      const std::size_t done = (r + 1) * components_;
-      reduce(matrix_.data() + done, matrix_.data() + matrix_.size(), factor, *pivot, inverse);
-      reduce(response_.data(), response_.data() + response_.size(), factor, *pivot, inverse);
-      reduce(base_.data(), base_.data() + base_.size(), factor, *pivot, inverse);
+      for_each_column(r + 1, response_size, [&](P* column) {
+        const Real x = row_of(column, *pivot) * inverse;
+        if (x == 0) return;  // the right-hand sides start with blocks of zeros
+        const P broadcast(x);
+        for (std::size_t c = 0; c < components_; ++c) column[c] -= factor[c] * broadcast;
+        set_row(column, *pivot, x);
+      });
     }
     return true;
   }
 
-  void reduce(P* column, const P* end, const P* factor, std::size_t pivot,
-              const Real& inverse) const {
-    // The usual numbers of components are unrolled: this is half the time of a step of order 1.
-    if (components_ == 3) return reduce<3>(column, end, factor, pivot, inverse);
-    if (components_ == 2) return reduce<2>(column, end, factor, pivot, inverse);
-    reduce<0>(column, end, factor, pivot, inverse);
+  /// Calls for all columns that an elimination has still to do with.
+  template <class Reduce>
+  void for_each_column(std::size_t first, std::size_t response_size, const Reduce& reduce) {
+    const auto of = [&](std::vector<P>& columns, std::size_t from, std::size_t to) {
+      for (std::size_t q = from; q < to; q += components_) reduce(&columns[q]);
+    };
+    of(matrix_, first * components_, matrix_.size());
+    of(response_, 0, response_size);
+    of(base_, 0, base_.size());
   }
 
-  /// Subtracts the pivot row from all others, in every column from `column` to `end`; Components 0
-  /// means as many as there are.
+  /// The same without pivoting.
+  void eliminate_in_order(std::size_t response_size) {
+    // The usual numbers of components are unrolled: this is a good part of a step of order 1.
+    if (components_ == 3) return eliminate_in_order<3>(response_size);
+    if (components_ == 2) return eliminate_in_order<2>(response_size);
+    eliminate_in_order<0>(response_size);
+  }
+
+  /// Components 0 means as many as there are. With the pivot p and the other entries f of its
+  /// column, x = column_r / p is left in the pivot row and column - f x in the others. As
+  /// column_r - (p - 1) x = x, the one formula does for all of them, with p - 1 in the place of p.
   template <std::size_t Components>
-  void reduce(P* column, const P* end, const P* factor, std::size_t pivot,
-              const Real& inverse) const {
+  void eliminate_in_order(std::size_t response_size) {
     const std::size_t components = Components == 0 ? components_ : Components;
-    const std::size_t component = pivot / stages_;
-    const auto lane = static_cast<int>(pivot % stages_);
-    std::array<P, Components> row;
-    std::copy_n(factor, Components, row.begin());
-    for (; column != end; column += components) {
-      const Real x = column[component].lane(lane) * inverse;
-      if (x == 0) continue;  // the right-hand sides start with blocks of zeros
-      const P broadcast(x);
-      if constexpr (Components == 0) {
-        for (std::size_t c = 0; c < components; ++c) column[c] -= factor[c] * broadcast;
-      } else {
-        for (std::size_t c = 0; c < Components; ++c) column[c] -= row[c] * broadcast;
-      }
-      column[component].set_lane(lane, x);
+    for (std::size_t r = 0; r < unknowns_; ++r) {
+      const std::size_t component = r / stages_;
+      const auto lane = static_cast<int>(r % stages_);
+      P* factor = &matrix_[r * components];
+      const Real inverse = 1 / factor[component].lane(lane);
+      factor[component] -= units_[r % stages_];
+      std::array<P, Components> row;
+      std::copy_n(factor, Components, row.begin());
+      for_each_column(r + 1, response_size, [&](P* column) {
+        const Real x = column[component].lane(lane) * inverse;
+        if (x == 0) return;
+        const P broadcast(x);
+        if constexpr (Components == 0) {
+          for (std::size_t c = 0; c < components; ++c) column[c] -= factor[c] * broadcast;
+        } else {
+          for (std::size_t c = 0; c < Components; ++c) column[c] -= row[c] * broadcast;
+        }
+      });
     }
   }
 
@@ -278,6 +328,7 @@ class StageSystem {
   std::vector<P> matrix_;
   std::vector<P> response_;
   std::vector<P> base_;
+  std::vector<P> units_;  ///< by stage, 1 in its lane
   std::vector<std::size_t> pivot_row_;
   std::vector<char> used_;
 };

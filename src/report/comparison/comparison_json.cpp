@@ -2,6 +2,7 @@
 
 #include "../../scene/system_json.hpp"
 #include "../../store/json_values.hpp"
+#include "../../studies/reference.hpp"
 #include "compared_run_members.hpp"
 #include "comparison_view.hpp"
 #include "hamjet/report/comparison_report.hpp"
@@ -107,7 +108,7 @@ Json scene_json(const Scene& scene) {
 Json reference_json(const ComparisonResult& result) {
   const ReferenceResult& reference = result.reference;
   return {{"method", "gauss"},
-          {"precision", "extended"},
+          {"precision", reference_arithmetic(result.scene.precision, reference.tolerance).name},
           {"stages", reference.stages},
           {"tolerance", json_number(reference.tolerance)},
           {"statistics", statistics_json(reference.statistics)},

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "../../formats/results_names.hpp"
+#include "../../studies/reference.hpp"
 #include "../drawing/report_page.hpp"
 #include "comparison_page.hpp"
 #include "comparison_view.hpp"
@@ -196,11 +197,12 @@ std::string reference_html(const ComparisonResult& result) {
             cell(small_number(result.smallest_claimed_error(static_cast<int>(d)))) + "</tr>\n";
   }
   return fmt::format(
-             "<p>The errors are differences from a jet that was integrated with 113 significant "
+             "<p>The errors are differences from a jet that was integrated with {} significant "
              "bits by the Gauss method with {} stages, local tolerance {:g}, in {} steps, {}. A "
              "second run of different step size agrees with it as the table says: that is the "
              "reference’s own uncertainty, and no error below ten times it is plotted or claimed. "
              "{}</p>\n",
+             reference_arithmetic(result.scene.precision, reference.tolerance).bits,
              reference.stages, reference.tolerance, reference.statistics.steps,
              duration_text(reference.statistics.wall_seconds),
              result.is_reference_cached ? "It was taken from the cache of an earlier comparison."

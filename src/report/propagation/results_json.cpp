@@ -4,6 +4,7 @@
 #include "../../scene/system_json.hpp"
 #include "../../store/json_values.hpp"
 #include "../../studies/checks/run_warnings.hpp"
+#include "../../studies/reference.hpp"
 #include "hamjet/report/results.hpp"
 #include "hamjet/version.hpp"
 #include "results_operations_json.hpp"
@@ -177,14 +178,15 @@ std::string summary_json(const PropagationResult& result) {
     for (std::size_t i = 0; i < reference.jet.size(); ++i) {
       state[result.problem.components[i]] = static_cast<double>(reference.jet[i][0]);
     }
-    json["reference"] = {{"method", "gauss"},
-                         {"precision", "extended"},
-                         {"stages", reference.stages},
-                         {"tolerance", reference.tolerance},
-                         {"steps", reference.statistics.steps},
-                         {"wall_seconds", reference.statistics.wall_seconds},
-                         {"nominal_final", state},
-                         {"uncertainty_by_degree", reference.uncertainty_by_degree}};
+    json["reference"] = {
+        {"method", "gauss"},
+        {"precision", reference_arithmetic(scene.precision, reference.tolerance).name},
+        {"stages", reference.stages},
+        {"tolerance", reference.tolerance},
+        {"steps", reference.statistics.steps},
+        {"wall_seconds", reference.statistics.wall_seconds},
+        {"nominal_final", state},
+        {"uncertainty_by_degree", reference.uncertainty_by_degree}};
   }
   json["reference_error"] = text_or_null(result.reference_failure);
   json["relative_hamiltonian_error"] = text_or_null(result.relative_hamiltonian_failure);

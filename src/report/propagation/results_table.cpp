@@ -5,6 +5,7 @@
 
 #include "../../formats/results_names.hpp"
 #include "../../studies/checks/run_warnings.hpp"
+#include "../../studies/reference.hpp"
 #include "../../text/quantity_text.hpp"
 #include "../../text/terminal_text.hpp"
 #include "hamjet/report/results.hpp"
@@ -152,10 +153,11 @@ std::string reference_line(const PropagationResult& result) {
     return "no reference: the scene has no [reference] table, so errors are estimated\n";
   }
   return fmt::format(
-      "reference: Gauss, {} stages, 113 bits, steps: {}, time: {}; its own uncertainty is {:.0e} "
+      "reference: Gauss, {} stages, {} bits, steps: {}, time: {}; its own uncertainty is {:.0e} "
       "at worst\n",
-      result.reference->stages, result.reference->statistics.steps,
-      duration_text(result.reference->statistics.wall_seconds),
+      result.reference->stages,
+      reference_arithmetic(result.scene.precision, result.reference->tolerance).bits,
+      result.reference->statistics.steps, duration_text(result.reference->statistics.wall_seconds),
       result.reference->largest_uncertainty());
 }
 

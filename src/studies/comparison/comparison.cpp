@@ -128,7 +128,7 @@ class Comparison {
     if (!found) {
       try {
         found = compute_reference(problem, scene.duration,
-                                  scene.reference.value_or(ReferenceSettings{}),
+                                  scene.reference.value_or(ReferenceSettings{}), scene.precision,
                                   [&](double done) { report("reference", done); });
       } catch (const Error& error) {
         throw Error(error.kind(), fmt::format("reference: {}", error.what()));

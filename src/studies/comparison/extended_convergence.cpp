@@ -66,7 +66,8 @@ std::optional<ConvergenceFit> fit_over_arc(const ComparisonResult& result,
   const bool is_whole = arc == 1;
   const ReferenceResult reference =
       is_whole ? truncated_reference(result.reference, problem.space)
-               : compute_reference(problem, scene.duration, {arc_tolerance}, keep_going);
+               : compute_reference(problem, scene.duration, {arc_tolerance}, Precision::extended,
+                                   keep_going);
   const double claimed = is_whole ? result.smallest_claimed_error(degree)
                                   : 10 * reference.uncertainty_by_degree.back();
   const double floor = std::max(above_claimed * claimed, is_whole ? smallest_floor : 0);

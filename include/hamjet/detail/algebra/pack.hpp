@@ -7,6 +7,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "hamjet/detail/algebra/double_double.hpp"
 #include "hamjet/instruction_set.hpp"
 
 namespace hamjet {
@@ -32,12 +33,57 @@ requires(Lanes > 1) struct VectorFor<double, Lanes> {
       std::experimental::simd<double, std::experimental::simd_abi::deduce_t<double, width>>;
 };
 
+template <int Lanes>
+requires(Lanes > 1) struct VectorFor<DoubleDouble, Lanes> {
+  using Part = typename VectorFor<double, Lanes>::type;
+  static constexpr int width = VectorFor<double, Lanes>::width;
+  using type = std::conditional_t<width == 1, DoubleDouble, Doubled<Part>>;
+};
+
+// The lanes of a vector.
+template <class V>
+auto lane_of(const V& vector, std::size_t i) {
+  return vector[i];
+}
+template <class V, class Real>
+void set_lane_of(V& vector, std::size_t i, const Real& value) {
+  vector[i] = value;
+}
+template <class V>
+DoubleDouble lane_of(const Doubled<V>& vector, std::size_t i) {
+  return {vector.high[i], vector.low[i]};
+}
+template <class V>
+void set_lane_of(Doubled<V>& vector, std::size_t i, const DoubleDouble& value) {
+  vector.high[i] = value.high;
+  vector.low[i] = value.low;
+}
+
+template <class V>
+auto sum_of_lanes(const V& vector) {
+  return std::experimental::reduce(vector);
+}
+/// Half to half, so that few additions wait for another.
+template <class V>
+DoubleDouble sum_of_lanes(const Doubled<V>& vector) {
+  if constexpr (V::size() == 1) {
+    return lane_of(vector, 0);
+  } else {
+    namespace simd = std::experimental;
+    constexpr std::size_t half = V::size() / 2;
+    using Half = simd::simd<double, simd::simd_abi::deduce_t<double, half>>;
+    const auto high = simd::split<Half>(vector.high);
+    const auto low = simd::split<Half>(vector.low);
+    return sum_of_lanes(Doubled<Half>(high[0], low[0]) + Doubled<Half>(high[1], low[1]));
+  }
+}
+
 }  // namespace detail
 
 /// A fixed number of reals that go through the same arithmetic together, such as the stages of an
 /// implicit Runge-Kutta method. An array of vectors of the machine's width; for extended precision
-/// the same class over an array of scalars. Forms a commutative ring componentwise (a field where
-/// no component is zero).
+/// the same class over an array of scalars, for double-double over pairs of vectors. Forms a
+/// commutative ring componentwise (a field where no component is zero).
 template <class Real, int Lanes>
 struct Pack {
   using real_type = Real;
@@ -54,18 +100,34 @@ struct Pack {
     for (auto& v : part) v = Vector(value);
   }
 
+  /// The pack whose lane i is f(i).
+  template <class Function>
+  static Pack of_lanes(const Function& f) {
+    Pack result;
+    if constexpr (std::experimental::is_simd_v<Vector>) {
+      for (std::size_t p = 0; p < parts; ++p) {
+        result.part[p] = Vector([&](auto i) { return f(p * width + i); });
+      }
+    } else {
+      for (std::size_t i = 0; i < lanes; ++i) result.set_lane(static_cast<int>(i), f(i));
+    }
+    return result;
+  }
+
   Real lane(int i) const {
     if constexpr (width == 1) {
       return part[static_cast<std::size_t>(i)];
     } else {
-      return part[static_cast<std::size_t>(i / width)][static_cast<std::size_t>(i % width)];
+      return detail::lane_of(part[static_cast<std::size_t>(i / width)],
+                             static_cast<std::size_t>(i % width));
     }
   }
   void set_lane(int i, const Real& value) {
     if constexpr (width == 1) {
       part[static_cast<std::size_t>(i)] = value;
     } else {
-      part[static_cast<std::size_t>(i / width)][static_cast<std::size_t>(i % width)] = value;
+      detail::set_lane_of(part[static_cast<std::size_t>(i / width)],
+                          static_cast<std::size_t>(i % width), value);
     }
   }
 
@@ -115,7 +177,7 @@ Real dot(const Pack<Real, Lanes>& a, const Pack<Real, Lanes>& b) {
   auto sum = a.part[0] * b.part[0];
   for (std::size_t i = 1; i < a.parts; ++i) sum += a.part[i] * b.part[i];
   if constexpr (Pack<Real, Lanes>::width > 1) {
-    return std::experimental::reduce(sum);
+    return detail::sum_of_lanes(sum);
   } else {
     return sum;
   }
@@ -125,12 +187,15 @@ Real dot(const Pack<Real, Lanes>& a, const Pack<Real, Lanes>& b) {
 template <class Real, int Lanes>
 Pack<Real, Lanes> larger_magnitude(const Pack<Real, Lanes>& a, const Pack<Real, Lanes>& b) {
   Pack<Real, Lanes> result;
-  for (std::size_t i = 0; i < a.parts; ++i) {
-    if constexpr (Pack<Real, Lanes>::width > 1) {
+  if constexpr (std::experimental::is_simd_v<typename Pack<Real, Lanes>::Vector>) {
+    for (std::size_t i = 0; i < a.parts; ++i) {
       result.part[i] = std::experimental::max(a.part[i], std::experimental::abs(b.part[i]));
-    } else {
-      const Real size = b.part[i] < 0 ? Real(-b.part[i]) : b.part[i];
-      result.part[i] = a.part[i] < size ? size : a.part[i];
+    }
+  } else {
+    for (int i = 0; i < Lanes; ++i) {
+      const Real value = b.lane(i);
+      const Real size = value < 0 ? Real(-value) : value;
+      result.set_lane(i, a.lane(i) < size ? size : a.lane(i));
     }
   }
   return result;
@@ -139,7 +204,7 @@ Pack<Real, Lanes> larger_magnitude(const Pack<Real, Lanes>& a, const Pack<Real, 
 /// The largest magnitude of the lanes; NaN if one of them is NaN.
 template <class Real, int Lanes>
 Real largest_magnitude(const Pack<Real, Lanes>& x) {
-  if constexpr (Pack<Real, Lanes>::width > 1) {
+  if constexpr (std::experimental::is_simd_v<typename Pack<Real, Lanes>::Vector>) {
     namespace simd = std::experimental;
     auto largest = simd::abs(x.part[0]);
     for (std::size_t i = 1; i < x.parts; ++i) largest = simd::max(largest, simd::abs(x.part[i]));
@@ -153,7 +218,8 @@ Real largest_magnitude(const Pack<Real, Lanes>& x) {
     return result;
   } else {
     Real result = 0;
-    for (const Real& value : x.part) {
+    for (int i = 0; i < Lanes; ++i) {
+      const Real value = x.lane(i);
       const Real size = value < 0 ? Real(-value) : value;
       if (!(size <= result)) result = size;
       if (!(result == result)) break;
@@ -166,7 +232,8 @@ template <class Real, int Lanes>
 Pack<Real, Lanes> sqrt(const Pack<Real, Lanes>& x) {
   if constexpr (Pack<Real, Lanes>::width > 1) {
     Pack<Real, Lanes> result;
-    for (std::size_t i = 0; i < x.parts; ++i) result.part[i] = std::experimental::sqrt(x.part[i]);
+    using std::experimental::sqrt;
+    for (std::size_t i = 0; i < x.parts; ++i) result.part[i] = sqrt(x.part[i]);
     return result;
   } else {
     return map_lanes(x, [](const Real& v) {
