@@ -70,7 +70,8 @@ TEST(JetTimes, TakeAMethodThatHasThem) {
                "fehlberg78");
   scene = scene_with_times({3});
   scene.arcs = 2;
-  expect_error([&] { propagate(scene); }, ErrorKind::scene, {"jet.arcs", "a list of times"}, "arcs");
+  expect_error([&] { propagate(scene); }, ErrorKind::scene, {"jet.arcs", "a list of times"},
+               "arcs");
 }
 
 }  // namespace
