@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
+#include "../app/deputy_evaluation.hpp"
 #include "../app/eval_coordinates.hpp"
 #include "../app/jet_evaluation.hpp"
 #include "../app/refusal.hpp"
@@ -18,10 +19,10 @@
 #include "../store/text_file.hpp"
 #include "../text/quantity_text.hpp"
 #include "../text/scene_message.hpp"
+#include "eval_source.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/relative_motion/chief_frame.hpp"
 #include "hamjet/scene/scene_reader.hpp"
-#include "noted_jet.hpp"
 #include "output_file.hpp"
 #include "process/interruption.hpp"
 #include "process/standard_streams.hpp"
@@ -146,7 +147,9 @@ const char* support_name(Support support) {
 double size_alone(double x) { return std::isfinite(x) ? std::stod(fmt::format("{:.0e}", x)) : x; }
 
 /// What an estimate of the miss is made of.
-std::string miss_covers(const io::StoredJet& stored) {
+std::string miss_covers(const EvalSource& jet) {
+  if (jet.scene) return "missing degrees and the rounding of flights";
+  const io::StoredJet& stored = jet.stored;
   return fmt::format("missing degrees, rounding of coefficients and evaluation{}",
                      stored.error_by_degree.empty()
                          ? "; not errors of the coefficients, of which the results say nothing"
@@ -222,36 +225,37 @@ struct Work {
   std::size_t multiply_adds_per_point = 0;
   std::size_t products_per_point = 0;
 
-  void add(const JetEvaluation& evaluation) {
-    seconds += evaluation.seconds();
-    degree = evaluation.evaluator().degree();
-    multiply_adds_per_point = evaluation.evaluator().multiply_adds_per_point();
-    products_per_point = evaluation.evaluator().products_per_point();
+  void add(double taken, const MapEvaluator& evaluator) {
+    seconds += taken;
+    degree = evaluator.degree();
+    multiply_adds_per_point = evaluator.multiply_adds_per_point();
+    products_per_point = evaluator.products_per_point();
   }
 };
 
-std::string summary(const EvalOptions& options, const std::vector<io::StoredJet>& jets,
+std::string summary(const EvalOptions& options, const std::vector<EvalSource>& jets,
                     const Work& work, const Output& output) {
-  const io::StoredJet& stored = jets.front();
+  const io::StoredJet& stored = jets.front().stored;
   const bool is_rtn = options.frames.frame == "RTN" || options.frames.final_frame() == "RTN";
   const auto points = static_cast<double>(output.rows());
   const auto multiply_adds = static_cast<double>(work.multiply_adds_per_point);
   const Json json = {{"scene", stored.scene},
                      {"run", stored.label},
                      {"model", model_name(stored.model)},
-                     {"order", stored.order()},
+                     {"coordinates", name_of(jets.front().coordinates())},
+                     {"order", jets.front().order()},
                      {"degree", work.degree},
                      {"frame", options.frames.frame},
                      {"final_frame", options.frames.final_frame()},
                      {"derivatives", is_rtn ? Json(options.frames.derivatives.value_or("rotating"))
                                             : Json(nullptr)},
-                     {"duration_s", jets.back().duration * stored.units.time_s},
+                     {"duration_s", jets.back().stored.duration * stored.units.time_s},
                      {"times", jets.size()},
                      {"points", output.rows()},
                      {"outside", output.outside()},
                      {"unknown", output.unknown()},
                      {"undefined", output.undefined()},
-                     {"miss_estimate_covers", miss_covers(stored)},
+                     {"miss_estimate_covers", miss_covers(jets.front())},
                      {"largest_miss_estimate_m",
                       output.largest_miss() ? Json(*output.largest_miss()) : Json(nullptr)},
                      {"evaluation",
@@ -264,9 +268,9 @@ std::string summary(const EvalOptions& options, const std::vector<io::StoredJet>
   return json.dump(2) + "\n";
 }
 
-void report(const EvalCoordinates& coordinates, const io::StoredJet& stored, const Work& work,
+void report(const EvalCoordinates& coordinates, const EvalSource& jet, const Work& work,
             const Output& output) {
-  const bool is_linear = stored.order() < 2;
+  const bool is_linear = jet.order() < 2;
   const auto points = static_cast<double>(output.rows());
   const std::size_t multiply_adds = work.multiply_adds_per_point;
   print_note(fmt::format(
@@ -274,8 +278,14 @@ void report(const EvalCoordinates& coordinates, const io::StoredJet& stored, con
       "{:.3g} multiply-adds a second",
       output.rows(), work.seconds, work.seconds / points * 1e9, multiply_adds,
       static_cast<double>(multiply_adds) * points / work.seconds));
+  if (jet.scene) {
+    print_note(
+        fmt::format("{} coordinates, integrated in {}; what stands for the evaluation are "
+                    "polynomials and coordinates at both ends",
+                    name_of(jet.coordinates()), duration_text(jet.scene->seconds)));
+  }
   print_note(fmt::format("frame {}; the estimates of the miss cover {}", coordinates.text(),
-                         miss_covers(stored)));
+                         miss_covers(jet)));
   if (output.outside() > 0) {
     print_note(fmt::format(
         "{} of {} marked outside, beyond the polynomial's reach: its degrees do not decay at "
@@ -296,39 +306,45 @@ void report(const EvalCoordinates& coordinates, const io::StoredJet& stored, con
   }
 }
 
-std::vector<io::StoredJet> read_jets(const EvalOptions& options) {
-  if (options.time) {
-    return read_noted_jets(options.directory, options.run, wanted_times(*options.time));
-  }
-  return {read_noted_jet(options.directory, options.run)};
-}
-
 /// Carries all deviations through one jet.
-void evaluate(const EvalOptions& options, const io::StoredJet& stored,
-              const EvalCoordinates& coordinates, const io::NumberTable& deviations, Work& work,
-              Output& output) {
-  const double time_s = stored.duration * stored.units.time_s;
-  JetEvaluation evaluation(stored, options.degree);
+template <class Evaluation>
+void carry(const EvalOptions& options, const EvalCoordinates& coordinates, double time_s,
+           const io::NumberTable& deviations, Evaluation& evaluation, Output& output) {
   for (std::size_t row = 0; row < deviations.rows(); ++row) {
     evaluation.add(variables_of(options, coordinates, deviations, row));
-    if (evaluation.pending() < JetEvaluation::most_points && row + 1 < deviations.rows()) continue;
+    if (evaluation.pending() < Evaluation::most_points && row + 1 < deviations.rows()) continue;
     stop_if_interrupted();
     evaluation.run([&](const std::vector<double>& deviation, const MissEstimate& estimate) {
       output.add(time_s, coordinates.final_state(deviation), estimate);
     });
   }
-  work.add(evaluation);
+}
+
+void evaluate(const EvalOptions& options, const EvalSource& jet, const io::NumberTable& deviations,
+              Work& work, Output& output) {
+  const EvalCoordinates coordinates(jet.stored, options.frames);
+  const double time_s = jet.stored.duration * jet.stored.units.time_s;
+  if (jet.scene) {
+    const int degree = options.degree.value_or(jet.order());
+    DeputyEvaluation evaluation(*jet.scene, degree);
+    carry(options, coordinates, time_s, deviations, evaluation, output);
+    work.add(evaluation.seconds(), MapEvaluator(jet.scene->flow->polynomials(), degree));
+    return;
+  }
+  JetEvaluation evaluation(jet.stored, options.degree);
+  carry(options, coordinates, time_s, deviations, evaluation, output);
+  work.add(evaluation.seconds(), evaluation.evaluator());
 }
 
 }  // namespace
 
 int eval(const EvalOptions& options) {
   check_options(options);
-  const std::vector<io::StoredJet> jets = read_jets(options);
-  const io::StoredJet& stored = jets.front();
-  if (options.degree && (*options.degree < 1 || *options.degree > stored.order())) {
+  const std::vector<EvalSource> jets = read_eval_sources(options);
+  const io::StoredJet& stored = jets.front().stored;
+  if (options.degree && (*options.degree < 1 || *options.degree > jets.front().order())) {
     refuse(fmt::format("--degree {}: must be 1 to the order of the jet, {}", *options.degree,
-                       stored.order()));
+                       jets.front().order()));
   }
   const EvalCoordinates coordinates(stored, options.frames);
   std::optional<OutputFile> file;
@@ -338,9 +354,7 @@ int eval(const EvalOptions& options) {
   Work work;
   Output output(coordinates.final_columns(), deviations.rows() * jets.size(),
                 options.time.has_value());
-  for (const io::StoredJet& jet : jets) {
-    evaluate(options, jet, EvalCoordinates(jet, options.frames), deviations, work, output);
-  }
+  for (const EvalSource& jet : jets) evaluate(options, jet, deviations, work, output);
 
   if (file) file->write(output.csv());
   // From here on a signal ends the program at once: what is printed cannot be taken back.
@@ -350,7 +364,7 @@ int eval(const EvalOptions& options) {
   } else if (!file) {
     print(output.csv());
   }
-  if (!options.quiet) report(coordinates, stored, work, output);
+  if (!options.quiet) report(coordinates, jets.front(), work, output);
   const std::size_t not_inside = std::max(output.outside() + output.unknown(), output.undefined());
   if (!options.strict || not_inside == 0) return 0;
   print_error(fmt::format("--strict: {} of {} not inside the polynomial's reach", not_inside,

@@ -113,8 +113,10 @@ CLI::App* add_eval_command(CLI::App& app, hamjet::cli::EvalOptions& options) {
       app.add_subcommand("eval",
                          "map relative states through a stored jet, from its start to its end\n"
                          "Example: hamjet eval out/scene --deviations start.csv -o end.csv");
-  eval->add_option("directory", options.directory,
-                   "results of hamjet run, or one of their files " + hamjet::io::jet_file_endings())
+  eval->add_option(
+          "directory", options.directory,
+          "results of hamjet run, or one of their files " + hamjet::io::jet_file_endings() +
+              "; or a scene (.toml): its polynomials are integrated now, in jet.coordinates")
       ->required()
       ->type_name("FILE");
   std::string columns;

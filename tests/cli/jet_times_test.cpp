@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "eval_command_test.hpp"
+#include "evaluation/eval_command_test.hpp"
 #include "formats/hdf5/hdf5_jets.hpp"
 
 // Jets at the times of `jet.times_...`, written by `hamjet run` and taken by `hamjet eval --time`.

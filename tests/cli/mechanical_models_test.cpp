@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "eval_command_test.hpp"
+#include "evaluation/eval_command_test.hpp"
 
 // Systems of more than one degree of freedom that are no orbits, through the command.
 

@@ -61,5 +61,82 @@ TEST_F(Motion, NeedsADeputyAndATime) {
                {"deputy: no motion in no time"});
 }
 
+// jet.coordinates as a user of the command meets it.
+class Coordinates : public Motion {
+ protected:
+  /// On an inclined orbit, 100 km behind its chief.
+  static std::string far(const std::string& coordinates) {
+    return scene("[deputy]\nposition_m = [-700, -100000, 0]\n[validity]\ncount = 2\n") +
+           "\n[[integrator]]\nmethod = \"gauss\"\ntolerance = 1e-12\n" + coordinates;
+  }
+};
+
+TEST_F(Coordinates, OfFlowBoxesAnswerFarDeputies) {
+  write("far.toml", far(""));
+  succeed({"motion", "far.toml", "-o", "plain"});
+  const std::string out =
+      succeed({"motion", "far.toml", "-o", "boxes", "--set", "jet.coordinates=flow-box"}).out;
+  EXPECT_NE(out.find("flow-box coordinates"), std::string::npos) << out;
+  const Json plain = read_json(directory_ / "plain/summary.json");
+  const Json boxes = read_json(directory_ / "boxes/summary.json");
+  EXPECT_EQ(plain["coordinates"], "cartesian");
+  EXPECT_EQ(boxes["coordinates"], "flow-box");
+  // In Kepler's problem nothing is left to the polynomials; what is printed is rounding.
+  EXPECT_LT(boxes["largest_error_m_by_order"][0].get<double>(), 1e-3);
+  EXPECT_GT(plain["largest_error_m_by_order"][1].get<double>(), 1);
+}
+
+TEST_F(Coordinates, AreAllComparedOnTheSameDeputies) {
+  write("far.toml", far(""));
+  succeed({"validity", "far.toml", "-o", "all", "--coordinates", "all"});
+  const Json all = read_json(directory_ / "all/summary.json");
+  ASSERT_EQ(all["coordinates"].size(), 6U);
+  succeed({"validity", "far.toml", "-o", "one", "--coordinates", "spherical"});
+  const Json one = read_json(directory_ / "one/summary.json");
+  EXPECT_EQ(one["validity"]["coordinates"], "spherical");
+  EXPECT_EQ(all["coordinates"][1]["times"], one["validity"]["times"]);
+  const Table table = read_table(directory_ / "all/validity.csv");
+  EXPECT_EQ(table.rows.size(), 6U * 2 * 2);  // coordinates, times, orders
+  expect_error({"validity", "far.toml", "--coordinates", "polar"}, 2, {"--coordinates"});
+}
+
+TEST_F(Coordinates, OfASceneAreEvaluated) {
+  write("far.toml", far(""));
+  const std::vector<std::string> row = {"--deviation", "-700,-100000,0,0,0,0"};
+  const auto evaluated = [&](const std::string& scene) {
+    std::vector<std::string> arguments = {"eval", scene, "--json", "-q"};
+    arguments.insert(arguments.end(), row.begin(), row.end());
+    return Json::parse(succeed(arguments).out);
+  };
+  write("boxes.toml", changed(far(""), "order = 2", "order = 2\ncoordinates = \"flow-box\""));
+  const Json boxes = evaluated("boxes.toml");
+  EXPECT_EQ(boxes["coordinates"], "flow-box");
+  // The deputy of [deputy] is the same one, and its motion has been flown.
+  succeed({"motion", "boxes.toml", "-o", "flown"});
+  const Json end = read_json(directory_ / "flown/summary.json")["end"];
+  EXPECT_NEAR(boxes["rows"][0]["T_m"].get<double>(), end["position_m"][1].get<double>(), 1e-3);
+  EXPECT_EQ(boxes["rows"][0]["support"], "inside");
+  // Positions and velocities do not reach so far, and say it.
+  const Json plain = evaluated("far.toml");
+  EXPECT_EQ(plain["coordinates"], "cartesian");
+  EXPECT_GT(plain["rows"][0]["truncation_m"].is_null()
+                ? 1e9
+                : plain["rows"][0]["truncation_m"].get<double>(),
+            1);
+  expect_error({"eval", "far.toml", "--run", "gauss", row[0], row[1]}, 2, {"--run"});
+}
+
+TEST_F(Coordinates, AreRefusedWhereTheyDoNotExist) {
+  write("far.toml", far(""));
+  expect_error({"motion", "far.toml", "--set", "jet.coordinates=box"}, 3, {"jet.coordinates"});
+  expect_error({"motion", "far.toml", "--set", "jet.coordinates=nodal", "--set",
+                "nominal.velocity_km_s=[0,7.5,0]"},
+               4, {"nodal coordinates", "equatorial"});
+  write("verlet.toml", changed(far(""), "method = \"gauss\"\ntolerance = 1e-12",
+                               "method = \"velocity-verlet\"\nstep_canonical = 0.01"));
+  expect_error({"motion", "verlet.toml", "--set", "jet.coordinates=flow-box"}, 3,
+               {"jet.coordinates", "Gauss"});
+}
+
 }  // namespace
 }  // namespace hamjet::test

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "eval_command_test.hpp"
+#include "evaluation/eval_command_test.hpp"
 
 // What the program says of its errors must not depend on the unit of length that a scene asks for:
 // the expected values are those of the default unit.

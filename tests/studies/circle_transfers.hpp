@@ -7,7 +7,7 @@
 
 #include "formation_scenes.hpp"
 #include "hamjet/studies/transfer.hpp"
-#include "studies/formation/least_impulses.hpp"
+#include "studies/formation/impulses/least_impulses.hpp"
 
 // Transfers near a circle of radius 1, which has the mean motion 1, so that angles are times.
 

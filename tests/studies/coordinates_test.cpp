@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "../../src/studies/deputy_flows.hpp"
 #include "../../src/studies/exact_flow.hpp"
+#include "../../src/studies/formation/deputy_flows.hpp"
 #include "../../src/studies/formation/single_transfer.hpp"
 #include "../charts/orbits.hpp"
 #include "formation_scenes.hpp"

@@ -10,7 +10,7 @@
 #include "circle_transfers.hpp"
 #include "formation_scenes.hpp"
 #include "hamjet/studies/transfer.hpp"
-#include "studies/formation/least_impulses.hpp"
+#include "studies/formation/impulses/least_impulses.hpp"
 
 // The least velocity change with any number of impulses. A circle of radius 1 has the mean motion
 // 1, so that angles are times.

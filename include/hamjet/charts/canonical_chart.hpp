@@ -23,6 +23,10 @@ inline constexpr std::array<ChartName, 5> all_charts = {ChartName::cartesian, Ch
                                                         ChartName::cylindrical, ChartName::poincare,
                                                         ChartName::nodal};
 
+/// An orbit counts as an ellipse if its energy is below this part of -mu/r at the state concerned:
+/// nearer to zero, its period says nothing of its neighbours'.
+inline constexpr double least_binding = 0.004;
+
 /// Six numbers: positions (q_1, q_2, q_3) and their momenta (p_1, p_2, p_3), of a state in inertial
 /// axes or in a chart.
 template <class T>

@@ -40,7 +40,8 @@ class FlowSection {
   const SixNumbers<Real>& chief() const noexcept { return chief_; }
   const Real& energy() const noexcept { return energy_; }
   const Real& energy_unit() const noexcept { return energy_unit_; }
-  bool is_bound() const noexcept { return energy_ < 0; }
+  /// Whether the chief's orbit is an ellipse whose period serves as a variable.
+  bool is_bound() const { return energy_ < Real(-least_binding) * energy_unit_; }
   /// The rate of the angle at the chief.
   const Real& rate() const noexcept { return rate_; }
   std::size_t variables() const noexcept { return places_.size() + 1; }

@@ -11,7 +11,7 @@
 
 #include "../../integrators/momentum_unit.hpp"
 #include "hamjet/error.hpp"
-#include "impulse_search.hpp"
+#include "impulses/impulse_search.hpp"
 #include "route.hpp"
 
 namespace hamjet {

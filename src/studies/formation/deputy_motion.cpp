@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../deputy_flows.hpp"
 #include "../exact_flow.hpp"
 #include "../formation_scale.hpp"
+#include "deputy_flows.hpp"
 #include "flown_trajectory.hpp"
 #include "formation_problem.hpp"
 #include "hamjet/error.hpp"

@@ -11,7 +11,7 @@
 #include "../../integrators/momentum_unit.hpp"
 #include "../exact_flow.hpp"
 #include "hamjet/error.hpp"
-#include "impulse_search.hpp"
+#include "impulses/impulse_search.hpp"
 #include "keep_out.hpp"
 #include "single_transfer.hpp"
 #include "two_point_flight.hpp"

@@ -16,7 +16,7 @@
 #include "flown_trajectory.hpp"
 #include "formation_problem.hpp"
 #include "hamjet/error.hpp"
-#include "impulse_plan.hpp"
+#include "impulses/impulse_plan.hpp"
 #include "least_time.hpp"
 #include "other_revolutions.hpp"
 #include "single_transfer.hpp"

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "../../maps/hamilton_jacobi.hpp"
-#include "../deputy_flows.hpp"
 #include "../kind_choice.hpp"
+#include "deputy_flows.hpp"
 #include "hamjet/studies/transfer.hpp"
 #include "single_transfer.hpp"
 
@@ -50,6 +50,9 @@ class TransferPoints {
   /// needed.
   TransferPoint answer(const ChosenKind& chosen, const FlowJet<double>& jet,
                        const RelativeTransfer& ends);
+  /// The flow in the scene's coordinates, where they are not Cartesian; null where they are. Times
+  /// that move on cost least.
+  const DeputyFlow* charted_flow(double time);
   /// Makes the next choice of a kind independent of earlier ones.
   void forget_last_kind() { choice_ = {}; }
   /// See TransferResult::flight_floor_m.
@@ -76,9 +79,6 @@ class TransferPoints {
                                            double time) const;
   void find_singular_times(const ProgressCallback& progress);
   std::optional<double> singular_distance(double time) const;
-  /// The flow in the scene's coordinates, where they are not Cartesian; null where they are. Times
-  /// that move on cost least.
-  const DeputyFlow* charted_flow(double time);
   /// The chief flown to a time; the last one is kept, for several deputies and the chief's error.
   const std::vector<double>& flown_chief(double time);
   /// Whether the best answer is as the scene allows.

@@ -5,11 +5,11 @@
 #include <cmath>
 
 #include "../../integrators/momentum_unit.hpp"
-#include "../deputy_flows.hpp"
 #include "../exact_flow.hpp"
 #include "../formation_scale.hpp"
 #include "../random_direction.hpp"
 #include "../stopwatch.hpp"
+#include "deputy_flows.hpp"
 #include "formation_problem.hpp"
 #include "hamjet/detail/algebra/monomial_values.hpp"
 #include "hamjet/error.hpp"

@@ -4,10 +4,10 @@
 #include <optional>
 #include <string>
 
+#include "../jets_along_time.hpp"
 #include "hamjet/charts/deputy_flow.hpp"
 #include "hamjet/charts/jet_coordinates.hpp"
 #include "hamjet/studies/propagation.hpp"
-#include "jets_along_time.hpp"
 
 namespace hamjet {
 

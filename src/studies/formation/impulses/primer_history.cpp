@@ -1,10 +1,10 @@
 #include <Eigen/LU>
 #include <algorithm>
 
+#include "../single_transfer.hpp"
 #include "hamjet/relative_motion/chief_frame.hpp"
 #include "impulse_plan.hpp"
 #include "impulse_search.hpp"
-#include "single_transfer.hpp"
 
 namespace hamjet {
 

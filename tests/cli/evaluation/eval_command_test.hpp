@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "command_test.hpp"
+#include "../command_test.hpp"
 
 namespace hamjet::test {
 

@@ -9,14 +9,14 @@
 #include <numbers>
 #include <utility>
 
-#include "../../integrators/momentum_unit.hpp"
-#include "../exact_flow.hpp"
-#include "../nominal_period.hpp"
+#include "../../../integrators/momentum_unit.hpp"
+#include "../../exact_flow.hpp"
+#include "../../nominal_period.hpp"
+#include "../keep_out.hpp"
+#include "../single_transfer.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/relative_motion/chief_frame.hpp"
 #include "impulse_search.hpp"
-#include "keep_out.hpp"
-#include "single_transfer.hpp"
 
 namespace hamjet {
 

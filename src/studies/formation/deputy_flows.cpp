@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <variant>
 
-#include "descriptions/method_description.hpp"
+#include "../descriptions/method_description.hpp"
 #include "hamjet/charts/charted_map.hpp"
 #include "hamjet/error.hpp"
 

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "hamjet/charts/deputy_flow.hpp"
+#include "hamjet/charts/jet_coordinates.hpp"
+#include "hamjet/formats/stored_jet.hpp"
+#include "jet_evaluation.hpp"
+
+namespace hamjet::cli {
+
+/// A scene's polynomials in its coordinates over its duration, integrated when asked for.
+struct EvaluatedScene {
+  /// The chief, as the results of a run have it; without coefficients.
+  io::StoredJet chief;
+  JetCoordinates coordinates = JetCoordinates::cartesian;  ///< not automatic
+  std::shared_ptr<const DeputyFlow> flow;
+  double rounding_m = 0;  ///< of a deputy's final position, at a flight's floor
+  double seconds = 0;     ///< of the integration
+};
+
+/// Integrates the polynomials of a scene about an orbit in all six variables. Throws Error(scene)
+/// for others, and as the integrator.
+EvaluatedScene evaluated_scene(const Scene& scene);
+
+/// What JetEvaluation does, for polynomials in any coordinates.
+class DeputyEvaluation {
+ public:
+  /// Points that are evaluated at once.
+  static constexpr std::size_t most_points = JetEvaluation::most_points;
+
+  DeputyEvaluation(const EvaluatedScene& scene, int degree) : scene_(scene), degree_(degree) {}
+
+  /// Adds a canonical deviation of six numbers.
+  void add(const std::vector<double>& deviation);
+  /// Hands each added point's final deviation (canonical) and estimate of the miss to `take`, in
+  /// order, and starts anew.
+  void run(const std::function<void(const std::vector<double>&, const MissEstimate&)>& take);
+
+  std::size_t pending() const { return pending_.size(); }
+  /// Seconds of all predictions so far, the coordinates at both ends included.
+  double seconds() const { return seconds_; }
+
+ private:
+  MissEstimate estimate(const DeputyPrediction& prediction) const;
+
+  const EvaluatedScene& scene_;
+  int degree_;
+  std::vector<SixNumbers<double>> pending_;
+  double seconds_ = 0;
+};
+
+}  // namespace hamjet::cli
