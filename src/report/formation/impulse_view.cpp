@@ -25,10 +25,6 @@ const ImpulsePlan* plan_of(const TransferResult& result) {
   return result.optimal && result.optimal->plan ? &*result.optimal->plan : nullptr;
 }
 
-double seconds(const TransferResult& result, double time) {
-  return time * result.scene.units.time_s;
-}
-
 std::string end_text(const TransferResult& result, const ImpulsePlan& plan) {
   return fmt::format("{} and {:.2g} m/s", miss_text(plan.miss_m, result.flight_floor_m),
                      plan.velocity_miss_m_s);

@@ -82,6 +82,11 @@ std::string miss_text(double miss_m, double flight_floor_m);
 /// for a double one also that it is, and how close a pair that looks like it may be.
 std::string singular_time_text(const SingularTime& singular, double unit_s, int most_decimals);
 
+/// A canonical time of a study in seconds.
+inline double seconds(const TransferResult& result, double time) {
+  return time * result.scene.units.time_s;
+}
+
 /// A time for people: "5432 s (90.5 min)".
 std::string time_text(double seconds);
 

@@ -23,10 +23,6 @@ const WaypointPlan* best_of(const TransferResult& result) {
   return transfers && transfers->best_plan ? &transfers->plans[*transfers->best_plan] : nullptr;
 }
 
-double seconds(const TransferResult& result, double time) {
-  return time * result.scene.units.time_s;
-}
-
 double largest_miss_m(const WaypointPlan& plan) {
   double largest = 0;
   for (const WaypointLeg& leg : plan.legs) largest = std::max(largest, leg.miss_m);
