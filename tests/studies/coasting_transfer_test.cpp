@@ -112,5 +112,14 @@ TEST(CoastingTransfer, ThatIsForbiddenIsSaid) {
   EXPECT_EQ(exit_code(result), 1);
 }
 
+TEST(CoastingTransfer, AWaitThatIsTooLongNamesItsKey) {
+  test::expect_error(
+      [] {
+        study_transfer(waiting({{0, 0, 3}, {0, 0, 4}}, 1, 1e6));
+      },
+      ErrorKind::too_large, {"transfer.longest_coast_s", "a shorter one is needed"},
+      "a wait of 160 thousand revolutions");
+}
+
 }  // namespace
 }  // namespace hamjet

@@ -1,5 +1,7 @@
 #include "coasting_transfer.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
@@ -80,7 +82,14 @@ CoastingTransfer coasting_transfer(const Scene& scene, const ComputedProblem& pr
   constexpr std::size_t most_flown = 12;
   const TransferSettings& settings = *scene.transfer;
   const double longest = std::copysign(*settings.longest_coast, settings.times.back());
-  const LinearFlow flow(problem, longest + settings.times.back(), checkpoints_per_revolution);
+  const LinearFlow flow = [&] {
+    try {
+      return LinearFlow(problem, longest + settings.times.back(), checkpoints_per_revolution);
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::too_large) throw;
+      throw Error(error.kind(), fmt::format("transfer.longest_coast_s: {}", error.what()));
+    }
+  }();
   const double circle = 2 * std::numbers::pi * std::pow(initial_distance(scene.nominal), 1.5);
   Route route(scene, problem, flow);
   const std::vector<Underway> starts = grid_of_starts(route, longest, circle);

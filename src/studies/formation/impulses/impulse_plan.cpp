@@ -120,9 +120,10 @@ class PlannedTransfer {
     return z;
   }
 
-  /// How many spaces of at least the gap there are until the end.
+  /// How many spaces of at least the gap there are until the end; the time that the least impulses
+  /// take grows with their number.
   int spaces() const {
-    constexpr double most = 4000;
+    constexpr double most = 1000;
     const double fit = std::floor(std::abs(duration_) / gap_ * (1 + 1e-12));
     return static_cast<int>(std::clamp(fit, 1.0, most));
   }
