@@ -206,7 +206,7 @@ class HornerScheme {
       const P* const child = form_node(depth + 1, v);
       const bool is_constant = depth + 1 == degree_;
       const T* const y = inner_[v].coefficients().data();
-      if (is_linear_[v]) {
+      if (is_linear_[v] != 0) {
         add_linear_product(is_constant ? 1 : space_.first(highest), child, y, node);
         continue;
       }

@@ -92,7 +92,7 @@ void expect_lanes_alike() {
   const auto pack = [&](std::size_t from) {
     return P::of_lanes([&](std::size_t i) { return numbers[from + i]; });
   };
-  for (std::size_t from = 0; from + 2 * Lanes <= numbers.size(); from += Lanes) {
+  for (std::size_t from = 0; from + std::size_t{2} * Lanes <= numbers.size(); from += Lanes) {
     const P a = pack(from);
     const P b = pack(from + Lanes);
     const P sum = a + b;
