@@ -183,6 +183,40 @@ TEST(FlowBox, AgreesWithExtendedPrecision) {
   }
 }
 
+// At e = 0.9 the shear along the orbit takes the digits of a Cartesian jet's high degrees. It is
+// in none of the polynomials here, whose degrees are as right as the first, relative to the largest
+// coefficient of each.
+TEST(FlowBox, KeepsItsHighDegreesOnAnEccentricOrbit) {
+  const ChiefOrbit orbit = orbit_of(70000, 0.9, 63, 0, 0, 0);
+  const double time = 3.5 * orbit.period;
+  const FlowBoxMap<double> map = map_of(orbit, time, 4);
+  SixNumbers<Extended> start;
+  for (std::size_t i = 0; i < 6; ++i) start[i] = orbit.start[i];
+  FlowBoxPropagation<Extended> propagation(orbit.field, ChartName::nodal, start, 4, gauss(1e-18));
+  const FlowBoxMap<Extended> exact = propagation.advance_to(Extended(time));
+  const SeriesSpace& space = map.time.space();
+  std::vector<double> errors;
+  for (int degree = 0; degree <= 4; ++degree) {
+    double error = 0;
+    double size = 0;
+    const auto compare = [&](const Series<double>& a, const Series<Extended>& b) {
+      for (std::size_t k = space.first(degree); k < space.first(degree + 1); ++k) {
+        const auto wanted = static_cast<double>(b[k]);
+        error = std::max(error, std::abs(a[k] - wanted));
+        size = std::max(size, std::abs(wanted));
+      }
+    };
+    compare(map.time, exact.time);
+    for (std::size_t c = 0; c < map.coordinates.size(); ++c) {
+      compare(map.coordinates[c], exact.coordinates[c]);
+    }
+    errors.push_back(error / size);
+  }
+  EXPECT_LT(errors[1], 1e-9);
+  EXPECT_LT(errors[3], 10 * errors[1]);
+  EXPECT_LT(errors[4], 10 * errors[1]);
+}
+
 // A prediction of many is that of each, and one that has no coordinates is no number.
 TEST(FlowBox, PredictsManyAsEach) {
   const ChiefOrbit orbit = orbit_of(10000, 0.3, 60, 20, 40, 10);

@@ -10,22 +10,16 @@
 #include "hamjet/error.hpp"
 #include "lambert.hpp"
 #include "route.hpp"
+#include "two_point_flight.hpp"
 
 namespace hamjet {
 namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
 
-Eigen::Vector3d position(const std::vector<double>& state) {
-  return {state[0], state[1], state[2]};
+Eigen::Vector3d angular_momentum(const std::vector<double>& state) {
+  return position_of(state).cross(momentum_of(state));
 }
-Eigen::Vector3d velocity(const std::vector<double>& state) {
-  return {state[3], state[4], state[5]};
-}
-Eigen::Vector3d momentum(const std::vector<double>& state) {
-  return position(state).cross(velocity(state));
-}
-
 std::vector<double> sum(std::vector<double> a, const std::vector<double>& b) {
   for (std::size_t i = 0; i < a.size(); ++i) a[i] += b[i];
   return a;
@@ -37,7 +31,7 @@ std::vector<double> turned_angles(const LinearFlow& flow) {
   std::vector<double> last = flow.nominal(0);
   for (std::size_t k = 1; k < flow.times().size(); ++k) {
     const std::vector<double> state = flow.nominal(flow.times()[k]);
-    const double cosine = position(last).normalized().dot(position(state).normalized());
+    const double cosine = position_of(last).normalized().dot(position_of(state).normalized());
     angles.push_back(angles.back() + std::acos(std::clamp(cosine, -1.0, 1.0)));
     last = state;
   }
@@ -53,8 +47,8 @@ class TransfersOfTime {
         wanted_(route.end(time)),
         first_(sum(flow.nominal(0), from_.deviation)),
         last_(sum(flow.nominal(time), wanted_)),
-        sense_((time > 0 ? 1 : -1) * momentum(flow.nominal(0))) {
-    const double angle = angle_about(position(first_), position(last_), sense_);
+        sense_((time > 0 ? 1 : -1) * angular_momentum(flow.nominal(0))) {
+    const double angle = angle_about(position_of(first_), position_of(last_), sense_);
     own_ = static_cast<int>(std::lround((chief_angle - angle) / turn));
   }
 
@@ -63,14 +57,14 @@ class TransfersOfTime {
     const int revolutions = own_ + difference;
     if (revolutions < 0) return;
     // Backwards in time the same ellipses are flown with the opposite velocity.
-    const std::vector<LambertEllipse> ellipses =
-        lambert_ellipses(position(first_), position(last_), std::abs(time_), revolutions, sense_);
+    const std::vector<LambertEllipse> ellipses = lambert_ellipses(
+        position_of(first_), position_of(last_), std::abs(time_), revolutions, sense_);
     const double sign = time_ > 0 ? 1 : -1;
     std::size_t own = ellipses.size();
     if (difference == 0) {
       double nearest = std::numeric_limits<double>::infinity();
       for (std::size_t k = 0; k < ellipses.size(); ++k) {
-        const double change = (sign * ellipses[k].start_velocity - velocity(first_)).norm();
+        const double change = (sign * ellipses[k].start_velocity - momentum_of(first_)).norm();
         if (change < nearest) own = k;
         nearest = std::min(nearest, change);
       }

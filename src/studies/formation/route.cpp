@@ -22,9 +22,6 @@ namespace {
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-Eigen::Vector3d position(const std::vector<double>& z) { return {z[0], z[1], z[2]}; }
-Eigen::Vector3d momentum(const std::vector<double>& z) { return {z[3], z[4], z[5]}; }
-
 std::vector<double> difference(std::vector<double> a, const std::vector<double>& b) {
   for (std::size_t i = 0; i < a.size(); ++i) a[i] -= b[i];
   return a;
@@ -56,7 +53,7 @@ Underway Route::coast_to(double time) const {
 Underway Route::linear_coast_to(double time) const {
   const std::vector<double> deviation = start().deviation;
   Vector6 z;
-  z << position(deviation), momentum(deviation) / momentum_unit_;
+  z << position_of(deviation), momentum_of(deviation) / momentum_unit_;
   z = flow_.at(time) * z;
   z.tail<3>() *= momentum_unit_;
   return {time, {z.begin(), z.end()}};
@@ -69,10 +66,10 @@ Matrix6 Route::flow_between(double first, double last) const {
 Eigen::Vector3d Route::linear_momentum(const Underway& from, double time, const Matrix6& between,
                                        const Eigen::Vector3d& place) const {
   const Eigen::Matrix3d commanded = between.topRightCorner<3, 3>();
-  const Eigen::Vector3d rest = place - between.topLeftCorner<3, 3>() * position(from.deviation);
+  const Eigen::Vector3d rest = place - between.topLeftCorner<3, 3>() * position_of(from.deviation);
   const Eigen::FullPivLU<Eigen::Matrix3d> solver(commanded);
   const Eigen::Vector3d found = momentum_unit_ * solver.solve(rest);
-  const double speed = momentum(flow_.nominal(from.time)).norm();
+  const double speed = momentum_of(flow_.nominal(from.time)).norm();
   if (!solver.isInvertible() || !(found.norm() < speed / 2)) {
     throw Error(ErrorKind::numerical,
                 fmt::format("from {:.6g} s to {:.6g} s, near a time at which no velocity commands "
@@ -86,12 +83,12 @@ Eigen::Vector3d Route::linear_momentum(const Underway& from, double time, const 
 double Route::linear_change_m_s(const Underway& from, double time) const {
   const Matrix6 between = flow_between(from.time, time);
   const std::vector<double> wanted = end(time);
-  const Eigen::Vector3d begun = linear_momentum(from, time, between, position(wanted));
+  const Eigen::Vector3d begun = linear_momentum(from, time, between, position_of(wanted));
   Vector6 z;
-  z << position(from.deviation), begun / momentum_unit_;
+  z << position_of(from.deviation), begun / momentum_unit_;
   const Eigen::Vector3d arrived = momentum_unit_ * (between * z).tail<3>();
   const double total =
-      (begun - momentum(from.deviation)).norm() + (momentum(wanted) - arrived).norm();
+      (begun - momentum_of(from.deviation)).norm() + (momentum_of(wanted) - arrived).norm();
   return total * units_.velocity_m_s();
 }
 
@@ -106,7 +103,7 @@ std::vector<double> Route::end(double time) const {
 Underway Route::fly_to(const Underway& from, double time, const std::vector<double>& wanted,
                        WaypointPlan& plan) {
   const Eigen::Vector3d begun =
-      linear_momentum(from, time, flow_between(from.time, time), position(wanted));
+      linear_momentum(from, time, flow_between(from.time, time), position_of(wanted));
   std::vector<double> guess = flow_.nominal(from.time);
   for (std::size_t i = 0; i < 3; ++i) {
     guess[i] += from.deviation[i];
@@ -120,7 +117,7 @@ Underway Route::fly_from_guess(const Underway& from, double time, const std::vec
   const std::vector<double> chief = flow_.nominal(from.time);
   const std::vector<double> chief_then = flow_.nominal(time);
   const TwoPointFlight flight =
-      fly_between(problem_.system, std::move(guess), position(chief_then) + position(wanted),
+      fly_between(problem_.system, std::move(guess), position_of(chief_then) + position_of(wanted),
                   time - from.time, scene_.transfer->refined_miss_m / units_.length_m);
   if (!flight.is_found()) {
     throw Error(
@@ -151,12 +148,12 @@ void Route::finish(const Underway& there, WaypointPlan& plan, bool has_primer) c
 void Route::add_impulse(WaypointPlan& plan, double time, const std::vector<double>& after,
                         const std::vector<double>& before) const {
   plan.impulses.push_back(
-      {time, frame(time).velocity_change_m_s(momentum(after) - momentum(before))});
+      {time, frame(time).velocity_change_m_s(momentum_of(after) - momentum_of(before))});
 }
 
 /// The direction of an impulse in the inertial axes.
 Eigen::Vector3d Route::direction(const Impulse& impulse) const {
-  return momentum(frame(impulse.time).deviation({Eigen::Vector3d::Zero(), impulse.change_m_s}))
+  return momentum_of(frame(impulse.time).deviation({Eigen::Vector3d::Zero(), impulse.change_m_s}))
       .normalized();
 }
 

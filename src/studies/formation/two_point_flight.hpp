@@ -8,6 +8,10 @@
 
 namespace hamjet {
 
+/// The position and the momentum of a state (q, p).
+inline Eigen::Vector3d position_of(const std::vector<double>& z) { return {z[0], z[1], z[2]}; }
+inline Eigen::Vector3d momentum_of(const std::vector<double>& z) { return {z[3], z[4], z[5]}; }
+
 /// A flight from one position to another in a given time. Canonical.
 struct TwoPointFlight {
   std::vector<double> start;  ///< state (q, p), the impulse there made
