@@ -13,10 +13,10 @@
 namespace hamjet {
 namespace {
 
-Eigen::Vector3d position_of(const SixNumbers<double>& z) { return {z[0], z[1], z[2]}; }
-Eigen::Vector3d momentum_of(const SixNumbers<double>& z) { return {z[3], z[4], z[5]}; }
+Eigen::Vector3d final_position(const SixNumbers<double>& z) { return {z[0], z[1], z[2]}; }
+Eigen::Vector3d momentum_part(const SixNumbers<double>& z) { return {z[3], z[4], z[5]}; }
 
-double size_of(const SixNumbers<double>& z) { return position_of(z).norm(); }
+double distance_of(const SixNumbers<double>& z) { return final_position(z).norm(); }
 
 }  // namespace
 
@@ -25,7 +25,7 @@ Eigen::Matrix3d commanded_positions(const DeputyFlow& flow, const SixNumbers<dou
   // In units of the chief's own speed; the cube of the machine's precision balances rounding
   // against the third derivative.
   const double step =
-      std::cbrt(std::numeric_limits<double>::epsilon()) * momentum_of(flow.chief_end()).norm();
+      std::cbrt(std::numeric_limits<double>::epsilon()) * momentum_part(flow.chief_end()).norm();
   std::array<SixNumbers<double>, 6> moved;
   std::array<DeputyPrediction, 6> predicted;
   for (std::size_t i = 0; i < 6; ++i) {
@@ -35,9 +35,9 @@ Eigen::Matrix3d commanded_positions(const DeputyFlow& flow, const SixNumbers<dou
   flow.predict(moved, degree, predicted);
   Eigen::Matrix3d result;
   for (std::size_t i = 0; i < 3; ++i) {
-    result.col(static_cast<Eigen::Index>(i)) =
-        (position_of(predicted[2 * i].deviation) - position_of(predicted[2 * i + 1].deviation)) /
-        (2 * step);
+    result.col(static_cast<Eigen::Index>(i)) = (final_position(predicted[2 * i].deviation) -
+                                                final_position(predicted[2 * i + 1].deviation)) /
+                                               (2 * step);
   }
   return result;
 }
@@ -48,10 +48,11 @@ BoundaryMomenta solve_positions(const DeputyFlow& flow, std::span<const double> 
   constexpr int most_iterations = 30;
   constexpr double least_part = 1e-3;  // of a step of Newton's method
   const Eigen::Vector3d wanted(last[0], last[1], last[2]);
-  const double rounding = 64 * std::numeric_limits<double>::epsilon() * size_of(flow.chief_end());
+  const double rounding =
+      64 * std::numeric_limits<double>::epsilon() * distance_of(flow.chief_end());
   SixNumbers<double> start = {first[0], first[1], first[2], guess[0], guess[1], guess[2]};
   SixNumbers<double> end = flow.predict(start, degree).deviation;
-  Eigen::Vector3d miss = position_of(end) - wanted;
+  Eigen::Vector3d miss = final_position(end) - wanted;
   for (int i = 0; i < most_iterations && std::isfinite(miss.norm()); ++i) {
     const Eigen::Vector3d step =
         commanded_positions(flow, start, degree).partialPivLu().solve(miss);
@@ -61,7 +62,7 @@ BoundaryMomenta solve_positions(const DeputyFlow& flow, std::span<const double> 
       SixNumbers<double> next = start;
       for (std::size_t k = 0; k < 3; ++k) next[3 + k] -= part * step[static_cast<Eigen::Index>(k)];
       const SixNumbers<double> reached = flow.predict(next, degree).deviation;
-      const Eigen::Vector3d left = position_of(reached) - wanted;
+      const Eigen::Vector3d left = final_position(reached) - wanted;
       is_nearer = left.norm() < miss.norm();
       if (!is_nearer) continue;
       start = next;

@@ -28,10 +28,6 @@ FlowJet<double> linear_jet(const SharedSystem& system, const std::vector<double>
   return integrate_gauss<double>(problem, settings, statistics);
 }
 
-Eigen::Vector3d position_of(const std::vector<double>& state) {
-  return {state[0], state[1], state[2]};
-}
-
 }  // namespace
 
 TwoPointFlight fly_between(const SharedSystem& system, std::vector<double> guess,
