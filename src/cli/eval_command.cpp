@@ -280,8 +280,8 @@ void report(const EvalCoordinates& coordinates, const EvalSource& jet, const Wor
       static_cast<double>(multiply_adds) * points / work.seconds));
   if (jet.scene) {
     print_note(
-        fmt::format("{} coordinates, integrated in {}; what stands for the evaluation are "
-                    "polynomials and coordinates at both ends",
+        fmt::format("{} coordinates, integrated in {}; the time of the evaluation is that of "
+                    "polynomials and of the coordinates at both ends",
                     name_of(jet.coordinates()), duration_text(jet.scene->seconds)));
   }
   print_note(fmt::format("frame {}; the estimates of the miss cover {}", coordinates.text(),

@@ -48,7 +48,7 @@ std::string verdict(const ValidityInCoordinates& all) {
   text += fmt::format(", proved by flying the same deputies, with velocities {}.",
                       velocities_text(cartesian.scene.validity->frame));
   for (const ValidityInCoordinates::Refused& refused : all.refused) {
-    text += fmt::format(" Not in {} ones: {}.", name_of(refused.coordinates), refused.reason);
+    text += fmt::format(" Refused: {}.", refused.reason);
   }
   return text;
 }

@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <span>
 
 #include "../exact_flow.hpp"
 #include "../jets_along_time.hpp"
 #include "../stopwatch.hpp"
 #include "formation_problem.hpp"
-#include "hamjet/algebra/composition.hpp"
 #include "hamjet/error.hpp"
 #include "least_assignment.hpp"
 #include "nearest_pairs.hpp"
@@ -81,7 +79,6 @@ class AssignmentStudy {
     const DeputyFlow* const flow = points_.charted_flow(times[index]);
     const Stopwatch watch(seconds_.solution);
     const std::vector<double> chief_end = nominal_of(jet);
-    const Matrix<double> linear = linear_part(jet);
     PositionBoundaryValues boundary(*chosen.inversion);
     for (std::size_t i = 0; i < settings_.deputies.size(); ++i) {
       if (progress_) {
@@ -91,10 +88,9 @@ class AssignmentStudy {
         try {
           const SingleTransfer transfer(scene_, points_.problem(), times[index], chief_end,
                                         settings_.deputies[i], settings_.slots[j]);
-          const std::vector<double> guess = transfer.linear_deviation(linear);
           const BoundaryMomenta momenta =
               flow == nullptr ? transfer.solve(boundary, scene_.order)
-                              : transfer.solve(*flow, scene_.order, std::span(guess).subspan(3));
+                              : transfer.solve(*flow, scene_.order, transfer.momentum_before());
           const TransferAnswer answer = transfer.answer(momenta, scene_.order);
           const double cost = answer.total_change_m_s();
           const double most = scene_.transfer->largest_impulse_m_s.value_or(no_cost);

@@ -29,6 +29,9 @@ class SingleTransfer {
 
   /// The deviation at the start, after the first impulse, that the linear flow alone asks for.
   std::vector<double> linear_deviation(const Eigen::Matrix<double, 6, 6>& flow) const;
+  /// The deviation of the momentum before the first impulse: where the deputy's orbit is like the
+  /// chief's, so is the one that is looked for, however far apart the two are.
+  std::vector<double> momentum_before() const { return {start_.begin() + 3, start_.end()}; }
   /// The momenta of one order. Throws as PositionBoundaryValues::solve.
   BoundaryMomenta solve(PositionBoundaryValues& boundary, int order) const;
   /// The momenta of one degree of a flow in other coordinates, from a guess of the first. Throws as

@@ -202,8 +202,7 @@ TransferPoint TransferPoints::answer(const ChosenKind& chosen, const FlowJet<dou
   {
     const Stopwatch watch(seconds_.solution);
     PositionBoundaryValues boundary(*chosen.inversion);
-    const std::vector<double> linear = transfer.linear_deviation(linear_part(jet));
-    std::vector<double> guess(linear.begin() + 3, linear.end());
+    std::vector<double> guess = transfer.momentum_before();
     for (int order = 1; order <= scene_.order; ++order) {
       point.answers.push_back(attempt(order, [&] {
         BoundaryMomenta& found = momenta[static_cast<std::size_t>(order - 1)];
