@@ -48,14 +48,18 @@ BoundaryMomenta solve_positions(const DeputyFlow& flow, std::span<const double> 
   constexpr int most_iterations = 30;
   constexpr double least_part = 1e-3;  // of a step of Newton's method
   const Eigen::Vector3d wanted(last[0], last[1], last[2]);
-  const double rounding =
-      64 * std::numeric_limits<double>::epsilon() * distance_of(flow.chief_end());
+  const SixNumbers<double>& chief = flow.chief_end();
+  double rounding = 0;
   SixNumbers<double> start = {first[0], first[1], first[2], guess[0], guess[1], guess[2]};
   SixNumbers<double> end = flow.predict(start, degree).deviation;
   Eigen::Vector3d miss = final_position(end) - wanted;
   for (int i = 0; i < most_iterations && std::isfinite(miss.norm()); ++i) {
-    const Eigen::Vector3d step =
-        commanded_positions(flow, start, degree).partialPivLu().solve(miss);
+    const Eigen::Matrix3d commanded = commanded_positions(flow, start, degree);
+    // A start that is rounded moves the end by as much times the growth on the way.
+    rounding = 64 * std::numeric_limits<double>::epsilon() *
+               (distance_of(chief) + commanded.norm() * momentum_part(chief).norm());
+    if (miss.norm() <= rounding) break;
+    const Eigen::Vector3d step = commanded.partialPivLu().solve(miss);
     double part = 1;
     bool is_nearer = false;
     for (; part >= least_part && !is_nearer; part /= 2) {
@@ -69,8 +73,8 @@ BoundaryMomenta solve_positions(const DeputyFlow& flow, std::span<const double> 
       end = reached;
       miss = left;
     }
-    // Where no step comes nearer, rounding is all that is left, or there is no solution.
-    if (!is_nearer || miss.norm() == 0) break;
+    // Where no step comes nearer, there is no solution, or rounding is all that is left.
+    if (!is_nearer) break;
   }
   if (!(miss.norm() <= rounding)) {
     throw Error(ErrorKind::numerical,
