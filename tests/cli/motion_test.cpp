@@ -126,6 +126,30 @@ TEST_F(Coordinates, OfASceneAreEvaluated) {
   expect_error({"eval", "far.toml", "--run", "gauss", row[0], row[1]}, 2, {"--run"});
 }
 
+// The shipped pairs are flown with the full equations of motion beside the polynomials.
+TEST_F(Coordinates, OfFlowBoxesAnswerTheShippedPairs) {
+  const std::string scenes = std::string(HAMJET_SOURCE_DIR) + "/data/scenes/";
+  for (const char* const name : {"grace-fo-pair", "geo-pair"}) {
+    succeed({"motion", scenes + name + ".toml", "-o", "boxes"});
+    succeed(
+        {"motion", scenes + name + ".toml", "-o", "plain", "--set", "jet.coordinates=cartesian"});
+    const Json boxes = read_json(directory_ / "boxes/summary.json");
+    EXPECT_GT(boxes["start"]["separation_m"].get<double>(), 2e5) << name;
+    EXPECT_LT(boxes["largest_error_m_by_order"][0].get<double>(), 1) << name;
+    EXPECT_LT(boxes["largest_error_m_by_order"][1].get<double>(), 0.001) << name;
+    const Json plain = read_json(directory_ / "plain/summary.json");
+    EXPECT_GT(plain["largest_error_m_by_order"][1].get<double>(), 1000) << name;
+  }
+  succeed({"transfer", scenes + "grace-fo-pair.toml", "-o", "moved", "--set", "transfer.count=6"});
+  const Json moved = read_json(directory_ / "moved/summary.json");
+  EXPECT_GT(moved["counts"]["answered"].get<int>(), 0);
+  EXPECT_EQ(moved["counts"]["beyond_tolerance_away_from_singularities"], 0);
+  EXPECT_EQ(moved["counts"]["unanswered_away_from_singularities"], 0);
+  const Json& of_order_two = moved["misses_away_from_singularities"][1];
+  EXPECT_EQ(of_order_two["answer"], "order 2");
+  EXPECT_LT(of_order_two["largest_m"].get<double>(), 0.01);
+}
+
 TEST_F(Coordinates, AreRefusedWhereTheyDoNotExist) {
   write("far.toml", far(""));
   expect_error({"motion", "far.toml", "--set", "jet.coordinates=box"}, 3, {"jet.coordinates"});
