@@ -15,7 +15,6 @@
 namespace hamjet {
 namespace {
 
-using std::numbers::pi;
 
 Scene transfer_to(const ArrivalState& end) {
   Scene scene = paper_chief(3);

@@ -15,8 +15,6 @@
 namespace hamjet {
 namespace {
 
-using std::numbers::pi;
-
 Scene waiting(const RelativeState& start, double time, double longest) {
   Scene scene = metres_from_circle(start, time);
   scene.transfer->impulses = TransferImpulses::two;
@@ -50,7 +48,7 @@ TEST(CoastingTransfer, WaitsForTheNode) {
   // otherwise none.
   EXPECT_NEAR(total_of(result, *result.coasting), 5, 1e-4);
   // Either impulse is at the node, where the cost has a corner.
-  const double node = pi - std::atan(0.75);
+  const double node = std::numbers::pi - std::atan(0.75);
   const bool is_first = std::abs(plan.legs[0].start - node) < std::abs(plan.duration - node);
   EXPECT_NEAR(is_first ? plan.legs[0].start : plan.duration, node, 1e-4);
   EXPECT_NEAR(plan.duration, plan.legs[0].start + 1, 1e-12);
@@ -62,7 +60,7 @@ TEST(CoastingTransfer, WaitsForTheNode) {
 // From a lower circle, on which a deputy drifts by 3/2 of the height for each radian: it waits for
 // the phase from which almost Hohmann's transfer leads to the chief.
 TEST(CoastingTransfer, DriftsUntilThePhaseIsRight) {
-  const RelativeState start = {{-1, -0.75 * pi - 3, 0}, {0, 1.5, 0}};
+  const RelativeState start = {{-1, -0.75 * std::numbers::pi - 3, 0}, {0, 1.5, 0}};
   const double time = 3, longest = 5;
   const TransferResult result = study_transfer(waiting(start, time, longest));
   ASSERT_TRUE(result.coasting && result.coasting->plan) << result.coasting->failure;

@@ -18,12 +18,11 @@
 namespace hamjet {
 namespace {
 
-using std::numbers::pi;
 
 // Any impulses that make a change cost at least what the least ones do, which is the value of the
 // dual problem: no random plan is cheaper, and the two values meet.
 TEST(LeastImpulses, NothingIsCheaper) {
-  const double duration = 3 * pi;
+  const double duration = 3 * std::numbers::pi;
   const std::vector<ImpulseEffect> effects = effects_of_circle(duration, 96);
   std::mt19937_64 generator(3);
   std::normal_distribution<double> normal;
@@ -65,7 +64,7 @@ TEST(LeastImpulses, OneTimeDoesNotReachEverything) {
 // n a |delta i|: one impulse at the node. (Gaias and D'Amico, Journal of Guidance 38, 2015.)
 TEST(ImpulsePlan, OutOfThePlane) {
   const TransferResult result =
-      study_transfer(metres_from_circle({{0, 0, 3}, {0, 0, 4}}, 3.3 * pi));
+      study_transfer(metres_from_circle({{0, 0, 3}, {0, 0, 4}}, 3.3 * std::numbers::pi));
   expect_flown(result);
   EXPECT_NEAR(total_of(result), 5, 1e-5);
 }
@@ -74,7 +73,7 @@ TEST(ImpulsePlan, OutOfThePlane) {
 // same size and phase as the chief's. (Gaias and D'Amico, the same.)
 TEST(ImpulsePlan, RelativeEccentricity) {
   const TransferResult result =
-      study_transfer(metres_from_circle({{-1, 0, 0}, {0, 2, 0}}, 20 * pi));
+      study_transfer(metres_from_circle({{-1, 0, 0}, {0, 2, 0}}, 20 * std::numbers::pi));
   expect_flown(result);
   EXPECT_NEAR(total_of(result), 0.5, 1e-5);
 }
@@ -83,7 +82,7 @@ TEST(ImpulsePlan, RelativeEccentricity) {
 // Orbital Mechanics for Engineering Students, section 6.2.)
 TEST(ImpulsePlan, Hohmann) {
   const TransferResult result =
-      study_transfer(metres_from_circle({{-1, -0.75 * pi, 0}, {0, 1.5, 0}}, pi));
+      study_transfer(metres_from_circle({{-1, -0.75 * std::numbers::pi, 0}, {0, 1.5, 0}}, std::numbers::pi));
   expect_flown(result);
   EXPECT_NEAR(total_of(result), 0.5, 1e-5);
 }
@@ -91,7 +90,7 @@ TEST(ImpulsePlan, Hohmann) {
 // Along the orbit in half a revolution: two radial impulses of n x / 4. (Fehse, Automated
 // Rendezvous and Docking of Spacecraft, 2003, section 3.3.)
 TEST(ImpulsePlan, RadialAlongTheOrbit) {
-  const TransferResult result = study_transfer(metres_from_circle({{0, -1, 0}, {0, 0, 0}}, pi));
+  const TransferResult result = study_transfer(metres_from_circle({{0, -1, 0}, {0, 0, 0}}, std::numbers::pi));
   expect_flown(result);
   EXPECT_NEAR(total_of(result), 0.5, 1e-5);
   EXPECT_FALSE(result.primer.has_value());  // F1 is singular after half a revolution.
@@ -100,7 +99,7 @@ TEST(ImpulsePlan, RadialAlongTheOrbit) {
 // In one and a half revolutions along the orbit two impulses are not optimal, the primer vector of
 // two exceeds 1, and four are, which lie symmetrically. (Prussing, AIAA Journal 8, 1970.)
 TEST(ImpulsePlan, FourImpulsesLieSymmetrically) {
-  const double duration = 2.9 * pi;
+  const double duration = 2.9 * std::numbers::pi;
   const TransferResult result =
       study_transfer(metres_from_circle({{0, 1, 0}, {0, 0, 0}}, duration));
   expect_flown(result);
@@ -120,7 +119,7 @@ TEST(ImpulsePlan, FourImpulsesLieSymmetrically) {
 // orbit, a quarter of the distance above or below the chief's orbit at its middle (Fehse, the
 // same).
 TEST(ImpulsePlan, IsMarkedWhereTheSceneDoesNotAllowIt) {
-  Scene scene = metres_from_circle({{0, -1, 0}, {0, 0, 0}}, pi);
+  Scene scene = metres_from_circle({{0, -1, 0}, {0, 0, 0}}, std::numbers::pi);
   scene.transfer->end.position_m = {0, 1, 0};
   const double impulse = 0.5 / scene.units.time_s;
   const auto plan = [&] {
@@ -136,7 +135,7 @@ TEST(ImpulsePlan, IsMarkedWhereTheSceneDoesNotAllowIt) {
   EXPECT_NE(plan().forbidden.find("its way comes to 0.9"), std::string::npos) << plan().forbidden;
   // Where the ends are the only times, the limit can divide nothing.
   scene.transfer->keep_out_m.reset();
-  scene.transfer->impulse_gap = 0.75 * pi;
+  scene.transfer->impulse_gap = 0.75 * std::numbers::pi;
   scene.transfer->largest_impulse_m_s = 0.99 * impulse;
   const TransferResult none = study_transfer(scene);
   EXPECT_FALSE(none.optimal->plan.has_value());
@@ -146,7 +145,7 @@ TEST(ImpulsePlan, IsMarkedWhereTheSceneDoesNotAllowIt) {
 // A whole number of revolutions along the orbit by tangential impulses at both ends costs
 // 2 x / (3 T), and no more is needed than that.
 TEST(ImpulsePlan, DriftAlongTheOrbit) {
-  const double duration = 20 * pi;
+  const double duration = 20 * std::numbers::pi;
   const TransferResult result =
       study_transfer(metres_from_circle({{0, 1, 0}, {0, 0, 0}}, duration));
   expect_flown(result);

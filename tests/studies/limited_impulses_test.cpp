@@ -15,8 +15,6 @@
 namespace hamjet {
 namespace {
 
-using std::numbers::pi;
-
 /// Effects on the first three components alone, or on the last, so many times as `efficiencies`.
 std::vector<ImpulseEffect> separate_effects(const std::vector<double>& efficiencies) {
   std::vector<ImpulseEffect> effects;
@@ -57,7 +55,7 @@ TEST(LimitedImpulses, FillUpInTheOrderOfTheirEffects) {
 // Whatever makes a change with impulses below the limit costs at least the dual's value, which
 // holds for any costate: sum |v_k| >= change . y - most sum max(0, |B_k^T y| - 1).
 TEST(LimitedImpulses, NothingIsCheaper) {
-  const std::vector<ImpulseEffect> effects = effects_of_circle(3 * pi, 48);
+  const std::vector<ImpulseEffect> effects = effects_of_circle(3 * std::numbers::pi, 48);
   std::mt19937_64 generator(4);
   std::normal_distribution<double> normal;
   int limited = 0;
@@ -98,7 +96,7 @@ TEST(LimitedImpulses, NothingIsCheaper) {
 /// Out of the plane, with a velocity at the node that costs 5 times the mean motion and a metre,
 /// in two revolutions.
 Scene out_of_plane(double most, double gap) {
-  Scene scene = metres_from_circle({{0, 0, 0}, {0, 0, 5}}, 4 * pi);
+  Scene scene = metres_from_circle({{0, 0, 0}, {0, 0, 5}}, 4 * std::numbers::pi);
   scene.transfer->largest_impulse_m_s = most / scene.units.time_s;
   scene.transfer->impulse_gap = gap * (1 - 1e-9);
   return scene;
@@ -108,7 +106,7 @@ Scene out_of_plane(double most, double gap) {
 // which take 0.9 each, and an eighth of a revolution beside them the rest, in pairs of which
 // nothing is left across.
 TEST(LimitedImpulses, AreDividedAmongNodesAndThenTheirNeighbours) {
-  const Scene scene = out_of_plane(0.9, pi / 8);
+  const Scene scene = out_of_plane(0.9, std::numbers::pi / 8);
   const TransferResult result = study_transfer(scene);
   ASSERT_TRUE(result.optimal && result.optimal->plan) << result.optimal->failure;
   const ImpulsePlan& plan = *result.optimal->plan;
@@ -116,22 +114,22 @@ TEST(LimitedImpulses, AreDividedAmongNodesAndThenTheirNeighbours) {
   EXPECT_EQ(plan.forbidden, "");
   EXPECT_EQ(exit_code(result), 0);
   EXPECT_LE(plan.miss_m, scene.transfer->refined_miss_m);
-  EXPECT_NEAR(total_of(result), 4.5 + 0.5 / std::cos(pi / 8), 1e-5);
+  EXPECT_NEAR(total_of(result), 4.5 + 0.5 / std::cos(std::numbers::pi / 8), 1e-5);
   EXPECT_NEAR(plan.lower_bound_m_s, plan.total_change_m_s(), 2e-5 * plan.total_change_m_s());
-  EXPECT_NEAR(*plan.spacing, pi / 8, 1e-12);
+  EXPECT_NEAR(*plan.spacing, std::numbers::pi / 8, 1e-12);
   for (const Impulse& impulse : plan.impulses) {
     EXPECT_LE(impulse.change_m_s.norm(), *scene.transfer->largest_impulse_m_s * (1 + 1e-12));
-    EXPECT_NEAR(std::remainder(impulse.time, pi / 8), 0, 1e-9);
+    EXPECT_NEAR(std::remainder(impulse.time, std::numbers::pi / 8), 0, 1e-9);
   }
 }
 
 // At spaces of a quarter of a revolution five times are nodes, and the others do nothing: 5 takes
 // at least 1 each.
 TEST(LimitedImpulses, ThatDoNotSufficeAreSaid) {
-  const TransferResult enough = study_transfer(out_of_plane(1.1, pi / 2));
+  const TransferResult enough = study_transfer(out_of_plane(1.1, std::numbers::pi / 2));
   ASSERT_TRUE(enough.optimal->is_found()) << enough.optimal->failure;
   EXPECT_NEAR(total_of(enough), 5, 1e-5);
-  const TransferResult none = study_transfer(out_of_plane(0.9, pi / 2));
+  const TransferResult none = study_transfer(out_of_plane(0.9, std::numbers::pi / 2));
   EXPECT_FALSE(none.optimal->is_found());
   EXPECT_EQ(exit_code(none), 1);
   EXPECT_NE(none.optimal->failure.find("no impulses of at most"), std::string::npos)
@@ -140,7 +138,7 @@ TEST(LimitedImpulses, ThatDoNotSufficeAreSaid) {
 
 // A limit above all impulses of the plan changes nothing.
 TEST(LimitedImpulses, BelowTheLimitAreAsTheyAre) {
-  Scene scene = metres_from_circle({{0, 1, 0}, {0, 0, 0}}, 2.9 * pi);
+  Scene scene = metres_from_circle({{0, 1, 0}, {0, 0, 0}}, 2.9 * std::numbers::pi);
   const TransferResult free = study_transfer(scene);
   scene.transfer->largest_impulse_m_s = 1;
   const TransferResult limited = study_transfer(scene);

@@ -17,8 +17,6 @@
 namespace hamjet {
 namespace {
 
-using std::numbers::pi;
-
 /// A state on an ellipse about mu = 1 after a time, by Kepler's equation.
 class Ellipse {
  public:
@@ -38,7 +36,7 @@ class Ellipse {
     return {turned(a_ * (std::cos(anomaly) - e_), a_ * root * std::sin(anomaly)),
             turned(-speed * std::sin(anomaly), speed * root * std::cos(anomaly))};
   }
-  double period() const { return 2 * pi * std::pow(a_, 1.5); }
+  double period() const { return 2 * std::numbers::pi * std::pow(a_, 1.5); }
   Eigen::Vector3d momentum() const { return at(0).first.cross(at(0).second); }
 
  private:
@@ -112,7 +110,8 @@ TEST(OtherRevolutions, AreTheOrbitsThatTheEndsAreOf) {
     int difference;
   };
   for (const Case& one : {Case{0.83, 0.2, 3.14, 3.97, 1}, Case{1.35, 0.26, 0.001, 3.15, -1}}) {
-    Phasing made = phasing(one.axis, one.eccentricity, one.anomaly, 2 * pi * one.time);
+    Phasing made =
+        phasing(one.axis, one.eccentricity, one.anomaly, 2 * std::numbers::pi * one.time);
     made.scene.transfer->revolutions = {one.difference};
     const TransferResult result = study_transfer(made.scene);
     ASSERT_TRUE(result.revolutions.has_value());

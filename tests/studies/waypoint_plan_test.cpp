@@ -14,8 +14,6 @@
 namespace hamjet {
 namespace {
 
-using std::numbers::pi;
-
 /// A transfer metres from a circle of mean motion 1 through places at times.
 Scene through(const std::vector<Waypoint>& waypoints, const RelativeState& start,
               std::vector<double> times) {
@@ -132,7 +130,7 @@ TEST(WaypointPlan, ThatIsForbiddenOrNotThereIsSaid) {
   EXPECT_NE(result.waypoints->failure.find("above largest_impulse_m_s"), std::string::npos);
   EXPECT_EQ(exit_code(result), 1);
   // After half a revolution what is out of the plane is on the other side, whatever the velocity.
-  scene = through({{pi, {2, -3, 1}}}, {{0, 5, 1}, {1, 0, -1}}, {4});
+  scene = through({{std::numbers::pi, {2, -3, 1}}}, {{0, 5, 1}, {1, 0, -1}}, {4});
   result = study_transfer(scene);
   EXPECT_FALSE(result.waypoints->best_plan.has_value());
   EXPECT_NE(result.waypoints->failure.find("half of the orbital speed"), std::string::npos)
