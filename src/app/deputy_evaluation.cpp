@@ -1,5 +1,6 @@
 #include "deputy_evaluation.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -49,8 +50,22 @@ void DeputyEvaluation::run(
     const Stopwatch watch(seconds_);
     scene_.flow->predict(pending_, degree_, predictions);
   }
-  for (const DeputyPrediction& prediction : predictions) {
-    take({prediction.deviation.begin(), prediction.deviation.end()}, estimate(prediction));
+  // The curved ends are in no degree of the polynomials, so that lower degrees go through them too.
+  const bool is_curved = scene_.coordinates != JetCoordinates::cartesian;
+  std::vector<DeputyPrediction> lower[2];
+  for (int below = 1; is_curved && below <= 2 && degree_ - below >= 1; ++below) {
+    std::vector<DeputyPrediction>& of_degree = lower[below - 1];
+    of_degree.resize(pending_.size());
+    scene_.flow->predict(pending_, degree_ - below, of_degree);
+  }
+  for (std::size_t k = 0; k < predictions.size(); ++k) {
+    const SixNumbers<double>& found = predictions[k].deviation;
+    const auto deviation = [&](int below) {
+      return lower[below - 1].empty() ? nullptr : &lower[below - 1][k].deviation;
+    };
+    take({found.begin(), found.end()},
+         is_curved ? curved_estimate(pending_[k], found, deviation(1), deviation(2))
+                   : estimate(predictions[k]));
   }
   pending_.clear();
 }
@@ -69,6 +84,39 @@ MissEstimate DeputyEvaluation::estimate(const DeputyPrediction& prediction) cons
   const TruncationEstimate truncation = estimate_truncation(
       degree_, {norms(lower), norms(prediction.last_but_one), norms(prediction.last)});
   return {truncation.support, truncation.miss, scene_.rounding_m};
+}
+
+MissEstimate DeputyEvaluation::curved_estimate(const SixNumbers<double>& initial,
+                                               const SixNumbers<double>& found,
+                                               const SixNumbers<double>* below,
+                                               const SixNumbers<double>* two_below) const {
+  using Support = TruncationEstimate::Support;
+  constexpr double least_ratio = 0.1;    // of the changes of two degrees that is relied upon
+  constexpr double largest_share = 0.1;  // of the deviation that a degree may change
+  const auto distance = [](const SixNumbers<double>& a, const SixNumbers<double>& b) {
+    return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+  };
+  const SixNumbers<double> none{};
+  MissEstimate result{Support::unknown, 0, scene_.rounding_m};
+  if (below == nullptr) return result;
+  const double change = distance(found, *below);
+  if (!std::isfinite(change)) return result;
+  const double size = std::max(distance(initial, none), distance(found, none));
+  double ratio = 1;
+  if (two_below != nullptr) {
+    const double change_below = distance(*below, *two_below);
+    // A change that is rounding says nothing of a decay.
+    const double rounding = scene_.rounding_m / (scene_.chief.units.length_km * 1000);
+    if (!(change_below > change) && change > rounding) {
+      result.support = Support::outside;
+      return result;
+    }
+    ratio = std::max(change / std::max(change_below, change), least_ratio);
+    ratio = std::min(ratio, 1.0);
+  }
+  result.support = change <= largest_share * size ? Support::inside : Support::outside;
+  result.truncation_m = change * ratio * scene_.chief.units.length_km * 1000;
+  return result;
 }
 
 }  // namespace hamjet::cli

@@ -10,6 +10,9 @@ namespace hamjet {
 
 DeputyFlow::DeputyFlow(std::vector<Series<double>> polynomials, const SixNumbers<double>& chief_end)
     : polynomials_(std::move(polynomials)), chief_end_(chief_end) {
+  if (variables() > widest || polynomials_.size() > widest) {
+    throw Error(ErrorKind::usage, "deputy: more variables or values than a deputy has");
+  }
   for (int degree = 1; degree <= order(); ++degree) evaluators_.emplace_back(polynomials_, degree);
 }
 
@@ -27,7 +30,7 @@ void DeputyFlow::predict(std::span<const SixNumbers<double>> initial, int degree
   const std::unique_ptr<Passage> passage = this->passage();
   const std::size_t width = variables();
   const std::size_t values = polynomials_.size();
-  std::array<double, 8 * block> numbers;
+  std::array<double, widest * block> numbers;
   std::array<SixNumbers<double>, block> finals;
   std::vector<SixNumbers<double>> carried(std::min(most_at_once, initial.size()));
   std::vector<double> points;

@@ -18,9 +18,9 @@ SixNumbers<Real> constants_of(const SixNumbers<Series<Real>>& z) {
   return {z[0][0], z[1][0], z[2][0], z[3][0], z[4][0], z[5][0]};
 }
 
-/// The states carried along the flow by times that vanish at the chief. What one step of a Gauss
-/// method solves then is a polynomial in the step of no higher degree than the series', and of as
-/// many stages as that it makes no error.
+/// The states carried along the flow by times that vanish at the chief, by one step of a Gauss
+/// method: its end is a polynomial in the step of no higher degree than the series', which a method
+/// of s stages has exactly up to the degree 2 s, its order.
 template <class Real>
 SixNumbers<Series<Real>> carried(const SharedSystem& crossing, const SixNumbers<Series<Real>>& z,
                                  const Series<Real>& time) {
@@ -41,7 +41,7 @@ SixNumbers<Series<Real>> carried(const SharedSystem& crossing, const SixNumbers<
   return {end[0], end[1], end[2], end[4], end[5], end[6]};
 }
 
-/// L - G and H of an energy and the coordinates of a section, and the rate of its angle.
+/// The steady motion from an energy and the coordinates of a section in elements.
 template <class Real, class T>
 SteadyMotion<T> steady_motion(const FlowBoxMap<Real>& map, const T& energy,
                               const SixNumbers<T>& z) {

@@ -171,7 +171,11 @@ class FlowBoxDeputyFlow : public DeputyFlow {
         const bool is_lost =
             !std::isfinite(change) || reach == 0 || ++search.iterations == most_iterations;
         if (is_lost) search.coordinates.fill(std::numeric_limits<double>::quiet_NaN());
-        search.is_over = is_lost || std::abs(search.angle) <= infinitesimal;
+        // Where rounding moves the angle to and fro, it stands still.
+        constexpr int most_improving = 12;
+        const double least =
+            search.iterations > most_improving ? 256 * infinitesimal : infinitesimal;
+        search.is_over = is_lost || std::abs(search.angle) <= least;
         if (search.is_over) return;
         const double wanted = search.time + change;
         const double time = std::clamp(wanted, -reach, reach);
@@ -313,7 +317,13 @@ class FlowBoxDeputyFlow : public DeputyFlow {
         state = section.chart().state(z);
         const double excess = energy_of(state) - wanted;
         if (!std::isfinite(excess)) return false;
-        if (std::abs(excess) <= infinitesimal * std::abs(section.energy_unit())) return true;
+        // The energy is a difference of two numbers as large as the kinetic one, whose rounding the
+        // chart's own adds to: after some iterations it moves to and fro.
+        constexpr int most_improving = 12;
+        const double size = (state[3] * state[3] + state[4] * state[4] + state[5] * state[5]) / 2 +
+                            std::abs(wanted);
+        const double least = i > most_improving ? 256 * infinitesimal : infinitesimal;
+        if (std::abs(excess) <= least * size) return true;
         const double secant = (excess - last_excess) / change;
         if (i > 0 && secant > 0.2 * slope && secant < 5 * slope) slope = secant;
         change = -excess / slope;

@@ -61,7 +61,8 @@ Real eccentric_longitude(const Real& lambda, const Real& k, const Real& h) {
     if (!(next >= low && next <= high)) next = (low + high) / Real(2);
     f = next;
     // Newton's method doubles the digits: after a change this small none is left to be found.
-    if (change * change <= std::numeric_limits<Real>::epsilon() / Real(1024)) break;
+    // Where a number is none, no comparison holds.
+    if (!(change * change > std::numeric_limits<Real>::epsilon() / Real(1024))) break;
   }
   return f;
 }

@@ -68,7 +68,7 @@ class CanonicalChart {
  public:
   /// The chart about a state, `mu` the central body's gravitational parameter. Throws
   /// Error(numerical) where the chart does not exist at the state, or comes close to that (a
-  /// hundredth of the angles concerned).
+  /// hundredth of the angles concerned; an ellipse of less than least_binding).
   CanonicalChart(ChartName name, const SixNumbers<Real>& chief, const Real& mu);
 
   ChartName name() const noexcept { return name_; }
@@ -96,7 +96,7 @@ class CanonicalChart {
   std::array<std::array<Real, 3>, 3> axes_;  ///< rows: the axes in which the chart is written
 };
 
-/// The angle less whole turns, in [-pi, pi].
+/// The angle less whole turns, in [-pi, pi).
 template <class Real>
 Real within_half_a_turn(const Real& angle);
 

@@ -58,6 +58,9 @@ class DeputyFlow {
   /// Polynomials of the values, in one space.
   DeputyFlow(std::vector<Series<double>> polynomials, const SixNumbers<double>& chief_end);
 
+  /// The most variables, and the most values.
+  static constexpr std::size_t widest = 8;
+
   /// How many deputies are carried into and out of the coordinates at once.
   static constexpr std::size_t block = 8;
 
@@ -82,7 +85,8 @@ class DeputyFlow {
   std::vector<MapEvaluator> evaluators_;  ///< by degree, from 1
 };
 
-/// The flow by the jet in positions and momenta themselves.
+/// The flow by the jet in positions and momenta themselves. Throws Error(usage) unless it has six
+/// components in six variables; so does charted_deputy_flow.
 std::unique_ptr<DeputyFlow> cartesian_deputy_flow(const FlowMap<double>& jet);
 
 /// The flow between the coordinates of two charts, at the start's state and at the end's, by a map

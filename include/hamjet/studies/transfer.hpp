@@ -22,7 +22,7 @@ struct TransferAnswer {
   Eigen::Vector3d start_change_m_s = Eigen::Vector3d::Zero();
   Eigen::Vector3d end_change_m_s = Eigen::Vector3d::Zero();
   /// Sum of the two magnitudes.
-  double total_change_m_s() const { return start_change_m_s.norm() + end_change_m_s.norm(); }
+  double total_change_m_s() const;
   double largest_impulse_m_s() const {
     return std::max(start_change_m_s.norm(), end_change_m_s.norm());
   }

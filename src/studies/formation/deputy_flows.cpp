@@ -27,6 +27,18 @@ GaussSettings gauss_settings_of(const IntegratorSettings& settings) {
   return *gauss;
 }
 
+/// Does what needs coordinates at a time; an orbit that has not such is told with their name.
+template <class Work>
+auto in_coordinates(JetCoordinates coordinates, const std::string& when, const Work& work) {
+  try {
+    return work();
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::numerical || coordinates == JetCoordinates::cartesian) throw;
+    throw Error(error.kind(), fmt::format("jet.coordinates: {} {}: {}", name_of(coordinates), when,
+                                          error.what()));
+  }
+}
+
 }  // namespace
 
 ZonalGravity orbit_field(const Scene& scene) {
@@ -47,24 +59,32 @@ DeputyFlowPropagation::DeputyFlowPropagation(const Scene& scene, const ComputedP
                                              const IntegratorSettings& settings,
                                              JetCoordinates coordinates)
     : field_(orbit_field(scene)), start_(six_numbers(problem.nominal)), coordinates_(coordinates) {
-  if (coordinates == JetCoordinates::flow_box) {
-    boxes_.emplace(field_, section_chart(start_, canonical_mu), start_, scene.order,
-                   gauss_settings_of(settings));
-  } else {
-    CanonicalChart<double>(chart_of(coordinates), start_, canonical_mu);  // throws where it must
-    jets_.emplace(problem, settings);
-  }
+  in_coordinates(coordinates, "at the start", [&] {
+    if (coordinates == JetCoordinates::flow_box) {
+      boxes_.emplace(field_, section_chart(start_, canonical_mu), start_, scene.order,
+                     gauss_settings_of(settings));
+    } else {
+      CanonicalChart<double>(chart_of(coordinates), start_, canonical_mu);  // throws where it must
+      jets_.emplace(problem, settings);
+    }
+  });
 }
 
 std::unique_ptr<DeputyFlow> DeputyFlowPropagation::advance_to(double time) {
-  if (boxes_) return flow_box_deputy_flow(field_, boxes_->advance_to(time));
+  const std::string when = fmt::format("after {:.6g} s", time * time_s_);
+  if (boxes_) {
+    return in_coordinates(coordinates_, when,
+                          [&] { return flow_box_deputy_flow(field_, boxes_->advance_to(time)); });
+  }
   const FlowMap<double> jet(jets_->advance_to(time));
   if (coordinates_ == JetCoordinates::cartesian) return cartesian_deputy_flow(jet);
   SixNumbers<double> end;
   for (std::size_t i = 0; i < end.size(); ++i) end[i] = jet.jet()[i][0];
-  const CanonicalChart<double> first(chart_of(coordinates_), start_, canonical_mu);
-  const CanonicalChart<double> last(chart_of(coordinates_), end, canonical_mu);
-  return charted_deputy_flow(first, start_, last, end, in_charts(jet, first, start_, last));
+  return in_coordinates(coordinates_, when, [&] {
+    const CanonicalChart<double> first(chart_of(coordinates_), start_, canonical_mu);
+    const CanonicalChart<double> last(chart_of(coordinates_), end, canonical_mu);
+    return charted_deputy_flow(first, start_, last, end, in_charts(jet, first, start_, last));
+  });
 }
 
 const IntegrationStatistics& DeputyFlowPropagation::statistics() const {

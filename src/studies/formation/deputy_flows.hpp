@@ -39,6 +39,7 @@ class DeputyFlowPropagation {
   ZonalGravity field_;
   SixNumbers<double> start_;
   JetCoordinates coordinates_;
+  double time_s_;                       ///< the canonical unit, for messages
   std::optional<JetPropagation> jets_;  ///< unless of flow boxes
   std::optional<FlowBoxPropagation<double>> boxes_;
 };

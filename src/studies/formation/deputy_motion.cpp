@@ -1,5 +1,7 @@
 #include "deputy_motion.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -69,6 +71,12 @@ DeputyMotion study_deputy_motion(const Scene& scene, const ProgressCallback& pro
       double square = 0;
       for (std::size_t i = 0; i < 3; ++i) {
         square += std::pow(predicted[i] - (deputy[i] - chief[i]), 2);
+      }
+      if (!std::isfinite(square)) {
+        throw Error(ErrorKind::numerical,
+                    fmt::format("motion: order {} has no place for the deputy in {} coordinates "
+                                "after {:.6g} s; other coordinates (jet.coordinates) may have one",
+                                order, name_of(result.coordinates), time * units.time_s));
       }
       point.errors_m.push_back(std::sqrt(square) * units.length_m);
     }

@@ -60,6 +60,11 @@ void require_same_chief(const Scene& scene, const EarlierJet& earlier, double di
 
 }  // namespace
 
+// Compiled once, so that command and Python module have the same digits.
+double TransferAnswer::total_change_m_s() const {
+  return start_change_m_s.norm() + end_change_m_s.norm();
+}
+
 TransferResult study_transfer(const Scene& asked, const ProgressCallback& progress,
                               const EarlierJet* earlier) {
   require_formation_problem(asked, asked.transfer.has_value(), "transfer");

@@ -324,8 +324,10 @@ ValidityInCoordinates study_validity_in_all(const Scene& scene, const ProgressCa
     try {
       all.results.push_back(ValidityStudy(scene, progress).run(coordinates));
     } catch (const Error& error) {
-      // An orbit may lack some coordinates; those in which it was given, it has.
-      if (error.kind() != ErrorKind::numerical || coordinates == JetCoordinates::cartesian) throw;
+      // An orbit may lack some coordinates, and a method may not serve for some; those in which the
+      // orbit was given, it has.
+      const bool is_lack = error.kind() == ErrorKind::numerical || error.kind() == ErrorKind::scene;
+      if (!is_lack || coordinates == JetCoordinates::cartesian) throw;
       all.refused.push_back({coordinates, error.what()});
     }
   }

@@ -92,7 +92,8 @@ TEST_F(EvalErrors, PlacesThatCannotBeReadOrWritten) {
   const std::string one = "1,2,3,0,0,0";
   expect_error({"eval", "missing", "--deviation", one}, 5,
                {"missing/summary.json", "No such file"});
-  expect_error({"eval", "small.toml", "--deviation", one}, 5, {"neither a results directory"});
+  std::filesystem::copy_file(directory_ / "small.toml", directory_ / "small.text");
+  expect_error({"eval", "small.text", "--deviation", one}, 5, {"neither a results directory"});
   expect_error({"eval", "kepler", "--deviations", "missing.csv"}, 5, {"missing.csv", "No such"});
   expect_error({"eval", "kepler", "--deviations", "kepler"}, 5, {"kepler", "directory"});
   expect_error({"eval", "kepler", "--deviation", one, "-o", "kepler"}, 5, {"not a regular file"});

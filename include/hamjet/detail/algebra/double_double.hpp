@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "hamjet/algebra/extended.hpp"
+#include "hamjet/instruction_set.hpp"
 
 namespace hamjet {
 
