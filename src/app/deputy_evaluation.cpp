@@ -91,8 +91,9 @@ MissEstimate DeputyEvaluation::curved_estimate(const SixNumbers<double>& initial
                                                const SixNumbers<double>* below,
                                                const SixNumbers<double>* two_below) const {
   using Support = TruncationEstimate::Support;
-  constexpr double least_ratio = 0.1;    // of the changes of two degrees that is relied upon
-  constexpr double largest_share = 0.1;  // of the deviation that a degree may change
+  constexpr double least_ratio = 0.5;  // of the changes of two degrees that is relied upon
+  // Of the deviation that a degree may change; without a ratio, less is relied upon.
+  const double largest_share = two_below == nullptr ? 1e-4 : 0.1;
   const auto distance = [](const SixNumbers<double>& a, const SixNumbers<double>& b) {
     return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
   };
