@@ -15,7 +15,6 @@
 namespace hamjet {
 namespace {
 
-
 Scene transfer_to(const ArrivalState& end) {
   Scene scene = paper_chief(3);
   TransferSettings settings;

@@ -18,7 +18,6 @@
 namespace hamjet {
 namespace {
 
-
 // Any impulses that make a change cost at least what the least ones do, which is the value of the
 // dual problem: no random plan is cheaper, and the two values meet.
 TEST(LeastImpulses, NothingIsCheaper) {
@@ -81,8 +80,8 @@ TEST(ImpulsePlan, RelativeEccentricity) {
 // Hohmann's transfer between circles a metre apart: n da / 2, where the phase is right. (Curtis,
 // Orbital Mechanics for Engineering Students, section 6.2.)
 TEST(ImpulsePlan, Hohmann) {
-  const TransferResult result =
-      study_transfer(metres_from_circle({{-1, -0.75 * std::numbers::pi, 0}, {0, 1.5, 0}}, std::numbers::pi));
+  const TransferResult result = study_transfer(
+      metres_from_circle({{-1, -0.75 * std::numbers::pi, 0}, {0, 1.5, 0}}, std::numbers::pi));
   expect_flown(result);
   EXPECT_NEAR(total_of(result), 0.5, 1e-5);
 }
@@ -90,7 +89,8 @@ TEST(ImpulsePlan, Hohmann) {
 // Along the orbit in half a revolution: two radial impulses of n x / 4. (Fehse, Automated
 // Rendezvous and Docking of Spacecraft, 2003, section 3.3.)
 TEST(ImpulsePlan, RadialAlongTheOrbit) {
-  const TransferResult result = study_transfer(metres_from_circle({{0, -1, 0}, {0, 0, 0}}, std::numbers::pi));
+  const TransferResult result =
+      study_transfer(metres_from_circle({{0, -1, 0}, {0, 0, 0}}, std::numbers::pi));
   expect_flown(result);
   EXPECT_NEAR(total_of(result), 0.5, 1e-5);
   EXPECT_FALSE(result.primer.has_value());  // F1 is singular after half a revolution.
