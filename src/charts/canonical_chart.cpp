@@ -246,11 +246,10 @@ CanonicalChart<Real>::CanonicalChart(ChartName name, const SixNumbers<Real>& chi
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 3; ++j) axes_[i][j] = Real(i == j ? 1 : 0);
   }
-  const bool is_elements = name == ChartName::poincare || name == ChartName::nodal;
-  if (is_elements && !(dot(v, v) / Real(2) * r < mu * (Real(1) - Real(least_binding)))) {
+  if (is_of_elements() && !(dot(v, v) / Real(2) * r < mu * (Real(1) - Real(least_binding)))) {
     refuse("the orbit is no ellipse, or one of nearly zero energy");
   }
-  if ((is_elements || name == ChartName::spherical) &&
+  if ((is_of_elements() || name == ChartName::spherical) &&
       !(G > Real(least_part) * r * sqrt(dot(v, v)))) {
     refuse("the chief moves nearly on a line through the centre, where no plane is defined");
   }

@@ -22,13 +22,8 @@ class ChartedDeputyFlow : public DeputyFlow {
     if (map.components() != 6 || map.variables() != 6) {
       throw Error(ErrorKind::usage, "deputy: a map of six components in six variables is needed");
     }
-  }
-
-  Matrix<double> entry_derivative() const override {
-    return coordinates_derivative(start_, start_state_);
-  }
-  Matrix<double> exit_derivative() const override {
-    return state_derivative(end_, end_coordinates_);
+    set_derivatives(coordinates_derivative(start_, start_state_),
+                    state_derivative(end_, end_coordinates_));
   }
 
  private:

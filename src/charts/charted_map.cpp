@@ -6,15 +6,10 @@
 #include "../algebra/instantiated_real.hpp"
 #include "hamjet/algebra/composition.hpp"
 #include "hamjet/error.hpp"
+#include "linear_chart.hpp"
 
 namespace hamjet {
 namespace {
-
-template <class Real>
-SixNumbers<Series<Real>> moved(const SixNumbers<Real>& z, const SpacePointer& space) {
-  const auto one = [&](std::size_t i) { return Series<Real>::variable(space, i, z[i]); };
-  return {one(0), one(1), one(2), one(3), one(4), one(5)};
-}
 
 template <class Real>
 SixNumbers<Series<Real>> six(const std::vector<Series<Real>>& map) {

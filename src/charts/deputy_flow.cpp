@@ -16,6 +16,11 @@ DeputyFlow::DeputyFlow(std::vector<Series<double>> polynomials, const SixNumbers
   for (int degree = 1; degree <= order(); ++degree) evaluators_.emplace_back(polynomials_, degree);
 }
 
+void DeputyFlow::set_derivatives(Matrix<double> entry, Matrix<double> exit) {
+  entry_derivative_ = std::move(entry);
+  exit_derivative_ = std::move(exit);
+}
+
 void DeputyFlow::predict(std::span<const SixNumbers<double>> initial, int degree,
                          std::span<DeputyPrediction> predictions) const {
   if (degree < 1 || degree > order()) {
@@ -26,7 +31,7 @@ void DeputyFlow::predict(std::span<const SixNumbers<double>> initial, int degree
   }
   constexpr std::size_t most_at_once = 512 * block;  // few enough to stay in the cache
   const MapEvaluator& evaluator = evaluators_[static_cast<std::size_t>(degree - 1)];
-  const Matrix<double> exit = exit_derivative();
+  const Matrix<double>& exit = exit_derivative_;
   const std::unique_ptr<Passage> passage = this->passage();
   const std::size_t width = variables();
   const std::size_t values = polynomials_.size();
@@ -92,10 +97,9 @@ SixNumbers<double> end_of(const FlowMap<double>& jet) {
 class CartesianDeputyFlow : public DeputyFlow {
  public:
   explicit CartesianDeputyFlow(const FlowMap<double>& jet)
-      : DeputyFlow(without_constants(jet.jet()), end_of(jet)) {}
-
-  Matrix<double> entry_derivative() const override { return Matrix<double>::Identity(6, 6); }
-  Matrix<double> exit_derivative() const override { return Matrix<double>::Identity(6, 6); }
+      : DeputyFlow(without_constants(jet.jet()), end_of(jet)) {
+    set_derivatives(Matrix<double>::Identity(6, 6), Matrix<double>::Identity(6, 6));
+  }
 
  private:
   struct Through : Passage {

@@ -5,10 +5,11 @@
 #include <utility>
 
 #include "../algebra/instantiated_real.hpp"
+#include "../integrators/statistics_sum.hpp"
 #include "hamjet/algebra/elementary_functions.hpp"
 #include "secular_motion.hpp"
+#include "steady_turn.hpp"
 #include "time_scaled_system.hpp"
-#include "turned_pair.hpp"
 
 namespace hamjet {
 namespace {
@@ -46,8 +47,8 @@ template <class Real, class T>
 SteadyMotion<T> steady_motion(const FlowBoxMap<Real>& map, const T& energy,
                               const SixNumbers<T>& z) {
   using std::sqrt;
-  const bool is_nodal = map.start->chart().name() == ChartName::nodal;
-  const std::size_t pair = is_nodal ? 2 : 1;
+  const bool is_nodal = map.start->ignored().has_value();
+  const std::size_t pair = pericentre_place(map.start->ignored());
   const T eccentric = (z[pair] * z[pair] + z[pair + 3] * z[pair + 3]) / Real(2);
   const T L = map.mu / sqrt(T(Real(-2) * energy));
   const T H = is_nodal ? z[4] : T(L - eccentric - (z[2] * z[2] + z[5] * z[5]) / Real(2));
@@ -62,7 +63,7 @@ SteadyMotion<T> steady_motion(const FlowBoxMap<Real>& map, const T& energy,
 
 template <class Real>
 SteadyMotion<Real> FlowBoxMap<Real>::steady(const Real& energy, const SixNumbers<Real>& z) const {
-  if (advance != Real(0)) return steady_motion(*this, energy, z);
+  if (start->chart().is_of_elements()) return steady_motion(*this, energy, z);
   return {start->is_bound() ? Real(duration * (Real(1) + start->variable_of(energy))) : duration,
           Real(0), Real(0)};
 }
@@ -70,7 +71,7 @@ SteadyMotion<Real> FlowBoxMap<Real>::steady(const Real& energy, const SixNumbers
 template <class Real>
 SteadyMotion<Series<Real>> FlowBoxMap<Real>::steady() const {
   const SpacePointer& space = time.space_pointer();
-  if (advance == Real(0)) {
+  if (!start->chart().is_of_elements()) {
     return {start->periods(space) * duration, Series<Real>(space), Series<Real>(space)};
   }
   const auto constant = [&](std::size_t i) { return Series<Real>(space, start->chief()[i]); };
@@ -117,11 +118,7 @@ FlowBoxMap<Real> FlowBoxPropagation<Real>::advance_to(const Real& time) {
   for (const auto& component : jet) flow_.initial_state.push_back(component[0]);
   IntegrationStatistics statistics;
   jet = integrate_gauss<Real>(flow_, settings_, statistics);
-  total_.steps += statistics.steps;
-  total_.rejected_steps += statistics.rejected_steps;
-  total_.vector_field_evaluations += statistics.vector_field_evaluations;
-  total_.nominal_evaluations += statistics.nominal_evaluations;
-  total_.wall_seconds += statistics.wall_seconds;
+  add_integration(total_, statistics);
   reached_ = time;
 
   SixNumbers<Series<Real>> z = {
@@ -146,18 +143,14 @@ FlowBoxMap<Real> FlowBoxPropagation<Real>::advance_to(const Real& time) {
                        Real(field_.mu),
                        flight,
                        {}};
-  const bool is_of_elements = chart_ != ChartName::spherical && chart_ != ChartName::cylindrical;
-  if (is_of_elements) {
+  if (start_->chart().is_of_elements()) {
     map.advance = Real(1);
     map.advance = time / map.steady(start_->energy(), start_->chief()).time;
   }
   const SteadyMotion<Series<Real>> steady = map.steady();
   map.time -= steady.time;
-  if (is_of_elements) {
-    const std::size_t pair = end->ignored() ? 2 : 1;
-    turn_pair<Real>(c[pair], c[pair + 3], -steady.pericentre);
-    if (!end->ignored()) turn_pair<Real>(c[2], c[5], -steady.node);
-  }
+  turn_steadily(*end, SteadyMotion<Series<Real>>{-steady.time, -steady.pericentre, -steady.node},
+                c);
   for (const std::size_t place : end->places()) map.coordinates.push_back(c[place]);
   if (end->ignored()) {
     map.coordinates.push_back(c[*end->ignored()] - start_->chief()[*end->ignored()] - steady.node);

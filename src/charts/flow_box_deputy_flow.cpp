@@ -9,7 +9,7 @@
 #include "hamjet/charts/deputy_flow.hpp"
 #include "hamjet/error.hpp"
 #include "linear_chart.hpp"
-#include "turned_pair.hpp"
+#include "steady_turn.hpp"
 
 namespace hamjet {
 namespace {
@@ -63,9 +63,12 @@ class FlowBoxDeputyFlow : public DeputyFlow {
       : DeputyFlow(values_of(map), map.end->chart().state(map.end->chief())),
         system_(zonal_gravity(field)),
         map_(map),
-        start_state_(map.start->chart().state(map.start->chief())) {}
+        start_state_(map.start->chart().state(map.start->chief())) {
+    set_derivatives(entry(), exit());
+  }
 
-  Matrix<double> entry_derivative() const override {
+ private:
+  Matrix<double> entry() const {
     const FlowSection<double>& section = *map_.start;
     const Matrix<double> coordinates = coordinates_derivative(section.chart(), start_state_);
     Energy energy(system_);
@@ -92,7 +95,7 @@ class FlowBoxDeputyFlow : public DeputyFlow {
     return result;
   }
 
-  Matrix<double> exit_derivative() const override {
+  Matrix<double> exit() const {
     const FlowSection<double>& section = *map_.end;
     const Matrix<double> by_variables =
         linear_part(section.states(SeriesSpace::create(section.variables(), 1)));
@@ -119,9 +122,9 @@ class FlowBoxDeputyFlow : public DeputyFlow {
       result.col(column(pair)) = q * std::cos(angle) + p * std::sin(angle);
       result.col(column(pair + 3)) = p * std::cos(angle) - q * std::sin(angle);
     };
-    if (map_.advance != 0) {
-      turn(pericentre_pair(), steady.pericentre);
-      if (!section.ignored()) turn(2, steady.node);
+    if (section.chart().is_of_elements()) {
+      turn(pericentre_place(section.ignored()), steady.pericentre);
+      if (!section.ignored()) turn(node_pair_place, steady.node);
     }
     if (section.ignored()) {
       result.col(result.cols() - 1) = state_derivative(section.chart(), section.chief())
@@ -129,9 +132,6 @@ class FlowBoxDeputyFlow : public DeputyFlow {
     }
     return result;
   }
-
- private:
-  std::size_t pericentre_pair() const { return map_.end->ignored() ? 2 : 1; }
 
   struct Through : Passage {
     explicit Through(const FlowBoxDeputyFlow& of)
@@ -287,11 +287,9 @@ class FlowBoxDeputyFlow : public DeputyFlow {
       for (std::size_t k = 0; k < section.places().size(); ++k) {
         z[section.places()[k]] = values[k + 1];
       }
-      if (flow.map_.advance != 0) {
-        const std::size_t pair = flow.pericentre_pair();
-        turn_pair<double>(z[pair], z[pair + 3], carried[steady_pericentre]);
-        if (!section.ignored()) turn_pair<double>(z[2], z[5], carried[steady_node]);
-      }
+      const SteadyMotion<double> steady{carried[steady_time], carried[steady_pericentre],
+                                        carried[steady_node]};
+      turn_steadily(section, steady, z);
       if (section.ignored()) {
         z[*section.ignored()] = carried[ignored_coordinate] + carried[steady_node] + values.back();
       }
@@ -307,7 +305,7 @@ class FlowBoxDeputyFlow : public DeputyFlow {
     bool find_state(double wanted, SixNumbers<double> z, SixNumbers<double>& state) {
       constexpr int most_iterations = 40;
       const FlowSection<double>& section = *flow.map_.end;
-      if (section.is_bound() && flow.map_.advance != 0) {
+      if (section.is_bound() && section.chart().is_of_elements()) {
         z[3] *= std::sqrt(section.energy() / wanted);
       }
       double slope = section.rate();

@@ -6,7 +6,7 @@
 #include "hamjet/algebra/composition.hpp"
 #include "hamjet/algebra/elementary_functions.hpp"
 #include "hamjet/charts/flow_box.hpp"
-#include "turned_pair.hpp"
+#include "steady_turn.hpp"
 
 namespace hamjet {
 namespace {
@@ -72,15 +72,12 @@ std::vector<SymplecticityDefect> FlowBoxMap<Real>::symplecticity() const {
   const SteadyMotion<Series<Real>> motion = steady();
   const Series<Real> flight = time + motion.time;
   const std::vector<std::size_t> of_pairs = {1, 2, 4, 5};
-  std::vector<Series<Real>> psi(6, Series<Real>(space));
+  const Series<Real> zero(space);
+  SixNumbers<Series<Real>> psi = {zero, zero, zero, zero, zero, zero};
   for (std::size_t k = 0; k < end->places().size(); ++k) psi[end->places()[k]] = coordinates[k];
   const std::optional<std::size_t> ignored = start->ignored();
   if (ignored) psi[*ignored] = coordinates.back() + motion.node;
-  if (advance != Real(0)) {
-    const std::size_t pair = ignored ? 2 : 1;
-    turn_pair<Real>(psi[pair], psi[pair + 3], motion.pericentre);
-    if (!ignored) turn_pair<Real>(psi[2], psi[5], motion.node);
-  }
+  turn_steadily(*end, motion, psi);
   // d u_0 / dE: where the chief is bound, E = E_chief (1 + u_0)^(-2/3).
   Component by_energy(space, Extended(1) / Extended(start->energy_unit()));
   if (start->is_bound()) {

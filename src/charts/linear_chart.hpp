@@ -6,8 +6,9 @@
 namespace hamjet {
 
 /// Six series in six variables, each a number and one variable.
-inline SixNumbers<Series<double>> moved(const SixNumbers<double>& z, const SpacePointer& space) {
-  const auto one = [&](std::size_t i) { return Series<double>::variable(space, i, z[i]); };
+template <class Real>
+SixNumbers<Series<Real>> moved(const SixNumbers<Real>& z, const SpacePointer& space) {
+  const auto one = [&](std::size_t i) { return Series<Real>::variable(space, i, z[i]); };
   return {one(0), one(1), one(2), one(3), one(4), one(5)};
 }
 

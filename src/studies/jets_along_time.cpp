@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "../integrators/rotation_reduction.hpp"
+#include "../integrators/statistics_sum.hpp"
 #include "descriptions/method_description.hpp"
 #include "exact_flow.hpp"
 #include "integration.hpp"
@@ -28,11 +29,7 @@ FlowJet<double> JetPropagation::advance_to(double time) {
   flow_.initial_state = nominal_of(*flow_.initial_jet);
   IntegrationStatistics statistics;
   flow_.initial_jet = integrate<double>(flow_, *settings_, statistics, {});
-  total_.steps += statistics.steps;
-  total_.rejected_steps += statistics.rejected_steps;
-  total_.vector_field_evaluations += statistics.vector_field_evaluations;
-  total_.nominal_evaluations += statistics.nominal_evaluations;
-  total_.wall_seconds += statistics.wall_seconds;
+  add_integration(total_, statistics);
   reached_ = time;
   return reduction_ ? reduction_->expand(*flow_.initial_jet) : *flow_.initial_jet;
 }

@@ -10,20 +10,11 @@
 namespace hamjet::test {
 namespace {
 
-/// A circle of radius 7000 km on which the angular velocity is 1e-3 per second.
-const std::string circular_scene = R"(schema = 1
-title = "circular"
-[system]
-model = "kepler"
-mu_km3_s2 = 343000
-[nominal]
-position_km = [7000, 0, 0]
-velocity_km_s = [0, 7, 0]
-[jet]
-order = 6
-duration_s = 6000
-times_s = [600, 1500, 4000, 6000]
-)" + gauss8("tolerance = 1e-14");
+/// A circle on which the angular velocity is 1e-3 per second.
+const std::string timed_scene = circular_orbit +
+                                "[jet]\norder = 6\nduration_s = 6000\n"
+                                "times_s = [600, 1500, 4000, 6000]\n" +
+                                gauss8("tolerance = 1e-14");
 constexpr double radius_m = 7e6;
 constexpr double rate = 1e-3;
 
@@ -51,7 +42,7 @@ constexpr double allowed_m = 1e-6;
 using JetTimes = EvalTest;
 
 TEST_F(JetTimes, AreOfTheMotionAtEach) {
-  store("circular", circular_scene);
+  store("circular", timed_scene);
   const Json json = eval_json({"circular", "--deviation", deputy_start(), "--time", "all"});
   const std::vector<double> times = {600, 1500, 4000, 6000};
   ASSERT_EQ(json["rows"].size(), times.size());
@@ -78,7 +69,7 @@ TEST_F(JetTimes, AreOfTheMotionAtEach) {
 
 TEST_F(JetTimes, AreInEveryFormatByThemselves) {
   const bool with_hdf5 = io::hdf5_available();
-  store("circular", circular_scene,
+  store("circular", timed_scene,
         {"--set", with_hdf5 ? "output.formats=[\"dace\", \"hdf5\"]" : "output.formats=[\"dace\"]"});
   const std::vector<double> right = eval_one("circular", deputy_start(), {"--time", "1500"});
   std::vector<std::string> files = {"jet.csv", "jet.dace"};
@@ -96,7 +87,7 @@ TEST_F(JetTimes, AreInEveryFormatByThemselves) {
 }
 
 TEST_F(JetTimes, ThatAreNotThereAreRefused) {
-  store("circular", circular_scene);
+  store("circular", timed_scene);
   const auto expect = [&](const std::string& time, const std::vector<std::string>& words) {
     expect_error({"eval", "circular", "--deviation", deputy_start(), "--time", time}, 2, words);
   };
@@ -118,7 +109,7 @@ TEST_F(JetTimes, OfAScene) {
   const auto expect = [&](const std::string& setting, const std::vector<std::string>& words) {
     expect_error({"check", "circular.toml", "--set", setting}, 3, words);
   };
-  write("circular.toml", circular_scene);
+  write("circular.toml", timed_scene);
   expect("jet.times_s=[0, 10]", {"jet.times_s", "zero", "identity"});
   expect("jet.times_s=[10, 6001]", {"jet.times_s", "outside the span", "1.000"});
   expect("jet.times_s=[-10]", {"jet.times_s", "outside the span"});

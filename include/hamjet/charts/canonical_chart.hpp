@@ -72,6 +72,10 @@ class CanonicalChart {
   CanonicalChart(ChartName name, const SixNumbers<Real>& chief, const Real& mu);
 
   ChartName name() const noexcept { return name_; }
+  /// Whether the coordinates are elements of an ellipse.
+  bool is_of_elements() const noexcept {
+    return name_ == ChartName::poincare || name_ == ChartName::nodal;
+  }
 
   /// The coordinates of an inertial state. Angles are less whole turns. Numbers are not finite
   /// where the state has no such coordinates.

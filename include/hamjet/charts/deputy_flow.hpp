@@ -50,13 +50,17 @@ class DeputyFlow {
 
   /// The derivative of the polynomials' variables by the initial deviation at the chief, variables
   /// x 6.
-  virtual Matrix<double> entry_derivative() const = 0;
+  const Matrix<double>& entry_derivative() const { return entry_derivative_; }
   /// The derivative of the final deviation by the polynomials' values at the chief, 6 x values.
-  virtual Matrix<double> exit_derivative() const = 0;
+  const Matrix<double>& exit_derivative() const { return exit_derivative_; }
 
  protected:
   /// Polynomials of the values, in one space.
   DeputyFlow(std::vector<Series<double>> polynomials, const SixNumbers<double>& chief_end);
+
+  /// The derivatives at the ends, by the constructor of each flow: they are asked for at every
+  /// prediction.
+  void set_derivatives(Matrix<double> entry, Matrix<double> exit);
 
   /// The most variables, and the most values.
   static constexpr std::size_t widest = 8;
@@ -82,6 +86,8 @@ class DeputyFlow {
  private:
   std::vector<Series<double>> polynomials_;
   SixNumbers<double> chief_end_;
+  Matrix<double> entry_derivative_;
+  Matrix<double> exit_derivative_;
   std::vector<MapEvaluator> evaluators_;  ///< by degree, from 1
 };
 

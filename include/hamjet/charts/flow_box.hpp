@@ -33,7 +33,7 @@ struct FlowBoxMap {
   std::shared_ptr<const FlowSection<Real>> start;
   std::shared_ptr<const FlowSection<Real>> end;
   Real duration = 0;    ///< of the chief's flight
-  Real advance = 0;     ///< of the chief's steady motion, of the angle; 0 in spherical coordinates
+  Real advance = 0;     ///< of the chief's steady motion, of the angle; of elements alone
   Real oblateness = 0;  ///< J2 R^2, of the steady motion
   Real mu = 1;
   /// T_s less the time of the steady motion.

@@ -7,6 +7,23 @@
 
 namespace hamjet::test {
 
+/// A circular orbit of radius 7000 km and speed 7 km/s, without its jet: canonically mu = 1, (1,
+/// 0), (0, 1), and 1000 s the unit of time.
+inline const std::string circular_orbit = R"(schema = 1
+title = "circular"
+[system]
+model = "kepler"
+mu_km3_s2 = 343000
+[nominal]
+position_km = [7000, 0, 0]
+velocity_km_s = [0, 7, 0]
+)";
+
+/// The same over a full turn, of order 5.
+inline const std::string circular_scene =
+    circular_orbit + "[jet]\norder = 5\nduration_canonical = 6.283185307179586\n" +
+    gauss8("tolerance = 1e-15");
+
 inline const std::string rtn_header = "R_m,T_m,N_m,vR_m_s,vT_m_s,vN_m_s";
 
 /// Stores results and maps deviations through them.

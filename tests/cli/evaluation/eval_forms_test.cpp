@@ -12,27 +12,13 @@ namespace {
 
 constexpr double circle_m = 7e6;
 
-/// A circular orbit of radius 7000 km about a full turn: canonically mu = 1, (1, 0), (0, 1), 2 pi.
-const std::string circle_scene = R"(schema = 1
-title = "circular"
-[system]
-model = "kepler"
-mu_km3_s2 = 343000
-[nominal]
-position_km = [7000, 0, 0]
-velocity_km_s = [0, 7, 0]
-[jet]
-order = 5
-duration_canonical = 6.283185307179586
-)" + gauss8("tolerance = 1e-15");
-
 using EvalForms = EvalTest;
 
 TEST_F(EvalForms, RelativeElementsOfKeplersMotionStay) {
   // Without a difference of the semi-major axes, Kepler's motion changes none of the others, at
   // whatever time; beyond order 5 the polynomial misses some (100 m)^6 / (7000 km)^5.
   const std::string tilted =
-      changed(changed(circle_scene, "[0, 7, 0]", "[0, 4.2, 5.6]"), "6.283185307179586", "4.5");
+      changed(changed(circular_scene, "[0, 7, 0]", "[0, 4.2, 5.6]"), "6.283185307179586", "4.5");
   store("tilted", tilted);
   const std::vector<double> elements = {0, 50, 20, -10, 30, 15};
   const Json json =
@@ -57,7 +43,7 @@ TEST_F(EvalForms, RelativeElementsOfKeplersMotionStay) {
 }
 
 TEST_F(EvalForms, FormsOfADeputyThatDoNotFitAreRefused) {
-  store("circular", circle_scene);
+  store("circular", circular_scene);
   expect_error({"eval", "circular", "--frame", "relative-elements", "--deviation", "0,0,0,0,0,0"},
                4, {"equatorial plane and has no node"});
   expect_error({"eval", "circular", "--frame", "curvilinear", "--deviation", "-8e6,0,0,0,0,0"}, 2,

@@ -17,19 +17,6 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// A circular orbit of radius 7000 km about a full turn: canonically mu = 1, (1, 0), (0, 1), 2 pi.
-const std::string circular_scene = R"(schema = 1
-title = "circular"
-[system]
-model = "kepler"
-mu_km3_s2 = 343000
-[nominal]
-position_km = [7000, 0, 0]
-velocity_km_s = [0, 7, 0]
-[jet]
-order = 5
-duration_canonical = 6.283185307179586
-)" + gauss8("tolerance = 1e-15");
 // mu = 7 km x (7 km/s)^2 x 1000: length 7000 km and time 1000 s, so that 1 m/s is 1 / 7000.
 constexpr double length_m = 7e6;
 constexpr double speed_m_s = 7000;
