@@ -1,7 +1,7 @@
 # The layers from the bottom, a folder each in include/hamjet and src: none includes from one above
 # its own.
-set(HAMJET_LAYERS text algebra dynamics integrators maps charts relative_motion optimal_control studies store
-  formats scene report sweep app cli python)
+set(HAMJET_LAYERS text algebra dynamics integrators maps charts relative_motion uncertainty
+  optimal_control studies store formats scene report sweep app cli python)
 
 # Adds to the target all sources of the layer whose CMakeLists.txt calls it, but those behind EXCEPT, which
 # it adds itself. With CMAKE_UNITY_BUILD those of a folder are compiled together, so many at a time.

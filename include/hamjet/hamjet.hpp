@@ -48,3 +48,4 @@
 #include "hamjet/studies/propagation.hpp"
 #include "hamjet/studies/transfer.hpp"
 #include "hamjet/studies/validity.hpp"
+#include "hamjet/uncertainty/covariance.hpp"
