@@ -49,3 +49,4 @@
 #include "hamjet/studies/transfer.hpp"
 #include "hamjet/studies/validity.hpp"
 #include "hamjet/uncertainty/covariance.hpp"
+#include "hamjet/uncertainty/polynomial_moments.hpp"

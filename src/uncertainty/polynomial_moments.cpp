@@ -1,0 +1,511 @@
+#include "hamjet/uncertainty/polynomial_moments.hpp"
+
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+
+#include "../algebra/singular_values.hpp"
+#include "hamjet/algebra/composition.hpp"
+#include "hamjet/error.hpp"
+
+namespace hamjet {
+namespace {
+
+/// Directions whose spread, in units of the components' standard deviations, is below this part of
+/// the largest are rounding of the polynomials' coefficients.
+constexpr double resolved_spread = 1e-11;
+
+using Table = std::vector<std::vector<std::size_t>>;
+
+/// The place of monomials of degree 0..M in v variables, by sums that products add up: with
+/// s_i = a_1 + ... + a_i it is the sum over i of C(s_i + i - 1, i), which counts every exponent
+/// vector once (the combinatorial number system).
+class MonomialPlaces {
+ public:
+  MonomialPlaces(std::size_t variables, int most)
+      : table_(variables, std::vector<std::size_t>(static_cast<std::size_t>(most) + 2)) {
+    for (std::size_t i = 0; i < variables; ++i) {
+      // C(s + i, i + 1) = C(s - 1 + i, i + 1) + C(s - 1 + i, i)
+      for (std::size_t s = 1; s < table_[i].size(); ++s) {
+        table_[i][s] = table_[i][s - 1] + (i == 0 ? 1 : table_[i - 1][s]);
+      }
+    }
+  }
+
+  std::size_t count() const { return table_.back().back(); }
+
+  /// The place of the product of two monomials of these sums.
+  std::size_t operator()(const std::uint8_t* a, const std::uint8_t* b) const {
+    std::size_t place = 0;
+    for (std::size_t i = 0; i < table_.size(); ++i) {
+      place += table_[i][static_cast<std::size_t>(a[i]) + b[i]];
+    }
+    return place;
+  }
+
+ private:
+  Table table_;
+};
+
+/// Exponents and their sums of all monomials, in the order of their places.
+struct Monomials {
+  std::size_t variables = 0;
+  std::vector<std::uint8_t> sums;
+
+  const std::uint8_t* of(std::size_t place) const { return &sums[place * variables]; }
+  int exponent(std::size_t place, std::size_t i) const {
+    const std::uint8_t* s = of(place);
+    return s[i] - (i == 0 ? 0 : s[i - 1]);
+  }
+};
+
+/// All of degree up to M, the last sum, that is the degree, growing slowest.
+Monomials all_monomials(const MonomialPlaces& places, std::size_t variables, int most) {
+  Monomials result{variables, std::vector<std::uint8_t>(places.count() * variables)};
+  std::vector<std::uint8_t> sums(variables, 0);
+  const std::vector<std::uint8_t> zero(variables, 0);
+  while (true) {
+    std::copy(sums.begin(), sums.end(),
+              result.sums.begin() +
+                  static_cast<std::ptrdiff_t>(places(sums.data(), zero.data()) * variables));
+    // The next sequence of sums that do not fall.
+    std::size_t i = 0;
+    while (i + 1 < variables && sums[i] == sums[i + 1]) ++i;
+    if (i + 1 == variables && sums[i] == most) return result;
+    ++sums[i];
+    std::fill(sums.begin(), sums.begin() + static_cast<std::ptrdiff_t>(i), std::uint8_t{0});
+  }
+}
+
+/// Turns columns of coefficients of monomials (rows by place) into those of the orthonormal
+/// polynomials He_a / sqrt(a!), by one variable after the other:
+///
+///   x^n = sum over k of n! / (2^k k! (n - 2k)!) He_(n-2k) .
+void to_hermite(const MonomialPlaces& places, const Monomials& monomials, int most,
+                Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>& columns) {
+  const auto degrees = static_cast<std::size_t>(most) + 1;
+  std::vector<std::vector<double>> parts(degrees);
+  for (std::size_t n = 0; n < degrees; ++n) {
+    double part = 1;
+    for (std::size_t k = 0; 2 * k <= n; ++k) {
+      parts[n].push_back(part);
+      const auto left = static_cast<double>(n - 2 * k);
+      part *= left * (left - 1) / (2.0 * static_cast<double>(k + 1));
+    }
+  }
+  const std::size_t count = monomials.sums.size() / monomials.variables;
+  std::vector<std::uint8_t> raised(monomials.variables);
+  const std::vector<std::uint8_t> zero(monomials.variables, 0);
+  for (std::size_t i = 0; i < monomials.variables; ++i) {
+    // Places grow with every exponent, so that what is added has not been turned yet.
+    for (std::size_t place = 0; place < count; ++place) {
+      const std::uint8_t* sums = monomials.of(place);
+      const auto n = static_cast<std::size_t>(monomials.exponent(place, i));
+      const int left = most - sums[monomials.variables - 1];
+      for (std::size_t k = 1; 2 * k <= static_cast<std::size_t>(left); ++k) {
+        std::copy_n(sums, monomials.variables, raised.begin());
+        for (std::size_t j = i; j < monomials.variables; ++j) {
+          raised[j] = static_cast<std::uint8_t>(raised[j] + 2 * k);
+        }
+        const auto from = static_cast<Eigen::Index>(places(raised.data(), zero.data()));
+        columns.row(static_cast<Eigen::Index>(place)) += parts[n + 2 * k][k] * columns.row(from);
+      }
+    }
+  }
+  for (std::size_t place = 0; place < count; ++place) {
+    double factorial = 1;
+    for (std::size_t i = 0; i < monomials.variables; ++i) {
+      for (int n = 2; n <= monomials.exponent(place, i); ++n) factorial *= n;
+    }
+    columns.row(static_cast<Eigen::Index>(place)) *= std::sqrt(factorial);
+  }
+}
+
+using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// F = D U S V^T with the rows' lengths D: axes D U S and V, without what is rounding.
+struct PrincipalAxes {
+  Matrix<double> axes;
+  Matrix<double> turn;  ///< V^T, r x columns of F
+};
+
+PrincipalAxes principal_axes(const Matrix<double>& factor) {
+  const Eigen::Index m = factor.rows();
+  const Vector<double> lengths = factor.rowwise().norm();
+  Matrix<double> rows = factor;
+  for (Eigen::Index i = 0; i < m; ++i) {
+    if (lengths[i] > 0) rows.row(i) /= lengths[i];
+  }
+  // A factor of more columns than rows is turned to a square one first; one of fewer is filled up.
+  Matrix<double> basis = Matrix<double>::Identity(factor.cols(), factor.cols());
+  Matrix<double> square = Matrix<double>::Zero(m, m);
+  if (factor.cols() > m) {
+    const Eigen::HouseholderQR<Matrix<double>> qr(rows.transpose());
+    basis = qr.householderQ() * Matrix<double>::Identity(factor.cols(), m);
+    square = basis.transpose() * rows.transpose();
+    square.transposeInPlace();
+  } else {
+    square.leftCols(factor.cols()) = rows;
+  }
+  const SingularValueDecomposition parts = decompose_by_singular_values(square);
+  Eigen::Index rank = 0;
+  while (rank < m && parts.values[rank] > resolved_spread * parts.values[0]) ++rank;
+  PrincipalAxes result;
+  result.axes =
+      lengths.asDiagonal() * parts.left.leftCols(rank) * parts.values.head(rank).asDiagonal();
+  result.turn = parts.right.topLeftCorner(basis.cols(), rank).transpose() * basis.transpose();
+  return result;
+}
+
+/// The tensor of `degree` indices with each turned by the matrix.
+std::vector<double> turned_tensor(std::vector<double> tensor, const Matrix<double>& turn,
+                                  int degree) {
+  for (int index = 0; index < degree; ++index) {
+    // The first index is turned and becomes the last one.
+    const Eigen::Index old_size = turn.cols();
+    const Eigen::Index rest =
+        old_size == 0 ? 0 : static_cast<Eigen::Index>(tensor.size()) / old_size;
+    const Eigen::Map<const RowMatrix> before(tensor.data(), old_size, rest);
+    std::vector<double> after(static_cast<std::size_t>(rest * turn.rows()));
+    Eigen::Map<RowMatrix>(after.data(), rest, turn.rows()) = (turn * before).transpose();
+    tensor = std::move(after);
+  }
+  return tensor;
+}
+
+std::size_t power(Eigen::Index base, int exponent) {
+  std::size_t result = 1;
+  for (int i = 0; i < exponent; ++i) result *= static_cast<std::size_t>(base);
+  return result;
+}
+
+double sum_of_squares(const std::vector<double>& numbers) {
+  double sum = 0;
+  for (const double number : numbers) sum += number * number;
+  return sum;
+}
+
+/// Third and fourth moments of the uncorrelated w from those of products of two.
+struct Moments {
+  std::vector<double> third;
+  std::vector<double> fourth;
+};
+
+/// `pairs(i, j)` numbers the products i <= j; `with_one` are the moments of products and single
+/// ones, `with_pair` of two products.
+Moments cumulants_of(Eigen::Index rank, const Matrix<double>& with_one,
+                     const Matrix<double>& with_pair) {
+  const auto pair = [&](Eigen::Index i, Eigen::Index j) {
+    if (i > j) std::swap(i, j);
+    return i * rank - i * (i - 1) / 2 + j - i;
+  };
+  Moments result{std::vector<double>(power(rank, 3)), std::vector<double>(power(rank, 4))};
+  std::size_t place = 0;
+  for (Eigen::Index i = 0; i < rank; ++i) {
+    for (Eigen::Index j = 0; j < rank; ++j) {
+      for (Eigen::Index k = 0; k < rank; ++k) {
+        result.third[place++] = with_one(pair(i, j), k);
+      }
+    }
+  }
+  place = 0;
+  const auto same = [](Eigen::Index a, Eigen::Index b) { return a == b ? 1.0 : 0.0; };
+  for (Eigen::Index i = 0; i < rank; ++i) {
+    for (Eigen::Index j = 0; j < rank; ++j) {
+      for (Eigen::Index k = 0; k < rank; ++k) {
+        for (Eigen::Index l = 0; l < rank; ++l) {
+          result.fourth[place++] = with_pair(pair(i, j), pair(k, l)) - same(i, j) * same(k, l) -
+                                   same(i, k) * same(j, l) - same(i, l) * same(j, k);
+        }
+      }
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<Series<double>> in_standard_normals(const std::vector<Series<double>>& map,
+                                                const Covariance& covariance) {
+  if (map.empty()) throw Error(ErrorKind::usage, "moments: no polynomials");
+  const SeriesSpace& outer = map.front().space();
+  if (covariance.size() != static_cast<Eigen::Index>(outer.variables())) {
+    throw Error(ErrorKind::usage,
+                "moments: the covariance must have a row for each variable of the polynomials");
+  }
+  Matrix<double> factor = covariance.factor();
+  if (factor.cols() == 0) factor = Matrix<double>::Zero(covariance.size(), 1);
+  const SpacePointer space =
+      SeriesSpace::create(static_cast<std::size_t>(factor.cols()), outer.order());
+  std::vector<Series<double>> inner;
+  for (Eigen::Index i = 0; i < factor.rows(); ++i) {
+    inner.emplace_back(space);
+    if (outer.order() == 0) continue;
+    for (Eigen::Index k = 0; k < factor.cols(); ++k) {
+      inner.back()[space->linear_index(static_cast<std::size_t>(k))] = factor(i, k);
+    }
+  }
+  return compose(map, inner);
+}
+
+Cumulants Cumulants::turned(const Vector<double>& mean, const Matrix<double>& factor,
+                            Matrix<double>& turn) {
+  PrincipalAxes principal = principal_axes(factor);
+  Cumulants result;
+  result.mean_ = mean;
+  result.axes_ = std::move(principal.axes);
+  turn = std::move(principal.turn);
+  result.third_.assign(power(result.rank(), 3), 0.0);
+  result.fourth_.assign(power(result.rank(), 4), 0.0);
+  return result;
+}
+
+void Cumulants::add_turned(const Cumulants& other, const Matrix<double>& turn) {
+  const std::vector<double> third = turned_tensor(other.third_, turn, 3);
+  const std::vector<double> fourth = turned_tensor(other.fourth_, turn, 4);
+  for (std::size_t i = 0; i < third.size(); ++i) third_[i] += third[i];
+  for (std::size_t i = 0; i < fourth.size(); ++i) fourth_[i] += fourth[i];
+}
+
+Cumulants::Cumulants(const Vector<double>& mean, const Covariance& covariance) {
+  if (mean.size() != covariance.size()) {
+    throw Error(ErrorKind::usage, "moments: mean and covariance are of different sizes");
+  }
+  Matrix<double> turn;
+  *this = turned(mean, covariance.factor(), turn);
+}
+
+Cumulants Cumulants::of_polynomials(const std::vector<Series<double>>& map,
+                                    std::optional<int> degree) {
+  if (map.empty()) throw Error(ErrorKind::usage, "moments: no polynomials");
+  const SeriesSpace& space = map.front().space();
+  for (const auto& component : map) require_same_space(component.space(), space);
+  const int order = std::min(degree.value_or(space.order()), space.order());
+  const std::size_t variables = space.variables();
+  const std::size_t terms = space.first(order + 1);
+  const auto m = static_cast<Eigen::Index>(map.size());
+
+  // The sums of the exponents of the map's own monomials, in their order.
+  std::vector<std::uint8_t> sums(terms * variables);
+  RowMatrix coefficients(static_cast<Eigen::Index>(terms), m);
+  for (std::size_t k = 0; k < terms; ++k) {
+    std::uint8_t sum = 0;
+    for (std::size_t i = 0; i < variables; ++i) {
+      sum = static_cast<std::uint8_t>(sum + space.exponents(k)[i]);
+      sums[k * variables + i] = sum;
+    }
+    for (Eigen::Index c = 0; c < m; ++c) {
+      coefficients(static_cast<Eigen::Index>(k), c) = map[static_cast<std::size_t>(c)][k];
+    }
+  }
+  if (!coefficients.allFinite()) {
+    throw Error(ErrorKind::numerical, "moments: a coefficient of the polynomials is not finite");
+  }
+
+  const MonomialPlaces places(variables, 2 * order);
+  const Monomials monomials = all_monomials(places, variables, 2 * order);
+  const auto count = static_cast<Eigen::Index>(places.count());
+  const std::vector<std::uint8_t> zero(variables, 0);
+  const auto place_of = [&](std::size_t k) {
+    return static_cast<Eigen::Index>(places(&sums[k * variables], zero.data()));
+  };
+
+  // Coefficients of Hermite polynomials: the first is the mean, the others a factor of the
+  // covariance.
+  const MonomialPlaces single_places(variables, order);
+  const Monomials single = all_monomials(single_places, variables, order);
+  RowMatrix hermite = RowMatrix::Zero(static_cast<Eigen::Index>(single_places.count()), m);
+  for (std::size_t k = 0; k < terms; ++k) {
+    hermite.row(place_of(k)) = coefficients.row(static_cast<Eigen::Index>(k));
+  }
+  to_hermite(single_places, single, order, hermite);
+  const Vector<double> mean = hermite.row(0).transpose();
+  hermite.row(0).setZero();
+  Matrix<double> turn;
+  Cumulants result = turned(mean, hermite.transpose(), turn);
+  const Eigen::Index rank = result.rank();
+  if (rank == 0) return result;
+
+  // The uncorrelated variables as polynomials: turn has their Hermite coefficients; their
+  // monomials' are those of y - mean, of which they are linear combinations.
+  const Vector<double> deviations = result.standard_deviations();
+  Matrix<double> scaled = result.axes_;
+  for (Eigen::Index i = 0; i < m; ++i) {
+    if (deviations[i] > 0) scaled.row(i) /= deviations[i];
+  }
+  const Matrix<double> back =
+      (scaled.transpose() * scaled).diagonal().cwiseInverse().asDiagonal() * scaled.transpose();
+  RowMatrix w = RowMatrix::Zero(static_cast<Eigen::Index>(terms), rank);
+  {
+    RowMatrix centred = coefficients;
+    centred.row(0) -= mean.transpose();
+    for (Eigen::Index i = 0; i < m; ++i) {
+      if (deviations[i] > 0)
+        centred.col(i) /= deviations[i];
+      else
+        centred.col(i).setZero();
+    }
+    w = centred * back.transpose();
+  }
+
+  const Eigen::Index pairs = rank * (rank + 1) / 2;
+  RowMatrix products = RowMatrix::Zero(count, pairs);
+  for (std::size_t a = 0; a < terms; ++a) {
+    const double* const of_a = w.row(static_cast<Eigen::Index>(a)).data();
+    for (std::size_t b = a; b < terms; ++b) {
+      const double* const of_b = w.row(static_cast<Eigen::Index>(b)).data();
+      const auto place =
+          static_cast<Eigen::Index>(places(&sums[a * variables], &sums[b * variables]));
+      double* product = products.row(place).data();
+      const double share = a == b ? 0.5 : 1;
+      for (Eigen::Index i = 0; i < rank; ++i) {
+        for (Eigen::Index j = i; j < rank; ++j) {
+          *product++ += share * (of_a[i] * of_b[j] + of_b[i] * of_a[j]);
+        }
+      }
+    }
+  }
+  to_hermite(places, monomials, 2 * order, products);
+  // Places of lower degrees come first, and the same in both lists.
+  const Matrix<double> with_one = products.topRows(turn.cols()).transpose() * turn.transpose();
+  const Matrix<double> with_pair = products.transpose() * products;
+  Moments moments = cumulants_of(rank, with_one, with_pair);
+  result.third_ = std::move(moments.third);
+  result.fourth_ = std::move(moments.fourth);
+  return result;
+}
+
+Cumulants Cumulants::of_sum(const Cumulants& first, const Cumulants& second) {
+  if (first.size() != second.size()) {
+    throw Error(ErrorKind::usage, "moments: the two vectors are of different sizes");
+  }
+  Matrix<double> factor(first.size(), first.rank() + second.rank());
+  factor << first.axes_, second.axes_;
+  Matrix<double> turn;
+  Cumulants result = turned(first.mean_ + second.mean_, factor, turn);
+  result.add_turned(first, turn.leftCols(first.rank()));
+  result.add_turned(second, turn.rightCols(second.rank()));
+  return result;
+}
+
+Cumulants Cumulants::of_points(const Matrix<double>& points, const Vector<double>& weights) {
+  if (points.cols() != weights.size() || points.cols() == 0) {
+    throw Error(ErrorKind::usage, "moments: a weight for each point is needed");
+  }
+  if (!points.allFinite()) throw Error(ErrorKind::numerical, "moments: a point is not finite");
+  if (!((weights.array() > 0).all() && std::abs(weights.sum() - 1) < 1e-6)) {
+    throw Error(ErrorKind::usage, "moments: weights must be above 0 and sum up to 1");
+  }
+  const Eigen::Index count = points.cols();
+  const Vector<double> mean = points * weights;
+  const Vector<double> roots = weights.cwiseSqrt();
+  Matrix<double> w;
+  Cumulants result = turned(mean, (points.colwise() - mean) * roots.asDiagonal(), w);
+  w = w * roots.cwiseInverse().asDiagonal();
+  const Eigen::Index rank = result.rank();
+  const Eigen::Index pairs = rank * (rank + 1) / 2;
+  Matrix<double> with_one = Matrix<double>::Zero(pairs, rank);
+  Matrix<double> with_pair = Matrix<double>::Zero(pairs, pairs);
+  Vector<double> products(pairs);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    Eigen::Index pair = 0;
+    for (Eigen::Index i = 0; i < rank; ++i) {
+      for (Eigen::Index j = i; j < rank; ++j) products[pair++] = w(i, k) * w(j, k);
+    }
+    with_one.noalias() += weights[k] * products * w.col(k).transpose();
+    with_pair.noalias() += weights[k] * products * products.transpose();
+  }
+  Moments moments = cumulants_of(rank, with_one, with_pair);
+  result.third_ = std::move(moments.third);
+  result.fourth_ = std::move(moments.fourth);
+  return result;
+}
+
+Cumulants Cumulants::mapped(const Matrix<double>& map) const {
+  if (map.cols() != size()) {
+    throw Error(ErrorKind::usage, "moments: the matrix must have a column for each component");
+  }
+  Matrix<double> turn;
+  Cumulants result = turned(map * mean_, map * axes_, turn);
+  result.add_turned(*this, turn);
+  return result;
+}
+
+Vector<double> Cumulants::skewness() const {
+  const Vector<double> deviations = standard_deviations();
+  Vector<double> result = Vector<double>::Zero(size());
+  for (Eigen::Index i = 0; i < size(); ++i) {
+    if (deviations[i] == 0) continue;
+    const Matrix<double> direction = axes_.row(i) / deviations[i];
+    result[i] = turned_tensor(third_, direction, 3)[0];
+  }
+  return result;
+}
+
+Vector<double> Cumulants::excess_kurtosis() const {
+  const Vector<double> deviations = standard_deviations();
+  Vector<double> result = Vector<double>::Zero(size());
+  for (Eigen::Index i = 0; i < size(); ++i) {
+    if (deviations[i] == 0) continue;
+    const Matrix<double> direction = axes_.row(i) / deviations[i];
+    result[i] = turned_tensor(fourth_, direction, 4)[0];
+  }
+  return result;
+}
+
+double Cumulants::mardia_skewness() const { return sum_of_squares(third_); }
+
+double Cumulants::mardia_excess_kurtosis() const {
+  const auto r = static_cast<std::size_t>(rank());
+  double sum = 0;
+  for (std::size_t i = 0; i < r; ++i) {
+    for (std::size_t j = 0; j < r; ++j) sum += fourth_[((i * r + i) * r + j) * r + j];
+  }
+  return sum;
+}
+
+double Cumulants::negentropy() const {
+  return sum_of_squares(third_) / 12 + sum_of_squares(fourth_) / 48;
+}
+
+double divergence_from_gaussian(const Cumulants& distribution, const Cumulants& gaussian) {
+  if (distribution.size() != gaussian.size()) {
+    throw Error(ErrorKind::usage, "moments: the two vectors are of different sizes");
+  }
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  if (distribution.rank() != gaussian.rank()) return infinite;
+  if (gaussian.rank() == 0) return distribution.mean() == gaussian.mean() ? 0 : infinite;
+  // In units of the Gaussian's own standard deviations.
+  const Vector<double> deviations = gaussian.standard_deviations();
+  const Vector<double> shift = distribution.mean() - gaussian.mean();
+  Matrix<double> rows(gaussian.size(), gaussian.rank());
+  Matrix<double> others(gaussian.size(), 1 + distribution.rank());
+  for (Eigen::Index i = 0; i < gaussian.size(); ++i) {
+    const bool is_still = deviations[i] == 0;
+    if (is_still && (shift[i] != 0 || distribution.axes().row(i).norm() != 0)) return infinite;
+    rows.row(i) = gaussian.axes().row(i) / (is_still ? 1 : deviations[i]);
+    others.row(i) << shift[i], distribution.axes().row(i);
+    others.row(i) /= is_still ? 1 : deviations[i];
+  }
+  // Columns of `rows` are orthogonal, so that its left inverse needs no solution.
+  const Vector<double> squares = rows.colwise().squaredNorm();
+  const Matrix<double> inside = squares.cwiseInverse().asDiagonal() * (rows.transpose() * others);
+  const double outside = (others - rows * inside).norm();
+  if (outside > 1e-6 * others.norm()) return infinite;
+  const Matrix<double> spread = inside.rightCols(distribution.rank());
+  const double between =
+      0.5 * (spread.squaredNorm() + inside.col(0).squaredNorm() -
+             static_cast<double>(gaussian.rank())) -
+      std::log(std::abs(Eigen::PartialPivLU<Matrix<double>>(spread).determinant()));
+  return std::max(0.0, between) + distribution.negentropy();
+}
+
+double largest_error_of_probability(double divergence) {
+  return std::min(1.0, std::sqrt(divergence / 2));
+}
+
+}  // namespace hamjet
