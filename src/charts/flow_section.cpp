@@ -5,22 +5,11 @@
 
 #include "../algebra/instantiated_real.hpp"
 #include "hamjet/algebra/elementary_functions.hpp"
-#include "hamjet/detail/dynamics/slice_evaluator.hpp"
 #include "hamjet/error.hpp"
+#include "series_energy.hpp"
 
 namespace hamjet {
 namespace {
-
-template <class Real>
-Series<Real> hamiltonian(const DynamicalSystem& system, const SixNumbers<Series<Real>>& state) {
-  const SpacePointer& space = state[0].space_pointer();
-  SliceEvaluator<Real, Real> h(system.hamiltonian, space, space->order());
-  for (std::size_t i = 0; i < 6; ++i) {
-    std::copy_n(state[i].coefficients().data(), space->size(), h.input(i));
-  }
-  h.evaluate_all();
-  return {space, std::vector<Real>(h.output(0), h.output(0) + space->size())};
-}
 
 template <class Real>
 SixNumbers<Series<Real>> constant_series(const SpacePointer& space, const SixNumbers<Real>& z) {
@@ -49,7 +38,7 @@ FlowSection<Real>::FlowSection(const ZonalGravity& field, ChartName chart,
   // The rate of the angle is the derivative of the energy by its momentum.
   SixNumbers<Series<Real>> z = constant_series(SeriesSpace::create(1, 1), chief_);
   z[3][1] = Real(1);
-  const Series<Real> energy = hamiltonian(*system_, chart_.state(z));
+  const Series<Real> energy = energy_series(*system_, chart_.state(z));
   energy_ = energy[0];
   rate_ = energy[1];
 }
@@ -92,7 +81,7 @@ SixNumbers<Series<Real>> FlowSection<Real>::states(const SpacePointer& space) co
   // Newton's method with the chief's derivative gains a degree an iteration; the last one takes
   // away what rounding has left.
   for (int i = 0; i <= space->order(); ++i) {
-    Series<Real> excess = hamiltonian(*system_, chart_.state(z)) - wanted;
+    Series<Real> excess = energy_series(*system_, chart_.state(z)) - wanted;
     excess[0] = Real(0);
     z[3] -= excess / rate_;
   }

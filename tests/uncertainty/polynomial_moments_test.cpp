@@ -346,7 +346,9 @@ TEST(PolynomialMoments, PinskersBoundHoldsOfTwoGaussians) {
     const double bound = largest_error_of_probability(divergence_from_gaussian(wide, narrow));
     EXPECT_GE(bound, difference) << s;
     // It is sharp to a factor: both are of the first order in s - 1.
-    if (s < 2) EXPECT_LE(bound, 2 * difference) << s;
+    if (s < 2) {
+      EXPECT_LE(bound, 2 * difference) << s;
+    }
   }
 }
 

@@ -1,0 +1,79 @@
+#include "hamjet/charts/flow_box_states.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "hamjet/integrators/explicit_runge_kutta.hpp"
+#include "hamjet/maps/map_evaluator.hpp"
+#include "orbits.hpp"
+
+namespace hamjet {
+namespace {
+
+/// By an explicit method, which shares no code with Gauss's or the sections.
+SixNumbers<double> flown_there(const ZonalGravity& field, const SixNumbers<double>& start,
+                               double time) {
+  FlowProblem<double> problem{
+      zonal_gravity(field), SeriesSpace::create(1, 0), {0}, {start.begin(), start.end()}, time};
+  IntegrationStatistics statistics;
+  const auto jet = integrate_fehlberg78<double>(problem, {.tolerance = 1e-14}, statistics);
+  SixNumbers<double> end;
+  for (std::size_t i = 0; i < 6; ++i) end[i] = jet[i][0];
+  return end;
+}
+
+/// v^2/2 - 1/r (1 - J2 (R/r)^2 P2(z/r) - J3 (R/r)^3 P3(z/r)).
+double energy_of(const ZonalGravity& field, const SixNumbers<double>& z) {
+  const double r = std::hypot(z[0], z[1], z[2]);
+  const double s = z[2] / r;
+  const double ratio = field.radius / r;
+  return (z[3] * z[3] + z[4] * z[4] + z[5] * z[5]) / 2 -
+         (1 - field.J[2] * ratio * ratio * (3 * s * s - 1) / 2 -
+          field.J[3] * ratio * ratio * ratio * (5 * s * s * s - 3 * s) / 2) /
+             r;
+}
+
+// What the coordinates mean: a deputy is flown to the end, and from there back by the time that the
+// series say; there the angle is the chief's, and the other coordinates differ as the series say.
+TEST(FlowBoxCoordinates, AreTimeSinceTheSectionPeriodAndTheSectionsCoordinates) {
+  for (const test::ChiefOrbit& orbit : test::bound_orbits()) {
+    const double time = 1.7 * orbit.period;
+    constexpr int order = 4;
+    GaussSettings settings;
+    settings.tolerance = 1e-13;
+    FlowBoxPropagation<double> propagation(orbit.field, section_chart(orbit.start, 1.0),
+                                           orbit.start, order, settings);
+    const FlowBoxMap<double> map = propagation.advance_to(time);
+    const auto series = flow_box_coordinates(orbit.field, map);
+    ASSERT_EQ(series.size(), 6u);
+    const MapEvaluator evaluator(series);
+    std::mt19937_64 generator(9);
+    for (const std::size_t half : {0u, 1u}) {
+      const SixNumbers<double> deviation =
+          test::random_deviation(generator, half == 0 ? 2e-4 : 1e-4);
+      std::array<double, 6> said{};
+      evaluator.evaluate(deviation, {.values = said, .last = {}, .last_but_one = {}});
+      SixNumbers<double> deputy = orbit.start;
+      for (std::size_t i = 0; i < 6; ++i) deputy[i] += deviation[i];
+      const FlowSection<double>& end = *map.end;
+      const SixNumbers<double> at_section =
+          flown_there(orbit.field, flown_there(orbit.field, deputy, time), -said[0]);
+      const SixNumbers<double> c = end.chart().coordinates(at_section);
+      EXPECT_NEAR(within_half_a_turn(c[0] - end.chief()[0]), 0, 1e-10);
+      const double energy = energy_of(orbit.field, deputy);
+      EXPECT_NEAR(said[1], end.variable_of(energy), 1e-10);
+      for (std::size_t k = 0; k < end.places().size(); ++k) {
+        EXPECT_NEAR(said[2 + k], c[end.places()[k]] - end.chief()[end.places()[k]], 1e-10);
+      }
+      if (end.ignored()) {
+        EXPECT_NEAR(within_half_a_turn(said[5] - c[*end.ignored()] + end.chief()[*end.ignored()]),
+                    0, 1e-10);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace hamjet
