@@ -111,6 +111,9 @@ Scene read_flow_jet(const TableReader& root) {
   const bool has_deputy = read_table(
       "deputy", [&](const auto& table) { scene.deputy = read_deputy(table, scene, nominal); });
   if (!has_deputy || root.is_misspelt("deputy")) return scene;
+  read_table("uncertainty", [&](const auto& table) {
+    scene.uncertainty = read_uncertainty(table, scene, nominal);
+  });
   const bool has_transfer = root.attempt([&] {
     if (!root.has("transfer")) return;
     // An assignment gives the ends itself.

@@ -213,6 +213,10 @@ ValiditySettings read_validity(const TableReader& validity, const Scene& scene,
 AssignmentSettings read_assignment(const TableReader& assignment, const Scene& scene,
                                    const Nominal& nominal);
 
+/// Table `[uncertainty]` of a scene whose table `[deputy]` has been read, if it has one.
+UncertaintySettings read_uncertainty(const TableReader& uncertainty, const Scene& scene,
+                                     const Nominal& nominal);
+
 /// Why the energy-conserving methods integrate no flow jet, for messages.
 inline constexpr std::string_view no_energy_conserving_jet =
     "the map of an energy-conserving method at a fixed physical time is not symplectic, because "

@@ -199,6 +199,15 @@ Covariance Covariance::of_standard_deviations(const Vector<double>& deviations) 
   return of_factor(std::move(factor));
 }
 
+Covariance Covariance::plus(const Covariance& other) const {
+  if (other.size() != size()) {
+    throw Error(ErrorKind::usage, "covariance: a sum of two of different sizes");
+  }
+  Matrix<double> factor(size(), rank() + other.rank());
+  factor << factor_, other.factor_;
+  return of_factor(std::move(factor));
+}
+
 Covariance Covariance::of_independent(const Covariance& first, const Covariance& second) {
   Matrix<double> factor =
       Matrix<double>::Zero(first.size() + second.size(), first.rank() + second.rank());

@@ -141,7 +141,7 @@ PrincipalAxes principal_axes(const Matrix<double>& factor) {
     if (lengths[i] > 0) rows.row(i) /= lengths[i];
   }
   // A factor of more columns than rows is turned to a square one first; one of fewer is filled up.
-  Matrix<double> basis = Matrix<double>::Identity(factor.cols(), factor.cols());
+  Matrix<double> basis;
   Matrix<double> square = Matrix<double>::Zero(m, m);
   if (factor.cols() > m) {
     const Eigen::HouseholderQR<Matrix<double>> qr(rows.transpose());
@@ -149,6 +149,7 @@ PrincipalAxes principal_axes(const Matrix<double>& factor) {
     square = basis.transpose() * rows.transpose();
     square.transposeInPlace();
   } else {
+    basis = Matrix<double>::Identity(factor.cols(), factor.cols());
     square.leftCols(factor.cols()) = rows;
   }
   const SingularValueDecomposition parts = decompose_by_singular_values(square);
@@ -231,14 +232,29 @@ Moments cumulants_of(Eigen::Index rank, const Matrix<double>& with_one,
 
 std::vector<Series<double>> in_standard_normals(const std::vector<Series<double>>& map,
                                                 const Covariance& covariance) {
+  return in_standard_normals(map, covariance, Vector<double>::Zero(covariance.size()));
+}
+
+std::vector<Series<double>> in_standard_normals(const std::vector<Series<double>>& map,
+                                                const Covariance& covariance,
+                                                const Vector<double>& mean) {
   if (map.empty()) throw Error(ErrorKind::usage, "moments: no polynomials");
   const SeriesSpace& outer = map.front().space();
-  if (covariance.size() != static_cast<Eigen::Index>(outer.variables())) {
+  if (covariance.size() != static_cast<Eigen::Index>(outer.variables()) ||
+      mean.size() != covariance.size()) {
     throw Error(ErrorKind::usage,
                 "moments: the covariance must have a row for each variable of the polynomials");
   }
   Matrix<double> factor = covariance.factor();
   if (factor.cols() == 0) factor = Matrix<double>::Zero(covariance.size(), 1);
+  // The mean is the factor of one more variable, whose value is 1: a polynomial of degree N in
+  // linear forms is one of degree N, so that nothing is cut off.
+  const bool is_moved = (mean.array() != 0).any();
+  const auto rank = static_cast<std::size_t>(factor.cols());
+  if (is_moved) {
+    factor.conservativeResize(Eigen::NoChange, factor.cols() + 1);
+    factor.rightCols(1) = mean;
+  }
   const SpacePointer space =
       SeriesSpace::create(static_cast<std::size_t>(factor.cols()), outer.order());
   std::vector<Series<double>> inner;
@@ -249,7 +265,16 @@ std::vector<Series<double>> in_standard_normals(const std::vector<Series<double>
       inner.back()[space->linear_index(static_cast<std::size_t>(k))] = factor(i, k);
     }
   }
-  return compose(map, inner);
+  std::vector<Series<double>> composed = compose(map, inner);
+  if (!is_moved) return composed;
+  const SpacePointer kept = SeriesSpace::create(rank, outer.order());
+  std::vector<Series<double>> result(map.size(), Series<double>(kept));
+  // From the highest degree down, so that small terms are not lost.
+  for (std::size_t k = space->size(); k-- > 0;) {
+    const std::size_t place = kept->index(space->exponents(k).first(rank));
+    for (std::size_t c = 0; c < map.size(); ++c) result[c][place] += composed[c][k];
+  }
+  return result;
 }
 
 Cumulants Cumulants::turned(const Vector<double>& mean, const Matrix<double>& factor,

@@ -14,6 +14,7 @@
 #include "hamjet/detail/studies/self_check_settings.hpp"
 #include "hamjet/detail/studies/system_settings.hpp"
 #include "hamjet/detail/studies/transfer_settings.hpp"
+#include "hamjet/detail/studies/uncertainty_settings.hpp"
 #include "hamjet/dynamics/dynamical_system.hpp"
 
 namespace hamjet {
@@ -128,6 +129,7 @@ struct Scene {
   std::optional<TransferSettings> transfer;
   std::optional<ValiditySettings> validity;
   std::optional<AssignmentSettings> assignment;
+  std::optional<UncertaintySettings> uncertainty;
   OutputSettings output;
   std::optional<EphemerisSettings> ephemeris;
   std::optional<NominalFile> nominal_file;  ///< absent: the scene has the numbers itself

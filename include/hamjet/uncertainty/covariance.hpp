@@ -39,6 +39,9 @@ class Covariance {
   static std::optional<std::string> fault_of(const Matrix<double>& matrix,
                                              const std::array<std::string_view, 6>& names);
 
+  /// Of six numbers that are known exactly.
+  Covariance() : factor_(6, 0) {}
+
   Eigen::Index size() const { return factor_.rows(); }
   /// The number of independent directions: the columns of the factor.
   Eigen::Index rank() const { return factor_.cols(); }
@@ -55,12 +58,12 @@ class Covariance {
 
   /// The covariance of A x, whose factor is A L. A has `size` columns.
   Covariance mapped(const Matrix<double>& map) const { return of_factor(map * factor_); }
+  /// The covariance of the sum of two independent vectors of one size.
+  Covariance plus(const Covariance& other) const;
   /// The covariance of two independent vectors, one below the other.
   static Covariance of_independent(const Covariance& first, const Covariance& second);
 
  private:
-  Covariance() = default;
-
   Matrix<double> factor_;
   double taken_as_zero_ = 0;
 };

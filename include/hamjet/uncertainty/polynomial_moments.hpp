@@ -16,6 +16,12 @@ namespace hamjet {
 std::vector<Series<double>> in_standard_normals(const std::vector<Series<double>>& map,
                                                 const Covariance& covariance);
 
+/// The same of variables of another mean: y(mean + L w), exactly; the polynomials have as many
+/// terms as before.
+std::vector<Series<double>> in_standard_normals(const std::vector<Series<double>>& map,
+                                                const Covariance& covariance,
+                                                const Vector<double>& mean);
+
 /// Mean, covariance, third and fourth cumulants of a random vector y of m components, kept as
 ///
 ///   y = mean + axes w ,   E[w] = 0 ,   E[w w^T] = 1 ,

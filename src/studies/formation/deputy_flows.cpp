@@ -7,6 +7,7 @@
 
 #include "../descriptions/method_description.hpp"
 #include "hamjet/charts/charted_map.hpp"
+#include "hamjet/charts/flow_box_states.hpp"
 #include "hamjet/error.hpp"
 
 namespace hamjet {
@@ -73,10 +74,12 @@ DeputyFlowPropagation::DeputyFlowPropagation(const Scene& scene, const ComputedP
 std::unique_ptr<DeputyFlow> DeputyFlowPropagation::advance_to(double time) {
   const std::string when = fmt::format("after {:.6g} s", time * time_s_);
   if (boxes_) {
-    return in_coordinates(coordinates_, when,
-                          [&] { return flow_box_deputy_flow(field_, boxes_->advance_to(time)); });
+    return in_coordinates(coordinates_, when, [&] {
+      last_box_ = boxes_->advance_to(time);
+      return flow_box_deputy_flow(field_, *last_box_);
+    });
   }
-  const FlowMap<double> jet(jets_->advance_to(time));
+  const FlowMap<double>& jet = last_jet_.emplace(jets_->advance_to(time));
   if (coordinates_ == JetCoordinates::cartesian) return cartesian_deputy_flow(jet);
   SixNumbers<double> end;
   for (std::size_t i = 0; i < end.size(); ++i) end[i] = jet.jet()[i][0];
@@ -85,6 +88,22 @@ std::unique_ptr<DeputyFlow> DeputyFlowPropagation::advance_to(double time) {
     const CanonicalChart<double> last(chart_of(coordinates_), end, canonical_mu);
     return charted_deputy_flow(first, start_, last, end, in_charts(jet, first, start_, last));
   });
+}
+
+std::vector<Series<double>> DeputyFlowPropagation::end_coordinates() const {
+  if (last_box_) return flow_box_coordinates(field_, *last_box_);
+  const std::vector<Series<double>>& z = last_jet_->jet();
+  if (coordinates_ == JetCoordinates::cartesian) return without_constants(z);
+  SixNumbers<double> end;
+  for (std::size_t i = 0; i < end.size(); ++i) end[i] = z[i][0];
+  const auto coordinates = CanonicalChart<double>(chart_of(coordinates_), end, canonical_mu)
+                               .coordinates({z[0], z[1], z[2], z[3], z[4], z[5]});
+  return without_constants(std::vector<Series<double>>(coordinates.begin(), coordinates.end()));
+}
+
+std::array<std::string, 6> DeputyFlowPropagation::end_coordinate_names() const {
+  return last_box_ ? flow_box_coordinate_names(*last_box_->end)
+                   : coordinate_names(chart_of(coordinates_));
 }
 
 const IntegrationStatistics& DeputyFlowPropagation::statistics() const {

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "../jets_along_time.hpp"
 #include "hamjet/charts/deputy_flow.hpp"
@@ -31,6 +33,12 @@ class DeputyFlowPropagation {
   /// the constructor for the coordinates at the end.
   std::unique_ptr<DeputyFlow> advance_to(double time);
 
+  /// The coordinates at the last time as series in the initial deviations, less the chief's: those
+  /// of the chart, or of flow boxes (flow_box_coordinates).
+  std::vector<Series<double>> end_coordinates() const;
+  /// Their names.
+  std::array<std::string, 6> end_coordinate_names() const;
+
   JetCoordinates coordinates() const noexcept { return coordinates_; }
   /// Summed over the integrations.
   const IntegrationStatistics& statistics() const;
@@ -42,6 +50,8 @@ class DeputyFlowPropagation {
   double time_s_;                       ///< the canonical unit, for messages
   std::optional<JetPropagation> jets_;  ///< unless of flow boxes
   std::optional<FlowBoxPropagation<double>> boxes_;
+  std::optional<FlowMap<double>> last_jet_;     ///< unless of flow boxes
+  std::optional<FlowBoxMap<double>> last_box_;  ///< of flow boxes
 };
 
 /// The chart that coordinates other than flow boxes are of.

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hamjet/relative_motion/chief_frame.hpp"
+#include "hamjet/uncertainty/covariance.hpp"
+
+namespace hamjet {
+
+/// How well a spacecraft's state at the start is known.
+struct StateUncertainty {
+  RelativeFrame frame = RelativeFrame::rtn_inertial;  ///< of its own orbit
+  Covariance covariance;                              ///< metres and metres a second
+};
+
+/// Execution errors of a velocity change that ends where the scene starts, after Gates: its size is
+/// wrong by a share of it, and it points wrong about both axes across it, all independent. Source:
+/// C. R. Gates, A Simplified Model of Midcourse Maneuver Execution Errors, JPL Technical Report
+/// 32-504 (1963), of which these are the parts proportional to the change.
+struct BurnUncertainty {
+  RelativeFrame frame = RelativeFrame::rtn_inertial;
+  Eigen::Vector3d velocity_change_m_s = Eigen::Vector3d::Zero();
+  double magnitude = 0;      ///< standard deviation of the size, as a share of it
+  double direction_deg = 0;  ///< standard deviation about each axis across
+
+  /// Of position and velocity in the frame, to first order in the errors:
+  /// (m^2 - d^2) v v^T + d^2 |v|^2 1 with m the share and d the angle.
+  Covariance covariance() const;
+};
+
+/// Table `[uncertainty]`.
+struct UncertaintySettings {
+  RelativeFrame frame = RelativeFrame::rtn_inertial;  ///< of the results, at the chief
+  std::optional<StateUncertainty> chief;              ///< absent: known exactly
+  std::optional<StateUncertainty> deputy;
+  std::optional<BurnUncertainty> burn;    ///< of the deputy, or of the chief of a scene without one
+  std::vector<double> times;              ///< canonical, moving away from 0; none is 0
+  double acceleration_density_m2_s3 = 0;  ///< of each axis, of white noise; 0: none
+  int samples = 2000;                     ///< flown with the full equations; 0: none
+  std::uint64_t seed = 1;
+};
+
+}  // namespace hamjet

@@ -1,0 +1,239 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "../text/scene_message.hpp"
+#include "hamjet/error.hpp"
+#include "scene_relative_motion.hpp"
+
+namespace hamjet::io {
+namespace {
+
+constexpr int most_flown_samples = 10000000;
+constexpr double largest_seed = 1e15;
+
+/// Of covariances velocities are differences of inertial ones unless they say otherwise, as in
+/// CCSDS messages.
+RelativeFrame read_covariance_frame(const TableReader& table, const TableReader& fallback) {
+  const RelativeFrame frame = read_relative_frame(table, fallback);
+  const bool says_derivatives = table.has("derivatives") || fallback.has("derivatives");
+  return frame == RelativeFrame::rtn_rotating && !says_derivatives ? RelativeFrame::rtn_inertial
+                                                                   : frame;
+}
+
+std::vector<SceneKey> covariance_frame_keys(const Absence& frame) {
+  std::vector<SceneKey> keys = relative_frame_keys(frame);
+  for (SceneKey& key : keys) {
+    if (key.name != "derivatives") continue;
+    key.absence = absent::other("`\"inertial\"`, as in CCSDS messages");
+  }
+  return keys;
+}
+
+const auto deviations_form = [] {
+  return form::words("array of 3, each 0 or above", form::array(form::number(), 3));
+};
+
+/// The keys of read_state_uncertainty.
+std::vector<SceneKey> state_uncertainty_keys() {
+  return {{"position_m", deviations_form(), absent::other("0, or another form of the covariance"),
+           "standard deviations along the axes of the frame"},
+          {"velocity_m_s", deviations_form(), absent::other("0, or another form of the covariance"),
+           "standard deviations along the axes of the frame"},
+          {"covariance_m_m_s", form::words("6 rows of 6 numbers, symmetric, positive semidefinite"),
+           absent::other("another form of the covariance"),
+           "of position and velocity along the axes of the frame: m^2, m^2/s, m^2/s^2"}};
+}
+
+const TableDescription& deputy_uncertainty_table() {
+  static const TableDescription table = {
+      joined<SceneKey>(
+          {covariance_frame_keys(absent::other("of `[uncertainty]`")), state_uncertainty_keys()}),
+      "How well the deputy's state at the start is known, independently of the chief's; RTN is of "
+      "its own orbit."};
+  return table;
+}
+
+const TableDescription& burn_table() {
+  static const TableDescription table = {
+      joined<SceneKey>({covariance_frame_keys(absent::other("of `[uncertainty]`")),
+                        {{"velocity_change_m_s", form::array(form::number(), 3), absent::refused(),
+                          "of the burn that ends at the start, whose state is the one after it"},
+                         {"magnitude", form::between(0, 1), absent::other("0"),
+                          "standard deviation of its size, as a share of it"},
+                         {"direction_deg", form::between(0, 90), absent::other("0"),
+                          "standard deviation about each of the two axes across it"}}}),
+      "Execution errors, after Gates, of the deputy's burn, or of the chief's in a scene without "
+      "one; linear in the errors."};
+  return table;
+}
+
+std::vector<double> read_deviations(const TableReader& table, std::string_view key, double limit,
+                                    std::string_view what) {
+  std::vector<double> deviations = table.numbers(key, 3);
+  for (std::size_t i = 0; i < deviations.size(); ++i) {
+    if (deviations[i] >= 0 && deviations[i] < limit) continue;
+    table.fail_element(key, i,
+                       fmt::format("no standard deviation, got {}, must be from 0 to below {:.4g}, "
+                                   "{}",
+                                   deviations[i], limit, what));
+  }
+  return deviations;
+}
+
+/// Above these an expansion about the chief says nothing, and a unit is most likely wrong.
+struct Limits {
+  double position_m = 0;
+  double velocity_m_s = 0;
+};
+constexpr std::string_view of_position = "the chief's distance from the centre";
+constexpr std::string_view of_velocity = "the speed of a circular orbit through the chief";
+
+Limits limits_of(const Nominal& nominal) {
+  const CanonicalUnits units = canonical_units(nominal.scale);
+  const double distance = Eigen::Vector3d(nominal.state.data()).norm();
+  const double length_m = units.length_km * 1000;
+  return {distance * length_m, length_m / units.time_s / std::sqrt(distance)};
+}
+
+Covariance read_covariance(const TableReader& table, const Limits& limits, RelativeFrame frame) {
+  constexpr std::string_view key = "covariance_m_m_s";
+  const std::vector<double> entries = table.square_matrix(key, 6);
+  const Matrix<double> matrix =
+      Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(entries.data());
+  const auto names = component_names(frame);
+  if (const auto fault = Covariance::fault_of(matrix, names)) table.fail(key, *fault);
+  for (Eigen::Index i = 0; i < 6; ++i) {
+    const double deviation = std::sqrt(matrix(i, i));
+    const double limit = i < 3 ? limits.position_m : limits.velocity_m_s;
+    if (deviation < limit) continue;
+    table.fail_element(
+        key, static_cast<std::size_t>(i),
+        fmt::format("too large, got a standard deviation of {:.4g} {} of {}, must be "
+                    "below {:.4g}, {}; variances are in m^2 and m^2/s^2",
+                    deviation, i < 3 ? "m" : "m/s", names[static_cast<std::size_t>(i)], limit,
+                    i < 3 ? of_position : of_velocity));
+  }
+  return Covariance(matrix, names);
+}
+
+/// Whether a table has a covariance in one of the forms.
+bool has_covariance(const TableReader& table) {
+  const auto keys = state_uncertainty_keys();
+  return std::any_of(keys.begin(), keys.end(),
+                     [&](const SceneKey& key) { return table.has(key.name); });
+}
+
+StateUncertainty read_state_uncertainty(const TableReader& table, const TableReader& fallback,
+                                        const Nominal& nominal) {
+  StateUncertainty state;
+  state.frame = read_covariance_frame(table, fallback);
+  const Limits limits = limits_of(nominal);
+  const bool has_deviations = table.has("position_m") || table.has("velocity_m_s");
+  if (table.has("covariance_m_m_s")) {
+    if (has_deviations) {
+      table.fail(table.has("position_m") ? "position_m" : "velocity_m_s",
+                 "standard deviations beside a covariance, got both, must be one of them");
+    }
+    state.covariance = read_covariance(table, limits, state.frame);
+    return state;
+  }
+  if (!has_deviations) {
+    table.fail("position_m",
+               "missing, must be an array of 3 standard deviations, as may velocity_m_s be, or "
+               "covariance_m_m_s must be there");
+  }
+  Vector<double> deviations = Vector<double>::Zero(6);
+  const auto read = [&](std::string_view key, double limit, std::string_view what,
+                        Eigen::Index place) {
+    if (!table.has(key)) return;
+    for (const double deviation : read_deviations(table, key, limit, what)) {
+      deviations[place++] = deviation;
+    }
+  };
+  read("position_m", limits.position_m, of_position, 0);
+  read("velocity_m_s", limits.velocity_m_s, of_velocity, 3);
+  state.covariance = Covariance::of_standard_deviations(deviations);
+  return state;
+}
+
+BurnUncertainty read_burn(const TableReader& burn, const TableReader& fallback,
+                          const Nominal& nominal) {
+  burn.check_keys();
+  BurnUncertainty settings;
+  settings.frame = read_covariance_frame(burn, fallback);
+  const std::vector<double> change = burn.numbers("velocity_change_m_s", 3);
+  settings.velocity_change_m_s = {change[0], change[1], change[2]};
+  const double limit = limits_of(nominal).velocity_m_s;
+  if (!(settings.velocity_change_m_s.stableNorm() < limit)) {
+    burn.fail("velocity_change_m_s",
+              fmt::format("too large, got a magnitude of {:.4g}, must be below {:.4g}, {}",
+                          settings.velocity_change_m_s.stableNorm(), limit, of_velocity));
+  }
+  burn.read_if_any("magnitude", settings.magnitude);
+  burn.read_if_any("direction_deg", settings.direction_deg);
+  if (settings.magnitude == 0 && settings.direction_deg == 0) {
+    burn.fail("magnitude",
+              "no error of the burn, got neither magnitude nor direction_deg above 0, "
+              "must be one of them");
+  }
+  return settings;
+}
+
+}  // namespace
+
+const TableDescription& uncertainty_table() {
+  static const UncertaintySettings preset;
+  static const TableDescription table = {
+      joined<SceneKey>(
+          {covariance_frame_keys(absent::value("RTN")),
+           state_uncertainty_keys(),
+           {{"deputy", form::table(deputy_uncertainty_table()), absent::other("known exactly"),
+             "of a scene with a deputy"},
+            {"burn", form::table(burn_table()), absent::other("none"), "errors of a burn"},
+            {"acceleration_density_m2_s3", form::between(0, 1e6),
+             absent::value(preset.acceleration_density_m2_s3),
+             "power spectral density of white noise of the acceleration along each axis; its part "
+             "of the covariance is linear"}},
+           transfer_time_keys(absent::other("the end")),
+           {{"samples", form::integer(0, most_flown_samples), absent::value(preset.samples),
+             "flown with the full equations beside the moments; 0: none"},
+            {"seed", form::integer(0, largest_seed), absent::value(preset.seed),
+             "of the samples"}}}),
+      "How well the chief's state at the start is known; RTN is of its own orbit. The frame is "
+      "that "
+      "of the results too, at the chief."};
+  return table;
+}
+
+UncertaintySettings read_uncertainty(const TableReader& uncertainty, const Scene& scene,
+                                     const Nominal& nominal) {
+  uncertainty.check_keys();
+  require_relative_motion(uncertainty, scene);
+  UncertaintySettings settings;
+  settings.frame = read_covariance_frame(uncertainty, uncertainty);
+  if (uncertainty.has("deputy")) {
+    const TableReader deputy = uncertainty.table("deputy");
+    deputy.check_keys();
+    if (!scene.deputy) {
+      deputy.fail("", "of a scene without a deputy, got no table [deputy], must have one");
+    }
+    settings.deputy = read_state_uncertainty(deputy, uncertainty, nominal);
+  }
+  if (uncertainty.has("burn")) {
+    settings.burn = read_burn(uncertainty.table("burn"), uncertainty, nominal);
+  }
+  if (has_covariance(uncertainty) || (!settings.deputy && !settings.burn)) {
+    settings.chief = read_state_uncertainty(uncertainty, uncertainty, nominal);
+  }
+  settings.times = read_transfer_times(uncertainty, scene, nominal, 1);
+  uncertainty.read_if_any("acceleration_density_m2_s3", settings.acceleration_density_m2_s3);
+  uncertainty.read_if_any("samples", settings.samples);
+  uncertainty.read_if_any("seed", settings.seed);
+  return settings;
+}
+
+}  // namespace hamjet::io

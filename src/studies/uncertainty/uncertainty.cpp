@@ -1,0 +1,368 @@
+#include "uncertainty.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include "../../algebra/singular_values.hpp"
+#include "../../integrators/taylor_flow.hpp"
+#include "../formation/deputy_flows.hpp"
+#include "../formation/formation_problem.hpp"
+#include "../formation/single_transfer.hpp"
+#include "../nominal_period.hpp"
+#include "../stopwatch.hpp"
+#include "hamjet/algebra/composition.hpp"
+#include "hamjet/error.hpp"
+#include "hamjet/studies/validity.hpp"
+#include "process_noise.hpp"
+#include "quadrature.hpp"
+#include "standard_normals.hpp"
+
+namespace hamjet {
+namespace {
+
+/// Nodes of the quadrature through curved coordinates: most along what the flow stretches most.
+const std::vector<int> finer_nodes = {15, 7, 5, 3, 3, 3};
+const std::vector<int> coarser_nodes = {11, 5, 3, 3, 3, 3};
+
+/// One spacecraft's distribution at the start.
+struct InitialState {
+  std::string name;
+  Vector<double> mean;    ///< canonical deviation from the chief's nominal
+  Covariance covariance;  ///< of canonical deviations
+};
+
+Vector<double> as_vector(const std::vector<double>& numbers) {
+  return Eigen::Map<const Vector<double>>(numbers.data(),
+                                          static_cast<Eigen::Index>(numbers.size()));
+}
+
+/// A covariance along axes of the spacecraft's own orbit as one of canonical deviations.
+Covariance canonical_covariance(const Covariance& covariance, RelativeFrame frame,
+                                const Vector<double>& state, const MetricUnits& units) {
+  const ChiefFrame own(std::span(state.data(), 6), units, frame);
+  return covariance.mapped(deviations_of_relative_states(own));
+}
+
+std::vector<InitialState> initial_states(const Scene& scene) {
+  const UncertaintySettings& settings = *scene.uncertainty;
+  const MetricUnits units = metric_units(scene);
+  const Vector<double> chief = as_vector(scene.nominal);
+  std::vector<InitialState> result;
+  if (settings.chief || !scene.deputy) result.push_back({"chief", Vector<double>::Zero(6), {}});
+  if (settings.chief) {
+    result.back().covariance =
+        canonical_covariance(settings.chief->covariance, settings.chief->frame, chief, units);
+  }
+  if (scene.deputy) {
+    const std::vector<double> deviation =
+        ChiefFrame(scene.nominal, units, scene.deputy->frame).deviation(scene.deputy->start);
+    result.push_back({"deputy", as_vector(deviation), {}});
+    if (settings.deputy) {
+      result.back().covariance = canonical_covariance(
+          settings.deputy->covariance, settings.deputy->frame, chief + result.back().mean, units);
+    }
+  }
+  if (settings.burn) {
+    InitialState& burning = result.back();
+    burning.covariance = burning.covariance.plus(canonical_covariance(
+        settings.burn->covariance(), settings.burn->frame, chief + burning.mean, units));
+  }
+  return result;
+}
+
+/// States that are flown side by side, columns; the first is the chief's nominal.
+class Flights {
+ public:
+  Flights(const SharedSystem& system, const Scene& scene, const InitialState& start, int samples,
+          StandardNormals& normals)
+      : flow_(system), samples_(static_cast<std::size_t>(samples)) {
+    const Matrix<double>& factor = start.covariance.factor();
+    states_.reserve(6 * (samples_ + 1));
+    states_.assign(scene.nominal.begin(), scene.nominal.end());
+    Vector<double> numbers(factor.cols());
+    for (std::size_t k = 0; k < samples_; ++k) {
+      for (double& number : numbers) number = normals();
+      const Vector<double> deviation = start.mean + factor * numbers;
+      for (std::size_t i = 0; i < 6; ++i) {
+        states_.push_back(scene.nominal[i] + deviation[static_cast<Eigen::Index>(i)]);
+      }
+    }
+  }
+
+  void advance_to(double time, const ProgressCallback& progress) {
+    constexpr std::size_t at_once = TaylorFlow::lanes;
+    const std::vector<double> times(at_once, time - time_);
+    for (std::size_t k = 0; k <= samples_; k += at_once) {
+      if (progress && k % 4096 == 0)
+        progress("flights", static_cast<double>(k) / static_cast<double>(samples_ + 1));
+      const std::size_t count = std::min(at_once, samples_ + 1 - k);
+      flow_.advance(std::span(states_).subspan(6 * k, 6 * count), std::span(times).first(count));
+    }
+    time_ = time;
+  }
+
+  /// Canonical deviations from the chief's nominal.
+  Matrix<double> deviations() const {
+    const Eigen::Map<const Matrix<double>> states(states_.data(), 6,
+                                                  static_cast<Eigen::Index>(samples_ + 1));
+    return states.rightCols(static_cast<Eigen::Index>(samples_)).colwise() -
+           Vector<double>(states.col(0));
+  }
+
+ private:
+  TaylorFlow flow_;
+  std::size_t samples_;
+  std::vector<double> states_;
+  double time_ = 0;
+};
+
+/// The same polynomials in standard normal variables that are turned so that the first is the one
+/// that the linear flow stretches most.
+Matrix<double> stretched_factor(const Covariance& covariance, const Matrix<double>& linear) {
+  Matrix<double> square = Matrix<double>::Zero(6, 6);
+  const Matrix<double> stretched = linear * covariance.factor();
+  if (stretched.cols() > 6) {
+    const Cumulants whole(Vector<double>::Zero(6), covariance);
+    return stretched_factor(Covariance::of_factor(whole.axes()), linear);
+  }
+  square.leftCols(stretched.cols()) = stretched;
+  const SingularValueDecomposition parts = decompose_by_singular_values(square);
+  return covariance.factor() * parts.right.topLeftCorner(stretched.cols(), stretched.cols());
+}
+
+/// The distribution that a flow's polynomials up to a degree give, at the nodes of a quadrature;
+/// none where one of them has no place in the coordinates.
+std::optional<Cumulants> moments_through(const DeputyFlow& flow, int degree,
+                                         const InitialState& start, const Matrix<double>& factor,
+                                         const std::vector<int>& nodes) {
+  const std::vector<int> of_factor(nodes.begin(), nodes.begin() + factor.cols());
+  const NormalQuadrature rule = product_quadrature(of_factor);
+  const auto count = static_cast<std::size_t>(rule.weights.size());
+  const Matrix<double> initial = (factor * rule.points).colwise() + start.mean;
+  std::vector<SixNumbers<double>> deviations(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    std::copy_n(initial.col(static_cast<Eigen::Index>(k)).data(), 6, deviations[k].begin());
+  }
+  std::vector<DeputyPrediction> predictions(count);
+  flow.predict(deviations, degree, predictions);
+  Matrix<double> points(6, static_cast<Eigen::Index>(count));
+  for (std::size_t k = 0; k < count; ++k) {
+    for (std::size_t i = 0; i < 6; ++i) {
+      points(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) =
+          predictions[k].deviation[i];
+    }
+  }
+  if (!points.allFinite()) return std::nullopt;
+  return Cumulants::of_points(points, rule.weights);
+}
+
+double difference_of(const Cumulants& one, const Cumulants& other) {
+  const Vector<double> s = one.standard_deviations();
+  const auto worst = [](const Vector<double>& v) { return v.size() ? v.cwiseAbs().maxCoeff() : 0; };
+  double result = std::max(worst(one.skewness() - other.skewness()),
+                           worst(one.excess_kurtosis() - other.excess_kurtosis()));
+  for (Eigen::Index i = 0; i < s.size(); ++i) {
+    if (s[i] > 0) result = std::max(result, std::abs(other.standard_deviations()[i] / s[i] - 1));
+  }
+  return result;
+}
+
+std::vector<Cumulants> by_orders(const std::vector<Series<double>>& map, const InitialState& start,
+                                 int order) {
+  const bool is_moved = (start.mean.array() != 0).any();
+  std::vector<Cumulants> result;
+  std::vector<Series<double>> whole;
+  if (!is_moved) whole = in_standard_normals(map, start.covariance);
+  for (int n = 1; n <= order; ++n) {
+    if (is_moved) {
+      // A lower order leaves terms out before the mean is put in.
+      const SpacePointer space = SeriesSpace::create(map[0].space().variables(), n);
+      std::vector<Series<double>> lower;
+      for (const Series<double>& component : map) {
+        const auto kept = component.coefficients().first(space->size());
+        lower.emplace_back(space, std::vector<double>(kept.begin(), kept.end()));
+      }
+      result.push_back(
+          Cumulants::of_polynomials(in_standard_normals(lower, start.covariance, start.mean)));
+    } else {
+      result.push_back(Cumulants::of_polynomials(whole, n));
+    }
+  }
+  return result;
+}
+
+void map_all(std::vector<Cumulants>& all, const Matrix<double>& map) {
+  for (Cumulants& one : all) one = one.mapped(map);
+}
+
+void add_noise(std::vector<Cumulants>& all, const Cumulants& noise) {
+  for (Cumulants& one : all) one = Cumulants::of_sum(one, noise);
+}
+
+/// Adds to every column what the noise of the acceleration adds at one time.
+void add_noise(Matrix<double>& deviations, const Covariance& noise, StandardNormals& normals) {
+  const Cumulants reduced(Vector<double>::Zero(6), noise);
+  for (Eigen::Index k = 0; k < deviations.cols(); ++k) {
+    for (Eigen::Index i = 0; i < reduced.rank(); ++i) {
+      deviations.col(k) += normals() * reduced.axes().col(i);
+    }
+  }
+}
+
+/// The moments at one time, of canonical deviations; `flow` and `coordinates` are those of the
+/// scene's other coordinates, if it has such.
+UncertainState moments_of(const InitialState& start, const FlowJet<double>& jet,
+                          const DeputyFlow* flow, const std::vector<Series<double>>& coordinates,
+                          const std::optional<Covariance>& noise) {
+  const int order = jet[0].order();
+  UncertainState state;
+  state.name = start.name;
+  state.cartesian = by_orders(without_constants(jet), start, order);
+  if (flow) {
+    state.charted = by_orders(coordinates, start, order);
+    const Matrix<double> factor = stretched_factor(start.covariance, linear_part(jet));
+    for (int n = 1; n <= order && factor.cols() > 0; ++n) {
+      const auto fine = moments_through(*flow, n, start, factor, finer_nodes);
+      const auto coarse = moments_through(*flow, n, start, factor, coarser_nodes);
+      if (!fine || !coarse) {
+        state.through.clear();
+        break;
+      }
+      state.through.push_back(*fine);
+      state.through_doubt = std::max(state.through_doubt, difference_of(*fine, *coarse));
+    }
+  }
+  if (noise) {
+    const Cumulants added(Vector<double>::Zero(6), *noise);
+    add_noise(state.cartesian, added);
+    add_noise(state.through, added);
+    if (flow) {
+      // From states at the end to coordinates there: both as linear maps of the start's deviations.
+      const Matrix<double> by_state =
+          linear_part(coordinates) *
+          Eigen::PartialPivLU<Matrix<double>>(linear_part(jet)).inverse();
+      add_noise(state.charted, added.mapped(by_state));
+    }
+  }
+  return state;
+}
+
+/// The deputy less the chief, independent of each other.
+UncertainState difference(const UncertainState& deputy, const UncertainState& chief) {
+  UncertainState result;
+  result.name = "relative";
+  const Matrix<double> minus = -Matrix<double>::Identity(6, 6);
+  const auto subtract = [&](const std::vector<Cumulants>& from,
+                            const std::vector<Cumulants>& what) {
+    std::vector<Cumulants> all;
+    for (std::size_t i = 0; i < std::min(from.size(), what.size()); ++i) {
+      all.push_back(Cumulants::of_sum(from[i], what[i].mapped(minus)));
+    }
+    return all;
+  };
+  result.cartesian = subtract(deputy.cartesian, chief.cartesian);
+  result.through = subtract(deputy.through, chief.through);
+  result.through_doubt = std::max(deputy.through_doubt, chief.through_doubt);
+  result.charted = subtract(deputy.charted, chief.charted);
+  if (deputy.flown && chief.flown) {
+    result.flown_states = deputy.flown_states - chief.flown_states;
+    result.flown = flown_moments(result.flown_states);
+  }
+  return result;
+}
+
+}  // namespace
+
+double divergence_from_linear(const std::vector<Cumulants>& by_order) {
+  return divergence_from_gaussian(by_order.back(), by_order.front());
+}
+
+UncertaintyResult study_uncertainty(const Scene& scene, const ProgressCallback& progress) {
+  require_formation_problem(scene, scene.uncertainty.has_value(), "uncertainty");
+  const UncertaintySettings& settings = *scene.uncertainty;
+  UncertaintyResult result;
+  result.scene = scene;
+  const MetricUnits units = metric_units(scene);
+  const std::vector<InitialState> starts = initial_states(scene);
+  const ComputedProblem problem = make_problem(scene, available_memory());
+  const IntegratorSettings& integrator = symplectic_integrator(scene);
+  result.integrator = integrator.label;
+  result.coordinates = measured_coordinates_of(scene);
+  const bool is_charted = result.coordinates != JetCoordinates::cartesian;
+  JetPropagation jets(problem, integrator);
+  std::optional<DeputyFlowPropagation> charts;
+  if (is_charted) charts.emplace(scene, problem, integrator, result.coordinates);
+  ComputedProblem linear = problem;
+  linear.space = SeriesSpace::create(problem.variables.size(), 1);
+  std::optional<ProcessNoise> noise;
+  if (settings.acceleration_density_m2_s3 > 0) {
+    const double density = settings.acceleration_density_m2_s3 * std::pow(units.time_s, 3) /
+                           (units.length_m * units.length_m);
+    noise.emplace(linear, integrator, density,
+                  nominal_period(scene).value_or(2 * std::numbers::pi));
+  }
+  StandardNormals normals(settings.seed);
+  std::vector<Flights> flights;
+  for (const InitialState& start : starts) {
+    if (settings.samples < 2) break;
+    flights.emplace_back(problem.system, scene, start, settings.samples, normals);
+  }
+
+  for (std::size_t t = 0; t < settings.times.size(); ++t) {
+    const double time = settings.times[t];
+    if (progress) {
+      progress("moments", static_cast<double>(t) / static_cast<double>(settings.times.size()));
+    }
+    UncertaintyAt at{time, {}, {}};
+    const FlowJet<double> jet = jets.advance_to(time);
+    std::unique_ptr<DeputyFlow> flow;
+    std::vector<Series<double>> coordinates;
+    if (charts) {
+      flow = charts->advance_to(time);
+      coordinates = charts->end_coordinates();
+      at.charted_names = charts->end_coordinate_names();
+    }
+    std::vector<double> chief;
+    for (const Series<double>& component : jet) chief.push_back(component[0]);
+    const Matrix<double> to_frame =
+        relative_states_of_deviations(ChiefFrame(chief, units, settings.frame));
+    std::optional<Covariance> added;
+    if (noise) added = noise->at(time);
+    for (std::size_t s = 0; s < starts.size(); ++s) {
+      UncertainState state;
+      {
+        const Stopwatch watch(result.moments_seconds);
+        state = moments_of(starts[s], jet, flow.get(), coordinates, added);
+        map_all(state.cartesian, to_frame);
+        map_all(state.through, to_frame);
+      }
+      if (s < flights.size()) {
+        const Stopwatch watch(result.flight_seconds);
+        flights[s].advance_to(time, progress);
+        state.flown_states = flights[s].deviations();
+        if (added) add_noise(state.flown_states, *added, normals);
+        state.flown_states = to_frame * state.flown_states;
+        if (!state.flown_states.allFinite()) {
+          throw Error(ErrorKind::numerical,
+                      fmt::format("uncertainty: a sample of the {} flew into the centre before "
+                                  "{:.6g} s; the covariance is too large for its orbit",
+                                  state.name, time * units.time_s));
+        }
+        state.flown = flown_moments(state.flown_states);
+      }
+      at.states.push_back(std::move(state));
+    }
+    if (at.states.size() == 2) at.states.push_back(difference(at.states[1], at.states[0]));
+    result.points.push_back(std::move(at));
+  }
+  result.propagation_seconds =
+      jets.statistics().wall_seconds + (charts ? charts->statistics().wall_seconds : 0);
+  return result;
+}
+
+}  // namespace hamjet

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hamjet/detail/studies/progress.hpp"
+#include "hamjet/studies/scene.hpp"
+#include "hamjet/uncertainty/polynomial_moments.hpp"
+
+namespace hamjet {
+
+/// Moments of states that were flown, with the standard deviations that they scatter by, of a
+/// sample of this size, to first order in 1/sqrt(count) and with the sample's own moments up to the
+/// eighth: with z = (y - mean)/s, g the skewness and b the kurtosis,
+///
+///   mean s/sqrt(n);  s: s sqrt(b - 1)/(2 sqrt(n));  g: that of z^3 - 3 z - 3/2 g (z^2 - 1);
+///   b: that of z^4 - 4 g z - 2 b (z^2 - 1)
+///
+/// (the influence functions of the moments).
+struct FlownMoments {
+  Cumulants cumulants;
+  int count = 0;
+  Vector<double> mean_error;
+  Vector<double> deviation_error;
+  Vector<double> skewness_error;
+  Vector<double> kurtosis_error;
+};
+/// Of columns of six numbers.
+FlownMoments flown_moments(const Matrix<double>& states);
+
+/// The distribution of one spacecraft's state at one time, or of the difference of two. All
+/// distributions of states are of deviations from the chief's nominal, metres and metres a second
+/// along the frame's axes at the time; by the orders 1..N.
+struct UncertainState {
+  std::string name;                  ///< "chief", "deputy" or "relative", the deputy less the chief
+  std::vector<Cumulants> cartesian;  ///< by the polynomials of positions and velocities, exact
+  /// By the polynomials in the scene's other coordinates, by quadrature; empty without such, or
+  /// where some node of the quadrature has no place in them.
+  std::vector<Cumulants> through;
+  /// How far the quadrature is from one of fewer nodes, over the orders: relative, of standard
+  /// deviations, and absolute, of skewness and kurtosis.
+  double through_doubt = 0;
+  /// Of the scene's other coordinates themselves, exact for their polynomials; empty without such.
+  std::vector<Cumulants> charted;
+  std::optional<FlownMoments> flown;
+  Matrix<double> flown_states;  ///< columns of six numbers; 6 x 0 without flights
+};
+
+struct UncertaintyAt {
+  double time = 0;                           ///< canonical
+  std::array<std::string, 6> charted_names;  ///< of the coordinates
+  std::vector<UncertainState> states;
+};
+
+struct UncertaintyResult {
+  Scene scene;  ///< with `uncertainty`
+  std::string integrator;
+  JetCoordinates coordinates = JetCoordinates::cartesian;  ///< not automatic
+  std::vector<UncertaintyAt> points;
+  double propagation_seconds = 0;
+  double moments_seconds = 0;
+  double flight_seconds = 0;
+};
+
+/// How far the distribution is from the Gaussian one of the linear theory: the divergence, and by
+/// how much a probability may be wrong.
+double divergence_from_linear(const std::vector<Cumulants>& by_order);
+
+/// The moments of the scene's states at its times. Throws as study_validity.
+UncertaintyResult study_uncertainty(const Scene& scene, const ProgressCallback& progress = {});
+
+}  // namespace hamjet
