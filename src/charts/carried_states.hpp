@@ -17,7 +17,8 @@ SixNumbers<Series<Real>> carried(const SharedSystem& crossing, const SixNumbers<
   FlowProblem<Real> flow;
   flow.system = crossing;
   flow.space = space;
-  for (std::size_t k = 0; k < space->variables(); ++k) flow.variables.push_back(k);
+  // Of a flow that goes on from a jet they are no more than counted.
+  flow.variables.assign(space->variables(), 0);
   flow.duration = Real(1);
   flow.symmetry = FlowSymmetry::none;
   flow.initial_jet = FlowJet<Real>{z[0], z[1], z[2], time, z[3], z[4], z[5], Series<Real>(space)};

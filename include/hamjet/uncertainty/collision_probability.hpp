@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "hamjet/uncertainty/encounter.hpp"
+
+namespace hamjet {
+
+/// How a probability of collision is found from samples of the polynomials.
+enum class CollisionSampling {
+  automatic,  ///< entries, where they can be drawn; else plain
+  plain,      ///< deviations as they are distributed
+  entries,    ///< deviations whose linear path enters a sphere somewhat larger, weighted
+};
+
+/// What counts as a collision in the window.
+enum class CollisionEvent {
+  nearer,  ///< that they are nearer than the radius at any time of the window
+  entry,   ///< that they become nearer: those that are so when the window begins do not count
+};
+
+struct CollisionSettings {
+  CollisionEvent event = CollisionEvent::nearer;
+  CollisionSampling sampling = CollisionSampling::automatic;
+  long samples = 1'000'000;
+  std::uint64_t seed = 1;
+  double confidence = 0.95;  ///< of the interval
+  std::size_t threads = 1;   ///< on which the result does not depend
+  /// Called now and then from the calling thread with the fraction that is done; may throw to stop.
+  std::function<void(double fraction)> progress = {};
+};
+
+/// The probability that two spacecraft come nearer than a radius in a window, as samples of the
+/// polynomials have it, and how far it can be trusted.
+struct CollisionProbability {
+  CollisionSampling sampling = CollisionSampling::plain;  ///< that was done
+  double probability = 0;
+  double lower = 0;  ///< interval of the settings' confidence, of the sampling alone
+  double upper = 0;
+  double standard_error = 0;
+  long samples = 0;
+  long hits = 0;  ///< samples that come nearer
+  /// So many plain samples would have the same standard error.
+  double equivalent_samples = 0;
+  /// Of the polynomials of one order less, less the probability, on an eighth of the samples; and
+  /// its standard error. What the order leaves out is of this size or below.
+  double change_from_lower_order = 0;
+  double standard_error_of_change = 0;
+  /// The mean number of entries of the linear motion (and of paths that begin inside), which is an
+  /// upper bound of its probability; of the entries alone that are sampled.
+  std::optional<double> expected_entries;
+  /// The radius of the sphere whose entries are drawn, and the largest difference seen between the
+  /// least distances of a linear path and of the polynomials': collisions for which it exceeds the
+  /// difference of the radii are lost.
+  std::optional<double> sampled_radius;
+  std::optional<double> largest_difference;
+  /// The probability that they have come nearer by a time: at equal times of the window.
+  std::vector<double> times;
+  std::vector<double> by_time;
+};
+
+/// By random samples of the polynomials, in the window, each path judged between the times too.
+/// Plain samples have the interval of Clopper and Pearson, weighted ones that of the normal
+/// distribution. Throws as validate, integrate_gauss, and Error(usage) for less than 1000 samples
+/// or a confidence outside 0.5 to 1; entries, if they are asked for, throw as EntrySampler, and
+/// Error(numerical) where linear paths say too little of true ones.
+CollisionProbability collision_probability(const EncounterProblem& problem,
+                                           const CollisionSettings& settings);
+
+}  // namespace hamjet

@@ -1,0 +1,115 @@
+#include "hamjet/uncertainty/closest_approach.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "../charts/carried_states.hpp"
+#include "../charts/time_scaled_system.hpp"
+#include "encounter_trajectories.hpp"
+#include "hamjet/algebra/composition.hpp"
+#include "hamjet/error.hpp"
+#include "relative_paths.hpp"
+
+namespace hamjet {
+namespace {
+
+/// Longer series in twelve variables take seconds to multiply: 18564 terms at order 6.
+constexpr int highest_order = 6;
+/// The distance is looked at so often in a revolution of the first spacecraft, for minima.
+constexpr double looks_per_revolution = 64;
+
+/// Times in the window between which the distance of the means has a minimum.
+std::vector<double> minima_of_means(const EncounterTrajectories& trajectories) {
+  const double from = trajectories.from(), to = trajectories.to();
+  const int looks = static_cast<int>(
+      std::clamp((to - from) / trajectories.period(0) * looks_per_revolution, 16.0, 1e5));
+  std::vector<double> minima;
+  double before = trajectories.approach_rate(from);
+  for (int k = 1; k <= looks; ++k) {
+    const double time = k == looks ? to : from + (to - from) * k / looks;
+    const double rate = trajectories.approach_rate(time);
+    if (before < 0 && rate >= 0) {
+      double low = from + (to - from) * (k - 1) / looks, high = time;
+      for (int i = 0; i < 60 && high - low > 1e-15 * to; ++i) {
+        const double middle = (low + high) / 2;
+        (trajectories.approach_rate(middle) < 0 ? low : high) = middle;
+      }
+      minima.push_back((low + high) / 2);
+    }
+    before = rate;
+  }
+  return minima;
+}
+
+/// The state of a spacecraft at a time as series in the twelve numbers.
+SixNumbers<Series<double>> state_series(const EncounterProblem& problem, const FlowJet<double>& jet,
+                                        std::size_t craft, const SpacePointer& space) {
+  std::vector<Series<double>> deviations;
+  for (Eigen::Index row = 0; row < 6; ++row) {
+    Series<double> deviation(space);
+    for (Eigen::Index column = 0; column < 6; ++column) {
+      deviation[space->linear_index(6 * craft + static_cast<std::size_t>(column))] =
+          problem.spacecraft[craft].factor(row, column);
+    }
+    deviations.push_back(std::move(deviation));
+  }
+  const std::vector<Series<double>> state = compose(jet, deviations);
+  return {state[0], state[1], state[2], state[3], state[4], state[5]};
+}
+
+ClosestApproach approach_at(const EncounterProblem& problem,
+                            const EncounterTrajectories& trajectories, double time) {
+  const SpacePointer space = SeriesSpace::create(encounter_variables, problem.order);
+  std::array<SixNumbers<Series<double>>, 2> states = {
+      state_series(problem, trajectories.jet(0, time), 0, space),
+      state_series(problem, trajectories.jet(1, time), 1, space)};
+  ClosestApproach approach{time, Series<double>(space), {}, Series<double>(space)};
+  const auto relative = [&] {
+    std::vector<Series<double>> difference;
+    for (std::size_t i = 0; i < 6; ++i) difference.push_back(states[1][i] - states[0][i]);
+    return difference;
+  };
+  const auto product = [](const std::vector<Series<double>>& z, std::size_t a, std::size_t b) {
+    return z[a] * z[b] + z[a + 1] * z[b + 1] + z[a + 2] * z[b + 2];
+  };
+  // Newton's method with the derivative of the means, d(rho.v)/dt: a degree an iteration.
+  const double slope = trajectories.approach_rate_slope(time);
+  const SharedSystem crossing = time_scaled_first_order(*problem.system);
+  for (int degree = 1; degree <= problem.order; ++degree) {
+    Series<double> step = product(relative(), 0, 3) / -slope;
+    step[0] = 0;
+    for (auto& state : states) state = carried(crossing, state, step);
+    approach.delay += step;
+  }
+  approach.state = relative();
+  approach.squared_distance = product(approach.state, 0, 0);
+  return approach;
+}
+
+}  // namespace
+
+std::vector<ClosestApproach> closest_approaches(const EncounterProblem& problem, std::size_t most) {
+  validate(problem);
+  if (problem.order > highest_order) {
+    throw Error(ErrorKind::too_large,
+                fmt::format("closest approach: series in twelve variables of order {}, at most {} "
+                            "is taken",
+                            problem.order, highest_order));
+  }
+  const EncounterTrajectories trajectories(problem);
+  std::vector<double> times = minima_of_means(trajectories);
+  if (times.size() > most) {
+    std::sort(times.begin(), times.end(), [&](double a, double b) {
+      return trajectories.distance(a) < trajectories.distance(b);
+    });
+    times.resize(most);
+    std::sort(times.begin(), times.end());
+  }
+  std::vector<ClosestApproach> result;
+  for (const double time : times) result.push_back(approach_at(problem, trajectories, time));
+  return result;
+}
+
+}  // namespace hamjet

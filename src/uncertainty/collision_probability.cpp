@@ -1,0 +1,343 @@
+#include "hamjet/uncertainty/collision_probability.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/math/distributions/binomial.hpp>
+#include <boost/math/distributions/normal.hpp>
+#include <cmath>
+
+#include "../integrators/concurrent_tasks.hpp"
+#include "cubic_arc.hpp"
+#include "entry_sampler.hpp"
+#include "hamjet/error.hpp"
+#include "relative_paths.hpp"
+
+namespace hamjet {
+namespace {
+
+/// The cubics between nodes are right to this part of the radius.
+constexpr double path_accuracy = 1e-4;
+/// Samples that are evaluated side by side, and blocks of them in a task.
+constexpr std::size_t block = 64;
+constexpr std::size_t blocks_in_task = 64;
+/// Every so many blocks the lower order is evaluated too.
+constexpr std::size_t lower_order_every = 8;
+/// The sampled sphere is wider than the collision's by this part of the radius at least, and by so
+/// many times the largest excess seen.
+constexpr double narrowest_margin = 1e-3;
+constexpr double margin_factor = 1.5;
+/// Draws below this part of the mean weight hold no more than this part of the probability.
+constexpr double negligible_weight = 1e-4;
+/// Spheres wider than this, in radii, hold too few collisions for what they cost.
+constexpr double widest_sphere = 20;
+constexpr std::size_t pilot_blocks = 32;
+constexpr std::size_t time_count = 200;
+
+/// The states of one sample at all nodes.
+void take_path(std::span<const double> states, std::size_t count, std::size_t sample,
+               std::vector<std::array<double, 6>>& path) {
+  for (std::size_t node = 0; node < path.size(); ++node) {
+    for (std::size_t c = 0; c < 6; ++c) path[node][c] = states[(6 * node + c) * count + sample];
+  }
+}
+
+void take_linear_path(const RelativePaths& paths, const EncounterDeviation& deviation,
+                      std::vector<std::array<double, 6>>& path) {
+  for (std::size_t node = 0; node < path.size(); ++node) {
+    const LinearRelativeState& linear = paths.linear(node);
+    const Eigen::Matrix<double, 6, 1> state = linear.mean + linear.by_deviation * deviation;
+    for (std::size_t c = 0; c < 6; ++c) path[node][c] = state[static_cast<Eigen::Index>(c)];
+  }
+}
+
+/// When a path first has what counts as a collision, if it ever has.
+std::optional<double> first_event(const RelativePaths& paths,
+                                  const std::vector<std::array<double, 6>>& path, double radius,
+                                  CollisionEvent event) {
+  const double square = radius * radius;
+  const std::vector<double>& times = paths.times();
+  std::vector<double> parts;
+  for (const std::size_t node : paths.arcs()) {
+    const double length = times[node + 1] - times[node];
+    const SquaredDistance arc(path[node], path[node + 1], length);
+    if (arc.lower_bound() >= square) continue;
+    if (node == 0 && paths.has_begin() && arc.first() < square) {
+      if (event == CollisionEvent::entry) return {};
+      return times[0];
+    }
+    parts.clear();
+    arc.entries(square, parts);
+    if (!parts.empty()) return times[node] + length * *std::min_element(parts.begin(), parts.end());
+  }
+  return {};
+}
+
+double least_distance(const RelativePaths& paths, const std::vector<std::array<double, 6>>& path) {
+  double least = std::numeric_limits<double>::infinity();
+  const std::vector<double>& times = paths.times();
+  for (const std::size_t node : paths.arcs()) {
+    least = SquaredDistance(path[node], path[node + 1], times[node + 1] - times[node]).least(least);
+  }
+  return std::sqrt(least);
+}
+
+/// Sums over samples of x, the weight of a collision and 0 of none.
+struct Sums {
+  long samples = 0;
+  long hits = 0;
+  double x = 0;
+  double x_squared = 0;
+  long compared = 0;  ///< with the lower order
+  double change = 0;
+  double change_squared = 0;
+  std::vector<double> by_time = std::vector<double>(time_count, 0.0);
+
+  void add(const Sums& other) {
+    samples += other.samples;
+    hits += other.hits;
+    x += other.x;
+    x_squared += other.x_squared;
+    compared += other.compared;
+    change += other.change;
+    change_squared += other.change_squared;
+    for (std::size_t k = 0; k < time_count; ++k) by_time[k] += other.by_time[k];
+  }
+};
+
+/// A block of samples: their deviations, a structure of arrays, and weights.
+struct Block {
+  std::vector<double> points = std::vector<double>(encounter_variables * block);
+  std::vector<double> weights = std::vector<double>(block);
+};
+
+class Estimate {
+ public:
+  Estimate(const EncounterProblem& problem, const CollisionSettings& settings,
+           const RelativePaths& paths)
+      : problem_(&problem), settings_(&settings), paths_(&paths) {}
+
+  /// Draws entries of a sphere from now on. Returns false where too little is known of it.
+  bool sample_entries();
+  CollisionProbability result() const;
+
+ private:
+  void draw(RandomStream& random, Block& samples) const;
+  void judge(const Block& samples, bool with_lower_order, Sums& sums) const;
+  double largest_difference() const;
+
+  const EncounterProblem* problem_;
+  const CollisionSettings* settings_;
+  const RelativePaths* paths_;
+  std::optional<EntrySampler> sampler_;
+  double difference_ = 0;
+};
+
+void Estimate::draw(RandomStream& random, Block& samples) const {
+  std::vector<std::array<double, 6>> path(paths_->times().size());
+  for (std::size_t j = 0; j < block; ++j) {
+    EncounterDeviation deviation;
+    samples.weights[j] = 1;
+    if (sampler_) {
+      deviation = sampler_->draw(random);
+      take_linear_path(*paths_, deviation, path);
+      // A path that touches the sphere to within rounding may be seen to pass by: it counts for
+      // nothing, being of no probability.
+      const auto ratio = sampler_->log_density_ratio(path);
+      samples.weights[j] = ratio ? std::exp(-*ratio) : 0;
+    } else {
+      for (Eigen::Index i = 0; i < deviation.size(); ++i) deviation[i] = random.normal();
+    }
+    for (std::size_t i = 0; i < encounter_variables; ++i) {
+      samples.points[i * block + j] = deviation[static_cast<Eigen::Index>(i)];
+    }
+  }
+}
+
+void Estimate::judge(const Block& samples, bool with_lower_order, Sums& sums) const {
+  std::vector<double> states(6 * paths_->times().size() * block), lower;
+  paths_->evaluate(samples.points, problem_->order, states);
+  if (with_lower_order) {
+    lower.resize(states.size());
+    paths_->evaluate(samples.points, problem_->order - 1, lower);
+  }
+  std::vector<std::array<double, 6>> path(paths_->times().size());
+  const double scale = static_cast<double>(time_count) / (problem_->to - problem_->from);
+  for (std::size_t j = 0; j < block; ++j) {
+    take_path(states, block, j, path);
+    const double weight = samples.weights[j];
+    ++sums.samples;
+    const auto entry = first_event(*paths_, path, problem_->radius, settings_->event);
+    if (entry && weight > 0) {
+      ++sums.hits;
+      sums.x += weight;
+      sums.x_squared += weight * weight;
+      const auto place = static_cast<std::size_t>(std::max(0.0, (*entry - problem_->from) * scale));
+      sums.by_time[std::min(place, time_count - 1)] += weight;
+    }
+    if (with_lower_order) {
+      take_path(lower, block, j, path);
+      const bool hit = first_event(*paths_, path, problem_->radius, settings_->event).has_value();
+      const double change = (hit ? weight : 0) - (entry ? weight : 0);
+      ++sums.compared;
+      sums.change += change;
+      sums.change_squared += change * change;
+    }
+  }
+}
+
+double Estimate::largest_difference() const {
+  RandomStream random(settings_->seed, ~std::uint64_t{0});
+  Block samples;
+  std::vector<std::array<double, 6>> path(paths_->times().size());
+  std::vector<double> states(6 * path.size() * block);
+  std::vector<std::pair<double, double>> differences;  // and weights
+  double sum = 0;
+  for (std::size_t k = 0; k < pilot_blocks; ++k) {
+    draw(random, samples);
+    paths_->evaluate(samples.points, problem_->order, states);
+    for (std::size_t j = 0; j < block; ++j) {
+      EncounterDeviation deviation;
+      for (std::size_t i = 0; i < encounter_variables; ++i) {
+        deviation[static_cast<Eigen::Index>(i)] = samples.points[i * block + j];
+      }
+      take_path(states, block, j, path);
+      const double least = least_distance(*paths_, path);
+      take_linear_path(*paths_, deviation, path);
+      differences.emplace_back(std::abs(least - least_distance(*paths_, path)), samples.weights[j]);
+      sum += samples.weights[j];
+    }
+  }
+  // Draws of no weight, from corners of the boxes, say nothing of collisions.
+  double largest = 0;
+  for (const auto& [difference, weight] : differences) {
+    if (weight > negligible_weight * sum / static_cast<double>(differences.size())) {
+      largest = std::max(largest, difference);
+    }
+  }
+  return largest;
+}
+
+bool Estimate::sample_entries() {
+  // Collisions whose linear path stays outside the sphere are lost: it is made wider until the
+  // differences of its own paths do not bridge the margin.
+  double margin = narrowest_margin * problem_->radius;
+  while (margin <= (widest_sphere - 1) * problem_->radius) {
+    sampler_.emplace(*paths_, problem_->radius + margin,
+                     settings_->event == CollisionEvent::nearer);
+    if (sampler_->is_empty()) return true;
+    difference_ = largest_difference();
+    if (difference_ * margin_factor <= margin) return true;
+    margin = std::max(2 * margin, margin_factor * difference_);
+  }
+  sampler_.reset();
+  return false;
+}
+
+CollisionProbability Estimate::result() const {
+  CollisionProbability result;
+  result.sampling = sampler_ ? CollisionSampling::entries : CollisionSampling::plain;
+  const double span = problem_->to - problem_->from;
+  for (std::size_t k = 0; k <= time_count; ++k) {
+    result.times.push_back(problem_->from + span * static_cast<double>(k) / time_count);
+  }
+  result.by_time.assign(time_count + 1, 0.0);
+  if (sampler_) {
+    result.expected_entries = sampler_->expected_entries();
+    result.sampled_radius = sampler_->radius();
+    result.largest_difference = difference_;
+    if (sampler_->is_empty()) return result;
+  }
+  if (paths_->arcs().empty()) return result;
+  const std::size_t in_task = block * blocks_in_task;
+  const std::size_t tasks = (static_cast<std::size_t>(settings_->samples) + in_task - 1) / in_task;
+  std::vector<Sums> sums(tasks);
+  run_concurrently(
+      tasks, settings_->threads,
+      [&](std::size_t task, TaskControl& control) {
+        RandomStream random(settings_->seed, task);
+        Block samples;
+        for (std::size_t k = 0; k < blocks_in_task; ++k) {
+          draw(random, samples);
+          judge(samples, problem_->order > 1 && k % lower_order_every == 0, sums[task]);
+        }
+        control.advance();
+      },
+      [&](long done) {
+        if (settings_->progress) {
+          settings_->progress(static_cast<double>(done) / static_cast<double>(tasks));
+        }
+      });
+  Sums all;
+  for (const Sums& part : sums) all.add(part);
+
+  const auto count = static_cast<double>(all.samples);
+  result.samples = all.samples;
+  result.hits = all.hits;
+  result.probability = all.x / count;
+  const double variance =
+      std::max(0.0, all.x_squared / count - result.probability * result.probability);
+  result.standard_error = std::sqrt(variance / count);
+  const double tail = (1 - settings_->confidence) / 2;
+  if (sampler_) {
+    const double width = boost::math::quantile(boost::math::complement(
+                             boost::math::normal_distribution<double>(), tail)) *
+                         result.standard_error;
+    result.lower = std::max(0.0, result.probability - width);
+    result.upper = std::min(1.0, result.probability + width);
+  } else {
+    using Binomial = boost::math::binomial_distribution<double>;
+    const auto hits = static_cast<double>(all.hits);
+    result.lower = Binomial::find_lower_bound_on_p(count, hits, tail);
+    result.upper = Binomial::find_upper_bound_on_p(count, hits, tail);
+  }
+  if (variance > 0) {
+    result.equivalent_samples = result.probability * (1 - result.probability) /
+                                (result.standard_error * result.standard_error);
+  }
+  if (all.compared > 0) {
+    const auto compared = static_cast<double>(all.compared);
+    result.change_from_lower_order = all.change / compared;
+    result.standard_error_of_change = std::sqrt(
+        std::max(0.0, all.change_squared / compared - std::pow(all.change / compared, 2)) /
+        compared);
+  }
+  double sum = 0;
+  for (std::size_t k = 0; k < time_count; ++k) {
+    sum += all.by_time[k] / count;
+    result.by_time[k + 1] = sum;
+  }
+  return result;
+}
+
+}  // namespace
+
+CollisionProbability collision_probability(const EncounterProblem& problem,
+                                           const CollisionSettings& settings) {
+  if (settings.samples < 1000) {
+    throw Error(ErrorKind::usage, "collision: there must be at least 1000 samples");
+  }
+  if (!(settings.confidence > 0.5 && settings.confidence < 1)) {
+    throw Error(ErrorKind::usage, "collision: the confidence must be between 0.5 and 1");
+  }
+  validate(problem);
+  const RelativePaths paths(problem, path_accuracy * problem.radius);
+  Estimate estimate(problem, settings, paths);
+  if (settings.sampling == CollisionSampling::plain) return estimate.result();
+  try {
+    if (estimate.sample_entries()) return estimate.result();
+    if (settings.sampling == CollisionSampling::entries) {
+      throw Error(ErrorKind::numerical,
+                  fmt::format("collision: the linear motion misses by more than {} radii, so that "
+                              "its entries say too little; plain sampling needs none",
+                              widest_sphere));
+    }
+  } catch (const Error& error) {
+    if (settings.sampling == CollisionSampling::entries || error.kind() != ErrorKind::numerical) {
+      throw;
+    }
+  }
+  return Estimate(problem, settings, paths).result();
+}
+
+}  // namespace hamjet

@@ -1,0 +1,96 @@
+#include "cubic_arc.hpp"
+
+#include <algorithm>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <cstdint>
+
+namespace hamjet {
+namespace {
+
+/// Parts of an interval are told apart to this: a millionth of a second in half an hour.
+constexpr double shortest_part = 1e-9;
+
+double dot(const std::array<double, 3>& a, const std::array<double, 3>& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+}  // namespace
+
+SquaredDistance::SquaredDistance(const std::array<double, 6>& start,
+                                 const std::array<double, 6>& end, double length) {
+  // Bezier's points of the cubic, and the product of two polynomials in Bernstein's basis:
+  //   c_m = sum over i + j = m of binomial(3, i) binomial(3, j) / binomial(6, m) b_i . b_j .
+  std::array<double, 3> b0{}, b1{}, b2{}, b3{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    b0[i] = start[i];
+    b1[i] = start[i] + length / 3 * start[i + 3];
+    b2[i] = end[i] - length / 3 * end[i + 3];
+    b3[i] = end[i];
+  }
+  c_ = {dot(b0, b0),
+        dot(b0, b1),
+        (2 * dot(b0, b2) + 3 * dot(b1, b1)) / 5,
+        (dot(b0, b3) + 9 * dot(b1, b2)) / 10,
+        (2 * dot(b1, b3) + 3 * dot(b2, b2)) / 5,
+        dot(b2, b3),
+        dot(b3, b3)};
+}
+
+double SquaredDistance::lower_bound() const { return *std::min_element(c_.begin(), c_.end()); }
+
+std::array<SquaredDistance, 2> SquaredDistance::halves() const {
+  // De Casteljau's triangle.
+  std::array<double, 7> row = c_, left{}, right{};
+  for (std::size_t k = 0; k < 7; ++k) {
+    left[k] = row[0];
+    right[6 - k] = row[6 - k];
+    for (std::size_t i = 0; i + 1 < 7 - k; ++i) row[i] = (row[i] + row[i + 1]) / 2;
+  }
+  return {SquaredDistance(left), SquaredDistance(right)};
+}
+
+double SquaredDistance::at(double part) const {
+  std::array<double, 7> row = c_;
+  for (std::size_t k = 6; k > 0; --k) {
+    for (std::size_t i = 0; i < k; ++i) row[i] += part * (row[i + 1] - row[i]);
+  }
+  return row[0];
+}
+
+void SquaredDistance::entries(double square, std::vector<double>& parts) const {
+  entries(square, 0, 1, parts);
+}
+
+void SquaredDistance::entries(double square, double from, double to,
+                              std::vector<double>& parts) const {
+  // No more roots than changes of sign among the coefficients, and of the same parity (Descartes).
+  int changes = 0;
+  for (std::size_t i = 0; i + 1 < 7; ++i) changes += (c_[i] < square) != (c_[i + 1] < square);
+  if (changes == 0) return;
+  if (changes == 1 || to - from < shortest_part) {
+    if (c_[0] < square || c_[6] >= square) return;
+    std::uintmax_t iterations = 100;
+    const auto [low, high] = boost::math::tools::toms748_solve(
+        [&](double part) { return at(part) - square; }, 0.0, 1.0, c_[0] - square, c_[6] - square,
+        boost::math::tools::eps_tolerance<double>(40), iterations);
+    parts.push_back(from + (to - from) * (low + high) / 2);
+    return;
+  }
+  const auto [left, right] = halves();
+  const double middle = (from + to) / 2;
+  left.entries(square, from, middle, parts);
+  right.entries(square, middle, to, parts);
+}
+
+double SquaredDistance::least(double best) const {
+  best = std::min({best, c_[0], c_[6]});
+  const double bound = lower_bound();
+  const double rounding = 1e-15 * *std::max_element(c_.begin(), c_.end());
+  if (best - bound <= 1e-12 * best + rounding) return best;
+  const auto [left, right] = halves();
+  // The half that promises less goes first.
+  return left.lower_bound() < right.lower_bound() ? right.least(left.least(best))
+                                                  : left.least(right.least(best));
+}
+
+}  // namespace hamjet

@@ -1,0 +1,94 @@
+#include "encounter_trajectories.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "hamjet/algebra/composition.hpp"
+
+namespace hamjet {
+namespace {
+
+/// The jets of one spacecraft in the window, of an order.
+JetTrajectory<double> window_trajectory(const EncounterProblem& problem, std::size_t craft,
+                                        int order) {
+  FlowProblem<double> flow;
+  flow.system = problem.system;
+  flow.space = SeriesSpace::create(6, order);
+  flow.variables = {0, 1, 2, 3, 4, 5};
+  flow.initial_state = problem.spacecraft[craft].state;
+  flow.duration = problem.from;
+  if (problem.from != 0) {
+    IntegrationStatistics statistics;
+    flow.initial_jet = integrate_gauss(flow, problem.settings, statistics);
+    for (std::size_t i = 0; i < 6; ++i) flow.initial_state[i] = (*flow.initial_jet)[i][0];
+  }
+  flow.duration = problem.to - problem.from;
+  return {flow, problem.settings};
+}
+
+}  // namespace
+
+EncounterTrajectories::EncounterTrajectories(const EncounterProblem& problem)
+    : system_(problem.system), from_(problem.from), to_(problem.to) {
+  for (std::size_t craft = 0; craft < 2; ++craft) {
+    starts_[craft] = problem.spacecraft[craft].state;
+    factors_[craft] = problem.spacecraft[craft].factor;
+    trajectories_.push_back(window_trajectory(problem, craft, problem.order));
+    means_.push_back(window_trajectory(problem, craft, 0));
+  }
+}
+
+FlowJet<double> EncounterTrajectories::jet(std::size_t craft, double time) const {
+  return trajectories_[craft].at(std::clamp(time - from_, 0.0, to_ - from_));
+}
+
+LinearRelativeState EncounterTrajectories::linear(
+    const std::array<FlowJet<double>, 2>& jets) const {
+  LinearRelativeState state;
+  for (Eigen::Index i = 0; i < 6; ++i) {
+    const auto c = static_cast<std::size_t>(i);
+    state.mean[i] = jets[1][c][0] - jets[0][c][0];
+  }
+  state.by_deviation.leftCols(6) = -linear_part(jets[0]) * factors_[0];
+  state.by_deviation.rightCols(6) = linear_part(jets[1]) * factors_[1];
+  return state;
+}
+
+LinearRelativeState EncounterTrajectories::linear(double time) const {
+  return linear(std::array<FlowJet<double>, 2>{jet(0, time), jet(1, time)});
+}
+
+Eigen::Matrix<double, 6, 1> EncounterTrajectories::relative_mean(double time) const {
+  const double elapsed = std::clamp(time - from_, 0.0, to_ - from_);
+  const FlowJet<double> first = means_[0].at(elapsed), second = means_[1].at(elapsed);
+  Eigen::Matrix<double, 6, 1> state;
+  for (Eigen::Index i = 0; i < 6; ++i) {
+    state[i] = second[static_cast<std::size_t>(i)][0] - first[static_cast<std::size_t>(i)][0];
+  }
+  return state;
+}
+
+double EncounterTrajectories::distance(double time) const {
+  return relative_mean(time).head(3).norm();
+}
+
+double EncounterTrajectories::approach_rate(double time) const {
+  const Eigen::Matrix<double, 6, 1> state = relative_mean(time);
+  return state.head(3).dot(state.tail(3));
+}
+
+double EncounterTrajectories::approach_rate_slope(double time) const {
+  // The relative velocity's derivative by a difference over a small part of the orbit: it is what
+  // Newton's method divides by, not a result.
+  const double step = period(0) * 1e-6;
+  return (approach_rate(time + step) - approach_rate(time - step)) / (2 * step);
+}
+
+double EncounterTrajectories::period(std::size_t craft) const {
+  const std::vector<double>& r = starts_[craft];
+  return 2 * std::numbers::pi * std::pow(std::hypot(r[0], r[1], r[2]), 1.5);
+}
+
+}  // namespace hamjet

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "hamjet/integrators/jet_trajectory.hpp"
+#include "hamjet/uncertainty/encounter.hpp"
+#include "relative_paths.hpp"
+
+namespace hamjet {
+
+/// The jets of both spacecraft of an encounter at the times of its window, after the epoch.
+///
+/// Immutable: threads may share one.
+class EncounterTrajectories {
+ public:
+  /// Throws as integrate_gauss.
+  explicit EncounterTrajectories(const EncounterProblem& problem);
+
+  double from() const { return from_; }
+  double to() const { return to_; }
+  FlowJet<double> jet(std::size_t craft, double time) const;
+  /// To first order.
+  LinearRelativeState linear(double time) const;
+  LinearRelativeState linear(const std::array<FlowJet<double>, 2>& jets) const;
+
+  /// Of the means: distance, rho.v, and the derivative of that by time.
+  double distance(double time) const;
+  double approach_rate(double time) const;
+  double approach_rate_slope(double time) const;
+  /// The period of the small circle through a spacecraft's start, sqrt(r^3), in units of the
+  /// system: a revolution for a central body of unit gravity.
+  double period(std::size_t craft) const;
+
+ private:
+  Eigen::Matrix<double, 6, 1> relative_mean(double time) const;
+
+  SharedSystem system_;
+  std::array<std::vector<double>, 2> starts_;
+  std::array<Eigen::Matrix<double, 6, 6>, 2> factors_;
+  double from_;
+  double to_;
+  std::vector<JetTrajectory<double>> trajectories_;  ///< two, of the window
+  std::vector<JetTrajectory<double>> means_;         ///< two, of order 0
+};
+
+}  // namespace hamjet

@@ -1,0 +1,132 @@
+#include <algorithm>
+#include <boost/math/quadrature/gauss_kronrod.hpp>
+#include <boost/math/special_functions/gamma.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "encounter_trajectories.hpp"
+#include "hamjet/error.hpp"
+#include "hamjet/uncertainty/closest_approach.hpp"
+
+namespace hamjet {
+namespace {
+
+using std::numbers::pi;
+
+/// What the formulas are about: a normal density in a plane, and a disc about its origin.
+struct PlaneEncounter {
+  double x, y;    ///< of the mean
+  double sx, sy;  ///< standard deviations
+  double radius;
+};
+
+double foster(const PlaneEncounter& e) {
+  // The trapezoidal rule over whole turns converges faster than any power.
+  constexpr int directions = 720;
+  double sum = 0;
+  for (int k = 0; k < directions; ++k) {
+    const double angle = 2 * pi * k / directions, c = std::cos(angle), s = std::sin(angle);
+    sum += boost::math::quadrature::gauss_kronrod<double, 61>::integrate(
+        [&](double r) {
+          const double x = (r * c - e.x) / e.sx, y = (r * s - e.y) / e.sy;
+          return r * std::exp(-(x * x + y * y) / 2);
+        },
+        0.0, e.radius, 8, 1e-12);
+  }
+  return sum / (directions * e.sx * e.sy);
+}
+
+double alfano(const PlaneEncounter& e) {
+  const auto column = [&](double x) {
+    const double half = std::sqrt(std::max(0.0, e.radius * e.radius - x * x));
+    const double scale = std::numbers::sqrt2 * e.sy, z = (x - e.x) / e.sx;
+    // Of erf(b) - erf(a), by what does not cancel far from the mean.
+    const double low = (-half - e.y) / scale, high = (half - e.y) / scale;
+    const double share = low > 0    ? std::erfc(low) - std::erfc(high)
+                         : high < 0 ? std::erfc(-high) - std::erfc(-low)
+                                    : std::erf(high) - std::erf(low);
+    return share * std::exp(-z * z / 2);
+  };
+  // In the angle x = radius sin(t) the integrand is smooth at the ends.
+  return boost::math::quadrature::gauss_kronrod<double, 61>::integrate(
+             [&](double t) { return column(e.radius * std::sin(t)) * e.radius * std::cos(t); },
+             -pi / 2, pi / 2, 12, 1e-12) /
+         (std::sqrt(8 * pi) * e.sx);
+}
+
+double chan(const PlaneEncounter& e) {
+  const double u = e.radius * e.radius / (e.sx * e.sy) / 2;
+  const double v = (e.x * e.x / (e.sx * e.sx) + e.y * e.y / (e.sy * e.sy)) / 2;
+  // exp(-v) sum of v^m / m! (1 - exp(-u) sum of u^k / k!, k to m), the last a regularised gamma
+  // function.
+  double sum = 0;
+  for (int m = 0; m < 100000; ++m) {
+    const double weight = std::exp(-v + m * std::log(std::max(v, 1e-300)) - std::lgamma(m + 1.0));
+    const double term = weight * boost::math::gamma_p(m + 1.0, u);
+    sum += term;
+    if (m > v && term <= 1e-17 * sum) break;
+  }
+  return sum;
+}
+
+}  // namespace
+
+ShortEncounter short_encounter(const EncounterProblem& problem, double time_of_closest_approach) {
+  validate(problem);
+  EncounterProblem linear = problem;
+  linear.order = 1;
+  const EncounterTrajectories trajectories(linear);
+  const double time = time_of_closest_approach;
+  const LinearRelativeState state = trajectories.linear(time);
+  ShortEncounter result;
+  result.time = time;
+  result.distance = state.mean.head(3).norm();
+  result.speed = state.mean.tail(3).norm();
+  if (!(result.speed > 0)) {
+    throw Error(ErrorKind::numerical, "short encounter: there is no relative velocity");
+  }
+  const Eigen::Vector3d along = state.mean.tail<3>() / result.speed;
+  const auto covariance_of = [](const LinearRelativeState& s) {
+    return Eigen::Matrix3d(s.by_deviation.topRows(3) * s.by_deviation.topRows(3).transpose());
+  };
+  const Eigen::Matrix3d covariance = covariance_of(state);
+  Eigen::Matrix<double, 3, 2> plane;
+  plane.col(0) = along.unitOrthogonal();
+  plane.col(1) = along.cross(plane.col(0));
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> principal(plane.transpose() * covariance *
+                                                                 plane);
+  const Eigen::Matrix<double, 3, 2> axes = plane * principal.eigenvectors();
+  const Eigen::Vector2d offset = axes.transpose() * state.mean.head<3>();
+  for (Eigen::Index i = 0; i < 2; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    result.offset[k] = offset[i];
+    result.deviation[k] = std::sqrt(std::max(0.0, principal.eigenvalues()[i]));
+  }
+  if (!(result.deviation[0] > 1e-12 * result.deviation[1])) {
+    throw Error(ErrorKind::numerical,
+                "short encounter: the position is certain in a direction across the velocity");
+  }
+  const PlaneEncounter e{result.offset[0], result.offset[1], result.deviation[0],
+                         result.deviation[1], problem.radius};
+  result.foster = foster(e);
+  result.alfano = alfano(e);
+  result.chan = chan(e);
+
+  const double spread = std::sqrt(std::max(0.0, along.dot(covariance * along)));
+  result.passage = (problem.radius + 3 * spread) / result.speed;
+  for (const double side : {-1.0, 1.0}) {
+    const double then = std::clamp(time + side * result.passage, problem.from, problem.to);
+    const LinearRelativeState other = trajectories.linear(then);
+    const Eigen::Vector3d straight = state.mean.head<3>() + (then - time) * state.mean.tail<3>();
+    const Eigen::Vector2d bend = axes.transpose() * (other.mean.head<3>() - straight);
+    const Eigen::Matrix2d changed = axes.transpose() * covariance_of(other) * axes;
+    for (Eigen::Index i = 0; i < 2; ++i) {
+      const double deviation = result.deviation[static_cast<std::size_t>(i)];
+      result.departure = std::max({result.departure, std::abs(bend[i]) / deviation,
+                                   std::abs(std::sqrt(changed(i, i)) / deviation - 1)});
+    }
+  }
+  return result;
+}
+
+}  // namespace hamjet

@@ -1,0 +1,184 @@
+#include "hamjet/uncertainty/collision_probability.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <boost/math/distributions/non_central_chi_squared.hpp>
+#include <cmath>
+#include <string>
+
+#include "hamjet/error.hpp"
+#include "hamjet/uncertainty/closest_approach.hpp"
+#include "uncertainty/published_encounters.hpp"
+
+// Probabilities of collision against published samples, closed forms, and plain samples, which
+// share with weighted ones the polynomials but not the distribution.
+
+namespace hamjet {
+namespace {
+
+CollisionSettings settings(long samples,
+                           CollisionSampling sampling = CollisionSampling::automatic) {
+  CollisionSettings s;
+  s.samples = samples;
+  s.sampling = sampling;
+  s.threads = 2;
+  return s;
+}
+
+/// Whether two estimates agree within four standard errors of their difference, which one in 16000
+/// pairs exceeds.
+void expect_agreement(double a, double error_a, double b, double error_b, const std::string& what) {
+  EXPECT_LE(std::abs(a - b), 4 * std::hypot(error_a, error_b))
+      << what << ": " << a << " +- " << error_a << ", " << b << " +- " << error_b;
+}
+
+TEST(CollisionProbability, AgreesWithPublishedSamplesOfSlowEncounters) {
+  // Published are probabilities of entering the sphere within the window, from 1e8 samples: those
+  // that begin inside (0.084 in case 9, 0.0019 in case 12) are not among them.
+  for (const test::PublishedEncounter& e : test::published_encounters()) {
+    CollisionSettings s = settings(30'000);
+    s.event = CollisionEvent::entry;
+    const CollisionProbability result = collision_probability(e.problem, s);
+    const std::string name = "case " + std::to_string(e.number);
+    EXPECT_EQ(result.sampling, CollisionSampling::entries) << name;
+    EXPECT_TRUE(result.lower <= e.upper && result.upper >= e.lower)
+        << name << ": " << result.lower << " to " << result.upper << ", published " << e.lower
+        << " to " << e.upper;
+    expect_agreement(result.probability, result.standard_error, e.probability,
+                     (e.upper - e.lower) / (2 * 1.96), name);
+    // A weighted sample tells more than a plain one by far.
+    EXPECT_GT(result.equivalent_samples, 20 * static_cast<double>(result.samples)) << name;
+    EXPECT_LE(std::abs(result.change_from_lower_order),
+              0.01 * result.probability + 4 * result.standard_error_of_change)
+        << name;
+  }
+}
+
+TEST(CollisionProbability, WeightedAndPlainSamplesAgree) {
+  for (const test::PublishedEncounter& e : test::published_encounters()) {
+    if (e.number != 2 && e.number != 9) continue;
+    for (const CollisionEvent event : {CollisionEvent::nearer, CollisionEvent::entry}) {
+      CollisionSettings s = settings(30'000, CollisionSampling::plain);
+      s.event = event;
+      const CollisionProbability plain = collision_probability(e.problem, s);
+      s.sampling = CollisionSampling::entries;
+      const CollisionProbability weighted = collision_probability(e.problem, s);
+      expect_agreement(plain.probability, plain.standard_error, weighted.probability,
+                       weighted.standard_error, "case " + std::to_string(e.number));
+      EXPECT_NEAR(plain.by_time.back(), plain.probability, 1e-12);
+      EXPECT_TRUE(std::is_sorted(weighted.by_time.begin(), weighted.by_time.end()));
+    }
+  }
+}
+
+TEST(CollisionProbability, OfAnInstantIsThatOfANormalVectorInABall) {
+  // In a window too short for any motion, of independent deviations of one size s: the squared
+  // distance over 2 s^2 is of the non-central chi-squared distribution of three degrees of freedom.
+  for (const double offset : {0.5, 3.0, 8.0}) {
+    EncounterProblem problem;
+    problem.system = kepler();
+    const double s = 1e-6;
+    for (UncertainSpacecraft& craft : problem.spacecraft) {
+      craft.state = {1, 0, 0, 0, 1, 0};
+      craft.factor.topLeftCorner<3, 3>() = s * Eigen::Matrix3d::Identity();
+      craft.factor.bottomRightCorner<3, 3>() = s * Eigen::Matrix3d::Identity();
+    }
+    problem.spacecraft[1].state[1] += offset * s;
+    problem.to = 1e-9;
+    problem.radius = 1.5 * s;
+    problem.order = 2;
+    problem.settings.tolerance = 1e-12;
+    const boost::math::non_central_chi_squared distance(3.0, offset * offset / 2);
+    const double expected = boost::math::cdf(distance, 1.5 * 1.5 / 2);
+    const CollisionProbability result = collision_probability(problem, settings(40'000));
+    EXPECT_LE(std::abs(result.probability - expected), 4 * result.standard_error + 1e-6 * expected)
+        << offset << ": " << result.probability << ", " << expected;
+    EXPECT_LT(result.standard_error, 0.01 * expected);
+  }
+}
+
+TEST(CollisionProbability, OfFastEncountersIsThatOfThePlaneDownToRareOnes) {
+  // Two circular orbits that cross at right angles: at 1.4 orbital speeds motion is straight while
+  // they are near, and the integral over the disc across the velocity is exact. Its curvature
+  // within the passage is 1e-6 of the deviations.
+  for (const double miss : {0.0, 4.0, 8.0, 11.5}) {
+    EncounterProblem problem;
+    problem.system = kepler();
+    const double s = 1e-6, duration = 1;
+    // Both arrive at (1, 0, 0), the second with an offset along x; the starts are a radian before.
+    const double c = std::cos(duration), d = std::sin(duration);
+    problem.spacecraft[0].state = {c, -d, 0, d, c, 0};
+    problem.spacecraft[1].state = {c * (1 + miss * s), 0, -d * (1 + miss * s), d, 0, c};
+    for (UncertainSpacecraft& craft : problem.spacecraft) {
+      craft.factor.topLeftCorner<3, 3>() = s * Eigen::Matrix3d::Identity();
+      craft.factor.bottomRightCorner<3, 3>() = 0.3 * s * Eigen::Matrix3d::Identity();
+    }
+    problem.from = duration - 1e-4;
+    problem.to = duration + 1e-4;
+    problem.radius = s / 2;
+    problem.order = 2;
+    problem.settings.tolerance = 1e-13;
+    const auto approaches = closest_approaches(problem);
+    ASSERT_EQ(approaches.size(), 1U);
+    const ShortEncounter plane = short_encounter(problem, approaches[0].time);
+    EXPECT_TRUE(plane.holds()) << plane.departure;
+    const CollisionProbability result = collision_probability(problem, settings(40'000));
+    EXPECT_LE(std::abs(result.probability - plane.alfano),
+              4 * result.standard_error + 1e-3 * plane.alfano)
+        << miss << ": " << result.probability << ", " << plane.alfano;
+    EXPECT_LT(result.standard_error, 0.02 * plane.alfano);
+    EXPECT_NEAR(plane.foster / plane.alfano, 1, 1e-9);
+  }
+}
+
+TEST(CollisionProbability, DoesNotDependOnThreads) {
+  const auto encounters = test::published_encounters();
+  CollisionSettings s = settings(20'000);
+  s.threads = 1;
+  const CollisionProbability one = collision_probability(encounters[3].problem, s);
+  s.threads = 3;
+  const CollisionProbability three = collision_probability(encounters[3].problem, s);
+  EXPECT_EQ(one.probability, three.probability);
+  EXPECT_EQ(one.standard_error, three.standard_error);
+  s.seed = 2;
+  const CollisionProbability other = collision_probability(encounters[3].problem, s);
+  EXPECT_NE(one.probability, other.probability);
+  expect_agreement(one.probability, one.standard_error, other.probability, other.standard_error,
+                   "another seed");
+}
+
+TEST(CollisionProbability, OfWhatIsFarIsNone) {
+  EncounterProblem problem = test::published_encounters()[0].problem;
+  problem.spacecraft[1].state[2] += 0.01;
+  problem.to = problem.from + 1e-3;
+  const CollisionProbability result = collision_probability(problem, settings(1000));
+  EXPECT_EQ(result.probability, 0);
+  EXPECT_EQ(result.samples, 0);
+}
+
+TEST(CollisionProbability, WithoutUncertaintyInSomeDirectionIsBySamples) {
+  EncounterProblem problem = test::published_encounters()[0].problem;
+  for (UncertainSpacecraft& craft : problem.spacecraft) {
+    craft.factor.row(2).setZero();
+    craft.factor.row(5).setZero();
+  }
+  EXPECT_EQ(collision_probability(problem, settings(5000)).sampling, CollisionSampling::plain);
+  EXPECT_THROW(collision_probability(problem, settings(5000, CollisionSampling::entries)), Error);
+}
+
+TEST(CollisionProbability, RefusesWhatIsNoProblem) {
+  EncounterProblem problem = test::published_encounters()[0].problem;
+  EXPECT_THROW(collision_probability(problem, settings(10)), Error);
+  CollisionSettings s = settings(1000);
+  s.confidence = 1;
+  EXPECT_THROW(collision_probability(problem, s), Error);
+  problem.radius = 0;
+  EXPECT_THROW(collision_probability(problem, settings(1000)), Error);
+  problem.radius = 1e-6;
+  problem.to = problem.from;
+  EXPECT_THROW(collision_probability(problem, settings(1000)), Error);
+}
+
+}  // namespace
+}  // namespace hamjet
