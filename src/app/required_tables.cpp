@@ -50,6 +50,11 @@ void require_validity(const Scene& scene, const std::string& file) {
   require_table(file, scene.validity.has_value(), "validity", "tolerance_m = 1, count = 12");
 }
 
+void require_uncertainty(const Scene& scene, const std::string& file) {
+  require_table(file, scene.uncertainty.has_value(), "uncertainty",
+                "position_m = [100, 100, 100], velocity_m_s = [0.1, 0.1, 0.1]");
+}
+
 void require_assignment(const Scene& scene, const std::string& file) {
   require_table(file, scene.assignment.has_value(), "assignment",
                 "deputy = [{position_m = [0, -100, 0]}], slot = [{position_m = [0, 100, 0]}]");

@@ -33,6 +33,7 @@
 #include "stability_command.hpp"
 #include "sweep_command.hpp"
 #include "transfer_command.hpp"
+#include "uncertainty_command.hpp"
 #include "usage.hpp"
 
 namespace {
@@ -52,6 +53,7 @@ constexpr const char* examples = R"(Examples:
   hamjet motion scene.toml                  where the second satellite goes; a report
   hamjet transfer scene.toml                velocity changes between relative positions; a report
   hamjet validity scene.toml                how far from the chief the polynomials are right
+  hamjet uncertainty scene.toml             how a covariance grows, to every order; a report
   hamjet assign scene.toml                  deputies to slots at the least total velocity change
   hamjet eval out/scene --deviation 100,0,0,0,0.1,0
                                             a relative state (RTN: m, m/s) through the stored jet
@@ -277,6 +279,9 @@ int dispatch(int argc, char** argv) {
   CLI::App* validity =
       add_study("validity", "how far from the chief the polynomials are right, along time",
                 "report.html, validity.csv and summary.json", hamjet::cli::validity_suffix);
+  const CLI::App* uncertainty = add_study(
+      "uncertainty", "how the covariance of the start grows: moments of every order along time",
+      "report.html, moments.csv and summary.json", hamjet::cli::uncertainty_suffix);
   std::optional<std::string> coordinates;
   std::vector<std::string> coordinates_names(hamjet::jet_coordinates_names.begin(),
                                              hamjet::jet_coordinates_names.end());
@@ -362,6 +367,7 @@ int dispatch(int argc, char** argv) {
   if (*sweep) return hamjet::cli::sweep(options, sweeps);
   if (*motion) return hamjet::cli::motion(options);
   if (*validity) return hamjet::cli::validity(options, coordinates);
+  if (*uncertainty) return hamjet::cli::uncertainty(options);
   if (*assign) return hamjet::cli::assign(options);
   return hamjet::cli::run(options);
 }

@@ -53,6 +53,12 @@ Place place_of(const std::string& table, std::string_view owner) {
       {"assignment",
        {orbit_file,
         {{"assignment", "{deputy=[{position_m=[1, 0, 0]}], slot=[{position_m=[2, 0, 0]}]}"}}}},
+      {"uncertainty",
+       {orbit_file,
+        {{"deputy", "{position_m=[0, 100, 0]}"},
+         {"uncertainty",
+          "{position_m=[1, 1, 1], deputy={position_m=[1, 1, 1]}, count=2, "
+          "burn={velocity_change_m_s=[1, 0, 0], magnitude=0.1, direction_deg=1}}"}}}},
       {"ephemeris",
        {orbit_file,
         {{"ephemeris",
@@ -83,6 +89,10 @@ const std::map<std::string, Place>& special_places() {
   static const Override no_duration = {"jet.duration_orbits", "null"};
   static const Override no_count = {"transfer.count", "null"};
   static const Override no_validity_count = {"validity.count", "null"};
+  static const Override no_uncertainty_count = {"uncertainty.count", "null"};
+  static const std::string covariance_text =
+      "[[1, 0, 0, 0, 0, 0], [0, 1, 0, 0, 0, 0], [0, 0, 1, 0, 0, 0], [0, 0, 0, 1, 0, 0], "
+      "[0, 0, 0, 0, 1, 0.5], [0, 0, 0, 0, 0.5, 1]]";
   static const Override no_rotation = {"canonical_transformation.rotation_cosine", "null"};
   static const Override matrix = {"canonical_transformation.matrix", "[[1, 0], [0, 1]]"};
   static const Override no_step = {"integrator.0.step_canonical", "null"};
@@ -193,6 +203,13 @@ const std::map<std::string, Place>& special_places() {
       {"validity.times_s", {"", {no_validity_count}, "[100, 200]"}},
       {"validity.times_orbits", {"", {no_validity_count}}},
       {"validity.times_canonical", {"", {no_validity_count}}},
+      {"uncertainty.times_s", {"", {no_uncertainty_count}, "[100, 200]"}},
+      {"uncertainty.times_orbits", {"", {no_uncertainty_count}}},
+      {"uncertainty.times_canonical", {"", {no_uncertainty_count}}},
+      {"uncertainty.covariance_m_m_s",
+       {"", {{"uncertainty.position_m", "null"}}, covariance_text}},
+      {"uncertainty.deputy.covariance_m_m_s",
+       {"", {{"uncertainty.deputy.position_m", "null"}}, covariance_text}},
       {"ephemeris.epoch", {"", {}, "\"2003-01-01T00:00:00\""}},
       {"ephemeris.reference_frame", {"", {}, "\"GCRF\""}},
       {"ephemeris.reference_frame_epoch", {"", {}, "\"2026-01-01T00:00:00\""}},

@@ -60,6 +60,16 @@ class StudyText {
   void add(const ValiditySettings& s) {
     add_all(s.tolerance_m, s.times, s.semi_axes, s.samples, s.frame);
   }
+  void add(const Covariance& s) {
+    const Matrix<double> matrix = s.matrix();
+    for (const double entry : matrix.reshaped()) add(entry);
+  }
+  void add(const StateUncertainty& s) { add_all(s.frame, s.covariance); }
+  void add(const BurnUncertainty& s) { add_all(s.frame, s.covariance()); }
+  void add(const UncertaintySettings& s) {
+    add_all(s.frame, s.chief, s.deputy, s.burn, s.times, s.acceleration_density_m2_s3, s.samples,
+            s.seed);
+  }
   void add(const AssignmentSettings& s) { add_all(s.deputies, s.slots, s.time); }
   void add(const EphemerisSettings& s) {
     add_all(s.epoch, s.time_system, s.reference_frame, s.center_name, s.reference_frame_epoch,
@@ -71,7 +81,7 @@ class StudyText {
     add_all(s.title, s.precision, s.system, s.units, s.canonical_radius, s.nominal, s.duration,
             s.order, s.arcs, s.variables, s.jet_times, s.integrators, s.separation, s.kinds,
             s.reference, s.relative_hamiltonian_times, s.comparison, s.figure, s.deputy, s.transfer,
-            s.validity, s.assignment, s.output.formats, s.ephemeris);
+            s.validity, s.assignment, s.uncertainty, s.output.formats, s.ephemeris);
     for (std::size_t i = 0; i < self_check_count; ++i) add(s.checks[SelfCheckName(i)]);
   }
   void add(const EnergyConservationStudy& s) {

@@ -1,0 +1,207 @@
+#include "uncertainty_report.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "../../formats/relative_frame_text.hpp"
+#include "../../text/html_text.hpp"
+#include "../../text/quantity_text.hpp"
+#include "../../text/terminal_text.hpp"
+#include "../../text/time_axis.hpp"
+#include "../drawing/report_page.hpp"
+#include "uncertainty_view.hpp"
+
+namespace hamjet::io {
+namespace {
+
+std::string time_text(const UncertaintyResult& result, const UncertaintyAt& at) {
+  return duration_text(std::abs(at.time) * result.scene.units.time_s);
+}
+
+/// Moments of each component of a state: linear, of the highest order, and flown.
+std::vector<std::vector<std::string>> moments_rows(const UncertaintyResult& result,
+                                                   const UncertainState& state) {
+  const int order = result.scene.order;
+  std::vector<std::vector<std::string>> rows = {{"component", "linear s", "mean",
+                                                 fmt::format("s of order {}", order), "skewness",
+                                                 "kurtosis"}};
+  if (state.flown) {
+    for (const char* name : {"flown mean", "flown s", "flown skew.", "flown kurt."}) {
+      rows[0].emplace_back(name);
+    }
+  }
+  const Cumulants& linear = state.cartesian.front();
+  const Cumulants& full = state.cartesian.back();
+  const auto components = state_components(result);
+  for (std::size_t k = 0; k < components.size(); ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    rows.push_back({fmt::format("{} ({})", components[k].name, components[k].unit),
+                    fmt::format("{:.5g}", linear.standard_deviations()[i]),
+                    fmt::format("{:.4g}", full.mean()[i]),
+                    fmt::format("{:.5g}", full.standard_deviations()[i]),
+                    fmt::format("{:.3f}", full.skewness()[i]),
+                    fmt::format("{:.3f}", full.excess_kurtosis()[i])});
+    if (!state.flown) continue;
+    const FlownMoments& flown = *state.flown;
+    const auto value = [&](double number, double error) {
+      rows.back().push_back(fmt::format("{:.4g}±{:.1g}", number, error));
+    };
+    value(flown.cumulants.mean()[i], flown.mean_error[i]);
+    value(flown.cumulants.standard_deviations()[i], flown.deviation_error[i]);
+    value(flown.cumulants.skewness()[i], flown.skewness_error[i]);
+    value(flown.cumulants.excess_kurtosis()[i], flown.kurtosis_error[i]);
+  }
+  return rows;
+}
+
+/// How non-Gaussian a state is by order, in each family of coordinates.
+std::vector<std::vector<std::string>> gaussian_rows(const UncertaintyResult& result,
+                                                    const UncertaintyAt& at,
+                                                    const UncertainState& state) {
+  std::vector<std::vector<std::string>> rows = {{"order"}};
+  const auto families = moments_families(result, at, state);
+  for (const MomentsFamily& family : families) {
+    const std::string where = family.polynomials == family.told_in
+                                  ? family.told_in
+                                  : family.polynomials + ", " + family.told_in;
+    rows[0].push_back(fmt::format("negentropy ({})", where));
+    rows[0].push_back(fmt::format("linear wrong by ({})", where));
+  }
+  for (std::size_t n = 0; n < static_cast<std::size_t>(result.scene.order); ++n) {
+    rows.push_back({std::to_string(n + 1)});
+    for (const MomentsFamily& family : families) {
+      const Cumulants& moments = (*family.by_order)[n];
+      // Below this the rounding of sums over some thousand coefficients is told.
+      const double negentropy = moments.negentropy();
+      rows.back().push_back(negentropy < 1e-12 ? "0" : fmt::format("{:.3g}", negentropy));
+      const double error =
+          largest_error_of_probability(divergence_from_gaussian(moments, *family.linear));
+      rows.back().push_back(error < 1e-6 ? "0" : fmt::format("{:.3g}", error));
+    }
+  }
+  return rows;
+}
+
+std::string terminal_table(const UncertaintyResult& result,
+                           const std::vector<UncertaintySection>& sections) {
+  const UncertaintyAt& at = result.points.back();
+  const UncertainState& state = judged_state(at);
+  std::string text = fmt::format("{}\n{}\n", result.scene.title, uncertainty_verdict(result));
+  for (const UncertaintySection& section : sections) {
+    if (!section.verdict.empty()) text += section.verdict + "\n";
+  }
+  text += fmt::format(
+      "frame {}; order {}; {} after {}\n\n{}\n{}",
+      frame_text(result.scene.uncertainty->frame) + coordinates_text(result.coordinates),
+      result.scene.order, state.name, time_text(result, at),
+      aligned_table(moments_rows(result, state)), aligned_table(gaussian_rows(result, at, state)));
+  text += fmt::format(
+      "s: standard deviation; skewness and excess kurtosis are 0 of a Gaussian;\nlinear wrong by: "
+      "the largest error of a probability by the linear covariance\n");
+  for (const std::string& note : uncertainty_notes(result)) text += note + "\n";
+  for (const UncertaintySection& section : sections) text += "\n" + section.table;
+  return text;
+}
+
+std::string table_of(const std::string& caption,
+                     const std::vector<std::vector<std::string>>& rows) {
+  std::string body;
+  for (std::size_t k = 1; k < rows.size(); ++k) {
+    body += "<tr>" + row_name_cell(rows[k][0]);
+    for (std::size_t i = 1; i < rows[k].size(); ++i) body += cell(rows[k][i]);
+    body += "</tr>\n";
+  }
+  return table_html(escape_html(caption), header_cells(rows[0]), body);
+}
+
+std::string page(const UncertaintyResult& result, const ReportOrigin& origin,
+                 const std::vector<UncertaintySection>& sections, ChartDrawer& drawer) {
+  const UncertaintyAt& last = result.points.back();
+  const UncertainState& judged = judged_state(last);
+  ReportPage page;
+  page.title = result.scene.title + ": uncertainty";
+  page.verdict = uncertainty_verdict(result);
+  for (const UncertaintySection& section : sections) {
+    if (!section.verdict.empty()) page.verdict += " " + section.verdict;
+  }
+  Chart first = ellipse_chart(result, last, judged, 1, 0);
+  first.is_panel = false;
+  fit(first);
+  page.first_figure = figure_html(first, drawer);
+  page.facts =
+      origin_facts_html(origin) +
+      fact_html("Scene", fmt::format("{}, order {}", result.scene.name, result.scene.order)) +
+      fact_html("Frame", frame_text(result.scene.uncertainty->frame) +
+                             coordinates_text(result.coordinates)) +
+      fact_html("Times", std::to_string(result.points.size())) +
+      fact_html("Time", fmt::format("{} for the jets, {} for the moments, {} to fly",
+                                    duration_text(result.propagation_seconds),
+                                    duration_text(result.moments_seconds),
+                                    duration_text(result.flight_seconds)));
+  if (result.points.size() > 1 && result.scene.order > 1) {
+    Chart misleading = misleading_chart(result);
+    fit(misleading);
+    page.sections += section_html(misleading, drawer);
+  }
+  for (const UncertainState& state : last.states) {
+    std::vector<Chart> charts = {ellipse_chart(result, last, state, 1, 0),
+                                 ellipse_chart(result, last, state, 1, 2)};
+    std::vector<Chart> histograms;
+    for (const Eigen::Index component : {0, 1, 2}) {
+      histograms.push_back(histogram_chart(result, last, state, component));
+    }
+    for (std::vector<Chart>* list : {&charts, &histograms}) {
+      for (Chart& chart : *list) fit(chart);
+    }
+    page.sections += fmt::format(
+        "<section>\n<h2>{}</h2>\n{}{}{}{}</section>\n",
+        escape_html(fmt::format("The {} after {}", state.name, time_text(result, last))),
+        panels_html(charts, drawer), panels_html(histograms, drawer),
+        table_of("Moments of each component", moments_rows(result, state)),
+        table_of("How far it is from Gaussian, and the linear theory from it",
+                 gaussian_rows(result, last, state)));
+  }
+  for (const UncertaintySection& section : sections) {
+    std::vector<Chart> charts = section.charts;
+    for (Chart& chart : charts) fit(chart);
+    page.sections +=
+        fmt::format("<section>\n<h2>{}</h2>\n{}{}</section>\n", escape_html(section.title),
+                    section.html, charts.empty() ? "" : panels_html(charts, drawer));
+  }
+  std::string notes;
+  for (const std::string& note : uncertainty_notes(result)) {
+    notes += "<p>" + escape_html(note) + "</p>\n";
+  }
+  if (!notes.empty()) page.sections += "<section>\n<h2>Notes</h2>\n" + notes + "</section>\n";
+  return page_html(page, drawer);
+}
+
+}  // namespace
+
+StudyReport uncertainty_report(const UncertaintyResult& result, const ReportOrigin& origin,
+                               const std::vector<UncertaintySection>& sections) {
+  StudyReport report;
+  ChartDrawer drawer(origin.gnuplot);
+  report.files = {{"moments.csv", moments_csv(result)},
+                  {"report.html", page(result, origin, sections, drawer)}};
+  for (const UncertaintySection& section : sections) {
+    report.files.insert(report.files.end(), section.files.begin(), section.files.end());
+  }
+  report.drawing_problem = drawer.problem();
+  nlohmann::ordered_json summary = uncertainty_json(result);
+  const auto exit_code = summary["exit_code"];
+  summary.erase("exit_code");
+  for (const UncertaintySection& section : sections) summary[section.key] = section.json;
+  summary["exit_code"] = exit_code;
+  report.files.push_back({"summary.json", summary.dump(2) + "\n"});
+  report.table = terminal_table(result, sections);
+  report.details =
+      fmt::format("{}; {} for the jets, {} for the moments, {} to fly\n",
+                  counted(result.points.size(), "time"), duration_text(result.propagation_seconds),
+                  duration_text(result.moments_seconds), duration_text(result.flight_seconds));
+  return report;
+}
+
+}  // namespace hamjet::io

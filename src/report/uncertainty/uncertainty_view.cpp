@@ -1,0 +1,149 @@
+#include "uncertainty_view.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "../../formats/relative_frame_text.hpp"
+#include "../../text/quantity_text.hpp"
+
+namespace hamjet::io {
+namespace {
+
+std::string told_state(const UncertainState& state) {
+  return state.name == "relative" ? "the deputy relative to its chief" : "the " + state.name;
+}
+
+std::string probability_text(double error) {
+  return error >= 1 ? "anything" : fmt::format("{:.2g}", error);
+}
+
+/// The component of which the linear standard deviation is most wrong.
+Eigen::Index worst_component(const std::vector<Cumulants>& by_order) {
+  const Vector<double> linear = by_order.front().standard_deviations();
+  const Vector<double> full = by_order.back().standard_deviations();
+  Eigen::Index worst = 0;
+  double most = -1;
+  for (Eigen::Index i = 0; i < full.size(); ++i) {
+    if (linear[i] == 0 || full[i] == 0) continue;
+    const double ratio = std::abs(std::log(full[i] / linear[i]));
+    if (ratio > most) worst = i;
+    most = std::max(most, ratio);
+  }
+  return worst;
+}
+
+}  // namespace
+
+std::vector<StateComponent> state_components(const UncertaintyResult& result) {
+  std::vector<StateComponent> components;
+  for (const std::string_view name : component_names(result.scene.uncertainty->frame)) {
+    components.push_back({std::string(name), components.size() < 3 ? "m" : "m/s"});
+  }
+  return components;
+}
+
+std::vector<MomentsFamily> moments_families(const UncertaintyResult& result,
+                                            const UncertaintyAt& at, const UncertainState& state) {
+  const std::vector<StateComponent> components = state_components(result);
+  const std::string frame(frame_name(result.scene.uncertainty->frame));
+  std::vector<MomentsFamily> families = {
+      {"cartesian", frame, &state.cartesian, &state.cartesian.front(), components}};
+  const std::string name(name_of(result.coordinates));
+  if (!state.through.empty())
+    families.push_back({name, frame, &state.through, &state.cartesian.front(), components});
+  if (!state.charted.empty()) {
+    std::vector<StateComponent> coordinates;
+    for (const std::string& coordinate : at.charted_names) coordinates.push_back({coordinate, ""});
+    families.push_back({name, name, &state.charted, &state.charted.front(), coordinates});
+  }
+  return families;
+}
+
+const UncertainState& judged_state(const UncertaintyAt& at) { return at.states.back(); }
+
+double linear_error_of_probability(const std::vector<Cumulants>& by_order) {
+  return largest_error_of_probability(divergence_from_linear(by_order));
+}
+
+std::string uncertainty_verdict(const UncertaintyResult& result) {
+  const UncertaintyAt& at = result.points.back();
+  const UncertainState& state = judged_state(at);
+  const std::string after =
+      fmt::format("After {}", duration_text(std::abs(at.time) * result.scene.units.time_s));
+  const int order = result.scene.order;
+  std::string text;
+  if (order == 1) {
+    text = fmt::format(
+        "{} the covariance is known to first order alone, which cannot say how far it misleads; a "
+        "jet.order of 2 or more does.",
+        after);
+  } else {
+    const double error = linear_error_of_probability(state.cartesian);
+    const bool misleads = error > misleading_probability;
+    const Eigen::Index worst = worst_component(state.cartesian);
+    const StateComponent component = state_components(result)[static_cast<std::size_t>(worst)];
+    text = fmt::format(
+        "{} the linear covariance of {} {}: a probability that it gives may be wrong by {}{}; the "
+        "standard deviation along {} is {:.4g} {} by order {}, and {:.4g} {} by the linear theory.",
+        after, told_state(state), misleads ? "misleads" : "holds", error >= 1 ? "" : "up to ",
+        probability_text(error), component.name,
+        state.cartesian.back().standard_deviations()[worst], component.unit, order,
+        state.cartesian.front().standard_deviations()[worst], component.unit);
+    if (!state.charted.empty()) {
+      const double charted = linear_error_of_probability(state.charted);
+      text += fmt::format(
+          " In {} coordinates the distribution {} that of the linear theory: there a probability "
+          "may be wrong by {}{}.",
+          name_of(result.coordinates), charted > misleading_probability ? "is not" : "is still",
+          charted >= 1 ? "" : "up to ", probability_text(charted));
+    } else if (misleads) {
+      text += " In flow-box coordinates (jet.coordinates) a distribution stays Gaussian longer.";
+    }
+  }
+  return text;
+}
+
+std::vector<std::string> uncertainty_notes(const UncertaintyResult& result) {
+  const UncertaintySettings& settings = *result.scene.uncertainty;
+  std::vector<std::string> notes;
+  const auto mended = [&](const std::optional<StateUncertainty>& state, std::string_view whose) {
+    if (!state || state->covariance.taken_as_zero() == 0) return;
+    notes.push_back(
+        fmt::format("The covariance of the {} has an eigenvalue of its correlations of -{:.1g}, "
+                    "which is the rounding of its digits and was taken as zero.",
+                    whose, state->covariance.taken_as_zero()));
+  };
+  mended(settings.chief, "chief");
+  mended(settings.deputy, "deputy");
+  if (settings.acceleration_density_m2_s3 > 0) {
+    notes.push_back("What the noise of the acceleration adds is linear, in every order.");
+  }
+  if (settings.burn) {
+    notes.push_back("The errors of the burn are taken to first order, as Gaussian ones.");
+  }
+  if (result.coordinates != JetCoordinates::cartesian) {
+    bool has_through = true;
+    double doubt = 0;
+    for (const UncertaintyAt& at : result.points) {
+      for (const UncertainState& state : at.states) {
+        has_through = has_through && !state.through.empty();
+        doubt = std::max(doubt, state.through_doubt);
+      }
+    }
+    notes.push_back(
+        has_through
+            ? fmt::format("Moments along {} by polynomials in {} coordinates are by quadrature, "
+                          "which a rule of fewer nodes changes by {:.1g} at most (standard "
+                          "deviations relative, skewness and kurtosis absolute).",
+                          frame_name(settings.frame), name_of(result.coordinates), doubt)
+            : fmt::format("Moments along {} by polynomials in {} coordinates were not computed at "
+                          "some time: some states have no place in these.",
+                          frame_name(settings.frame), name_of(result.coordinates)));
+  }
+  if (settings.samples < 2) notes.push_back("No samples were flown (uncertainty.samples).");
+  return notes;
+}
+
+}  // namespace hamjet::io

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "../../studies/uncertainty/uncertainty.hpp"
+
+namespace hamjet::io {
+
+/// The six components of states in the frame of the results: name, unit, and how its column begins.
+struct StateComponent {
+  std::string name;  ///< R, ..., vN
+  std::string unit;  ///< m or m/s
+};
+std::vector<StateComponent> state_components(const UncertaintyResult& result);
+
+/// One family of distributions of a state: in which coordinates the polynomials are, and in which
+/// the distribution is told.
+struct MomentsFamily {
+  std::string polynomials;  ///< "cartesian", "flow-box", ...
+  std::string told_in;      ///< "RTN", "inertial", or the coordinates' name
+  const std::vector<Cumulants>* by_order;
+  const Cumulants* linear;  ///< the linear theory's Gaussian distribution, told alike
+  std::vector<StateComponent> components;
+};
+/// All that were computed, Cartesian ones first.
+std::vector<MomentsFamily> moments_families(const UncertaintyResult& result,
+                                            const UncertaintyAt& at, const UncertainState& state);
+
+/// The state that a verdict is about: the last one of a time.
+const UncertainState& judged_state(const UncertaintyAt& at);
+
+/// By how much a probability by the linear covariance may be wrong.
+double linear_error_of_probability(const std::vector<Cumulants>& by_order);
+
+/// The first that a reader sees: whether the linear covariance misleads, and in which coordinates
+/// the distribution stays Gaussian.
+std::string uncertainty_verdict(const UncertaintyResult& result);
+
+/// What a user must know beside the numbers, a sentence each: a covariance that was mended, noise
+/// that is linear, coordinates in which nodes have no place.
+std::vector<std::string> uncertainty_notes(const UncertaintyResult& result);
+
+}  // namespace hamjet::io
