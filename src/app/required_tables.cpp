@@ -50,6 +50,10 @@ void require_validity(const Scene& scene, const std::string& file) {
   require_table(file, scene.validity.has_value(), "validity", "tolerance_m = 1, count = 12");
 }
 
+void require_bounded(const Scene& scene, const std::string& file) {
+  require_table(file, scene.bounded.has_value(), "bounded", "sizes_km = [1, 10]");
+}
+
 void require_assignment(const Scene& scene, const std::string& file) {
   require_table(file, scene.assignment.has_value(), "assignment",
                 "deputy = [{position_m = [0, -100, 0]}], slot = [{position_m = [0, 100, 0]}]");

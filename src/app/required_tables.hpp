@@ -18,6 +18,7 @@ namespace hamjet::cli {
 void require_transfer(const Scene& scene, const std::string& file);
 void require_deputy(const Scene& scene, const std::string& file);
 void require_validity(const Scene& scene, const std::string& file);
+void require_bounded(const Scene& scene, const std::string& file);
 void require_assignment(const Scene& scene, const std::string& file);
 
 /// An Error(scene) that comes from a study gets the file's name before it.

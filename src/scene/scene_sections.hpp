@@ -213,6 +213,9 @@ ValiditySettings read_validity(const TableReader& validity, const Scene& scene,
 AssignmentSettings read_assignment(const TableReader& assignment, const Scene& scene,
                                    const Nominal& nominal);
 
+/// Table `[bounded]`, checked against what `scene` already holds.
+BoundedSettings read_bounded(const TableReader& bounded, const Scene& scene);
+
 /// Why the energy-conserving methods integrate no flow jet, for messages.
 inline constexpr std::string_view no_energy_conserving_jet =
     "the map of an energy-conserving method at a fixed physical time is not symplectic, because "

@@ -128,6 +128,7 @@ struct Scene {
   std::optional<TransferSettings> transfer;
   std::optional<ValiditySettings> validity;
   std::optional<AssignmentSettings> assignment;
+  std::optional<BoundedSettings> bounded;
   OutputSettings output;
   std::optional<EphemerisSettings> ephemeris;
   std::optional<NominalFile> nominal_file;  ///< absent: the scene has the numbers itself
