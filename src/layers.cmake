@@ -1,6 +1,6 @@
 # The layers from the bottom, a folder each in include/hamjet and src: none includes from one above
 # its own.
-set(HAMJET_LAYERS text algebra dynamics integrators maps charts relative_motion uncertainty
+set(HAMJET_LAYERS text algebra dynamics integrators maps charts poincare relative_motion uncertainty
   optimal_control studies store formats scene report sweep app cli python)
 
 # Adds to the target all sources of the layer whose CMakeLists.txt calls it, but those behind EXCEPT, which

@@ -55,6 +55,10 @@ void require_uncertainty(const Scene& scene, const std::string& file) {
                 "position_m = [100, 100, 100], velocity_m_s = [0.1, 0.1, 0.1]");
 }
 
+void require_bounded(const Scene& scene, const std::string& file) {
+  require_table(file, scene.bounded.has_value(), "bounded", "sizes_km = [1, 10]");
+}
+
 void require_assignment(const Scene& scene, const std::string& file) {
   require_table(file, scene.assignment.has_value(), "assignment",
                 "deputy = [{position_m = [0, -100, 0]}], slot = [{position_m = [0, 100, 0]}]");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "../algebra/instantiated_real.hpp"
 #include "hamjet/algebra/elementary_functions.hpp"
@@ -84,6 +85,32 @@ SixNumbers<Series<Real>> FlowSection<Real>::states(const SpacePointer& space) co
     Series<Real> excess = energy_series(*system_, chart_.state(z)) - wanted;
     excess[0] = Real(0);
     z[3] -= excess / rate_;
+  }
+  return chart_.state(z);
+}
+
+template <class Real>
+SixNumbers<Real> FlowSection<Real>::state(const Real& energy, SixNumbers<Real> z) const {
+  using std::abs;
+  using std::isfinite;
+  using std::sqrt;
+  z[0] = chief_[0];
+  z[3] = chief_[3];
+  if (is_bound() && chart_.is_of_elements() && energy < 0) z[3] *= sqrt(Real(energy_ / energy));
+  const SpacePointer space = SeriesSpace::create(1, 1);
+  // Quadratic convergence from an error of the order of J2: more iterations only round to and fro.
+  constexpr int most_iterations = 12;
+  for (int i = 0; i < most_iterations; ++i) {
+    SixNumbers<Series<Real>> series = constant_series(space, z);
+    series[3][1] = Real(1);
+    const Series<Real> found = hamiltonian(*system_, chart_.state(series));
+    const Real change = (found[0] - energy) / found[1];
+    if (!isfinite(change) || !(abs(change) < abs(z[3]))) {
+      throw Error(ErrorKind::numerical,
+                  "section: no state of this energy and these coordinates lies near the chief's");
+    }
+    z[3] -= change;
+    if (abs(change) <= std::numeric_limits<Real>::epsilon() * abs(z[3])) break;
   }
   return chart_.state(z);
 }

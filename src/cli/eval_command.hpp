@@ -5,6 +5,10 @@
 
 #include "../app/eval_coordinates.hpp"
 
+namespace CLI {
+class App;
+}
+
 namespace hamjet::cli {
 
 struct EvalOptions {
@@ -21,6 +25,8 @@ struct EvalOptions {
   bool strict = false;  ///< a row that is not inside makes the exit code 1
   bool quiet = false;
 };
+
+CLI::App* add_eval_command(CLI::App& app, EvalOptions& options);
 
 /// Maps deviations through a stored jet; returns the exit code.
 int eval(const EvalOptions& options);

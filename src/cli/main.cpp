@@ -55,6 +55,8 @@ constexpr const char* examples = R"(Examples:
   hamjet validity scene.toml                how far from the chief the polynomials are right
   hamjet uncertainty scene.toml             how a covariance grows, to every order; a report
   hamjet assign scene.toml                  deputies to slots at the least total velocity change
+  hamjet poincare scene.toml                the frozen orbit, and what turns about it
+  hamjet bounded scene.toml                 deputies that stay for months without fuel; a report
   hamjet eval out/scene --deviation 100,0,0,0,0.1,0
                                             a relative state (RTN: m, m/s) through the stored jet
   hamjet convert out/scene scene.h5         a stored jet as HDF5, DACE text or CSV
@@ -108,71 +110,6 @@ void add_override_option(CLI::App& command, hamjet::cli::RunOptions& options) {
                   "integrator.gauss8.tolerance=1e-12; key=null removes it; may be repeated")
       ->type_size(1)
       ->allow_extra_args(false);
-}
-
-CLI::App* add_eval_command(CLI::App& app, hamjet::cli::EvalOptions& options) {
-  CLI::App* eval =
-      app.add_subcommand("eval",
-                         "map relative states through a stored jet, from its start to its end\n"
-                         "Example: hamjet eval out/scene --deviations start.csv -o end.csv");
-  eval->add_option(
-          "directory", options.directory,
-          "results of hamjet run, or one of their files " + hamjet::io::jet_file_endings() +
-              "; or a scene (.toml): its polynomials are integrated now, in jet.coordinates")
-      ->required()
-      ->type_name("FILE");
-  std::string columns;
-  std::string frames;
-  for (const hamjet::DeputyForm form : hamjet::cli::forms()) {
-    std::string names;
-    for (const auto& component : components_of(form)) {
-      names += (names.empty() ? "" : ", ") + std::string(component.name);
-    }
-    columns += names + " (" + std::string(name_of(form)) + "), ";
-    frames += std::string(name_of(form)) + ",";
-  }
-  const std::string frame_type = "{" + frames + std::string(hamjet::cli::canonical_frame) + "}";
-  eval->add_option("--deviation", options.deviation,
-                   "one deviation, the six numbers of the frame (see --deviations); in the frame "
-                   "canonical one number a variable of the jet")
-      ->type_name("NUMBERS");
-  eval->add_option("--deviations", options.deviations,
-                   "CSV file of many; its first line names the columns: " + columns +
-                       "or the jet's variables (canonical)")
-      ->type_name("FILE");
-  eval->add_option("--deputy", options.deputy,
-                   "a scene of the same chief: the deputy of its table [deputy]")
-      ->type_name("SCENE");
-  eval->add_option("--run", options.run, "label of the run (default: the first with a result)")
-      ->type_name("LABEL");
-  eval->add_option("--frame", options.frames.frame,
-                   "RTN (default: radial, transverse, normal of the chief), inertial, curvilinear, "
-                   "relative-elements (D'Amico), element-differences (Gim and Alfriend; both of "
-                   "osculating elements), or canonical")
-      ->type_name(frame_type);
-  eval->add_option("--to", options.frames.to,
-                   "the frame of the results (default: that of the deviations)")
-      ->type_name(frame_type);
-  eval->add_option("--derivatives", options.frames.derivatives,
-                   "of RTN: rotating (default: velocities as seen from the turning axes) or "
-                   "inertial")
-      ->type_name("{rotating,inertial}");
-  eval->add_option("--time", options.time,
-                   "jets at these times that jet.times_s (or _orbits, _canonical, count) of the "
-                   "scene asked for, and a column time_s (default: the end alone, without it)")
-      ->type_name("SECONDS,...|all");
-  eval->add_option("--degree", options.degree, "leave out terms above this degree")->type_name("K");
-  hamjet::cli::add_output_option(
-      *eval, options.output,
-      "CSV file of the final states with estimates of the miss (default: standard output)", "FILE",
-      "but standard output is what it is without -o");
-  eval->add_flag(
-      "--strict", options.strict,
-      "exit code 1 if a row is marked outside or unknown: beyond the polynomial's reach");
-  eval->add_flag("--json", options.json,
-                 "print statistics and, of up to 100 deviations, the final states as JSON");
-  eval->add_flag("-q,--quiet", options.quiet, "no time and counts on standard error");
-  return eval;
 }
 
 CLI::App* add_sweep_command(CLI::App& app, hamjet::cli::RunOptions& run,
@@ -294,6 +231,12 @@ int dispatch(int argc, char** argv) {
   const CLI::App* assign = add_study(
       "assign", "send deputies to slots at the least total velocity change",
       "assignment.csv, costs.csv, pairs.csv and summary.json", hamjet::cli::assignment_suffix);
+  const CLI::App* poincare =
+      add_study("poincare", "the frozen orbit of the chief's energy, and what turns about it",
+                "poincare.csv and summary.json", hamjet::cli::poincare_suffix);
+  const CLI::App* bounded =
+      add_study("bounded", "deputies that stay with the chief for long without fuel",
+                "report.html, bounded.csv and summary.json", hamjet::cli::bounded_suffix);
 
   std::optional<std::string> suite;
   CLI::App* stability = app.add_subcommand(
@@ -305,7 +248,7 @@ int dispatch(int argc, char** argv) {
                   "out/stability", "print a list of one object a case");
 
   hamjet::cli::EvalOptions evaluation;
-  const CLI::App* eval = add_eval_command(app, evaluation);
+  const CLI::App* eval = hamjet::cli::add_eval_command(app, evaluation);
 
   hamjet::cli::ConvertOptions conversion;
   const CLI::App* convert = hamjet::cli::add_convert_command(app, conversion);
@@ -369,6 +312,8 @@ int dispatch(int argc, char** argv) {
   if (*validity) return hamjet::cli::validity(options, coordinates);
   if (*uncertainty) return hamjet::cli::uncertainty(options);
   if (*assign) return hamjet::cli::assign(options);
+  if (*poincare) return hamjet::cli::poincare(options);
+  if (*bounded) return hamjet::cli::bounded(options);
   return hamjet::cli::run(options);
 }
 

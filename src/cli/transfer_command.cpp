@@ -9,7 +9,11 @@
 #include "../app/report_origin.hpp"
 #include "../app/required_tables.hpp"
 #include "../app/stored_chief.hpp"
+#include "../report/bounded/bounded_report.hpp"
+#include "../report/bounded/frozen_orbit_report.hpp"
 #include "../report/formation/deputy_motion_report.hpp"
+#include "../studies/bounded/bounded_formation.hpp"
+#include "../studies/bounded/frozen_orbit_study.hpp"
 #include "../studies/formation/deputy_motion.hpp"
 #include "../studies/formation/flown_trajectory.hpp"
 #include "../text/scene_message.hpp"
@@ -151,6 +155,24 @@ int assign(const RunOptions& options) {
         return io::assignment_report(
             study_of(*options.scene_file, [&] { return study_assignment(scene, progress); }));
       });
+}
+
+int poincare(const RunOptions& options) {
+  const Scene scene = read_unsplit_scene(options, "hamjet poincare");
+  return report_study(options, scene.name + poincare_suffix, [&](const ProgressCallback& progress) {
+    return io::frozen_orbit_report(
+        study_of(*options.scene_file, [&] { return study_frozen_orbit(scene, progress); }));
+  });
+}
+
+int bounded(const RunOptions& options) {
+  const Scene scene = read_unsplit_scene(options, "hamjet bounded");
+  require_bounded(scene, *options.scene_file);
+  return report_study(options, scene.name + bounded_suffix, [&](const ProgressCallback& progress) {
+    return io::bounded_report(
+        study_of(*options.scene_file, [&] { return study_bounded(scene, progress); }),
+        report_origin(options.command));
+  });
 }
 
 }  // namespace hamjet::cli

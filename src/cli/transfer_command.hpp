@@ -16,6 +16,8 @@ inline constexpr const char* motion_suffix = "-motion";
 inline constexpr const char* transfer_suffix = "-transfer";
 inline constexpr const char* validity_suffix = "-validity";
 inline constexpr const char* assignment_suffix = "-assign";
+inline constexpr const char* poincare_suffix = "-poincare";
+inline constexpr const char* bounded_suffix = "-bounded";
 
 /// A jet that `hamjet run` has stored, to be used instead of computing.
 struct TransferOptions {
@@ -38,5 +40,11 @@ int validity(const RunOptions& options, const std::optional<std::string>& coordi
 
 /// Deputies sent to slots at the least total velocity change.
 int assign(const RunOptions& options);
+
+/// The frozen orbit of the chief's energy and angular momentum, and what librates about it.
+int poincare(const RunOptions& options);
+
+/// Deputies that stay with the chief for long.
+int bounded(const RunOptions& options);
 
 }  // namespace hamjet::cli

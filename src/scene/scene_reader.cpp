@@ -108,6 +108,7 @@ Scene read_flow_jet(const TableReader& root) {
   root.attempt([&] { require_splittable(root.table("jet"), scene); });
   read_table("validity",
              [&](const auto& table) { scene.validity = read_validity(table, scene, nominal); });
+  read_table("bounded", [&](const auto& table) { scene.bounded = read_bounded(table, scene); });
   const bool has_deputy = read_table(
       "deputy", [&](const auto& table) { scene.deputy = read_deputy(table, scene, nominal); });
   if (!has_deputy || root.is_misspelt("deputy")) return scene;

@@ -216,6 +216,8 @@ AssignmentSettings read_assignment(const TableReader& assignment, const Scene& s
 /// Table `[uncertainty]` of a scene whose table `[deputy]` has been read, if it has one.
 UncertaintySettings read_uncertainty(const TableReader& uncertainty, const Scene& scene,
                                      const Nominal& nominal);
+/// Table `[bounded]`, checked against what `scene` already holds.
+BoundedSettings read_bounded(const TableReader& bounded, const Scene& scene);
 
 /// Why the energy-conserving methods integrate no flow jet, for messages.
 inline constexpr std::string_view no_energy_conserving_jet =

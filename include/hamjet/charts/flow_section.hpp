@@ -58,6 +58,9 @@ class FlowSection {
 
   /// The states on the surface as series in u, with the chief's ignored coordinate.
   SixNumbers<Series<Real>> states(const SpacePointer& space) const;
+  /// The state on the surface of an energy and of the chart's other coordinates, `coordinates[0]`
+  /// and `[3]` not being looked at. Throws Error(numerical) if there is none near the chief's.
+  SixNumbers<Real> state(const Real& energy, SixNumbers<Real> coordinates) const;
 
  private:
   SharedSystem system_;

@@ -130,6 +130,7 @@ struct Scene {
   std::optional<ValiditySettings> validity;
   std::optional<AssignmentSettings> assignment;
   std::optional<UncertaintySettings> uncertainty;
+  std::optional<BoundedSettings> bounded;
   OutputSettings output;
   std::optional<EphemerisSettings> ephemeris;
   std::optional<NominalFile> nominal_file;  ///< absent: the scene has the numbers itself

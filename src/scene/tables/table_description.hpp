@@ -134,6 +134,7 @@ struct TableDescription {
 // The tables of a scene, each beside the function that reads it.
 
 const TableDescription& assignment_table();
+const TableDescription& bounded_table();
 const TableDescription& canonical_transformation_table();
 const TableDescription& case_table();
 const TableDescription& checks_table();

@@ -99,6 +99,17 @@ struct ValiditySettings {
   RelativeFrame frame = RelativeFrame::rtn_rotating;
 };
 
+/// Table `[bounded]`: deputies that stay with the chief for long.
+struct BoundedSettings {
+  std::vector<double> sizes_m = {1e3, 1e4, 1e5, 1e6};  ///< largest distances over a revolution
+  /// Direction in which the eccentricity vector differs: at 0 the eccentricity grows, at 90 degrees
+  /// the pericentre turns ahead.
+  double phase_deg = 90;
+  double cross_track = 0.5;  ///< by the node's difference, of the size; below 1
+  double along_track = 0;    ///< mean place ahead of the chief, of the size; between -1 and 1
+  int revolutions = 1000;    ///< over which drifts are the chief's, and are flown
+};
+
 /// How the transfer times of an assignment are chosen.
 enum class AssignmentTime {
   per_pair,  ///< the best time for each deputy and slot

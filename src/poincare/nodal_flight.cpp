@@ -1,0 +1,70 @@
+#include "nodal_flight.hpp"
+
+#include <boost/math/constants/constants.hpp>
+#include <cmath>
+#include <limits>
+
+#include "../algebra/instantiated_real.hpp"
+#include "../charts/steady_turn.hpp"
+#include "hamjet/error.hpp"
+
+namespace hamjet {
+
+template <class Real>
+NodalFlight<Real> nodal_flight(const FlowBoxMap<Real>& map) {
+  if (map.end->chart().name() != ChartName::nodal) {
+    throw Error(ErrorKind::usage, "nodal flight: the map must be one between nodal sections");
+  }
+  // The end's places are q, H, p, and the node's advance stands behind them.
+  const SteadyMotion<Series<Real>> steady = map.steady();
+  NodalFlight<Real> flight{map.time + steady.time, map.coordinates[0], map.coordinates[2],
+                           map.coordinates[3] + steady.node};
+  turn_pair<Real>(flight.q, flight.p, steady.pericentre);
+  return flight;
+}
+
+template <class Real>
+Real kepler_period(const Real& energy, const Real& mu) {
+  using std::pow;
+  return Real(2) * boost::math::constants::pi<Real>() * mu *
+         pow(Real(Real(-2) * energy), Real(-1.5));
+}
+
+template <class Real>
+ReturnMap<Real> return_near(const ZonalGravity& field, const SixNumbers<Real>& chief,
+                            const Real& near, int order, double tolerance) {
+  using std::abs;
+  GaussSettings settings;
+  settings.tolerance = tolerance;
+  FlowBoxPropagation<Real> propagation(field, ChartName::nodal, chief, order, settings);
+  const Real least = Real(100) * std::numeric_limits<Real>::epsilon();
+  constexpr int most_iterations = 10;
+  Real time = near;
+  for (int i = 0;; ++i) {
+    FlowBoxMap<Real> map = propagation.advance_to(time);
+    const Real left = within_half_a_turn<Real>(map.start->chief()[0] - map.end->chief()[0]);
+    if (abs(left) <= least || i == most_iterations) {
+      NodalFlight<Real> flight = nodal_flight(map);
+      return {std::move(map), std::move(flight)};
+    }
+    time += left / map.end->rate();
+  }
+}
+
+template <class Real>
+ReturnMap<Real> first_return(const ZonalGravity& field, const SixNumbers<Real>& chief, int order,
+                             double tolerance) {
+  const FlowSection<Real> section(field, ChartName::nodal, chief);
+  return return_near<Real>(field, chief, kepler_period<Real>(section.energy(), Real(field.mu)),
+                           order, tolerance);
+}
+
+template NodalFlight<InstantiatedReal> nodal_flight(const FlowBoxMap<InstantiatedReal>&);
+template ReturnMap<InstantiatedReal> return_near(const ZonalGravity&,
+                                                 const SixNumbers<InstantiatedReal>&,
+                                                 const InstantiatedReal&, int, double);
+template ReturnMap<InstantiatedReal> first_return(const ZonalGravity&,
+                                                  const SixNumbers<InstantiatedReal>&, int, double);
+template InstantiatedReal kepler_period(const InstantiatedReal&, const InstantiatedReal&);
+
+}  // namespace hamjet

@@ -1,0 +1,253 @@
+#include "bounded_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "../../store/columns.hpp"
+#include "../../store/json_values.hpp"
+#include "../../studies/bounded/relative_orbit_extent.hpp"
+#include "../../text/html_text.hpp"
+#include "../../text/quantity_text.hpp"
+#include "../../text/terminal_text.hpp"
+#include "../drawing/report_page.hpp"
+#include "../formation/transfer_json.hpp"
+#include "bounded_charts.hpp"
+
+namespace hamjet::io {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A form's name with what tells the two kinds of RTN apart.
+std::string form_key(DeputyForm form) {
+  const std::string name(name_of(form));
+  if (form == DeputyForm::rtn_rotating) return name + "-rotating";
+  return form == DeputyForm::rtn_inertial ? name + "-inertial" : name;
+}
+
+std::string short_number(double value) { return fmt::format("{:.2e}", value); }
+
+std::vector<std::string> row_of(const BoundedDeputy& deputy) {
+  std::vector<std::string> row = {length_text(deputy.wanted_m), std::string(name_of(deputy.rule))};
+  if (!deputy.failure.empty()) {
+    row.resize(9);
+    return row;
+  }
+  const Eigen::Vector3d extent = half_widths_m(deputy.first);
+  for (const double width : extent) row.push_back(length_text(width));
+  for (const BoundedDrift& drift : deputy.drifts) row.push_back(short_number(drift.along));
+  row.push_back(short_number(deputy.drifts.back().cross));
+  row.push_back(short_number(deputy.drifts.back().range));
+  return row;
+}
+
+std::vector<std::string> headings(const BoundedFormation& formation) {
+  return {"size",
+          "rule",
+          "R +-",
+          "T +-",
+          "N +-",
+          fmt::format("drift ({})", std::max(1, formation.revolutions / 10)),
+          fmt::format("drift ({})", formation.revolutions),
+          "across",
+          "range"};
+}
+
+std::string failures_text(const BoundedFormation& formation) {
+  std::string text;
+  for (const BoundedDeputy& deputy : formation.deputies) {
+    if (deputy.failure.empty()) continue;
+    text += fmt::format("none of {} by {}: {}\n", length_text(deputy.wanted_m),
+                        name_of(deputy.rule), deputy.failure);
+  }
+  return text;
+}
+
+std::string terminal_table(const BoundedFormation& formation) {
+  std::vector<std::vector<std::string>> rows = {headings(formation)};
+  for (const BoundedDeputy& deputy : formation.deputies) rows.push_back(row_of(deputy));
+  return fmt::format(
+      "{}\n{}\norder {}; drifts are mean ones along the track, a revolution, in parts of the size; "
+      "across: the same of the node; range: of the along-track difference over the window\n\n{}{}",
+      formation.scene.title, bounded_verdict(formation), formation.scene.order, aligned_table(rows),
+      failures_text(formation));
+}
+
+std::string page(const BoundedFormation& formation, const ReportOrigin& origin,
+                 ChartDrawer& drawer) {
+  ReportPage page;
+  page.title = formation.scene.title + ": bounded formations";
+  page.verdict = bounded_verdict(formation);
+  Chart drifts = bounded_drift_chart(formation);
+  fit(drifts);
+  page.first_figure = figure_html(drifts, drawer);
+  page.facts =
+      origin_facts_html(origin) +
+      fact_html("Scene", fmt::format("{}, order {}", formation.scene.name, formation.scene.order)) +
+      fact_html("Window", counted(formation.revolutions, "revolution")) +
+      fact_html("Mean nodal period",
+                duration_text(formation.mean_period * formation.scene.units.time_s)) +
+      fact_html("Time", duration_text(formation.family_seconds) + ", of which " +
+                            duration_text(formation.flight_seconds) + " for the flights");
+  std::vector<Chart> orbits = bounded_orbit_charts(formation);
+  for (Chart& chart : orbits) fit(chart);
+  std::string rows;
+  for (const BoundedDeputy& deputy : formation.deputies) {
+    const std::vector<std::string> cells = row_of(deputy);
+    rows += "<tr>" + row_name_cell(cells[0]);
+    for (std::size_t k = 1; k < cells.size(); ++k) rows += cell(cells[k]);
+    rows += "</tr>\n";
+  }
+  page.sections =
+      "<section>\n<h2>Relative orbits</h2>\n" + panels_html(orbits, drawer) + "</section>\n" +
+      "<section>\n<h2>Deputies</h2>\n" +
+      table_html(
+          "Half widths along R, T and N; mean drifts along the track over a tenth of the "
+          "window and over it, and across it, a revolution, in parts of the size; the range "
+          "of the along-track difference over the window. Their initial conditions, in "
+          "every form in which a scene takes a deputy, are in <code>bounded.csv</code>.",
+          "<tr>" + header_cells(headings(formation)) + "</tr>", rows) +
+      "<p>" + escape_html(failures_text(formation)) + "</p></section>\n";
+  return page_html(page, drawer);
+}
+
+}  // namespace
+
+std::string bounded_verdict(const BoundedFormation& formation) {
+  double worst = 0;
+  double worst_invariant = 0;
+  std::size_t found = 0;
+  for (const BoundedDeputy& deputy : formation.deputies) {
+    if (!deputy.failure.empty()) continue;
+    const double drift = std::abs(deputy.drifts.back().along);
+    if (deputy.rule == BoundedRule::poincare_map) {
+      worst = std::max(worst, drift);
+      ++found;
+    }
+    if (deputy.rule == BoundedRule::j2_invariant) {
+      worst_invariant = std::max(worst_invariant, drift);
+    }
+  }
+  if (found == 0) return "No deputy of these sizes has the chief's mean period and drift.";
+  std::string text = fmt::format(
+      "{} with the chief's mean nodal period and drift of the node; flown over {} with the whole "
+      "field, {} by at most {:.2g} of the relative orbit's size a revolution in the mean",
+      counted(found, "deputy"), counted(formation.revolutions, "revolution"),
+      found == 1 ? "it drifts along the track" : "they drift along the track", worst);
+  if (worst_invariant > 0) {
+    text += fmt::format("; those of first-order J2 invariance by up to {:.2g}", worst_invariant);
+  }
+  return text + ".";
+}
+
+std::string bounded_csv(const BoundedFormation& formation) {
+  Columns<BoundedDeputy> columns;
+  const auto is_there = [](const BoundedDeputy& deputy) { return deputy.failure.empty(); };
+  const auto is_of_map = [](const BoundedDeputy& deputy) {
+    return deputy.failure.empty() && deputy.rule == BoundedRule::poincare_map;
+  };
+  columns.add("wanted_m", &BoundedDeputy::wanted_m);
+  columns.add("rule", [](const BoundedDeputy& deputy) { return name_of(deputy.rule); });
+  columns.add_if(is_there, "size_m", &BoundedDeputy::size_m);
+  columns.add_if(is_there, "eccentricity_difference", &BoundedDeputy::amplitude);
+  constexpr std::array<std::string_view, 3> axes = {"r", "t", "n"};
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    columns.add_if(is_there, fmt::format("half_width_{}_m", axes[i]),
+                   [=](const BoundedDeputy& deputy) {
+                     return half_widths_m(deputy.first)[static_cast<Eigen::Index>(i)];
+                   });
+  }
+  for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
+    const std::string when = k == 0 ? "tenth" : "window";
+    const auto drift = [=](const BoundedDeputy& deputy) { return deputy.drifts[k]; };
+    columns.add_if(is_there, when + "_revolutions",
+                   [=](const BoundedDeputy& deputy) { return drift(deputy).revolutions; });
+    columns.add_if(is_there, when + "_along_drift",
+                   [=](const BoundedDeputy& deputy) { return drift(deputy).along; });
+    columns.add_if(is_there, when + "_cross_drift",
+                   [=](const BoundedDeputy& deputy) { return drift(deputy).cross; });
+    columns.add_if(is_there, when + "_along_range",
+                   [=](const BoundedDeputy& deputy) { return drift(deputy).range; });
+  }
+  columns.add_if(is_of_map, "period_difference", &BoundedDeputy::energy);
+  columns.add_if(is_of_map, "momentum_difference_canonical", &BoundedDeputy::momentum);
+  columns.add_if(is_there, "lowest_m", &BoundedDeputy::lowest_m);
+  for (std::size_t f = 0; f < BoundedDeputy{}.forms.size(); ++f) {
+    const auto form = static_cast<DeputyForm>(f);
+    for (std::size_t i = 0; i < 6; ++i) {
+      columns.add_if(is_there, fmt::format("{}.{}", form_key(form), components_of(form)[i].name),
+                     [=](const BoundedDeputy& deputy) { return deputy.forms[f][i]; });
+    }
+  }
+  columns.add("failure", &BoundedDeputy::failure);
+  return columns.csv(formation.deputies);
+}
+
+Json bounded_json(const BoundedFormation& formation) {
+  Json json = study_head_json(formation.scene, "bounded", "gauss8");
+  const BoundedSettings& settings = *formation.scene.bounded;
+  json["verdict"] = bounded_verdict(formation);
+  json["phase_deg"] = settings.phase_deg;
+  json["cross_track"] = settings.cross_track;
+  json["along_track"] = settings.along_track;
+  json["revolutions"] = formation.revolutions;
+  const double unit = formation.scene.units.time_s;
+  json["nodal_period_s"] = formation.nodal_period * unit;
+  json["mean_nodal_period_s"] = formation.mean_period * unit;
+  json["node_deg_per_revolution"] = formation.mean_node * 180 / std::numbers::pi;
+  json["deputies"] = Json::array();
+  for (const BoundedDeputy& deputy : formation.deputies) {
+    Json entry = {{"wanted_m", deputy.wanted_m},
+                  {"rule", name_of(deputy.rule)},
+                  {"failure", text_or_null(deputy.failure)},
+                  {"size_m", nullptr},
+                  {"eccentricity_difference", nullptr},
+                  {"half_widths_m", nullptr},
+                  {"lowest_m", nullptr},
+                  {"drifts", nullptr},
+                  {"start", nullptr}};
+    if (deputy.failure.empty()) {
+      entry["size_m"] = json_number(deputy.size_m);
+      entry["eccentricity_difference"] = json_number(deputy.amplitude);
+      entry["half_widths_m"] = vector_json(half_widths_m(deputy.first));
+      entry["lowest_m"] = json_number(deputy.lowest_m);
+      entry["drifts"] = Json::array();
+      for (const BoundedDrift& drift : deputy.drifts) {
+        entry["drifts"].push_back({{"revolutions", drift.revolutions},
+                                   {"along", json_number(drift.along)},
+                                   {"cross", json_number(drift.cross)},
+                                   {"along_range", json_number(drift.range)}});
+      }
+      entry["start"] = Json::object();
+      for (std::size_t f = 0; f < deputy.forms.size(); ++f) {
+        const auto form = static_cast<DeputyForm>(f);
+        Json& numbers = entry["start"][form_key(form)];
+        for (std::size_t i = 0; i < 6; ++i) {
+          numbers[std::string(components_of(form)[i].name)] = json_number(deputy.forms[f][i]);
+        }
+      }
+    }
+    json["deputies"].push_back(std::move(entry));
+  }
+  json["seconds"] = {{"all", formation.family_seconds}, {"flights", formation.flight_seconds}};
+  json["exit_code"] = 0;
+  return json;
+}
+
+StudyReport bounded_report(const BoundedFormation& formation, const ReportOrigin& origin) {
+  StudyReport report;
+  ChartDrawer drawer(origin.gnuplot);
+  report.files = {{"bounded.csv", bounded_csv(formation)},
+                  {"report.html", page(formation, origin, drawer)}};
+  report.drawing_problem = drawer.problem();
+  report.files.push_back({"summary.json", bounded_json(formation).dump(2) + "\n"});
+  report.table = terminal_table(formation);
+  report.details =
+      fmt::format("{} in all, {} for the flights\n", duration_text(formation.family_seconds),
+                  duration_text(formation.flight_seconds));
+  return report;
+}
+
+}  // namespace hamjet::io

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "../../studies/bounded/bounded_formation.hpp"
+#include "hamjet/detail/report/report_origin.hpp"
+#include "hamjet/detail/report/study_report.hpp"
+
+namespace hamjet::io {
+
+/// The first that a reader sees: how long the deputies stay, and how much better than by theories
+/// of first order.
+std::string bounded_verdict(const BoundedFormation& formation);
+
+/// `bounded.csv`: one row a deputy.
+std::string bounded_csv(const BoundedFormation& formation);
+
+/// `summary.json`.
+nlohmann::ordered_json bounded_json(const BoundedFormation& formation);
+
+/// The files of `hamjet bounded`: `bounded.csv`, `report.html`, `summary.json`.
+StudyReport bounded_report(const BoundedFormation& formation, const ReportOrigin& origin);
+
+}  // namespace hamjet::io

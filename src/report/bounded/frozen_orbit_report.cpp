@@ -1,0 +1,147 @@
+#include "frozen_orbit_report.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "../../store/columns.hpp"
+#include "../../store/json_values.hpp"
+#include "../../text/quantity_text.hpp"
+#include "../../text/terminal_text.hpp"
+#include "../formation/transfer_json.hpp"
+
+namespace hamjet::io {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double degrees = 180 / std::numbers::pi;
+
+/// The two multipliers, as their real and imaginary parts; the second one's are its inverse's.
+std::array<double, 2> multiplier(const FrozenOrbitStudy& study) {
+  const double half = study.trace / 2;
+  // (t/2)^2 - 1 = (t - 2)(t + 2)/4 without the loss of digits.
+  const double discriminant = study.trace_less_2 * (study.trace + 2) / 4;
+  if (discriminant < 0) return {half, std::sqrt(-discriminant)};
+  return {half + std::copysign(std::sqrt(discriminant), half), 0};
+}
+
+double length_m(const FrozenOrbitStudy& study, double canonical) {
+  return canonical * study.scene.units.length_km * 1000;
+}
+
+std::string circles_table(const FrozenOrbitStudy& study) {
+  std::vector<std::vector<std::string>> rows = {
+      {"amplitude", "turns a revolution", "revolutions a turn", "nodal period (s)",
+       "node (deg a revolution)",
+       fmt::format("miss ({})", counted(study.flown_revolutions, "revolution"))}};
+  for (const LibrationCircle& circle : study.circles) {
+    rows.push_back({length_text(length_m(study, circle.amplitude * study.semi_major_axis)) +
+                        (circle.is_chiefs ? " (chief)" : ""),
+                    fmt::format("{:.9g}", circle.rotation_number),
+                    fmt::format("{:.6g}", 1 / std::abs(circle.rotation_number)),
+                    fmt::format("{:.9g}", circle.mean_period * study.scene.units.time_s),
+                    fmt::format("{:.9g}", circle.mean_node * degrees),
+                    circle.miss ? fmt::format("{:.2e}", *circle.miss) : std::string()});
+  }
+  return aligned_table(rows);
+}
+
+}  // namespace
+
+std::string frozen_orbit_verdict(const FrozenOrbitStudy& study) {
+  const auto [real, imaginary] = multiplier(study);
+  std::string text = fmt::format(
+      "The frozen orbit of the chief's energy and angular momentum about the axis has a = {:.7g} "
+      "km, e = {:.6g}, i = {:.7g} deg and its perigee at {:.6g} deg, returns after {:.10g} s, and "
+      "a revolution moves it by {:.1e} of the canonical unit. ",
+      study.semi_major_axis * study.scene.units.length_km, study.eccentricity,
+      study.inclination_deg, study.pericentre_deg, study.nodal_period * study.scene.units.time_s,
+      study.residual);
+  if (!study.is_stable()) {
+    return text + fmt::format(
+                      "It is unstable: its multipliers are {:.10g} and its inverse, so "
+                      "that neighbours leave it by a factor of e in {:.4g} revolutions.",
+                      real, 1 / std::log(std::abs(real)));
+  }
+  text += fmt::format("It is stable: its multipliers are {:.10g} +- {:.6g} i", real, imaginary);
+  if (!study.failure.empty()) return text + "; " + study.failure + ".";
+  return text + fmt::format(
+                    ", and neighbours turn about it in {:.6g} revolutions; the normal form "
+                    "of order {} is right to {} of the amplitude up to {} (flown over {}).",
+                    1 / std::abs(study.circles.front().rotation_number), study.scene.order,
+                    FrozenOrbitStudy::largest_miss,
+                    length_text(length_m(study, study.reach * study.semi_major_axis)),
+                    counted(study.flown_revolutions, "revolution"));
+}
+
+std::string frozen_orbit_csv(const FrozenOrbitStudy& study) {
+  Columns<LibrationCircle> columns;
+  const double unit = study.scene.units.time_s;
+  columns.add("amplitude_m", [&](const LibrationCircle& circle) {
+    return length_m(study, circle.amplitude * study.semi_major_axis);
+  });
+  columns.add("amplitude_eccentricity", &LibrationCircle::amplitude);
+  columns.add("chief", &LibrationCircle::is_chiefs);
+  columns.add("rotation_number", &LibrationCircle::rotation_number);
+  columns.add("mean_nodal_period_s",
+              [=](const LibrationCircle& circle) { return circle.mean_period * unit; });
+  columns.add("node_deg_per_revolution",
+              [](const LibrationCircle& circle) { return circle.mean_node * degrees; });
+  columns.add("action_canonical", &LibrationCircle::action);
+  columns.add("miss", &LibrationCircle::miss);
+  return columns.csv(study.circles);
+}
+
+Json frozen_orbit_json(const FrozenOrbitStudy& study) {
+  const auto [real, imaginary] = multiplier(study);
+  Json json = study_head_json(study.scene, "poincare", "gauss8");
+  json["verdict"] = frozen_orbit_verdict(study);
+  json["frozen_orbit"] = {{"state_canonical", study.state},
+                          {"a_km", study.semi_major_axis * study.scene.units.length_km},
+                          {"e", study.eccentricity},
+                          {"i_deg", study.inclination_deg},
+                          {"argp_deg", study.pericentre_deg},
+                          {"nodal_period_s", study.nodal_period * study.scene.units.time_s},
+                          {"node_deg_per_revolution", study.node * degrees},
+                          {"residual", study.residual},
+                          {"iterations", study.iterations},
+                          {"trace", study.trace},
+                          {"trace_less_2", study.trace_less_2},
+                          {"multiplier", {real, imaginary}},
+                          {"area_defect", study.area_defect},
+                          {"stable", study.is_stable()}};
+  const bool has_form = study.failure.empty();
+  json["failure"] = text_or_null(study.failure);
+  json["smallest_divisor"] = has_form ? Json(study.smallest_divisor) : Json(nullptr);
+  json["flown_revolutions"] = has_form ? Json(study.flown_revolutions) : Json(nullptr);
+  json["reach_m"] =
+      has_form ? Json(length_m(study, study.reach * study.semi_major_axis)) : Json(nullptr);
+  json["largest_miss"] = FrozenOrbitStudy::largest_miss;
+  json["circles"] = Json::array();
+  for (const LibrationCircle& circle : study.circles) {
+    json["circles"].push_back(
+        {{"amplitude_m", length_m(study, circle.amplitude * study.semi_major_axis)},
+         {"amplitude_eccentricity", circle.amplitude},
+         {"chief", circle.is_chiefs},
+         {"rotation_number", circle.rotation_number},
+         {"mean_nodal_period_s", circle.mean_period * study.scene.units.time_s},
+         {"node_deg_per_revolution", circle.mean_node * degrees},
+         {"action_canonical", circle.action},
+         {"miss", json_number(circle.miss)}});
+  }
+  json["exit_code"] = 0;
+  return json;
+}
+
+StudyReport frozen_orbit_report(const FrozenOrbitStudy& study) {
+  StudyReport report;
+  report.files = {{"poincare.csv", frozen_orbit_csv(study)},
+                  {"summary.json", frozen_orbit_json(study).dump(2) + "\n"}};
+  report.table = fmt::format("{}\n{}\n", study.scene.title, frozen_orbit_verdict(study));
+  if (!study.circles.empty()) report.table += "\n" + circles_table(study);
+  return report;
+}
+
+}  // namespace hamjet::io

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "../../studies/bounded/frozen_orbit_study.hpp"
+#include "hamjet/detail/report/study_report.hpp"
+
+namespace hamjet::io {
+
+/// The first that a reader sees: the frozen orbit, and whether it is stable.
+std::string frozen_orbit_verdict(const FrozenOrbitStudy& study);
+
+/// `poincare.csv`: one row a circle of the normal form.
+std::string frozen_orbit_csv(const FrozenOrbitStudy& study);
+
+/// `summary.json`.
+nlohmann::ordered_json frozen_orbit_json(const FrozenOrbitStudy& study);
+
+/// The files of `hamjet poincare`: `poincare.csv`, `summary.json`.
+StudyReport frozen_orbit_report(const FrozenOrbitStudy& study);
+
+}  // namespace hamjet::io

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hamjet/detail/studies/progress.hpp"
+#include "hamjet/relative_motion/deputy_coordinates.hpp"
+#include "hamjet/studies/scene.hpp"
+
+namespace hamjet {
+
+/// How the deputies of a study of bounded motion are chosen.
+enum class BoundedRule {
+  poincare_map,   ///< equal mean nodal periods and drifts of the node, see BoundedFamily
+  j2_invariant,   ///< of first order in J2, after Schaub and Alfriend
+  mean_elements,  ///< equal mean semi-major axis and inclination
+};
+inline constexpr std::array<BoundedRule, 3> bounded_rules = {
+    BoundedRule::poincare_map, BoundedRule::j2_invariant, BoundedRule::mean_elements};
+/// The name of a rule in results.
+std::string_view name_of(BoundedRule rule);
+
+/// What is left of a deputy's drift over a span, as slopes of straight lines of least squares in
+/// the flown differences; a revolution, relative to the size of the relative orbit.
+struct BoundedDrift {
+  int revolutions = 0;
+  double along = 0;  ///< a (d lambda + cos i d node)
+  double cross = 0;  ///< a sin i d node
+  double range = 0;  ///< of the along-track difference over the span, relative to the size
+};
+
+/// A deputy of one size, phase and rule.
+struct BoundedDeputy {
+  BoundedRule rule = BoundedRule::poincare_map;
+  double wanted_m = 0;        ///< its size
+  std::string failure;        ///< why there is none; all below is empty then
+  double amplitude = 0;       ///< of the difference of the eccentricity vectors
+  double size_m = 0;          ///< the largest distance over the first revolution
+  double energy = 0;          ///< of the period of Kepler's ellipse, less 1; of the map alone
+  double momentum = 0;        ///< H less the chief's, canonical; of the map alone
+  std::vector<double> state;  ///< at the chief's start, canonical
+  std::array<std::array<double, 6>, 6> forms = {};  ///< of every DeputyForm
+  std::vector<RelativeState> first;                 ///< RTN, over the first revolution
+  std::vector<RelativeState> last;                  ///< over the last one
+  std::vector<BoundedDrift> drifts;                 ///< over a tenth of the window, and over it
+  double lowest_m = 0;                              ///< least distance from the centre
+};
+
+/// The deputies that stay with a scene's chief.
+struct BoundedFormation {
+  Scene scene;
+  double nodal_period = 0;              ///< canonical
+  double mean_period = 0;               ///< over the window
+  double mean_node = 0;                 ///< radians a revolution
+  int revolutions = 0;                  ///< of the window
+  std::vector<BoundedDeputy> deputies;  ///< by size, then rule
+  double family_seconds = 0;
+  double flight_seconds = 0;
+};
+
+/// Finds, for each size of the scene's table [bounded], a deputy by each rule, and flies it beside
+/// the chief over the window with the scene's field. Throws Error(scene) for a scene that has no
+/// such table or whose chief is no orbit, and as BoundedFamily; that one size has no deputy is said
+/// at it.
+BoundedFormation study_bounded(const Scene& scene, const ProgressCallback& progress = {});
+
+}  // namespace hamjet

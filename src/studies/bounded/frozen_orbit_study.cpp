@@ -1,0 +1,151 @@
+#include "frozen_orbit_study.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "../../poincare/frozen_orbit.hpp"
+#include "../../poincare/rotation_normal_form.hpp"
+#include "../formation/deputy_flows.hpp"
+#include "../formation/formation_problem.hpp"
+#include "../formation/single_transfer.hpp"
+#include "hamjet/error.hpp"
+
+namespace hamjet {
+namespace {
+
+constexpr double search_tolerance = 1e-14;
+constexpr double refining_tolerance = 1e-22;
+constexpr int flown_returns = 100;
+
+/// Nearer to the critical inclination than this value of |5 cos^2 i - 1|, frozen orbits of any
+/// eccentricity may be near; elsewhere the nearly circular one is the only one.
+constexpr double critical = 0.05;
+
+double eccentricity_of(const SixNumbers<double>& z) {
+  const double ratio = 1 - (z[q_place] * z[q_place] + z[p_place] * z[p_place]) / (2 * z[3]);
+  return std::sqrt((1 - ratio) * (1 + ratio));
+}
+
+double inclination_cosine(const SixNumbers<double>& z) {
+  return z[momentum_place] / (z[3] - (z[q_place] * z[q_place] + z[p_place] * z[p_place]) / 2);
+}
+
+template <class To, class From>
+SixNumbers<To> converted(const SixNumbers<From>& z) {
+  SixNumbers<To> result;
+  for (std::size_t i = 0; i < 6; ++i) result[i] = static_cast<To>(z[i]);
+  return result;
+}
+
+/// How far, relative to the radius, an orbit of a circle is from its place after the returns.
+std::optional<double> flown_miss(const ZonalGravity& field, const FlowSection<double>& section,
+                                 const RotationNormalForm& form,
+                                 const RotationNormalForm::Circle& circle) {
+  try {
+    SixNumbers<double> z = section.chief();
+    const auto from = form.pair(circle, 0);
+    z[q_place] += from[0];
+    z[p_place] += from[1];
+    const SixNumbers<double> state = section.state(section.energy(), z);
+    const ReturnMap<double> back = return_near<double>(
+        field, state, flown_returns * form.mean_period(circle), 0, search_tolerance);
+    const auto wanted = form.pair(circle, form.angle_after(circle, 0, flown_returns));
+    const SixNumbers<double>& end = back.map.end->chief();
+    return std::hypot(end[q_place] - section.chief()[q_place] - wanted[0],
+                      end[p_place] - section.chief()[p_place] - wanted[1]) /
+           circle.radius;
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::numerical) throw;
+    return std::nullopt;
+  }
+}
+
+void add_normal_form(const ZonalGravity& field, const SixNumbers<double>& chief,
+                     const ProgressCallback& progress, FrozenOrbitStudy& study) {
+  const ReturnMap<double> back =
+      first_return<double>(field, six_numbers(study.state), study.scene.order, search_tolerance);
+  const FlowSection<double> section(field, ChartName::nodal, six_numbers(study.state));
+  const RotationNormalForm form(back.flight);
+  study.smallest_divisor = form.smallest_divisor();
+  study.flown_revolutions = flown_returns;
+  const double unit = std::sqrt(section.chief()[3]);
+  const double length_km = study.semi_major_axis * study.scene.units.length_km;
+  const auto add = [&](const RotationNormalForm::Circle& circle, bool is_chiefs) {
+    study.circles.push_back({is_chiefs, circle.radius / unit, form.rotation_number(circle),
+                             form.mean_period(circle), form.mean_node(circle), form.action(circle),
+                             circle.radius > 0 ? flown_miss(field, section, form, circle)
+                                               : std::optional<double>(study.residual)});
+  };
+  constexpr std::array<double, 4> amplitudes_km = {1, 10, 100, 1000};
+  for (const double amplitude_km : amplitudes_km) {
+    if (progress) progress("normal form", 0.5);
+    if (amplitude_km < length_km) add({amplitude_km / length_km * unit, 0, 0}, false);
+  }
+  const SixNumbers<double> z = FlowSection<double>(field, ChartName::nodal, chief).chief();
+  if (const auto place = form.place_of(
+          {z[q_place] - section.chief()[q_place], z[p_place] - section.chief()[p_place]})) {
+    add(place->circle, true);
+  }
+  // The miss grows as a power of the amplitude: by factors, then by halves of what is between.
+  constexpr double factor = 2;
+  constexpr double largest = 0.5;
+  double good = 0;
+  double bad = 0;
+  double at = 1e-3;
+  constexpr int most_trials = 14;
+  for (int i = 0; i < most_trials && (bad == 0 || bad > 1.1 * good); ++i) {
+    if (progress) progress("reach", static_cast<double>(i) / most_trials);
+    const auto miss = flown_miss(field, section, form, {at * unit, 0, 0});
+    (miss && *miss <= FrozenOrbitStudy::largest_miss ? good : bad) = at;
+    if (good >= largest) break;
+    at = bad == 0    ? std::min(largest, at * factor)
+         : good == 0 ? at / factor
+                     : std::sqrt(good * bad);
+  }
+  study.reach = good;
+}
+
+}  // namespace
+
+FrozenOrbitStudy study_frozen_orbit(const Scene& scene, const ProgressCallback& progress) {
+  require_formation_problem(scene, true, "nominal");
+  FrozenOrbitStudy study;
+  study.scene = scene;
+  const ZonalGravity field = orbit_field(scene);
+  const SixNumbers<double> chief = six_numbers(scene.nominal);
+  if (progress) progress("frozen orbit", 0);
+  const SixNumbers<double> z = FlowSection<double>(field, ChartName::nodal, chief).chief();
+  const double cosine = inclination_cosine(z);
+  const bool from_circle = std::abs(5 * cosine * cosine - 1) > critical;
+  const auto coarse = find_frozen_orbit<double>(field, chief, from_circle, search_tolerance);
+  if (progress) progress("frozen orbit", 0.3);
+  const auto frozen = find_frozen_orbit<Extended>(field, converted<Extended>(coarse.state), false,
+                                                  refining_tolerance);
+  const SixNumbers<double> state = converted<double>(frozen.state);
+  study.state.assign(state.begin(), state.end());
+  const SixNumbers<double> at = converted<double>(frozen.coordinates);
+  study.semi_major_axis = at[3] * at[3] / field.mu;
+  study.eccentricity = eccentricity_of(at);
+  study.inclination_deg = std::acos(inclination_cosine(at)) * 180 / std::numbers::pi;
+  study.pericentre_deg = std::atan2(-at[q_place], at[p_place]) * 180 / std::numbers::pi;
+  if (study.pericentre_deg < 0) study.pericentre_deg += 360;
+  study.nodal_period = static_cast<double>(frozen.period);
+  study.node = static_cast<double>(frozen.node);
+  study.residual = static_cast<double>(frozen.residual);
+  study.trace = static_cast<double>(frozen.trace());
+  study.trace_less_2 = static_cast<double>(Extended(frozen.trace() - 2));
+  const auto& d = frozen.derivative;
+  study.area_defect = static_cast<double>(Extended(d[0] * d[3] - d[1] * d[2] - 1));
+  study.iterations = frozen.iterations;
+  try {
+    add_normal_form(field, chief, progress, study);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::numerical) throw;
+    study.failure = error.what();
+    study.circles.clear();
+  }
+  return study;
+}
+
+}  // namespace hamjet

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hamjet/detail/studies/progress.hpp"
+#include "hamjet/studies/scene.hpp"
+
+namespace hamjet {
+
+/// A circle of the normal form about the frozen orbit, of the chief's energy and H.
+struct LibrationCircle {
+  bool is_chiefs = false;      ///< that on which the scene's chief is
+  double amplitude = 0;        ///< of the eccentricity vector: the radius over sqrt(L)
+  double rotation_number = 0;  ///< turns of the pericentre's pair a revolution
+  double mean_period = 0;      ///< nodal, canonical
+  double mean_node = 0;        ///< radians a revolution
+  double action = 0;           ///< canonical
+  /// How far an orbit of the circle is from where the normal form has it after the flown
+  /// revolutions, in (q, p) relative to the radius; none where it could not be flown.
+  std::optional<double> miss;
+};
+
+/// The frozen orbit of a scene's chief, of its energy and momentum H about the axis, and what
+/// librates about it.
+struct FrozenOrbitStudy {
+  Scene scene;
+  // The frozen orbit, refined in extended precision, on the section of the chief's mean argument of
+  // latitude and with its node; canonical.
+  std::vector<double> state;
+  double semi_major_axis = 0;
+  double eccentricity = 0;
+  double inclination_deg = 0;
+  double pericentre_deg = 0;
+  double nodal_period = 0;
+  double node = 0;          ///< radians a revolution
+  double residual = 0;      ///< by how much a revolution moves (q, p), in extended precision
+  double trace = 0;         ///< the sum of the two multipliers
+  double trace_less_2 = 0;  ///< the same less 2, without the loss of digits
+  double area_defect = 0;   ///< their product less 1
+  int iterations = 0;
+  // The normal form.
+  std::string failure;  ///< why there is none; what follows is empty then
+  double smallest_divisor = 0;
+  int flown_revolutions = 0;
+  std::vector<LibrationCircle> circles;  ///< by amplitude, the chief's last
+  /// The largest amplitude at which an orbit is flown to within largest_miss of the normal form.
+  double reach = 0;
+
+  static constexpr double largest_miss = 1e-3;
+  bool is_stable() const { return trace_less_2 < 0 && trace > -2; }
+};
+
+/// Finds the frozen orbit and its normal form to the scene's order. Throws Error(scene) for a scene
+/// whose chief is no orbit, and Error(numerical) where no frozen orbit is found or the chief has no
+/// nodal section.
+FrozenOrbitStudy study_frozen_orbit(const Scene& scene, const ProgressCallback& progress = {});
+
+}  // namespace hamjet
