@@ -18,7 +18,7 @@
 #include "compare_command.hpp"
 #include "completion/completion.hpp"
 #include "convert_command.hpp"
-#include "eval_command.hpp"
+#include "evaluation/eval_command.hpp"
 #include "hamjet/charts/jet_coordinates.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/version.hpp"
@@ -26,6 +26,7 @@
 #include "init_command.hpp"
 #include "list_command.hpp"
 #include "output_option.hpp"
+#include "override_option.hpp"
 #include "process/interruption.hpp"
 #include "process/stack_limit.hpp"
 #include "process/standard_streams.hpp"
@@ -99,80 +100,6 @@ void add_threads_option(CLI::App& command, hamjet::cli::RunOptions& options) {
       ->type_name("N");
 }
 
-void add_override_option(CLI::App& command, hamjet::cli::RunOptions& options) {
-  command
-      .add_option("--set", options.overrides,
-                  "key=value: change a key of the scene, for example jet.order=3 or "
-                  "integrator.gauss8.tolerance=1e-12; key=null removes it; may be repeated")
-      ->type_size(1)
-      ->allow_extra_args(false);
-}
-
-CLI::App* add_eval_command(CLI::App& app, hamjet::cli::EvalOptions& options) {
-  CLI::App* eval =
-      app.add_subcommand("eval",
-                         "map relative states through a stored jet, from its start to its end\n"
-                         "Example: hamjet eval out/scene --deviations start.csv -o end.csv");
-  eval->add_option(
-          "directory", options.directory,
-          "results of hamjet run, or one of their files " + hamjet::io::jet_file_endings() +
-              "; or a scene (.toml): its polynomials are integrated now, in jet.coordinates")
-      ->required()
-      ->type_name("FILE");
-  std::string columns;
-  std::string frames;
-  for (const hamjet::DeputyForm form : hamjet::cli::forms()) {
-    std::string names;
-    for (const auto& component : components_of(form)) {
-      names += (names.empty() ? "" : ", ") + std::string(component.name);
-    }
-    columns += names + " (" + std::string(name_of(form)) + "), ";
-    frames += std::string(name_of(form)) + ",";
-  }
-  const std::string frame_type = "{" + frames + std::string(hamjet::cli::canonical_frame) + "}";
-  eval->add_option("--deviation", options.deviation,
-                   "one deviation, the six numbers of the frame (see --deviations); in the frame "
-                   "canonical one number a variable of the jet")
-      ->type_name("NUMBERS");
-  eval->add_option("--deviations", options.deviations,
-                   "CSV file of many; its first line names the columns: " + columns +
-                       "or the jet's variables (canonical)")
-      ->type_name("FILE");
-  eval->add_option("--deputy", options.deputy,
-                   "a scene of the same chief: the deputy of its table [deputy]")
-      ->type_name("SCENE");
-  eval->add_option("--run", options.run, "label of the run (default: the first with a result)")
-      ->type_name("LABEL");
-  eval->add_option("--frame", options.frames.frame,
-                   "RTN (default: radial, transverse, normal of the chief), inertial, curvilinear, "
-                   "relative-elements (D'Amico), element-differences (Gim and Alfriend; both of "
-                   "osculating elements), or canonical")
-      ->type_name(frame_type);
-  eval->add_option("--to", options.frames.to,
-                   "the frame of the results (default: that of the deviations)")
-      ->type_name(frame_type);
-  eval->add_option("--derivatives", options.frames.derivatives,
-                   "of RTN: rotating (default: velocities as seen from the turning axes) or "
-                   "inertial")
-      ->type_name("{rotating,inertial}");
-  eval->add_option("--time", options.time,
-                   "jets at these times that jet.times_s (or _orbits, _canonical, count) of the "
-                   "scene asked for, and a column time_s (default: the end alone, without it)")
-      ->type_name("SECONDS,...|all");
-  eval->add_option("--degree", options.degree, "leave out terms above this degree")->type_name("K");
-  hamjet::cli::add_output_option(
-      *eval, options.output,
-      "CSV file of the final states with estimates of the miss (default: standard output)", "FILE",
-      "but standard output is what it is without -o");
-  eval->add_flag(
-      "--strict", options.strict,
-      "exit code 1 if a row is marked outside or unknown: beyond the polynomial's reach");
-  eval->add_flag("--json", options.json,
-                 "print statistics and, of up to 100 deviations, the final states as JSON");
-  eval->add_flag("-q,--quiet", options.quiet, "no time and counts on standard error");
-  return eval;
-}
-
 CLI::App* add_sweep_command(CLI::App& app, hamjet::cli::RunOptions& run,
                             hamjet::cli::SweepOptions& options) {
   CLI::App* sweep =
@@ -219,7 +146,7 @@ int dispatch(int argc, char** argv) {
   add_run_options(*run, options, "summary.json and a folder of each integrator",
                   "out/<scene name>");
   add_threads_option(*run, options);
-  add_override_option(*run, options);
+  hamjet::cli::add_override_option(*run, options.overrides);
 
   CLI::App* check = app.add_subcommand(
       "check", "read a scene and say what would be computed; nothing is written");
@@ -228,12 +155,12 @@ int dispatch(int argc, char** argv) {
       "--json", options.json,
       "print it as JSON, with the names of summary.json; what is wrong too: file, line, "
       "column, key, message, exit code");
-  add_override_option(*check, options);
+  hamjet::cli::add_override_option(*check, options.overrides);
 
   CLI::App* demo = app.add_subcommand("demo", "run the paper's Earth orbit, which is built in");
   add_run_options(*demo, options, "summary.json and a folder of each integrator",
                   "out/earth-orbit");
-  add_override_option(*demo, options);
+  hamjet::cli::add_override_option(*demo, options.overrides);
 
   hamjet::cli::CompareOptions comparison;
   CLI::App* compare =
@@ -241,7 +168,7 @@ int dispatch(int argc, char** argv) {
   add_scene_argument(*compare, comparison.scene);
   add_run_options(*compare, comparison.scene, "report.html, compare.csv and compare.json",
                   "out/<scene name>");
-  add_override_option(*compare, comparison.scene);
+  hamjet::cli::add_override_option(*compare, comparison.scene.overrides);
   compare->add_flag("--resume", comparison.resume,
                     "take up a comparison that was interrupted, from the output directory");
   std::string plots;
@@ -253,7 +180,7 @@ int dispatch(int argc, char** argv) {
     CLI::App* study = app.add_subcommand(name, description);
     add_scene_argument(*study, options);
     add_run_options(*study, options, results, fmt::format("out/<scene name>{}", suffix));
-    add_override_option(*study, options);
+    hamjet::cli::add_override_option(*study, options.overrides);
     return study;
   };
   const CLI::App* motion = add_study(
@@ -300,7 +227,7 @@ int dispatch(int argc, char** argv) {
                   "out/stability", "print a list of one object a case");
 
   hamjet::cli::EvalOptions evaluation;
-  const CLI::App* eval = add_eval_command(app, evaluation);
+  const CLI::App* eval = hamjet::cli::add_eval_command(app, evaluation);
 
   hamjet::cli::ConvertOptions conversion;
   const CLI::App* convert = hamjet::cli::add_convert_command(app, conversion);

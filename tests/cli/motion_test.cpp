@@ -128,6 +128,38 @@ TEST_F(Coordinates, OfASceneAreEvaluated) {
   expect_error({"eval", "far.toml", "--run", "gauss", row[0], row[1]}, 2, {"--run"});
 }
 
+// --set changes the scene that is integrated, and its deputy.
+TEST_F(Coordinates, OfASceneAreChanged) {
+  const std::string scene = far("");
+  write("far.toml", scene);
+  write("boxes.toml", changed(scene, "order = 2", "order = 3\ncoordinates = \"flow-box\""));
+  write("near.toml", changed(scene, "-100000", "-50"));
+  const auto rows = [&](const std::string& deputy, std::vector<std::string> overrides) {
+    return succeed(with_overrides({"eval", "far.toml", "--deputy", deputy, "-q"}, overrides)).out;
+  };
+  const std::string boxes = succeed({"eval", "boxes.toml", "--deputy", "boxes.toml", "-q"}).out;
+  const std::vector<std::string> changes = {"jet.coordinates=flow-box", "jet.order=3"};
+  EXPECT_EQ(rows("far.toml", changes), boxes);
+  EXPECT_EQ(rows("boxes.toml", changes), boxes);
+  EXPECT_NE(rows("far.toml", {}), boxes);
+  // The deputy of the same scene changes with it, that of another one does not.
+  const std::string near = rows("near.toml", {});
+  EXPECT_EQ(rows("far.toml", {"deputy.position_m=[-700,-50,0]"}), near);
+  EXPECT_EQ(rows("near.toml", {"deputy.position_m=[-700,-70,0]"}), near);
+  // Of stored results the deputy's scene alone can be changed.
+  succeed({"run", "far.toml", "-q", "-o", "stored"});
+  const std::vector<std::string> stored = {"eval", "stored", "--deputy", "far.toml", "-q"};
+  const std::string moved = succeed(with_overrides(stored, {"deputy.position_m=[-700,-50,0]"})).out;
+  EXPECT_EQ(moved.substr(0, moved.find('.')), near.substr(0, near.find('.')));
+  EXPECT_NE(moved, succeed(stored).out);
+  expect_error({"eval", "stored", "--deviation=1,0,0,0,0,0", "--set", "jet.order=3"}, 2,
+               {"--set", "stored results"});
+  expect_error(with_overrides({"eval", "far.toml", "--deputy", "far.toml"}, {"jet.order=0"}), 3,
+               {"--set", "jet.order"});
+  expect_error(with_overrides({"eval", "far.toml", "--deputy", "far.toml"}, {"jet.arcs=2"}), 3,
+               {"far.toml", "jet.arcs", "hamjet eval"});
+}
+
 // The shipped pairs are flown with the full equations of motion beside the polynomials.
 TEST_F(Coordinates, OfFlowBoxesAnswerTheShippedPairs) {
   const std::string scenes = std::string(HAMJET_SOURCE_DIR) + "/data/scenes/";

@@ -3,7 +3,8 @@
 #include <optional>
 #include <vector>
 
-#include "../app/deputy_evaluation.hpp"
+#include "../../app/deputy_evaluation.hpp"
+#include "../scene_options.hpp"
 #include "eval_command.hpp"
 #include "hamjet/formats/stored_jet.hpp"
 
@@ -19,6 +20,17 @@ struct EvalSource {
     return scene ? scene->coordinates : JetCoordinates::cartesian;
   }
 };
+
+/// Reads standard input where the options name it, in place of a scene; once, also if both the
+/// polynomials and the deputy are to come from there. Throws as take_standard_input.
+void take_standard_input(EvalOptions& options);
+
+/// Whether the polynomials are those of a scene in place of results.
+bool is_of_scene(const EvalOptions& options);
+
+/// The scene of this name among the options, that of the polynomials or of the deputy, with the
+/// changes that are given. Where both are scenes, another one of the deputy's is taken as it is.
+RunOptions scene_named(const EvalOptions& options, const std::string& name);
 
 /// What the options name: stored jets, of one or of several times, or a scene in place of results,
 /// whose polynomials are integrated in its coordinates. Throws Error as the readers, and
