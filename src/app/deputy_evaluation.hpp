@@ -15,7 +15,7 @@ namespace hamjet::cli {
 struct EvaluatedScene {
   /// The chief, as the results of a run have it; without coefficients.
   io::StoredJet chief;
-  JetCoordinates coordinates = JetCoordinates::cartesian;  ///< not automatic
+  CoordinatesAtEnds coordinates;  ///< not automatic
   std::shared_ptr<const DeputyFlow> flow;
   double rounding_m = 0;  ///< of a deputy's final position, at a flight's floor
   double seconds = 0;     ///< of the integration

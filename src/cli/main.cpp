@@ -210,7 +210,8 @@ int dispatch(int argc, char** argv) {
   coordinates_names.emplace_back(hamjet::cli::all_coordinates);
   validity
       ->add_option("--coordinates", coordinates,
-                   "of the polynomials, in place of jet.coordinates; all: a table and a plot of "
+                   "of the polynomials at both ends, in place of jet.coordinates; all: a table and "
+                   "a plot of "
                    "the reach in each")
       ->check(CLI::IsMember(coordinates_names));
   const CLI::App* assign = add_study(

@@ -127,7 +127,7 @@ struct JetSettings {
   double duration = 0;                  ///< canonical
   std::optional<std::size_t> arcs = 1;  ///< none: auto
   FlowSymmetry symmetry = FlowSymmetry::rotation;
-  JetCoordinates coordinates = JetCoordinates::cartesian;
+  CoordinatesAtEnds coordinates;
 };
 
 /// Table `[jet]`. Throws Error(too_large) for an order above the largest.

@@ -100,6 +100,22 @@ TEST_F(Coordinates, AreAllComparedOnTheSameDeputies) {
   const Table table = read_table(directory_ / "all/validity.csv");
   EXPECT_EQ(table.rows.size(), 6U * 2 * 2);  // coordinates, times, orders
   expect_error({"validity", "far.toml", "--coordinates", "polar"}, 2, {"--coordinates"});
+  // The ends may differ, and the option is of both.
+  const std::string two = "order = 2\ncoordinates = \"nodal\"\nend_coordinates = \"poincare\"";
+  write("two.toml", changed(far(""), "order = 2", two));
+  const std::string said = succeed({"validity", "two.toml", "-o", "two"}).out;
+  EXPECT_NE(said.find("; nodal to poincare coordinates"), std::string::npos) << said;
+  const Json ends = read_json(directory_ / "two/summary.json")["validity"];
+  EXPECT_EQ(ends["coordinates"], "nodal");
+  EXPECT_EQ(ends["end_coordinates"], "poincare");
+  EXPECT_NE(ends["times"], one["validity"]["times"]);
+  succeed({"validity", "two.toml", "-o", "both", "--coordinates", "spherical"});
+  EXPECT_EQ(read_json(directory_ / "both/summary.json")["validity"]["times"],
+            one["validity"]["times"]);
+  for (const char* const of_both : {"flow-box", "auto"}) {
+    expect_error({"validity", "two.toml", "--set", std::string("jet.coordinates=") + of_both}, 3,
+                 {"two.toml:", "jet.end_coordinates: at one end alone", of_both});
+  }
 }
 
 TEST_F(Coordinates, OfASceneAreEvaluated) {

@@ -16,9 +16,7 @@ struct EvalSource {
   std::optional<EvaluatedScene> scene = {};
 
   int order() const { return scene ? scene->flow->order() : stored.order(); }
-  JetCoordinates coordinates() const {
-    return scene ? scene->coordinates : JetCoordinates::cartesian;
-  }
+  CoordinatesAtEnds coordinates() const { return scene ? scene->coordinates : CoordinatesAtEnds{}; }
 };
 
 /// Reads standard input where the options name it, in place of a scene; once, also if both the

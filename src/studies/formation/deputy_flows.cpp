@@ -57,14 +57,20 @@ ChartName chart_of(JetCoordinates coordinates) {
 
 DeputyFlowPropagation::DeputyFlowPropagation(const Scene& scene, const ComputedProblem& problem,
                                              const IntegratorSettings& settings,
-                                             JetCoordinates coordinates)
+                                             const CoordinatesAtEnds& coordinates)
     : field_(orbit_field(scene)), start_(six_numbers(problem.nominal)), coordinates_(coordinates) {
-  in_coordinates(coordinates, "at the start", [&] {
-    if (coordinates == JetCoordinates::flow_box) {
+  if (!coordinates.fit_each_other()) {
+    throw Error(
+        ErrorKind::usage,
+        fmt::format("jet.end_coordinates: {}: flow boxes are of both ends", name_of(coordinates)));
+  }
+  in_coordinates(coordinates.start, "at the start", [&] {
+    if (coordinates.start == JetCoordinates::flow_box) {
       boxes_.emplace(field_, section_chart(start_, canonical_mu), start_, scene.order,
                      gauss_settings_of(settings));
     } else {
-      CanonicalChart<double>(chart_of(coordinates), start_, canonical_mu);  // throws where it must
+      CanonicalChart<double>(chart_of(coordinates.start), start_,
+                             canonical_mu);  // throws if it must
       jets_.emplace(problem, settings);
     }
   });
@@ -73,16 +79,16 @@ DeputyFlowPropagation::DeputyFlowPropagation(const Scene& scene, const ComputedP
 std::unique_ptr<DeputyFlow> DeputyFlowPropagation::advance_to(double time) {
   const std::string when = fmt::format("after {:.6g} s", time * time_s_);
   if (boxes_) {
-    return in_coordinates(coordinates_, when,
+    return in_coordinates(coordinates_.end, when,
                           [&] { return flow_box_deputy_flow(field_, boxes_->advance_to(time)); });
   }
   const FlowMap<double> jet(jets_->advance_to(time));
   if (coordinates_ == JetCoordinates::cartesian) return cartesian_deputy_flow(jet);
   SixNumbers<double> end;
   for (std::size_t i = 0; i < end.size(); ++i) end[i] = jet.jet()[i][0];
-  return in_coordinates(coordinates_, when, [&] {
-    const CanonicalChart<double> first(chart_of(coordinates_), start_, canonical_mu);
-    const CanonicalChart<double> last(chart_of(coordinates_), end, canonical_mu);
+  return in_coordinates(coordinates_.end, when, [&] {
+    const CanonicalChart<double> first(chart_of(coordinates_.start), start_, canonical_mu);
+    const CanonicalChart<double> last(chart_of(coordinates_.end), end, canonical_mu);
     return charted_deputy_flow(first, start_, last, end, in_charts(jet, first, start_, last));
   });
 }
