@@ -45,27 +45,26 @@ void DeputyEvaluation::add(const std::vector<double>& deviation) {
 
 void DeputyEvaluation::run(
     const std::function<void(const std::vector<double>&, const MissEstimate&)>& take) {
-  std::vector<DeputyPrediction> predictions(pending_.size());
-  {
-    const Stopwatch watch(seconds_);
-    scene_.flow->predict(pending_, degree_, predictions);
-  }
   // The curved ends are in no degree of the polynomials, so that lower degrees go through them too.
   const bool is_curved = scene_.coordinates != JetCoordinates::cartesian;
-  std::vector<DeputyPrediction> lower[2];
+  std::vector<int> degrees = {degree_};
   for (int below = 1; is_curved && below <= 2 && degree_ - below >= 1; ++below) {
-    std::vector<DeputyPrediction>& of_degree = lower[below - 1];
-    of_degree.resize(pending_.size());
-    scene_.flow->predict(pending_, degree_ - below, of_degree);
+    degrees.push_back(degree_ - below);
   }
-  for (std::size_t k = 0; k < predictions.size(); ++k) {
-    const SixNumbers<double>& found = predictions[k].deviation;
-    const auto deviation = [&](int below) {
-      return lower[below - 1].empty() ? nullptr : &lower[below - 1][k].deviation;
+  const std::size_t count = pending_.size();
+  predictions_.resize(count * degrees.size());
+  {
+    const Stopwatch watch(seconds_);
+    predictor_.predict(pending_, degrees, predictions_);
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    const SixNumbers<double>& found = predictions_[k].deviation;
+    const auto deviation = [&](std::size_t below) {
+      return below < degrees.size() ? &predictions_[below * count + k].deviation : nullptr;
     };
     take({found.begin(), found.end()},
          is_curved ? curved_estimate(pending_[k], found, deviation(1), deviation(2))
-                   : estimate(predictions[k]));
+                   : estimate(predictions_[k]));
   }
   pending_.clear();
 }

@@ -15,7 +15,7 @@ namespace hamjet::cli {
 struct EvaluatedScene {
   /// The chief, as the results of a run have it; without coefficients.
   io::StoredJet chief;
-  JetCoordinates coordinates = JetCoordinates::cartesian;  ///< not automatic
+  CoordinatesAtEnds coordinates;  ///< not automatic
   std::shared_ptr<const DeputyFlow> flow;
   double rounding_m = 0;  ///< of a deputy's final position, at a flight's floor
   double seconds = 0;     ///< of the integration
@@ -31,7 +31,8 @@ class DeputyEvaluation {
   /// Points that are evaluated at once.
   static constexpr std::size_t most_points = JetEvaluation::most_points;
 
-  DeputyEvaluation(const EvaluatedScene& scene, int degree) : scene_(scene), degree_(degree) {}
+  DeputyEvaluation(const EvaluatedScene& scene, int degree)
+      : scene_(scene), degree_(degree), predictor_(*scene.flow) {}
 
   /// Adds a canonical deviation of six numbers.
   void add(const std::vector<double>& deviation);
@@ -40,7 +41,8 @@ class DeputyEvaluation {
   void run(const std::function<void(const std::vector<double>&, const MissEstimate&)>& take);
 
   std::size_t pending() const { return pending_.size(); }
-  /// Seconds of all predictions so far, the coordinates at both ends included.
+  /// Seconds of all predictions so far, the coordinates at both ends included, and the lower
+  /// degrees that the estimate needs.
   double seconds() const { return seconds_; }
 
  private:
@@ -57,6 +59,8 @@ class DeputyEvaluation {
 
   const EvaluatedScene& scene_;
   int degree_;
+  DeputyPredictor predictor_;
+  std::vector<DeputyPrediction> predictions_;
   std::vector<SixNumbers<double>> pending_;
   double seconds_ = 0;
 };

@@ -23,64 +23,77 @@ void DeputyFlow::set_derivatives(Matrix<double> entry, Matrix<double> exit) {
 
 void DeputyFlow::predict(std::span<const SixNumbers<double>> initial, int degree,
                          std::span<DeputyPrediction> predictions) const {
-  if (degree < 1 || degree > order()) {
-    throw Error(ErrorKind::usage, "deputy: the polynomials have not that degree");
+  DeputyPredictor(*this).predict(initial, degree, predictions);
+}
+
+DeputyPrediction DeputyFlow::predict(const SixNumbers<double>& initial, int degree) const {
+  return DeputyPredictor(*this).predict(initial, degree);
+}
+
+DeputyPrediction DeputyPredictor::predict(const SixNumbers<double>& initial, int degree) {
+  DeputyPrediction prediction;
+  predict(std::span(&initial, 1), degree, std::span(&prediction, 1));
+  return prediction;
+}
+
+void DeputyPredictor::predict(std::span<const SixNumbers<double>> initial,
+                              std::span<const int> degrees,
+                              std::span<DeputyPrediction> predictions) {
+  for (const int degree : degrees) {
+    if (degree < 1 || degree > flow_.order()) {
+      throw Error(ErrorKind::usage, "deputy: the polynomials have not that degree");
+    }
   }
-  if (initial.size() != predictions.size()) {
+  if (initial.size() * degrees.size() != predictions.size()) {
     throw Error(ErrorKind::usage, "deputy: as many predictions as deviations are needed");
   }
+  constexpr std::size_t block = DeputyFlow::block;
   constexpr std::size_t most_at_once = 512 * block;  // few enough to stay in the cache
-  const MapEvaluator& evaluator = evaluators_[static_cast<std::size_t>(degree - 1)];
-  const Matrix<double>& exit = exit_derivative_;
-  const std::unique_ptr<Passage> passage = this->passage();
-  const std::size_t width = variables();
-  const std::size_t values = polynomials_.size();
-  std::array<double, widest * block> numbers;
+  const Matrix<double>& exit = flow_.exit_derivative();
+  const std::size_t width = flow_.variables();
+  const std::size_t values = flow_.polynomials().size();
+  std::array<double, DeputyFlow::widest * block> numbers;
   std::array<SixNumbers<double>, block> finals;
-  std::vector<SixNumbers<double>> carried(std::min(most_at_once, initial.size()));
-  std::vector<double> points;
-  std::vector<double> results[3];
+  carried_.resize(std::min(most_at_once, initial.size()));
   for (std::size_t first = 0; first < initial.size(); first += most_at_once) {
     const std::size_t count = std::min(most_at_once, initial.size() - first);
-    points.resize(count * width);
-    for (auto& result : results) result.resize(count * values);
+    points_.resize(count * width);
+    for (auto& result : results_) result.resize(count * values);
     for (std::size_t j = 0; j < count; j += block) {
       const std::size_t some = std::min(block, count - j);
-      passage->enter(initial.subspan(first + j, some), std::span(numbers).first(some * width),
-                     std::span(carried).subspan(j, some));
+      passage_->enter(initial.subspan(first + j, some), std::span(numbers).first(some * width),
+                      std::span(carried_).subspan(j, some));
       for (std::size_t k = 0; k < some; ++k) {
-        for (std::size_t i = 0; i < width; ++i) points[i * count + j + k] = numbers[k * width + i];
+        for (std::size_t i = 0; i < width; ++i) points_[i * count + j + k] = numbers[k * width + i];
       }
     }
-    evaluator.evaluate(points, {results[0], results[1], results[2]});
-    for (std::size_t j = 0; j < count; j += block) {
-      const std::size_t some = std::min(block, count - j);
-      for (std::size_t k = 0; k < some; ++k) {
-        for (std::size_t c = 0; c < values; ++c) {
-          numbers[k * values + c] = results[0][c * count + j + k];
-        }
-      }
-      passage->leave(std::span(carried).subspan(j, some), std::span(numbers).first(some * values),
-                     std::span(finals).first(some));
-      for (std::size_t k = 0; k < some; ++k) {
-        DeputyPrediction& prediction = predictions[first + j + k];
-        prediction = {finals[k], {}, {}};
-        for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t d = 0; d < degrees.size(); ++d) {
+      const auto degree = static_cast<std::size_t>(degrees[d]);
+      flow_.evaluators_[degree - 1].evaluate(points_, {results_[0], results_[1], results_[2]});
+      const auto found = predictions.subspan(d * initial.size() + first, count);
+      for (std::size_t j = 0; j < count; j += block) {
+        const std::size_t some = std::min(block, count - j);
+        for (std::size_t k = 0; k < some; ++k) {
           for (std::size_t c = 0; c < values; ++c) {
-            const double share = exit(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(c));
-            prediction.last[i] += share * results[1][c * count + j + k];
-            prediction.last_but_one[i] += share * results[2][c * count + j + k];
+            numbers[k * values + c] = results_[0][c * count + j + k];
+          }
+        }
+        passage_->leave(std::span(carried_).subspan(j, some),
+                        std::span(numbers).first(some * values), std::span(finals).first(some));
+        for (std::size_t k = 0; k < some; ++k) {
+          DeputyPrediction& prediction = found[j + k];
+          prediction = {finals[k], {}, {}};
+          for (std::size_t i = 0; i < 6; ++i) {
+            for (std::size_t c = 0; c < values; ++c) {
+              const double share = exit(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(c));
+              prediction.last[i] += share * results_[1][c * count + j + k];
+              prediction.last_but_one[i] += share * results_[2][c * count + j + k];
+            }
           }
         }
       }
     }
   }
-}
-
-DeputyPrediction DeputyFlow::predict(const SixNumbers<double>& initial, int degree) const {
-  DeputyPrediction prediction;
-  predict(std::span(&initial, 1), degree, std::span(&prediction, 1));
-  return prediction;
 }
 
 namespace {

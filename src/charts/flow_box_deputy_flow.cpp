@@ -7,6 +7,7 @@
 
 #include "../integrators/taylor_flow.hpp"
 #include "hamjet/charts/deputy_flow.hpp"
+#include "hamjet/detail/dynamics/slice_evaluator.hpp"
 #include "hamjet/error.hpp"
 #include "linear_chart.hpp"
 #include "steady_turn.hpp"
@@ -15,6 +16,9 @@ namespace hamjet {
 namespace {
 
 constexpr double infinitesimal = 4 * std::numeric_limits<double>::epsilon();
+/// A search ends by a last step along the straight line through its last two points where the
+/// product of what both miss is below this: the bend of what is searched is of the order of 1.
+constexpr double straight = 1e-17;
 
 /// What goes by beside the polynomials.
 enum Carried : std::size_t {
@@ -135,7 +139,10 @@ class FlowBoxDeputyFlow : public DeputyFlow {
 
   struct Through : Passage {
     explicit Through(const FlowBoxDeputyFlow& of)
-        : flow(of), taylor(of.system_), energy_of(of.system_) {}
+        : flow(of),
+          taylor(of.system_),
+          energy_of(of.system_),
+          rate_share(of.map_.start->rate() / keplerian_rate(of.map_.start->chief())) {}
 
     /// The search for the time at which a lane's angle is the chief's.
     struct Search {
@@ -145,6 +152,7 @@ class FlowBoxDeputyFlow : public DeputyFlow {
       SixNumbers<double> coordinates;  ///< at that time
       double angle = 0;                ///< then, less the chief's
       double rate = 0;                 ///< about that of the angle
+      double least_angle = 1;          ///< that was found
       int iterations = 0;
       bool is_over = false;
       bool has_moved = false;  ///< the base, since the last expansion
@@ -164,31 +172,45 @@ class FlowBoxDeputyFlow : public DeputyFlow {
     /// polynomial reaches.
     void go_on(Search& search, std::size_t lane) const {
       constexpr int most_iterations = 100;
-      const double reach = taylor.reach(lane);
       search.has_moved = false;
       while (!search.is_over && !search.has_moved) {
         double change = -search.angle / search.rate;
-        const bool is_lost =
-            !std::isfinite(change) || reach == 0 || ++search.iterations == most_iterations;
-        if (is_lost) search.coordinates.fill(std::numeric_limits<double>::quiet_NaN());
+        const bool is_lost = !std::isfinite(change) || ++search.iterations == most_iterations;
         // Where rounding moves the angle to and fro, it stands still.
-        constexpr int most_improving = 12;
-        const double least =
-            search.iterations > most_improving ? 256 * infinitesimal : infinitesimal;
-        search.is_over = is_lost || std::abs(search.angle) <= least;
-        if (search.is_over) return;
+        const bool is_rounding = std::abs(search.angle) <= 256 * infinitesimal &&
+                                 std::abs(search.angle) >= search.least_angle / 2;
+        search.least_angle = std::min(search.least_angle, std::abs(search.angle));
+        search.is_over = is_lost || is_rounding || std::abs(search.angle) <= infinitesimal;
         const double wanted = search.time + change;
-        const double time = std::clamp(wanted, -reach, reach);
+        const double time = search.is_over ? 0 : taylor.within_reach(lane, wanted);
+        // Where the field is not finite, nothing is within reach.
+        if (is_lost || (!search.is_over && time == 0 && wanted != 0)) {
+          search.coordinates.fill(std::numeric_limits<double>::quiet_NaN());
+          search.is_over = true;
+        }
+        if (search.is_over) return;
         SixNumbers<double> there;
         taylor.evaluate(lane, time, there);
         change = time - search.time;
         search.time = time;
+        const SixNumbers<double> last = search.coordinates;
+        const double last_angle = search.angle;
         search.coordinates = flow.map_.start->chart().coordinates(there);
-        const double next = angle_of(search.coordinates);
+        search.angle = angle_of(search.coordinates);
         const double about = rate_of(search.coordinates);
-        const double secant = (next - search.angle) / change;
-        search.rate = secant > 0.2 * about && secant < 5 * about ? secant : about;
-        search.angle = next;
+        const double secant = (search.angle - last_angle) / change;
+        const bool is_usable = secant > 0.2 * about && secant < 5 * about;
+        search.rate = is_usable ? secant : about;
+        if (time == wanted && is_usable && std::abs(search.angle * last_angle) <= straight) {
+          const double rest = -search.angle / (search.angle - last_angle);  // in such changes
+          search.time += rest * change;
+          for (std::size_t i = 0; i < 6; ++i) {
+            const double moved = search.coordinates[i] - last[i];
+            search.coordinates[i] += rest * (is_angle(i) ? within_half_a_turn(moved) : moved);
+          }
+          search.is_over = true;
+          return;
+        }
         if (time == wanted) continue;
         search.has_moved = true;
         search.base = there;
@@ -205,7 +227,14 @@ class FlowBoxDeputyFlow : public DeputyFlow {
       }
       bool is_over = false;
       while (!is_over) {
-        taylor.expand();
+        // The angle's own rate departs from the one that is known by its perturbations.
+        constexpr double margin = 1.01;
+        std::array<double, block> wanted{};
+        for (std::size_t lane = 0; lane < searches.size(); ++lane) {
+          const Search& search = searches[lane];
+          if (!search.is_over) wanted[lane] = margin * search.angle / search.rate;
+        }
+        taylor.expand(wanted);
         is_over = true;
         for (std::size_t lane = 0; lane < searches.size(); ++lane) {
           Search& search = searches[lane];
@@ -217,8 +246,12 @@ class FlowBoxDeputyFlow : public DeputyFlow {
       }
     }
 
-    /// About the rate of the angle.
-    double rate_of(const SixNumbers<double>& z) const {
+    bool is_angle(std::size_t place) const { return flow.map_.start->chart().is_angle(place); }
+
+    /// About the rate of the angle: Kepler's, times what perturbations make of the chief's.
+    double rate_of(const SixNumbers<double>& z) const { return rate_share * keplerian_rate(z); }
+
+    double keplerian_rate(const SixNumbers<double>& z) const {
       switch (flow.map_.start->chart().name()) {
         case ChartName::spherical:
           return z[3] / std::pow(z[1] * std::cos(z[2]), 2);
@@ -309,23 +342,33 @@ class FlowBoxDeputyFlow : public DeputyFlow {
         z[3] *= std::sqrt(section.energy() / wanted);
       }
       double slope = section.rate();
+      SixNumbers<double> last_state{};
       double last_excess = 0;
+      double least_excess = std::numeric_limits<double>::infinity();
       double change = 0;
       for (int i = 0; i < most_iterations; ++i) {
         state = section.chart().state(z);
         const double excess = energy_of(state) - wanted;
         if (!std::isfinite(excess)) return false;
         // The energy is a difference of two numbers as large as the kinetic one, whose rounding the
-        // chart's own adds to: after some iterations it moves to and fro.
-        constexpr int most_improving = 12;
+        // chart's own adds to: in the end it moves to and fro.
         const double size = (state[3] * state[3] + state[4] * state[4] + state[5] * state[5]) / 2 +
                             std::abs(wanted);
-        const double least = i > most_improving ? 256 * infinitesimal : infinitesimal;
-        if (std::abs(excess) <= least * size) return true;
+        const bool is_rounding =
+            std::abs(excess) <= 256 * infinitesimal * size && std::abs(excess) >= least_excess / 2;
+        if (is_rounding || std::abs(excess) <= infinitesimal * size) return true;
+        least_excess = std::min(least_excess, std::abs(excess));
         const double secant = (excess - last_excess) / change;
-        if (i > 0 && secant > 0.2 * slope && secant < 5 * slope) slope = secant;
+        const bool is_usable = i > 0 && secant > 0.2 * slope && secant < 5 * slope;
+        if (is_usable && std::abs(excess * last_excess) <= straight * size * size) {
+          const double rest = -excess / (excess - last_excess);
+          for (std::size_t k = 0; k < 6; ++k) state[k] += rest * (state[k] - last_state[k]);
+          return true;
+        }
+        if (is_usable) slope = secant;
         change = -excess / slope;
         last_excess = excess;
+        last_state = state;
         z[3] += change;
       }
       return false;
@@ -334,6 +377,7 @@ class FlowBoxDeputyFlow : public DeputyFlow {
     const FlowBoxDeputyFlow& flow;
     TaylorFlow taylor;
     Energy energy_of;
+    double rate_share;
   };
   std::unique_ptr<Passage> passage() const override { return std::make_unique<Through>(*this); }
 

@@ -103,7 +103,7 @@ SixNumbers<Real> FlowSection<Real>::state(const Real& energy, SixNumbers<Real> z
   for (int i = 0; i < most_iterations; ++i) {
     SixNumbers<Series<Real>> series = constant_series(space, z);
     series[3][1] = Real(1);
-    const Series<Real> found = hamiltonian(*system_, chart_.state(series));
+    const Series<Real> found = energy_series(*system_, chart_.state(series));
     const Real change = (found[0] - energy) / found[1];
     if (!isfinite(change) || !(abs(change) < abs(z[3]))) {
       throw Error(ErrorKind::numerical,

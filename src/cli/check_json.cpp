@@ -54,6 +54,8 @@ Json facts(const RunOptions& options, const Scene& scene) {
                               "operations", "skipped"}) {
     json.erase(of_runs);
   }
+  json["coordinates"] = name_of(scene.coordinates.start);
+  json["end_coordinates"] = name_of(scene.coordinates.end);
   json["duration_s"] = io::json_number(scene.duration * scene.units.time_s);
   json["reference"] = scene.reference.has_value();
   json["kinds"] = scene.kinds ? Json(scene.kinds->size()) : Json(nullptr);

@@ -18,7 +18,7 @@
 #include "compare_command.hpp"
 #include "completion/completion.hpp"
 #include "convert_command.hpp"
-#include "eval_command.hpp"
+#include "evaluation/eval_command.hpp"
 #include "hamjet/charts/jet_coordinates.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/version.hpp"
@@ -26,6 +26,7 @@
 #include "init_command.hpp"
 #include "list_command.hpp"
 #include "output_option.hpp"
+#include "override_option.hpp"
 #include "process/interruption.hpp"
 #include "process/stack_limit.hpp"
 #include "process/standard_streams.hpp"
@@ -103,15 +104,6 @@ void add_threads_option(CLI::App& command, hamjet::cli::RunOptions& options) {
       ->type_name("N");
 }
 
-void add_override_option(CLI::App& command, hamjet::cli::RunOptions& options) {
-  command
-      .add_option("--set", options.overrides,
-                  "key=value: change a key of the scene, for example jet.order=3 or "
-                  "integrator.gauss8.tolerance=1e-12; key=null removes it; may be repeated")
-      ->type_size(1)
-      ->allow_extra_args(false);
-}
-
 CLI::App* add_sweep_command(CLI::App& app, hamjet::cli::RunOptions& run,
                             hamjet::cli::SweepOptions& options) {
   CLI::App* sweep =
@@ -158,7 +150,7 @@ int dispatch(int argc, char** argv) {
   add_run_options(*run, options, "summary.json and a folder of each integrator",
                   "out/<scene name>");
   add_threads_option(*run, options);
-  add_override_option(*run, options);
+  hamjet::cli::add_override_option(*run, options.overrides);
 
   CLI::App* check = app.add_subcommand(
       "check", "read a scene and say what would be computed; nothing is written");
@@ -167,12 +159,12 @@ int dispatch(int argc, char** argv) {
       "--json", options.json,
       "print it as JSON, with the names of summary.json; what is wrong too: file, line, "
       "column, key, message, exit code");
-  add_override_option(*check, options);
+  hamjet::cli::add_override_option(*check, options.overrides);
 
   CLI::App* demo = app.add_subcommand("demo", "run the paper's Earth orbit, which is built in");
   add_run_options(*demo, options, "summary.json and a folder of each integrator",
                   "out/earth-orbit");
-  add_override_option(*demo, options);
+  hamjet::cli::add_override_option(*demo, options.overrides);
 
   hamjet::cli::CompareOptions comparison;
   CLI::App* compare =
@@ -180,7 +172,7 @@ int dispatch(int argc, char** argv) {
   add_scene_argument(*compare, comparison.scene);
   add_run_options(*compare, comparison.scene, "report.html, compare.csv and compare.json",
                   "out/<scene name>");
-  add_override_option(*compare, comparison.scene);
+  hamjet::cli::add_override_option(*compare, comparison.scene.overrides);
   compare->add_flag("--resume", comparison.resume,
                     "take up a comparison that was interrupted, from the output directory");
   std::string plots;
@@ -192,7 +184,7 @@ int dispatch(int argc, char** argv) {
     CLI::App* study = app.add_subcommand(name, description);
     add_scene_argument(*study, options);
     add_run_options(*study, options, results, fmt::format("out/<scene name>{}", suffix));
-    add_override_option(*study, options);
+    hamjet::cli::add_override_option(*study, options.overrides);
     return study;
   };
   const CLI::App* motion = add_study(
@@ -225,7 +217,8 @@ int dispatch(int argc, char** argv) {
   coordinates_names.emplace_back(hamjet::cli::all_coordinates);
   validity
       ->add_option("--coordinates", coordinates,
-                   "of the polynomials, in place of jet.coordinates; all: a table and a plot of "
+                   "of the polynomials at both ends, in place of jet.coordinates; all: a table and "
+                   "a plot of "
                    "the reach in each")
       ->check(CLI::IsMember(coordinates_names));
   const CLI::App* assign = add_study(

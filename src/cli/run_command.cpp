@@ -15,6 +15,7 @@
 #include "../studies/checks/run_warnings.hpp"
 #include "../studies/descriptions/method_description.hpp"
 #include "../studies/integration.hpp"
+#include "../studies/skipped_work.hpp"
 #include "../text/quantity_text.hpp"
 #include "../text/scene_message.hpp"
 #include "../text/terminal_text.hpp"
@@ -35,6 +36,7 @@ int run_flow_jet(const RunOptions& options, const Scene& scene) {
   const std::filesystem::path directory = output_path(options, scene.name);
   io::OutputDirectory output(directory);
   const RemovedAtSuddenEnd leftovers(output.leftovers());
+  note_unused_coordinates(options, scene);
   PropagationResult result;
   {
     Progress progress(!options.quiet);
@@ -137,6 +139,9 @@ void check_flow_jet(const RunOptions& options, const std::string& file, const Sc
       scene.duration, scene.duration * scene.units.time_s, scene.order,
       counted(scene.variables.size(), "variable"), counted(problem.space->size(), "coefficient"),
       components, estimate_memory(scene, *problem.system, scene.variables.size(), threads) / 1e6);
+  if (const auto unused = unused_coordinates(scene)) {
+    text += fmt::format("  coordinates  {}; {}\n", name_of(scene.coordinates), unused->why);
+  }
   if (!scene.jet_times.empty()) {
     text += fmt::format("  jets         at {} to {:.10g} s too\n",
                         counted(scene.jet_times.size(), "time"),

@@ -13,6 +13,7 @@
 #include "../scene/scene_name.hpp"
 #include "../studies/arcs.hpp"
 #include "../studies/descriptions/method_description.hpp"
+#include "../studies/skipped_work.hpp"
 #include "../text/quantity_text.hpp"
 #include "../text/scene_message.hpp"
 #include "demo_scene.hpp"
@@ -90,6 +91,12 @@ Scene read_unsplit_scene(const RunOptions& options, const std::string& command) 
                     error.what()));
   }
   return scene;
+}
+
+void note_unused_coordinates(const RunOptions& options, const Scene& scene) {
+  const auto unused = unused_coordinates(scene);
+  if (!unused || options.quiet) return;
+  print_error(fmt::format("note: {} are not used: {}", unused->what, unused->why));
 }
 
 std::size_t thread_count(const RunOptions& options) {

@@ -39,6 +39,10 @@ Scene read_scene(const RunOptions& options);
 /// the scene asks for that.
 Scene read_unsplit_scene(const RunOptions& options, const std::string& command);
 
+/// Says on standard error, unless that is to be quiet, what a command whose jets are in positions
+/// and momenta does not take of the scene.
+void note_unused_coordinates(const RunOptions& options, const Scene& scene);
+
 /// The number of threads that the options ask for, at least 1.
 std::size_t thread_count(const RunOptions& options);
 

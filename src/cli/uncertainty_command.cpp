@@ -1,7 +1,9 @@
 #include "uncertainty_command.hpp"
 
+#include "../app/processors.hpp"
 #include "../app/report_origin.hpp"
 #include "../app/required_tables.hpp"
+#include "../report/uncertainty/collision_section.hpp"
 #include "../report/uncertainty/uncertainty_report.hpp"
 #include "../studies/uncertainty/uncertainty.hpp"
 #include "study_command.hpp"
@@ -13,9 +15,15 @@ int uncertainty(const RunOptions& options) {
   require_uncertainty(scene, *options.scene_file);
   return report_study(
       options, scene.name + uncertainty_suffix, [&](const ProgressCallback& progress) {
-        return io::uncertainty_report(
-            study_of(*options.scene_file, [&] { return study_uncertainty(scene, progress); }),
-            report_origin(options.command));
+        return study_of(*options.scene_file, [&] {
+          const UncertaintyResult moments = study_uncertainty(scene, progress);
+          std::vector<io::UncertaintySection> sections;
+          if (scene.uncertainty->collision) {
+            sections.push_back(io::collision_section(
+                scene, study_collision(scene, usable_processors(), progress)));
+          }
+          return io::uncertainty_report(moments, report_origin(options.command), sections);
+        });
       });
 }
 

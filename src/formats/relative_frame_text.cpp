@@ -47,7 +47,7 @@ std::array<std::string_view, 3> axis_columns(RelativeFrame frame) {
   return {"r", "t", "n"};
 }
 
-std::string coordinates_text(JetCoordinates coordinates) {
+std::string coordinates_text(const CoordinatesAtEnds& coordinates) {
   if (coordinates == JetCoordinates::cartesian) return "";
   return fmt::format("; {} coordinates", name_of(coordinates));
 }

@@ -27,6 +27,6 @@ std::array<std::string_view, 3> axis_columns(RelativeFrame frame);
 
 /// What stands behind the frame where polynomials are in other coordinates than Cartesian ones;
 /// else nothing.
-std::string coordinates_text(JetCoordinates coordinates);
+std::string coordinates_text(const CoordinatesAtEnds& coordinates);
 
 }  // namespace hamjet::io

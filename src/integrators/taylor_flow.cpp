@@ -8,9 +8,11 @@
 
 namespace hamjet {
 
+/// The share of the whole that the last two powers may have, which need not go on falling evenly.
+static constexpr double least_share = 0.25 * std::numeric_limits<double>::epsilon();
+
 TaylorFlow::TaylorFlow(SharedSystem system)
-    : system_(std::move(system)),
-      field_(system_->vector_field, SeriesSpace::create(1, order), order) {}
+    : system_(std::move(system)), field_(system_->vector_field, order) {}
 
 void TaylorFlow::set_state(std::size_t lane, std::span<const double> state) {
   for (std::size_t i = 0; i < state.size(); ++i) {
@@ -18,49 +20,79 @@ void TaylorFlow::set_state(std::size_t lane, std::span<const double> state) {
   }
 }
 
-void TaylorFlow::expand() {
-  const std::size_t size = system_->dimension();
-  field_.evaluate_constant_terms();
-  for (int k = 0; k < order; ++k) {
-    if (k > 0) {
-      field_.evaluate_remainder(k);
-      field_.complete(k);
+TaylorFlow::Lanes TaylorFlow::squares(int power, bool is_of_momenta) const {
+  const std::size_t n = system_->degrees_of_freedom;
+  Lanes sum;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Lanes& z = field_.input(is_of_momenta ? n + i : i)[power];
+    sum += z * z;
+  }
+  return sum;
+}
+
+bool TaylorFlow::is_rounding(int k, const Lanes& times) const {
+  const Lanes square = times * times;
+  Lanes before(1);
+  for (int i = 1; i < k; ++i) before *= square;
+  // Positions and momenta have units of their own. Both of the last powers are looked at, for one
+  // may vanish by symmetry. What is no number is no rounding either.
+  for (const bool is_of_momenta : {false, true}) {
+    const Lanes unit = before / squares(0, is_of_momenta);
+    const Lanes last = squares(k, is_of_momenta) * square;
+    for (const Lanes& part : {squares(k - 1, is_of_momenta), last}) {
+      if (!(largest_magnitude(part * unit) <= least_share * least_share)) return false;
     }
+  }
+  return true;
+}
+
+void TaylorFlow::expand(std::span<const double> times) {
+  constexpr int fewest = 4;
+  const std::size_t size = system_->dimension();
+  const Lanes spans = Lanes::of_lanes(
+      [&](std::size_t lane) { return lane < times.size() ? std::abs(times[lane]) : 0.0; });
+  powers_ = 0;
+  proved_ = Lanes();
+  for (int k = 0; k < order; ++k) {
+    field_.expand(k);
     const double factor = 1.0 / (k + 1);
     for (std::size_t i = 0; i < size; ++i) field_.input(i)[k + 1] = field_.output(i)[k] * factor;
+    powers_ = k + 1;
+    if (!times.empty() && powers_ >= fewest && is_rounding(powers_, spans)) {
+      proved_ = spans;
+      return;
+    }
   }
 }
 
 double TaylorFlow::reach(std::size_t lane) const {
-  const std::size_t n = system_->degrees_of_freedom;
+  const auto of_lane = [&](int power, bool is_of_momenta) {
+    return std::sqrt(squares(power, is_of_momenta).lane(static_cast<int>(lane)));
+  };
   double reach = std::numeric_limits<double>::infinity();
-  // Positions and momenta have units of their own. Both of the last powers are looked at, for one
-  // may vanish by symmetry.
-  for (const std::size_t first : {std::size_t{0}, n}) {
-    for (const int k : {order - 1, order}) {
-      double whole = 0;
-      double last = 0;
-      for (std::size_t i = first; i < first + n; ++i) {
-        const auto* const z = field_.input(i);
-        whole = std::max(whole, std::abs(z[0].lane(static_cast<int>(lane))));
-        const double size = std::abs(z[k].lane(static_cast<int>(lane)));
-        if (!std::isfinite(size)) return 0;
-        last = std::max(last, size);
-      }
+  for (const bool is_of_momenta : {false, true}) {
+    for (const int k : {powers_ - 1, powers_}) {
+      const double last = of_lane(k, is_of_momenta);
+      if (!std::isfinite(last)) return 0;
       if (last > 0) {
-        const double ratio = 0.25 * std::numeric_limits<double>::epsilon() * whole / last;
-        reach = std::min(reach, std::pow(ratio, 1.0 / k));
+        reach = std::min(reach, std::pow(least_share * of_lane(0, is_of_momenta) / last, 1.0 / k));
       }
     }
   }
   return reach;
 }
 
+double TaylorFlow::within_reach(std::size_t lane, double time) const {
+  if (std::abs(time) <= proved_.lane(static_cast<int>(lane))) return time;
+  const double longest = reach(lane);
+  return std::clamp(time, -longest, longest);
+}
+
 void TaylorFlow::evaluate(std::size_t lane, double time, std::span<double> state) const {
   for (std::size_t i = 0; i < state.size(); ++i) {
     const auto* const z = field_.input(i);
     double sum = 0;
-    for (int k = order; k >= 1; --k) sum = (sum + z[k].lane(static_cast<int>(lane))) * time;
+    for (int k = powers_; k >= 1; --k) sum = (sum + z[k].lane(static_cast<int>(lane))) * time;
     state[i] = z[0].lane(static_cast<int>(lane)) + sum;
   }
 }
@@ -79,11 +111,10 @@ void TaylorFlow::advance(std::span<double> states, std::span<const double> times
   }
   const auto is_moving = [](double time) { return time != 0; };
   for (int count = 0; std::any_of(left.begin(), left.end(), is_moving); ++count) {
-    expand();
+    expand(left);
     for (std::size_t lane = 0; lane < times.size(); ++lane) {
       if (left[lane] == 0) continue;
-      const double longest = reach(lane);
-      const double step = std::clamp(left[lane], -longest, longest);
+      const double step = within_reach(lane, left[lane]);
       if (!(std::abs(step) > least_part * std::abs(left[lane])) || count == most_expansions) {
         std::fill_n(state(lane).begin(), size, std::numeric_limits<double>::quiet_NaN());
         left[lane] = 0;

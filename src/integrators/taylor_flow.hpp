@@ -4,8 +4,8 @@
 #include <span>
 
 #include "hamjet/detail/algebra/pack.hpp"
-#include "hamjet/detail/dynamics/slice_evaluator.hpp"
 #include "hamjet/dynamics/dynamical_system.hpp"
+#include "time_expansion.hpp"
 
 namespace hamjet {
 
@@ -16,9 +16,11 @@ namespace hamjet {
 ///
 /// f_k the k-th coefficient of the vector field on the series, of which each operation is done
 /// once. For flights of a part of a revolution, where an implicit method spends most on its set-up;
-/// each state is a lane of the machine's vectors and has a time of its own. Source: A. Jorba and M.
-/// Zou, "A software package for the numerical integration of ODEs by means of high-order Taylor
-/// methods", Experimental Mathematics 14 (2005) 99.
+/// each state is a lane of the machine's vectors and has a time of its own. A flight takes as many
+/// powers as its time needs: of 220 km along a low orbit ten, whose products cost a sixth of those
+/// of the highest power. Source: A. Jorba and M. Zou, "A software package for the numerical
+/// integration of ODEs by means of high-order Taylor methods", Experimental Mathematics 14 (2005)
+/// 99.
 ///
 /// An object has work space of its own: each thread needs one.
 class TaylorFlow {
@@ -31,11 +33,16 @@ class TaylorFlow {
 
   /// Sets the state, of 2n numbers, that a lane is to be expanded about.
   void set_state(std::size_t lane, std::span<const double> state);
-  /// Expands the flow of all lanes.
-  void expand();
+  /// Expands the flow of all lanes: to the highest power, or to one at which each of the first
+  /// lanes leaves out no more than rounding at its time of `times`.
+  void expand(std::span<const double> times = {});
+  /// The power that the last expansion went to.
+  int powers() const { return powers_; }
   /// The time, either way, within which a lane's polynomial leaves out no more than rounding; 0
   /// where the vector field is not finite.
   double reach(std::size_t lane) const;
+  /// A time, or as much of it as the lane's polynomial reaches.
+  double within_reach(std::size_t lane, double time) const;
   /// A lane's state at a time from the one that it was expanded about.
   void evaluate(std::size_t lane, double time, std::span<double> state) const;
 
@@ -45,8 +52,17 @@ class TaylorFlow {
   void advance(std::span<double> states, std::span<const double> times);
 
  private:
+  using Lanes = Pack<double, static_cast<int>(lanes)>;
+
+  /// Of the positions, or of the momenta, the sum of the squares of a power's coefficients.
+  Lanes squares(int power, bool is_of_momenta) const;
+  /// Whether the powers k - 1 and k add no more than rounding at these times.
+  bool is_rounding(int k, const Lanes& times) const;
+
   SharedSystem system_;
-  SliceEvaluator<Pack<double, static_cast<int>(lanes)>, double> field_;
+  TimeExpansion<Lanes, double> field_;
+  int powers_ = 0;
+  Lanes proved_;  ///< times that the last expansion is known to reach, where it ended early
 };
 
 }  // namespace hamjet

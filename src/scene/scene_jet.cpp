@@ -123,6 +123,12 @@ const TableDescription& jet_table() {
              "of the polynomials that predict deputies: `flow-box` (time and energy) reaches "
              "furthest, `auto` measures which does",
              {orbits}},
+            {"end_coordinates",
+             form::choice({jet_coordinates_names.begin(), jet_coordinates_names.end()}),
+             absent::other("as `coordinates`"),
+             "of their results, where others than at the start; `flow-box` and `auto` are of both "
+             "ends",
+             {orbits}},
             {"duration_orbits",
              form::number(),
              other_duration,
@@ -170,7 +176,16 @@ JetSettings read_jet(const TableReader& jet, const SystemSettings& system, Preci
   settings.duration = read_duration(jet, is_orbit(system.model), nominal);
   settings.arcs = read_arcs(jet);
   jet.read_if_any("symmetry", settings.symmetry);
-  jet.read_if_any("coordinates", settings.coordinates);
+  jet.read_if_any("coordinates", settings.coordinates.start);
+  settings.coordinates.end = settings.coordinates.start;
+  jet.read_if_any("end_coordinates", settings.coordinates.end);
+  if (!settings.coordinates.fit_each_other()) {
+    jet.fail("end_coordinates",
+             fmt::format("at one end alone, got {} to {}, must be the same at both ends where one "
+                         "of them is flow-box or auto",
+                         in_quotes(name_of(settings.coordinates.start)),
+                         in_quotes(name_of(settings.coordinates.end))));
+  }
   return settings;
 }
 

@@ -127,7 +127,7 @@ struct JetSettings {
   double duration = 0;                  ///< canonical
   std::optional<std::size_t> arcs = 1;  ///< none: auto
   FlowSymmetry symmetry = FlowSymmetry::rotation;
-  JetCoordinates coordinates = JetCoordinates::cartesian;
+  CoordinatesAtEnds coordinates;
 };
 
 /// Table `[jet]`. Throws Error(too_large) for an order above the largest.
@@ -212,6 +212,9 @@ ValiditySettings read_validity(const TableReader& validity, const Scene& scene,
 /// Table `[assignment]` of a scene whose table `[transfer]` has been read, if it has one.
 AssignmentSettings read_assignment(const TableReader& assignment, const Scene& scene,
                                    const Nominal& nominal);
+
+/// Table `[uncertainty.collision]` of a scene whose table `[deputy]` has been read.
+CollisionWatch read_collision(const TableReader& collision, const Scene& scene);
 
 /// Table `[uncertainty]` of a scene whose table `[deputy]` has been read, if it has one.
 UncertaintySettings read_uncertainty(const TableReader& uncertainty, const Scene& scene,

@@ -194,6 +194,8 @@ const TableDescription& uncertainty_table() {
            {{"deputy", form::table(deputy_uncertainty_table()), absent::other("known exactly"),
              "of a scene with a deputy"},
             {"burn", form::table(burn_table()), absent::other("none"), "errors of a burn"},
+            {"collision", form::table(collision_table()), absent::other("not looked for"),
+             "whether chief and deputy may hit each other"},
             {"acceleration_density_m2_s3", form::between(0, 1e6),
              absent::value(preset.acceleration_density_m2_s3),
              "power spectral density of white noise of the acceleration along each axis; its part "
@@ -228,6 +230,9 @@ UncertaintySettings read_uncertainty(const TableReader& uncertainty, const Scene
   }
   if (has_covariance(uncertainty) || (!settings.deputy && !settings.burn)) {
     settings.chief = read_state_uncertainty(uncertainty, uncertainty, nominal);
+  }
+  if (uncertainty.has("collision")) {
+    settings.collision = read_collision(uncertainty.table("collision"), scene);
   }
   settings.times = read_transfer_times(uncertainty, scene, nominal, 1);
   uncertainty.read_if_any("acceleration_density_m2_s3", settings.acceleration_density_m2_s3);

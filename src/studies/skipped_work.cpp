@@ -104,8 +104,16 @@ void add_parts(const PropagationResult& result, std::vector<SkippedWork>& skippe
 
 }  // namespace
 
+std::optional<SkippedWork> unused_coordinates(const Scene& scene) {
+  if (scene.coordinates == JetCoordinates::cartesian) return std::nullopt;
+  return SkippedWork{fmt::format("{} coordinates", name_of(scene.coordinates)),
+                     "runs write jets in positions and momenta, in which they are symplectic to "
+                     "rounding; jet.coordinates is of motion, validity, transfer, assign and eval"};
+}
+
 std::vector<SkippedWork> skipped_work(const PropagationResult& result) {
   std::vector<SkippedWork> skipped;
+  if (const auto coordinates = unused_coordinates(result.scene)) skipped.push_back(*coordinates);
   add_dynamics(result, skipped);
   add_symmetry(result, skipped);
   add_parts(result, skipped);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,8 +14,12 @@ struct SkippedWork {
   std::string why;
 };
 
-/// All that `propagate` left out: force terms, degrees of freedom, variables, degrees, reference,
-/// inversions, figure, relative Hamiltonian, and each self-check that is off.
+/// What a run makes of `jet.coordinates`: its jets are in positions and momenta, whatever the key
+/// says. Nothing where it says just that.
+std::optional<SkippedWork> unused_coordinates(const Scene& scene);
+
+/// All that `propagate` left out: coordinates, force terms, degrees of freedom, variables, degrees,
+/// reference, inversions, figure, relative Hamiltonian, and each self-check that is off.
 std::vector<SkippedWork> skipped_work(const PropagationResult& result);
 
 }  // namespace hamjet

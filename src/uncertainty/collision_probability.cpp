@@ -321,7 +321,7 @@ CollisionProbability collision_probability(const EncounterProblem& problem,
     throw Error(ErrorKind::usage, "collision: the confidence must be between 0.5 and 1");
   }
   validate(problem);
-  const RelativePaths paths(problem, path_accuracy * problem.radius);
+  const RelativePaths paths(problem, path_accuracy * problem.radius, problem.radius);
   Estimate estimate(problem, settings, paths);
   if (settings.sampling == CollisionSampling::plain) return estimate.result();
   try {
@@ -338,6 +338,55 @@ CollisionProbability collision_probability(const EncounterProblem& problem,
     }
   }
   return Estimate(problem, settings, paths).result();
+}
+
+LeastSeparations least_separations(const EncounterProblem& problem,
+                                   const CollisionSettings& settings,
+                                   const std::vector<double>& shares) {
+  validate(problem);
+  for (const double share : shares) {
+    if (!(share > 0 && share < 1)) {
+      throw Error(ErrorKind::usage, "least separations: a share must be between 0 and 1");
+    }
+  }
+  // Separations are told to a part of the radius, and no path is left out.
+  constexpr double accuracy = 0.01;
+  const RelativePaths paths(problem, accuracy * problem.radius,
+                            std::numeric_limits<double>::infinity());
+  const auto count = static_cast<std::size_t>(std::max(1L, settings.samples));
+  const std::size_t tasks = (count + block - 1) / block;
+  std::vector<double> least(tasks * block);
+  run_concurrently(
+      tasks, settings.threads,
+      [&](std::size_t task, TaskControl& control) {
+        RandomStream random(settings.seed, task);
+        std::vector<double> points(encounter_variables * block);
+        for (std::size_t j = 0; j < block; ++j) {
+          for (std::size_t i = 0; i < encounter_variables; ++i) {
+            points[i * block + j] = random.normal();
+          }
+        }
+        std::vector<double> states(6 * paths.times().size() * block);
+        paths.evaluate(points, problem.order, states);
+        std::vector<std::array<double, 6>> path(paths.times().size());
+        for (std::size_t j = 0; j < block; ++j) {
+          take_path(states, block, j, path);
+          least[task * block + j] = least_distance(paths, path);
+        }
+        control.advance();
+      },
+      [&](long done) {
+        if (settings.progress) {
+          settings.progress(static_cast<double>(done) / static_cast<double>(tasks));
+        }
+      });
+  std::sort(least.begin(), least.end());
+  LeastSeparations result{shares, {}, static_cast<long>(least.size())};
+  for (const double share : shares) {
+    const auto place = static_cast<std::size_t>(share * static_cast<double>(least.size()));
+    result.separations.push_back(least[std::min(place, least.size() - 1)]);
+  }
+  return result;
 }
 
 }  // namespace hamjet

@@ -78,7 +78,7 @@ LinearRelativeState between(const LinearRelativeState& start, const LinearRelati
   return {combine(start.mean, end.mean), combine(start.by_deviation, end.by_deviation)};
 }
 
-RelativePaths::RelativePaths(const EncounterProblem& problem, double accuracy) {
+RelativePaths::RelativePaths(const EncounterProblem& problem, double accuracy, double sphere) {
   validate(problem);
   for (std::size_t i = 0; i < 2; ++i) factors_[i] = problem.spacecraft[i].factor;
   const EncounterTrajectories trajectories(problem);
@@ -102,7 +102,7 @@ RelativePaths::RelativePaths(const EncounterProblem& problem, double accuracy) {
     const Node& start = nodes.back();
     const Node& end = ahead.back();
     const double length = end.time - start.time;
-    const bool far = is_far(start.linear, end.linear, length, problem.radius);
+    const bool far = is_far(start.linear, end.linear, length, sphere);
     Node middle = node_at((start.time + end.time) / 2);
     if (far || midpoint_miss(start.linear, end.linear, middle.linear, length) <= accuracy) {
       nodes.push_back(std::move(ahead.back()));

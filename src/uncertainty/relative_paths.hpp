@@ -28,16 +28,17 @@ struct LinearRelativeState {
 /// The relative motion of two spacecraft in a window of time, as a function of the deviations of
 /// both at the epoch: at nodes in time by the polynomials of two jets, one about the mean of each
 /// spacecraft, and between the nodes by the cubic through positions and velocities. Arcs between
-/// nodes on which no path comes near the sphere of the problem's radius are left out.
+/// nodes on which no path comes near a sphere are left out.
 ///
 /// Immutable: threads may share one.
 class RelativePaths {
  public:
   /// Nodes are added until the cubics of the mean motion, and of the linear motion of deviations of
   /// `sigmas` standard deviations, are right to `accuracy` (a length) in the middle between nodes.
+  /// `sphere` is the radius of the one that paths must come near to count; infinite for all.
   /// Throws as validate and integrate_gauss, and Error(too_large) for a window that would take too
   /// many nodes.
-  RelativePaths(const EncounterProblem& problem, double accuracy);
+  RelativePaths(const EncounterProblem& problem, double accuracy, double sphere);
 
   const std::vector<double>& times() const noexcept { return times_; }
   /// The first nodes of the arcs that are not left out, each of which ends at the next node.

@@ -100,6 +100,22 @@ TEST_F(Coordinates, AreAllComparedOnTheSameDeputies) {
   const Table table = read_table(directory_ / "all/validity.csv");
   EXPECT_EQ(table.rows.size(), 6U * 2 * 2);  // coordinates, times, orders
   expect_error({"validity", "far.toml", "--coordinates", "polar"}, 2, {"--coordinates"});
+  // The ends may differ, and the option is of both.
+  const std::string two = "order = 2\ncoordinates = \"nodal\"\nend_coordinates = \"poincare\"";
+  write("two.toml", changed(far(""), "order = 2", two));
+  const std::string said = succeed({"validity", "two.toml", "-o", "two"}).out;
+  EXPECT_NE(said.find("; nodal to poincare coordinates"), std::string::npos) << said;
+  const Json ends = read_json(directory_ / "two/summary.json")["validity"];
+  EXPECT_EQ(ends["coordinates"], "nodal");
+  EXPECT_EQ(ends["end_coordinates"], "poincare");
+  EXPECT_NE(ends["times"], one["validity"]["times"]);
+  succeed({"validity", "two.toml", "-o", "both", "--coordinates", "spherical"});
+  EXPECT_EQ(read_json(directory_ / "both/summary.json")["validity"]["times"],
+            one["validity"]["times"]);
+  for (const char* const of_both : {"flow-box", "auto"}) {
+    expect_error({"validity", "two.toml", "--set", std::string("jet.coordinates=") + of_both}, 3,
+                 {"two.toml:", "jet.end_coordinates: at one end alone", of_both});
+  }
 }
 
 TEST_F(Coordinates, OfASceneAreEvaluated) {
@@ -126,6 +142,62 @@ TEST_F(Coordinates, OfASceneAreEvaluated) {
                 : plain["rows"][0]["truncation_m"].get<double>(),
             1);
   expect_error({"eval", "far.toml", "--run", "gauss", row[0], row[1]}, 2, {"--run"});
+}
+
+// Jets that are written are in positions and momenta, and what says otherwise is answered.
+TEST_F(Coordinates, AreNotThoseOfARun) {
+  write("far.toml", far(""));
+  succeed({"run", "far.toml", "-o", "plain"});
+  const std::vector<std::string> asked = {"--set", "jet.coordinates=flow-box"};
+  CommandResult run = hamjet({"run", "far.toml", "-o", "boxes", asked[0], asked[1]});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(in_one_line(run.err).find("hamjet: note: flow-box coordinates are not used: "), 0U)
+      << run.err;
+  const Json summary = read_json(directory_ / "boxes/summary.json");
+  const std::string jet = summary["runs"][0]["label"].get<std::string>() + "/jet.csv";
+  EXPECT_EQ(content(directory_ / "boxes" / jet), content(directory_ / "plain" / jet));
+  const Json skipped = summary["skipped"];
+  EXPECT_EQ(skipped[0]["what"], "flow-box coordinates");
+  succeed({"run", "far.toml", "-o", "quiet", "-q", asked[0], asked[1]});
+  const std::string said = in_one_line(succeed({"check", "far.toml", asked[0], asked[1]}).out);
+  EXPECT_NE(said.find("coordinates flow-box; runs write jets in positions and momenta"),
+            std::string::npos)
+      << said;
+  const Json check = Json::parse(succeed({"check", "far.toml", "--json", asked[0], asked[1]}).out);
+  EXPECT_EQ(check["coordinates"], "flow-box");
+  EXPECT_EQ(check["end_coordinates"], "flow-box");
+}
+
+// --set changes the scene that is integrated, and its deputy.
+TEST_F(Coordinates, OfASceneAreChanged) {
+  const std::string scene = far("");
+  write("far.toml", scene);
+  write("boxes.toml", changed(scene, "order = 2", "order = 3\ncoordinates = \"flow-box\""));
+  write("near.toml", changed(scene, "-100000", "-50"));
+  const auto rows = [&](const std::string& deputy, std::vector<std::string> overrides) {
+    return succeed(with_overrides({"eval", "far.toml", "--deputy", deputy, "-q"}, overrides)).out;
+  };
+  const std::string boxes = succeed({"eval", "boxes.toml", "--deputy", "boxes.toml", "-q"}).out;
+  const std::vector<std::string> changes = {"jet.coordinates=flow-box", "jet.order=3"};
+  EXPECT_EQ(rows("far.toml", changes), boxes);
+  EXPECT_EQ(rows("boxes.toml", changes), boxes);
+  EXPECT_NE(rows("far.toml", {}), boxes);
+  // The deputy of the same scene changes with it, that of another one does not.
+  const std::string near = rows("near.toml", {});
+  EXPECT_EQ(rows("far.toml", {"deputy.position_m=[-700,-50,0]"}), near);
+  EXPECT_EQ(rows("near.toml", {"deputy.position_m=[-700,-70,0]"}), near);
+  // Of stored results the deputy's scene alone can be changed.
+  succeed({"run", "far.toml", "-q", "-o", "stored"});
+  const std::vector<std::string> stored = {"eval", "stored", "--deputy", "far.toml", "-q"};
+  const std::string moved = succeed(with_overrides(stored, {"deputy.position_m=[-700,-50,0]"})).out;
+  EXPECT_EQ(moved.substr(0, moved.find('.')), near.substr(0, near.find('.')));
+  EXPECT_NE(moved, succeed(stored).out);
+  expect_error({"eval", "stored", "--deviation=1,0,0,0,0,0", "--set", "jet.order=3"}, 2,
+               {"--set", "stored results"});
+  expect_error(with_overrides({"eval", "far.toml", "--deputy", "far.toml"}, {"jet.order=0"}), 3,
+               {"--set", "jet.order"});
+  expect_error(with_overrides({"eval", "far.toml", "--deputy", "far.toml"}, {"jet.arcs=2"}), 3,
+               {"far.toml", "jet.arcs", "hamjet eval"});
 }
 
 // The shipped pairs are flown with the full equations of motion beside the polynomials.

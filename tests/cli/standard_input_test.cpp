@@ -85,6 +85,22 @@ TEST_F(StandardInput, IsReadOnce) {
   EXPECT_TRUE(std::filesystem::exists(directory_ / "answer/transfers.csv"));
 }
 
+// A scene in place of results, and the deputy of the same text.
+TEST_F(StandardInput, HoldsASceneThatIsEvaluated) {
+  const std::string scene = short_kepler_scene("near") + "[deputy]\nposition_m = [3, -10, 2]\n";
+  write("near.toml", scene);
+  const std::string row = succeed({"eval", "near.toml", "--deputy", "near.toml", "-q"}).out;
+  for (const char* const deputy : {"near.toml", "-"}) {
+    const CommandResult result = with_input(scene, {"eval", "-", "--deputy", deputy, "-q"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(result.out, row);
+  }
+  const CommandResult wrong =
+      with_input(changed(scene, "position_m", "position"), {"eval", "-", "--deputy", "-"});
+  EXPECT_EQ(wrong.exit_code, 3);
+  EXPECT_EQ(wrong.err.rfind("hamjet: <standard input>:", 0), 0U) << wrong.err;
+}
+
 TEST_F(StandardInput, IsNoStudyOfASweep) {
   expect_error({"sweep", "-"}, 2, {"study: got -", "must be a file"});
 }

@@ -58,6 +58,30 @@ TEST(TaylorFlow, SaysHowFarItsPolynomialReaches) {
   }
 }
 
+// An expansion that is told its times takes the powers that they need, and is right at them.
+TEST(TaylorFlow, TakesAsManyPowersAsATimeNeeds) {
+  const SharedSystem system = oblate();
+  TaylorFlow flow(system);
+  for (std::size_t lane = 0; lane < TaylorFlow::lanes; ++lane) flow.set_state(lane, start);
+  int last = 0;
+  for (const double time : {1e-4, 0.003, 0.03, -0.15}) {
+    flow.expand(std::vector<double>{0.5 * time, time});
+    EXPECT_GT(flow.powers(), last);
+    EXPECT_LT(flow.powers(), TaylorFlow::order);
+    last = flow.powers();
+    EXPECT_EQ(flow.within_reach(1, time), time);
+    std::vector<double> state(6);
+    flow.evaluate(1, time, state);
+    test::Flow<Extended> exact{*system, {start.begin(), start.end()}, Extended(time), 1, {}};
+    const auto end = test::final_state(test::run_gauss(exact, test::adaptive(8, 1e-22)));
+    for (std::size_t i = 0; i < 6; ++i) {
+      EXPECT_NEAR(state[i], static_cast<double>(end[i]), 1e-15) << time;
+    }
+    // Much further it does not reach, and knows it.
+    EXPECT_LT(std::abs(flow.within_reach(1, 20 * time)), 20 * std::abs(time));
+  }
+}
+
 TEST(TaylorFlow, MarksCollisionsAndLeavesTheOthers) {
   std::vector<double> states = {1, 0, 0, 0, 0, 0};  // falls into the centre at 1.11
   states.insert(states.end(), start.begin(), start.end());

@@ -8,6 +8,7 @@
 #include "../../src/studies/formation/single_transfer.hpp"
 #include "../charts/orbits.hpp"
 #include "formation_scenes.hpp"
+#include "hamjet/error.hpp"
 #include "hamjet/studies/transfer.hpp"
 #include "hamjet/studies/validity.hpp"
 
@@ -122,6 +123,35 @@ TEST(FlowBoxReach, PredictsDeputiesOfOtherElements) {
     worst = std::max(worst, miss_m(chief, other, JetCoordinates::cartesian));
   }
   EXPECT_GT(worst, 10);
+}
+
+// Each end has coordinates of its own, and its polynomials lead to the deputy as it is flown.
+TEST(CoordinatesAtEnds, MayDiffer) {
+  using enum JetCoordinates;
+  const Scene scene = scene_of(sun_synchronous, 0.7 * sun_synchronous.period, 4);
+  const ComputedProblem problem = make_problem(scene, 1e10);
+  const SixNumbers<double> deviation = {2e-5, -3e-5, 1e-5, 1e-5, 2e-5, -2e-5};  // some 250 m
+  std::vector<double> deputy = scene.nominal;
+  for (std::size_t i = 0; i < 6; ++i) deputy[i] += deviation[i];
+  const auto flown = exact_flow(problem.system, deputy, scene.duration);
+  const Matrix<double> same = Matrix<double>::Identity(6, 6);
+  for (const CoordinatesAtEnds& ends : {CoordinatesAtEnds{cartesian, nodal},
+                                        {nodal, cartesian},
+                                        {spherical, poincare},
+                                        {poincare, cylindrical}}) {
+    SCOPED_TRACE(name_of(ends));
+    DeputyFlowPropagation propagation(scene, problem, scene.integrators[0], ends);
+    const auto flow = propagation.advance_to(scene.duration);
+    EXPECT_EQ(flow->entry_derivative().isApprox(same, 1e-3), ends.start == cartesian);
+    EXPECT_EQ(flow->exit_derivative().isApprox(same, 1e-3), ends.end == cartesian);
+    const auto predicted = flow->predict(deviation, 4).deviation;
+    for (std::size_t i = 0; i < 3; ++i) {
+      // The fifth degree, some (250 m / 7000 km)^5 of it times 30, is below the flight's rounding.
+      EXPECT_NEAR(flow->chief_end()[i] + predicted[i], flown[i], 1e-12);
+    }
+  }
+  EXPECT_THROW(DeputyFlowPropagation(scene, problem, scene.integrators[0], {flow_box, nodal}),
+               Error);
 }
 
 // A transfer of 10 km on the paper's orbit: order 2 between sections is as good as order 4 of

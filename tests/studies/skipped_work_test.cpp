@@ -102,6 +102,21 @@ TEST(SkippedWork, OfZonalHarmonicsIsThoseThatAreAbsent) {
   EXPECT_EQ(reason(result, "J7 to J20").find("needs"), std::string::npos);
 }
 
+// A run's jet is the same whatever deputies are to be predicted by, and it says so.
+TEST(SkippedWork, IsTheCoordinatesOfAScene) {
+  Scene scene = paper_chief(2);
+  scene.duration = 0.1;
+  const PropagationResult plain = propagate(scene);
+  scene.coordinates = {JetCoordinates::nodal, JetCoordinates::poincare};
+  const PropagationResult result = propagate(scene);
+  Names names = with_parts({"J4 to J20", rotation});
+  names.insert(names.begin(), "nodal to poincare coordinates");
+  EXPECT_EQ(left_out(result), names);
+  const auto found = result.runs[0].jet[5].coefficients();
+  const auto expected = plain.runs[0].jet[5].coefficients();
+  EXPECT_TRUE(std::equal(found.begin(), found.end(), expected.begin(), expected.end()));
+}
+
 TEST(SkippedWork, OfAnEquatorialOrbitIsTheMotionOutOfThePlane) {
   Scene scene = kepler_chief(0.1, 7000, 1000, 2);
   scene.variables = {0, 1, 3, 4};

@@ -167,6 +167,19 @@ TEST(CollisionProbability, WithoutUncertaintyInSomeDirectionIsBySamples) {
   EXPECT_THROW(collision_probability(problem, settings(5000, CollisionSampling::entries)), Error);
 }
 
+TEST(LeastSeparations, HaveTheShareOfCollisionsBelowTheRadius) {
+  // The radius is the quantile of the least separation at the probability of coming nearer.
+  const test::PublishedEncounter e = test::published_encounters()[0];
+  CollisionSettings s = settings(20'000, CollisionSampling::plain);
+  const CollisionProbability collision = collision_probability(e.problem, s);
+  const double p = collision.probability;
+  const double error = 4 * std::sqrt(2 * p * (1 - p) / 20'000);
+  const LeastSeparations least = least_separations(e.problem, s, {p - error, p + error});
+  EXPECT_LT(least.separations[0], e.problem.radius);
+  EXPECT_GT(least.separations[1], e.problem.radius);
+  EXPECT_THROW(least_separations(e.problem, s, {1.0}), Error);
+}
+
 TEST(CollisionProbability, RefusesWhatIsNoProblem) {
   EncounterProblem problem = test::published_encounters()[0].problem;
   EXPECT_THROW(collision_probability(problem, settings(10)), Error);

@@ -84,11 +84,39 @@ class DeputyFlow {
   virtual std::unique_ptr<Passage> passage() const = 0;
 
  private:
+  friend class DeputyPredictor;
+
   std::vector<Series<double>> polynomials_;
   SixNumbers<double> chief_end_;
   Matrix<double> entry_derivative_;
   Matrix<double> exit_derivative_;
   std::vector<MapEvaluator> evaluators_;  ///< by degree, from 1
+};
+
+/// Predicts by one flow, again and again, with work space that is kept: for single deputies, whose
+/// predictions take no longer than to make it. Each thread needs one; the flow must outlive it.
+class DeputyPredictor {
+ public:
+  explicit DeputyPredictor(const DeputyFlow& flow) : flow_(flow), passage_(flow.passage()) {}
+
+  const DeputyFlow& flow() const { return flow_; }
+  /// As DeputyFlow::predict.
+  void predict(std::span<const SixNumbers<double>> initial, int degree,
+               std::span<DeputyPrediction> predictions) {
+    predict(initial, std::span(&degree, 1), predictions);
+  }
+  DeputyPrediction predict(const SixNumbers<double>& initial, int degree);
+  /// By several degrees: the deputies enter the coordinates once. The predictions of the first
+  /// degree stand first, of all deputies, then those of the second.
+  void predict(std::span<const SixNumbers<double>> initial, std::span<const int> degrees,
+               std::span<DeputyPrediction> predictions);
+
+ private:
+  const DeputyFlow& flow_;
+  std::unique_ptr<DeputyFlow::Passage> passage_;
+  std::vector<SixNumbers<double>> carried_;
+  std::vector<double> points_;
+  std::vector<double> results_[3];
 };
 
 /// The flow by the jet in positions and momenta themselves. Throws Error(usage) unless it has six

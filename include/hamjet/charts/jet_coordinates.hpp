@@ -2,11 +2,12 @@
 
 #include <array>
 #include <cstddef>
+#include <string>
 #include <string_view>
 
 namespace hamjet {
 
-/// The coordinates in which the polynomials of an orbit's jet are written, at its start and at its
+/// The coordinates in which the polynomials of an orbit's jet are written, at its start or at its
 /// end (`jet.coordinates`). What each is, is said at CanonicalChart and FlowBoxMap.
 enum class JetCoordinates {
   cartesian,    ///< positions and momenta themselves
@@ -24,6 +25,37 @@ inline constexpr std::array<std::string_view, 7> jet_coordinates_names = {
 
 constexpr std::string_view name_of(JetCoordinates coordinates) {
   return jet_coordinates_names[static_cast<std::size_t>(coordinates)];
+}
+
+/// Those of the deviations that polynomials take and of the final ones that they give
+/// (`jet.coordinates` and `jet.end_coordinates`). Flow boxes have two sections, so that both ends
+/// are in them or none is; and what is measured (`automatic`) are the same at both.
+struct CoordinatesAtEnds {
+  JetCoordinates start = JetCoordinates::cartesian;
+  JetCoordinates end = JetCoordinates::cartesian;
+
+  constexpr CoordinatesAtEnds() = default;
+  /// The same at both ends.
+  constexpr CoordinatesAtEnds(JetCoordinates both) : start(both), end(both) {}
+  constexpr CoordinatesAtEnds(JetCoordinates at_start, JetCoordinates at_end)
+      : start(at_start), end(at_end) {}
+
+  friend constexpr bool operator==(const CoordinatesAtEnds&, const CoordinatesAtEnds&) = default;
+
+  /// Whether both ends are in what one end alone cannot be in, or none is.
+  constexpr bool fit_each_other() const {
+    const auto is_of_both = [](JetCoordinates one) {
+      return one == JetCoordinates::flow_box || one == JetCoordinates::automatic;
+    };
+    return start == end || !(is_of_both(start) || is_of_both(end));
+  }
+};
+
+/// The name, or both with "to" in between where the ends differ.
+inline std::string name_of(const CoordinatesAtEnds& coordinates) {
+  std::string name(name_of(coordinates.start));
+  if (coordinates.end != coordinates.start) name.append(" to ").append(name_of(coordinates.end));
+  return name;
 }
 
 }  // namespace hamjet

@@ -107,8 +107,9 @@ struct Scene {
   std::optional<std::size_t> arcs = 1;
   /// `jet.symmetry`: left out of the integration of jets and put back.
   FlowSymmetry symmetry = FlowSymmetry::rotation;
-  /// `jet.coordinates`, of the polynomials by which deputies are predicted.
-  JetCoordinates coordinates = JetCoordinates::cartesian;
+  /// `jet.coordinates` and `jet.end_coordinates`, of the polynomials by which deputies are
+  /// predicted.
+  CoordinatesAtEnds coordinates;
   std::vector<std::size_t> variables;  ///< indices into (q, p) to expand in, ascending
   /// `jet.times_...`: canonical times before the duration at which runs, all of Gauss and in one
   /// arc, have their jets too, moving away from 0; empty: at the duration alone.

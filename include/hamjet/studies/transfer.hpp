@@ -103,7 +103,7 @@ struct TransferSeconds {
 struct TransferResult {
   Scene scene;  ///< with `transfer`
   std::string integrator;
-  JetCoordinates coordinates = JetCoordinates::cartesian;  ///< of the polynomials; not automatic
+  CoordinatesAtEnds coordinates;  ///< of the polynomials; not automatic
   IntegrationStatistics statistics;
   std::vector<TransferPoint> points;         ///< one a transfer time
   std::vector<SingularTime> singular_times;  ///< of all 64 kinds, in order of kind and time

@@ -29,7 +29,7 @@ struct ValidityPoint {
 struct ValidityResult {
   Scene scene;  ///< with `validity`
   std::string integrator;
-  JetCoordinates coordinates = JetCoordinates::cartesian;  ///< of the polynomials; not automatic
+  CoordinatesAtEnds coordinates;  ///< of the polynomials; not automatic
   std::vector<ValidityPoint> points;
   double flight_floor_m = 0;  ///< see TransferResult
   long flights = 0;
@@ -69,7 +69,7 @@ ValidityResult study_validity(const Scene& scene, const ProgressCallback& progre
 
 /// The scene's coordinates; where they are automatic, those whose polynomials of the highest order
 /// reach furthest at the end of the scene's duration, measured by some flights.
-JetCoordinates measured_coordinates_of(const Scene& scene);
+CoordinatesAtEnds measured_coordinates_of(const Scene& scene);
 
 /// The same study in every coordinates, on the same deputies. Throws as study_validity; coordinates
 /// that the orbit has not are told.

@@ -143,7 +143,7 @@ std::string deputy_motion_verdict(const DeputyMotion& motion) {
 Json deputy_motion_json(const DeputyMotion& motion) {
   const RelativeFrame frame = motion.scene.deputy->frame;
   Json json = study_head_json(motion.scene, "motion", motion.integrator);
-  json["coordinates"] = name_of(motion.coordinates);
+  add_coordinates(json, motion.coordinates);
   json["frame"] = frame_name(frame);
   json["derivatives"] = text_or_null(std::string(derivatives_name(frame)));
   json["axes"] = axis_letters(frame);

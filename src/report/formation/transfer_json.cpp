@@ -124,11 +124,16 @@ Json transfer_point_json(const TransferPoint& point, const CanonicalUnits& units
   return json;
 }
 
+void add_coordinates(Json& json, const CoordinatesAtEnds& coordinates) {
+  json["coordinates"] = name_of(coordinates.start);
+  json["end_coordinates"] = name_of(coordinates.end);
+}
+
 Json transfer_summary_json(const TransferResult& result) {
   const Scene& scene = result.scene;
   const TransferSettings& settings = *scene.transfer;
   Json json = study_head_json(scene, "transfer", result.integrator);
-  json["coordinates"] = name_of(result.coordinates);
+  add_coordinates(json, result.coordinates);
   json["frame"] = frame_name(settings.frame);
   json["derivatives"] = text_or_null(std::string(derivatives_name(settings.frame)));
   json["axes"] = axis_letters(settings.frame);

@@ -64,9 +64,9 @@ Json validity_json(const ValidityResult& result) {
                       {"time_s", point.time * result.scene.units.time_s},
                       {"orders", entries}});
   }
-  return {
-      {"tolerance_m", settings.tolerance_m},
-      {"coordinates", name_of(result.coordinates)},
+  Json json = {{"tolerance_m", settings.tolerance_m}};
+  add_coordinates(json, result.coordinates);
+  json.update(Json{
       {"frame", frame_name(settings.frame)},
       {"derivatives", text_or_null(std::string(derivatives_name(settings.frame)))},
       {"axes", axis_letters(settings.frame)},
@@ -76,7 +76,8 @@ Json validity_json(const ValidityResult& result) {
       {"times", points},
       {"flights", result.flights},
       {"flight_floor_m", json_number(result.flight_floor_m)},
-      {"seconds", {{"propagation", result.propagation_seconds}, {"proof", result.proof_seconds}}}};
+      {"seconds", {{"propagation", result.propagation_seconds}, {"proof", result.proof_seconds}}}});
+  return json;
 }
 
 Json validity_report_json(const ValidityResult& result) {
@@ -90,14 +91,15 @@ std::string validity_csv(const ValidityResult& result) {
   const RelativeFrame frame = result.scene.validity->frame;
   std::string text =
       "time_canonical,time_s,order,predicted_m,proved_m,miss_m,at_limit,frame,derivatives,"
-      "coordinates\n";
+      "coordinates,end_coordinates\n";
   for (const ValidityPoint& point : result.points) {
     for (const ValidityEntry& entry : point.entries) {
-      text += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", csv_number(point.time),
+      text += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", csv_number(point.time),
                           csv_number(point.time * result.scene.units.time_s), entry.order,
                           csv_number(entry.predicted_m), csv_number(entry.proved_m),
                           csv_number(entry.miss_m), entry.is_at_limit, frame_name(frame),
-                          derivatives_name(frame), name_of(result.coordinates));
+                          derivatives_name(frame), name_of(result.coordinates.start),
+                          name_of(result.coordinates.end));
     }
   }
   return text;

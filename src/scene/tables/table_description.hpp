@@ -154,6 +154,7 @@ const TableDescription& reference_table();
 const TableDescription& relative_hamiltonian_table();
 const TableDescription& system_table();
 const TableDescription& transfer_table();
+const TableDescription& collision_table();
 const TableDescription& uncertainty_table();
 const TableDescription& units_table();
 const TableDescription& validity_table();

@@ -20,19 +20,19 @@ double distance_of(const SixNumbers<double>& z) { return final_position(z).norm(
 
 }  // namespace
 
-Eigen::Matrix3d commanded_positions(const DeputyFlow& flow, const SixNumbers<double>& deviation,
+Eigen::Matrix3d commanded_positions(DeputyPredictor& predictor, const SixNumbers<double>& deviation,
                                     int degree) {
   // In units of the chief's own speed; the cube of the machine's precision balances rounding
   // against the third derivative.
-  const double step =
-      std::cbrt(std::numeric_limits<double>::epsilon()) * momentum_part(flow.chief_end()).norm();
+  const double step = std::cbrt(std::numeric_limits<double>::epsilon()) *
+                      momentum_part(predictor.flow().chief_end()).norm();
   std::array<SixNumbers<double>, 6> moved;
   std::array<DeputyPrediction, 6> predicted;
   for (std::size_t i = 0; i < 6; ++i) {
     moved[i] = deviation;
     moved[i][3 + i / 2] += i % 2 == 0 ? step : -step;
   }
-  flow.predict(moved, degree, predicted);
+  predictor.predict(moved, degree, predicted);
   Eigen::Matrix3d result;
   for (std::size_t i = 0; i < 3; ++i) {
     result.col(static_cast<Eigen::Index>(i)) = (final_position(predicted[2 * i].deviation) -
@@ -49,12 +49,13 @@ BoundaryMomenta solve_positions(const DeputyFlow& flow, std::span<const double> 
   constexpr double least_part = 1e-3;  // of a step of Newton's method
   const Eigen::Vector3d wanted(last[0], last[1], last[2]);
   const SixNumbers<double>& chief = flow.chief_end();
+  DeputyPredictor predictor(flow);
   double rounding = 0;
   SixNumbers<double> start = {first[0], first[1], first[2], guess[0], guess[1], guess[2]};
-  SixNumbers<double> end = flow.predict(start, degree).deviation;
+  SixNumbers<double> end = predictor.predict(start, degree).deviation;
   Eigen::Vector3d miss = final_position(end) - wanted;
   for (int i = 0; i < most_iterations && std::isfinite(miss.norm()); ++i) {
-    const Eigen::Matrix3d commanded = commanded_positions(flow, start, degree);
+    const Eigen::Matrix3d commanded = commanded_positions(predictor, start, degree);
     // A start that is rounded moves the end by as much times the growth on the way.
     rounding = 64 * std::numeric_limits<double>::epsilon() *
                (distance_of(chief) + commanded.norm() * momentum_part(chief).norm());
@@ -65,7 +66,7 @@ BoundaryMomenta solve_positions(const DeputyFlow& flow, std::span<const double> 
     for (; part >= least_part && !is_nearer; part /= 2) {
       SixNumbers<double> next = start;
       for (std::size_t k = 0; k < 3; ++k) next[3 + k] -= part * step[static_cast<Eigen::Index>(k)];
-      const SixNumbers<double> reached = flow.predict(next, degree).deviation;
+      const SixNumbers<double> reached = predictor.predict(next, degree).deviation;
       const Eigen::Vector3d left = final_position(reached) - wanted;
       is_nearer = left.norm() < miss.norm();
       if (!is_nearer) continue;

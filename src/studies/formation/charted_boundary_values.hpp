@@ -10,7 +10,7 @@ namespace hamjet {
 
 /// The derivative of the final position by the initial momentum that polynomials up to a degree
 /// say, by central differences in one block of deputies. The step leaves some ten digits.
-Eigen::Matrix3d commanded_positions(const DeputyFlow& flow, const SixNumbers<double>& deviation,
+Eigen::Matrix3d commanded_positions(DeputyPredictor& predictor, const SixNumbers<double>& deviation,
                                     int degree);
 
 /// Solves the two-point problem in positions by the polynomials of a flow in any coordinates:

@@ -58,14 +58,20 @@ ChartName chart_of(JetCoordinates coordinates) {
 
 DeputyFlowPropagation::DeputyFlowPropagation(const Scene& scene, const ComputedProblem& problem,
                                              const IntegratorSettings& settings,
-                                             JetCoordinates coordinates)
+                                             const CoordinatesAtEnds& coordinates)
     : field_(orbit_field(scene)), start_(six_numbers(problem.nominal)), coordinates_(coordinates) {
-  in_coordinates(coordinates, "at the start", [&] {
-    if (coordinates == JetCoordinates::flow_box) {
+  if (!coordinates.fit_each_other()) {
+    throw Error(
+        ErrorKind::usage,
+        fmt::format("jet.end_coordinates: {}: flow boxes are of both ends", name_of(coordinates)));
+  }
+  in_coordinates(coordinates.start, "at the start", [&] {
+    if (coordinates.start == JetCoordinates::flow_box) {
       boxes_.emplace(field_, section_chart(start_, canonical_mu), start_, scene.order,
                      gauss_settings_of(settings));
     } else {
-      CanonicalChart<double>(chart_of(coordinates), start_, canonical_mu);  // throws where it must
+      CanonicalChart<double>(chart_of(coordinates.start), start_,
+                             canonical_mu);  // throws if it must
       jets_.emplace(problem, settings);
     }
   });
@@ -74,7 +80,7 @@ DeputyFlowPropagation::DeputyFlowPropagation(const Scene& scene, const ComputedP
 std::unique_ptr<DeputyFlow> DeputyFlowPropagation::advance_to(double time) {
   const std::string when = fmt::format("after {:.6g} s", time * time_s_);
   if (boxes_) {
-    return in_coordinates(coordinates_, when, [&] {
+    return in_coordinates(coordinates_.end, when, [&] {
       last_box_ = boxes_->advance_to(time);
       return flow_box_deputy_flow(field_, *last_box_);
     });
@@ -83,9 +89,9 @@ std::unique_ptr<DeputyFlow> DeputyFlowPropagation::advance_to(double time) {
   if (coordinates_ == JetCoordinates::cartesian) return cartesian_deputy_flow(jet);
   SixNumbers<double> end;
   for (std::size_t i = 0; i < end.size(); ++i) end[i] = jet.jet()[i][0];
-  return in_coordinates(coordinates_, when, [&] {
-    const CanonicalChart<double> first(chart_of(coordinates_), start_, canonical_mu);
-    const CanonicalChart<double> last(chart_of(coordinates_), end, canonical_mu);
+  return in_coordinates(coordinates_.end, when, [&] {
+    const CanonicalChart<double> first(chart_of(coordinates_.start), start_, canonical_mu);
+    const CanonicalChart<double> last(chart_of(coordinates_.end), end, canonical_mu);
     return charted_deputy_flow(first, start_, last, end, in_charts(jet, first, start_, last));
   });
 }
@@ -93,17 +99,17 @@ std::unique_ptr<DeputyFlow> DeputyFlowPropagation::advance_to(double time) {
 std::vector<Series<double>> DeputyFlowPropagation::end_coordinates() const {
   if (last_box_) return flow_box_coordinates(field_, *last_box_);
   const std::vector<Series<double>>& z = last_jet_->jet();
-  if (coordinates_ == JetCoordinates::cartesian) return without_constants(z);
+  if (coordinates_.end == JetCoordinates::cartesian) return without_constants(z);
   SixNumbers<double> end;
   for (std::size_t i = 0; i < end.size(); ++i) end[i] = z[i][0];
-  const auto coordinates = CanonicalChart<double>(chart_of(coordinates_), end, canonical_mu)
+  const auto coordinates = CanonicalChart<double>(chart_of(coordinates_.end), end, canonical_mu)
                                .coordinates({z[0], z[1], z[2], z[3], z[4], z[5]});
   return without_constants(std::vector<Series<double>>(coordinates.begin(), coordinates.end()));
 }
 
 std::array<std::string, 6> DeputyFlowPropagation::end_coordinate_names() const {
   return last_box_ ? flow_box_coordinate_names(*last_box_->end)
-                   : coordinate_names(chart_of(coordinates_));
+                   : coordinate_names(chart_of(coordinates_.end));
 }
 
 const IntegrationStatistics& DeputyFlowPropagation::statistics() const {

@@ -23,11 +23,11 @@ SixNumbers<double> six_numbers(std::span<const double> state);
 class DeputyFlowPropagation {
  public:
   /// `scene` and `problem`, of an orbit in all six variables, must outlive it; `settings` are those
-  /// of the integrator. `coordinates` must not be automatic. Throws Error(numerical) where the
-  /// orbit has not such coordinates at its start, and Error(scene) for flow-box coordinates with an
-  /// integrator that is no Gauss method.
+  /// of the integrator. `coordinates` must fit each other and not be automatic. Throws
+  /// Error(numerical) where the orbit has not such coordinates at its start, and Error(scene) for
+  /// flow-box coordinates with an integrator that is no Gauss method.
   DeputyFlowPropagation(const Scene& scene, const ComputedProblem& problem,
-                        const IntegratorSettings& settings, JetCoordinates coordinates);
+                        const IntegratorSettings& settings, const CoordinatesAtEnds& coordinates);
 
   /// The flow to a time, canonical, further on than the last one. Throws as the integrator, and as
   /// the constructor for the coordinates at the end.
@@ -39,14 +39,14 @@ class DeputyFlowPropagation {
   /// Their names.
   std::array<std::string, 6> end_coordinate_names() const;
 
-  JetCoordinates coordinates() const noexcept { return coordinates_; }
+  const CoordinatesAtEnds& coordinates() const noexcept { return coordinates_; }
   /// Summed over the integrations.
   const IntegrationStatistics& statistics() const;
 
  private:
   ZonalGravity field_;
   SixNumbers<double> start_;
-  JetCoordinates coordinates_;
+  CoordinatesAtEnds coordinates_;
   double time_s_;                       ///< the canonical unit, for messages
   std::optional<JetPropagation> jets_;  ///< unless of flow boxes
   std::optional<FlowBoxPropagation<double>> boxes_;

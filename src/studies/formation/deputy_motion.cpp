@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "../exact_flow.hpp"
 #include "../formation_scale.hpp"
@@ -58,6 +59,9 @@ DeputyMotion study_deputy_motion(const Scene& scene, const ProgressCallback& pro
   linear.space = SeriesSpace::create(problem.variables.size(), 1);
   JetPropagation linear_flow(linear, integrator);
   const SixNumbers<double> start = six_numbers(deviation);
+  std::vector<int> degrees(orders);
+  std::iota(degrees.begin(), degrees.end(), 1);
+  std::vector<DeputyPrediction> predictions(orders);
   for (int index = 0; index < count; ++index) {
     if (progress) progress("motion", static_cast<double>(index) / count);
     const auto flown = static_cast<std::size_t>((index + 1) * parts);
@@ -66,8 +70,10 @@ DeputyMotion study_deputy_motion(const Scene& scene, const ProgressCallback& pro
     const std::vector<double>& deputy = result.flown.deputy[flown];
     const std::unique_ptr<DeputyFlow> flow = propagation.advance_to(time);
     DeputyMotionPoint point{time, result.flown.states[flown], {}, 0};
+    DeputyPredictor(*flow).predict(std::span(&start, 1), degrees, predictions);
     for (int order = 1; order <= scene.order; ++order) {
-      const SixNumbers<double> predicted = flow->predict(start, order).deviation;
+      const SixNumbers<double>& predicted =
+          predictions[static_cast<std::size_t>(order) - 1].deviation;
       double square = 0;
       for (std::size_t i = 0; i < 3; ++i) {
         square += std::pow(predicted[i] - (deputy[i] - chief[i]), 2);

@@ -22,11 +22,11 @@ struct DeputyMotionPoint {
 struct DeputyMotion {
   Scene scene;  ///< with `deputy`
   std::string integrator;
-  JetCoordinates coordinates = JetCoordinates::cartesian;  ///< of the polynomials; not automatic
-  std::vector<DeputyMotionPoint> points;                   ///< the first one is the start
-  RelativeTrajectory flown;     ///< at these times and at equal ones between them
-  ExtremeSeparations extremes;  ///< as it flew, between the times too
-  double flight_floor_m = 0;    ///< the largest of the times
+  CoordinatesAtEnds coordinates;          ///< of the polynomials; not automatic
+  std::vector<DeputyMotionPoint> points;  ///< the first one is the start
+  RelativeTrajectory flown;               ///< at these times and at equal ones between them
+  ExtremeSeparations extremes;            ///< as it flew, between the times too
+  double flight_floor_m = 0;              ///< the largest of the times
   double propagation_seconds = 0;
 
   /// The largest error of an order over all times.

@@ -149,8 +149,9 @@ TransferAnswer SingleTransfer::refine(const FlowJet<double>& jet, const DeputyFl
       }
     }
     if (flow != nullptr) {
+      DeputyPredictor predictor(*flow);
       commanded = commanded_positions(
-          *flow, {point[0], point[1], point[2], point[3], point[4], point[5]}, order);
+          predictor, {point[0], point[1], point[2], point[3], point[4], point[5]}, order);
     }
     const Eigen::Vector3d correction = commanded.partialPivLu().solve(distance);
     for (std::size_t j = 0; j < 3; ++j) {

@@ -43,7 +43,7 @@ class ValidityStudy {
     make_samples();
   }
 
-  ValidityResult run(JetCoordinates coordinates) {
+  ValidityResult run(const CoordinatesAtEnds& coordinates) {
     const IntegratorSettings& integrator = symplectic_integrator(scene_);
     result_.integrator = integrator.label;
     result_.coordinates = coordinates;
@@ -334,7 +334,7 @@ ValidityInCoordinates study_validity_in_all(const Scene& scene, const ProgressCa
   return all;
 }
 
-JetCoordinates measured_coordinates_of(const Scene& scene) {
+CoordinatesAtEnds measured_coordinates_of(const Scene& scene) {
   if (scene.coordinates != JetCoordinates::automatic) return scene.coordinates;
   constexpr int few_samples = 10;
   Scene measured = scene;

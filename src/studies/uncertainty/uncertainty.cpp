@@ -18,6 +18,7 @@
 #include "hamjet/algebra/composition.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/studies/validity.hpp"
+#include "initial_states.hpp"
 #include "process_noise.hpp"
 #include "quadrature.hpp"
 #include "standard_normals.hpp"
@@ -28,52 +29,6 @@ namespace {
 /// Nodes of the quadrature through curved coordinates: most along what the flow stretches most.
 const std::vector<int> finer_nodes = {15, 7, 5, 3, 3, 3};
 const std::vector<int> coarser_nodes = {11, 5, 3, 3, 3, 3};
-
-/// One spacecraft's distribution at the start.
-struct InitialState {
-  std::string name;
-  Vector<double> mean;    ///< canonical deviation from the chief's nominal
-  Covariance covariance;  ///< of canonical deviations
-};
-
-Vector<double> as_vector(const std::vector<double>& numbers) {
-  return Eigen::Map<const Vector<double>>(numbers.data(),
-                                          static_cast<Eigen::Index>(numbers.size()));
-}
-
-/// A covariance along axes of the spacecraft's own orbit as one of canonical deviations.
-Covariance canonical_covariance(const Covariance& covariance, RelativeFrame frame,
-                                const Vector<double>& state, const MetricUnits& units) {
-  const ChiefFrame own(std::span(state.data(), 6), units, frame);
-  return covariance.mapped(deviations_of_relative_states(own));
-}
-
-std::vector<InitialState> initial_states(const Scene& scene) {
-  const UncertaintySettings& settings = *scene.uncertainty;
-  const MetricUnits units = metric_units(scene);
-  const Vector<double> chief = as_vector(scene.nominal);
-  std::vector<InitialState> result;
-  if (settings.chief || !scene.deputy) result.push_back({"chief", Vector<double>::Zero(6), {}});
-  if (settings.chief) {
-    result.back().covariance =
-        canonical_covariance(settings.chief->covariance, settings.chief->frame, chief, units);
-  }
-  if (scene.deputy) {
-    const std::vector<double> deviation =
-        ChiefFrame(scene.nominal, units, scene.deputy->frame).deviation(scene.deputy->start);
-    result.push_back({"deputy", as_vector(deviation), {}});
-    if (settings.deputy) {
-      result.back().covariance = canonical_covariance(
-          settings.deputy->covariance, settings.deputy->frame, chief + result.back().mean, units);
-    }
-  }
-  if (settings.burn) {
-    InitialState& burning = result.back();
-    burning.covariance = burning.covariance.plus(canonical_covariance(
-        settings.burn->covariance(), settings.burn->frame, chief + burning.mean, units));
-  }
-  return result;
-}
 
 /// States that are flown side by side, columns; the first is the chief's nominal.
 class Flights {
@@ -292,11 +247,12 @@ UncertaintyResult study_uncertainty(const Scene& scene, const ProgressCallback& 
   const ComputedProblem problem = make_problem(scene, available_memory());
   const IntegratorSettings& integrator = symplectic_integrator(scene);
   result.integrator = integrator.label;
-  result.coordinates = measured_coordinates_of(scene);
+  const CoordinatesAtEnds coordinates_at_ends = measured_coordinates_of(scene);
+  result.coordinates = coordinates_at_ends.end;
   const bool is_charted = result.coordinates != JetCoordinates::cartesian;
   JetPropagation jets(problem, integrator);
   std::optional<DeputyFlowPropagation> charts;
-  if (is_charted) charts.emplace(scene, problem, integrator, result.coordinates);
+  if (is_charted) charts.emplace(scene, problem, integrator, coordinates_at_ends);
   ComputedProblem linear = problem;
   linear.space = SeriesSpace::create(problem.variables.size(), 1);
   std::optional<ProcessNoise> noise;

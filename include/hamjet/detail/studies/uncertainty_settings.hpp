@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hamjet/relative_motion/chief_frame.hpp"
+#include "hamjet/uncertainty/collision_probability.hpp"
 #include "hamjet/uncertainty/covariance.hpp"
 
 namespace hamjet {
@@ -31,6 +32,17 @@ struct BurnUncertainty {
   Covariance covariance() const;
 };
 
+/// Table `[uncertainty.collision]`: whether chief and deputy may hit each other.
+struct CollisionWatch {
+  double radius_m = 0;  ///< of both together
+  double from = 0;      ///< the window, canonical
+  double to = 0;
+  CollisionEvent event = CollisionEvent::nearer;
+  CollisionSampling sampling = CollisionSampling::automatic;
+  int samples = 200000;
+  double confidence = 0.95;
+};
+
 /// Table `[uncertainty]`.
 struct UncertaintySettings {
   RelativeFrame frame = RelativeFrame::rtn_inertial;  ///< of the results, at the chief
@@ -39,6 +51,7 @@ struct UncertaintySettings {
   std::optional<BurnUncertainty> burn;    ///< of the deputy, or of the chief of a scene without one
   std::vector<double> times;              ///< canonical, moving away from 0; none is 0
   double acceleration_density_m2_s3 = 0;  ///< of each axis, of white noise; 0: none
+  std::optional<CollisionWatch> collision;
   int samples = 2000;                     ///< flown with the full equations; 0: none
   std::uint64_t seed = 1;
 };

@@ -9,23 +9,22 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
-#include "../app/deputy_evaluation.hpp"
-#include "../app/eval_coordinates.hpp"
-#include "../app/jet_evaluation.hpp"
-#include "../app/refusal.hpp"
-#include "../app/required_tables.hpp"
-#include "../app/stored_chief.hpp"
-#include "../formats/number_table.hpp"
-#include "../store/text_file.hpp"
-#include "../text/quantity_text.hpp"
-#include "../text/scene_message.hpp"
+#include "../../app/deputy_evaluation.hpp"
+#include "../../app/eval_coordinates.hpp"
+#include "../../app/jet_evaluation.hpp"
+#include "../../app/refusal.hpp"
+#include "../../app/required_tables.hpp"
+#include "../../app/stored_chief.hpp"
+#include "../../formats/number_table.hpp"
+#include "../../store/text_file.hpp"
+#include "../../text/quantity_text.hpp"
+#include "../../text/scene_message.hpp"
+#include "../output_file.hpp"
+#include "../process/interruption.hpp"
+#include "../process/standard_streams.hpp"
 #include "eval_source.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/relative_motion/chief_frame.hpp"
-#include "hamjet/scene/scene_reader.hpp"
-#include "output_file.hpp"
-#include "process/interruption.hpp"
-#include "process/standard_streams.hpp"
 
 namespace hamjet::cli {
 namespace {
@@ -44,6 +43,11 @@ void check_options(const EvalOptions& options) {
   refuse_empty(options.time, "--time", "a time");
   refuse_empty(options.output, "--output", "a file");
   options.frames.check();
+  if (!options.overrides.empty() && !is_of_scene(options) && !options.deputy) {
+    refuse(
+        "--set: changes a key of a scene, and none is given; of stored results run the scene "
+        "anew");
+  }
   const int given = int(options.deviation.has_value()) + int(options.deviations.has_value()) +
                     int(options.deputy.has_value());
   if (given > 1) {
@@ -67,11 +71,13 @@ void check_options(const EvalOptions& options) {
 }
 
 /// The one row of the scene's deputy.
-io::NumberTable read_deputy(const std::string& file, const io::StoredJet& stored,
+io::NumberTable read_deputy(const EvalOptions& options, const io::StoredJet& stored,
                             const EvalCoordinates& coordinates) {
+  const RunOptions named = scene_named(options, *options.deputy);
+  const std::string& file = *named.scene_file;
   Scene scene;
   try {
-    scene = io::read_scene(file);
+    scene = read_scene(named);
   } catch (const Error& error) {
     throw Error(error.kind(), fmt::format("--deputy: {}", error.what()));
   }
@@ -90,7 +96,7 @@ io::NumberTable read_deputy(const std::string& file, const io::StoredJet& stored
 
 io::NumberTable read_deviations(const EvalOptions& options, const io::StoredJet& stored,
                                 const EvalCoordinates& coordinates) {
-  if (options.deputy) return read_deputy(*options.deputy, stored, coordinates);
+  if (options.deputy) return read_deputy(options, stored, coordinates);
   const std::vector<std::string_view>& columns = coordinates.initial_columns();
   if (options.deviations) {
     const std::filesystem::path file = *options.deviations;
@@ -242,7 +248,8 @@ std::string summary(const EvalOptions& options, const std::vector<EvalSource>& j
   const Json json = {{"scene", stored.scene},
                      {"run", stored.label},
                      {"model", model_name(stored.model)},
-                     {"coordinates", name_of(jets.front().coordinates())},
+                     {"coordinates", name_of(jets.front().coordinates().start)},
+                     {"end_coordinates", name_of(jets.front().coordinates().end)},
                      {"order", jets.front().order()},
                      {"degree", work.degree},
                      {"frame", options.frames.frame},
@@ -338,8 +345,10 @@ void evaluate(const EvalOptions& options, const EvalSource& jet, const io::Numbe
 
 }  // namespace
 
-int eval(const EvalOptions& options) {
+int eval(const EvalOptions& given) {
+  EvalOptions options = given;
   check_options(options);
+  take_standard_input(options);
   const std::vector<EvalSource> jets = read_eval_sources(options);
   const io::StoredJet& stored = jets.front().stored;
   if (options.degree && (*options.degree < 1 || *options.degree > jets.front().order())) {

@@ -1,9 +1,10 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "../formats/output_formats.hpp"
+#include "../../formats/output_formats.hpp"
+#include "../output_option.hpp"
+#include "../override_option.hpp"
 #include "eval_command.hpp"
-#include "output_option.hpp"
 
 namespace hamjet::cli {
 
@@ -12,10 +13,11 @@ CLI::App* add_eval_command(CLI::App& app, EvalOptions& options) {
       app.add_subcommand("eval",
                          "map relative states through a stored jet, from its start to its end\n"
                          "Example: hamjet eval out/scene --deviations start.csv -o end.csv");
-  eval->add_option(
-          "directory", options.directory,
-          "results of hamjet run, or one of their files " + io::jet_file_endings() +
-              "; or a scene (.toml): its polynomials are integrated now, in jet.coordinates")
+  eval->add_option("directory", options.directory,
+                   "results of hamjet run, or one of their files " + io::jet_file_endings() +
+                       "; or a scene (.toml, or - for standard input): its polynomials are "
+                       "integrated now, in "
+                       "jet.coordinates")
       ->required()
       ->type_name("FILE");
   std::string columns;
@@ -38,7 +40,8 @@ CLI::App* add_eval_command(CLI::App& app, EvalOptions& options) {
                        "or the jet's variables (canonical)")
       ->type_name("FILE");
   eval->add_option("--deputy", options.deputy,
-                   "a scene of the same chief: the deputy of its table [deputy]")
+                   "a scene of the same chief (- for standard input): the deputy of its table "
+                   "[deputy]")
       ->type_name("SCENE");
   eval->add_option("--run", options.run, "label of the run (default: the first with a result)")
       ->type_name("LABEL");
@@ -59,6 +62,7 @@ CLI::App* add_eval_command(CLI::App& app, EvalOptions& options) {
                    "scene asked for, and a column time_s (default: the end alone, without it)")
       ->type_name("SECONDS,...|all");
   eval->add_option("--degree", options.degree, "leave out terms above this degree")->type_name("K");
+  add_override_option(*eval, options.overrides);
   add_output_option(
       *eval, options.output,
       "CSV file of the final states with estimates of the miss (default: standard output)", "FILE",

@@ -1,0 +1,73 @@
+#include "eval_source.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "../../app/refusal.hpp"
+#include "../../app/required_tables.hpp"
+#include "../../scene/scene_name.hpp"
+#include "../noted_jet.hpp"
+#include "hamjet/error.hpp"
+
+namespace hamjet::cli {
+namespace {
+
+/// A scene in place of results: its polynomials are integrated, in the scene's coordinates.
+EvalSource integrated_scene(const EvalOptions& options) {
+  if (options.time || options.run) {
+    refuse(fmt::format("{}: goes with the results of hamjet run, got a scene",
+                       options.time ? "--time" : "--run"));
+  }
+  const RunOptions named = scene_named(options, options.directory);
+  const Scene scene = read_unsplit_scene(named, "hamjet eval");
+  EvaluatedScene evaluated = study_of(*named.scene_file, [&] { return evaluated_scene(scene); });
+  io::StoredJet chief = evaluated.chief;
+  return {std::move(chief), std::move(evaluated)};
+}
+
+constexpr std::string_view standard_input = "-";
+
+}  // namespace
+
+void take_standard_input(EvalOptions& options) {
+  if (options.directory != standard_input && options.deputy != standard_input) return;
+  RunOptions scene;
+  scene.scene_file = standard_input;
+  take_standard_input(scene);
+  options.standard_input = std::move(scene.scene_text);
+}
+
+bool is_of_scene(const EvalOptions& options) {
+  std::error_code none;
+  const std::filesystem::path path = options.directory;
+  return options.directory == standard_input ||
+         (path.extension() == ".toml" && !std::filesystem::is_directory(path, none));
+}
+
+RunOptions scene_named(const EvalOptions& options, const std::string& name) {
+  RunOptions scene;
+  scene.scene_file = name;
+  if (name == standard_input) {
+    scene.scene_file = io::standard_input_name;
+    scene.scene_text = options.standard_input;
+  }
+  if (name == options.directory || !is_of_scene(options)) scene.overrides = options.overrides;
+  return scene;
+}
+
+std::vector<EvalSource> read_eval_sources(const EvalOptions& options) {
+  if (is_of_scene(options)) return {integrated_scene(options)};
+  if (!options.time) return {{read_noted_jet(options.directory, options.run)}};
+  std::vector<EvalSource> jets;
+  for (io::StoredJet& stored :
+       read_noted_jets(options.directory, options.run, wanted_times(*options.time))) {
+    jets.push_back({std::move(stored)});
+  }
+  return jets;
+}
+
+}  // namespace hamjet::cli

@@ -1,0 +1,170 @@
+#include "collision_section.hpp"
+
+#include <fmt/format.h>
+
+#include "../../store/csv_values.hpp"
+#include "../../text/quantity_text.hpp"
+#include "../drawing/along_time_charts.hpp"
+
+namespace hamjet::io {
+namespace {
+
+nlohmann::ordered_json plane_json(const ShortEncounter& plane) {
+  return {{"foster", plane.foster},
+          {"alfano", plane.alfano},
+          {"chan", plane.chan},
+          {"offset_m", plane.offset},
+          {"deviation_m", plane.deviation},
+          {"passage_s", plane.passage},
+          {"departure", plane.departure},
+          {"holds", plane.holds()}};
+}
+
+nlohmann::ordered_json approach_json(const UncertainApproach& approach) {
+  nlohmann::ordered_json json = {{"time_s", approach.time_s},
+                                 {"distance_m", approach.distance_m},
+                                 {"speed_m_s", approach.speed_m_s},
+                                 {"time_deviation_s", approach.time_deviation_s},
+                                 {"distance_deviation_m", approach.distance_deviation_m},
+                                 {"flights", approach.flights},
+                                 {"position_error_m", approach.position_error_m},
+                                 {"time_error_s", approach.time_error_s}};
+  if (approach.plane) {
+    json["short_encounter"] = plane_json(*approach.plane);
+  } else {
+    json["no_short_encounter"] = approach.refusal;
+  }
+  return json;
+}
+
+std::string sampling_name(CollisionSampling sampling) {
+  return sampling == CollisionSampling::plain ? "plain" : "entries";
+}
+
+nlohmann::ordered_json collision_json(const CollisionResult& result) {
+  const CollisionProbability& p = result.probability;
+  nlohmann::ordered_json json = {
+      {"radius_m", result.watch.radius_m},
+      {"window_s", {result.from_s, result.to_s}},
+      {"event", result.watch.event == CollisionEvent::nearer ? "nearer" : "entry"},
+      {"order", result.order},
+      {"sampling", sampling_name(p.sampling)},
+      {"probability", p.probability},
+      {"confidence", result.watch.confidence},
+      {"interval", {p.lower, p.upper}},
+      {"standard_error", p.standard_error},
+      {"samples", p.samples},
+      {"hits", p.hits},
+      {"equivalent_samples", p.equivalent_samples},
+      {"change_from_lower_order", p.change_from_lower_order},
+      {"standard_error_of_change", p.standard_error_of_change}};
+  if (p.sampled_radius) json["sampled_radius_m"] = *p.sampled_radius;
+  if (p.largest_difference) json["largest_difference_m"] = *p.largest_difference;
+  json["least_separation"] = {{"samples", result.separations.samples},
+                              {"shares", result.separations.shares},
+                              {"separations_m", result.separations.separations}};
+  json["approaches"] = nlohmann::ordered_json::array();
+  for (const UncertainApproach& approach : result.approaches) {
+    json["approaches"].push_back(approach_json(approach));
+  }
+  json["seconds"] = result.seconds;
+  return json;
+}
+
+std::string plane_text(const UncertainApproach& approach) {
+  if (!approach.plane) return fmt::format("    {}\n", approach.refusal);
+  const ShortEncounter& plane = *approach.plane;
+  return fmt::format(
+      "    as a short encounter {:.3e} (Foster, Alfano), {:.3e} (Chan): {}\n", plane.alfano,
+      plane.chan,
+      plane.holds()
+          ? "motion is straight while they pass"
+          : fmt::format("does not hold, the motion departs from a straight one by {:.2g} standard "
+                        "deviations in the {} of the passage",
+                        plane.departure, duration_text(2 * plane.passage)));
+}
+
+std::string collision_table_text(const CollisionResult& result) {
+  const CollisionProbability& p = result.probability;
+  std::string text = fmt::format(
+      "collision nearer than {:.6g} m, {} to {} after the start, polynomials of order {}\n",
+      result.watch.radius_m, duration_text(result.from_s), duration_text(result.to_s),
+      result.order);
+  if (p.samples == 0) {
+    text += "  probability 0: no path within 9 standard deviations comes near\n";
+  } else {
+    text += fmt::format(
+        "  probability {:.4e}, {:g} % from {:.4e} to {:.4e}: {} {} samples, as good as {:.2g} "
+        "plain ones\n",
+        p.probability, result.watch.confidence * 100, p.lower, p.upper, p.samples,
+        p.sampling == CollisionSampling::plain ? "plain" : "weighted", p.equivalent_samples);
+    if (result.order > 1) {
+      text += fmt::format("  by order {} {:+.1e} +- {:.1e} of that\n", result.order - 1,
+                          p.change_from_lower_order, p.standard_error_of_change);
+    }
+  }
+  text += "  least separation in the window:";
+  for (std::size_t k = 0; k < result.separations.shares.size(); ++k) {
+    text += fmt::format("{} {:g} % below {:.4g} m", k == 0 ? "" : ",",
+                        result.separations.shares[k] * 100, result.separations.separations[k]);
+  }
+  text += fmt::format(" ({} plain samples)\n", result.separations.samples);
+  if (result.approaches.empty()) text += "  the means have no closest approach in the window\n";
+  for (const UncertainApproach& approach : result.approaches) {
+    text += fmt::format(
+        "  closest approach of the means {:.6g} s: {:.6g} m at {:.4g} m/s; 1 sigma {:.3g} s and "
+        "{:.3g} m; polynomials within {:.1e} m and {:.1e} s of {} flights\n",
+        approach.time_s, approach.distance_m, approach.speed_m_s, approach.time_deviation_s,
+        approach.distance_deviation_m, approach.position_error_m, approach.time_error_s,
+        approach.flights);
+    text += plane_text(approach);
+  }
+  return text;
+}
+
+Chart probability_chart(const Scene& scene, const CollisionResult& result) {
+  const CollisionProbability& p = result.probability;
+  const TimeAxis axis = time_axis(result.to_s);
+  Chart chart;
+  chart.name = "collision";
+  chart.title = "Probability of having come nearer";
+  chart.x.label = fmt::format("time ({})", axis.name);
+  add_revolutions(scene, axis.seconds, chart.x);
+  chart.y.label = fmt::format("probability of less than {:g} m", result.watch.radius_m);
+  chart.reading = "How likely it is that both have come nearer than the radius by a time.";
+  ChartCurve curve;
+  curve.has_markers = false;
+  for (std::size_t k = 0; k < p.times.size(); ++k) {
+    curve.points.emplace_back(p.times[k] / axis.seconds, p.by_time[k]);
+  }
+  chart.curves.push_back(std::move(curve));
+  for (const UncertainApproach& approach : result.approaches) {
+    chart.rules.push_back({true, approach.time_s / axis.seconds, "approach of the means", false});
+  }
+  return chart;
+}
+
+}  // namespace
+
+UncertaintySection collision_section(const Scene& scene, const CollisionResult& result) {
+  UncertaintySection section;
+  section.key = "collision";
+  section.json = collision_json(result);
+  const CollisionProbability& p = result.probability;
+  section.verdict = fmt::format(
+      "The probability of coming nearer than {:g} m is {:.3g} ({:g} % from {:.3g} to "
+      "{:.3g}).",
+      result.watch.radius_m, p.probability, result.watch.confidence * 100, p.lower, p.upper);
+  section.table = collision_table_text(result);
+  section.title = "Collision";
+  section.html = fmt::format("<pre>{}</pre>\n", section.table);
+  if (p.probability > 0) section.charts.push_back(probability_chart(scene, result));
+  std::string csv = "time_s,probability\n";
+  for (std::size_t k = 0; k < p.times.size(); ++k) {
+    csv += fmt::format("{},{}\n", csv_number(p.times[k]), csv_number(p.by_time[k]));
+  }
+  section.files.push_back({"collision.csv", csv});
+  return section;
+}
+
+}  // namespace hamjet::io

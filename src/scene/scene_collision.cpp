@@ -1,0 +1,73 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "scene_relative_motion.hpp"
+
+namespace hamjet::io {
+namespace {
+
+constexpr int fewest_samples = 1000;
+constexpr int most_samples = 1000000000;
+
+}  // namespace
+
+const TableDescription& collision_table() {
+  static const CollisionWatch preset;
+  static const TableDescription table = {
+      {{"radius_m", form::positive(), absent::refused(),
+        "the sum of the radii of both spacecraft: nearer than this is a collision"},
+       {"window_s", form::array(form::number(), 2), absent::other("from the start to the end"),
+        "from when to when after the start, of which the first is before the second"},
+       {"event", form::choice({"nearer", "entry"}), absent::value("nearer"),
+        "what counts: to be nearer at any time of the window; or to become nearer, for which those "
+        "that are so when it begins do not count"},
+       {"sampling", form::choice({"automatic", "plain", "entries"}), absent::value("automatic"),
+        "plain: deviations as they are distributed; entries: weighted ones whose linear path "
+        "enters a sphere somewhat larger; automatic: entries where they can be drawn"},
+       {"samples", form::integer(fewest_samples, most_samples), absent::value(preset.samples),
+        "of the polynomials"},
+       {"confidence", form::between(0.5, 0.999999), absent::value(preset.confidence),
+        "of the interval that is given"}},
+      "Whether chief and deputy may hit each other; both have polynomials of their own."};
+  return table;
+}
+
+CollisionWatch read_collision(const TableReader& collision, const Scene& scene) {
+  collision.check_keys();
+  if (!scene.deputy) {
+    collision.fail("", "of a scene without a deputy, got no table [deputy], must have one");
+  }
+  if (scene.duration < 0) {
+    collision.fail("", "of a scene that goes backwards, got a negative duration, must go forwards");
+  }
+  CollisionWatch watch;
+  watch.radius_m = collision.positive_number("radius_m");
+  const double duration_s = scene.duration * scene.units.time_s;
+  std::vector<double> window = {0, duration_s};
+  if (collision.has("window_s")) {
+    window = collision.numbers("window_s", 2);
+    if (!(window[0] >= 0 && window[0] < window[1])) {
+      collision.fail("window_s",
+                     fmt::format("no window, got {} to {}, must begin at 0 or later and end after "
+                                 "it begins",
+                                 window[0], window[1]));
+    }
+    // The end may be written rounded.
+    constexpr double rounding = 1e-9;
+    if (window[1] > duration_s * (1 + rounding)) {
+      collision.fail("window_s", fmt::format("beyond the scene's end, got {}, must be at most the "
+                                             "duration, {} s",
+                                             window[1], duration_s));
+    }
+  }
+  watch.from = window[0] / scene.units.time_s;
+  watch.to = window[1] / scene.units.time_s;
+  collision.read_if_any("event", watch.event);
+  collision.read_if_any("sampling", watch.sampling);
+  collision.read_if_any("samples", watch.samples);
+  collision.read_if_any("confidence", watch.confidence);
+  return watch;
+}
+
+}  // namespace hamjet::io

@@ -1,0 +1,222 @@
+#include "collision_study.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "../../integrators/taylor_flow.hpp"
+#include "../../uncertainty/entry_sampler.hpp"
+#include "../formation/formation_problem.hpp"
+#include "../formation/single_transfer.hpp"
+#include "hamjet/error.hpp"
+#include "hamjet/maps/map_evaluator.hpp"
+#include "initial_states.hpp"
+
+namespace hamjet {
+namespace {
+
+/// Deviations that are flown to each closest approach: one to each lane, several times.
+constexpr std::size_t flown_deviations = 8 * TaylorFlow::lanes;
+/// The least separation is told for these shares of the samples, of which the smallest has ten.
+constexpr std::array<double, 4> separation_shares = {0.001, 0.01, 0.05, 0.5};
+constexpr long separation_samples = 10000;
+/// The jets of both spacecraft, whatever integrates the scene's own.
+constexpr double jet_tolerance = 1e-12;
+
+EncounterProblem encounter_problem(const Scene& scene, const CollisionWatch& watch,
+                                   const MetricUnits& units) {
+  EncounterProblem problem;
+  problem.system = make_system(scene);
+  problem.from = watch.from;
+  problem.to = watch.to;
+  problem.radius = watch.radius_m / units.length_m;
+  problem.order = scene.order;
+  problem.settings.tolerance = jet_tolerance;
+  bool is_uncertain = false;
+  for (const InitialState& start : initial_states(scene)) {
+    UncertainSpacecraft& craft = problem.spacecraft[start.name == "deputy" ? 1 : 0];
+    craft.state = scene.nominal;
+    for (std::size_t i = 0; i < 6; ++i) {
+      craft.state[i] += start.mean[static_cast<Eigen::Index>(i)];
+    }
+    const Matrix<double>& factor = start.covariance.factor();
+    craft.factor.leftCols(factor.cols()) = factor;
+    is_uncertain = is_uncertain || factor.norm() > 0;
+  }
+  if (problem.spacecraft[0].state.empty()) problem.spacecraft[0].state = scene.nominal;
+  if (!is_uncertain) {
+    throw Error(ErrorKind::scene,
+                "uncertainty.collision: both states are known exactly, must have a covariance of "
+                "the chief, the deputy or a burn");
+  }
+  return problem;
+}
+
+/// Both spacecraft with the deviations of standard normal numbers, flown with the full equations to
+/// a time of each pair's own: their relative states.
+std::vector<SixNumbers<double>> flown_pairs(const EncounterProblem& problem,
+                                            const std::vector<EncounterDeviation>& deviations,
+                                            const std::vector<double>& times) {
+  std::vector<SixNumbers<double>> result(deviations.size());
+  TaylorFlow flow(problem.system);
+  for (std::size_t craft = 0; craft < 2; ++craft) {
+    std::vector<double> states;
+    for (const EncounterDeviation& xi : deviations) {
+      const Eigen::Matrix<double, 6, 1> deviation =
+          problem.spacecraft[craft].factor * xi.segment<6>(static_cast<Eigen::Index>(6 * craft));
+      for (std::size_t i = 0; i < 6; ++i) {
+        states.push_back(problem.spacecraft[craft].state[i] +
+                         deviation[static_cast<Eigen::Index>(i)]);
+      }
+    }
+    for (std::size_t first = 0; first < deviations.size(); first += TaylorFlow::lanes) {
+      const std::size_t count = std::min(TaylorFlow::lanes, deviations.size() - first);
+      flow.advance(std::span(states).subspan(6 * first, 6 * count),
+                   std::span(times).subspan(first, count));
+    }
+    for (std::size_t k = 0; k < deviations.size(); ++k) {
+      for (std::size_t i = 0; i < 6; ++i) {
+        result[k][i] += (craft == 0 ? -1 : 1) * states[6 * k + i];
+      }
+    }
+  }
+  return result;
+}
+
+std::vector<EncounterDeviation> random_deviations(std::uint64_t seed, std::size_t count) {
+  RandomStream random(seed, 0);
+  std::vector<EncounterDeviation> deviations(count);
+  for (EncounterDeviation& deviation : deviations) {
+    for (double& x : deviation) x = random.normal();
+  }
+  return deviations;
+}
+
+double norm_of_slice(const Series<double>& series) {
+  double square = 0;
+  for (const double c : series.slice(1)) square += c * c;
+  return std::sqrt(square);
+}
+
+/// By flights to the times that the polynomials tell.
+void fly(const EncounterProblem& problem, const ClosestApproach& approach, std::uint64_t seed,
+         const MetricUnits& units, UncertainApproach& result) {
+  const std::vector<EncounterDeviation> deviations = random_deviations(seed, flown_deviations);
+  std::vector<Series<double>> map = approach.state;
+  map.push_back(approach.delay);
+  const MapEvaluator evaluator(map);
+  std::vector<double> points(encounter_variables * flown_deviations);
+  std::vector<double> values(map.size() * flown_deviations);
+  for (std::size_t k = 0; k < flown_deviations; ++k) {
+    for (std::size_t i = 0; i < encounter_variables; ++i) {
+      points[i * flown_deviations + k] = deviations[k][static_cast<Eigen::Index>(i)];
+    }
+  }
+  evaluator.evaluate(points, {.values = values, .last = {}, .last_but_one = {}});
+  std::vector<double> times;
+  for (std::size_t k = 0; k < flown_deviations; ++k) {
+    times.push_back(approach.time + values[6 * flown_deviations + k]);
+  }
+  const auto flown = flown_pairs(problem, deviations, times);
+  for (std::size_t k = 0; k < flown_deviations; ++k) {
+    double square = 0, rate = 0, speed = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      square += std::pow(flown[k][i] - values[i * flown_deviations + k], 2);
+      rate += flown[k][i] * flown[k][i + 3];
+      speed += std::pow(flown[k][i + 3], 2);
+    }
+    result.position_error_m = std::max(result.position_error_m, std::sqrt(square) * units.length_m);
+    result.time_error_s = std::max(result.time_error_s, std::abs(rate) / speed * units.time_s);
+  }
+  result.flights = static_cast<int>(flown_deviations);
+}
+
+UncertainApproach uncertain_approach(const EncounterProblem& problem,
+                                     const ClosestApproach& approach, std::uint64_t seed,
+                                     const MetricUnits& units) {
+  UncertainApproach result;
+  const auto norm_of = [&](std::size_t first) {
+    return std::sqrt(std::pow(approach.state[first][0], 2) +
+                     std::pow(approach.state[first + 1][0], 2) +
+                     std::pow(approach.state[first + 2][0], 2));
+  };
+  const double distance = norm_of(0);
+  result.time_s = approach.time * units.time_s;
+  result.distance_m = distance * units.length_m;
+  result.speed_m_s = norm_of(3) * units.velocity_m_s();
+  result.time_deviation_s = norm_of_slice(approach.delay) * units.time_s;
+  // d|rho| = d(|rho|^2) / (2 |rho|).
+  if (distance > 0) {
+    result.distance_deviation_m =
+        norm_of_slice(approach.squared_distance) / (2 * distance) * units.length_m;
+  }
+  fly(problem, approach, seed, units, result);
+  try {
+    ShortEncounter plane = short_encounter(problem, approach.time);
+    plane.time *= units.time_s;
+    plane.passage *= units.time_s;
+    plane.speed *= units.velocity_m_s();
+    plane.distance *= units.length_m;
+    for (double& x : plane.offset) x *= units.length_m;
+    for (double& x : plane.deviation) x *= units.length_m;
+    result.plane = plane;
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::numerical) throw;
+    result.refusal = error.what();
+  }
+  return result;
+}
+
+}  // namespace
+
+CollisionResult study_collision(const Scene& scene, std::size_t threads,
+                                const ProgressCallback& progress) {
+  const bool is_asked_for = scene.uncertainty && scene.uncertainty->collision;
+  require_formation_problem(scene, is_asked_for, "uncertainty.collision");
+  CollisionResult result;
+  const auto began = std::chrono::steady_clock::now();
+  result.watch = *scene.uncertainty->collision;
+  result.order = scene.order;
+  const MetricUnits units = metric_units(scene);
+  const EncounterProblem problem = encounter_problem(scene, result.watch, units);
+  result.from_s = problem.from * units.time_s;
+  result.to_s = problem.to * units.time_s;
+
+  CollisionSettings settings;
+  settings.event = result.watch.event;
+  settings.sampling = result.watch.sampling;
+  settings.samples = result.watch.samples;
+  settings.confidence = result.watch.confidence;
+  settings.seed = scene.uncertainty->seed;
+  settings.threads = threads;
+  if (progress) {
+    settings.progress = [&](double fraction) { progress("collision", fraction); };
+  }
+  result.probability = collision_probability(problem, settings);
+  for (double& time : result.probability.times) time *= units.time_s;
+  for (auto* radius :
+       {&result.probability.sampled_radius, &result.probability.largest_difference}) {
+    if (*radius) **radius *= units.length_m;
+  }
+  settings.samples = separation_samples;
+  if (progress) {
+    settings.progress = [&](double fraction) { progress("separations", fraction); };
+  }
+  result.separations =
+      least_separations(problem, settings, {separation_shares.begin(), separation_shares.end()});
+  for (double& separation : result.separations.separations) separation *= units.length_m;
+  // Series in twelve variables grow fast, and the third order is beyond what a deviation of the
+  // time needs.
+  constexpr int highest_order = 3;
+  EncounterProblem lower = problem;
+  lower.order = std::min(problem.order, highest_order);
+  for (const ClosestApproach& approach : closest_approaches(lower)) {
+    if (progress) progress("closest approaches", 0);
+    result.approaches.push_back(
+        uncertain_approach(lower, approach, scene.uncertainty->seed, units));
+  }
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  return result;
+}
+
+}  // namespace hamjet

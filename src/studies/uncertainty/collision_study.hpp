@@ -1,0 +1,47 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hamjet/detail/studies/progress.hpp"
+#include "hamjet/studies/scene.hpp"
+#include "hamjet/uncertainty/closest_approach.hpp"
+#include "hamjet/uncertainty/collision_probability.hpp"
+
+namespace hamjet {
+
+/// A minimum of the distance between the means of chief and deputy.
+struct UncertainApproach {
+  double time_s = 0;
+  double distance_m = 0;  ///< of the means
+  double speed_m_s = 0;
+  double time_deviation_s = 0;      ///< standard deviation of its time, linear
+  double distance_deviation_m = 0;  ///< of the distance; of the position then, where they meet
+  /// Random deviations were flown to the times that the polynomials tell: how far the relative
+  /// positions were from those told, and the times from the minima, at most.
+  int flights = 0;
+  double position_error_m = 0;
+  double time_error_s = 0;
+  std::optional<ShortEncounter> plane;  ///< lengths in metres, times in seconds
+  std::string refusal;                  ///< why there is no plane
+};
+
+/// The probability that chief and deputy come near each other, from their states at the start.
+struct CollisionResult {
+  CollisionWatch watch;
+  double from_s = 0;
+  double to_s = 0;
+  CollisionProbability probability;  ///< times in seconds, radii in metres
+  std::vector<UncertainApproach> approaches;
+  LeastSeparations separations;  ///< in metres
+  int order = 0;
+  double seconds = 0;
+};
+
+/// The study of table `[uncertainty.collision]`. Throws as collision_probability and
+/// closest_approaches, and Error(scene) where both states are known exactly.
+CollisionResult study_collision(const Scene& scene, std::size_t threads,
+                                const ProgressCallback& progress = {});
+
+}  // namespace hamjet

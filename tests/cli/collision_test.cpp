@@ -1,0 +1,63 @@
+#include "command_test.hpp"
+#include "support/reference_data.hpp"
+
+// Collisions in `hamjet uncertainty`: table [uncertainty.collision].
+
+namespace hamjet::test {
+namespace {
+
+class Collision : public CommandTest {
+ protected:
+  static std::string scene(const std::string& collision, const std::string& deputy_uncertainty) {
+    return "[system]\nmodel = \"kepler\"\nmu_km3_s2 = 398600.4415\n[nominal]\n"
+           "position_km = [7000, 0, 0]\nvelocity_km_s = [0, 7.5, 1]\n"
+           "[deputy]\nposition_m = [0, 100, 0]\n"
+           "[jet]\norder = 2\nduration_s = 3000\n"
+           "[uncertainty]\nposition_m = [10, 10, 10]\nsamples = 0\n" +
+           deputy_uncertainty + "[uncertainty.collision]\n" + collision;
+  }
+};
+
+TEST_F(Collision, OfTheShippedSceneIsThePublishedOne) {
+  const std::string path =
+      std::string(HAMJET_SOURCE_DIR) + "/data/scenes/conjunction-geosynchronous.toml";
+  const std::string out =
+      in_one_line(succeed({"uncertainty", path, "--set", "uncertainty.samples=0", "--set",
+                           "uncertainty.collision.samples=50000", "-o", "out"})
+                      .out);
+  for (const char* const words :
+       {"collision nearer than 15 m", "weighted samples, as good as",
+        "closest approach of the means", "as a short encounter 1.467e-01 (Foster, Alfano)",
+        "does not hold"}) {
+    EXPECT_NE(out.find(words), std::string::npos) << words << " is not in " << out;
+  }
+  const Json published = read_reference_file("alfano2009.json")[0]["probability"];
+  const Json collision = read_json(directory_ / "out/summary.json")["collision"];
+  EXPECT_LE(collision["interval"][0], published["monte_carlo_95_percent"][1]);
+  EXPECT_GE(collision["interval"][1], published["monte_carlo_95_percent"][0]);
+  EXPECT_NEAR(collision["approaches"][0]["short_encounter"]["alfano"].get<double>(),
+              published["short_encounter_2d"].get<double>(), 1e-6);
+  EXPECT_EQ(collision["approaches"][0]["flights"], 64);
+  const Table table = read_table(directory_ / "out/collision.csv");
+  EXPECT_EQ(table.header, "time_s,probability");
+  EXPECT_EQ(table.rows.size(), 201U);
+}
+
+TEST_F(Collision, RefusesWhatIsNoWindowAndWhatIsCertain) {
+  const std::string deputy = "[uncertainty.deputy]\nposition_m = [10, 10, 10]\n";
+  write("window.toml", scene("radius_m = 5\nwindow_s = [100, 50]\n", deputy));
+  expect_error({"uncertainty", "window.toml"}, 3, {"uncertainty.collision.window_s", "no window"});
+  write("late.toml", scene("radius_m = 5\nwindow_s = [100, 5000]\n", deputy));
+  expect_error({"uncertainty", "late.toml"}, 3, {"window_s", "beyond the scene's end", "3000"});
+  write("radius.toml", scene("radius_m = 0\n", deputy));
+  expect_error({"uncertainty", "radius.toml"}, 3, {"uncertainty.collision.radius_m"});
+  write("event.toml", scene("radius_m = 5\nevent = \"near\"\n", deputy));
+  expect_error({"uncertainty", "event.toml"}, 3, {"event", "nearer"});
+  std::string certain = scene("radius_m = 5\n", "");
+  certain.replace(certain.find("[10, 10, 10]"), 12, "[0, 0, 0]");
+  write("certain.toml", certain);
+  expect_error({"uncertainty", "certain.toml"}, 3, {"known exactly", "must have a covariance"});
+}
+
+}  // namespace
+}  // namespace hamjet::test
