@@ -7,6 +7,7 @@
 
 #include "../text/scene_message.hpp"
 #include "hamjet/error.hpp"
+#include "scene_covariance_file.hpp"
 #include "scene_relative_motion.hpp"
 
 namespace hamjet::io {
@@ -45,7 +46,14 @@ std::vector<SceneKey> state_uncertainty_keys() {
            "standard deviations along the axes of the frame"},
           {"covariance_m_m_s", form::words("6 rows of 6 numbers, symmetric, positive semidefinite"),
            absent::other("another form of the covariance"),
-           "of position and velocity along the axes of the frame: m^2, m^2/s, m^2/s^2"}};
+           "of position and velocity along the axes of the frame: m^2, m^2/s, m^2/s^2"},
+          {"file", form::words("path of an OEM, OPM or CDM"),
+           absent::other("another form of the covariance"),
+           "whose covariance of the chief's moment is taken, in its own frame: RTN or RSW, or the "
+           "chief's axes; a scene with dates"},
+          {"object", form::text(),
+           absent::other("the only one; of a CDM `\"OBJECT1\"`, of a deputy `\"OBJECT2\"`"),
+           "name or identifier in the file"}};
 }
 
 const TableDescription& deputy_uncertainty_table() {
@@ -123,15 +131,27 @@ Covariance read_covariance(const TableReader& table, const Limits& limits, Relat
 /// Whether a table has a covariance in one of the forms.
 bool has_covariance(const TableReader& table) {
   const auto keys = state_uncertainty_keys();
-  return std::any_of(keys.begin(), keys.end(),
-                     [&](const SceneKey& key) { return table.has(key.name); });
+  return std::any_of(keys.begin(), keys.end(), [&](const SceneKey& key) {
+    return key.name != "object" && table.has(key.name);
+  });
 }
 
 StateUncertainty read_state_uncertainty(const TableReader& table, const TableReader& fallback,
-                                        const Nominal& nominal) {
+                                        const Nominal& nominal, std::string_view object_of_cdm) {
   StateUncertainty state;
   state.frame = read_covariance_frame(table, fallback);
   const Limits limits = limits_of(nominal);
+  if (table.has("file")) {
+    for (const std::string_view key : {"position_m", "velocity_m_s", "covariance_m_m_s"}) {
+      if (table.has(key)) {
+        table.fail(key, "numbers beside a file, got both, must be one of them");
+      }
+    }
+    return read_covariance_file(table, nominal, object_of_cdm);
+  }
+  if (table.has("object")) {
+    table.fail("object", "of no file, got an object without the key file, must be left out");
+  }
   const bool has_deviations = table.has("position_m") || table.has("velocity_m_s");
   if (table.has("covariance_m_m_s")) {
     if (has_deviations) {
@@ -144,7 +164,7 @@ StateUncertainty read_state_uncertainty(const TableReader& table, const TableRea
   if (!has_deviations) {
     table.fail("position_m",
                "missing, must be an array of 3 standard deviations, as may velocity_m_s be, or "
-               "covariance_m_m_s must be there");
+               "covariance_m_m_s or file must be there");
   }
   Vector<double> deviations = Vector<double>::Zero(6);
   const auto read = [&](std::string_view key, double limit, std::string_view what,
@@ -223,13 +243,13 @@ UncertaintySettings read_uncertainty(const TableReader& uncertainty, const Scene
     if (!scene.deputy) {
       deputy.fail("", "of a scene without a deputy, got no table [deputy], must have one");
     }
-    settings.deputy = read_state_uncertainty(deputy, uncertainty, nominal);
+    settings.deputy = read_state_uncertainty(deputy, uncertainty, nominal, "OBJECT2");
   }
   if (uncertainty.has("burn")) {
     settings.burn = read_burn(uncertainty.table("burn"), uncertainty, nominal);
   }
   if (has_covariance(uncertainty) || (!settings.deputy && !settings.burn)) {
-    settings.chief = read_state_uncertainty(uncertainty, uncertainty, nominal);
+    settings.chief = read_state_uncertainty(uncertainty, uncertainty, nominal, "OBJECT1");
   }
   if (uncertainty.has("collision")) {
     settings.collision = read_collision(uncertainty.table("collision"), scene);

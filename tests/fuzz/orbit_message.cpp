@@ -1,8 +1,10 @@
 #include "hamjet/formats/orbit_message.hpp"
 
 #include "fuzz_target.hpp"
+#include "hamjet/formats/conjunction_data_message.hpp"
 
-// Target: orbit messages, read as an ephemeris and as parameters. What is read is finite and in
+// Target: orbit messages, read as an ephemeris, as parameters and as a
+// conjunction. What is read is finite and in
 // order, and is read again from what is written of it.
 
 namespace hamjet::fuzz {
@@ -27,6 +29,16 @@ void check(const io::OrbitEphemerisMessage& message) {
   require(io::oem_text(io::read_oem("again.oem", text)) == text, "written again it is another");
 }
 
+void check(const io::ConjunctionDataMessage& message) {
+  for (const io::ConjunctionObject& object : message.objects) {
+    check(io::OrbitState{message.tca, object.position_km, object.velocity_km_s});
+    for (const auto& row : object.covariance)
+      require_finite({row.begin(), row.end()}, "covariance");
+  }
+  const std::string text = io::cdm_text(message);
+  require(io::cdm_text(io::read_cdm("again.cdm", text)) == text, "written again it is another");
+}
+
 }  // namespace
 }  // namespace hamjet::fuzz
 
@@ -36,5 +48,6 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const fuzz::Refusal refusal = {{ErrorKind::input_output}, {"orbit:"}};
   fuzz::is_read([&] { fuzz::check(io::read_oem("orbit", text)); }, refusal);
   fuzz::is_read([&] { fuzz::check(io::read_opm("orbit", text).state); }, refusal);
+  fuzz::is_read([&] { fuzz::check(io::read_cdm("orbit", text)); }, refusal);
   return 0;
 }

@@ -93,6 +93,11 @@ const std::map<std::string, Place>& special_places() {
   static const std::string covariance_text =
       "[[1, 0, 0, 0, 0, 0], [0, 1, 0, 0, 0, 0], [0, 0, 1, 0, 0, 0], [0, 0, 0, 1, 0, 0], "
       "[0, 0, 0, 0, 1, 0.5], [0, 0, 0, 0, 0.5, 1]]";
+  static const std::string cdm = "\"../../tests/fuzz/corpus/orbit_message/conjunction.cdm\"";
+  static const Override dated = {
+      "ephemeris",
+      "{epoch=\"2010-03-13T22:37:52.618\", time_system=\"UTC\", reference_frame=\"EME2000\", "
+      "center_name=\"EARTH\"}"};
   static const Override no_rotation = {"canonical_transformation.rotation_cosine", "null"};
   static const Override matrix = {"canonical_transformation.matrix", "[[1, 0], [0, 1]]"};
   static const Override no_step = {"integrator.0.step_canonical", "null"};
@@ -208,6 +213,16 @@ const std::map<std::string, Place>& special_places() {
       {"uncertainty.times_canonical", {"", {no_uncertainty_count}}},
       {"uncertainty.covariance_m_m_s",
        {"", {{"uncertainty.position_m", "null"}}, covariance_text}},
+      {"uncertainty.file", {"", {{"uncertainty.position_m", "null"}, dated}, cdm}},
+      {"uncertainty.object",
+       {"",
+        {{"uncertainty.position_m", "null"}, dated, {"uncertainty.file", cdm}},
+        "\"OBJECT2\""}},
+      {"uncertainty.deputy.file", {"", {{"uncertainty.deputy.position_m", "null"}, dated}, cdm}},
+      {"uncertainty.deputy.object",
+       {"",
+        {{"uncertainty.deputy.position_m", "null"}, dated, {"uncertainty.deputy.file", cdm}},
+        "\"OBJECT1\""}},
       {"uncertainty.deputy.covariance_m_m_s",
        {"", {{"uncertainty.deputy.position_m", "null"}}, covariance_text}},
       {"ephemeris.epoch", {"", {}, "\"2003-01-01T00:00:00\""}},

@@ -38,6 +38,14 @@ struct OrbitMetadata {
   std::size_t center_name_line = 0;                 ///< of CENTER_NAME, where it was read
 };
 
+/// A covariance of position and velocity, as a message gives it.
+struct OrbitCovariance {
+  Epoch epoch;
+  std::string reference_frame;  ///< COV_REF_FRAME, in capitals, or the states' where there is none
+  std::array<std::array<double, 6>, 6> matrix = {};  ///< both halves: km^2, km^2/s, km^2/s^2
+  std::size_t line = 0;                              ///< of its first number
+};
+
 /// One block of metadata with the states that follow it.
 struct EphemerisSegment {
   OrbitMetadata metadata;
@@ -46,9 +54,10 @@ struct EphemerisSegment {
   /// USEABLE_START_TIME and USEABLE_STOP_TIME: states outside only help to interpolate.
   std::optional<Epoch> useable_start;
   std::optional<Epoch> useable_stop;
-  bool has_acceleration = false;  ///< it stood behind the states; not kept
-  bool has_covariance = false;    ///< a covariance block followed; not kept
-  std::size_t line = 0;           ///< of META_START
+  bool has_acceleration = false;                  ///< it stood behind the states; not kept
+  bool has_covariance = false;                    ///< a covariance block followed
+  std::vector<OrbitCovariance> covariances = {};  ///< of that block
+  std::size_t line = 0;                           ///< of META_START
 
   bool is_useable(const Epoch& epoch) const {
     return !(useable_start && epoch < *useable_start) && !(useable_stop && *useable_stop < epoch);
@@ -76,12 +85,13 @@ struct OrbitParameterMessage {
   OrbitState state;
   std::optional<double> gm_km3_s2;  ///< GM, which stands with the Keplerian elements
   std::size_t gm_line = 0;          ///< of GM
-  /// What else the message holds and is not used: "Keplerian elements", "spacecraft parameters",
-  /// "covariance", "user-defined parameters".
+  std::optional<OrbitCovariance> covariance = {};
+  /// What else the message holds, and is not used for the state: "Keplerian elements", "spacecraft
+  /// parameters", "covariance", "user-defined parameters".
   std::vector<std::string> unused;
 };
 
-/// Reads an OEM. `name` is the file's, printable, for messages. Accelerations and covariances are
+/// Reads an OEM. `name` is the file's, printable, for messages. Accelerations are
 /// checked and left out. Throws Error(input_output), one line `name:line: keyword: what is wrong,
 /// got, must be`, for whatever is not such a message, among others: other versions, a missing
 /// or doubled keyword, a keyword that the standard does not have, blocks that do not end, epochs

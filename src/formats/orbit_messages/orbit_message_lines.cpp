@@ -182,16 +182,21 @@ double MessageBlock::number(std::string_view keyword, std::string_view unit) con
   return *number;
 }
 
+std::string MessageBlock::capitals(std::string_view keyword) const {
+  std::string result = text(keyword);
+  std::transform(result.begin(), result.end(), result.begin(), [](char c) {
+    return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  });
+  return result;
+}
+
 OrbitMetadata MessageBlock::metadata() const {
   OrbitMetadata result;
   result.object_name = text("OBJECT_NAME");
   result.object_id = text("OBJECT_ID");
   result.center_name = text("CENTER_NAME");
   result.center_name_line = line_of("CENTER_NAME");
-  result.reference_frame = text("REF_FRAME");
-  std::transform(
-      result.reference_frame.begin(), result.reference_frame.end(), result.reference_frame.begin(),
-      [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; });
+  result.reference_frame = capitals("REF_FRAME");
   if (!is_inertial_frame(result.reference_frame)) {
     fail("REF_FRAME", frame_problem(result.reference_frame));
   }

@@ -84,6 +84,8 @@ class MessageBlock {
   std::size_t line_of(std::string_view keyword) const { return values_.find(keyword)->second.line; }
   /// The text of a required keyword.
   std::string text(std::string_view keyword) const;
+  /// The same in capitals.
+  std::string capitals(std::string_view keyword) const;
   Epoch epoch(std::string_view keyword) const;
   /// The number of a required keyword; the unit may stand behind it, in brackets. If `unit` is
   /// empty, none may.

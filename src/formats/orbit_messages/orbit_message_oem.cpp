@@ -73,7 +73,7 @@ class OemReader {
     read_metadata(segment);
     read_states(segment);
     if (has_line_ && line_.is("COVARIANCE_START")) {
-      pass_covariance();
+      read_covariances(segment);
       segment.has_covariance = true;
     }
     return segment;
@@ -163,10 +163,22 @@ class OemReader {
     return *number;
   }
 
-  /// Checks covariances and leaves them out: rows of one to six numbers, each matrix after its
-  /// epoch.
-  void pass_covariance() {
+  /// Covariances, each the six rows of a lower triangle behind its epoch, and its frame where
+  /// that is another one than the states'.
+  void read_covariances(EphemerisSegment& segment) {
     const std::size_t begin = line_.number;
+    std::optional<OrbitCovariance> covariance;
+    std::size_t row = 0;
+    const auto require_whole = [&] {
+      if (!covariance || row == 6) return;
+      lines_.fail(line_.number, "",
+                  fmt::format("a covariance of {} rows, got {}, must be 6 rows behind its EPOCH",
+                              row, in_quotes(line_.text)));
+    };
+    const auto keep = [&] {
+      require_whole();
+      if (covariance) segment.covariances.push_back(*covariance);
+    };
     for (advance(); !line_.is("COVARIANCE_STOP"); advance()) {
       if (!has_line_ || line_.is("META_START")) {
         lines_.fail(lines_.number(), "COVARIANCE_STOP",
@@ -174,7 +186,22 @@ class OemReader {
                                 has_line_ ? in_quotes(line_.text) : "the end of the file", begin));
       }
       if (line_.is_assignment) {
-        MessageBlock(lines_).add(line_, covariance_keywords);
+        MessageBlock statement(lines_);
+        statement.add(line_, covariance_keywords);
+        if (line_.keyword == "EPOCH") {
+          keep();
+          OrbitCovariance next;
+          next.epoch = statement.epoch("EPOCH");
+          next.reference_frame = segment.metadata.reference_frame;
+          covariance = next;
+          row = 0;
+        } else if (covariance && row == 0) {
+          covariance->reference_frame = statement.capitals("COV_REF_FRAME");
+        } else {
+          statement.fail("COV_REF_FRAME",
+                         "out of order, got one that does not follow an EPOCH, "
+                         "must stand between EPOCH and the first row");
+        }
         continue;
       }
       split_at_blanks(line_.text, fields_);
@@ -184,8 +211,26 @@ class OemReader {
                                 "most 6",
                                 fields_.size()));
       }
-      for (std::size_t i = 0; i < fields_.size(); ++i) number_at(i);
+      if (!covariance) {
+        lines_.fail(line_.number, "EPOCH",
+                    "missing, got a row of a covariance before it, must be "
+                    "the epoch of the covariance");
+      }
+      if (row == 6 || fields_.size() != row + 1) {
+        lines_.fail(line_.number, "",
+                    fmt::format("wrong length, got {} numbers in row {} of a covariance, must be "
+                                "{}",
+                                fields_.size(), row + 1,
+                                row == 6 ? "COVARIANCE_STOP or the next EPOCH"
+                                         : fmt::format("{}, of a lower triangle", row + 1)));
+      }
+      if (row == 0) covariance->line = line_.number;
+      for (std::size_t i = 0; i < fields_.size(); ++i) {
+        covariance->matrix[row][i] = covariance->matrix[i][row] = number_at(i);
+      }
+      ++row;
     }
+    keep();
     advance();
   }
 

@@ -29,6 +29,28 @@ std::vector<std::string_view> all_keywords() {
   return keywords;
 }
 
+/// The covariance, of which the standard wants all 21 numbers or none.
+std::optional<OrbitCovariance> covariance_of(const MessageBlock& block,
+                                             const OrbitParameterMessage& message) {
+  const std::vector<Quantity>& quantities = covariance_quantities();
+  const auto first = std::find_if(quantities.begin(), quantities.end(),
+                                  [&](const Quantity& q) { return block.has(q.keyword); });
+  if (first == quantities.end()) return std::nullopt;
+  OrbitCovariance covariance;
+  covariance.epoch = message.state.epoch;
+  covariance.reference_frame = block.has("COV_REF_FRAME") ? block.capitals("COV_REF_FRAME")
+                                                          : message.metadata.reference_frame;
+  covariance.line = block.line_of(first->keyword);
+  std::size_t place = 0;
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t j = 0; j <= i; ++j, ++place) {
+      covariance.matrix[i][j] = covariance.matrix[j][i] =
+          block.number(quantities[place].keyword, quantities[place].unit);
+    }
+  }
+  return covariance;
+}
+
 }  // namespace
 
 OrbitParameterMessage read_opm(const std::string& name, std::string_view text) {
@@ -70,6 +92,7 @@ OrbitParameterMessage read_opm(const std::string& name, std::string_view text) {
     }
     if (is_there) message.unused.emplace_back(part.name);
   }
+  message.covariance = covariance_of(block, message);
   if (block.has("GM")) {
     message.gm_km3_s2 = block.number("GM", "km**3/s**2");
     message.gm_line = block.line_of("GM");

@@ -1,5 +1,6 @@
 #include "orbit_message_units.hpp"
 
+#include <algorithm>
 #include <map>
 
 namespace hamjet::io {
@@ -50,6 +51,12 @@ const std::vector<UnusedPart>& unused_parts() {
                                                   {"CZ_DOT_Y_DOT", "km**2/s**2"},
                                                   {"CZ_DOT_Z_DOT", "km**2/s**2"}}}};
   return parts;
+}
+
+const std::vector<Quantity>& covariance_quantities() {
+  return std::find_if(unused_parts().begin(), unused_parts().end(),
+                      [](const UnusedPart& part) { return part.name == "covariance"; })
+      ->quantities;
 }
 
 std::string_view unit_of_keyword(std::string_view keyword) {

@@ -22,6 +22,8 @@ struct UnusedPart {
 /// Position and velocity.
 const std::vector<Quantity>& state_quantities();
 const std::vector<UnusedPart>& unused_parts();
+/// The numbers of a covariance's lower triangle, row by row.
+const std::vector<Quantity>& covariance_quantities();
 
 /// The unit of a keyword; empty if it has none.
 std::string_view unit_of_keyword(std::string_view keyword);

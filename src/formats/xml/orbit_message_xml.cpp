@@ -217,13 +217,33 @@ class XmlReader {
     add(state, std::move(line));
   }
 
-  /// One number a row: the reader checks that they are numbers, and leaves them out.
+  /// The numbers as the rows of a lower triangle.
   void add_covariance(Node matrix) {
+    std::string row;
+    std::size_t numbers = 0;
+    std::size_t ends = 1;  // of the row, among all numbers
     for (const Node leaf : children(matrix, {})) {
       const std::string text = leaf_text(leaf);
-      const bool is_number = !unit_of_keyword(leaf.name()).empty();
-      add(leaf, is_number ? text : fmt::format("{} = {}", leaf.name(), text));
+      if (unit_of_keyword(leaf.name()).empty()) {
+        add(leaf, fmt::format("{} = {}", leaf.name(), text));
+        continue;
+      }
+      const auto& quantities = covariance_quantities();
+      if (numbers == quantities.size() || quantities[numbers].keyword != leaf.name()) {
+        fail(leaf, fmt::format("out of place in a covarianceMatrix, must be {} here",
+                               numbers == quantities.size() ? "no other number"
+                                                            : quantities[numbers].keyword));
+      }
+      row += (row.empty() ? "" : " ") + text;
+      if (++numbers < ends) continue;
+      add(leaf, std::move(row));
+      row.clear();
+      // Row k ends with number k (k + 1) / 2.
+      std::size_t k = 1;
+      while (k * (k + 1) / 2 <= ends) ++k;
+      ends = k * (k + 1) / 2;
     }
+    if (!row.empty()) add(matrix, std::move(row));
   }
 
   std::string name_;

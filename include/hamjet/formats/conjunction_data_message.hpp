@@ -1,0 +1,63 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hamjet/detail/formats/epoch.hpp"
+
+// Conjunction Data Messages of the Consultative Committee for Space Data Systems, version 1.0, in
+// keyword = value notation (KVN). Source: CCSDS 508.0-B-1, Conjunction Data Message (2013), section
+// 3 (contents), table 3-4 (covariance) and section 6 (syntax).
+
+namespace hamjet::io {
+
+/// One of the two objects: its state at the time of closest approach, and the covariance of that.
+struct ConjunctionObject {
+  std::string object_designator;         ///< OBJECT_DESIGNATOR
+  std::string catalog_name;              ///< CATALOG_NAME
+  std::string object_name;               ///< OBJECT_NAME
+  std::string international_designator;  ///< INTERNATIONAL_DESIGNATOR
+  std::string ephemeris_name = "NONE";   ///< EPHEMERIS_NAME
+  std::string covariance_method = "CALCULATED";
+  std::string maneuverable = "N/A";
+  std::string orbit_center = "EARTH";
+  std::string reference_frame;  ///< REF_FRAME, in capitals: GCRF, EME2000 or ITRF
+  std::array<double, 3> position_km = {};
+  std::array<double, 3> velocity_km_s = {};
+  /// Of position and velocity along the object's own R, T, N, with inertial velocities; both
+  /// halves: m^2, m^2/s, m^2/s^2.
+  std::array<std::array<double, 6>, 6> covariance = {};
+  std::vector<std::string> comments;  ///< before the state; written, not read
+  std::size_t covariance_line = 0;    ///< of CR_R, where it was read
+};
+
+/// Two objects that come near each other.
+struct ConjunctionDataMessage {
+  std::vector<std::string> comments;  ///< of the header; written, not read
+  Epoch creation_date;                ///< UTC
+  std::string originator;
+  std::string message_id;
+  Epoch tca;  ///< UTC
+  double miss_distance_m = 0;
+  std::optional<double> relative_speed_m_s;
+  /// The second object's from the first, along the first one's R, T, N.
+  std::optional<std::array<double, 3>> relative_position_m;
+  std::optional<std::array<double, 3>> relative_velocity_m_s;
+  std::optional<double> collision_probability;
+  std::string collision_probability_method;  ///< with the probability
+  std::array<ConjunctionObject, 2> objects;  ///< OBJECT1 and OBJECT2
+};
+
+/// Reads a CDM in KVN. What else the standard has (orbit determination, parameters of drag and
+/// radiation with their rows of the covariance, operators) is checked by its keyword and left out.
+/// Throws Error(input_output), one line as read_oem, for whatever is not such a message.
+ConjunctionDataMessage read_cdm(const std::string& name, std::string_view text);
+
+/// A CDM as text; numbers have 16 digits. Texts must be printable ASCII.
+std::string cdm_text(const ConjunctionDataMessage& message);
+
+}  // namespace hamjet::io

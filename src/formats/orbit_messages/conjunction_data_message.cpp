@@ -1,0 +1,298 @@
+#include "hamjet/formats/conjunction_data_message.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "../../text/scene_message.hpp"
+#include "orbit_message_lines.hpp"
+#include "orbit_message_units.hpp"
+
+namespace hamjet::io {
+namespace {
+
+using Keywords = std::vector<std::string_view>;
+
+constexpr std::string_view cdm_version_keyword = "CCSDS_CDM_VERS";
+
+/// Before the first object (tables 3-1 and 3-2).
+const Keywords head_keywords = {"CREATION_DATE",
+                                "ORIGINATOR",
+                                "MESSAGE_FOR",
+                                "MESSAGE_ID",
+                                "TCA",
+                                "MISS_DISTANCE",
+                                "RELATIVE_SPEED",
+                                "RELATIVE_POSITION_R",
+                                "RELATIVE_POSITION_T",
+                                "RELATIVE_POSITION_N",
+                                "RELATIVE_VELOCITY_R",
+                                "RELATIVE_VELOCITY_T",
+                                "RELATIVE_VELOCITY_N",
+                                "START_SCREEN_PERIOD",
+                                "STOP_SCREEN_PERIOD",
+                                "SCREEN_VOLUME_FRAME",
+                                "SCREEN_VOLUME_SHAPE",
+                                "SCREEN_VOLUME_X",
+                                "SCREEN_VOLUME_Y",
+                                "SCREEN_VOLUME_Z",
+                                "SCREEN_ENTRY_TIME",
+                                "SCREEN_EXIT_TIME",
+                                "COLLISION_PROBABILITY",
+                                "COLLISION_PROBABILITY_METHOD"};
+
+/// Of an object (tables 3-3 and 3-4), without state and covariance.
+const Keywords other_object_keywords = {"OBJECT",
+                                        "OBJECT_DESIGNATOR",
+                                        "CATALOG_NAME",
+                                        "OBJECT_NAME",
+                                        "INTERNATIONAL_DESIGNATOR",
+                                        "OBJECT_TYPE",
+                                        "OPERATOR_CONTACT_POSITION",
+                                        "OPERATOR_ORGANIZATION",
+                                        "OPERATOR_PHONE",
+                                        "OPERATOR_EMAIL",
+                                        "EPHEMERIS_NAME",
+                                        "COVARIANCE_METHOD",
+                                        "MANEUVERABLE",
+                                        "ORBIT_CENTER",
+                                        "REF_FRAME",
+                                        "GRAVITY_MODEL",
+                                        "ATMOSPHERIC_MODEL",
+                                        "N_BODY_PERTURBATIONS",
+                                        "SOLAR_RAD_PRESSURE",
+                                        "EARTH_TIDES",
+                                        "INTRACK_THRUST",
+                                        "TIME_LASTOB_START",
+                                        "TIME_LASTOB_END",
+                                        "RECOMMENDED_OD_SPAN",
+                                        "ACTUAL_OD_SPAN",
+                                        "OBS_AVAILABLE",
+                                        "OBS_USED",
+                                        "TRACKS_AVAILABLE",
+                                        "TRACKS_USED",
+                                        "RESIDUALS_ACCEPTED",
+                                        "WEIGHTED_RMS",
+                                        "AREA_PC",
+                                        "AREA_DRG",
+                                        "AREA_SRP",
+                                        "MASS",
+                                        "CD_AREA_OVER_MASS",
+                                        "CR_AREA_OVER_MASS",
+                                        "THRUST_ACCELERATION",
+                                        "SEDR"};
+
+/// The numbers of the covariance of position and velocity, row by row of its lower triangle.
+struct CovarianceKeyword {
+  std::string keyword;
+  std::string_view unit;
+};
+const std::vector<CovarianceKeyword>& covariance_keywords_of_cdm() {
+  static const std::vector<CovarianceKeyword> keywords = [] {
+    const Keywords names = {"R", "T", "N", "RDOT", "TDOT", "NDOT"};
+    std::vector<CovarianceKeyword> result;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      for (std::size_t j = 0; j <= i; ++j) {
+        const std::size_t velocities = (i >= 3 ? 1 : 0) + (j >= 3 ? 1 : 0);
+        result.push_back({fmt::format("C{}_{}", names[i], names[j]), velocities == 0 ? "m**2"
+                                                                     : velocities == 1
+                                                                         ? "m**2/s"
+                                                                         : "m**2/s**2"});
+      }
+    }
+    return result;
+  }();
+  return keywords;
+}
+
+const Keywords& object_keywords() {
+  static const Keywords keywords = [] {
+    Keywords result = other_object_keywords;
+    for (const Quantity& quantity : state_quantities()) result.push_back(quantity.keyword);
+    for (const CovarianceKeyword& keyword : covariance_keywords_of_cdm()) {
+      result.push_back(keyword.keyword);
+    }
+    for (const std::string_view more :
+         {"CDRG_R",    "CDRG_T",    "CDRG_N",    "CDRG_RDOT", "CDRG_TDOT", "CDRG_NDOT",
+          "CDRG_DRG",  "CSRP_R",    "CSRP_T",    "CSRP_N",    "CSRP_RDOT", "CSRP_TDOT",
+          "CSRP_NDOT", "CSRP_DRG",  "CSRP_SRP",  "CTHR_R",    "CTHR_T",    "CTHR_N",
+          "CTHR_RDOT", "CTHR_TDOT", "CTHR_NDOT", "CTHR_DRG",  "CTHR_SRP",  "CTHR_THR"}) {
+      result.push_back(more);
+    }
+    return result;
+  }();
+  return keywords;
+}
+
+ConjunctionObject object_of(const MessageBlock& block) {
+  ConjunctionObject object;
+  object.object_designator = block.text("OBJECT_DESIGNATOR");
+  object.catalog_name = block.text("CATALOG_NAME");
+  object.object_name = block.text("OBJECT_NAME");
+  object.international_designator = block.text("INTERNATIONAL_DESIGNATOR");
+  object.ephemeris_name = block.text("EPHEMERIS_NAME");
+  object.covariance_method = block.text("COVARIANCE_METHOD");
+  object.maneuverable = block.text("MANEUVERABLE");
+  if (block.has("ORBIT_CENTER")) object.orbit_center = block.capitals("ORBIT_CENTER");
+  object.reference_frame = block.capitals("REF_FRAME");
+  const Keywords frames = {"GCRF", "EME2000", "ITRF"};
+  if (std::find(frames.begin(), frames.end(), object.reference_frame) == frames.end()) {
+    block.fail("REF_FRAME", fmt::format("unknown reference frame, got {}, must be one of: {}",
+                                        in_quotes(object.reference_frame), listed(frames)));
+  }
+  const std::vector<Quantity>& state = state_quantities();
+  for (std::size_t i = 0; i < 3; ++i) {
+    object.position_km[i] = block.number(state[i].keyword, state[i].unit);
+    object.velocity_km_s[i] = block.number(state[3 + i].keyword, state[3 + i].unit);
+  }
+  std::size_t place = 0;
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t j = 0; j <= i; ++j, ++place) {
+      const CovarianceKeyword& of = covariance_keywords_of_cdm()[place];
+      object.covariance[i][j] = object.covariance[j][i] = block.number(of.keyword, of.unit);
+    }
+  }
+  object.covariance_line = block.line_of("CR_R");
+  return object;
+}
+
+std::optional<std::array<double, 3>> three_numbers(const MessageBlock& head,
+                                                   const std::string& keyword,
+                                                   std::string_view unit) {
+  const auto has = [&](const char* axis) { return head.has(keyword + axis); };
+  if (!has("_R") && !has("_T") && !has("_N")) return std::nullopt;
+  return std::array<double, 3>{head.number(keyword + "_R", unit), head.number(keyword + "_T", unit),
+                               head.number(keyword + "_N", unit)};
+}
+
+}  // namespace
+
+ConjunctionDataMessage read_cdm(const std::string& name, std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  if (first != text.npos && text[first] == '<') {
+    // Lines of no text, to say it as they do.
+    MessageLines(name, "", "cdm")
+        .fail(1, cdm_version_keyword,
+              "in XML notation, got <, must be in keyword = value notation (KVN)");
+  }
+  MessageLines lines(name, text, "cdm");
+  read_version(lines, cdm_version_keyword, {"1.0"});
+  MessageBlock head(lines);
+  MessageLine line;
+  bool has_line = lines.next(line);
+  for (; has_line && line.keyword != "OBJECT"; has_line = lines.next(line)) {
+    head.add(line, head_keywords);
+  }
+  head.end_at(lines.number());
+  ConjunctionDataMessage message;
+  message.creation_date = head.epoch("CREATION_DATE");
+  message.originator = head.text("ORIGINATOR");
+  message.message_id = head.text("MESSAGE_ID");
+  message.tca = head.epoch("TCA");
+  message.miss_distance_m = head.number("MISS_DISTANCE", "m");
+  if (head.has("RELATIVE_SPEED")) message.relative_speed_m_s = head.number("RELATIVE_SPEED", "m/s");
+  message.relative_position_m = three_numbers(head, "RELATIVE_POSITION", "m");
+  message.relative_velocity_m_s = three_numbers(head, "RELATIVE_VELOCITY", "m/s");
+  if (head.has("COLLISION_PROBABILITY")) {
+    message.collision_probability = head.number("COLLISION_PROBABILITY", "");
+    if (!(*message.collision_probability >= 0 && *message.collision_probability <= 1)) {
+      head.fail("COLLISION_PROBABILITY", fmt::format("no probability, got {}, must be from 0 to 1",
+                                                     *message.collision_probability));
+    }
+  }
+  if (head.has("COLLISION_PROBABILITY_METHOD")) {
+    message.collision_probability_method = head.text("COLLISION_PROBABILITY_METHOD");
+  }
+  for (std::size_t k = 0; k < 2; ++k) {
+    const std::string wanted = fmt::format("OBJECT{}", k + 1);
+    if (!has_line || line.value != wanted) {
+      lines.fail(has_line ? line.number : lines.number(), "OBJECT",
+                 fmt::format("missing, got {}, must be {} here",
+                             has_line ? in_quotes(line.value) : "the end of the file", wanted));
+    }
+    MessageBlock block(lines);
+    do {
+      block.add(line, object_keywords());
+      has_line = lines.next(line);
+    } while (has_line && line.keyword != "OBJECT");
+    block.end_at(lines.number());
+    message.objects[k] = object_of(block);
+  }
+  if (has_line) {
+    lines.fail(line.number, "OBJECT",
+               fmt::format("a third object, got {}, must be the end of the "
+                           "file",
+                           in_quotes(line.value)));
+  }
+  return message;
+}
+
+std::string cdm_text(const ConjunctionDataMessage& message) {
+  std::string text;
+  const auto add = [&](std::string_view keyword, std::string_view value,
+                       std::string_view unit = {}) {
+    text += fmt::format("{:<36} = {}{}\n", keyword, value,
+                        unit.empty() ? "" : fmt::format(" [{}]", unit));
+  };
+  const auto add_number = [&](std::string_view keyword, double number, std::string_view unit) {
+    add(keyword, fmt::format("{:.15e}", number), unit);
+  };
+  const auto add_comments = [&](const std::vector<std::string>& comments) {
+    for (const std::string& comment : comments) text += "COMMENT " + comment + "\n";
+  };
+  const auto add_three = [&](const std::string& keyword, const std::array<double, 3>& numbers,
+                             std::string_view unit) {
+    add_number(keyword + "_R", numbers[0], unit);
+    add_number(keyword + "_T", numbers[1], unit);
+    add_number(keyword + "_N", numbers[2], unit);
+  };
+  add(cdm_version_keyword, "1.0");
+  add_comments(message.comments);
+  add("CREATION_DATE", format_epoch(message.creation_date));
+  add("ORIGINATOR", message.originator);
+  add("MESSAGE_ID", message.message_id);
+  add("TCA", format_epoch(message.tca));
+  add_number("MISS_DISTANCE", message.miss_distance_m, "m");
+  if (message.relative_speed_m_s) add_number("RELATIVE_SPEED", *message.relative_speed_m_s, "m/s");
+  if (message.relative_position_m) {
+    add_three("RELATIVE_POSITION", *message.relative_position_m, "m");
+  }
+  if (message.relative_velocity_m_s) {
+    add_three("RELATIVE_VELOCITY", *message.relative_velocity_m_s, "m/s");
+  }
+  if (message.collision_probability) {
+    add_number("COLLISION_PROBABILITY", *message.collision_probability, "");
+    if (!message.collision_probability_method.empty()) {
+      add("COLLISION_PROBABILITY_METHOD", message.collision_probability_method);
+    }
+  }
+  for (std::size_t k = 0; k < 2; ++k) {
+    const ConjunctionObject& object = message.objects[k];
+    add("OBJECT", fmt::format("OBJECT{}", k + 1));
+    add("OBJECT_DESIGNATOR", object.object_designator);
+    add("CATALOG_NAME", object.catalog_name);
+    add("OBJECT_NAME", object.object_name);
+    add("INTERNATIONAL_DESIGNATOR", object.international_designator);
+    add("EPHEMERIS_NAME", object.ephemeris_name);
+    add("COVARIANCE_METHOD", object.covariance_method);
+    add("MANEUVERABLE", object.maneuverable);
+    add("ORBIT_CENTER", object.orbit_center);
+    add("REF_FRAME", object.reference_frame);
+    add_comments(object.comments);
+    const std::vector<Quantity>& state = state_quantities();
+    for (std::size_t i = 0; i < 6; ++i) {
+      add_number(state[i].keyword, i < 3 ? object.position_km[i] : object.velocity_km_s[i - 3],
+                 state[i].unit);
+    }
+    std::size_t place = 0;
+    for (std::size_t i = 0; i < 6; ++i) {
+      for (std::size_t j = 0; j <= i; ++j, ++place) {
+        const CovarianceKeyword& of = covariance_keywords_of_cdm()[place];
+        add_number(of.keyword, object.covariance[i][j], of.unit);
+      }
+    }
+  }
+  return text;
+}
+
+}  // namespace hamjet::io
