@@ -131,9 +131,8 @@ int validity(const RunOptions& given, const std::optional<std::string>& coordina
   const bool is_of_all = coordinates == all_coordinates;
   RunOptions options = given;
   if (coordinates && !is_of_all) {
-    for (const char* const key : {"jet.coordinates", "jet.end_coordinates"}) {
-      options.overrides.push_back(fmt::format("{}=\"{}\"", key, *coordinates));
-    }
+    options.overrides.push_back(fmt::format("jet.coordinates=\"{}\"", *coordinates));
+    options.overrides.emplace_back("jet.end_coordinates=null");
   }
   const Scene scene = read_unsplit_scene(options, "hamjet validity");
   require_validity(scene, *options.scene_file);

@@ -19,7 +19,7 @@
 #include "jet_files.hpp"
 #include "pickling.hpp"
 #include "refusal.hpp"
-#include "relative_evaluation.hpp"
+#include "relative_rows.hpp"
 #include "signature.hpp"
 
 namespace hamjet::python {
@@ -158,45 +158,13 @@ Jet composition(const JetPointer& first, const JetPointer& second) {
   });
 }
 
-void warn_if_not_inside(const std::vector<unsigned char>& support, bool is_strict) {
-  const auto inside = static_cast<unsigned char>(TruncationEstimate::Support::inside);
-  const auto count = std::count_if(support.begin(), support.end(),
-                                   [&](unsigned char mark) { return mark != inside; });
-  if (count == 0) return;
-  const std::string text = fmt::format(
-      "evaluate_relative: {} of {} not inside the polynomial's reach; see their support", count,
-      counted(support.size(), "row"));
-  if (is_strict) throw Error(ErrorKind::numerical, text);
-  if (PyErr_WarnEx(PyExc_RuntimeWarning, text.c_str(), 1) != 0) throw py::error_already_set();
-}
-
-/// A RelativeStates, which the package defines.
 py::object evaluate_relative_states(const Jet& jet, const py::object& states,
                                     const std::string& frame, const std::optional<std::string>& to,
                                     const std::optional<std::string>& derivatives,
                                     std::optional<int> degree, bool is_strict) {
-  constexpr std::size_t columns = 6;
-  const RelativeCoordinates coordinates{{frame, to, derivatives, cli::Caller::module}, degree};
-  const auto column_names = [&] { return initial_columns(jet, coordinates); };
-  const py::array_t<double> rows = rows_of(states, columns, column_names, "states");
-  const bool is_one = rows.ndim() == 1;
-  const auto count = is_one ? 1 : static_cast<std::size_t>(rows.shape(0));
-  std::vector<double> results(columns * count);
-  std::vector<double> miss(count);
-  std::vector<unsigned char> support(count);
-  {
-    const double* data = rows.data();
-    const py::gil_scoped_release no_gil;
-    const ArithmeticScope arithmetic;
-    SignalCheck check;
-    evaluate_relative(jet, coordinates, data, count, {results.data(), miss.data(), support.data()},
-                      [&] { check(); });
-  }
-  warn_if_not_inside(support, is_strict);
-  return py::module_::import("hamjet.relative_states")
-      .attr("_relative_states")(array_of(std::move(results), {size_of(count), size_of(columns)}),
-                                array_of(std::move(miss)), array_of(std::move(support)),
-                                py::tuple(py::cast(final_columns(jet, coordinates))));
+  if (degree) jet.deviation_to(*degree);  // refuses what is out of range
+  return relative_states(jet.stored(), jet.stored(), states,
+                         {{frame, to, derivatives, cli::Caller::module}, degree}, is_strict);
 }
 
 std::string representation(const Jet& jet) {

@@ -22,26 +22,11 @@ cli::EvalCoordinates frame_of(const io::StoredJet& stored, const RelativeCoordin
   return {stored, coordinates.frames};
 }
 
-}  // namespace
-
-std::vector<std::string> initial_columns(const Jet& jet, const RelativeCoordinates& coordinates) {
-  const cli::EvalCoordinates frame = frame_of(jet.stored(), coordinates);
-  return {frame.initial_columns().begin(), frame.initial_columns().end()};
-}
-
-std::vector<std::string> final_columns(const Jet& jet, const RelativeCoordinates& coordinates) {
-  const cli::EvalCoordinates frame = frame_of(jet.stored(), coordinates);
-  return {frame.final_columns().begin(), frame.final_columns().end()};
-}
-
-void evaluate_relative(const Jet& jet, const RelativeCoordinates& coordinates, const double* states,
-                       std::size_t count, const RelativeResults& results,
-                       const std::function<void()>& pause) {
+/// Carries rows through an evaluation of either kind.
+template <class Evaluation>
+void carry(const cli::EvalCoordinates& frame, Evaluation& evaluation, const double* states,
+           std::size_t count, const RelativeResults& results, const std::function<void()>& pause) {
   constexpr std::size_t columns = 6;
-  const io::StoredJet& stored = jet.stored();
-  if (coordinates.degree) jet.deviation_to(*coordinates.degree);  // refuses what is out of range
-  const cli::EvalCoordinates frame = frame_of(stored, coordinates);
-  cli::JetEvaluation evaluation(stored, coordinates.degree);
   std::size_t done = 0;
   for (std::size_t row = 0; row < count; ++row) {
     try {
@@ -49,7 +34,7 @@ void evaluate_relative(const Jet& jet, const RelativeCoordinates& coordinates, c
     } catch (const Error& error) {
       throw Error(error.kind(), fmt::format("row {}: {}", row, error.what()));
     }
-    if (evaluation.pending() < cli::JetEvaluation::most_points && row + 1 < count) continue;
+    if (evaluation.pending() < Evaluation::most_points && row + 1 < count) continue;
     evaluation.run([&](const std::vector<double>& deviation, const cli::MissEstimate& estimate) {
       const auto state = frame.final_state(deviation);
       std::copy(state.begin(), state.end(), results.states + done * columns);
@@ -60,6 +45,34 @@ void evaluate_relative(const Jet& jet, const RelativeCoordinates& coordinates, c
     });
     pause();
   }
+}
+
+}  // namespace
+
+std::vector<std::string> initial_columns(const io::StoredJet& jet,
+                                         const RelativeCoordinates& coordinates) {
+  const cli::EvalCoordinates frame = frame_of(jet, coordinates);
+  return {frame.initial_columns().begin(), frame.initial_columns().end()};
+}
+
+std::vector<std::string> final_columns(const io::StoredJet& jet,
+                                       const RelativeCoordinates& coordinates) {
+  const cli::EvalCoordinates frame = frame_of(jet, coordinates);
+  return {frame.final_columns().begin(), frame.final_columns().end()};
+}
+
+void evaluate_relative(const io::StoredJet& jet, const RelativeCoordinates& coordinates,
+                       const double* states, std::size_t count, const RelativeResults& results,
+                       const std::function<void()>& pause) {
+  cli::JetEvaluation evaluation(jet, coordinates.degree);
+  carry(frame_of(jet, coordinates), evaluation, states, count, results, pause);
+}
+
+void evaluate_relative(const cli::EvaluatedScene& scene, const RelativeCoordinates& coordinates,
+                       const double* states, std::size_t count, const RelativeResults& results,
+                       const std::function<void()>& pause) {
+  cli::DeputyEvaluation evaluation(scene, coordinates.degree.value_or(scene.flow->order()));
+  carry(frame_of(scene.chief, coordinates), evaluation, states, count, results, pause);
 }
 
 }  // namespace hamjet::python

@@ -5,8 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "../app/deputy_evaluation.hpp"
 #include "../app/eval_coordinates.hpp"
-#include "jet.hpp"
+#include "hamjet/formats/stored_jet.hpp"
 
 namespace hamjet::python {
 
@@ -18,8 +19,10 @@ struct RelativeCoordinates {
 
 /// Names of the columns of a relative state, at the start and at the end. Throws Error(usage) if
 /// the coordinates do not fit the jet.
-std::vector<std::string> initial_columns(const Jet& jet, const RelativeCoordinates& coordinates);
-std::vector<std::string> final_columns(const Jet& jet, const RelativeCoordinates& coordinates);
+std::vector<std::string> initial_columns(const io::StoredJet& jet,
+                                         const RelativeCoordinates& coordinates);
+std::vector<std::string> final_columns(const io::StoredJet& jet,
+                                       const RelativeCoordinates& coordinates);
 
 /// Where results go: of each of `count` rows the final state (6 numbers), the estimate of the miss
 /// in metres (NaN where there is none) and TruncationEstimate::Support as a number.
@@ -33,8 +36,12 @@ struct RelativeResults {
 /// jet's duration, with an estimate of the miss. Throws Error(usage) if the
 /// coordinates do not fit the jet or a row leaves the variables it is expanded in. `pause` is
 /// called now and then and may throw.
-void evaluate_relative(const Jet& jet, const RelativeCoordinates& coordinates, const double* states,
-                       std::size_t count, const RelativeResults& results,
+void evaluate_relative(const io::StoredJet& jet, const RelativeCoordinates& coordinates,
+                       const double* states, std::size_t count, const RelativeResults& results,
+                       const std::function<void()>& pause);
+/// The same through the polynomials of a scene, in its coordinates; the degree is in range.
+void evaluate_relative(const cli::EvaluatedScene& scene, const RelativeCoordinates& coordinates,
+                       const double* states, std::size_t count, const RelativeResults& results,
                        const std::function<void()>& pause);
 
 }  // namespace hamjet::python

@@ -35,7 +35,8 @@ struct TransferAnswer {
 /// The answer for one transfer time.
 struct TransferPoint {
   double time = 0;                             ///< canonical
-  std::optional<GeneratingFunctionKind> kind;  ///< that was used
+  /// That was used; none where polynomials in other coordinates than Cartesian answer.
+  std::optional<GeneratingFunctionKind> kind;
   double condition = 0;                        ///< of its linear part
   /// Condition of the linear part of F1, dq/dp0: infinite where positions cannot be commanded.
   double position_condition = 0;

@@ -20,6 +20,7 @@ from .elements import elements_of_states, mean_states, osculating_states, states
 from .errors import (Error, ExistingFileError, InputOutputError, MissingFileError, NumericalError,
                      SceneError, TooLargeError, UsageError)
 from .orbits import orbit
+from .polynomials import Polynomials, polynomials
 from .relative_motion import (Assignment, Motion, Separation, Transfers, Validity, assign, motion,
                               transfer, validity)
 from .relative_states import RelativeStates
@@ -29,8 +30,8 @@ from .trajectory import Trajectory, trajectory
 __all__ = [
     "AlongTime", "Assignment", "Error", "ExistingFileError", "GeneratingFunction",
     "InputOutputError", "Jet", "MissingFileError", "Motion", "Nominal", "NumericalError",
-    "RelativeStates", "Result", "Run", "SceneError", "Separation", "StudyResult", "TooLargeError",
-    "Trajectory", "Transfers", "Units", "UsageError", "Validity", "__version__", "assign",
-    "elements_of_states", "load", "mean_states", "motion", "orbit", "osculating_states", "run",
-    "states_of_elements", "trajectory", "transfer", "validity",
+    "Polynomials", "RelativeStates", "Result", "Run", "SceneError", "Separation", "StudyResult",
+    "TooLargeError", "Trajectory", "Transfers", "Units", "UsageError", "Validity", "__version__",
+    "assign", "elements_of_states", "load", "mean_states", "motion", "orbit", "osculating_states",
+    "polynomials", "run", "states_of_elements", "trajectory", "transfer", "validity",
 ]

@@ -120,7 +120,8 @@ class Transfers(Study):
     """
 
     times_s: Floats  #: (T,)
-    kinds: tuple[str | None, ...]  #: the generating function used; None where no kind exists
+    #: The generating function used; None where no kind exists, or in other coordinates.
+    kinds: tuple[str | None, ...]
     conditions: Floats  #: (T,): of its linear part
     position_conditions: Floats  #: (T,): of F1's; infinite where positions cannot be commanded
     singular_distances_s: Floats  #: (T,): to the nearest singularity of F1; NaN: there is none
@@ -245,48 +246,55 @@ class Assignment(Study):
                         f"{self.total_change_m_s.sum():.6g} m/s in all{nearest}")
 
 
-def motion(scene: scenes.Scene, *, overrides: scenes.Overrides | None = None,
+def motion(scene: scenes.Scene, *, coordinates: str | None = None,
+           overrides: scenes.Overrides | None = None,
            progress: Progress | None = None) -> Motion:
     """Where a deputy goes by itself, as seen from its chief, as ``hamjet motion`` finds it.
 
-    The scene has a table [deputy]; arguments as of ``run``. Raises SceneError, UsageError,
+    The scene has a table [deputy]; coordinates, of the polynomials at both ends, as of
+    ``polynomials``; other arguments as of ``run``. Raises SceneError, UsageError,
     NumericalError, TooLargeError, InputOutputError.
     """
-    study = _hamjet.study_motion(scenes.read(scene, overrides), arguments.progress(progress))
+    study = _hamjet.study_motion(scenes.read(scene, overrides, coordinates=coordinates), arguments.progress(progress))
     nearest, farthest = (Separation(*place) for place in study.extremes())
     return Motion(**study.arrays(), nearest=nearest, farthest=farthest,
                   table=read_table(study.csv), _study=study)
 
 
-def transfer(scene: scenes.Scene, *, overrides: scenes.Overrides | None = None,
+def transfer(scene: scenes.Scene, *, coordinates: str | None = None,
+             overrides: scenes.Overrides | None = None,
              progress: Progress | None = None) -> Transfers:
     """Velocity changes from one relative position to another, as ``hamjet transfer`` finds them.
 
-    The scene has a table [transfer]; arguments as of ``run``. Raises SceneError, UsageError,
+    The scene has a table [transfer]; coordinates, of the polynomials at both ends, as of
+    ``polynomials``; other arguments as of ``run``. Raises SceneError, UsageError,
     NumericalError, TooLargeError, InputOutputError.
     """
-    study = _hamjet.study_transfers(scenes.read(scene, overrides), arguments.progress(progress))
+    study = _hamjet.study_transfers(scenes.read(scene, overrides, coordinates=coordinates), arguments.progress(progress))
     return Transfers(**study.arrays(), exit_code=study.exit_code,
                      table=read_table(study.csv), _study=study)
 
 
-def validity(scene: scenes.Scene, *, overrides: scenes.Overrides | None = None,
+def validity(scene: scenes.Scene, *, coordinates: str | None = None,
+             overrides: scenes.Overrides | None = None,
              progress: Progress | None = None) -> Validity:
     """How far from the chief the polynomials are right, as ``hamjet validity`` finds it.
 
-    The scene has a table [validity]; arguments as of ``run``. Raises as ``transfer``.
+    The scene has a table [validity]; coordinates, of the polynomials at both ends, as of
+    ``polynomials``; other arguments as of ``run``. Raises as ``transfer``.
     """
-    study = _hamjet.study_separations(scenes.read(scene, overrides), arguments.progress(progress))
+    study = _hamjet.study_separations(scenes.read(scene, overrides, coordinates=coordinates), arguments.progress(progress))
     return Validity(**study.arrays(), table=read_table(study.csv), _study=study)
 
 
-def assign(scene: scenes.Scene, *, overrides: scenes.Overrides | None = None,
+def assign(scene: scenes.Scene, *, coordinates: str | None = None,
+           overrides: scenes.Overrides | None = None,
            progress: Progress | None = None) -> Assignment:
     """Which deputy goes to which slot, and when, as ``hamjet assign`` finds it.
 
-    The scene has tables [transfer] and [assignment]; arguments as of ``run``. Raises as
-    ``transfer``.
+    The scene has tables [transfer] and [assignment]; coordinates, of the polynomials at both ends,
+    as of ``polynomials``; other arguments as of ``run``. Raises as ``transfer``.
     """
-    study = _hamjet.study_assignment(scenes.read(scene, overrides), arguments.progress(progress))
+    study = _hamjet.study_assignment(scenes.read(scene, overrides, coordinates=coordinates), arguments.progress(progress))
     return Assignment(**study.arrays(), exit_code=study.exit_code, table=read_table(study.csv),
                       _study=study)

@@ -66,12 +66,25 @@ def _pairs(overrides: Overrides | None) -> list[tuple[str, str]]:
     return pairs
 
 
-def read(scene: Scene, overrides: Overrides | None, name: str = _NAME) -> _hamjet.GivenScene:
+def _of_ends(coordinates: str | None, end_coordinates: str | None) -> list[tuple[str, str]]:
+    """The keys of the polynomials' coordinates, which one argument sets at both ends."""
+    pairs = []
+    if coordinates is not None:
+        pairs = [("jet.coordinates", _toml_string(coordinates, "coordinates")),
+                 ("jet.end_coordinates", "null")]
+    if end_coordinates is not None:
+        pairs.append(("jet.end_coordinates", _toml_string(end_coordinates, "end_coordinates")))
+    return pairs
+
+
+def read(scene: Scene, overrides: Overrides | None, name: str = _NAME, *,
+         coordinates: str | None = None,
+         end_coordinates: str | None = None) -> _hamjet.GivenScene:
     """Reads and checks a scene; raises SceneError, UsageError, InputOutputError, TooLargeError.
 
-    name: of tables, for messages.
+    name: of tables, for messages. coordinates: of the polynomials, in place of the scene's.
     """
-    pairs = _pairs(overrides)
+    pairs = _pairs(overrides) + _of_ends(coordinates, end_coordinates)
     if isinstance(scene, Mapping):
         return _hamjet.scene_of_tables(scene, name, pairs)
     if isinstance(scene, str) and "\n" in scene:

@@ -42,13 +42,13 @@ class AssignmentStudy {
     result_.integrator = integrator.label;
     const std::vector<double>& times = scene_.transfer->times;
     const auto statistics =
-        visit_jets(points_.problem(), integrator, times,
+        visit_jets(points_.jet_problem(), integrator, times,
                    [&](std::size_t index, const FlowJet<double>& jet) { find_costs(index, jet); });
     choose();
     if (!result_.failure.empty()) return std::move(result_);
     // The chosen times once more, for the proofs; kinds are chosen as the first time.
     points_.forget_last_kind();
-    visit_jets(points_.problem(), integrator, times,
+    visit_jets(points_.jet_problem(), integrator, times,
                [&](std::size_t index, const FlowJet<double>& jet) { prove(index, jet); });
     for (const AssignedTransfer& transfer : result_.transfers) {
       if (transfer.transfer.has_answer()) {
@@ -75,11 +75,12 @@ class AssignmentStudy {
                         std::vector<double>(settings_.slots.size(), no_cost));
     if (points_.is_near_singular(times[index])) return;
     const ChosenKind chosen = points_.choose_kind(times[index], jet, typical_);
-    if (!chosen.inversion) return;
+    if (!chosen.failure.empty()) return;
     const DeputyFlow* const flow = points_.charted_flow(times[index]);
     const Stopwatch watch(seconds_.solution);
     const std::vector<double> chief_end = nominal_of(jet);
-    PositionBoundaryValues boundary(*chosen.inversion);
+    std::optional<PositionBoundaryValues> boundary;
+    if (flow == nullptr) boundary.emplace(*chosen.inversion);
     for (std::size_t i = 0; i < settings_.deputies.size(); ++i) {
       if (progress_) {
         progress_("costs", static_cast<double>(index) / static_cast<double>(times.size()));
@@ -89,7 +90,7 @@ class AssignmentStudy {
           const SingleTransfer transfer(scene_, points_.problem(), times[index], chief_end,
                                         settings_.deputies[i], settings_.slots[j]);
           const BoundaryMomenta momenta =
-              flow == nullptr ? transfer.solve(boundary, scene_.order)
+              flow == nullptr ? transfer.solve(*boundary, scene_.order)
                               : transfer.solve(*flow, scene_.order, transfer.momentum_before());
           const TransferAnswer answer = transfer.answer(momenta, scene_.order);
           const double cost = answer.total_change_m_s();

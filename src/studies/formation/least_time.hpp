@@ -12,7 +12,7 @@ class TransferSearch {
  public:
   TransferSearch(TransferPoints& points, const IntegratorSettings& integrator,
                  const RelativeTransfer& ends)
-      : points_(points), ends_(ends), propagation_(points.problem(), integrator) {}
+      : points_(points), ends_(ends), propagation_(points.jet_problem(), integrator) {}
 
   /// The first time of a span; the spans of further calls move away from 0.
   void begin_at(double time);

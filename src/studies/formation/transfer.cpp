@@ -102,7 +102,7 @@ TransferResult study_transfer(const Scene& asked, const ProgressCallback& progre
   } else {
     const IntegratorSettings& integrator = symplectic_integrator(scene);
     result.integrator = integrator.label;
-    result.statistics = visit_jets(points.problem(), integrator, settings.times, visit);
+    result.statistics = visit_jets(points.jet_problem(), integrator, settings.times, visit);
     result.seconds.propagation = result.statistics.wall_seconds;
     find_least_between(result, points, integrator, ends, progress);
     if (settings.budget_m_s) {

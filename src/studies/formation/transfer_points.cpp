@@ -57,6 +57,10 @@ TransferPoints::TransferPoints(const Scene& scene, const ProgressCallback& progr
       problem_(make_problem(scene, available_memory())),
       kinds_(all_kinds(3)),
       coordinates_(measured_coordinates_of(scene)) {
+  if (coordinates_ != JetCoordinates::cartesian) {
+    linear_problem_ = problem_;
+    linear_problem_->space = SeriesSpace::create(problem_.variables.size(), 1);
+  }
   find_singular_times(progress);
 }
 
@@ -157,6 +161,7 @@ ChosenKind TransferPoints::choose_kind(double time, const FlowJet<double>& jet,
   for (const GeneratingFunctionKind& kind : kinds_) {
     chosen.conditions.push_back(condition_number<double>(inverted_block(map, kind, exponent)));
   }
+  if (linear_problem_) return chosen;
   const auto invert = [&](const GeneratingFunctionKind& kind) {
     return invert_partially<double>(map, kind, std::numeric_limits<double>::epsilon(), exponent);
   };
@@ -183,9 +188,11 @@ TransferPoint TransferPoints::answer(const ChosenKind& chosen, const FlowJet<dou
   point.singular_distance = singular_distance(chosen.time);
   point.is_near_singular = is_near_singular(chosen.time);
   point.failure = chosen.failure;
-  if (!chosen.inversion) return point;
-  point.kind = chosen.inversion->kind;
-  point.condition = chosen.inversion->condition;
+  if (!chosen.failure.empty()) return point;
+  if (chosen.inversion) {
+    point.kind = chosen.inversion->kind;
+    point.condition = chosen.inversion->condition;
+  }
   // The ends are relative to the chief as it flies: an inaccurate integrator must not prove itself.
   std::optional<SingleTransfer> of_ends;
   try {
@@ -201,13 +208,14 @@ TransferPoint TransferPoints::answer(const ChosenKind& chosen, const FlowJet<dou
   const DeputyFlow* const flow = charted_flow(chosen.time);
   {
     const Stopwatch watch(seconds_.solution);
-    PositionBoundaryValues boundary(*chosen.inversion);
+    std::optional<PositionBoundaryValues> boundary;
+    if (flow == nullptr) boundary.emplace(*chosen.inversion);
     std::vector<double> guess = transfer.momentum_before();
     for (int order = 1; order <= scene_.order; ++order) {
       point.answers.push_back(attempt(order, [&] {
         BoundaryMomenta& found = momenta[static_cast<std::size_t>(order - 1)];
-        found =
-            flow != nullptr ? transfer.solve(*flow, order, guess) : transfer.solve(boundary, order);
+        found = flow != nullptr ? transfer.solve(*flow, order, guess)
+                                : transfer.solve(*boundary, order);
         if (flow != nullptr) guess = found.initial;
         return transfer.answer(found, order);
       }));

@@ -12,12 +12,13 @@
 
 namespace hamjet {
 
-/// The kind with which one time's transfers are answered, and its jet solved for it.
+/// The kind with which one time's transfers are answered, and its jet solved for it. Polynomials in
+/// other coordinates answer them without a generating function.
 struct ChosenKind {
   double time = 0;
   std::vector<double> conditions;  ///< condition numbers of all kinds, F1's first
-  std::optional<PartialInversion<double>> inversion;
-  std::string failure;  ///< not empty: there is no inversion, and why
+  std::optional<PartialInversion<double>> inversion;  ///< none in other coordinates
+  std::string failure;                                ///< not empty: there is no inversion, and why
 };
 
 /// The two relative states that a transfer leads from and to.
@@ -33,6 +34,11 @@ class TransferPoints {
   TransferPoints(const Scene& scene, const ProgressCallback& progress, TransferSeconds& seconds);
 
   const ComputedProblem& problem() const noexcept { return problem_; }
+  /// That of the Cartesian jets: of the scene's order, but where polynomials in other coordinates
+  /// answer, linear, for conditions and floors alone.
+  const ComputedProblem& jet_problem() const noexcept {
+    return linear_problem_ ? *linear_problem_ : problem_;
+  }
   const std::vector<GeneratingFunctionKind>& kinds() const noexcept { return kinds_; }
   const std::vector<SingularTime>& singular_times() const noexcept { return singular_times_; }
   /// The coordinates of the polynomials that answer; not automatic.
@@ -90,6 +96,7 @@ class TransferPoints {
   const TransferSettings& settings_;
   TransferSeconds& seconds_;
   ComputedProblem problem_;
+  std::optional<ComputedProblem> linear_problem_;  ///< see jet_problem
   std::optional<LinearFlow> flow_;
   std::vector<GeneratingFunctionKind> kinds_;
   KindChoice choice_;

@@ -1,0 +1,103 @@
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "../app/deputy_evaluation.hpp"
+#include "../app/required_tables.hpp"
+#include "../studies/arcs.hpp"
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "given_scene.hpp"
+#include "hamjet/studies/validity.hpp"
+#include "interruptible.hpp"
+#include "refusal.hpp"
+#include "relative_rows.hpp"
+
+namespace hamjet::python {
+namespace {
+
+/// The polynomials of a scene in its coordinates; the package makes a Polynomials of it.
+class PolynomialsStudy {
+ public:
+  PolynomialsStudy(Scene scene, std::string file)
+      : scene_(std::move(scene)), file_(std::move(file)) {
+    require_unsplit(scene_, "hamjet.polynomials");
+    evaluated_ = std::make_shared<const cli::EvaluatedScene>(cli::evaluated_scene(scene_));
+  }
+
+  std::string scene() const { return scene_.name; }
+  std::string run() const { return evaluated_->chief.label; }
+  int order() const { return evaluated_->flow->order(); }
+  std::size_t variables() const { return evaluated_->flow->variables(); }
+  std::string coordinates() const { return std::string(name_of(evaluated_->coordinates.start)); }
+  std::string end_coordinates() const { return std::string(name_of(evaluated_->coordinates.end)); }
+  double duration_s() const { return scene_.duration * scene_.units.time_s; }
+
+  py::object evaluate_relative(const py::object& states, const std::string& frame,
+                               const std::optional<std::string>& to,
+                               const std::optional<std::string>& derivatives,
+                               std::optional<int> degree, bool is_strict) const {
+    if (degree && (*degree < 1 || *degree > order())) {
+      refuse(fmt::format("degree: got {}, must be 1 to the order, {}", *degree, order()));
+    }
+    return relative_states(evaluated_->chief, *evaluated_, states,
+                           {{frame, to, derivatives, cli::Caller::module}, degree}, is_strict);
+  }
+
+  /// Proved reaches at the end of the duration, by order, in metres.
+  py::array_t<double> reach(double tolerance_m, int samples, const py::object& progress) const {
+    Scene measured = scene_;
+    measured.coordinates = evaluated_->coordinates;
+    measured.validity = scene_.validity.value_or(ValiditySettings{});
+    measured.validity->times = {scene_.duration};
+    measured.validity->tolerance_m = tolerance_m;
+    measured.validity->samples = samples;
+    const ValidityResult result =
+        interruptibly(progress, [measured, file = file_](const ProgressCallback& report) {
+          return cli::study_of(file, [&] { return study_validity(measured, report); });
+        });
+    std::vector<double> found;
+    for (const ValidityEntry& entry : result.points.back().entries) {
+      found.push_back(entry.proved_m);
+    }
+    return array_of(std::move(found));
+  }
+
+ private:
+  Scene scene_;
+  std::string file_;
+  std::shared_ptr<const cli::EvaluatedScene> evaluated_;
+};
+
+PolynomialsStudy integrate(const GivenScene& given, const py::object& progress) {
+  const Scene scene = given.flow_jet();
+  return interruptibly(progress, [scene, file = given.file](const ProgressCallback&) {
+    return cli::study_of(file, [&] { return PolynomialsStudy(scene, file); });
+  });
+}
+
+}  // namespace
+
+void bind_polynomials(py::module_& module) {
+  py::class_<PolynomialsStudy>(module, "PolynomialsStudy")
+      .def_property_readonly("scene", &PolynomialsStudy::scene)
+      .def_property_readonly("run", &PolynomialsStudy::run)
+      .def_property_readonly("order", &PolynomialsStudy::order)
+      .def_property_readonly("variables", &PolynomialsStudy::variables)
+      .def_property_readonly("coordinates", &PolynomialsStudy::coordinates)
+      .def_property_readonly("end_coordinates", &PolynomialsStudy::end_coordinates)
+      .def_property_readonly("duration_s", &PolynomialsStudy::duration_s)
+      .def("evaluate_relative", &PolynomialsStudy::evaluate_relative, py::arg("states"),
+           py::arg("frame"), py::arg("to"), py::arg("derivatives"), py::arg("degree"),
+           py::arg("strict"))
+      .def("reach", &PolynomialsStudy::reach, py::arg("tolerance_m"), py::arg("samples"),
+           py::arg("progress"));
+  module.def("integrate_polynomials", &integrate, py::arg("scene"), py::arg("progress"));
+}
+
+}  // namespace hamjet::python

@@ -1,0 +1,120 @@
+"""Polynomials in other coordinates: the digits of the command, and deputies as they fly."""
+
+import numpy as np
+import pytest
+
+import hamjet
+from conftest import OSCILLATOR, command, message_of_module
+from test_relative_motion import columns, numbers
+
+SCENE = """schema = 1
+title = "Far apart"
+[system]
+model = "zonal-gravity"
+mu_km3_s2 = 398600.4405
+radius_km = 6378.137
+J2 = 1.082626675e-3
+[nominal]
+a_km = 7000
+e = 0.001
+i_deg = 60
+raan_deg = 0
+argp_deg = 0
+ta_deg = 0
+[jet]
+order = 3
+duration_orbits = 1.3
+[deputy]
+position_m = [-700, -60000, 300]
+[validity]
+count = 1
+samples = 10
+"""
+COLUMNS = "R_m,T_m,N_m,vR_m_s,vT_m_s,vN_m_s"
+
+
+@pytest.fixture(scope="module", name="boxes")
+def polynomials_of_flow_boxes():
+    return hamjet.polynomials(SCENE, coordinates="flow-box")
+
+
+@pytest.mark.parametrize("options, arguments", [
+    ([], {}),
+    (["jet.coordinates=flow-box"], {"coordinates": "flow-box"}),
+    (["jet.coordinates=nodal", "jet.end_coordinates=poincare"],
+     {"coordinates": "nodal", "end_coordinates": "poincare"})])
+def test_states_are_those_of_eval(tmp_path, options, arguments):
+    states = np.random.default_rng(4).uniform(-1, 1, (30, 6)) * ([1e3, 5e3, 1e3] + [1] * 3)
+    (tmp_path / "scene.toml").write_text(SCENE)
+    (tmp_path / "in.csv").write_text(
+        COLUMNS + "\n" + "".join(",".join(map(repr, map(float, row))) + "\n" for row in states))
+    changes = [word for option in options for word in ("--set", option)]
+    printed = command("eval", "scene.toml", "--deviations", "in.csv", "-q", *changes,
+                      directory=tmp_path)
+    expected = columns(printed.stdout)
+    polynomials = hamjet.polynomials(SCENE, **arguments)
+    found = polynomials.evaluate_relative(states)
+    assert found.columns == tuple(COLUMNS.split(","))
+    for i, name in enumerate(COLUMNS.split(",")):
+        assert (found.states[:, i] == numbers(expected[name])).all(), name
+    assert list(found.support) == expected["support"]
+    # Three digits are printed.
+    assert np.allclose(found.miss_m, numbers(expected["miss_estimate_m"]), rtol=1e-2, atol=0)
+    one = polynomials.evaluate_relative(states[0])
+    assert np.allclose(one.states[0], found.states[0], rtol=1e-9, atol=1e-6)
+
+
+def test_what_they_are_is_said(boxes):
+    assert (boxes.coordinates, boxes.end_coordinates) == ("flow-box", "flow-box")
+    assert (boxes.order, boxes.variables) == (3, 4)
+    assert boxes.duration_s == pytest.approx(1.3 * 2 * np.pi * np.sqrt(7000**3 / 398600.4405))
+    assert "order 3 in 4 variables, flow-box coordinates" in repr(boxes)
+    mixed = hamjet.polynomials(SCENE, coordinates="nodal", end_coordinates="cartesian")
+    assert mixed.variables == 6 and "nodal to cartesian coordinates" in repr(mixed)
+
+
+def test_a_far_deputy_is_where_it_flies(boxes):
+    end = hamjet.motion(SCENE).position_m[-1]  # flown, whatever the polynomials
+    found = boxes.evaluate_relative([-700, -60000, 300, 0, 0, 0])
+    assert np.linalg.norm(found.states[0, :3] - end) < 0.01
+    plain = hamjet.polynomials(SCENE).evaluate_relative([-700, -60000, 300, 0, 0, 0], degree=1)
+    assert np.linalg.norm(plain.states[0, :3] - end) > 100
+
+
+def test_reach_is_that_of_validity(boxes):
+    found = boxes.reach(1.0, samples=10)
+    study = hamjet.validity(SCENE, coordinates="flow-box")
+    assert (found == study.proved_m[-1]).all()
+    assert (found > 5 * hamjet.validity(SCENE).proved_m[-1]).all()
+    assert (boxes.reach(10.0, samples=10) > found).all()
+
+
+def test_studies_take_coordinates():
+    plain, boxes = hamjet.motion(SCENE), hamjet.motion(SCENE, coordinates="flow-box")
+    assert boxes.summary["coordinates"] == "flow-box"
+    assert boxes.error_by_order_m.max() < 0.01 < 1 < plain.error_by_order_m.max()
+    transfer = SCENE + """[transfer]
+times_s = [2500]
+end = { position_m = [0, -50000, 0] }
+"""
+    found = hamjet.transfer(transfer, coordinates="flow-box")
+    assert found.summary["coordinates"] == "flow-box" and found.kinds == (None,)
+    assert found.miss_m[0] < 1e-3
+
+
+def test_mistakes_are_those_of_the_command(tmp_path, boxes):
+    (tmp_path / "scene.toml").write_text(SCENE)
+    expected = message_of_module(command(
+        "eval", "scene.toml", "--deputy", "scene.toml", "--set", "jet.coordinates=polar",
+        directory=tmp_path))
+    with pytest.raises(hamjet.SceneError) as error:
+        hamjet.polynomials(SCENE, coordinates="polar")
+    assert str(error.value).split("must be one of")[1] == expected.split("must be one of")[1]
+    with pytest.raises(hamjet.SceneError, match="jet.end_coordinates: at one end alone"):
+        hamjet.polynomials(SCENE, coordinates="flow-box", end_coordinates="nodal")
+    with pytest.raises(hamjet.SceneError, match="orbit"):
+        hamjet.polynomials(OSCILLATOR)
+    with pytest.raises(hamjet.UsageError, match="degree: got 4, must be 1 to the order, 3"):
+        boxes.evaluate_relative([0] * 6, degree=4)
+    with pytest.raises(hamjet.UsageError, match="tolerance_m"):
+        boxes.reach(0)
