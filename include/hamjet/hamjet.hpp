@@ -25,6 +25,7 @@
 #include "hamjet/integrators/error_estimate.hpp"
 #include "hamjet/integrators/explicit_runge_kutta.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
+#include "hamjet/integrators/gauss_many.hpp"
 #include "hamjet/integrators/jet_trajectory.hpp"
 #include "hamjet/integrators/midpoint.hpp"
 #include "hamjet/integrators/newmark.hpp"

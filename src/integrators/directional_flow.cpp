@@ -7,11 +7,11 @@
 #include <numeric>
 #include <random>
 #include <span>
+#include <utility>
 
 #include "../algebra/instantiated_real.hpp"
 #include "hamjet/algebra/extended.hpp"
 #include "line_restriction.hpp"
-#include "phase_space_scale.hpp"
 
 namespace hamjet {
 namespace {
@@ -29,35 +29,25 @@ double signed_size(std::mt19937_64& generator) {
   return x < 0 ? (x - 1) / 2 : (x + 1) / 2;
 }
 
-/// The gradient of the Hamiltonian at a state.
-template <class Real>
-std::vector<double> energy_gradient(const DynamicalSystem& system, std::span<const Real> state) {
-  SliceEvaluator<Real, Real> energy(system.hamiltonian, SeriesSpace::create(1, 0), 0);
-  for (std::size_t i = 0; i < state.size(); ++i) *energy.input(i) = state[i];
-  energy.evaluate_constant_terms();
-  std::vector<double> result;
-  for (std::size_t i = 0; i < state.size(); ++i) {
-    result.push_back(static_cast<double>(energy.output_gradient(0, i)));
-  }
-  return result;
-}
-
 }  // namespace
 
 template <class Real>
-DirectionalFlow<Real>::DirectionalFlow(const FlowProblem<Real>& problem, std::size_t count)
-    : problem_(problem), line_space_(SeriesSpace::create(1, problem.space->order())) {
+DirectionalFlow<Real>::DirectionalFlow(const FlowProblem<Real>& problem, std::size_t count,
+                                       std::shared_ptr<FieldAtStates<Real>> field)
+    : problem_(problem),
+      field_(field ? std::move(field) : std::make_shared<FieldAtStates<Real>>(*problem.system)),
+      line_space_(SeriesSpace::create(1, problem.space->order())) {
   const std::size_t n = problem.system->degrees_of_freedom;
   const std::span<const Real> state(problem.initial_state);
-  const double scale = momentum_scale(*problem.system, state);
-  const std::vector<double> gradient = energy_gradient(*problem.system, state);
-  const auto field = [&](std::size_t v) { return v < n ? gradient[n + v] : -gradient[v - n]; };
+  const double scale = field_->momentum_scale(state);
+  const std::vector<double> gradient = field_->energy_gradient(state);
+  const auto along_field = [&](std::size_t v) { return v < n ? gradient[n + v] : -gradient[v - n]; };
   std::mt19937_64 generator(1);
   for (std::size_t j = 0; j < count; ++j) {
     std::vector<Real>& direction = directions_.emplace_back();
     for (const std::size_t v : problem.variables) {
       double size = signed_size(generator);
-      const double sign = j == 0 ? gradient[v] : (j == 1 ? field(v) : 0);
+      const double sign = j == 0 ? gradient[v] : (j == 1 ? along_field(v) : 0);
       if (sign != 0) size = std::copysign(size, sign);
       direction.emplace_back(v < n ? size : size * scale);
     }
@@ -70,7 +60,7 @@ typename DirectionalFlow<Real>::Lines DirectionalFlow<Real>::integrate(
     const Integrate& integrate) const {
   const bool is_cheaper_together =
       starts_.size() == 2 && problem_.space->order() <= highest_order_together;
-  if (is_cheaper_together) return integrate_together(integrate);
+  if (is_cheaper_together) return apart(integrate(together()));
   Lines result;
   for (const FlowJet<Real>& start : starts_) {
     FlowProblem<Real> line = problem_;
@@ -83,40 +73,44 @@ typename DirectionalFlow<Real>::Lines DirectionalFlow<Real>::integrate(
 }
 
 template <class Real>
-typename DirectionalFlow<Real>::Lines DirectionalFlow<Real>::integrate_together(
-    const Integrate& integrate) const {
+std::vector<std::size_t> DirectionalFlow<Real>::places_of(std::size_t line,
+                                                          const SeriesSpace& all) const {
+  std::vector<std::size_t> places;
+  std::vector<std::uint8_t> exponents(starts_.size(), 0);
+  for (std::size_t d = 0; d < line_space_->size(); ++d) {
+    exponents[line] = static_cast<std::uint8_t>(d);
+    places.push_back(all.index(exponents));
+  }
+  return places;
+}
+
+template <class Real>
+FlowProblem<Real> DirectionalFlow<Real>::together() const {
   const std::size_t count = starts_.size();
   FlowProblem<Real> all = problem_;
   all.space = SeriesSpace::create(count, problem_.space->order());
   all.variables.resize(count);
   std::iota(all.variables.begin(), all.variables.end(), std::size_t{0});
-  // Where the powers of each line's variable stand, by line and degree.
-  std::vector<std::vector<std::size_t>> places(count);
+  FlowJet<Real> start(starts_[0].size(), Series<Real>(all.space));
   for (std::size_t j = 0; j < count; ++j) {
-    std::vector<std::uint8_t> exponents(count, 0);
-    for (std::size_t d = 0; d < line_space_->size(); ++d) {
-      exponents[j] = static_cast<std::uint8_t>(d);
-      places[j].push_back(all.space->index(exponents));
+    const std::vector<std::size_t> places = places_of(j, *all.space);
+    for (std::size_t i = 0; i < start.size(); ++i) {
+      for (std::size_t d = 0; d < places.size(); ++d) start[i][places[d]] = starts_[j][i][d];
     }
   }
-  const std::size_t components = starts_[0].size();
-  FlowJet<Real> start(components, Series<Real>(all.space));
-  Lines result(count, FlowJet<Real>(components, Series<Real>(line_space_)));
-  const auto for_each = [&](const auto& visit) {
-    for (std::size_t j = 0; j < count; ++j) {
-      for (std::size_t i = 0; i < components; ++i) {
-        for (std::size_t d = 0; d < line_space_->size(); ++d) visit(j, i, d, places[j][d]);
-      }
-    }
-  };
-  for_each([&](std::size_t j, std::size_t i, std::size_t d, std::size_t place) {
-    start[i][place] = starts_[j][i][d];
-  });
   all.initial_jet = std::move(start);
-  const FlowJet<Real> end = integrate(all);
-  for_each([&](std::size_t j, std::size_t i, std::size_t d, std::size_t place) {
-    result[j][i][d] = end[i][place];
-  });
+  return all;
+}
+
+template <class Real>
+typename DirectionalFlow<Real>::Lines DirectionalFlow<Real>::apart(const FlowJet<Real>& jet) const {
+  Lines result(starts_.size(), FlowJet<Real>(jet.size(), Series<Real>(line_space_)));
+  for (std::size_t j = 0; j < result.size(); ++j) {
+    const std::vector<std::size_t> places = places_of(j, jet[0].space());
+    for (std::size_t i = 0; i < jet.size(); ++i) {
+      for (std::size_t d = 0; d < places.size(); ++d) result[j][i][d] = jet[i][places[d]];
+    }
+  }
   return result;
 }
 
@@ -136,7 +130,7 @@ std::vector<double> DirectionalFlow<Real>::relative_difference(const Lines& line
   const std::size_t n = problem_.system->degrees_of_freedom;
   std::vector<Real> end;
   for (const Series<Real>& component : reference.at(0)) end.push_back(component[0]);
-  const double scale = momentum_scale(*problem_.system, std::span<const Real>(end));
+  const double scale = field_->momentum_scale(end);
   std::vector<double> result;
   for (std::size_t d = 0; d < line_space_->size(); ++d) {
     double difference = 0;

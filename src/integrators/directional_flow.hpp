@@ -2,9 +2,11 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "hamjet/integrators/flow_problem.hpp"
+#include "phase_space_scale.hpp"
 
 namespace hamjet {
 
@@ -27,7 +29,9 @@ class DirectionalFlow {
   /// Integrates a problem in one variable, or in one a line.
   using Integrate = std::function<FlowJet<Real>(const FlowProblem<Real>&)>;
 
-  DirectionalFlow(const FlowProblem<Real>& problem, std::size_t count);
+  /// The field may be given, for many flows of one system.
+  DirectionalFlow(const FlowProblem<Real>& problem, std::size_t count,
+                  std::shared_ptr<FieldAtStates<Real>> field = nullptr);
 
   const std::vector<Real>& direction(std::size_t line) const { return directions_[line]; }
 
@@ -35,6 +39,10 @@ class DirectionalFlow {
   /// and in one variable a line the pure powers of each variable are that line's series, for
   /// whatever the products of several are they do not enter them.
   Lines integrate(const Integrate& integrate) const;
+
+  /// The problem in one variable a line, and the lines from its jet.
+  FlowProblem<Real> together() const;
+  Lines apart(const FlowJet<Real>& jet) const;
 
   /// Restricts a jet of the problem's variables to the lines: sum over |a| = k of c_a d^a for each
   /// degree k.
@@ -46,9 +54,11 @@ class DirectionalFlow {
   std::vector<double> relative_difference(const Lines& lines, const Lines& reference) const;
 
  private:
-  Lines integrate_together(const Integrate& integrate) const;
+  /// Where the powers of a line's variable stand among those of all.
+  std::vector<std::size_t> places_of(std::size_t line, const SeriesSpace& all) const;
 
   FlowProblem<Real> problem_;
+  std::shared_ptr<FieldAtStates<Real>> field_;
   SpacePointer line_space_;
   std::vector<std::vector<Real>> directions_;  ///< by line, one number per variable
   Lines starts_;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <span>
+#include <vector>
 
 #include "hamjet/detail/dynamics/slice_evaluator.hpp"
 #include "hamjet/dynamics/dynamical_system.hpp"
@@ -19,50 +20,80 @@ struct LinearisedMotion {
   double frequency() const { return std::sqrt(velocity_gradient * force_gradient); }
 };
 
+/// What is asked of a system at single states, on work space that is made once: each thread needs
+/// an object of its own. It refers to the system.
 template <class Real>
-LinearisedMotion linearised_motion(const DynamicalSystem& system, std::span<const Real> state) {
-  const std::size_t n = system.degrees_of_freedom;
-  SliceEvaluator<Real, Real> field(system.vector_field, SeriesSpace::create(1, 0), 0);
-  for (std::size_t i = 0; i < state.size(); ++i) *field.input(i) = state[i];
-  field.evaluate_constant_terms();
-  LinearisedMotion result;
-  const auto include = [&](double& largest, std::size_t i, std::size_t j) {
-    largest = std::max(largest, std::abs(static_cast<double>(field.output_gradient(i, j))));
-  };
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = 0; j < n; ++j) {
-      include(result.velocity_gradient, i, n + j);
-      include(result.force_gradient, n + i, j);
-    }
-  }
-  return result;
-}
+class FieldAtStates {
+ public:
+  explicit FieldAtStates(const DynamicalSystem& system)
+      : degrees_of_freedom_(system.degrees_of_freedom),
+        energy_(system.hamiltonian, SeriesSpace::create(1, 0), 0),
+        field_(system.vector_field, SeriesSpace::create(1, 0), 0) {}
 
-/// How large a deviation of the momenta does as much as a unit deviation of the positions, at one
-/// state: a number P by which momenta are divided before they are compared with positions. It is
-///
-///   P = max( sqrt(|dp'/dq| / |dq'/dp|) , |p| / |q| ) ,
-///
-/// the ratio of the axes of the linearised motion, or that of the motion itself where that is
-/// faster (a flight past a centre). A change of the units of length, mass and time changes P as it
-/// changes p / q, so that nothing that is decided in scaled variables depends on them. 1 where both
-/// terms are undefined (a state at rest in the origin of a system without forces).
+  /// The gradient of the Hamiltonian.
+  std::vector<double> energy_gradient(std::span<const Real> state) {
+    for (std::size_t i = 0; i < state.size(); ++i) *energy_.input(i) = state[i];
+    energy_.evaluate_constant_terms();
+    std::vector<double> result;
+    for (std::size_t i = 0; i < state.size(); ++i) {
+      result.push_back(static_cast<double>(energy_.output_gradient(0, i)));
+    }
+    return result;
+  }
+
+  LinearisedMotion linearised_motion(std::span<const Real> state) {
+    const std::size_t n = degrees_of_freedom_;
+    for (std::size_t i = 0; i < state.size(); ++i) *field_.input(i) = state[i];
+    field_.evaluate_constant_terms();
+    LinearisedMotion result;
+    const auto include = [&](double& largest, std::size_t i, std::size_t j) {
+      largest = std::max(largest, std::abs(static_cast<double>(field_.output_gradient(i, j))));
+    };
+    for (std::size_t i = 0; i < n; ++i) {
+      for (std::size_t j = 0; j < n; ++j) {
+        include(result.velocity_gradient, i, n + j);
+        include(result.force_gradient, n + i, j);
+      }
+    }
+    return result;
+  }
+
+  /// How large a deviation of the momenta does as much as a unit deviation of the positions, at one
+  /// state: a number P by which momenta are divided before they are compared with positions. It is
+  ///
+  ///   P = max( sqrt(|dp'/dq| / |dq'/dp|) , |p| / |q| ) ,
+  ///
+  /// the ratio of the axes of the linearised motion, or that of the motion itself where that is
+  /// faster (a flight past a centre). A change of the units of length, mass and time changes P as
+  /// it changes p / q, so that nothing that is decided in scaled variables depends on them. 1 where
+  /// both terms are undefined (a state at rest in the origin of a system without forces).
+  double momentum_scale(std::span<const Real> state) {
+    const std::size_t n = degrees_of_freedom_;
+    const LinearisedMotion motion = linearised_motion(state);
+    double position = 0;
+    double momentum = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      position = std::max(position, std::abs(static_cast<double>(state[i])));
+      momentum = std::max(momentum, std::abs(static_cast<double>(state[n + i])));
+    }
+    double scale = 0;
+    if (motion.velocity_gradient > 0) {
+      scale = std::sqrt(motion.force_gradient / motion.velocity_gradient);
+    }
+    if (position > 0) scale = std::max(scale, momentum / position);
+    return scale > 0 && std::isfinite(scale) ? scale : 1;
+  }
+
+ private:
+  std::size_t degrees_of_freedom_;
+  SliceEvaluator<Real, Real> energy_;
+  SliceEvaluator<Real, Real> field_;
+};
+
+/// FieldAtStates::momentum_scale for one state.
 template <class Real>
 double momentum_scale(const DynamicalSystem& system, std::span<const Real> state) {
-  const std::size_t n = system.degrees_of_freedom;
-  const LinearisedMotion motion = linearised_motion(system, state);
-  double position = 0;
-  double momentum = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    position = std::max(position, std::abs(static_cast<double>(state[i])));
-    momentum = std::max(momentum, std::abs(static_cast<double>(state[n + i])));
-  }
-  double scale = 0;
-  if (motion.velocity_gradient > 0) {
-    scale = std::sqrt(motion.force_gradient / motion.velocity_gradient);
-  }
-  if (position > 0) scale = std::max(scale, momentum / position);
-  return scale > 0 && std::isfinite(scale) ? scale : 1;
+  return FieldAtStates<Real>(system).momentum_scale(state);
 }
 
 }  // namespace hamjet

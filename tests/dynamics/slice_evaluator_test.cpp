@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -159,6 +160,34 @@ TEST(SliceEvaluator, ALowerWorkingOrderGivesTheBeginning) {
       for (std::size_t k = 0; k < space->first(highest + 1); ++k) {
         EXPECT_EQ(part.output(o)[k], whole.output(o)[k]);
       }
+    }
+  }
+}
+
+/// u^a for all the exponents, of one u.
+TEST(SliceEvaluator, PowersOfOneValueAreMadeTogether) {
+  for (const std::vector<double>& exponents : {std::vector<double>{-2.5, -1, -1.5, -3.5, -2},
+                                               {-0.5, -3, -1.5},
+                                               {-3, -1, -2},
+                                               {-2, -3},
+                                               {-4.5},
+                                               {-1.5, 0.5, -0.3, -20}}) {
+    const OperationList list = record(1, [&](std::span<const Expression> x) {
+      std::vector<Expression> powers;
+      for (const double a : exponents) powers.push_back(pow(x[0] + 1, Expression(a)));
+      return powers;
+    });
+    SliceEvaluator<double, double> evaluator(list, SeriesSpace::create(1, 0), 0);
+    *evaluator.input(0) = 0.37;
+    evaluator.evaluate_constant_terms();
+    for (std::size_t i = 0; i < exponents.size(); ++i) {
+      const double a = exponents[i];
+      const double power = std::pow(1.37, a);
+      // A rounding for each factor, of the root and the division two more, and of pow one.
+      const double roundings = (2 * std::abs(a) + 5) * 0.5 * std::numeric_limits<double>::epsilon();
+      EXPECT_NEAR(*evaluator.output(i), power, roundings * power) << a;
+      const double slope = a * power / 1.37;
+      EXPECT_NEAR(evaluator.output_gradient(i, 0), slope, 3 * roundings * std::abs(slope)) << a;
     }
   }
 }

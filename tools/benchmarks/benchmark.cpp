@@ -5,7 +5,7 @@
 #include "cases.hpp"
 
 /// Without arguments all benchmarks; otherwise those named: products, evaluation, inversion,
-/// integrators, orders, savings, zonals, arcs.
+/// integrators, orders, savings, zonals, arcs, many.
 int main(int argc, char** argv) {
   using namespace hamjet::benchmarks;
   const auto wanted = [&](const std::string& name) {
@@ -26,4 +26,5 @@ int main(int argc, char** argv) {
   if (wanted("savings")) benchmark_savings();
   if (wanted("zonals")) benchmark_zonals();
   if (wanted("arcs")) benchmark_arcs();
+  if (wanted("many")) benchmark_many();
 }

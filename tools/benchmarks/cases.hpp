@@ -46,5 +46,6 @@ void benchmark_orders();
 void benchmark_savings();
 void benchmark_zonals();
 void benchmark_arcs();
+void benchmark_many();
 
 }  // namespace hamjet::benchmarks

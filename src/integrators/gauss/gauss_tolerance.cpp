@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "../../algebra/instantiated_real.hpp"
-#include "../directional_flow.hpp"
 #include "gauss_lanes.hpp"
 #include "hamjet/algebra/composition.hpp"
 #include "hamjet/algebra/extended.hpp"
@@ -68,6 +67,13 @@ FlowJet<Real> integrate_as_given(const FlowProblem<Real>& problem, const GaussSe
 }
 
 template <class Real>
+void judge(Trial<Real>& trial, const DirectionalFlow<Real>& flow, const GaussSettings& settings,
+           double periods) {
+  trial.error_by_degree = flow.relative_difference(trial.lines, trial.finer_lines);
+  trial.limit = allowed_excess * *settings.tolerance * std::max(1.0, periods);
+}
+
+template <class Real>
 Trial<Real> try_tolerance(const DirectionalFlow<Real>& flow, const GaussSettings& settings,
                           double tolerance, const FirstTrial<Real>* known = nullptr) {
   GaussSettings coarse = settings;
@@ -84,8 +90,7 @@ Trial<Real> try_tolerance(const DirectionalFlow<Real>& flow, const GaussSettings
   trial.lines = known != nullptr ? flow.restrict(known->jet) : with(coarse);
   trial.steps = known != nullptr ? known->statistics.steps : statistics.steps;
   trial.finer_lines = with(fine);
-  trial.error_by_degree = flow.relative_difference(trial.lines, trial.finer_lines);
-  trial.limit = allowed_excess * *settings.tolerance * std::max(1.0, statistics.periods);
+  judge(trial, flow, settings, statistics.periods);
   return trial;
 }
 
@@ -187,6 +192,21 @@ StepTolerance<Real> choose_step_tolerance(const FlowProblem<Real>& problem,
 }
 
 template <class Real>
+std::optional<StepTolerance<Real>> accept_first_trial(const GaussSettings& settings,
+                                                      const DirectionalFlow<Real>& flow,
+                                                      std::vector<FlowJet<Real>> lines,
+                                                      std::vector<FlowJet<Real>> finer_lines,
+                                                      double periods) {
+  Trial<Real> trial;
+  trial.tolerance = *settings.tolerance;
+  trial.lines = std::move(lines);
+  trial.finer_lines = std::move(finer_lines);
+  judge(trial, flow, settings, periods);
+  if (trial.largest_excess() > 1) return std::nullopt;
+  return chosen(trial.tolerance, flow, std::move(trial));
+}
+
+template <class Real>
 void record_choice(StepTolerance<Real> choice, IntegrationStatistics& statistics) {
   if (choice.tolerance > 0) statistics.step_tolerance = choice.tolerance;
   statistics.rounding_by_degree = std::move(choice.rounding_by_degree);
@@ -217,6 +237,9 @@ template bool needs_choice(const FlowProblem<InstantiatedReal>&, const GaussSett
 template StepTolerance<InstantiatedReal> choose_step_tolerance(const FlowProblem<InstantiatedReal>&,
                                                                const GaussSettings&,
                                                                const FirstTrial<InstantiatedReal>*);
+template std::optional<StepTolerance<InstantiatedReal>> accept_first_trial(
+    const GaussSettings&, const DirectionalFlow<InstantiatedReal>&,
+    std::vector<FlowJet<InstantiatedReal>>, std::vector<FlowJet<InstantiatedReal>>, double);
 template void record_choice(StepTolerance<InstantiatedReal>, IntegrationStatistics&);
 template FlowJet<InstantiatedReal> integrate_with_step_tolerance(
     const FlowProblem<InstantiatedReal>&, GaussSettings, double);

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "../directional_flow.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
 
 namespace hamjet {
@@ -57,6 +59,15 @@ template <class Real>
 StepTolerance<Real> choose_step_tolerance(const FlowProblem<Real>& problem,
                                           const GaussSettings& settings,
                                           const FirstTrial<Real>* first = nullptr);
+
+/// choose_step_tolerance where the first trial, the jet's own lines and the finer ones, of so many
+/// periods, are there already; none if it does not meet the tolerance asked for.
+template <class Real>
+std::optional<StepTolerance<Real>> accept_first_trial(const GaussSettings& settings,
+                                                      const DirectionalFlow<Real>& flow,
+                                                      std::vector<FlowJet<Real>> lines,
+                                                      std::vector<FlowJet<Real>> finer_lines,
+                                                      double periods);
 
 /// Adds what the choice has found to the statistics of the integration that it was made for.
 template <class Real>

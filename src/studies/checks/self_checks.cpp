@@ -136,10 +136,11 @@ void check_energy(SelfCheck& check, const Scene& scene, const RunResult& run) {
 /// and so does rounding that is made where they are large.
 double frequency_growth(const Scene& scene, const RunResult& run) {
   const DynamicalSystem system = make_system(scene);
+  FieldAtStates<double> field(system);
   double largest = 0;
   double last = 0;
   for (const NominalPoint& point : run.nominal) {
-    last = linearised_motion(system, std::span<const double>(point.state)).frequency();
+    last = field.linearised_motion(point.state).frequency();
     largest = std::max(largest, last);
   }
   return last > 0 && std::isfinite(largest) ? std::max(1.0, largest / last) : 1;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hamjet/detail/algebra/slice_recurrences.hpp"
+#include "hamjet/detail/dynamics/common_powers.hpp"
 #include "hamjet/detail/dynamics/operation_list.hpp"
 #include "hamjet/detail/dynamics/series_work.hpp"
 
@@ -30,7 +31,7 @@ class SliceEvaluator {
   /// `working_order` is the highest degree that will be evaluated, at most the space's order. The
   /// list must outlive the evaluator.
   SliceEvaluator(const OperationList& list, SpacePointer space, int working_order)
-      : list_(&list), space_(std::move(space)), working_order_(working_order) {
+      : list_(&list), space_(std::move(space)), powers_(list), working_order_(working_order) {
     const std::size_t values = list.operations().size();
     stride_ = space_->first(working_order + 1);
     slices_.assign(values * stride_, T(Real(0)));
@@ -69,6 +70,7 @@ class SliceEvaluator {
   void evaluate_constant_terms() {
     evaluate_constant_values();
     for (std::size_t i = list_->inputs(); i < list_->operations().size(); ++i) {
+      evaluate_partials(i, list_->operations()[i]);
       evaluate_gradient(i, list_->operations()[i]);
     }
   }
@@ -144,37 +146,64 @@ class SliceEvaluator {
       }
       case OperationCode::product:
         w = u * v;
-        partial_u_[i] = v;
-        partial_v_[i] = u;
         break;
       case OperationCode::square:
         w = u * u;
-        partial_u_[i] = u + u;
         break;
       case OperationCode::quotient:
         partial_u_[i] = T(Real(1)) / v;
         w = u * partial_u_[i];
-        partial_v_[i] = -w * partial_u_[i];
         break;
       case OperationCode::power:
-        w = power(u, constants_[i]);
-        partial_u_[i] = T(constants_[i]) * w / u;
+        powers_.evaluate(i, u, constants_[i], [this](std::size_t k) -> T& { return *value(k); });
         break;
       case OperationCode::exponential:
         w = T(exp(u));
-        partial_u_[i] = w;
         break;
       case OperationCode::logarithm:
         w = T(log(u));
-        partial_u_[i] = T(Real(1)) / u;
         break;
       case OperationCode::sine:
         w = T(sin(u));
-        partial_u_[i] = T(cos(u));
         break;
       case OperationCode::cosine:
         w = T(cos(u));
-        partial_u_[i] = -T(sin(u));
+        break;
+    }
+  }
+
+  /// The partial derivatives of a value by its operands, all values being known.
+  void evaluate_partials(std::size_t i, const Operation& o) {
+    const T& u = *value(o.u);
+    const T& w = *value(i);
+    switch (o.code) {
+      case OperationCode::input:
+      case OperationCode::linear:
+        break;
+      case OperationCode::product:
+        partial_u_[i] = *value(o.v);
+        partial_v_[i] = u;
+        break;
+      case OperationCode::square:
+        partial_u_[i] = u + u;
+        break;
+      case OperationCode::quotient:  // the one by u, 1/v, is there already
+        partial_v_[i] = -w * partial_u_[i];
+        break;
+      case OperationCode::power:
+        partial_u_[i] = powers_.derivative(i, u, constants_[i], w);
+        break;
+      case OperationCode::exponential:
+        partial_u_[i] = w;
+        break;
+      case OperationCode::logarithm:
+        partial_u_[i] = T(Real(1)) / u;
+        break;
+      case OperationCode::sine:
+        partial_u_[i] = *value(o.v);
+        break;
+      case OperationCode::cosine:
+        partial_u_[i] = -*value(o.v);
         break;
     }
   }
@@ -351,6 +380,7 @@ class SliceEvaluator {
 
   const OperationList* list_;
   SpacePointer space_;
+  CommonPowers<T, Real> powers_;
   int working_order_;
   std::size_t stride_ = 0;
   std::vector<T> slices_;  ///< one series per value

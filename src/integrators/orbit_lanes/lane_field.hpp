@@ -1,0 +1,132 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "hamjet/detail/dynamics/slice_evaluator.hpp"
+#include "hamjet/dynamics/dynamical_system.hpp"
+#include "orbits.hpp"
+
+namespace hamjet {
+
+/// The slopes g of orbits side by side at the stages of their steps, with their derivatives by the
+/// m inputs of the evaluated list. Numbers of stage i and component c stand at c s + i.
+class LaneField {
+ public:
+  LaneField(const DynamicalSystem& system, std::size_t stages, int order)
+      : stages_(stages),
+        inputs_(system.evaluated_list().inputs()),
+        list_(system.evaluated_list()),
+        group_(list_, SeriesSpace::create(inputs_, 0), 0),
+        point_(list_, SeriesSpace::create(inputs_, order), order) {
+    for (std::size_t c = 0; c < inputs_ && order >= 2; ++c) {
+      const SeriesSpace& space = *(space_ = SeriesSpace::create(inputs_, order));
+      point_.input(c)[space.linear_index(c)] = Orbits(1.0);
+    }
+  }
+
+  /// Sets the slopes at all stages.
+  void evaluate(const std::vector<Orbits>& places, std::vector<Orbits>& slopes) {
+    for_each_group(places, [&](std::size_t first) {
+      group_.evaluate_constant_values();
+      take_slopes(first, slopes);
+    });
+  }
+
+  /// Sets the slopes and d g_c / d Y_k, which stands at (c m + k) s + i.
+  void evaluate(const std::vector<Orbits>& places, std::vector<Orbits>& slopes,
+                std::vector<Orbits>& gradients) {
+    for_each_group(places, [&](std::size_t first) {
+      group_.evaluate_constant_terms();
+      take_slopes(first, slopes);
+      for (std::size_t c = 0; c < inputs_; ++c) {
+        for (std::size_t k = 0; k < inputs_; ++k) {
+          take(group_.output_gradient(c, k), first, &gradients[(c * inputs_ + k) * stages_]);
+        }
+      }
+    });
+  }
+
+  /// Sets the slopes at one point, of which component c is `place(c)`.
+  template <class Place>
+  void evaluate_at(const Place& place, std::vector<Orbits>& slopes) {
+    for (std::size_t c = 0; c < inputs_; ++c) point_.input(c)[0] = place(c);
+    point_.evaluate_constant_values();
+    for (std::size_t c = 0; c < inputs_; ++c) slopes[c] = point_.output(c)[0];
+  }
+  /// The largest sum of magnitudes of a row of Dg at the point that was evaluated last.
+  Orbits gradient_norm() {
+    point_.evaluate_constant_terms();
+    Orbits norm(0.0);
+    for (std::size_t c = 0; c < inputs_; ++c) {
+      Orbits row(0.0);
+      for (std::size_t k = 0; k < inputs_; ++k) {
+        row += larger_magnitude(Orbits(0.0), point_.output_gradient(c, k));
+      }
+      norm = larger_magnitude(norm, row);
+    }
+    return norm;
+  }
+
+  /// Sets, for orders of 2 and more, the coefficients of the monomials of degree 2 in the inputs'
+  /// deviations: that of Y_a Y_b, a <= b, in g_c stands at ((c m + a) m + b) s + i.
+  void evaluate_second(const std::vector<Orbits>& places, std::vector<Orbits>& second) {
+    for (std::size_t i = 0; i < stages_; ++i) {
+      for (std::size_t c = 0; c < inputs_; ++c) point_.input(c)[0] = places[c * stages_ + i];
+      point_.evaluate_constant_terms();
+      point_.complete(1);
+      point_.evaluate_remainder(2);
+      for (std::size_t c = 0; c < inputs_; ++c) {
+        std::size_t monomial = space_->first(2);
+        for (std::size_t a = 0; a < inputs_; ++a) {
+          for (std::size_t b = a; b < inputs_; ++b, ++monomial) {
+            second[((c * inputs_ + a) * inputs_ + b) * stages_ + i] =
+                point_.has_remainder(c, 2) ? point_.output(c)[monomial] : Orbits(0.0);
+          }
+        }
+      }
+    }
+  }
+
+ private:
+  /// So many stages are evaluated together: of one alone, each operation would wait for the one
+  /// before.
+  static constexpr std::size_t group_size = 4;
+  using Group = Pack<double, static_cast<int>(group_size* orbit_lanes)>;
+
+  template <class Work>
+  void for_each_group(const std::vector<Orbits>& places, const Work& work) {
+    for (std::size_t first = 0; first < stages_; first += group_size) {
+      for (std::size_t c = 0; c < inputs_; ++c) {
+        Group& input = *group_.input(c);
+        for (std::size_t i = 0; i < group_size; ++i) {
+          // Beyond the last stage the first of the group is repeated.
+          const std::size_t stage = first + i < stages_ ? first + i : first;
+          for (std::size_t p = 0; p < Orbits::parts; ++p) {
+            input.part[i * Orbits::parts + p] = places[c * stages_ + stage].part[p];
+          }
+        }
+      }
+      work(first);
+    }
+  }
+  void take_slopes(std::size_t first, std::vector<Orbits>& slopes) {
+    for (std::size_t c = 0; c < inputs_; ++c) take(*group_.output(c), first, &slopes[c * stages_]);
+  }
+  void take(const Group& values, std::size_t first, Orbits* target) const {
+    for (std::size_t i = 0; i < group_size && first + i < stages_; ++i) {
+      for (std::size_t p = 0; p < Orbits::parts; ++p) {
+        target[first + i].part[p] = values.part[i * Orbits::parts + p];
+      }
+    }
+  }
+
+  std::size_t stages_;
+  std::size_t inputs_;
+  OperationList list_;
+  SliceEvaluator<Group, double> group_;
+  SliceEvaluator<Orbits, double> point_;
+  SpacePointer space_;
+};
+
+}  // namespace hamjet

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <experimental/simd>
+
+#include "hamjet/detail/algebra/pack.hpp"
+#include "hamjet/instruction_set.hpp"
+
+namespace hamjet {
+
+/// Orbits that are integrated side by side, each in a lane of the machine's vectors.
+inline constexpr std::size_t orbit_lanes = 8;
+/// One number of each.
+using Orbits = Pack<double, static_cast<int>(orbit_lanes)>;
+/// One number of each by itself.
+using EachOrbit = std::array<double, orbit_lanes>;
+
+inline Orbits together(const EachOrbit& values) {
+  return Orbits::of_lanes([&](auto i) { return values[i]; });
+}
+inline EachOrbit apart(const Orbits& values) {
+  EachOrbit result{};
+  for (std::size_t i = 0; i < orbit_lanes; ++i) result[i] = values.lane(static_cast<int>(i));
+  return result;
+}
+
+/// Lane by lane `chosen` where `flags` is not zero, `other` where it is. What one lane holds never
+/// depends on another lane.
+inline Orbits choose(const Orbits& flags, const Orbits& chosen, const Orbits& other) {
+  Orbits result = other;
+  if constexpr (std::experimental::is_simd_v<Orbits::Vector>) {
+    for (std::size_t p = 0; p < Orbits::parts; ++p) {
+      where(flags.part[p] != 0, result.part[p]) = chosen.part[p];
+    }
+  } else {
+    for (int i = 0; i < Orbits::lanes; ++i) {
+      if (flags.lane(i) != 0) result.set_lane(i, chosen.lane(i));
+    }
+  }
+  return result;
+}
+
+}  // namespace hamjet
