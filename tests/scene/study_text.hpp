@@ -61,6 +61,9 @@ class StudyText {
     add_all(s.tolerance_m, s.times, s.semi_axes, s.samples, s.frame);
   }
   void add(const AssignmentSettings& s) { add_all(s.deputies, s.slots, s.time); }
+  void add(const BoundedSettings& s) {
+    add_all(s.sizes_m, s.phase_deg, s.cross_track, s.along_track, s.revolutions, s.refine);
+  }
   void add(const EphemerisSettings& s) {
     add_all(s.epoch, s.time_system, s.reference_frame, s.center_name, s.reference_frame_epoch,
             s.object_name, s.object_id, s.deputy_name, s.deputy_id, s.originator, s.oem_version);
@@ -71,7 +74,7 @@ class StudyText {
     add_all(s.title, s.precision, s.system, s.units, s.canonical_radius, s.nominal, s.duration,
             s.order, s.arcs, s.variables, s.jet_times, s.integrators, s.separation, s.kinds,
             s.reference, s.relative_hamiltonian_times, s.comparison, s.figure, s.deputy, s.transfer,
-            s.validity, s.assignment, s.output.formats, s.ephemeris);
+            s.validity, s.assignment, s.bounded, s.output.formats, s.ephemeris);
     for (std::size_t i = 0; i < self_check_count; ++i) add(s.checks[SelfCheckName(i)]);
   }
   void add(const EnergyConservationStudy& s) {
