@@ -84,6 +84,7 @@ Json facts(const RunOptions& options, const Scene& scene) {
   }
   json["transfer"] = scene.transfer ? times_json(*scene.transfer, scene) : Json(nullptr);
   json["validity"] = scene.validity ? times_json(*scene.validity, scene) : Json(nullptr);
+  json["bounded_sizes_m"] = scene.bounded ? Json(scene.bounded->sizes_m) : Json(nullptr);
   json["deputies"] = scene.assignment ? Json(scene.assignment->deputies.size()) : Json(nullptr);
   return json;
 }

@@ -185,6 +185,10 @@ void check_flow_jet(const RunOptions& options, const std::string& file, const Sc
                         scene.validity->times.back() * scene.units.time_s,
                         counted(scene.validity->samples, "sample"));
   }
+  if (scene.bounded) {
+    text += fmt::format("  bounded      {}, {}\n", counted(scene.bounded->sizes_m.size(), "size"),
+                        counted(scene.bounded->revolutions, "revolution"));
+  }
   if (scene.assignment) {
     text += fmt::format("  assignment   {} to {}\n",
                         counted(scene.assignment->deputies.size(), "deputy"),

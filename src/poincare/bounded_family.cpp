@@ -67,12 +67,17 @@ BoundedFamily::Member BoundedFamily::member(double q, double p, int degree) cons
   Member member;
   member.energy = evaluate<double>(in_space(of_pair_[energy_variable], space), point);
   member.momentum = evaluate<double>(in_space(of_pair_[momentum_variable], space), point);
+  member.state = state_of(q, p, member.energy, member.momentum);
+  return member;
+}
+
+SixNumbers<double> BoundedFamily::state_of(double q, double p, double energy,
+                                           double momentum) const {
   SixNumbers<double> z = section_.chief();
   z[q_place] += q;
   z[p_place] += p;
-  z[momentum_place] += member.momentum;
-  member.state = section_.state(section_.energy_of(member.energy), z);
-  return member;
+  z[momentum_place] += momentum;
+  return section_.state(section_.energy_of(energy), z);
 }
 
 }  // namespace hamjet

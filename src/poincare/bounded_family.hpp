@@ -59,6 +59,9 @@ class BoundedFamily {
   /// The member whose pair (q, p) differs from the chief's by so much, by the terms up to a degree.
   /// Throws Error(numerical) if there is no such orbit.
   Member member(double q, double p, int degree) const;
+  /// The state on the chief's section, with its node, of differences of the pair, of u_0 and of H.
+  /// Throws Error(numerical) if there is none.
+  SixNumbers<double> state_of(double q, double p, double energy, double momentum) const;
 
   /// T and Omega, of the pair alone: (u_0, q, H, p) of (T - T(0), q, Omega - Omega(0), p).
   const std::vector<Series<double>>& members() const { return of_pair_; }

@@ -29,12 +29,13 @@ const TableDescription& bounded_table() {
        {"cross_track", form::between(-largest_part, largest_part),
         absent::value(preset.cross_track),
         "what the node's difference takes it across the chief's plane, in parts of the size"},
-       {"along_track", form::between(-largest_part, largest_part),
-        absent::value(preset.along_track),
+       {"along_track", form::between(-1, 1), absent::value(preset.along_track),
         "how far it is ahead of the chief in the mean, in parts of the size"},
        {"revolutions", form::integer(fewest_revolutions, most_revolutions),
         absent::value(preset.revolutions),
-        "over which mean periods and drifts of the node are the chief's; all are flown so long"}},
+        "over which mean periods and drifts of the node are the chief's; all are flown so long"},
+       {"refine", form::boolean(), absent::value(preset.refine),
+        "also correct the polynomials' deputies by flying, until the flown means are the chief's"}},
       "Deputies that stay with the chief for long without fuel."};
   return table;
 }
@@ -65,6 +66,7 @@ BoundedSettings read_bounded(const TableReader& bounded, const Scene& scene) {
   bounded.read_if_any("cross_track", settings.cross_track);
   bounded.read_if_any("along_track", settings.along_track);
   bounded.read_if_any("revolutions", settings.revolutions);
+  if (bounded.has("refine")) settings.refine = bounded.boolean("refine");
   return settings;
 }
 

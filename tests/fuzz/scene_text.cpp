@@ -110,6 +110,13 @@ void check(const Scene& scene) {
     require(scene.validity->semi_axes.size() == 3, "semi_axes");
     require_finite(scene.validity->semi_axes, "semi_axes");
   }
+  if (scene.bounded) {
+    require(!scene.bounded->sizes_m.empty() && scene.bounded->revolutions > 0, "bounded");
+    require_finite(scene.bounded->sizes_m, "sizes");
+    require_finite(
+        {scene.bounded->phase_deg, scene.bounded->cross_track, scene.bounded->along_track},
+        "bounded");
+  }
   if (scene.deputy) check_state(scene.deputy->start);
   if (scene.assignment) {
     require(!scene.assignment->deputies.empty() && !scene.assignment->slots.empty(), "assignment");

@@ -49,6 +49,7 @@ Place place_of(const std::string& table, std::string_view owner) {
   static const std::map<std::string, Place, std::less<>> of_tables = {
       {"formation", {orbit_file, {{"formation", "{separation_km=1}"}}}},
       {"deputy", {orbit_file, {{"deputy", "{position_m=[0, 100, 0]}"}}}},
+      {"bounded", {orbit_file, {{"bounded", "{}"}}}},
       {"figure", {orbit_file, {{"figure", "{quantity=\"exactness\"}"}}}},
       {"assignment",
        {orbit_file,

@@ -66,11 +66,17 @@ class StudyText {
   }
   void add(const StateUncertainty& s) { add_all(s.frame, s.covariance); }
   void add(const BurnUncertainty& s) { add_all(s.frame, s.covariance()); }
+  void add(const CollisionWatch& s) {
+    add_all(s.radius_m, s.from, s.to, s.event, s.sampling, s.samples, s.confidence);
+  }
   void add(const UncertaintySettings& s) {
-    add_all(s.frame, s.chief, s.deputy, s.burn, s.times, s.acceleration_density_m2_s3, s.samples,
-            s.seed);
+    add_all(s.frame, s.chief, s.deputy, s.burn, s.times, s.acceleration_density_m2_s3, s.collision,
+            s.samples, s.seed);
   }
   void add(const AssignmentSettings& s) { add_all(s.deputies, s.slots, s.time); }
+  void add(const BoundedSettings& s) {
+    add_all(s.sizes_m, s.phase_deg, s.cross_track, s.along_track, s.revolutions, s.refine);
+  }
   void add(const EphemerisSettings& s) {
     add_all(s.epoch, s.time_system, s.reference_frame, s.center_name, s.reference_frame_epoch,
             s.object_name, s.object_id, s.deputy_name, s.deputy_id, s.originator, s.oem_version);
@@ -81,7 +87,7 @@ class StudyText {
     add_all(s.title, s.precision, s.system, s.units, s.canonical_radius, s.nominal, s.duration,
             s.order, s.arcs, s.variables, s.jet_times, s.integrators, s.separation, s.kinds,
             s.reference, s.relative_hamiltonian_times, s.comparison, s.figure, s.deputy, s.transfer,
-            s.validity, s.assignment, s.uncertainty, s.output.formats, s.ephemeris);
+            s.validity, s.assignment, s.uncertainty, s.bounded, s.output.formats, s.ephemeris);
     for (std::size_t i = 0; i < self_check_count; ++i) add(s.checks[SelfCheckName(i)]);
   }
   void add(const EnergyConservationStudy& s) {

@@ -16,6 +16,7 @@ text that the command prints. Long work lets other threads run and ends within a
 """
 
 from ._hamjet import GeneratingFunction, Jet, Units, __version__
+from .bounded import Bounded, FrozenOrbit, bounded, poincare
 from .elements import elements_of_states, mean_states, osculating_states, states_of_elements
 from .errors import (Error, ExistingFileError, InputOutputError, MissingFileError, NumericalError,
                      SceneError, TooLargeError, UsageError)
@@ -28,10 +29,11 @@ from .results import AlongTime, Nominal, Result, Run, StudyResult, load, run
 from .trajectory import Trajectory, trajectory
 
 __all__ = [
-    "AlongTime", "Assignment", "Error", "ExistingFileError", "GeneratingFunction",
-    "InputOutputError", "Jet", "MissingFileError", "Motion", "Nominal", "NumericalError",
-    "Polynomials", "RelativeStates", "Result", "Run", "SceneError", "Separation", "StudyResult",
-    "TooLargeError", "Trajectory", "Transfers", "Units", "UsageError", "Validity", "__version__",
-    "assign", "elements_of_states", "load", "mean_states", "motion", "orbit", "osculating_states",
-    "polynomials", "run", "states_of_elements", "trajectory", "transfer", "validity",
+    "AlongTime", "Assignment", "Bounded", "Error", "ExistingFileError", "FrozenOrbit",
+    "GeneratingFunction", "InputOutputError", "Jet", "MissingFileError", "Motion", "Nominal",
+    "NumericalError", "Polynomials", "RelativeStates", "Result", "Run", "SceneError", "Separation",
+    "StudyResult", "TooLargeError", "Trajectory", "Transfers", "Units", "UsageError", "Validity",
+    "__version__", "assign", "bounded", "elements_of_states", "load", "mean_states", "motion",
+    "orbit", "osculating_states", "poincare", "polynomials", "run", "states_of_elements",
+    "trajectory", "transfer", "validity",
 ]

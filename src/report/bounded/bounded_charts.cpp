@@ -29,8 +29,9 @@ Chart bounded_drift_chart(const BoundedFormation& formation) {
   chart.y = logarithmic_axis("mean drift along the track (parts of the size a revolution)");
   chart.reading = fmt::format(
       "Deputies of each rule and size, flown beside the chief over {} with the whole field; the "
-      "slope of the straight line through the difference of their mean arguments of latitude and "
-      "of their nodes, as a length in parts of the size.",
+      "slope of the straight line through the differences between the times at which both pass the "
+      "chief's mean argument of latitude and between their nodes then, as a length in parts of the "
+      "size.",
       counted(formation.revolutions, "revolution"));
   for (std::size_t r = 0; r < bounded_rules.size(); ++r) {
     ChartCurve curve;

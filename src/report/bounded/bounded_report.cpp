@@ -30,9 +30,10 @@ std::string form_key(DeputyForm form) {
 std::string short_number(double value) { return fmt::format("{:.2e}", value); }
 
 std::vector<std::string> row_of(const BoundedDeputy& deputy) {
-  std::vector<std::string> row = {length_text(deputy.wanted_m), std::string(name_of(deputy.rule))};
+  std::vector<std::string> row = {
+      fmt::format("{} {}", length_text(deputy.wanted_m), name_of(deputy.rule))};
   if (!deputy.failure.empty()) {
-    row.resize(9);
+    row.resize(8);
     return row;
   }
   const Eigen::Vector3d extent = half_widths_m(deputy.first);
@@ -44,8 +45,7 @@ std::vector<std::string> row_of(const BoundedDeputy& deputy) {
 }
 
 std::vector<std::string> headings(const BoundedFormation& formation) {
-  return {"size",
-          "rule",
+  return {"size and rule",
           "R +-",
           "T +-",
           "N +-",
@@ -89,7 +89,7 @@ std::string page(const BoundedFormation& formation, const ReportOrigin& origin,
       fact_html("Window", counted(formation.revolutions, "revolution")) +
       fact_html("Mean nodal period",
                 duration_text(formation.mean_period * formation.scene.units.time_s)) +
-      fact_html("Time", duration_text(formation.family_seconds) + ", of which " +
+      fact_html("Time", duration_text(formation.seconds) + ", of which " +
                             duration_text(formation.flight_seconds) + " for the flights");
   std::vector<Chart> orbits = bounded_orbit_charts(formation);
   for (Chart& chart : orbits) fit(chart);
@@ -145,8 +145,8 @@ std::string bounded_verdict(const BoundedFormation& formation) {
 std::string bounded_csv(const BoundedFormation& formation) {
   Columns<BoundedDeputy> columns;
   const auto is_there = [](const BoundedDeputy& deputy) { return deputy.failure.empty(); };
-  const auto is_of_map = [](const BoundedDeputy& deputy) {
-    return deputy.failure.empty() && deputy.rule == BoundedRule::poincare_map;
+  const auto has_map = [](const BoundedDeputy& deputy) {
+    return deputy.failure.empty() && is_of_map(deputy.rule);
   };
   columns.add("wanted_m", &BoundedDeputy::wanted_m);
   columns.add("rule", [](const BoundedDeputy& deputy) { return name_of(deputy.rule); });
@@ -171,8 +171,9 @@ std::string bounded_csv(const BoundedFormation& formation) {
     columns.add_if(is_there, when + "_along_range",
                    [=](const BoundedDeputy& deputy) { return drift(deputy).range; });
   }
-  columns.add_if(is_of_map, "period_difference", &BoundedDeputy::energy);
-  columns.add_if(is_of_map, "momentum_difference_canonical", &BoundedDeputy::momentum);
+  columns.add_if(has_map, "period_difference", &BoundedDeputy::energy);
+  columns.add_if(has_map, "momentum_difference_canonical", &BoundedDeputy::momentum);
+  columns.add_if(has_map, "refinements", &BoundedDeputy::refinements);
   columns.add_if(is_there, "lowest_m", &BoundedDeputy::lowest_m);
   for (std::size_t f = 0; f < BoundedDeputy{}.forms.size(); ++f) {
     const auto form = static_cast<DeputyForm>(f);
@@ -206,6 +207,7 @@ Json bounded_json(const BoundedFormation& formation) {
                   {"eccentricity_difference", nullptr},
                   {"half_widths_m", nullptr},
                   {"lowest_m", nullptr},
+                  {"refinements", nullptr},
                   {"drifts", nullptr},
                   {"start", nullptr}};
     if (deputy.failure.empty()) {
@@ -213,6 +215,7 @@ Json bounded_json(const BoundedFormation& formation) {
       entry["eccentricity_difference"] = json_number(deputy.amplitude);
       entry["half_widths_m"] = vector_json(half_widths_m(deputy.first));
       entry["lowest_m"] = json_number(deputy.lowest_m);
+      if (is_of_map(deputy.rule)) entry["refinements"] = deputy.refinements;
       entry["drifts"] = Json::array();
       for (const BoundedDrift& drift : deputy.drifts) {
         entry["drifts"].push_back({{"revolutions", drift.revolutions},
@@ -231,7 +234,7 @@ Json bounded_json(const BoundedFormation& formation) {
     }
     json["deputies"].push_back(std::move(entry));
   }
-  json["seconds"] = {{"all", formation.family_seconds}, {"flights", formation.flight_seconds}};
+  json["seconds"] = {{"all", formation.seconds}, {"flights", formation.flight_seconds}};
   json["exit_code"] = 0;
   return json;
 }
@@ -244,9 +247,8 @@ StudyReport bounded_report(const BoundedFormation& formation, const ReportOrigin
   report.drawing_problem = drawer.problem();
   report.files.push_back({"summary.json", bounded_json(formation).dump(2) + "\n"});
   report.table = terminal_table(formation);
-  report.details =
-      fmt::format("{} in all, {} for the flights\n", duration_text(formation.family_seconds),
-                  duration_text(formation.flight_seconds));
+  report.details = fmt::format("{} in all, {} for the flights\n", duration_text(formation.seconds),
+                               duration_text(formation.flight_seconds));
   return report;
 }
 

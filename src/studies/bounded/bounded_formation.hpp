@@ -14,19 +14,26 @@ namespace hamjet {
 /// How the deputies of a study of bounded motion are chosen.
 enum class BoundedRule {
   poincare_map,   ///< equal mean nodal periods and drifts of the node, see BoundedFamily
+  refined,        ///< the same, corrected by flying until the flown means are equal
   j2_invariant,   ///< of first order in J2, after Schaub and Alfriend
   mean_elements,  ///< equal mean semi-major axis and inclination
 };
-inline constexpr std::array<BoundedRule, 3> bounded_rules = {
-    BoundedRule::poincare_map, BoundedRule::j2_invariant, BoundedRule::mean_elements};
+inline constexpr std::array<BoundedRule, 4> bounded_rules = {
+    BoundedRule::poincare_map, BoundedRule::refined, BoundedRule::j2_invariant,
+    BoundedRule::mean_elements};
+constexpr bool is_of_map(BoundedRule rule) {
+  return rule == BoundedRule::poincare_map || rule == BoundedRule::refined;
+}
 /// The name of a rule in results.
 std::string_view name_of(BoundedRule rule);
 
 /// What is left of a deputy's drift over a span, as slopes of straight lines of least squares in
-/// the flown differences; a revolution, relative to the size of the relative orbit.
+/// the flown differences; a revolution, relative to the size of the relative orbit. A difference is
+/// that between the deputy's and the chief's passages through the same mean argument of latitude,
+/// where terms of short period are the same.
 struct BoundedDrift {
   int revolutions = 0;
-  double along = 0;  ///< a (d lambda + cos i d node)
+  double along = 0;  ///< a (-n d time + cos i d node), n the mean nodal motion
   double cross = 0;  ///< a sin i d node
   double range = 0;  ///< of the along-track difference over the span, relative to the size
 };
@@ -34,13 +41,16 @@ struct BoundedDrift {
 /// A deputy of one size, phase and rule.
 struct BoundedDeputy {
   BoundedRule rule = BoundedRule::poincare_map;
-  double wanted_m = 0;        ///< its size
-  std::string failure;        ///< why there is none; all below is empty then
-  double amplitude = 0;       ///< of the difference of the eccentricity vectors
-  double size_m = 0;          ///< the largest distance over the first revolution
-  double energy = 0;          ///< of the period of Kepler's ellipse, less 1; of the map alone
-  double momentum = 0;        ///< H less the chief's, canonical; of the map alone
-  std::vector<double> state;  ///< at the chief's start, canonical
+  double wanted_m = 0;   ///< its size
+  std::string failure;   ///< why there is none; all below is empty then
+  double amplitude = 0;  ///< of the difference of the eccentricity vectors
+  double size_m = 0;     ///< the largest distance over the first revolution
+  // Of the map and what is refined of it: the period of Kepler's ellipse over the chief's, less 1,
+  // and H less the chief's, canonical.
+  double energy = 0;
+  double momentum = 0;
+  int refinements = 0;                              ///< iterations of Newton's method by flying
+  std::vector<double> state;                        ///< at the chief's start, canonical
   std::array<std::array<double, 6>, 6> forms = {};  ///< of every DeputyForm
   std::vector<RelativeState> first;                 ///< RTN, over the first revolution
   std::vector<RelativeState> last;                  ///< over the last one
@@ -56,7 +66,7 @@ struct BoundedFormation {
   double mean_node = 0;                 ///< radians a revolution
   int revolutions = 0;                  ///< of the window
   std::vector<BoundedDeputy> deputies;  ///< by size, then rule
-  double family_seconds = 0;
+  double seconds = 0;                   ///< of all
   double flight_seconds = 0;
 };
 

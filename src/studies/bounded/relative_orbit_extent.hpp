@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "hamjet/relative_motion/chief_frame.hpp"
@@ -16,6 +17,13 @@ inline Eigen::Vector3d half_widths_m(const std::vector<RelativeState>& states) {
     most = most.cwiseMax(state.position_m);
   }
   return (most - least) / 2;
+}
+
+/// The largest distance from the chief, metres.
+inline double largest_distance_m(const std::vector<RelativeState>& states) {
+  double size = 0;
+  for (const RelativeState& state : states) size = std::max(size, state.position_m.norm());
+  return size;
 }
 
 }  // namespace hamjet

@@ -108,6 +108,7 @@ struct BoundedSettings {
   double cross_track = 0.5;  ///< by the node's difference, of the size; below 1
   double along_track = 0;    ///< mean place ahead of the chief, of the size; between -1 and 1
   int revolutions = 1000;    ///< over which drifts are the chief's, and are flown
+  bool refine = true;        ///< also by Newton's method on flown drifts
 };
 
 /// How the transfer times of an assignment are chosen.

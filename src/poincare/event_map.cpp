@@ -1,0 +1,116 @@
+#include "event_map.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "../algebra/instantiated_real.hpp"
+#include "../charts/series_flight.hpp"
+#include "../charts/time_scaled_system.hpp"
+#include "hamjet/error.hpp"
+
+namespace hamjet {
+namespace {
+
+template <class Real>
+SixNumbers<Series<Real>> six_of(const FlowJet<Real>& jet) {
+  return {jet[0], jet[1], jet[2], jet[3], jet[4], jet[5]};
+}
+
+/// A condition at one state: its value, its derivative along the flow, and the sine of the angle
+/// between the flow and the surface on which it is constant.
+template <class Real>
+struct Crossing {
+  Real value;
+  Real slope;
+  Real sine;
+};
+
+template <class Real>
+Crossing<Real> crossing_at(const SharedSystem& system, const SixNumbers<Series<Real>>& z,
+                           const EventCondition<Real>& condition) {
+  using std::abs;
+  using std::sqrt;
+  const SpacePointer line = SeriesSpace::create(1, 1);
+  const SpacePointer space = SeriesSpace::create(6, 1);
+  const auto constant = [&](std::size_t i) { return Series<Real>(line, z[i][0]); };
+  const auto one = [&](std::size_t i) { return Series<Real>::variable(space, i, z[i][0]); };
+  const SixNumbers<Series<Real>> flown = carried<Real>(
+      system, {constant(0), constant(1), constant(2), constant(3), constant(4), constant(5)},
+      Series<Real>::variable(line, 0));
+  const Series<Real> value = condition(flown);
+  const Series<Real> nearby = condition({one(0), one(1), one(2), one(3), one(4), one(5)});
+  Real gradient = 0;
+  Real speed = 0;
+  for (std::size_t i = 0; i < 6; ++i) {
+    gradient += nearby[1 + i] * nearby[1 + i];
+    speed += flown[i][1] * flown[i][1];
+  }
+  return {value[0], value[1], Real(abs(value[1])) / sqrt(Real(gradient * speed))};
+}
+
+}  // namespace
+
+template <class Real>
+EventMap<Real> event_map(const DynamicalSystem& system, const SixNumbers<Real>& chief,
+                         const Real& near, int order, double tolerance,
+                         const EventCondition<Real>& condition) {
+  using std::abs;
+  const SharedSystem shared(system);
+  const SharedSystem crossing(time_scaled_first_order(system));
+  const SpacePointer space = SeriesSpace::create(6, order);
+  FlowProblem<Real> flow;
+  flow.system = shared;
+  flow.space = space;
+  flow.symmetry = FlowSymmetry::none;
+  flow.initial_jet = FlowJet<Real>();
+  for (std::size_t i = 0; i < 6; ++i) {
+    flow.variables.push_back(i);
+    flow.initial_jet->push_back(Series<Real>::variable(space, i, chief[i]));
+  }
+  GaussSettings settings;
+  settings.tolerance = tolerance;
+  IntegrationStatistics statistics;
+  const auto advance = [&](const Real& time) {
+    if (time == Real(0)) return;
+    flow.duration = time;
+    flow.initial_state.clear();
+    for (const auto& component : *flow.initial_jet) flow.initial_state.push_back(component[0]);
+    *flow.initial_jet = integrate_gauss<Real>(flow, settings, statistics);
+  };
+  advance(near);
+  Real time = near;
+  Real rate = 0;
+  // As with any root, rounding moves the last one to and fro.
+  constexpr int most_iterations = 40;
+  const Real least = Real(16) * std::numeric_limits<Real>::epsilon();
+  for (int i = 0;; ++i) {
+    const Crossing<Real> at = crossing_at(crossing, six_of(*flow.initial_jet), condition);
+    rate = at.slope;
+    const Real step = -at.value / at.slope;
+    const Real scale = abs(near) + Real(1);
+    // At a smaller angle the time of a neighbour is no series but next to the chief.
+    constexpr double least_sine = 1e-6;
+    if (!(abs(step) < Real(0.5) * scale) || !(at.sine > Real(least_sine)) || i == most_iterations) {
+      throw Error(ErrorKind::numerical,
+                  "event: the chief's is not found near the time, or the flow only touches it");
+    }
+    if (abs(step) <= least * scale) break;
+    advance(step);
+    time += step;
+  }
+  EventMap<Real> map{Series<Real>(space, time), six_of(*flow.initial_jet)};
+  for (int i = 0; i < order; ++i) {
+    Series<Real> left = condition(map.state) / Real(-rate);
+    left[0] = Real(0);
+    map.state = carried<Real>(crossing, map.state, left);
+    map.time += left;
+  }
+  return map;
+}
+
+template EventMap<InstantiatedReal> event_map(const DynamicalSystem&,
+                                              const SixNumbers<InstantiatedReal>&,
+                                              const InstantiatedReal&, int, double,
+                                              const EventCondition<InstantiatedReal>&);
+
+}  // namespace hamjet

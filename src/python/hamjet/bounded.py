@@ -1,0 +1,91 @@
+"""Frozen orbits, and deputies that stay with their chief for long without fuel."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from . import _hamjet, arguments, scenes, shown
+from .relative_motion import Flags, Study
+from .results import Floats, Progress
+from .tables import Table, read_table
+
+
+@dataclass(frozen=True, eq=False)
+class FrozenOrbit(Study):
+    """The frozen orbit of a chief's energy and angular momentum about the axis; immutable.
+
+    What librates about it is told at C amplitudes of the eccentricity vector, by the normal form;
+    without one the arrays are empty.
+    """
+
+    state_canonical: Floats  #: (6,): on the chief's mean argument of latitude, with its node
+    a_km: float  #: osculating elements there
+    e: float
+    i_deg: float
+    argp_deg: float
+    nodal_period_s: float
+    residual: float  #: by how much a revolution moves it, in extended precision
+    trace_less_2: float  #: the sum of the two multipliers less 2; stable between -4 and 0
+    stable: bool
+    amplitudes_m: Floats  #: (C,): of the eccentricity vector, times a
+    is_chiefs: Flags  #: (C,): that of the scene's chief
+    rotation_numbers: Floats  #: (C,): turns of the pericentre's pair a revolution
+    mean_nodal_periods_s: Floats  #: (C,)
+    node_deg_per_revolution: Floats  #: (C,)
+    misses: Floats  #: (C,): of flown orbits from the normal form, in parts of the amplitude
+    reach_m: float  #: the amplitude up to which that is below 0.001; NaN without a normal form
+    failure: str  #: not empty: there is no normal form, and why
+    verdict: str  #: what ``hamjet poincare`` says first
+    table: Table = field(repr=False)  #: the columns of ``poincare.csv``, by name
+    _study: _hamjet.PoincareStudy | None = field(repr=False)
+
+    def __repr__(self) -> str:
+        return shown.of(self, f": a={self.a_km:.7g} km, e={self.e:.6g}, i={self.i_deg:.7g} deg, "
+                        f"argp={self.argp_deg:.6g} deg, {'' if self.stable else 'un'}stable")
+
+
+@dataclass(frozen=True, eq=False)
+class Bounded(Study):
+    """Deputies that stay with a chief, K of several sizes and rules; immutable.
+
+    Drifts are mean ones a revolution, in parts of the size, over a tenth of the revolutions and
+    over all. NaN stands where there is no such deputy.
+    """
+
+    rules: tuple[str, ...]  #: poincare-map, refined, j2-invariant or mean-elements
+    wanted_m: Floats  #: (K,): the scene's sizes
+    size_m: Floats  #: (K,): the largest distance over the first revolution
+    half_widths_m: Floats  #: (K, 3): along R, T, N
+    along_drifts: Floats  #: (K, 2)
+    cross_drifts: Floats  #: (K, 2)
+    starts: Floats  #: (K, 6): position in m and velocity in m/s along R, T, N, rotating derivatives
+    revolutions: int  #: over which all were flown
+    failures: tuple[str, ...]  #: why there is no deputy; empty where there is one
+    verdict: str  #: what ``hamjet bounded`` says first
+    table: Table = field(repr=False)  #: the columns of ``bounded.csv``, by name
+    _study: _hamjet.BoundedStudy | None = field(repr=False)
+
+    def __repr__(self) -> str:
+        return shown.of(self, f": {len(self.rules)} deputies over {self.revolutions} revolutions\n "
+                        f"{self.verdict}")
+
+
+def poincare(scene: scenes.Scene, *, overrides: scenes.Overrides | None = None,
+             progress: Progress | None = None) -> FrozenOrbit:
+    """The frozen orbit of a scene's chief, as ``hamjet poincare`` finds it.
+
+    Arguments as of ``run``. Raises SceneError, UsageError, NumericalError (no frozen orbit, or a
+    chief near the equatorial plane), TooLargeError, InputOutputError.
+    """
+    study = _hamjet.study_poincare(scenes.read(scene, overrides), arguments.progress(progress))
+    return FrozenOrbit(**study.arrays(), table=read_table(study.csv), _study=study)
+
+
+def bounded(scene: scenes.Scene, *, overrides: scenes.Overrides | None = None,
+            progress: Progress | None = None) -> Bounded:
+    """Deputies that stay with a scene's chief, as ``hamjet bounded`` finds them.
+
+    The scene has a table [bounded]; arguments as of ``run``. Raises as ``poincare``.
+    """
+    study = _hamjet.study_bounded(scenes.read(scene, overrides), arguments.progress(progress))
+    return Bounded(**study.arrays(), table=read_table(study.csv), _study=study)

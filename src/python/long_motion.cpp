@@ -1,0 +1,121 @@
+#include <numbers>
+
+#include "../report/bounded/bounded_report.hpp"
+#include "../report/bounded/frozen_orbit_report.hpp"
+#include "../studies/bounded/relative_orbit_extent.hpp"
+#include "bindings.hpp"
+#include "studied.hpp"
+
+namespace hamjet::python {
+namespace {
+
+Studied<FrozenOrbitStudy> study_poincare(const GivenScene& given, const py::object& progress) {
+  const Scene checked = unsplit(given, "hamjet poincare");
+  return interruptibly(
+      progress, [scene = checked, file = given.file](const ProgressCallback& report) {
+        return Studied<FrozenOrbitStudy>(
+            cli::study_of(file, [&] { return study_frozen_orbit(scene, report); }),
+            [](const FrozenOrbitStudy& study) { return io::frozen_orbit_report(study); });
+      });
+}
+
+Studied<BoundedFormation> study_company(const GivenScene& given, const py::object& progress) {
+  const Scene checked = unsplit(given, "hamjet bounded");
+  cli::require_bounded(checked, given.file);
+  return interruptibly(progress, [scene = checked,
+                                  file = given.file](const ProgressCallback& report) {
+    return Studied<BoundedFormation>(
+        cli::study_of(file, [&] { return study_bounded(scene, report); }),
+        [](const BoundedFormation& formation) { return io::bounded_report(formation, origin()); });
+  });
+}
+
+py::dict poincare_arrays(const FrozenOrbitStudy& study) {
+  const double length_m = study.scene.units.length_km * 1000;
+  const double time_s = study.scene.units.time_s;
+  constexpr double degrees = 180 / std::numbers::pi;
+  Table state, amplitude, rotation, period, node, miss;
+  for (const double x : study.state) state.add(x);
+  std::vector<bool> chief;
+  for (const LibrationCircle& circle : study.circles) {
+    amplitude.add(circle.amplitude * study.semi_major_axis * length_m);
+    rotation.add(circle.rotation_number);
+    period.add(circle.mean_period * time_s);
+    node.add(circle.mean_node * degrees);
+    miss.add(circle.miss.value_or(none));
+    chief.push_back(circle.is_chiefs);
+  }
+  py::dict arrays;
+  arrays["state_canonical"] = state.array();
+  arrays["a_km"] = study.semi_major_axis * study.scene.units.length_km;
+  arrays["e"] = study.eccentricity;
+  arrays["i_deg"] = study.inclination_deg;
+  arrays["argp_deg"] = study.pericentre_deg;
+  arrays["nodal_period_s"] = study.nodal_period * time_s;
+  arrays["residual"] = study.residual;
+  arrays["trace_less_2"] = study.trace_less_2;
+  arrays["stable"] = study.is_stable();
+  arrays["amplitudes_m"] = amplitude.array();
+  arrays["is_chiefs"] = flags(chief);
+  arrays["rotation_numbers"] = rotation.array();
+  arrays["mean_nodal_periods_s"] = period.array();
+  arrays["node_deg_per_revolution"] = node.array();
+  arrays["misses"] = miss.array();
+  arrays["reach_m"] = study.failure.empty() ? study.reach * study.semi_major_axis * length_m : none;
+  arrays["failure"] = study.failure;
+  arrays["verdict"] = io::frozen_orbit_verdict(study);
+  return arrays;
+}
+
+py::dict bounded_arrays(const BoundedFormation& formation) {
+  Table wanted, size, widths, along, cross, start;
+  py::list rules, failures;
+  const Eigen::Vector3d nothing = Eigen::Vector3d::Constant(none);
+  for (const BoundedDeputy& deputy : formation.deputies) {
+    const bool is_there = deputy.failure.empty();
+    wanted.add(deputy.wanted_m);
+    size.add(is_there ? deputy.size_m : none);
+    widths.add(is_there ? half_widths_m(deputy.first) : nothing);
+    for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
+      along.add(is_there ? deputy.drifts[k].along : none);
+      cross.add(is_there ? deputy.drifts[k].cross : none);
+    }
+    const auto& rtn = deputy.forms[static_cast<std::size_t>(DeputyForm::rtn_rotating)];
+    for (const double x : rtn) start.add(is_there ? x : none);
+    rules.append(py::str(std::string(name_of(deputy.rule))));
+    failures.append(py::str(deputy.failure));
+  }
+  const auto count = size_of(formation.deputies.size());
+  py::dict arrays;
+  arrays["rules"] = py::tuple(rules);
+  arrays["wanted_m"] = wanted.array();
+  arrays["size_m"] = size.array();
+  arrays["half_widths_m"] = widths.array({count, 3});
+  arrays["along_drifts"] = along.array({count, 2});
+  arrays["cross_drifts"] = cross.array({count, 2});
+  arrays["starts"] = start.array({count, 6});
+  arrays["revolutions"] = formation.revolutions;
+  arrays["failures"] = py::tuple(failures);
+  arrays["verdict"] = io::bounded_verdict(formation);
+  return arrays;
+}
+
+}  // namespace
+
+void bind_long_motion(py::module_& module) {
+  bind_study<FrozenOrbitStudy>(module, "PoincareStudy")
+      .def_property_readonly(
+          "csv",
+          [](const Studied<FrozenOrbitStudy>& s) { return io::frozen_orbit_csv(*s.result()); })
+      .def("arrays",
+           [](const Studied<FrozenOrbitStudy>& s) { return poincare_arrays(*s.result()); });
+  bind_study<BoundedFormation>(module, "BoundedStudy")
+      .def_property_readonly(
+          "csv", [](const Studied<BoundedFormation>& s) { return io::bounded_csv(*s.result()); })
+      .def("arrays",
+           [](const Studied<BoundedFormation>& s) { return bounded_arrays(*s.result()); });
+  module.def("study_poincare", &study_poincare, py::arg("scene"), py::arg("progress"));
+  module.def("study_bounded", &study_company, py::arg("scene"), py::arg("progress"));
+}
+
+}  // namespace hamjet::python

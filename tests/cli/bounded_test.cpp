@@ -1,0 +1,90 @@
+#include <cmath>
+
+#include "command_test.hpp"
+
+// The commands `poincare` and `bounded`: frozen orbits, and deputies that stay.
+
+namespace hamjet::test {
+namespace {
+
+class LongMotion : public CommandTest {
+ protected:
+  static std::string scene(const std::string& inclination_deg, const std::string& table) {
+    return "[system]\nmodel = \"zonal-gravity\"\nmu_km3_s2 = 398600.4415\nradius_km = 6378.1363\n"
+           "J2 = 1.0826e-3\nJ3 = -2.53e-6\n[nominal]\na_km = 7100\ne = 0.01\ni_deg = " +
+           inclination_deg +
+           "\nraan_deg = 0\nargp_deg = 30\nta_deg = 0\n"
+           "[jet]\norder = 3\nduration_orbits = 1\n" +
+           table;
+  }
+};
+
+TEST_F(LongMotion, PoincareWritesTheFrozenOrbit) {
+  write("low.toml", scene("50", ""));
+  const std::string out = in_one_line(succeed({"poincare", "low.toml"}).out);
+  for (const char* const words :
+       {"The frozen orbit of the chief's energy", "It is stable: its multipliers are",
+        "amplitude turns a revolution", "(chief)", "results: out/low-poincare"}) {
+    EXPECT_NE(out.find(words), std::string::npos) << words << " is not in " << out;
+  }
+  const Json summary = read_json(directory_ / "out/low-poincare/summary.json");
+  EXPECT_EQ(summary["study"], "poincare");
+  EXPECT_EQ(summary["exit_code"], 0);
+  EXPECT_LT(summary["frozen_orbit"]["residual"].get<double>(), 1e-20);
+  // Cook's first order: e = -(J3 R sin i)/(2 J2 a), to the periodic terms of J2.
+  const double e =
+      2.53e-6 / 1.0826e-3 * 6378.1363 / 7100 * std::sin(50 * std::acos(-1.0) / 180) / 2;
+  EXPECT_NEAR(summary["frozen_orbit"]["e"].get<double>(), e, 1.5e-3);
+  const Table table = read_table(directory_ / "out/low-poincare/poincare.csv");
+  ASSERT_EQ(table.rows.size(), summary["circles"].size());
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    EXPECT_EQ(table.number(i, "rotation_number"),
+              summary["circles"][i]["rotation_number"].get<double>());
+  }
+}
+
+TEST_F(LongMotion, BoundedWritesDeputiesThatStay) {
+  write("low.toml", scene("50", "[bounded]\nsizes_km = [2]\nrevolutions = 20\n"));
+  const std::string out = in_one_line(succeed({"bounded", "low.toml"}).out);
+  for (const char* const words :
+       {"with the chief's mean nodal period and drift of the node; flown over 20 revolutions",
+        "poincare-map", "refined", "j2-invariant", "mean-elements",
+        "report: out/low-bounded/report.html"}) {
+    EXPECT_NE(out.find(words), std::string::npos) << words << " is not in " << out;
+  }
+  const Json summary = read_json(directory_ / "out/low-bounded/summary.json");
+  ASSERT_EQ(summary["deputies"].size(), 4U);
+  const Json& map = summary["deputies"][0];
+  EXPECT_NEAR(map["size_m"].get<double>(), 2000, 1);
+  EXPECT_LT(std::abs(map["drifts"][1]["along"].get<double>()), 1e-6);
+  // The start as a scene's deputy: `hamjet motion` has it at the size.
+  const Json& start = map["start"]["RTN-rotating"];
+  const auto listed = [&](const std::vector<std::string>& names) {
+    std::string list;
+    for (const std::string& name : names) list += start[name].dump() + ",";
+    return list;
+  };
+  const std::string position = listed({"R_m", "T_m", "N_m"});
+  const std::string velocity = listed({"vR_m_s", "vT_m_s", "vN_m_s"});
+  write("two.toml", scene("50", "[deputy]\nposition_m = [" + position + "]\nvelocity_m_s = [" +
+                                    velocity + "]\n"));
+  succeed({"motion", "two.toml", "-q"});
+  const Json motion = read_json(directory_ / "out/two-motion/summary.json");
+  EXPECT_NEAR(motion["farthest"]["separation_m"].get<double>(), 2000, 2);
+}
+
+TEST_F(LongMotion, RefusesWithTheReason) {
+  write("low.toml", scene("50", ""));
+  write("flat.toml", scene("0.1", "[bounded]\nrevolutions = 20\n"));
+  write("wide.toml", scene("50", "[bounded]\nsizes_km = [1, 9000]\n"));
+  expect_error({"bounded", "low.toml"}, 3,
+               {"low.toml: bounded: missing, must be a table [bounded]; the smallest is"});
+  expect_error({"bounded", "wide.toml"}, 3, {"bounded.sizes_km.1: out of range, got 9000"});
+  for (const char* const command : {"bounded", "poincare"}) {
+    expect_error({command, "flat.toml"}, 4, {"nearly in the equatorial plane"});
+  }
+  EXPECT_FALSE(std::filesystem::exists(directory_ / "out"));
+}
+
+}  // namespace
+}  // namespace hamjet::test

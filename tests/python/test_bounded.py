@@ -1,0 +1,45 @@
+"""Frozen orbits and deputies that stay: equal to what the command writes."""
+
+import numpy as np
+import pytest
+
+import hamjet
+from conftest import SOURCE
+from test_relative_motion import numbers, table_of_command
+from test_results import without_times
+
+SCENE = SOURCE / "data" / "scenes" / "bounded-sun-synchronous.toml"
+SHORT = ["jet.order=3", "bounded.revolutions=20", "bounded.sizes_km=[1, 50]"]
+
+
+def test_frozen_orbit_is_that_of_the_command(tmp_path):
+    expected = table_of_command(tmp_path, "poincare", SCENE, SHORT, "poincare.csv")
+    frozen = hamjet.poincare(SCENE, overrides=SHORT)
+    assert (frozen.amplitudes_m == numbers(expected["amplitude_m"])).all()
+    assert (frozen.rotation_numbers == numbers(expected["rotation_number"])).all()
+    assert (frozen.misses == numbers(expected["miss"])).all()
+    assert frozen.stable and frozen.residual < 1e-20 and not frozen.failure
+    loaded = hamjet.load(tmp_path / "out")
+    assert without_times(loaded.summary) == without_times(frozen.summary)
+    assert loaded.summary["frozen_orbit"]["e"] == frozen.e
+    assert loaded.summary["verdict"] == frozen.verdict
+    assert "stable" in repr(frozen)
+
+
+def test_bounded_deputies_are_those_of_the_command(tmp_path):
+    expected = table_of_command(tmp_path, "bounded", SCENE, SHORT, "bounded.csv")
+    bounded = hamjet.bounded(SCENE, overrides=SHORT)
+    assert list(bounded.rules) == expected["rule"]
+    assert (bounded.size_m == numbers(expected["size_m"])).all()
+    assert (bounded.along_drifts[:, 1] == numbers(expected["window_along_drift"])).all()
+    for i, axis in enumerate("rtn"):
+        assert (bounded.half_widths_m[:, i] == numbers(expected[f"half_width_{axis}_m"])).all()
+    assert bounded.starts.shape == (8, 6) and np.isfinite(bounded.starts).all()
+    assert bounded.revolutions == 20
+    assert hamjet.load(tmp_path / "out").summary["verdict"] == bounded.verdict
+    assert "8 deputies" in repr(bounded)
+
+
+def test_a_chief_in_the_equator_is_refused():
+    with pytest.raises(hamjet.NumericalError, match="equatorial"):
+        hamjet.poincare(SCENE, overrides=["nominal.i_deg=0"])
