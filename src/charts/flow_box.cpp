@@ -9,7 +9,6 @@
 #include "carried_states.hpp"
 #include "hamjet/algebra/elementary_functions.hpp"
 #include "secular_motion.hpp"
-#include "series_flight.hpp"
 #include "steady_turn.hpp"
 #include "time_scaled_system.hpp"
 

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "../algebra/instantiated_real.hpp"
-#include "../charts/series_flight.hpp"
+#include "../charts/carried_states.hpp"
 #include "../charts/time_scaled_system.hpp"
 #include "hamjet/error.hpp"
 
