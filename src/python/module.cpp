@@ -17,5 +17,6 @@ PYBIND11_MODULE(_hamjet, module) {
   hamjet::python::bind_orbit_keys(module);
   hamjet::python::bind_runs(module);
   hamjet::python::bind_relative_motion(module);
+  hamjet::python::bind_uncertainty(module);
   hamjet::python::bind_trajectory(module);
 }

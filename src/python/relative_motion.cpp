@@ -1,66 +1,21 @@
 #include <pybind11/stl.h>
-#include <pybind11/stl/filesystem.h>
 
 #include <cstdint>
-#include <functional>
-#include <memory>
 
-#include "../app/report_origin.hpp"
-#include "../app/required_tables.hpp"
 #include "../formats/relative_frame_text.hpp"
 #include "../report/formation/deputy_motion_report.hpp"
 #include "../report/formation/transfer_view.hpp"
-#include "../studies/arcs.hpp"
 #include "../studies/formation/deputy_motion.hpp"
 #include "../studies/formation/flown_trajectory.hpp"
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "given_scene.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/report/relative_motion_report.hpp"
 #include "hamjet/studies/assignment.hpp"
-#include "interruptible.hpp"
-#include "written_set.hpp"
+#include "studied.hpp"
 
 namespace hamjet::python {
 namespace {
-
-/// A study's result, and the files that the command writes of it, made when they are asked for.
-template <class Result>
-class Studied {
- public:
-  using MakeReport = std::function<io::StudyReport(const Result&)>;
-
-  Studied(Result result, MakeReport make_report)
-      : result_(std::make_shared<const Result>(std::move(result))),
-        make_report_(std::move(make_report)) {}
-
-  const std::shared_ptr<const Result>& result() const { return result_; }
-  const io::StudyReport& report() const {
-    if (!report_) {
-      auto made = interruptibly(py::none(), [result = result_, make = make_report_](
-                                                const ProgressCallback&) { return make(*result); });
-      // Another thread may have come first; what it has handed out stays.
-      if (!report_) report_ = std::make_shared<const io::StudyReport>(std::move(made));
-    }
-    return *report_;
-  }
-
- private:
-  std::shared_ptr<const Result> result_;
-  MakeReport make_report_;
-  mutable std::shared_ptr<const io::StudyReport> report_;
-};
-
-/// What reports say of where they come from.
-io::ReportOrigin origin() { return cli::report_origin("the Python module hamjet"); }
-
-/// The scene for `command`, which does not split flows into arcs.
-Scene unsplit(const GivenScene& given, const std::string& command) {
-  Scene scene = given.flow_jet();
-  cli::study_of(given.file, [&] { require_unsplit(scene, command); });
-  return scene;
-}
 
 Studied<TransferResult> study_transfers(const GivenScene& given, const py::object& progress) {
   const Scene checked = unsplit(given, "hamjet transfer");
@@ -329,18 +284,6 @@ py::dict motion_arrays(const DeputyMotion& motion) {
 py::tuple extremes(const DeputyMotion& motion) {
   return py::make_tuple(separation(motion, motion.extremes.nearest),
                         separation(motion, motion.extremes.farthest));
-}
-
-/// Binds what the studies have in common.
-template <class Result>
-py::class_<Studied<Result>> bind_study(py::module_& module, const char* name) {
-  return py::class_<Studied<Result>>(module, name)
-      .def_property_readonly("summary",
-                             [](const Studied<Result>& s) { return s.report().summary(); })
-      .def_property_readonly("failure", [](const Studied<Result>& s) { return s.report().failure; })
-      .def("write", [](const Studied<Result>& s, const std::filesystem::path& directory) {
-        write_set(s.report(), directory);
-      });
 }
 
 }  // namespace

@@ -25,12 +25,14 @@ from .relative_motion import (Assignment, Motion, Separation, Transfers, Validit
 from .relative_states import RelativeStates
 from .results import AlongTime, Nominal, Result, Run, StudyResult, load, run
 from .trajectory import Trajectory, trajectory
+from .uncertainty import Moments, Uncertainty, polynomial_moments, uncertainty
 
 __all__ = [
     "AlongTime", "Assignment", "Error", "ExistingFileError", "GeneratingFunction",
-    "InputOutputError", "Jet", "MissingFileError", "Motion", "Nominal", "NumericalError",
+    "InputOutputError", "Jet", "MissingFileError", "Moments", "Motion", "Nominal", "NumericalError",
     "RelativeStates", "Result", "Run", "SceneError", "Separation", "StudyResult", "TooLargeError",
-    "Trajectory", "Transfers", "Units", "UsageError", "Validity", "__version__", "assign",
-    "elements_of_states", "load", "mean_states", "motion", "orbit", "osculating_states", "run",
-    "states_of_elements", "trajectory", "transfer", "validity",
+    "Trajectory", "Transfers", "Uncertainty", "Units", "UsageError", "Validity", "__version__",
+    "assign", "elements_of_states", "load", "mean_states", "motion", "orbit", "osculating_states",
+    "polynomial_moments", "run", "states_of_elements", "trajectory", "transfer", "uncertainty",
+    "validity",
 ]
