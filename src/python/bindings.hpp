@@ -19,5 +19,6 @@ void bind_relative_motion(pybind11::module_& module);
 void bind_long_motion(pybind11::module_& module);
 void bind_trajectory(pybind11::module_& module);
 void bind_polynomials(pybind11::module_& module);
+void bind_uncertainty(pybind11::module_& module);
 
 }  // namespace hamjet::python

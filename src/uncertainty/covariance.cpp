@@ -174,6 +174,12 @@ Covariance::Covariance(const Matrix<double>& matrix, const std::array<std::strin
   if (spectrum.values[0] < -least) taken_as_zero_ = -spectrum.values[0];
 }
 
+Matrix<double> Covariance::matrix() const { return factor_ * factor_.transpose(); }
+
+Vector<double> Covariance::standard_deviations() const { return factor_.rowwise().norm(); }
+
+Covariance Covariance::mapped(const Matrix<double>& map) const { return of_factor(map * factor_); }
+
 Covariance Covariance::of_factor(Matrix<double> factor) {
   if (!factor.allFinite()) {
     throw Error(ErrorKind::numerical, "covariance: its factor is not finite");

@@ -1,11 +1,14 @@
 #include "hamjet/uncertainty/polynomial_moments.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "../algebra/singular_values.hpp"
@@ -229,6 +232,34 @@ Moments cumulants_of(Eigen::Index rank, const Matrix<double>& with_one,
 }
 
 }  // namespace
+
+std::vector<Series<double>> polynomials_of_rows(std::span<const double> coefficients,
+                                                std::span<const std::uint8_t> exponents,
+                                                std::size_t variables) {
+  const std::size_t rows = variables == 0 ? 0 : exponents.size() / variables;
+  if (rows == 0 || rows * variables != exponents.size() || coefficients.empty() ||
+      coefficients.size() % rows != 0) {
+    throw Error(ErrorKind::usage,
+                "moments: the coefficients must have a column for each row of exponents");
+  }
+  int order = 0;
+  for (std::size_t k = 0; k < rows; ++k) {
+    const auto row = exponents.subspan(k * variables, variables);
+    order = std::max(order, std::accumulate(row.begin(), row.end(), 0));
+  }
+  const SpacePointer space = SeriesSpace::create(variables, order);
+  std::vector<Series<double>> map(coefficients.size() / rows, Series<double>(space));
+  std::vector<bool> is_there(space->size(), false);
+  for (std::size_t k = 0; k < rows; ++k) {
+    const std::size_t place = space->index(exponents.subspan(k * variables, variables));
+    if (is_there[place]) {
+      throw Error(ErrorKind::usage, fmt::format("moments: the exponents of row {} stand twice", k));
+    }
+    is_there[place] = true;
+    for (std::size_t c = 0; c < map.size(); ++c) map[c][place] = coefficients[c * rows + k];
+  }
+  return map;
+}
 
 std::vector<Series<double>> in_standard_normals(const std::vector<Series<double>>& map,
                                                 const Covariance& covariance) {
@@ -459,6 +490,10 @@ Cumulants Cumulants::mapped(const Matrix<double>& map) const {
   result.add_turned(*this, turn);
   return result;
 }
+
+Matrix<double> Cumulants::covariance() const { return axes_ * axes_.transpose(); }
+
+Vector<double> Cumulants::standard_deviations() const { return axes_.rowwise().norm(); }
 
 Vector<double> Cumulants::skewness() const {
   const Vector<double> deviations = standard_deviations();

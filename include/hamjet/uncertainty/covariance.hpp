@@ -46,18 +46,18 @@ class Covariance {
   /// The number of independent directions: the columns of the factor.
   Eigen::Index rank() const { return factor_.cols(); }
   /// Symmetric, with what is rounding taken out.
-  Matrix<double> matrix() const { return factor_ * factor_.transpose(); }
+  Matrix<double> matrix() const;
   /// L of L L^T = C, size x rank; where it follows from a matrix, its columns are the principal
   /// axes of the correlations, the longest first.
   const Matrix<double>& factor() const { return factor_; }
   /// The square roots of the variances.
-  Vector<double> standard_deviations() const { return factor_.rowwise().norm(); }
+  Vector<double> standard_deviations() const;
   /// How far below zero the least eigenvalue of the given correlations was, and set to zero as the
   /// rounding of the digits; 0 where it was above, or of a factor.
   double taken_as_zero() const { return taken_as_zero_; }
 
   /// The covariance of A x, whose factor is A L. A has `size` columns.
-  Covariance mapped(const Matrix<double>& map) const { return of_factor(map * factor_); }
+  Covariance mapped(const Matrix<double>& map) const;
   /// The covariance of the sum of two independent vectors of one size.
   Covariance plus(const Covariance& other) const;
   /// The covariance of two independent vectors, one below the other.

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "hamjet/algebra/truncated_power_series.hpp"
@@ -21,6 +23,13 @@ std::vector<Series<double>> in_standard_normals(const std::vector<Series<double>
 std::vector<Series<double>> in_standard_normals(const std::vector<Series<double>>& map,
                                                 const Covariance& covariance,
                                                 const Vector<double>& mean);
+
+/// Polynomials from rows of coefficients and of exponents, as arrays have them: component c's
+/// coefficient of the monomial whose exponents are in row k, one a variable, is at c K + k, K the
+/// count of rows. Throws Error(usage) where sizes do not fit, or a monomial stands twice.
+std::vector<Series<double>> polynomials_of_rows(std::span<const double> coefficients,
+                                                std::span<const std::uint8_t> exponents,
+                                                std::size_t variables);
 
 /// Mean, covariance, third and fourth cumulants of a random vector y of m components, kept as
 ///
@@ -64,8 +73,8 @@ class Cumulants {
   Eigen::Index rank() const { return axes_.cols(); }
   const Vector<double>& mean() const { return mean_; }
   const Matrix<double>& axes() const { return axes_; }
-  Matrix<double> covariance() const { return axes_ * axes_.transpose(); }
-  Vector<double> standard_deviations() const { return axes_.rowwise().norm(); }
+  Matrix<double> covariance() const;
+  Vector<double> standard_deviations() const;
 
   /// Of each component alone, E[(y - mean)^3] / s^3 and E[(y - mean)^4] / s^4 - 3; 0 for a
   /// component without variance.

@@ -27,13 +27,14 @@ from .relative_motion import (Assignment, Motion, Separation, Transfers, Validit
 from .relative_states import RelativeStates
 from .results import AlongTime, Nominal, Result, Run, StudyResult, load, run
 from .trajectory import Trajectory, trajectory
+from .uncertainty import Moments, Uncertainty, polynomial_moments, uncertainty
 
 __all__ = [
     "AlongTime", "Assignment", "Bounded", "Error", "ExistingFileError", "FrozenOrbit",
-    "GeneratingFunction", "InputOutputError", "Jet", "MissingFileError", "Motion", "Nominal",
-    "NumericalError", "Polynomials", "RelativeStates", "Result", "Run", "SceneError", "Separation",
-    "StudyResult", "TooLargeError", "Trajectory", "Transfers", "Units", "UsageError", "Validity",
-    "__version__", "assign", "bounded", "elements_of_states", "load", "mean_states", "motion",
-    "orbit", "osculating_states", "poincare", "polynomials", "run", "states_of_elements",
-    "trajectory", "transfer", "validity",
+    "GeneratingFunction", "InputOutputError", "Jet", "MissingFileError", "Moments", "Motion",
+    "Nominal", "NumericalError", "Polynomials", "RelativeStates", "Result", "Run", "SceneError",
+    "Separation", "StudyResult", "TooLargeError", "Trajectory", "Transfers", "Uncertainty", "Units",
+    "UsageError", "Validity", "__version__", "assign", "bounded", "elements_of_states", "load",
+    "mean_states", "motion", "orbit", "osculating_states", "poincare", "polynomial_moments",
+    "polynomials", "run", "states_of_elements", "trajectory", "transfer", "uncertainty", "validity",
 ]

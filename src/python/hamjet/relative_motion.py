@@ -24,7 +24,8 @@ _MOST_INTERVALS = 1_000_000
 
 
 _Study = TypeVar("_Study", _hamjet.MotionStudy, _hamjet.TransferStudy, _hamjet.ValidityStudy,
-                 _hamjet.AssignmentStudy, _hamjet.PoincareStudy, _hamjet.BoundedStudy)
+                 _hamjet.AssignmentStudy, _hamjet.PoincareStudy, _hamjet.BoundedStudy,
+                 _hamjet.UncertaintyStudy)
 
 
 def _required(study: _Study | None, what: str) -> _Study:

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "../../text/quantity_text.hpp"
 #include "../../text/time_axis.hpp"
 #include "../drawing/along_time_charts.hpp"
 #include "uncertainty_report.hpp"
@@ -48,7 +47,7 @@ Chart ellipse_chart(const UncertaintyResult& result, const UncertaintyAt& at,
   Chart chart;
   chart.name = fmt::format("ellipse-{}-{}", x.name, y.name);
   chart.title = fmt::format("{} and {} of the {} after {}", x.name, y.name, state.name,
-                            duration_text(std::abs(at.time) * result.scene.units.time_s));
+                            time_text(result, at));
   chart.is_panel = true;
   chart.x.label = axis_label(x);
   chart.y.label = axis_label(y);
@@ -88,7 +87,7 @@ Chart histogram_chart(const UncertaintyResult& result, const UncertaintyAt& at,
   Chart chart;
   chart.name = fmt::format("histogram-{}", of.name);
   chart.title = fmt::format("Distribution of {} of the {} after {}", of.name, state.name,
-                            duration_text(std::abs(at.time) * result.scene.units.time_s));
+                            time_text(result, at));
   chart.is_panel = true;
   chart.x.label = axis_label(of);
   chart.y.label = fmt::format("density (1/{})", of.unit);

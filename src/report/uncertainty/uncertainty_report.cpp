@@ -9,16 +9,11 @@
 #include "../../text/html_text.hpp"
 #include "../../text/quantity_text.hpp"
 #include "../../text/terminal_text.hpp"
-#include "../../text/time_axis.hpp"
 #include "../drawing/report_page.hpp"
 #include "uncertainty_view.hpp"
 
 namespace hamjet::io {
 namespace {
-
-std::string time_text(const UncertaintyResult& result, const UncertaintyAt& at) {
-  return duration_text(std::abs(at.time) * result.scene.units.time_s);
-}
 
 /// Moments of each component of a state: linear, of the highest order, and flown.
 std::vector<std::vector<std::string>> moments_rows(const UncertaintyResult& result,

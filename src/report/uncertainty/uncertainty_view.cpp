@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "../../formats/relative_frame_text.hpp"
-#include "../../text/quantity_text.hpp"
+#include "../../text/time_axis.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -61,6 +61,12 @@ std::vector<MomentsFamily> moments_families(const UncertaintyResult& result,
   return families;
 }
 
+std::string time_text(const UncertaintyResult& result, const UncertaintyAt& at) {
+  const double seconds = at.time * result.scene.units.time_s;
+  const TimeAxis axis = time_axis(std::abs(seconds));
+  return fmt::format("{:.4g} {}", seconds / axis.seconds, axis.name);
+}
+
 const UncertainState& judged_state(const UncertaintyAt& at) { return at.states.back(); }
 
 double linear_error_of_probability(const std::vector<Cumulants>& by_order) {
@@ -70,8 +76,7 @@ double linear_error_of_probability(const std::vector<Cumulants>& by_order) {
 std::string uncertainty_verdict(const UncertaintyResult& result) {
   const UncertaintyAt& at = result.points.back();
   const UncertainState& state = judged_state(at);
-  const std::string after =
-      fmt::format("After {}", duration_text(std::abs(at.time) * result.scene.units.time_s));
+  const std::string after = "After " + time_text(result, at);
   const int order = result.scene.order;
   std::string text;
   if (order == 1) {

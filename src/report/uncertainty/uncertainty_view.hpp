@@ -27,6 +27,9 @@ struct MomentsFamily {
 std::vector<MomentsFamily> moments_families(const UncertaintyResult& result,
                                             const UncertaintyAt& at, const UncertainState& state);
 
+/// The time of a point, for people.
+std::string time_text(const UncertaintyResult& result, const UncertaintyAt& at);
+
 /// The state that a verdict is about: the last one of a time.
 const UncertainState& judged_state(const UncertaintyAt& at);
 

@@ -1,0 +1,77 @@
+#include <cmath>
+
+#include "command_test.hpp"
+
+// The command `uncertainty`: how the covariance of a scene grows.
+
+namespace hamjet::test {
+namespace {
+
+class UncertaintyCommand : public CommandTest {
+ protected:
+  static std::string scene(const std::string& tables) {
+    return "[system]\nmodel = \"kepler\"\nmu_km3_s2 = 398600.4415\n[nominal]\na_km = 7000\ne = 0\n"
+           "i_deg = 50\nraan_deg = 0\nargp_deg = 0\nta_deg = 0\n[jet]\norder = 2\n"
+           "duration_orbits = 3\n" +
+           tables;
+  }
+};
+
+const std::string kilometre_a_second =
+    "[uncertainty]\nposition_m = [1000, 1000, 1000]\nvelocity_m_s = [1, 1, 1]\ncount = 3\n"
+    "samples = 200\n";
+
+TEST_F(UncertaintyCommand, SaysWhetherTheLinearCovarianceMisleads) {
+  write("wide.toml", scene(kilometre_a_second));
+  const std::string out = in_one_line(succeed({"uncertainty", "wide.toml"}).out);
+  for (const char* const words :
+       {"After 4.857 h the linear covariance of the chief misleads", "the standard deviation along",
+        "frame RTN with inertial derivatives; order 2", "negentropy (cartesian, RTN)",
+        "report: out/wide-uncertainty/report.html"}) {
+    EXPECT_NE(out.find(words), std::string::npos) << words << " is not in " << out;
+  }
+  const Json summary = read_json(directory_ / "out/wide-uncertainty/summary.json");
+  EXPECT_EQ(summary["study"], "uncertainty");
+  ASSERT_EQ(summary["times"].size(), 3U);
+  const Json& state = summary["times"][2]["states"][0];
+  EXPECT_EQ(state["linear_misleads"], true);
+  EXPECT_EQ(state["flown"]["samples"], 200);
+  // After whole revolutions of a circle, Clohessy and Wiltshire: N and vN are as at the start, and
+  // R too, for the drift is along T alone.
+  const Json& linear = state["families"][0]["orders"][0]["standard_deviations"];
+  EXPECT_NEAR(linear[0].get<double>() / 1000, 1, 1e-6);
+  EXPECT_NEAR(linear[2].get<double>() / 1000, 1, 1e-6);
+  EXPECT_NEAR(linear[5].get<double>(), 1, 1e-6);
+  // T drifts by -3 (n x + vT) t, with vT the inertial difference: n t = 6 pi.
+  const double n = std::sqrt(398600.4415 / std::pow(7000.0, 3));
+  const double turned = 18 * std::acos(-1.0);
+  const double transverse = std::hypot(1000, turned * 1000, turned / n);
+  EXPECT_NEAR(linear[1].get<double>() / transverse, 1, 1e-6);
+  const Table table = read_table(directory_ / "out/wide-uncertainty/moments.csv");
+  // Three times, one state, two orders and the samples, six components.
+  EXPECT_EQ(table.rows.size(), 3U * 3U * 6U);
+}
+
+TEST_F(UncertaintyCommand, SaysThatASmallCovarianceHolds) {
+  write("small.toml",
+        scene("[uncertainty]\nposition_m = [0.1, 0.1, 0.1]\nvelocity_m_s = [1e-4, 1e-4, 1e-4]\n"
+              "samples = 0\n"));
+  const std::string out = in_one_line(succeed({"uncertainty", "small.toml"}).out);
+  EXPECT_NE(out.find("the linear covariance of the chief holds"), std::string::npos) << out;
+  EXPECT_NE(out.find("No samples were flown"), std::string::npos) << out;
+  const Json summary = read_json(directory_ / "out/small-uncertainty/summary.json");
+  EXPECT_TRUE(summary["times"][0]["states"][0]["flown"].is_null());
+  EXPECT_EQ(summary["times"][0]["states"][0]["linear_misleads"], false);
+}
+
+TEST_F(UncertaintyCommand, NeedsATableAndAGoodCovariance) {
+  write("none.toml", scene(""));
+  expect_error({"uncertainty", "none.toml"}, 3,
+               {"none.toml: uncertainty: missing, must be a table [uncertainty]"});
+  write("bad.toml", scene("[uncertainty]\nposition_m = [1, 1, -1]\n"));
+  expect_error({"uncertainty", "bad.toml"}, 3,
+               {"bad.toml:15:21: uncertainty.position_m.2: no standard deviation, got -1"});
+}
+
+}  // namespace
+}  // namespace hamjet::test

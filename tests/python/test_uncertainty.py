@@ -1,0 +1,125 @@
+"""Moments of uncertain states, and of polynomials."""
+
+import itertools
+
+import numpy as np
+import pytest
+
+import hamjet
+
+SCENE = """
+[system]
+model = "zonal-gravity"
+mu_km3_s2 = 398600.4415
+radius_km = 6378.1363
+J2 = 1.08262668355315e-3
+[nominal]
+a_km = 6878
+e = 0.001
+i_deg = 51.6
+raan_deg = 0
+argp_deg = 0
+ta_deg = 0
+[deputy]
+position_m = [0, 1000, 0]
+[jet]
+order = 2
+duration_orbits = 1
+coordinates = "flow-box"
+[uncertainty]
+position_m = [1000, 1000, 1000]
+velocity_m_s = [1, 1, 1]
+count = 2
+samples = 500
+[uncertainty.deputy]
+position_m = [10, 10, 10]
+"""
+
+
+@pytest.fixture(scope="module")
+def result():
+    return hamjet.uncertainty(SCENE)
+
+
+def test_arrays_have_times_states_and_orders(result):
+    assert result.states == ("chief", "deputy", "relative")
+    assert result.components == ("R", "T", "N", "vR", "vT", "vN")
+    assert result.mean.shape == (2, 3, 2, 6)
+    assert result.covariance.shape == (2, 3, 2, 6, 6)
+    assert result.charted_negentropy.shape == (2, 3, 2)
+    assert result.flown_skewness_scatter.shape == (2, 3, 6)
+    assert result.flown_states().shape == (500, 6)
+    assert not result.mean.flags.writeable
+
+
+def test_moments_of_samples_are_those_of_the_states(result):
+    # NumPy takes the moments of the same states.
+    states = result.flown_states(1, 0)
+    deviations = states.std(axis=0)
+    np.testing.assert_allclose(result.flown_standard_deviation[1, 0], deviations, rtol=1e-10)
+    z = (states - states.mean(axis=0)) / deviations
+    np.testing.assert_allclose(result.flown_skewness[1, 0], (z**3).mean(axis=0), atol=1e-8)
+    np.testing.assert_allclose(result.flown_excess_kurtosis[1, 0], (z**4).mean(axis=0) - 3,
+                               atol=1e-8)
+
+
+def test_the_difference_of_two_has_the_sum_of_their_covariances(result):
+    total = result.covariance[:, 0] + result.covariance[:, 1]
+    np.testing.assert_allclose(result.covariance[:, 2], total, rtol=1e-9,
+                               atol=1e-9 * np.abs(total).max())
+
+
+def test_the_table_and_the_summary_have_the_same_numbers(result):
+    table = result.table
+    rows = ((table["state"] == "chief") & (table["polynomials"] == "cartesian")
+            & (table["order"] == 2) & (table["component"] == "R"))
+    np.testing.assert_array_equal(table["standard_deviation"][rows],
+                                  result.standard_deviation[:, 0, 1, 0])
+    families = result.summary["times"][1]["states"][0]["families"]
+    assert families[0]["orders"][1]["mean"] == list(result.mean[1, 0, 1])
+    assert result.summary["verdict"] == result.verdict
+
+
+def polynomial(rows, exponents, points):
+    monomials = np.prod(points[:, None, :] ** exponents[None, :, :], axis=2)
+    return monomials @ rows.T
+
+
+def test_polynomial_moments_are_those_of_a_product_rule():
+    # Nodes of numpy's Gauss-Hermite rule, exact for the fourth power of order 2 with 5 nodes.
+    generator = np.random.default_rng(4)
+    exponents = np.array([e for e in itertools.product(range(3), repeat=3) if sum(e) <= 2])
+    rows = generator.normal(size=(2, len(exponents)))
+    factor = generator.normal(size=(3, 3))
+    moments = hamjet.polynomial_moments(rows, exponents, factor @ factor.T)
+    nodes, weights = np.polynomial.hermite_e.hermegauss(5)
+    weights = weights / weights.sum()
+    points = np.array(list(itertools.product(nodes, repeat=3)))
+    weight = np.array([np.prod(w) for w in itertools.product(weights, repeat=3)])
+    values = polynomial(rows, exponents, points @ factor.T)
+    mean = weight @ values
+    centred = values - mean
+    covariance = centred.T @ (weight[:, None] * centred)
+    np.testing.assert_allclose(moments.mean, mean, rtol=1e-11)
+    np.testing.assert_allclose(moments.covariance, covariance, rtol=1e-10)
+    z = centred / np.sqrt(np.diag(covariance))
+    np.testing.assert_allclose(moments.skewness, weight @ z**3, rtol=1e-9)
+    np.testing.assert_allclose(moments.excess_kurtosis, weight @ z**4 - 3, rtol=1e-8)
+
+
+@pytest.mark.parametrize("rows, exponents, covariance, words", [
+    ([[1.0, 2.0]], [[0], [1], [2]], [[1.0]], "coefficients: wrong shape"),
+    ([[1.0, 2.0]], [[0], [1]], [[1.0, 0.0]], "covariance: wrong shape"),
+    ([[1.0, 2.0]], [[1], [1]], [[1.0]], "stand twice"),
+    ([[1.0, 2.0]], [[0], [1]], [[-1.0]], "variance -1 of x"),
+    ([[1.0, np.nan]], [[0], [1]], [[1.0]], "coefficients: out of range"),
+    ([[1.0, 2.0]], [[0], [-1]], [[1.0]], "exponents: out of range"),
+])
+def test_what_does_not_fit_is_refused(rows, exponents, covariance, words):
+    with pytest.raises(hamjet.UsageError, match=words):
+        hamjet.polynomial_moments(rows, exponents, covariance)
+
+
+def test_a_scene_without_the_table_is_refused():
+    with pytest.raises(hamjet.SceneError, match="uncertainty: missing"):
+        hamjet.uncertainty(SCENE[:SCENE.index("[uncertainty]")])
