@@ -31,14 +31,13 @@ Studied<BoundedFormation> study_company(const GivenScene& given, const py::objec
 }
 
 py::dict poincare_arrays(const FrozenOrbitStudy& study) {
-  const double length_m = study.scene.units.length_km * 1000;
   const double time_s = study.scene.units.time_s;
   constexpr double degrees = 180 / std::numbers::pi;
   Table state, amplitude, rotation, period, node, miss;
   for (const double x : study.state) state.add(x);
   std::vector<bool> chief;
   for (const LibrationCircle& circle : study.circles) {
-    amplitude.add(circle.amplitude * study.semi_major_axis * length_m);
+    amplitude.add(study.length_m(circle.amplitude));
     rotation.add(circle.rotation_number);
     period.add(circle.mean_period * time_s);
     node.add(circle.mean_node * degrees);
@@ -61,7 +60,7 @@ py::dict poincare_arrays(const FrozenOrbitStudy& study) {
   arrays["mean_nodal_periods_s"] = period.array();
   arrays["node_deg_per_revolution"] = node.array();
   arrays["misses"] = miss.array();
-  arrays["reach_m"] = study.failure.empty() ? study.reach * study.semi_major_axis * length_m : none;
+  arrays["reach_m"] = study.failure.empty() ? study.length_m(study.reach) : none;
   arrays["failure"] = study.failure;
   arrays["verdict"] = io::frozen_orbit_verdict(study);
   return arrays;

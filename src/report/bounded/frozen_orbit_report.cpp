@@ -27,23 +27,19 @@ std::array<double, 2> multiplier(const FrozenOrbitStudy& study) {
   return {half + std::copysign(std::sqrt(discriminant), half), 0};
 }
 
-double length_m(const FrozenOrbitStudy& study, double canonical) {
-  return canonical * study.scene.units.length_km * 1000;
-}
-
 std::string circles_table(const FrozenOrbitStudy& study) {
   std::vector<std::vector<std::string>> rows = {
       {"amplitude", "turns a revolution", "revolutions a turn", "nodal period (s)",
        "node (deg a revolution)",
        fmt::format("miss ({})", counted(study.flown_revolutions, "revolution"))}};
   for (const LibrationCircle& circle : study.circles) {
-    rows.push_back({length_text(length_m(study, circle.amplitude * study.semi_major_axis)) +
-                        (circle.is_chiefs ? " (chief)" : ""),
-                    fmt::format("{:.9g}", circle.rotation_number),
-                    fmt::format("{:.6g}", 1 / std::abs(circle.rotation_number)),
-                    fmt::format("{:.9g}", circle.mean_period * study.scene.units.time_s),
-                    fmt::format("{:.9g}", circle.mean_node * degrees),
-                    circle.miss ? fmt::format("{:.2e}", *circle.miss) : std::string()});
+    rows.push_back(
+        {length_text(study.length_m(circle.amplitude)) + (circle.is_chiefs ? " (chief)" : ""),
+         fmt::format("{:.9g}", circle.rotation_number),
+         fmt::format("{:.6g}", 1 / std::abs(circle.rotation_number)),
+         fmt::format("{:.9g}", circle.mean_period * study.scene.units.time_s),
+         fmt::format("{:.9g}", circle.mean_node * degrees),
+         circle.miss ? fmt::format("{:.2e}", *circle.miss) : std::string()});
   }
   return aligned_table(rows);
 }
@@ -53,9 +49,9 @@ std::string circles_table(const FrozenOrbitStudy& study) {
 std::string frozen_orbit_verdict(const FrozenOrbitStudy& study) {
   const auto [real, imaginary] = multiplier(study);
   std::string text = fmt::format(
-      "The frozen orbit of the chief's energy and angular momentum about the axis has a = {:.7g} "
-      "km, e = {:.6g}, i = {:.7g} deg and its perigee at {:.6g} deg, returns after {:.10g} s, and "
-      "a revolution moves it by {:.1e} of the canonical unit. ",
+      "The frozen orbit of the chief's energy and angular momentum about the axis has, osculating "
+      "where the chief starts, a = {:.7g} km, e = {:.6g}, i = {:.7g} deg and its perigee at {:.6g} "
+      "deg, returns after {:.10g} s, and a revolution moves it by {:.1e} of the canonical unit. ",
       study.semi_major_axis * study.scene.units.length_km, study.eccentricity,
       study.inclination_deg, study.pericentre_deg, study.nodal_period * study.scene.units.time_s,
       study.residual);
@@ -71,17 +67,15 @@ std::string frozen_orbit_verdict(const FrozenOrbitStudy& study) {
                     ", and neighbours turn about it in {:.6g} revolutions; the normal form "
                     "of order {} is right to {} of the amplitude up to {} (flown over {}).",
                     1 / std::abs(study.circles.front().rotation_number), study.scene.order,
-                    FrozenOrbitStudy::largest_miss,
-                    length_text(length_m(study, study.reach * study.semi_major_axis)),
+                    FrozenOrbitStudy::largest_miss, length_text(study.length_m(study.reach)),
                     counted(study.flown_revolutions, "revolution"));
 }
 
 std::string frozen_orbit_csv(const FrozenOrbitStudy& study) {
   Columns<LibrationCircle> columns;
   const double unit = study.scene.units.time_s;
-  columns.add("amplitude_m", [&](const LibrationCircle& circle) {
-    return length_m(study, circle.amplitude * study.semi_major_axis);
-  });
+  columns.add("amplitude_m",
+              [&](const LibrationCircle& circle) { return study.length_m(circle.amplitude); });
   columns.add("amplitude_eccentricity", &LibrationCircle::amplitude);
   columns.add("chief", &LibrationCircle::is_chiefs);
   columns.add("rotation_number", &LibrationCircle::rotation_number);
@@ -116,13 +110,12 @@ Json frozen_orbit_json(const FrozenOrbitStudy& study) {
   json["failure"] = text_or_null(study.failure);
   json["smallest_divisor"] = has_form ? Json(study.smallest_divisor) : Json(nullptr);
   json["flown_revolutions"] = has_form ? Json(study.flown_revolutions) : Json(nullptr);
-  json["reach_m"] =
-      has_form ? Json(length_m(study, study.reach * study.semi_major_axis)) : Json(nullptr);
+  json["reach_m"] = has_form ? Json(study.length_m(study.reach)) : Json(nullptr);
   json["largest_miss"] = FrozenOrbitStudy::largest_miss;
   json["circles"] = Json::array();
   for (const LibrationCircle& circle : study.circles) {
     json["circles"].push_back(
-        {{"amplitude_m", length_m(study, circle.amplitude * study.semi_major_axis)},
+        {{"amplitude_m", study.length_m(circle.amplitude)},
          {"amplitude_eccentricity", circle.amplitude},
          {"chief", circle.is_chiefs},
          {"rotation_number", circle.rotation_number},

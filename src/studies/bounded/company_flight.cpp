@@ -44,6 +44,7 @@ CompanyFlight::CompanyFlight(const Scene& scene, const FlowSection<double>& sect
     in_window_.push_back(times_.size());
     times_.push_back(times[k]);
   }
+  choose_times_of_orbit();
   chief_.push_back(scene.nominal);
   for (std::size_t k = 1; k < times_.size(); ++k) {
     chief_.push_back(flown_on(chief_.back(), times_[k] - times_[k - 1]));
@@ -60,12 +61,33 @@ std::vector<double> CompanyFlight::flown_on(const std::vector<double>& state, do
   return exact_flow(system_, state, time);
 }
 
-/// States at equal times of one revolution.
+/// One revolution in equal steps of the chief's eccentric anomaly, so that its pericentre has as
+/// many places as its apocentre.
+void CompanyFlight::choose_times_of_orbit() {
+  const SixNumbers<double>& chief = section_.chief();
+  const double ratio =
+      1 - (chief[q_place] * chief[q_place] + chief[p_place] * chief[p_place]) / (2 * chief[3]);
+  const double e = std::sqrt((1 - ratio) * (1 + ratio));
+  const double start = within_half_a_turn(chief[0] - std::atan2(-chief[q_place], chief[p_place]));
+  double anomaly = start + e * std::sin(start);
+  // Its error only moves the places.
+  constexpr int iterations = 20;
+  for (int i = 0; i < iterations; ++i) {
+    anomaly -= (anomaly - e * std::sin(anomaly) - start) / (1 - e * std::cos(anomaly));
+  }
+  const auto mean = [&](int k) {
+    const double E = anomaly + 2 * std::numbers::pi * k / points_of_orbit;
+    return E - e * std::sin(E);
+  };
+  for (int k = 1; k <= points_of_orbit; ++k) {
+    steps_of_orbit_.push_back((mean(k) - mean(k - 1)) * nodal_period_ / (2 * std::numbers::pi));
+  }
+}
+
+/// States along one revolution.
 std::vector<std::vector<double>> CompanyFlight::orbit_from(const std::vector<double>& start) const {
   std::vector<std::vector<double>> orbit = {start};
-  for (int k = 1; k <= points_of_orbit; ++k) {
-    orbit.push_back(flown_on(orbit.back(), nodal_period_ / points_of_orbit));
-  }
+  for (const double step : steps_of_orbit_) orbit.push_back(flown_on(orbit.back(), step));
   return orbit;
 }
 

@@ -23,7 +23,7 @@ class CompanyFlight {
 
   /// The state after a time.
   std::vector<double> flown_on(const std::vector<double>& state, double time) const;
-  /// The deputy relative to the chief at equal times of the first revolution.
+  /// The deputy relative to the chief along the first revolution.
   std::vector<RelativeState> first_orbit(const std::vector<double>& deputy) const;
   /// Flies the deputy over the window: fills its first and last orbit, size, lowest point and
   /// drifts from its state.
@@ -40,6 +40,7 @@ class CompanyFlight {
     double node = 0;
   };
   Passage passage_of(std::vector<double> state, const SixNumbers<double>& chief) const;
+  void choose_times_of_orbit();
   std::vector<std::vector<double>> orbit_from(const std::vector<double>& start) const;
   std::vector<RelativeState> relative_orbit(const std::vector<std::vector<double>>& chief,
                                             const std::vector<std::vector<double>>& deputy) const;
@@ -57,6 +58,7 @@ class CompanyFlight {
   std::vector<double> times_;          ///< of a tenth of the window, then of the window
   std::vector<std::size_t> in_tenth_;  ///< places among them
   std::vector<std::size_t> in_window_;
+  std::vector<double> steps_of_orbit_;      ///< of one revolution
   std::vector<std::vector<double>> chief_;  ///< at the times
   std::vector<std::vector<double>> chief_first_;
   std::vector<std::vector<double>> chief_last_;

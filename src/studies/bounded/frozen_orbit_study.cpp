@@ -108,6 +108,10 @@ void add_normal_form(const ZonalGravity& field, const SixNumbers<double>& chief,
 
 }  // namespace
 
+double FrozenOrbitStudy::length_m(double of_eccentricity) const {
+  return of_eccentricity * semi_major_axis * scene.units.length_km * 1000;
+}
+
 FrozenOrbitStudy study_frozen_orbit(const Scene& scene, const ProgressCallback& progress) {
   require_formation_problem(scene, true, "nominal");
   FrozenOrbitStudy study;

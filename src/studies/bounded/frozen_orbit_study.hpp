@@ -49,6 +49,8 @@ struct FrozenOrbitStudy {
   double reach = 0;
 
   static constexpr double largest_miss = 1e-3;
+  /// The amplitude of an eccentricity as a length, metres: a times it.
+  double length_m(double of_eccentricity) const;
   bool is_stable() const { return trace_less_2 < 0 && trace > -2; }
 };
 
