@@ -39,6 +39,27 @@ EvaluatedScene evaluated_scene(const Scene& scene) {
   return result;
 }
 
+EvaluatedScene evaluated_jet(const io::StoredJet& stored) {
+  constexpr double canonical_mu = 1;
+  EvaluatedScene result;
+  result.chief = stored;
+  result.chief.jet.clear();
+  result.coordinates = stored.coordinates;
+  const SixNumbers<double> start = six_numbers(stored.nominal_initial);
+  const SixNumbers<double> end = six_numbers(stored.nominal_final);
+  const CanonicalChart<double> first(chart_of(stored.coordinates.start), start, canonical_mu);
+  const CanonicalChart<double> last(chart_of(stored.coordinates.end), end, canonical_mu);
+  const FlowMap<double> map(convert_map<double>(stored.jet));
+  result.flow = charted_deputy_flow(first, start, last, end, map);
+  // The linear part in positions and momenta is that of the jet, whatever it is written in.
+  const Matrix<double> linear = result.flow->exit_derivative() *
+                                linear_part(without_constants(map.jet())) *
+                                result.flow->entry_derivative();
+  result.rounding_m = rounding_of_flights(linear, start, end, stored.momentum_exponent()) *
+                      stored.units.length_km * 1000;
+  return result;
+}
+
 void DeputyEvaluation::add(const std::vector<double>& deviation) {
   pending_.push_back(six_numbers(deviation));
 }

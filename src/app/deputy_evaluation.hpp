@@ -18,12 +18,15 @@ struct EvaluatedScene {
   CoordinatesAtEnds coordinates;  ///< not automatic
   std::shared_ptr<const DeputyFlow> flow;
   double rounding_m = 0;  ///< of a deputy's final position, at a flight's floor
-  double seconds = 0;     ///< of the integration
+  double seconds = 0;     ///< of the integration; 0 of a stored jet
 };
 
 /// Integrates the polynomials of a scene about an orbit in all six variables. Throws Error(scene)
 /// for others, and as the integrator.
 EvaluatedScene evaluated_scene(const Scene& scene);
+
+/// A stored jet in other coordinates than Cartesian as such polynomials.
+EvaluatedScene evaluated_jet(const io::StoredJet& stored);
 
 /// What JetEvaluation does, for polynomials in any coordinates.
 class DeputyEvaluation {

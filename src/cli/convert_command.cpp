@@ -8,6 +8,7 @@
 #include <type_traits>
 #include <variant>
 
+#include "../app/jet_conversion.hpp"
 #include "../app/refusal.hpp"
 #include "../app/rounding_note.hpp"
 #include "../formats/foreign_jet.hpp"
@@ -15,6 +16,7 @@
 #include "../formats/output_formats.hpp"
 #include "../store/text_file.hpp"
 #include "../text/scene_message.hpp"
+#include "../text/terminal_text.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/formats/jet_file.hpp"
 #include "noted_jet.hpp"
@@ -73,6 +75,38 @@ io::StoredJet read_jet(const ConvertOptions& options) {
   return read_noted_jets(options.from, options.run, wanted).front();
 }
 
+CoordinatesAtEnds coordinates_of(const ConvertOptions& options, const io::StoredJet& stored) {
+  const auto named = [](const std::string& name) {
+    const auto& names = jet_coordinates_names;
+    return static_cast<JetCoordinates>(std::find(names.begin(), names.end(), name) - names.begin());
+  };
+  CoordinatesAtEnds wanted = stored.coordinates;
+  if (options.coordinates) wanted = named(*options.coordinates);
+  if (options.end_coordinates) wanted.end = named(*options.end_coordinates);
+  return wanted;
+}
+
+/// The jet in the coordinates that are asked for, if any are.
+std::optional<ConvertedJet> in_coordinates(const ConvertOptions& options,
+                                           const io::StoredJet& stored) {
+  if (!options.coordinates && !options.end_coordinates) return std::nullopt;
+  return converted_jet(stored, coordinates_of(options, stored),
+                       io::printable(options.from, std::string::npos));
+}
+
+/// What the conversion lost, by degree.
+std::string losses_text(const ConvertedJet& converted) {
+  std::vector<std::vector<std::string>> rows = {{"degree", "there and back", "symplecticity"}};
+  for (std::size_t d = 1; d < converted.there_and_back.size(); ++d) {
+    rows.push_back({std::to_string(d), fmt::format("{:.2g}", converted.there_and_back[d]),
+                    fmt::format("{:.2g}", converted.symplecticity.at(d - 1).scaled)});
+  }
+  return fmt::format(
+      "from {} to {} coordinates; relative to the largest coefficient of each degree, and of the "
+      "brackets\n{}",
+      name_of(converted.from), name_of(converted.stored.coordinates), io::aligned_table(rows));
+}
+
 }  // namespace
 
 CLI::App* add_convert_command(CLI::App& app, ConvertOptions& options) {
@@ -93,6 +127,16 @@ CLI::App* add_convert_command(CLI::App& app, ConvertOptions& options) {
       ->add_option("--time", options.time,
                    "the jet at this one of the scene's jet.times_s (default: the end)")
       ->type_name("SECONDS");
+  const std::vector<std::string> names(jet_coordinates_names.begin(), jet_coordinates_names.end());
+  command
+      ->add_option("--coordinates", options.coordinates,
+                   "of the polynomials at both ends, in a file .h5; what was lost is printed "
+                   "(default: as they are)")
+      ->check(CLI::IsMember(names));
+  command
+      ->add_option("--end-coordinates", options.end_coordinates,
+                   "of their results, where others than at the start")
+      ->check(CLI::IsMember(names));
   add_description_options(*command, options.foreign);
   return command;
 }
@@ -111,8 +155,11 @@ int convert(const ConvertOptions& options) {
   }
   const OutputFile file(to);
   const io::StoredJet stored = read_jet(options);
-  if (const auto note = rounding_note(stored, format)) print_error("note: " + *note);
-  file.write(io::jet_file_content(stored, format));
+  const std::optional<ConvertedJet> converted = in_coordinates(options, stored);
+  const io::StoredJet& written = converted ? converted->stored : stored;
+  if (const auto note = rounding_note(written, format)) print_error("note: " + *note);
+  file.write(io::jet_file_content(written, format));
+  if (converted) print(losses_text(*converted));
   return 0;
 }
 

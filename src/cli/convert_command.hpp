@@ -15,8 +15,10 @@ struct ConvertOptions {
   std::string from;  ///< results of `hamjet run`, or a file of a jet
   std::string to;    ///< .h5, .dace or .csv
   std::optional<std::string> run;
-  std::optional<std::string> time;  ///< of the jet, in seconds; absent: the end
-  io::JetDescription foreign;       ///< what is told of a jet from elsewhere
+  std::optional<std::string> time;             ///< of the jet, in seconds; absent: the end
+  std::optional<std::string> coordinates;      ///< of both ends; absent: as they are
+  std::optional<std::string> end_coordinates;  ///< of the results alone
+  io::JetDescription foreign;                  ///< what is told of a jet from elsewhere
 };
 
 CLI::App* add_convert_command(CLI::App& app, ConvertOptions& options);

@@ -36,6 +36,7 @@ namespace {
 
 io::StoredJet read_stored_jet(const TransferOptions& transfers) {
   io::StoredJet stored = read_noted_jet(*transfers.directory, transfers.run);
+  io::require_positions_and_momenta(stored, io::printable(*transfers.directory, std::string::npos));
   if (stored.duration == 0) {
     refuse_jet(transfers, stored, "has the duration 0, in which nothing can be transferred");
   }

@@ -21,6 +21,9 @@ std::string content_checksum(const StoredJet& description, const FlowJet<Extende
                         ephemeris->reference_frame, ephemeris->reference_frame_epoch,
                         ephemeris->center_name);
   }
+  if (description.coordinates != JetCoordinates::cartesian) {
+    text += name_of(description.coordinates) + "\n";
+  }
   text += coefficients_csv(description.variable_names(), description.components,
                            description.variables, description.precision, jet);
   return fmt::format("{:08x}", record_of({}, text).crc32);

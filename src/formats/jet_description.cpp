@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include "hamjet/error.hpp"
 #include "hamjet/studies/propagation.hpp"
 #include "hamjet/version.hpp"
+#include "hdf5/hdf5_jets.hpp"
 
 namespace hamjet::io {
 
@@ -29,6 +31,41 @@ StoredJet describe_jet(const PropagationResult& result, const RunResult& run) {
 std::string frame_of(SystemModel model) {
   if (!is_orbit(model)) return "the model's generalised coordinates q and momenta p";
   return "inertial, origin at the centre of attraction, z along its axis; p is the velocity";
+}
+
+std::vector<std::string> coordinate_names(ChartName chart) {
+  switch (chart) {
+    case ChartName::cartesian:
+      return {"x", "y", "z", "px", "py", "pz"};
+    case ChartName::spherical:
+      return {"alpha", "r", "beta", "p_alpha", "p_r", "p_beta"};
+    case ChartName::cylindrical:
+      return {"phi", "rho", "z", "L_z", "p_rho", "p_z"};
+    case ChartName::poincare:
+      return {"l+g+h", "-sqrt(2(L-G))sin(g+h)", "-sqrt(2(G-H))sin(h)",
+              "L",     "sqrt(2(L-G))cos(g+h)",  "sqrt(2(G-H))cos(h)"};
+    case ChartName::nodal:
+      return {"l+g", "h", "-sqrt(2(L-G))sin(g)", "L", "H", "sqrt(2(L-G))cos(g)"};
+  }
+  return {};
+}
+
+void require_place_for_coordinates(const StoredJet& stored, const std::string& ending) {
+  if (stored.coordinates == JetCoordinates::cartesian || ending == hdf5_format.ending) return;
+  throw Error(
+      ErrorKind::usage,
+      fmt::format("{}: such a file does not say that its jet is in {} coordinates, must end "
+                  "in {}",
+                  ending, name_of(stored.coordinates), hdf5_format.ending));
+}
+
+void require_positions_and_momenta(const StoredJet& stored, const std::string& name) {
+  if (stored.coordinates == JetCoordinates::cartesian) return;
+  throw Error(ErrorKind::usage,
+              fmt::format("{}: the jet of {} is in {} coordinates; hamjet eval takes it, and "
+                          "`hamjet convert {} other.h5 --coordinates cartesian` writes it in "
+                          "positions and momenta",
+                          name, stored.label, name_of(stored.coordinates), name));
 }
 
 std::vector<std::string> jet_notes(const StoredJet& description, int order) {

@@ -12,6 +12,7 @@
 #include "dace_text.hpp"
 #include "foreign_jet.hpp"
 #include "hamjet/error.hpp"
+#include "jet_description.hpp"
 #include "output_formats.hpp"
 #include "results_names.hpp"
 #include "stored_jet_source.hpp"
@@ -147,6 +148,7 @@ std::vector<StoredJet> read_jets_at_times(const std::filesystem::path& path,
 }
 
 std::string jet_file_content(const StoredJet& stored, const OutputFormat& format) {
+  require_place_for_coordinates(stored, std::string(format.ending));
   return format.of_jet(stored);
 }
 

@@ -103,6 +103,7 @@ Jet load(const std::filesystem::path& file, const std::optional<std::string>& ru
   io::StoredJet stored = interruptibly(py::none(), [file, run, foreign](const ProgressCallback&) {
     return io::read_jet_file(file, run, foreign);
   });
+  io::require_positions_and_momenta(stored, io::printable_path(file));
   for (const std::string& note : stored.notes) {
     const std::string text = "load: " + note;
     if (PyErr_WarnEx(PyExc_RuntimeWarning, text.c_str(), 1) != 0) throw py::error_already_set();

@@ -34,6 +34,64 @@ TEST_F(ConvertTest, ThereAndBack) {
   }
 }
 
+// A jet in other coordinates of each end says so, loses rounding alone on the way there and back,
+// stays symplectic, and predicts what the same polynomials do where they are integrated.
+TEST_F(ConvertTest, BetweenCoordinates) {
+  if (!io::hdf5_available()) GTEST_SKIP();
+  const std::vector<std::string> ends = {"--coordinates", "nodal", "--end-coordinates", "poincare"};
+  const std::vector<std::string> row = {"--deviation=100,-200,300,0.1,0,0.2", "--json", "-q"};
+  const auto with = [](std::vector<std::string> words, const std::vector<std::string>& more) {
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  };
+  const auto evaluated = [&](const std::vector<std::string>& words) {
+    return Json::parse(succeed(with(words, row)).out);
+  };
+  const std::string said = succeed(with({"convert", "results", "chart.h5"}, ends)).out;
+  EXPECT_EQ(said.find("from cartesian to nodal to poincare coordinates"), 0U) << said;
+  std::istringstream lines(said.substr(said.find("degree  ")));
+  std::string heads;
+  std::getline(lines, heads);
+  int degree = 0;
+  int last = 0;
+  for (double lost = 0, defect = 0; lines >> degree >> lost >> defect; last = degree) {
+    // Rounding to double precision, times what the charts' own coefficients of the degree amplify.
+    EXPECT_LT(lost, 1e-13) << said;
+    EXPECT_LT(defect, 1e-13) << said;
+  }
+  EXPECT_EQ(last, 2);
+  const Json stored = evaluated({"eval", "chart.h5"});
+  EXPECT_EQ(stored["coordinates"], "nodal");
+  EXPECT_EQ(stored["end_coordinates"], "poincare");
+  const Json integrated = evaluated(with_overrides(
+      {"eval", "quick.toml"}, {"jet.coordinates=nodal", "jet.end_coordinates=poincare"}));
+  const Json plain = evaluated({"eval", "results"});
+  for (const char* const name : {"R_m", "T_m", "N_m"}) {
+    const double found = stored["rows"][0][name];
+    EXPECT_NEAR(found, integrated["rows"][0][name].get<double>(), 1e-7);  // of 7000 km, 7 digits
+    EXPECT_NE(found, plain["rows"][0][name].get<double>());
+  }
+  EXPECT_NEAR(stored["rows"][0]["rounding_m"].get<double>(),
+              integrated["rows"][0]["rounding_m"].get<double>(),
+              1e-3 * integrated["rows"][0]["rounding_m"].get<double>());
+  succeed({"convert", "chart.h5", "back.h5", "--coordinates", "cartesian"});
+  const Json back = evaluated({"eval", "back.h5"});
+  EXPECT_EQ(back["coordinates"], "cartesian");
+  for (const char* const name : {"R_m", "T_m", "N_m"}) {
+    EXPECT_NEAR(back["rows"][0][name].get<double>(), plain["rows"][0][name].get<double>(), 1e-9);
+  }
+  // Copied as it is, it keeps its coordinates; others than .h5 have no place for them.
+  succeed({"convert", "chart.h5", "copy.h5"});
+  EXPECT_EQ(evaluated({"eval", "copy.h5"})["rows"], stored["rows"]);
+  expect_error({"convert", "chart.h5", "chart.csv"}, 2, {".csv", "nodal to poincare", ".h5"});
+  expect_error({"convert", "results", "box.h5", "--coordinates", "flow-box"}, 2,
+               {"--coordinates flow-box", "hamjet eval scene.toml"});
+  expect_error({"convert", "results", "auto.h5", "--coordinates", "auto"}, 2,
+               {"--coordinates auto"});
+  expect_error({"transfer", "quick.toml", "--jet", "chart.h5"}, 2,
+               {"chart.h5", "nodal to poincare coordinates", "--coordinates cartesian"});
+}
+
 TEST_F(ConvertTest, ExtendedPrecisionInTheTextOfDace) {
   succeed({"run", "quick.toml", "-q", "-o", "extended", "--set", "precision=extended", "--set",
            "integrator.midpoint=null"});

@@ -290,7 +290,9 @@ class JetsHdf5Test(unittest.TestCase):
                               "runs"]
             self.damaged(having(key, 1.5 if is_text else "text"), key + ": the attribute must be")
             self.damaged(having(key, h5py.Empty("f8")), key + ": ")
-        self.damaged(having("format_version", 2), "format_version: is 2, this hamjet reads 1")
+        self.damaged(having("format_version", 3), "format_version: is 3, this hamjet reads 1 and 2")
+        # Of the second version, which is that of jets in other coordinates, it must name them.
+        self.damaged(having("format_version", 2), "coordinates: the attribute is missing")
         self.damaged(having("length_unit_km", -1.0), "length_unit_km: the attribute must be positive")
         self.damaged(having("time_unit_s", numpy.nan), "time_unit_s: the attribute must be finite")
         self.damaged(having("time_unit_s", [1.0, 2.0]), "time_unit_s: the attribute must have 1")

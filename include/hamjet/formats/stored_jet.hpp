@@ -41,6 +41,10 @@ struct StoredJet {
   /// measured or estimated them (see relative_error_by_degree) and the format keeps them; else
   /// empty.
   std::vector<double> error_by_degree = {};
+  /// In which the deviations are, at the start, and the final ones. In other coordinates than
+  /// Cartesian the constant terms are the chief's, in the chart of the end; nominal states are
+  /// positions and momenta all the same.
+  CoordinatesAtEnds coordinates = {};
   /// What its reader has to tell of the file, a line each.
   std::vector<std::string> notes = {};
   /// One series a component. The printed digits bring back the numbers of the run bit by bit; in
@@ -75,6 +79,10 @@ struct WantedTimes {
 std::vector<StoredJet> read_stored_jets(const std::filesystem::path& directory,
                                         const std::optional<std::string>& label,
                                         const WantedTimes& wanted);
+
+/// Throws Error(usage) unless a stored jet is in positions and momenta, for those who can do nothing
+/// with another; `name` is the file's.
+void require_positions_and_momenta(const StoredJet& stored, const std::string& name);
 
 /// Whether a stored jet is of this time, to 1e-9 of it.
 bool is_at(const StoredJet& stored, double time_s);

@@ -286,10 +286,11 @@ void report(const EvalCoordinates& coordinates, const EvalSource& jet, const Wor
       output.rows(), work.seconds, work.seconds / points * 1e9, multiply_adds,
       static_cast<double>(multiply_adds) * points / work.seconds));
   if (jet.scene) {
-    print_note(
-        fmt::format("{} coordinates, integrated in {}; the time of the evaluation is that of "
-                    "polynomials and of the coordinates at both ends",
-                    name_of(jet.coordinates()), duration_text(jet.scene->seconds)));
+    print_note(fmt::format(
+        "{} coordinates, {}; the time of the evaluation is that of polynomials, of the coordinates "
+        "at both ends and of the lower degrees that the estimate needs",
+        name_of(jet.coordinates()),
+        jet.scene->seconds > 0 ? "integrated in " + duration_text(jet.scene->seconds) : "stored"));
   }
   print_note(fmt::format("frame {}; the estimates of the miss cover {}", coordinates.text(),
                          miss_covers(jet)));

@@ -61,7 +61,12 @@ RunOptions scene_named(const EvalOptions& options, const std::string& name) {
 
 std::vector<EvalSource> read_eval_sources(const EvalOptions& options) {
   if (is_of_scene(options)) return {integrated_scene(options)};
-  if (!options.time) return {{read_noted_jet(options.directory, options.run)}};
+  if (!options.time) {
+    io::StoredJet stored = read_noted_jet(options.directory, options.run);
+    if (stored.coordinates == JetCoordinates::cartesian) return {{std::move(stored)}};
+    EvaluatedScene polynomials = evaluated_jet(stored);
+    return {{std::move(stored), std::move(polynomials)}};
+  }
   std::vector<EvalSource> jets;
   for (io::StoredJet& stored :
        read_noted_jets(options.directory, options.run, wanted_times(*options.time))) {

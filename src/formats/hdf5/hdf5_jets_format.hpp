@@ -10,6 +10,8 @@ namespace hamjet::io::hdf5 {
 
 inline const std::string format = "hamjet jets";
 inline constexpr int format_version = 1;
+/// Of files whose jet is in other coordinates than Cartesian, which version 1 does not know.
+inline constexpr int charted_format_version = 2;
 
 /// Attribute of a run: relative errors of the coefficients of each degree, where they are known.
 inline constexpr const char* error_attribute = "coefficient_error_by_degree";

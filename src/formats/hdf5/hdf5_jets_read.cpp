@@ -7,6 +7,7 @@
 #include "../../text/scene_message.hpp"
 #include "../content_checksum.hpp"
 #include "../stored_coefficients.hpp"
+#include "hamjet/charts/canonical_chart.hpp"
 #include "hamjet/error.hpp"
 #include "hdf5_jets.hpp"
 #include "hdf5_jets_format.hpp"
@@ -23,9 +24,10 @@ void require_this_format(const Reader& root) {
     root.fail("format", fmt::format("must be {}: the file holds no jets", in_quotes(hdf5::format)));
   }
   const int stored = root.integer("format_version");
-  if (stored != hdf5::format_version) {
-    root.fail("format_version", fmt::format("is {}, this hamjet reads {}; write the file again",
-                                            stored, hdf5::format_version));
+  if (stored != hdf5::format_version && stored != hdf5::charted_format_version) {
+    root.fail("format_version",
+              fmt::format("is {}, this hamjet reads {} and {}; write the file again", stored,
+                          hdf5::format_version, hdf5::charted_format_version));
   }
 }
 
@@ -84,6 +86,22 @@ StoredJet read_scene(const Reader& root) {
   if (!std::includes(stored.components.begin(), stored.components.end(), stored.variables.begin(),
                      stored.variables.end())) {
     root.fail("variables", "the attribute must be among the components");
+  }
+  if (root.integer("format_version") == hdf5::charted_format_version) {
+    const auto read = [&](const char* name) {
+      const std::size_t index =
+          index_of(root, name, root.text(name),
+                   std::vector<std::string_view>(jet_coordinates_names.begin(),
+                                                 jet_coordinates_names.end()));
+      if (!chart_of(jet_coordinates_names[index])) {
+        root.fail(name, "the attribute must name coordinates of a jet in six variables");
+      }
+      return static_cast<JetCoordinates>(index);
+    };
+    stored.coordinates = {read("coordinates"), read("end_coordinates")};
+    if (!is_orbit(stored.model) || stored.variables.size() != 6) {
+      root.fail("coordinates", "the attribute is for jets of orbits in all six variables");
+    }
   }
   if (root.has_attribute("epoch")) {
     EphemerisSettings& ephemeris = stored.ephemeris.emplace();
@@ -190,8 +208,10 @@ StoredJet read_jets_hdf5(const std::string& name, std::string_view bytes,
         run.numbers(hdf5::error_attribute, static_cast<std::size_t>(order) + 1);
   }
   for (std::size_t c = 0; c < stored.components.size(); ++c) {
-    if (static_cast<double>(stored.jet[c].constant()) !=
-        stored.nominal_final[stored.components[c]]) {
+    // In other coordinates the constant terms are those of the chief's end.
+    if (stored.coordinates.end == JetCoordinates::cartesian &&
+        static_cast<double>(stored.jet[c].constant()) !=
+            stored.nominal_final[stored.components[c]]) {
       run.fail("nominal_final", "the attribute is not the constant term of the coefficients");
     }
   }

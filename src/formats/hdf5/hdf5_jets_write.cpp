@@ -24,7 +24,9 @@ constexpr const char* description =
 Each group but this one is a run, with the jet of one integrator. Component c of the final state is
   sum over k of coefficients[c, k] * product over v of d[v] ** exponents[k, v],
 where d are the deviations of the variables from the nominal at the start; the term 0 is the nominal's
-final state. Names of components and variables, of the axes (DIMENSION_LABELS) and the units stand in
+final state. Where the file has the attributes coordinates and end_coordinates, d and the final state
+are in these canonical coordinates about the chief (coordinates_names, end_coordinates_names), else
+in positions and momenta. Names of components and variables, of the axes (DIMENSION_LABELS) and the units stand in
 attributes. Numbers are canonical: a length is length_unit_km km, a time time_unit_s s.
 Where precision is "extended", coefficients_decimal holds all 113 bits as 36 digits, and coefficients
 the nearest doubles.
@@ -62,7 +64,9 @@ void write_scene(const Writer& file, const StoredJet& jet, int order, const std:
   const hid_t root = file.root();
   const auto names = jet.variable_names();
   file.attribute(root, "format", hdf5::format);
-  file.attribute(root, "format_version", hdf5::format_version);
+  const bool is_charted = jet.coordinates != JetCoordinates::cartesian;
+  file.attribute(root, "format_version",
+                 is_charted ? hdf5::charted_format_version : hdf5::format_version);
   file.attribute(root, "hamjet_version", std::string(version));
   file.attribute(root, "description", std::string(description));
   file.attribute(root, "scene", jet.scene);
@@ -80,6 +84,15 @@ void write_scene(const Writer& file, const StoredJet& jet, int order, const std:
   file.attribute(root, "variables", names_of(names, jet.variables));
   file.attribute(root, "nominal_initial", jet.nominal_initial);
   file.attribute(root, "runs", labels);
+  if (is_charted) {
+    const auto write = [&](const std::string& key, JetCoordinates coordinates) {
+      file.attribute(root, key.c_str(), std::string(name_of(coordinates)));
+      file.attribute(root, (key + "_names").c_str(),
+                     coordinate_names(*chart_of(name_of(coordinates))));
+    };
+    write("coordinates", jet.coordinates.start);
+    write("end_coordinates", jet.coordinates.end);
+  }
   if (!jet.ephemeris) return;
   const EphemerisSettings& ephemeris = *jet.ephemeris;
   file.attribute(root, "reference_frame", ephemeris.reference_frame);

@@ -18,11 +18,15 @@ MetricUnits metric_units(const Scene& scene) {
 }
 
 double rounding_of_flights(const ComputedProblem& problem, const FlowJet<double>& jet) {
-  const std::vector<double> state = nominal_of(jet);
-  const double position = std::hypot(state[0], state[1], state[2]);
-  const Matrix<double> flow =
-      in_momentum_unit<Matrix<double>>(linear_part(jet), problem.momentum_exponent);
-  const double growth = flow.norm() * initial_distance(problem.nominal);
+  return rounding_of_flights(linear_part(jet), problem.nominal, nominal_of(jet),
+                             problem.momentum_exponent);
+}
+
+double rounding_of_flights(const Matrix<double>& linear, std::span<const double> start,
+                           std::span<const double> end, int momentum_exponent) {
+  const double position = std::hypot(end[0], end[1], end[2]);
+  const Matrix<double> flow = in_momentum_unit<Matrix<double>>(linear, momentum_exponent);
+  const double growth = flow.norm() * std::hypot(start[0], start[1], start[2]);
   return std::numeric_limits<double>::epsilon() * (position + growth);
 }
 

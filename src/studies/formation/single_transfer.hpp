@@ -15,6 +15,9 @@ MetricUnits metric_units(const Scene& scene);
 /// Rounding of the positions of two flights: that of the end, and that of the chief's start grown
 /// with the jet's linear part; canonical.
 double rounding_of_flights(const ComputedProblem& problem, const FlowJet<double>& jet);
+/// The same from the linear part alone, between two states of the chief.
+double rounding_of_flights(const Matrix<double>& linear, std::span<const double> start,
+                           std::span<const double> end, int momentum_exponent);
 /// The same from the linear flow of a time, which is integrated.
 double rounding_of_flights(const ComputedProblem& problem, double time);
 

@@ -1,0 +1,90 @@
+#include "jet_conversion.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "../text/scene_message.hpp"
+#include "hamjet/charts/charted_map.hpp"
+#include "hamjet/error.hpp"
+#include "hamjet/studies/propagation.hpp"
+#include "refusal.hpp"
+
+namespace hamjet::cli {
+namespace {
+
+/// An orbit's gravitational parameter in its canonical units.
+const Extended canonical_mu = 1;
+
+SixNumbers<Extended> extended_state(const std::vector<double>& state) {
+  SixNumbers<Extended> result;
+  std::copy_n(state.begin(), result.size(), result.begin());
+  return result;
+}
+
+/// Between positions and momenta and the coordinates of one pair of charts, about a chief.
+class Charts {
+ public:
+  Charts(const CoordinatesAtEnds& coordinates, const io::StoredJet& stored)
+      : start_state_(extended_state(stored.nominal_initial)),
+        start_(*chart_of(name_of(coordinates.start)), start_state_, canonical_mu),
+        end_(*chart_of(name_of(coordinates.end)), extended_state(stored.nominal_final),
+             canonical_mu) {}
+
+  FlowMap<Extended> into(const FlowMap<Extended>& jet) const {
+    return in_charts(jet, start_, start_state_, end_);
+  }
+  FlowMap<Extended> out_of(const FlowMap<Extended>& map) const {
+    return out_of_charts(map, start_, start_state_, end_);
+  }
+
+ private:
+  SixNumbers<Extended> start_state_;
+  CanonicalChart<Extended> start_;
+  CanonicalChart<Extended> end_;
+};
+
+void require_charts(const CoordinatesAtEnds& coordinates) {
+  for (const JetCoordinates one : {coordinates.start, coordinates.end}) {
+    if (chart_of(name_of(one))) continue;
+    refuse(fmt::format("--coordinates {}: {}", name_of(one),
+                       one == JetCoordinates::flow_box
+                           ? "its polynomials are no jet in six variables, and are not made from "
+                             "one: `hamjet eval scene.toml --set jet.coordinates=flow-box` "
+                             "integrates them"
+                           : "a stored jet has no scene to measure by, must name coordinates"));
+  }
+}
+
+}  // namespace
+
+ConvertedJet converted_jet(const io::StoredJet& stored, const CoordinatesAtEnds& coordinates,
+                           const std::string& name) {
+  require_charts(coordinates);
+  if (!is_orbit(stored.model) || stored.components.size() != 6 || stored.variables.size() != 6) {
+    refuse(fmt::format("--coordinates {}: {}: coordinates are of orbits in all six variables",
+                       name_of(coordinates), name));
+  }
+  const Charts before(stored.coordinates, stored);
+  const Charts after(coordinates, stored);
+  ConvertedJet result{stored, stored.coordinates, {}, {}};
+  result.stored.coordinates = coordinates;
+  result.stored.error_by_degree.clear();
+  FlowJet<Extended>& jet = result.stored.jet;
+  jet = after.into(before.out_of(FlowMap<Extended>(stored.jet))).jet();
+  if (stored.precision == Precision::double_precision) {
+    for (Series<Extended>& component : jet) {
+      for (Extended& c : component.coefficients()) c = static_cast<double>(c);
+    }
+  }
+  if (coordinates.end == JetCoordinates::cartesian) {
+    // The nominal's end is what the file has of it, not rounding beside.
+    for (std::size_t i = 0; i < jet.size(); ++i) jet[i][0] = stored.nominal_final[i];
+  }
+  result.there_and_back =
+      relative_error_by_degree(before.into(after.out_of(FlowMap<Extended>(jet))).jet(), stored.jet);
+  result.symplecticity = symplecticity_by_degree(jet);
+  return result;
+}
+
+}  // namespace hamjet::cli
