@@ -17,5 +17,6 @@ void bind_orbit_keys(pybind11::module_& module);
 void bind_runs(pybind11::module_& module);
 void bind_relative_motion(pybind11::module_& module);
 void bind_trajectory(pybind11::module_& module);
+void bind_many(pybind11::module_& module);
 
 }  // namespace hamjet::python

@@ -18,4 +18,5 @@ PYBIND11_MODULE(_hamjet, module) {
   hamjet::python::bind_runs(module);
   hamjet::python::bind_relative_motion(module);
   hamjet::python::bind_trajectory(module);
+  hamjet::python::bind_many(module);
 }

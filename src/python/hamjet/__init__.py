@@ -19,6 +19,7 @@ from ._hamjet import GeneratingFunction, Jet, Units, __version__
 from .elements import elements_of_states, mean_states, osculating_states, states_of_elements
 from .errors import (Error, ExistingFileError, InputOutputError, MissingFileError, NumericalError,
                      SceneError, TooLargeError, UsageError)
+from .many import ManyJets, propagate_many
 from .orbits import orbit
 from .relative_motion import (Assignment, Motion, Separation, Transfers, Validity, assign, motion,
                               transfer, validity)
@@ -28,9 +29,9 @@ from .trajectory import Trajectory, trajectory
 
 __all__ = [
     "AlongTime", "Assignment", "Error", "ExistingFileError", "GeneratingFunction",
-    "InputOutputError", "Jet", "MissingFileError", "Motion", "Nominal", "NumericalError",
-    "RelativeStates", "Result", "Run", "SceneError", "Separation", "StudyResult", "TooLargeError",
-    "Trajectory", "Transfers", "Units", "UsageError", "Validity", "__version__", "assign",
-    "elements_of_states", "load", "mean_states", "motion", "orbit", "osculating_states", "run",
-    "states_of_elements", "trajectory", "transfer", "validity",
+    "InputOutputError", "Jet", "ManyJets", "MissingFileError", "Motion", "Nominal",
+    "NumericalError", "RelativeStates", "Result", "Run", "SceneError", "Separation", "StudyResult",
+    "TooLargeError", "Trajectory", "Transfers", "Units", "UsageError", "Validity", "__version__",
+    "assign", "elements_of_states", "load", "mean_states", "motion", "orbit", "osculating_states",
+    "propagate_many", "run", "states_of_elements", "trajectory", "transfer", "validity",
 ]
