@@ -107,10 +107,10 @@ def propagate_many(scene: scenes.Scene, states: npt.ArrayLike | None = None, *,
     depends on them. The others as of ``hamjet.run``.
 
     At the orders 0 to 2 orbits go through the machine's vectors side by side, two to three times
-    as fast as one at a time, each with steps of its own and each checked, as by ``hamjet.run``, to meet the
-    tolerance at every degree; at higher orders they are integrated one at a time. What ``run`` does
-    beyond the jet is skipped: self-checks, error estimates, references, generating functions. An
-    orbit that fails spoils no other. Raises SceneError, UsageError, TooLargeError,
+    as fast as one at a time, each with steps of its own and each checked, as by ``hamjet.run``, to
+    meet the tolerance at every degree; at higher orders they are integrated one at a time. What
+    ``run`` does beyond the jet is skipped: self-checks, error estimates, references, generating
+    functions. An orbit that fails spoils no other. Raises SceneError, UsageError, TooLargeError,
     InputOutputError.
     """
     if (states is None) == (states_km is None):
