@@ -20,5 +20,6 @@ void bind_long_motion(pybind11::module_& module);
 void bind_trajectory(pybind11::module_& module);
 void bind_polynomials(pybind11::module_& module);
 void bind_uncertainty(pybind11::module_& module);
+void bind_many(pybind11::module_& module);
 
 }  // namespace hamjet::python

@@ -21,4 +21,5 @@ PYBIND11_MODULE(_hamjet, module) {
   hamjet::python::bind_uncertainty(module);
   hamjet::python::bind_trajectory(module);
   hamjet::python::bind_polynomials(module);
+  hamjet::python::bind_many(module);
 }

@@ -21,30 +21,6 @@ bool is_gauss(const IntegratorSettings& settings) {
   return settings.method == IntegrationMethod::gauss;
 }
 
-const IntegratorSettings& chosen(const Scene& scene, std::string_view label) {
-  const auto& all = scene.integrators;
-  if (label.empty()) {
-    const auto first = std::find_if(all.begin(), all.end(), is_gauss);
-    if (first != all.end()) return *first;
-    throw Error(ErrorKind::scene,
-                "trajectory: no integrator has jets between its steps, must have one of the method "
-                "gauss");
-  }
-  const auto named = std::find_if(all.begin(), all.end(),
-                                  [&](const IntegratorSettings& s) { return s.label == label; });
-  if (named == all.end()) {
-    throw Error(ErrorKind::usage, fmt::format("trajectory: no run has the label {}",
-                                              io::in_quotes(std::string(label))));
-  }
-  if (!is_gauss(*named)) {
-    throw Error(ErrorKind::scene,
-                fmt::format("trajectory: {} has no jets between its steps, must be of the method "
-                            "gauss, got {}",
-                            named->label, description_of(named->method).name));
-  }
-  return *named;
-}
-
 template <class Real>
 std::unique_ptr<const JetTrajectory<Real>> trajectory_of(const ComputedProblem& problem,
                                                          const IntegratorSettings& settings,
@@ -63,11 +39,36 @@ std::unique_ptr<const JetTrajectory<Real>> trajectory_of(const ComputedProblem& 
 
 }  // namespace
 
+const IntegratorSettings& gauss_run_of(const Scene& scene, std::string_view label,
+                                       std::string_view who, std::string_view others_lack) {
+  const auto& all = scene.integrators;
+  if (label.empty()) {
+    const auto first = std::find_if(all.begin(), all.end(), is_gauss);
+    if (first != all.end()) return *first;
+    throw Error(ErrorKind::scene,
+                fmt::format("{}: no integrator has {}, must have one of the method "
+                            "gauss",
+                            who, others_lack));
+  }
+  const auto named = std::find_if(all.begin(), all.end(),
+                                  [&](const IntegratorSettings& s) { return s.label == label; });
+  if (named == all.end()) {
+    throw Error(ErrorKind::usage,
+                fmt::format("{}: no run has the label {}", who, io::in_quotes(std::string(label))));
+  }
+  if (!is_gauss(*named)) {
+    throw Error(ErrorKind::scene,
+                fmt::format("{}: {} has no {}, must be of the method gauss, got {}", who,
+                            named->label, others_lack, description_of(named->method).name));
+  }
+  return *named;
+}
+
 SceneTrajectory::SceneTrajectory(const Scene& scene, std::string_view label,
                                  const ProgressCallback& progress)
     : scene_(scene), problem_(make_problem(scene_, available_memory())) {
   require_unsplit(scene_, "a trajectory");
-  settings_ = &chosen(scene_, label);
+  settings_ = &gauss_run_of(scene_, label, "trajectory", "jets between its steps");
   if (scene_.precision == Precision::extended) {
     trajectory_ = trajectory_of<Extended>(problem_, *settings_, scene_.duration, progress);
   } else {

@@ -10,6 +10,12 @@
 
 namespace hamjet {
 
+/// The scene's integrator of this label, which must be a Gauss method; its first Gauss method where
+/// the label is empty. Throws Error(usage) if there is none of this label, Error(scene) for another
+/// method; messages begin with `who` and say what others do not have.
+const IntegratorSettings& gauss_run_of(const Scene& scene, std::string_view label,
+                                       std::string_view who, std::string_view others_lack);
+
 /// The jets of a scene's flow at every time of its duration, from one run (JetTrajectory), in the
 /// scene's precision.
 class SceneTrajectory {

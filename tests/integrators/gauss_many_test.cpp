@@ -111,6 +111,14 @@ bool is_same(const FlowJet<double>& a, const FlowJet<double>& b) {
   });
 }
 
+/// Fewer than half of the orbits have needed more than lanes have: what is tested is not what one
+/// alone does.
+void expect_lanes(const Outcomes& outcomes) {
+  const auto alone =
+      std::ranges::count_if(outcomes, [](const ManyFlowsOutcome& o) { return o.was_alone; });
+  EXPECT_LT(2 * alone, std::ssize(outcomes));
+}
+
 class GaussManyOfOrder : public testing::TestWithParam<int> {};
 
 TEST_P(GaussManyOfOrder, CirclesBesideEccentricOrbitsCloseAfterTheirPeriod) {
@@ -118,6 +126,7 @@ TEST_P(GaussManyOfOrder, CirclesBesideEccentricOrbitsCloseAfterTheirPeriod) {
   const auto problem = problem_of(kepler(1), GetParam(), 2 * std::numbers::pi);
   const States states = orbits_of_axis_one(19);
   const Outcomes outcomes = integrate_gauss_many(problem, states, test::adaptive(8, tolerance));
+  expect_lanes(outcomes);
   for (std::size_t i = 0; i < states.size(); ++i) {
     SCOPED_TRACE("orbit " + std::to_string(i));
     ASSERT_FALSE(outcomes[i].failure);
@@ -139,6 +148,7 @@ TEST_P(GaussManyOfOrder, JetsAreSymplecticToRounding) {
   const auto problem = problem_of(zonal_gravity(field), GetParam(), 20);
   const Outcomes outcomes =
       integrate_gauss_many(problem, orbits_of_axis_one(11), test::adaptive(6, 1e-5));
+  expect_lanes(outcomes);
   for (std::size_t i = 0; i + 3 < outcomes.size(); ++i) {  // the last ones pass within the Earth
     SCOPED_TRACE("orbit " + std::to_string(i));
     ASSERT_FALSE(outcomes[i].failure);

@@ -17,7 +17,8 @@ class LaneField {
       : stages_(stages),
         inputs_(system.evaluated_list().inputs()),
         list_(system.evaluated_list()),
-        group_(list_, SeriesSpace::create(inputs_, 0), 0),
+        half_(list_, SeriesSpace::create(inputs_, 0), 0),
+        whole_(list_, SeriesSpace::create(inputs_, 0), 0),
         point_(list_, SeriesSpace::create(inputs_, order), order) {
     for (std::size_t c = 0; c < inputs_ && order >= 2; ++c) {
       const SeriesSpace& space = *(space_ = SeriesSpace::create(inputs_, order));
@@ -27,24 +28,35 @@ class LaneField {
 
   /// Sets the slopes at all stages.
   void evaluate(const std::vector<Orbits>& places, std::vector<Orbits>& slopes) {
-    for_each_group(places, [&](std::size_t first) {
-      group_.evaluate_constant_values();
-      take_slopes(first, slopes);
-    });
+    std::size_t first = 0;
+    while (first < stages_) {
+      if (stages_ - first > half) {
+        put(places, first, whole_);
+        whole_.evaluate_constant_values();
+        take_slopes(whole_, first, slopes);
+        first += 2 * half;
+      } else {
+        put(places, first, half_);
+        half_.evaluate_constant_values();
+        take_slopes(half_, first, slopes);
+        first += half;
+      }
+    }
   }
 
   /// Sets the slopes and d g_c / d Y_k, which stands at (c m + k) s + i.
   void evaluate(const std::vector<Orbits>& places, std::vector<Orbits>& slopes,
                 std::vector<Orbits>& gradients) {
-    for_each_group(places, [&](std::size_t first) {
-      group_.evaluate_constant_terms();
-      take_slopes(first, slopes);
+    for (std::size_t first = 0; first < stages_; first += half) {
+      put(places, first, half_);
+      half_.evaluate_constant_terms();
+      take_slopes(half_, first, slopes);
       for (std::size_t c = 0; c < inputs_; ++c) {
         for (std::size_t k = 0; k < inputs_; ++k) {
-          take(group_.output_gradient(c, k), first, &gradients[(c * inputs_ + k) * stages_]);
+          take(half_.output_gradient(c, k), first, &gradients[(c * inputs_ + k) * stages_]);
         }
       }
-    });
+    }
   }
 
   /// Sets the slopes at one point, of which component c is `place(c)`.
@@ -89,32 +101,34 @@ class LaneField {
   }
 
  private:
-  /// So many stages are evaluated together: of one alone, each operation would wait for the one
-  /// before.
-  static constexpr std::size_t group_size = 4;
-  using Group = Pack<double, static_cast<int>(group_size* orbit_lanes)>;
+  /// So many stages are evaluated together, or twice as many where there are no derivatives: of one
+  /// alone each operation would wait for the one before, and of more the values outgrow the cache.
+  static constexpr std::size_t half = 4;
+  template <std::size_t Count>
+  using Group = SliceEvaluator<Pack<double, static_cast<int>(Count* orbit_lanes)>, double>;
 
-  template <class Work>
-  void for_each_group(const std::vector<Orbits>& places, const Work& work) {
-    for (std::size_t first = 0; first < stages_; first += group_size) {
-      for (std::size_t c = 0; c < inputs_; ++c) {
-        Group& input = *group_.input(c);
-        for (std::size_t i = 0; i < group_size; ++i) {
-          // Beyond the last stage the first of the group is repeated.
-          const std::size_t stage = first + i < stages_ ? first + i : first;
-          for (std::size_t p = 0; p < Orbits::parts; ++p) {
-            input.part[i * Orbits::parts + p] = places[c * stages_ + stage].part[p];
-          }
+  /// Puts the places of stages from `first` on into a group; beyond the last stage the first of the
+  /// group is repeated.
+  template <class Evaluator>
+  void put(const std::vector<Orbits>& places, std::size_t first, Evaluator& group) const {
+    for (std::size_t c = 0; c < inputs_; ++c) {
+      auto& input = *group.input(c);
+      for (std::size_t i = 0; i * Orbits::parts < input.part.size(); ++i) {
+        const std::size_t stage = first + i < stages_ ? first + i : first;
+        for (std::size_t p = 0; p < Orbits::parts; ++p) {
+          input.part[i * Orbits::parts + p] = places[c * stages_ + stage].part[p];
         }
       }
-      work(first);
     }
   }
-  void take_slopes(std::size_t first, std::vector<Orbits>& slopes) {
-    for (std::size_t c = 0; c < inputs_; ++c) take(*group_.output(c), first, &slopes[c * stages_]);
+  template <class Evaluator>
+  void take_slopes(const Evaluator& group, std::size_t first, std::vector<Orbits>& slopes) const {
+    for (std::size_t c = 0; c < inputs_; ++c) take(*group.output(c), first, &slopes[c * stages_]);
   }
-  void take(const Group& values, std::size_t first, Orbits* target) const {
-    for (std::size_t i = 0; i < group_size && first + i < stages_; ++i) {
+  template <class Values>
+  void take(const Values& values, std::size_t first, Orbits* target) const {
+    for (std::size_t i = 0; i * Orbits::parts < values.part.size(); ++i) {
+      if (first + i == stages_) return;
       for (std::size_t p = 0; p < Orbits::parts; ++p) {
         target[first + i].part[p] = values.part[i * Orbits::parts + p];
       }
@@ -124,7 +138,8 @@ class LaneField {
   std::size_t stages_;
   std::size_t inputs_;
   OperationList list_;
-  SliceEvaluator<Group, double> group_;
+  Group<half> half_;
+  Group<2 * half> whole_;
   SliceEvaluator<Orbits, double> point_;
   SpacePointer space_;
 };

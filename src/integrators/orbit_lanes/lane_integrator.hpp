@@ -131,7 +131,7 @@ class LaneIntegrator {
       lane.remaining_steps = equal_step_count(duration_, *settings_.step, "Gauss");
       lane.proposed = duration_ / static_cast<double>(lane.remaining_steps);
     } else {
-      lane.proposed = control_.first_step(norm, lane.tolerance, duration_);
+      lane.proposed = control_.rule().first_step(norm, lane.tolerance, duration_);
     }
   }
 
@@ -238,7 +238,7 @@ class LaneIntegrator {
     const bool is_sound = std::isfinite(error);
     lane.guess = is_solved && is_sound ? Guess::repeated_step : Guess::none;
     lane.guessed_from = lane.step;
-    const double growth = is_sound ? control_.step_factor(error, lane.tolerance) : 0.5;
+    const double growth = is_sound ? control_.rule().step_factor(error, lane.tolerance) : 0.5;
     lane.proposed = lane.step * std::min(growth, 0.9);
   }
 
@@ -249,7 +249,7 @@ class LaneIntegrator {
     lane.guess = Guess::last_step;
     lane.guessed_from = lane.step;
     ++statistics.steps;
-    statistics.periods += control_.periods(k, lane.step);
+    statistics.periods += control_.rule().periods(control_.measures(k), lane.step);
     statistics.vector_field_evaluations += settings_.stages;
     if (settings_.step) {
       if (settings_.estimates_step_error) statistics.record_step_error(error);
@@ -260,8 +260,8 @@ class LaneIntegrator {
       return;
     }
     statistics.record_step_error(error);
-    const double growth =
-        control_.step_factor(error, lane.tolerance) * control_.time_scale_ratio(k);
+    const double growth = control_.rule().step_factor(error, lane.tolerance) *
+                          control_.rule().time_scale_ratio(control_.measures(k));
     add_compensated(lane.time, lane.lost_time, lane.step);
     if (lane.step == remaining) lane.time = duration_;
     lane.proposed = lane.step * std::clamp(growth, 0.1, 4.0);

@@ -20,6 +20,7 @@ from .bounded import Bounded, FrozenOrbit, bounded, poincare
 from .elements import elements_of_states, mean_states, osculating_states, states_of_elements
 from .errors import (Error, ExistingFileError, InputOutputError, MissingFileError, NumericalError,
                      SceneError, TooLargeError, UsageError)
+from .many import ManyJets, propagate_many
 from .orbits import orbit
 from .polynomials import Polynomials, polynomials
 from .relative_motion import (Assignment, Motion, Separation, Transfers, Validity, assign, motion,
@@ -31,10 +32,11 @@ from .uncertainty import Moments, Uncertainty, polynomial_moments, uncertainty
 
 __all__ = [
     "AlongTime", "Assignment", "Bounded", "Error", "ExistingFileError", "FrozenOrbit",
-    "GeneratingFunction", "InputOutputError", "Jet", "MissingFileError", "Moments", "Motion",
-    "Nominal", "NumericalError", "Polynomials", "RelativeStates", "Result", "Run", "SceneError",
-    "Separation", "StudyResult", "TooLargeError", "Trajectory", "Transfers", "Uncertainty", "Units",
-    "UsageError", "Validity", "__version__", "assign", "bounded", "elements_of_states", "load",
-    "mean_states", "motion", "orbit", "osculating_states", "poincare", "polynomial_moments",
-    "polynomials", "run", "states_of_elements", "trajectory", "transfer", "uncertainty", "validity",
+    "GeneratingFunction", "InputOutputError", "Jet", "ManyJets", "MissingFileError", "Moments",
+    "Motion", "Nominal", "NumericalError", "Polynomials", "RelativeStates", "Result", "Run",
+    "SceneError", "Separation", "StudyResult", "TooLargeError", "Trajectory", "Transfers",
+    "Uncertainty", "Units", "UsageError", "Validity", "__version__", "assign", "bounded",
+    "elements_of_states", "load", "mean_states", "motion", "orbit", "osculating_states", "poincare",
+    "polynomial_moments", "polynomials", "propagate_many", "run", "states_of_elements",
+    "trajectory", "transfer", "uncertainty", "validity",
 ]

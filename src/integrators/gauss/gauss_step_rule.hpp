@@ -1,0 +1,149 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace hamjet {
+
+/// What a step of a Gauss method shows: largest magnitudes over its stages and components.
+struct StepMeasures {
+  double defect = 0;            ///< GaussStepControl::start_defect
+  double slope = 0;             ///< of the slopes g
+  double first_gradient = 0;    ///< of the entries of Dg at the first stage
+  double last_gradient = 0;     ///< at the last
+  double largest_gradient = 0;  ///< at all
+  double place = 0;             ///< of the state at the start, as far as g depends on it
+  double velocity = 0;          ///< there; for a system of second order
+};
+
+/// How large the steps of a Gauss method of s stages are to be, from what they show: see
+/// integrate_gauss. A jet of `order` is integrated in numbers of the given epsilon.
+class GaussStepRule {
+ public:
+  GaussStepRule(int stages, bool is_second_order, int order, double epsilon)
+      : s_(stages), is_second_order_(is_second_order), order_(order), epsilon_(epsilon) {
+    const double s = stages;
+    pade_constant_ =
+        std::pow(std::tgamma(s + 1), 2) / (std::tgamma(2 * s + 1) * std::tgamma(2 * s + 2));
+  }
+
+  /// The time in which the slopes change by about their own size, from a norm of the gradient at
+  /// the start; for an orbit it is proportional to r^(3/2). At most the duration's.
+  double first_step(double norm, double tolerance, double duration) const {
+    const double span = std::abs(duration);
+    double h = span;
+    if (norm > 0) h = is_second_order_ ? 1 / std::sqrt(norm) : 1 / norm;
+    h *= 2 * std::pow(tolerance / error_constant, 0.5 / s_) * s_;
+    return std::copysign(std::min(h, span), duration);
+  }
+
+  /// The error of a step, from the Legendre mode of degree 2s of the slopes, the first that the
+  /// method does not integrate, relative to the slopes: the square of the mode of degree s, which
+  /// shows as the defect at the start of the step (where that happens to vanish, the last mode
+  /// kept, which has the other parity, does not), or what the decay of the last modes lets expect,
+  /// if that is more. `mode(k)` is the largest component of the mode of degree k.
+  template <class Mode>
+  double error_estimate(const StepMeasures& step, double h, const Mode& mode) const {
+    const double slope = slope_scale(step);
+    if (slope == 0) return linearised_error(step, h);
+    const double noise = slope_noise(step);
+    double ratio = std::max(0.0, step.defect - noise) / slope;
+    if (s_ > 1) {
+      const double last = std::max(0.0, mode(s_ - 1) - noise) / slope;
+      const double s = s_;
+      ratio = std::max(ratio, std::pow(last, s / (s - 1)));
+    }
+    return std::max({error_constant * ratio * ratio, continued_modes(slope, noise, mode),
+                     linearised_error(step, h)});
+  }
+
+  double step_factor(double error, double tolerance) const {
+    if (error <= 0) return 4;
+    return std::clamp(0.95 * std::pow(tolerance / error, 0.5 / s_), 0.1, 4.0);
+  }
+
+  /// How the time scale of the dynamics changes over the step, from the slopes' gradients at its
+  /// first and last stage: the next step starts where this one ends, and an orbit's time scale,
+  /// which goes as r^(3/2), changes much from one step to the next.
+  double time_scale_ratio(const StepMeasures& step) const {
+    if (step.first_gradient == 0 || step.last_gradient == 0) return 1;
+    const double ratio = step.first_gradient / step.last_gradient;
+    return std::clamp(is_second_order_ ? std::sqrt(ratio) : ratio, 0.25, 4.0);
+  }
+
+  /// Periods of the linearised motion in a step.
+  double periods(const StepMeasures& step, double h) const {
+    return std::abs(h) * frequency(step) / (2 * std::numbers::pi);
+  }
+
+  /// The longest step on which the stages resolve the shortest wave of the field: a field of n
+  /// waves on a circle about the origin passes at n |v| / |q| at most, and a Legendre expansion
+  /// begins to converge at pi points a wave (Gottlieb and Orszag, Numerical Analysis of Spectral
+  /// Methods, 1977, section 3). The end of the step, whose error goes as the Bessel function
+  /// J_2s(s) then, is good to four digits with 8 stages.
+  double longest_sampling_step(int waves, double distance_by_speed) const {
+    return 2 * s_ * distance_by_speed / waves;
+  }
+
+ private:
+  /// A measured factor: with it the global error of all coefficients of degree 0..4 over a few
+  /// revolutions comes out near the tolerance, for 4 to 16 stages.
+  static constexpr double error_constant = 100;
+
+  /// The mode of degree 2s, relative to the slopes, if the modes go on as the last five or four do.
+  /// The square of the mode of degree s is right for a field of one scale. A weak field of short
+  /// waves (a zonal harmonic of high degree) shows only in the last modes, which then no longer
+  /// decay. This is the error of the nominal itself.
+  template <class Mode>
+  double continued_modes(double slope, double noise, const Mode& mode) const {
+    if (s_ < 4) return 0;
+    const int gap = s_ < 6 ? 2 : 3;
+    // One of two neighbouring modes may vanish by symmetry.
+    const double near = std::max(mode(s_ - 1), mode(s_ - 2)) / slope;
+    if (near <= 8 * std::max(epsilon_, noise / slope)) return 0;
+    const double far = std::max(mode(s_ - 1 - gap), mode(s_ - 2 - gap)) / slope;
+    return near < far ? near * std::pow(near / far, (s_ + 2.0) / gap) : near;
+  }
+
+  /// Error of the deviations after one of their own periods. A nominal at rest, or one that does
+  /// not move in a direction in which the deviations oscillate, shows nothing of it. For
+  /// y' = i omega y the method is the diagonal Pade approximant of the exponential, with an error
+  /// of
+  ///   (s!)^2 / ((2s)! (2s+1)!) (h omega)^(2s+1)     (Hairer and Wanner, Solving ODEs II, IV.3)
+  /// in each of 2 pi / (h omega) steps. The coefficients of degree d hold harmonics too; measured
+  /// on circular orbits, whose nominal shows least, (1 + d/4) omega keeps them to the tolerance.
+  double linearised_error(const StepMeasures& step, double h) const {
+    const double x = std::abs(h) * frequency(step) * (1 + 0.25 * std::min(order_, 4));
+    double power = 1;
+    for (int i = 0; i < s_; ++i) power *= x * x;
+    return 2 * std::numbers::pi * pade_constant_ * power;
+  }
+
+  /// The largest frequency of the linearised equations at the stages.
+  double frequency(const StepMeasures& step) const {
+    return is_second_order_ ? std::sqrt(step.largest_gradient) : step.largest_gradient;
+  }
+
+  /// What rounding makes of a slope: near rest its terms cancel, each about the gradient times the
+  /// distance from the origin; and denormal numbers have few digits or none.
+  double slope_noise(const StepMeasures& step) const {
+    return 8 * (epsilon_ * step.first_gradient * step.place + std::numeric_limits<double>::min());
+  }
+
+  /// Size of the slopes, which does not vanish where a single force passes through zero: with a
+  /// second-order system a frequency times the velocity is a slope too.
+  double slope_scale(const StepMeasures& step) const {
+    if (!is_second_order_) return step.slope;
+    return std::max(step.slope, 0.5 * std::sqrt(step.first_gradient) * step.velocity);
+  }
+
+  int s_;
+  bool is_second_order_;
+  int order_;
+  double epsilon_;
+  double pade_constant_;  ///< (s!)^2 / ((2s)! (2s+1)!)
+};
+
+}  // namespace hamjet
