@@ -41,7 +41,9 @@ DirectionalFlow<Real>::DirectionalFlow(const FlowProblem<Real>& problem, std::si
   const std::span<const Real> state(problem.initial_state);
   const double scale = field_->momentum_scale(state);
   const std::vector<double> gradient = field_->energy_gradient(state);
-  const auto along_field = [&](std::size_t v) { return v < n ? gradient[n + v] : -gradient[v - n]; };
+  const auto along_field = [&](std::size_t v) {
+    return v < n ? gradient[n + v] : -gradient[v - n];
+  };
   std::mt19937_64 generator(1);
   for (std::size_t j = 0; j < count; ++j) {
     std::vector<Real>& direction = directions_.emplace_back();

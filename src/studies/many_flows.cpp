@@ -75,8 +75,7 @@ ManyFlows study_many_flows(const Scene& scene, std::string_view label,
                            std::size_t threads, const ProgressCallback& progress) {
   require_unsplit(scene, who);
   if (scene.precision == Precision::extended) {
-    throw Error(ErrorKind::scene,
-                fmt::format("{}: precision: is extended, must be double", who));
+    throw Error(ErrorKind::scene, fmt::format("{}: precision: is extended, must be double", who));
   }
   ManyFlows flows;
   flows.scene = scene;
