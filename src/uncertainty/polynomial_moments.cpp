@@ -1,19 +1,16 @@
 #include "hamjet/uncertainty/polynomial_moments.hpp"
 
-#include <fmt/format.h>
-
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include "../algebra/singular_values.hpp"
-#include "hamjet/algebra/composition.hpp"
 #include "hamjet/error.hpp"
+#include "hermite_coefficients.hpp"
 
 namespace hamjet {
 namespace {
@@ -21,114 +18,6 @@ namespace {
 /// Directions whose spread, in units of the components' standard deviations, is below this part of
 /// the largest are rounding of the polynomials' coefficients.
 constexpr double resolved_spread = 1e-11;
-
-using Table = std::vector<std::vector<std::size_t>>;
-
-/// The place of monomials of degree 0..M in v variables, by sums that products add up: with
-/// s_i = a_1 + ... + a_i it is the sum over i of C(s_i + i - 1, i), which counts every exponent
-/// vector once (the combinatorial number system).
-class MonomialPlaces {
- public:
-  MonomialPlaces(std::size_t variables, int most)
-      : table_(variables, std::vector<std::size_t>(static_cast<std::size_t>(most) + 2)) {
-    for (std::size_t i = 0; i < variables; ++i) {
-      // C(s + i, i + 1) = C(s - 1 + i, i + 1) + C(s - 1 + i, i)
-      for (std::size_t s = 1; s < table_[i].size(); ++s) {
-        table_[i][s] = table_[i][s - 1] + (i == 0 ? 1 : table_[i - 1][s]);
-      }
-    }
-  }
-
-  std::size_t count() const { return table_.back().back(); }
-
-  /// The place of the product of two monomials of these sums.
-  std::size_t operator()(const std::uint8_t* a, const std::uint8_t* b) const {
-    std::size_t place = 0;
-    for (std::size_t i = 0; i < table_.size(); ++i) {
-      place += table_[i][static_cast<std::size_t>(a[i]) + b[i]];
-    }
-    return place;
-  }
-
- private:
-  Table table_;
-};
-
-/// Exponents and their sums of all monomials, in the order of their places.
-struct Monomials {
-  std::size_t variables = 0;
-  std::vector<std::uint8_t> sums;
-
-  const std::uint8_t* of(std::size_t place) const { return &sums[place * variables]; }
-  int exponent(std::size_t place, std::size_t i) const {
-    const std::uint8_t* s = of(place);
-    return s[i] - (i == 0 ? 0 : s[i - 1]);
-  }
-};
-
-/// All of degree up to M, the last sum, that is the degree, growing slowest.
-Monomials all_monomials(const MonomialPlaces& places, std::size_t variables, int most) {
-  Monomials result{variables, std::vector<std::uint8_t>(places.count() * variables)};
-  std::vector<std::uint8_t> sums(variables, 0);
-  const std::vector<std::uint8_t> zero(variables, 0);
-  while (true) {
-    std::copy(sums.begin(), sums.end(),
-              result.sums.begin() +
-                  static_cast<std::ptrdiff_t>(places(sums.data(), zero.data()) * variables));
-    // The next sequence of sums that do not fall.
-    std::size_t i = 0;
-    while (i + 1 < variables && sums[i] == sums[i + 1]) ++i;
-    if (i + 1 == variables && sums[i] == most) return result;
-    ++sums[i];
-    std::fill(sums.begin(), sums.begin() + static_cast<std::ptrdiff_t>(i), std::uint8_t{0});
-  }
-}
-
-/// Turns columns of coefficients of monomials (rows by place) into those of the orthonormal
-/// polynomials He_a / sqrt(a!), by one variable after the other:
-///
-///   x^n = sum over k of n! / (2^k k! (n - 2k)!) He_(n-2k) .
-void to_hermite(const MonomialPlaces& places, const Monomials& monomials, int most,
-                Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>& columns) {
-  const auto degrees = static_cast<std::size_t>(most) + 1;
-  std::vector<std::vector<double>> parts(degrees);
-  for (std::size_t n = 0; n < degrees; ++n) {
-    double part = 1;
-    for (std::size_t k = 0; 2 * k <= n; ++k) {
-      parts[n].push_back(part);
-      const auto left = static_cast<double>(n - 2 * k);
-      part *= left * (left - 1) / (2.0 * static_cast<double>(k + 1));
-    }
-  }
-  const std::size_t count = monomials.sums.size() / monomials.variables;
-  std::vector<std::uint8_t> raised(monomials.variables);
-  const std::vector<std::uint8_t> zero(monomials.variables, 0);
-  for (std::size_t i = 0; i < monomials.variables; ++i) {
-    // Places grow with every exponent, so that what is added has not been turned yet.
-    for (std::size_t place = 0; place < count; ++place) {
-      const std::uint8_t* sums = monomials.of(place);
-      const auto n = static_cast<std::size_t>(monomials.exponent(place, i));
-      const int left = most - sums[monomials.variables - 1];
-      for (std::size_t k = 1; 2 * k <= static_cast<std::size_t>(left); ++k) {
-        std::copy_n(sums, monomials.variables, raised.begin());
-        for (std::size_t j = i; j < monomials.variables; ++j) {
-          raised[j] = static_cast<std::uint8_t>(raised[j] + 2 * k);
-        }
-        const auto from = static_cast<Eigen::Index>(places(raised.data(), zero.data()));
-        columns.row(static_cast<Eigen::Index>(place)) += parts[n + 2 * k][k] * columns.row(from);
-      }
-    }
-  }
-  for (std::size_t place = 0; place < count; ++place) {
-    double factorial = 1;
-    for (std::size_t i = 0; i < monomials.variables; ++i) {
-      for (int n = 2; n <= monomials.exponent(place, i); ++n) factorial *= n;
-    }
-    columns.row(static_cast<Eigen::Index>(place)) *= std::sqrt(factorial);
-  }
-}
-
-using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// F = D U S V^T with the rows' lengths D: axes D U S and V, without what is rounding.
 struct PrincipalAxes {
@@ -232,81 +121,6 @@ Moments cumulants_of(Eigen::Index rank, const Matrix<double>& with_one,
 }
 
 }  // namespace
-
-std::vector<Series<double>> polynomials_of_rows(std::span<const double> coefficients,
-                                                std::span<const std::uint8_t> exponents,
-                                                std::size_t variables) {
-  const std::size_t rows = variables == 0 ? 0 : exponents.size() / variables;
-  if (rows == 0 || rows * variables != exponents.size() || coefficients.empty() ||
-      coefficients.size() % rows != 0) {
-    throw Error(ErrorKind::usage,
-                "moments: the coefficients must have a column for each row of exponents");
-  }
-  int order = 0;
-  for (std::size_t k = 0; k < rows; ++k) {
-    const auto row = exponents.subspan(k * variables, variables);
-    order = std::max(order, std::accumulate(row.begin(), row.end(), 0));
-  }
-  const SpacePointer space = SeriesSpace::create(variables, order);
-  std::vector<Series<double>> map(coefficients.size() / rows, Series<double>(space));
-  std::vector<bool> is_there(space->size(), false);
-  for (std::size_t k = 0; k < rows; ++k) {
-    const std::size_t place = space->index(exponents.subspan(k * variables, variables));
-    if (is_there[place]) {
-      throw Error(ErrorKind::usage, fmt::format("moments: the exponents of row {} stand twice", k));
-    }
-    is_there[place] = true;
-    for (std::size_t c = 0; c < map.size(); ++c) map[c][place] = coefficients[c * rows + k];
-  }
-  return map;
-}
-
-std::vector<Series<double>> in_standard_normals(const std::vector<Series<double>>& map,
-                                                const Covariance& covariance) {
-  return in_standard_normals(map, covariance, Vector<double>::Zero(covariance.size()));
-}
-
-std::vector<Series<double>> in_standard_normals(const std::vector<Series<double>>& map,
-                                                const Covariance& covariance,
-                                                const Vector<double>& mean) {
-  if (map.empty()) throw Error(ErrorKind::usage, "moments: no polynomials");
-  const SeriesSpace& outer = map.front().space();
-  if (covariance.size() != static_cast<Eigen::Index>(outer.variables()) ||
-      mean.size() != covariance.size()) {
-    throw Error(ErrorKind::usage,
-                "moments: the covariance must have a row for each variable of the polynomials");
-  }
-  Matrix<double> factor = covariance.factor();
-  if (factor.cols() == 0) factor = Matrix<double>::Zero(covariance.size(), 1);
-  // The mean is the factor of one more variable, whose value is 1: a polynomial of degree N in
-  // linear forms is one of degree N, so that nothing is cut off.
-  const bool is_moved = (mean.array() != 0).any();
-  const auto rank = static_cast<std::size_t>(factor.cols());
-  if (is_moved) {
-    factor.conservativeResize(Eigen::NoChange, factor.cols() + 1);
-    factor.rightCols(1) = mean;
-  }
-  const SpacePointer space =
-      SeriesSpace::create(static_cast<std::size_t>(factor.cols()), outer.order());
-  std::vector<Series<double>> inner;
-  for (Eigen::Index i = 0; i < factor.rows(); ++i) {
-    inner.emplace_back(space);
-    if (outer.order() == 0) continue;
-    for (Eigen::Index k = 0; k < factor.cols(); ++k) {
-      inner.back()[space->linear_index(static_cast<std::size_t>(k))] = factor(i, k);
-    }
-  }
-  std::vector<Series<double>> composed = compose(map, inner);
-  if (!is_moved) return composed;
-  const SpacePointer kept = SeriesSpace::create(rank, outer.order());
-  std::vector<Series<double>> result(map.size(), Series<double>(kept));
-  // From the highest degree down, so that small terms are not lost.
-  for (std::size_t k = space->size(); k-- > 0;) {
-    const std::size_t place = kept->index(space->exponents(k).first(rank));
-    for (std::size_t c = 0; c < map.size(); ++c) result[c][place] += composed[c][k];
-  }
-  return result;
-}
 
 Cumulants Cumulants::turned(const Vector<double>& mean, const Matrix<double>& factor,
                             Matrix<double>& turn) {

@@ -91,8 +91,8 @@ class Moments(Immutable):
     skewness: Floats  #: (m,)
     excess_kurtosis: Floats  #: (m,)
     covariance: Floats  #: (m, m)
-    mardia_skewness: float
-    mardia_excess_kurtosis: float
+    mardia_skewness: float  #: of all components together, after Mardia (1970)
+    mardia_excess_kurtosis: float  #: likewise; 0 of a Gaussian
     negentropy: float  #: how non-Gaussian, in nats
 
 
