@@ -13,6 +13,7 @@
 #include "../scene/scene_name.hpp"
 #include "../studies/arcs.hpp"
 #include "../studies/descriptions/method_description.hpp"
+#include "../studies/formation/deputy_flows.hpp"
 #include "../studies/skipped_work.hpp"
 #include "../text/quantity_text.hpp"
 #include "../text/scene_message.hpp"
@@ -91,6 +92,11 @@ Scene read_unsplit_scene(const RunOptions& options, const std::string& command) 
                     error.what()));
   }
   return scene;
+}
+
+void note_escape(const RunOptions& options, const Scene& scene) {
+  if (options.quiet) return;
+  if (const auto note = escape_note(scene)) print_error("note: " + *note);
 }
 
 void note_unused_coordinates(const RunOptions& options, const Scene& scene) {

@@ -39,6 +39,9 @@ Scene read_scene(const RunOptions& options);
 /// the scene asks for that.
 Scene read_unsplit_scene(const RunOptions& options, const std::string& command);
 
+/// Says likewise what is to be said of flow boxes near escape.
+void note_escape(const RunOptions& options, const Scene& scene);
+
 /// Says on standard error, unless that is to be quiet, what a command whose jets are in positions
 /// and momenta does not take of the scene.
 void note_unused_coordinates(const RunOptions& options, const Scene& scene);

@@ -91,6 +91,7 @@ int transfer(const RunOptions& options, const TransferOptions& transfers) {
   const Scene scene =
       stored ? read_scene_of(*stored, options) : read_unsplit_scene(options, "hamjet transfer");
   require_transfer(scene, *options.scene_file);
+  note_escape(options, scene);
   std::optional<EarlierJet> earlier;
   const std::string name = scene.name + transfer_suffix;
   if (stored) {
@@ -121,6 +122,7 @@ int transfer(const RunOptions& options, const TransferOptions& transfers) {
 int motion(const RunOptions& options) {
   const Scene scene = read_unsplit_scene(options, "hamjet motion");
   require_deputy(scene, *options.scene_file);
+  note_escape(options, scene);
   return report_study(options, scene.name + motion_suffix, [&](const ProgressCallback& progress) {
     return io::deputy_motion_report(
         study_of(*options.scene_file, [&] { return study_deputy_motion(scene, progress); }),
@@ -152,6 +154,7 @@ int validity(const RunOptions& given, const std::optional<std::string>& coordina
 int assign(const RunOptions& options) {
   const Scene scene = read_unsplit_scene(options, "hamjet assign");
   require_assignment(scene, *options.scene_file);
+  note_escape(options, scene);
   return report_study(
       options, scene.name + assignment_suffix, [&](const ProgressCallback& progress) {
         return io::assignment_report(

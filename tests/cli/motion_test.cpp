@@ -200,6 +200,27 @@ TEST_F(Coordinates, OfASceneAreChanged) {
                {"far.toml", "jet.arcs", "hamjet eval"});
 }
 
+// Near escape flow boxes reach less far than positions and velocities, and a word says so.
+TEST_F(Coordinates, OfFlowBoxesAreQuestionedNearEscape) {
+  write("far.toml", far(""));
+  const std::vector<std::string> boxes = {"jet.coordinates=flow-box", "deputy.position_m=[0,-9,0]",
+                                          "jet.duration_orbits=null", "jet.duration_s=600",
+                                          "validity=null"};
+  const auto said = [&](std::vector<std::string> overrides) {
+    overrides.insert(overrides.end(), boxes.begin(), boxes.end());
+    const CommandResult result = hamjet(with_overrides({"motion", "far.toml"}, overrides));
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return in_one_line(result.err);
+  };
+  EXPECT_EQ(said({}), "");
+  const std::string hyperbola = said({"nominal={position_km=[7000,0,0],velocity_km_s=[0,11,3]}"});
+  EXPECT_EQ(hyperbola.find("hamjet: note: the orbit escapes or nearly does (osculating e = 1.2"),
+            0U)
+      << hyperbola;
+  const CommandResult quiet = hamjet(with_overrides({"motion", "far.toml", "-q"}, boxes));
+  EXPECT_EQ(quiet.err, "");
+}
+
 // The shipped pairs are flown with the full equations of motion beside the polynomials.
 TEST_F(Coordinates, OfFlowBoxesAnswerTheShippedPairs) {
   const std::string scenes = std::string(HAMJET_SOURCE_DIR) + "/data/scenes/";

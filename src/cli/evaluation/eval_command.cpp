@@ -154,7 +154,10 @@ double size_alone(double x) { return std::isfinite(x) ? std::stod(fmt::format("{
 
 /// What an estimate of the miss is made of.
 std::string miss_covers(const EvalSource& jet) {
-  if (jet.scene) return "missing degrees and the rounding of flights";
+  if (jet.scene) {
+    return fmt::format("missing degrees and the rounding of flights; not errors of the {}",
+                       jet.scene->seconds > 0 ? "integration" : "coefficients");
+  }
   const io::StoredJet& stored = jet.stored;
   return fmt::format("missing degrees, rounding of coefficients and evaluation{}",
                      stored.error_by_degree.empty()

@@ -24,6 +24,7 @@ EvalSource integrated_scene(const EvalOptions& options) {
   }
   const RunOptions named = scene_named(options, options.directory);
   const Scene scene = read_unsplit_scene(named, "hamjet eval");
+  note_escape(named, scene);
   EvaluatedScene evaluated = study_of(*named.scene_file, [&] { return evaluated_scene(scene); });
   io::StoredJet chief = evaluated.chief;
   return {std::move(chief), std::move(evaluated)};
@@ -55,6 +56,7 @@ RunOptions scene_named(const EvalOptions& options, const std::string& name) {
     scene.scene_file = io::standard_input_name;
     scene.scene_text = options.standard_input;
   }
+  scene.quiet = options.quiet;
   if (name == options.directory || !is_of_scene(options)) scene.overrides = options.overrides;
   return scene;
 }

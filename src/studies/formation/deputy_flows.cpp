@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <variant>
 
 #include "../descriptions/method_description.hpp"
@@ -50,6 +52,27 @@ SixNumbers<double> six_numbers(std::span<const double> state) {
   SixNumbers<double> result;
   std::copy_n(state.begin(), result.size(), result.begin());
   return result;
+}
+
+std::optional<std::string> escape_note(const Scene& scene) {
+  constexpr double nearly_escaping = 0.99;
+  if (scene.coordinates != JetCoordinates::flow_box) return std::nullopt;
+  const Eigen::Map<const Eigen::Vector3d> position(scene.nominal.data());
+  const Eigen::Map<const Eigen::Vector3d> velocity(scene.nominal.data() + 3);
+  const double energy = velocity.squaredNorm() / 2 - canonical_mu / position.norm();
+  const double eccentricity =
+      std::sqrt(std::max(0.0, 1 + 2 * energy * position.cross(velocity).squaredNorm() /
+                                      (canonical_mu * canonical_mu)));
+  const bool is_nearly_escaping =
+      eccentricity >= nearly_escaping ||
+      section_chart(six_numbers(scene.nominal), canonical_mu) == ChartName::spherical;
+  if (!is_nearly_escaping) return std::nullopt;
+  return fmt::format(
+      "the orbit escapes or nearly does (osculating e = {:.4g}), where flow-box "
+      "coordinates may reach less far than Cartesian ones; `hamjet validity "
+      "--coordinates all` measures it, and jet.coordinates = \"auto\" takes what "
+      "reaches furthest",
+      eccentricity);
 }
 
 ChartName chart_of(JetCoordinates coordinates) {

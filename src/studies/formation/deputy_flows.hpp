@@ -54,6 +54,10 @@ class DeputyFlowPropagation {
   std::optional<FlowBoxMap<double>> last_box_;  ///< of flow boxes
 };
 
+/// What is to be said of a scene whose flow boxes gain nothing: on an orbit that is no ellipse, or
+/// hardly one, time and energy across its sections bend as much as positions do. Nothing elsewhere.
+std::optional<std::string> escape_note(const Scene& scene);
+
 /// The chart that coordinates other than flow boxes are of.
 ChartName chart_of(JetCoordinates coordinates);
 
