@@ -189,6 +189,19 @@ TEST(BoundedFormation, RefusesWhatIsNoOrbitAndWhatLiesInTheEquator) {
   }
 }
 
+// Kepler's ellipses all come back to themselves.
+TEST(FrozenOrbitStudy, RefusesAFieldInWhichAllOrbitsAreFrozen) {
+  Scene scene = oblate_circle(2, 0.1);
+  scene.system.J = {};
+  try {
+    study_frozen_orbit(scene);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::numerical);
+    EXPECT_NE(std::string(error.what()).find("every ellipse"), std::string::npos);
+  }
+}
+
 // The study of the frozen orbit reports what was refined in extended precision, and finds the
 // chief's own circle: its amplitude is the distance of the two eccentricity vectors.
 TEST(FrozenOrbitStudy, FindsTheFrozenOrbitAndTheChiefsCircle) {

@@ -118,6 +118,15 @@ FrozenOrbitStudy study_frozen_orbit(const Scene& scene, const ProgressCallback& 
   study.scene = scene;
   const ZonalGravity field = orbit_field(scene);
   const SixNumbers<double> chief = six_numbers(scene.nominal);
+  bool has_harmonics = false;
+  for (int n = ZonalCoefficients::lowest; n <= ZonalCoefficients::highest; ++n) {
+    has_harmonics = has_harmonics || field.J[n] != 0;
+  }
+  if (!has_harmonics) {
+    throw Error(ErrorKind::numerical,
+                "frozen orbit: without zonal harmonics every ellipse is the same after each "
+                "revolution, and none is singled out");
+  }
   if (progress) progress("frozen orbit", 0);
   const SixNumbers<double> z = FlowSection<double>(field, ChartName::nodal, chief).chief();
   const double cosine = inclination_cosine(z);
