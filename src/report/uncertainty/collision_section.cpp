@@ -4,6 +4,7 @@
 
 #include "../../store/csv_values.hpp"
 #include "../../text/quantity_text.hpp"
+#include "../../text/time_axis.hpp"
 #include "../drawing/along_time_charts.hpp"
 
 namespace hamjet::io {

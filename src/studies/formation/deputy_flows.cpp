@@ -82,7 +82,10 @@ ChartName chart_of(JetCoordinates coordinates) {
 DeputyFlowPropagation::DeputyFlowPropagation(const Scene& scene, const ComputedProblem& problem,
                                              const IntegratorSettings& settings,
                                              const CoordinatesAtEnds& coordinates)
-    : field_(orbit_field(scene)), start_(six_numbers(problem.nominal)), coordinates_(coordinates) {
+    : field_(orbit_field(scene)),
+      start_(six_numbers(problem.nominal)),
+      coordinates_(coordinates),
+      time_s_(scene.units.time_s) {
   if (!coordinates.fit_each_other()) {
     throw Error(
         ErrorKind::usage,
