@@ -59,7 +59,8 @@ Place place_of(const std::string& table, std::string_view owner) {
         {{"deputy", "{position_m=[0, 100, 0]}"},
          {"uncertainty",
           "{position_m=[1, 1, 1], deputy={position_m=[1, 1, 1]}, count=2, "
-          "burn={velocity_change_m_s=[1, 0, 0], magnitude=0.1, direction_deg=1}}"}}}},
+          "burn={velocity_change_m_s=[1, 0, 0], magnitude=0.1, direction_deg=1}, "
+          "collision={radius_m=5}}"}}}},
       {"ephemeris",
        {orbit_file,
         {{"ephemeris",
@@ -132,6 +133,7 @@ const std::map<std::string, Place>& special_places() {
   static const Override waypoint = {"transfer.waypoint", "[{time_s=200, position_m=[1, 0, 0]}]"};
   static const Override no_time = {"transfer.waypoint.0.time_s", "null"};
   static const std::map<std::string, Place> listed = {
+      {"uncertainty.collision.window_s", {"", {}, "[1, 2]"}},
       {"system.gravity_file", {"", {field, highest}, "\"../gravity/EGM96-zonals.gfc\""}},
       {"system.highest_zonal", {"", {field}}},
       {"system.zonals", {"", {field}}},
@@ -212,13 +214,10 @@ const std::map<std::string, Place>& special_places() {
       {"uncertainty.times_s", {"", {no_uncertainty_count}, "[100, 200]"}},
       {"uncertainty.times_orbits", {"", {no_uncertainty_count}}},
       {"uncertainty.times_canonical", {"", {no_uncertainty_count}}},
-      {"uncertainty.covariance_m_m_s",
-       {"", {{"uncertainty.position_m", "null"}}, covariance_text}},
+      {"uncertainty.covariance_m_m_s", {"", {{"uncertainty.position_m", "null"}}, covariance_text}},
       {"uncertainty.file", {"", {{"uncertainty.position_m", "null"}, dated}, cdm}},
       {"uncertainty.object",
-       {"",
-        {{"uncertainty.position_m", "null"}, dated, {"uncertainty.file", cdm}},
-        "\"OBJECT2\""}},
+       {"", {{"uncertainty.position_m", "null"}, dated, {"uncertainty.file", cdm}}, "\"OBJECT2\""}},
       {"uncertainty.deputy.file", {"", {{"uncertainty.deputy.position_m", "null"}, dated}, cdm}},
       {"uncertainty.deputy.object",
        {"",
