@@ -8,9 +8,11 @@ import pytest
 
 import hamjet
 from conftest import ORBIT, OSCILLATOR, SOURCE, scene
+from test_bounded import SCENE as BOUNDED, SHORT
 from test_motion import CIRCLES
 from test_relative_motion import TRANSFER
 from test_to_dataframe import VALIDITY
+from test_uncertainty import SCENE as UNCERTAINTY
 
 
 def objects():
@@ -24,7 +26,10 @@ def objects():
             run.jet.invert_partially("F1"), run.jet.evaluate_relative(np.ones((500, 6))),
             motion, motion.nearest, hamjet.transfer(TRANSFER), hamjet.validity(VALIDITY), study,
             hamjet.assign(SOURCE / "data" / "scenes" / "assignment-tetrahedron.toml",
-                          overrides=["transfer.count=3"])]
+                          overrides=["transfer.count=3"]),
+            hamjet.poincare(BOUNDED, overrides=SHORT), hamjet.bounded(BOUNDED, overrides=SHORT),
+            hamjet.uncertainty(UNCERTAINTY),
+            hamjet.polynomial_moments([[0.0, 1.0]], [[0], [1]], [[1.0]])]
 
 
 @pytest.mark.parametrize("value", objects(), ids=lambda value: type(value).__name__)

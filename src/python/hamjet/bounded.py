@@ -20,10 +20,10 @@ class FrozenOrbit(Study):
 
     state_canonical: Floats  #: (6,): on the chief's mean argument of latitude, with its node
     a_km: float  #: osculating elements there
-    e: float
-    i_deg: float
-    argp_deg: float
-    nodal_period_s: float
+    e: float  #: eccentricity
+    i_deg: float  #: inclination
+    argp_deg: float  #: argument of the perigee
+    nodal_period_s: float  #: from section to section
     residual: float  #: by how much a revolution moves it, in extended precision
     trace_less_2: float  #: the sum of the two multipliers less 2; stable between -4 and 0
     stable: bool
@@ -66,8 +66,9 @@ class Bounded(Study):
     _study: _hamjet.BoundedStudy | None = field(repr=False)
 
     def __repr__(self) -> str:
-        return shown.of(self, f": {len(self.rules)} deputies over {self.revolutions} revolutions\n "
-                        f"{self.verdict}")
+        return shown.of(self, f": {len(self.rules)} deputies over {self.revolutions} revolutions, "
+                        f"{shown.listed(dict.fromkeys(self.rules))}\n along-track drift up to "
+                        f"{shown.largest(self.along_drifts[:, 1])} of the size a revolution")
 
 
 def poincare(scene: scenes.Scene, *, overrides: scenes.Overrides | None = None,

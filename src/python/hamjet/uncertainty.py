@@ -69,7 +69,9 @@ class Uncertainty(Study):
 
     def __repr__(self) -> str:
         return shown.of(self, f": {shown.span(self.times_s)}, {', '.join(self.states)}, "
-                        f"{self.frame}\n {self.verdict}")
+                        f"{self.frame}\n largest negentropy {shown.largest(self.negentropy)} "
+                        f"nats, in {self.coordinates} coordinates "
+                        f"{shown.largest(self.charted_negentropy)}")
 
     def flown_states(self, time: int = -1, state: int = -1) -> Floats:
         """The samples' states at a time, by the places of both: (samples, 6), m and m/s.
@@ -94,6 +96,12 @@ class Moments(Immutable):
     mardia_skewness: float  #: of all components together, after Mardia (1970)
     mardia_excess_kurtosis: float  #: likewise; 0 of a Gaussian
     negentropy: float  #: how non-Gaussian, in nats
+
+    def __repr__(self) -> str:
+        return shown.of(self, f": of {len(self.mean)}, largest skewness "
+                        f"{shown.largest(self.skewness)}, excess kurtosis "
+                        f"{shown.largest(self.excess_kurtosis)}, negentropy "
+                        f"{self.negentropy:.3g} nats")
 
 
 def uncertainty(scene: scenes.Scene, *, overrides: scenes.Overrides | None = None,
