@@ -1,9 +1,8 @@
 #include "uncertainty_command.hpp"
 
-#include "../app/processors.hpp"
+#include "../app/collision_sections.hpp"
 #include "../app/report_origin.hpp"
 #include "../app/required_tables.hpp"
-#include "../report/uncertainty/collision_section.hpp"
 #include "../report/uncertainty/uncertainty_report.hpp"
 #include "../studies/uncertainty/uncertainty.hpp"
 #include "study_command.hpp"
@@ -17,11 +16,7 @@ int uncertainty(const RunOptions& options) {
       options, scene.name + uncertainty_suffix, [&](const ProgressCallback& progress) {
         return study_of(*options.scene_file, [&] {
           const UncertaintyResult moments = study_uncertainty(scene, progress);
-          std::vector<io::UncertaintySection> sections;
-          if (scene.uncertainty->collision) {
-            sections.push_back(io::collision_section(
-                scene, study_collision(scene, usable_processors(), progress)));
-          }
+          const auto sections = collision_sections(scene, progress);
           return io::uncertainty_report(moments, report_origin(options.command), sections);
         });
       });

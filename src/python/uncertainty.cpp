@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "../app/collision_sections.hpp"
 #include "../formats/relative_frame_text.hpp"
 #include "../report/uncertainty/uncertainty_arrays.hpp"
 #include "../report/uncertainty/uncertainty_report.hpp"
@@ -19,12 +20,17 @@ namespace {
 Studied<UncertaintyResult> study_moments(const GivenScene& given, const py::object& progress) {
   const Scene checked = unsplit(given, "hamjet uncertainty");
   cli::require_uncertainty(checked, given.file);
-  return interruptibly(progress, [scene = checked,
-                                  file = given.file](const ProgressCallback& report) {
-    return Studied<UncertaintyResult>(
-        cli::study_of(file, [&] { return study_uncertainty(scene, report); }),
-        [](const UncertaintyResult& result) { return io::uncertainty_report(result, origin()); });
-  });
+  return interruptibly(
+      progress, [scene = checked, file = given.file](const ProgressCallback& report) {
+        UncertaintyResult moments =
+            cli::study_of(file, [&] { return study_uncertainty(scene, report); });
+        const auto sections =
+            cli::study_of(file, [&] { return cli::collision_sections(scene, report); });
+        return Studied<UncertaintyResult>(
+            std::move(moments), [sections](const UncertaintyResult& result) {
+              return io::uncertainty_report(result, origin(), sections);
+            });
+      });
 }
 
 py::object array_of_numbers(io::NumberArray& array) {

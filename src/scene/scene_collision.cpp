@@ -7,6 +7,7 @@
 namespace hamjet::io {
 namespace {
 
+constexpr double largest_radius = 0.01;
 constexpr int fewest_samples = 1000;
 constexpr int most_samples = 1000000000;
 
@@ -43,6 +44,14 @@ CollisionWatch read_collision(const TableReader& collision, const Scene& scene) 
   }
   CollisionWatch watch;
   watch.radius_m = collision.positive_number("radius_m");
+  const double distance_m =
+      Eigen::Vector3d(scene.nominal.data()).norm() * scene.units.length_km * 1000;
+  if (watch.radius_m >= largest_radius * distance_m) {
+    collision.fail("radius_m",
+                   fmt::format("too large, got {:.6g}, must be below {:.4g}, a hundredth "
+                               "of the chief's distance from the centre",
+                               watch.radius_m, largest_radius * distance_m));
+  }
   const double duration_s = scene.duration * scene.units.time_s;
   std::vector<double> window = {0, duration_s};
   if (collision.has("window_s")) {

@@ -274,7 +274,8 @@ CollisionProbability Estimate::result() const {
   const auto count = static_cast<double>(all.samples);
   result.samples = all.samples;
   result.hits = all.hits;
-  result.probability = all.x / count;
+  // The mean of weights may come out above 1 by its error.
+  result.probability = std::min(1.0, all.x / count);
   const double variance =
       std::max(0.0, all.x_squared / count - result.probability * result.probability);
   result.standard_error = std::sqrt(variance / count);
@@ -305,7 +306,7 @@ CollisionProbability Estimate::result() const {
   double sum = 0;
   for (std::size_t k = 0; k < time_count; ++k) {
     sum += all.by_time[k] / count;
-    result.by_time[k + 1] = sum;
+    result.by_time[k + 1] = std::min(1.0, sum);
   }
   return result;
 }
@@ -325,7 +326,13 @@ CollisionProbability collision_probability(const EncounterProblem& problem,
   Estimate estimate(problem, settings, paths);
   if (settings.sampling == CollisionSampling::plain) return estimate.result();
   try {
-    if (estimate.sample_entries()) return estimate.result();
+    if (estimate.sample_entries()) {
+      const CollisionProbability result = estimate.result();
+      // Weights of probable collisions may tell less than plain samples do.
+      const bool is_worse =
+          result.samples > 0 && result.equivalent_samples < static_cast<double>(result.samples);
+      if (settings.sampling == CollisionSampling::entries || !is_worse) return result;
+    }
     if (settings.sampling == CollisionSampling::entries) {
       throw Error(ErrorKind::numerical,
                   fmt::format("collision: the linear motion misses by more than {} radii, so that "

@@ -15,6 +15,8 @@ namespace hamjet {
 namespace {
 
 constexpr double whole_turn = 2 * std::numbers::pi;
+/// Standard deviations below this part of the radius make entries a sheet too thin for boxes.
+constexpr double narrowest = 0.01;
 /// The most boxes: a tenth of a second.
 constexpr std::size_t box_count = 100000;
 
@@ -163,11 +165,11 @@ EntrySampler::EntrySampler(const RelativePaths& paths, double radius, bool begin
     const auto axes = paths.linear(node).by_deviation.topRows(3);
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(axes * axes.transpose(),
                                                                 Eigen::EigenvaluesOnly);
-    const double rounding = 1e-12 * solver.eigenvalues()[2];
-    if (!(solver.eigenvalues()[0] > rounding)) {
+    if (!(std::sqrt(std::max(0.0, solver.eigenvalues()[0])) > narrowest * radius)) {
       throw Error(ErrorKind::numerical,
-                  "collision: the relative position is not uncertain in every direction, so that "
-                  "entries have no density; plain sampling needs none");
+                  "collision: the relative position is nearly certain in a direction, by the "
+                  "radius, so that entries have no density that boxes could follow; plain "
+                  "sampling needs none");
     }
   }
   const double largest = std::max(entering_.log_mass(), inside_.log_mass());

@@ -1,11 +1,13 @@
 """Moments of uncertain states, and of polynomials."""
 
 import itertools
+import subprocess
 
 import numpy as np
 import pytest
 
 import hamjet
+from conftest import COMMAND
 
 SCENE = """
 [system]
@@ -123,3 +125,19 @@ def test_what_does_not_fit_is_refused(rows, exponents, covariance, words):
 def test_a_scene_without_the_table_is_refused():
     with pytest.raises(hamjet.SceneError, match="uncertainty: missing"):
         hamjet.uncertainty(SCENE[:SCENE.index("[uncertainty]")])
+
+
+def test_collisions_are_those_of_the_command(tmp_path):
+    scene = tmp_path / "scene.toml"
+    scene.write_text(SCENE + "[uncertainty.collision]\nradius_m = 50\nsamples = 5000\n")
+    subprocess.run([COMMAND, "uncertainty", scene, "-q", "-o", tmp_path / "out"], check=True)
+    result = hamjet.uncertainty(scene)
+    of_command = hamjet.load(tmp_path / "out").summary["collision"]
+    collision = result.summary["collision"]
+    del of_command["seconds"], collision["seconds"]
+    assert collision == of_command
+    low, high = collision["interval"]
+    assert 0 < low < collision["probability"] < high < 1
+    result.write(tmp_path / "written")
+    assert ((tmp_path / "written" / "collision.csv").read_bytes()
+            == (tmp_path / "out" / "collision.csv").read_bytes())

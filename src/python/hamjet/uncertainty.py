@@ -108,7 +108,9 @@ def uncertainty(scene: scenes.Scene, *, overrides: scenes.Overrides | None = Non
                 progress: Progress | None = None) -> Uncertainty:
     """How a covariance grows, to every order, as ``hamjet uncertainty`` finds it.
 
-    The scene has a table [uncertainty]; arguments as of ``run``. Raises SceneError, UsageError,
+    The scene has a table [uncertainty]; with a table [uncertainty.collision] the member
+    ``collision`` of the summary has the probability that chief and deputy hit each other.
+    Arguments as of ``run``. Raises SceneError, UsageError,
     NumericalError, TooLargeError, InputOutputError.
     """
     study = _hamjet.study_uncertainty(scenes.read(scene, overrides), arguments.progress(progress))

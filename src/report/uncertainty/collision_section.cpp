@@ -21,13 +21,14 @@ nlohmann::ordered_json plane_json(const ShortEncounter& plane) {
           {"holds", plane.holds()}};
 }
 
-nlohmann::ordered_json approach_json(const UncertainApproach& approach) {
+nlohmann::ordered_json approach_json(const UncertainApproach& approach, double radius_m) {
   nlohmann::ordered_json json = {{"time_s", approach.time_s},
                                  {"distance_m", approach.distance_m},
                                  {"speed_m_s", approach.speed_m_s},
                                  {"time_deviation_s", approach.time_deviation_s},
                                  {"distance_deviation_m", approach.distance_deviation_m},
                                  {"flights", approach.flights},
+                                 {"polynomials_hold", approach.holds(radius_m)},
                                  {"position_error_m", approach.position_error_m},
                                  {"time_error_s", approach.time_error_s}};
   if (approach.plane) {
@@ -66,7 +67,7 @@ nlohmann::ordered_json collision_json(const CollisionResult& result) {
                               {"separations_m", result.separations.separations}};
   json["approaches"] = nlohmann::ordered_json::array();
   for (const UncertainApproach& approach : result.approaches) {
-    json["approaches"].push_back(approach_json(approach));
+    json["approaches"].push_back(approach_json(approach, result.watch.radius_m));
   }
   json["seconds"] = result.seconds;
   return json;
@@ -100,8 +101,12 @@ std::string collision_table_text(const CollisionResult& result) {
         p.probability, result.watch.confidence * 100, p.lower, p.upper, p.samples,
         p.sampling == CollisionSampling::plain ? "plain" : "weighted", p.equivalent_samples);
     if (result.order > 1) {
-      text += fmt::format("  by order {} {:+.1e} +- {:.1e} of that\n", result.order - 1,
-                          p.change_from_lower_order, p.standard_error_of_change);
+      text += p.standard_error_of_change > 0
+                  ? fmt::format("  by order {} it is {:+.1e} +- {:.1e} of it more\n",
+                                result.order - 1, p.change_from_lower_order / p.probability,
+                                p.standard_error_of_change / p.probability)
+                  : fmt::format("  order {} decides alike on every sample that was compared\n",
+                                result.order - 1);
     }
   }
   text += "  least separation in the window:";
@@ -114,10 +119,13 @@ std::string collision_table_text(const CollisionResult& result) {
   for (const UncertainApproach& approach : result.approaches) {
     text += fmt::format(
         "  closest approach of the means {:.6g} s: {:.6g} m at {:.4g} m/s; 1 sigma {:.3g} s and "
-        "{:.3g} m; polynomials within {:.1e} m and {:.1e} s of {} flights\n",
+        "{:.3g} m; ",
         approach.time_s, approach.distance_m, approach.speed_m_s, approach.time_deviation_s,
-        approach.distance_deviation_m, approach.position_error_m, approach.time_error_s,
-        approach.flights);
+        approach.distance_deviation_m);
+    text += approach.holds(result.watch.radius_m)
+                ? fmt::format("its polynomials are within {:.1e} m and {:.1e} s of {} flights\n",
+                              approach.position_error_m, approach.time_error_s, approach.flights)
+                : "its polynomials in the deviations do not hold, the time varies too much\n";
     text += plane_text(approach);
   }
   return text;

@@ -117,6 +117,11 @@ void fly(const EncounterProblem& problem, const ClosestApproach& approach, std::
   for (std::size_t k = 0; k < flown_deviations; ++k) {
     times.push_back(approach.time + values[6 * flown_deviations + k]);
   }
+  // Where the polynomials say nothing they tell times that no flight would end at.
+  const double span = problem.to - problem.from;
+  for (const double time : times) {
+    if (!(time > problem.from - span && time < problem.to + span)) return;
+  }
   const auto flown = flown_pairs(problem, deviations, times);
   for (std::size_t k = 0; k < flown_deviations; ++k) {
     double square = 0, rate = 0, speed = 0;

@@ -19,10 +19,15 @@ struct UncertainApproach {
   double time_deviation_s = 0;      ///< standard deviation of its time, linear
   double distance_deviation_m = 0;  ///< of the distance; of the position then, where they meet
   /// Random deviations were flown to the times that the polynomials tell: how far the relative
-  /// positions were from those told, and the times from the minima, at most.
+  /// positions were from those told, and the times from the minima, at most. None were where the
+  /// polynomials tell times far outside the window.
   int flights = 0;
   double position_error_m = 0;
   double time_error_s = 0;
+  /// Whether the polynomials are right to a tenth of the distance or the radius.
+  bool holds(double radius_m) const {
+    return flights > 0 && position_error_m < 0.1 * (distance_m > radius_m ? distance_m : radius_m);
+  }
   std::optional<ShortEncounter> plane;  ///< lengths in metres, times in seconds
   std::string refusal;                  ///< why there is no plane
 };
