@@ -10,24 +10,14 @@ namespace hamjet::python {
 namespace {
 
 Studied<FrozenOrbitStudy> study_poincare(const GivenScene& given, const py::object& progress) {
-  const Scene checked = unsplit(given, "hamjet poincare");
-  return interruptibly(
-      progress, [scene = checked, file = given.file](const ProgressCallback& report) {
-        return Studied<FrozenOrbitStudy>(
-            cli::study_of(file, [&] { return study_frozen_orbit(scene, report); }),
-            [](const FrozenOrbitStudy& study) { return io::frozen_orbit_report(study); });
-      });
+  return studied<FrozenOrbitStudy>(given, progress, "hamjet poincare", nullptr, &study_frozen_orbit,
+                                   &io::frozen_orbit_report);
 }
 
 Studied<BoundedFormation> study_company(const GivenScene& given, const py::object& progress) {
-  const Scene checked = unsplit(given, "hamjet bounded");
-  cli::require_bounded(checked, given.file);
-  return interruptibly(progress, [scene = checked,
-                                  file = given.file](const ProgressCallback& report) {
-    return Studied<BoundedFormation>(
-        cli::study_of(file, [&] { return study_bounded(scene, report); }),
-        [](const BoundedFormation& formation) { return io::bounded_report(formation, origin()); });
-  });
+  return studied<BoundedFormation>(
+      given, progress, "hamjet bounded", &cli::require_bounded, &study_bounded,
+      [](const BoundedFormation& formation) { return io::bounded_report(formation, origin()); });
 }
 
 py::dict poincare_arrays(const FrozenOrbitStudy& study) {
@@ -102,17 +92,8 @@ py::dict bounded_arrays(const BoundedFormation& formation) {
 }  // namespace
 
 void bind_long_motion(py::module_& module) {
-  bind_study<FrozenOrbitStudy>(module, "PoincareStudy")
-      .def_property_readonly(
-          "csv",
-          [](const Studied<FrozenOrbitStudy>& s) { return io::frozen_orbit_csv(*s.result()); })
-      .def("arrays",
-           [](const Studied<FrozenOrbitStudy>& s) { return poincare_arrays(*s.result()); });
-  bind_study<BoundedFormation>(module, "BoundedStudy")
-      .def_property_readonly(
-          "csv", [](const Studied<BoundedFormation>& s) { return io::bounded_csv(*s.result()); })
-      .def("arrays",
-           [](const Studied<BoundedFormation>& s) { return bounded_arrays(*s.result()); });
+  bind_study<FrozenOrbitStudy>(module, "PoincareStudy", &io::frozen_orbit_csv, &poincare_arrays);
+  bind_study<BoundedFormation>(module, "BoundedStudy", &io::bounded_csv, &bounded_arrays);
   module.def("study_poincare", &study_poincare, py::arg("scene"), py::arg("progress"));
   module.def("study_bounded", &study_company, py::arg("scene"), py::arg("progress"));
 }

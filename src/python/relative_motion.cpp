@@ -37,36 +37,20 @@ Studied<TransferResult> study_transfers(const GivenScene& given, const py::objec
 }
 
 Studied<DeputyMotion> study_motion(const GivenScene& given, const py::object& progress) {
-  const Scene checked = unsplit(given, "hamjet motion");
-  cli::require_deputy(checked, given.file);
-  return interruptibly(
-      progress, [scene = checked, file = given.file](const ProgressCallback& report) {
-        return Studied<DeputyMotion>(
-            cli::study_of(file, [&] { return study_deputy_motion(scene, report); }),
-            [](const DeputyMotion& motion) { return io::deputy_motion_report(motion, origin()); });
-      });
+  return studied<DeputyMotion>(
+      given, progress, "hamjet motion", &cli::require_deputy, &study_deputy_motion,
+      [](const DeputyMotion& motion) { return io::deputy_motion_report(motion, origin()); });
 }
 
 Studied<AssignmentResult> assign(const GivenScene& given, const py::object& progress) {
-  const Scene checked = unsplit(given, "hamjet assign");
-  cli::require_assignment(checked, given.file);
-  return interruptibly(
-      progress, [scene = checked, file = given.file](const ProgressCallback& report) {
-        return Studied<AssignmentResult>(
-            cli::study_of(file, [&] { return study_assignment(scene, report); }),
-            [](const AssignmentResult& studied) { return io::assignment_report(studied); });
-      });
+  return studied<AssignmentResult>(given, progress, "hamjet assign", &cli::require_assignment,
+                                   &study_assignment, &io::assignment_report);
 }
 
 Studied<ValidityResult> study_separations(const GivenScene& given, const py::object& progress) {
-  const Scene checked = unsplit(given, "hamjet validity");
-  cli::require_validity(checked, given.file);
-  return interruptibly(
-      progress, [scene = checked, file = given.file](const ProgressCallback& report) {
-        return Studied<ValidityResult>(
-            cli::study_of(file, [&] { return study_validity(scene, report); }),
-            [](const ValidityResult& studied) { return io::validity_report(studied, origin()); });
-      });
+  return studied<ValidityResult>(
+      given, progress, "hamjet validity", &cli::require_validity, &study_validity,
+      [](const ValidityResult& result) { return io::validity_report(result, origin()); });
 }
 
 const Eigen::Vector3d no_vector = Eigen::Vector3d::Constant(none);
@@ -276,29 +260,16 @@ py::tuple extremes(const DeputyMotion& motion) {
 }  // namespace
 
 void bind_relative_motion(py::module_& module) {
-  bind_study<TransferResult>(module, "TransferStudy")
+  bind_study<TransferResult>(module, "TransferStudy", &io::transfers_csv, &transfer_arrays)
       .def_property_readonly(
           "exit_code", [](const Studied<TransferResult>& s) { return exit_code(*s.result()); })
-      .def_property_readonly(
-          "csv", [](const Studied<TransferResult>& s) { return io::transfers_csv(*s.result()); })
-      .def("arrays", [](const Studied<TransferResult>& s) { return transfer_arrays(*s.result()); })
       .def("fly", &fly);
-  bind_study<DeputyMotion>(module, "MotionStudy")
-      .def_property_readonly(
-          "csv", [](const Studied<DeputyMotion>& s) { return io::deputy_motion_csv(*s.result()); })
-      .def("arrays", [](const Studied<DeputyMotion>& s) { return motion_arrays(*s.result()); })
+  bind_study<DeputyMotion>(module, "MotionStudy", &io::deputy_motion_csv, &motion_arrays)
       .def("extremes", [](const Studied<DeputyMotion>& s) { return extremes(*s.result()); });
-  bind_study<ValidityResult>(module, "ValidityStudy")
+  bind_study<ValidityResult>(module, "ValidityStudy", &io::validity_csv, &validity_arrays);
+  bind_study<AssignmentResult>(module, "AssignmentStudy", &io::assignment_csv, &assignment_arrays)
       .def_property_readonly(
-          "csv", [](const Studied<ValidityResult>& s) { return io::validity_csv(*s.result()); })
-      .def("arrays", [](const Studied<ValidityResult>& s) { return validity_arrays(*s.result()); });
-  bind_study<AssignmentResult>(module, "AssignmentStudy")
-      .def_property_readonly(
-          "exit_code", [](const Studied<AssignmentResult>& s) { return exit_code(*s.result()); })
-      .def_property_readonly(
-          "csv", [](const Studied<AssignmentResult>& s) { return io::assignment_csv(*s.result()); })
-      .def("arrays",
-           [](const Studied<AssignmentResult>& s) { return assignment_arrays(*s.result()); });
+          "exit_code", [](const Studied<AssignmentResult>& s) { return exit_code(*s.result()); });
   module.def("study_assignment", &assign, py::arg("scene"), py::arg("progress"));
   module.def("study_transfers", &study_transfers, py::arg("scene"), py::arg("progress"));
   module.def("study_motion", &study_motion, py::arg("scene"), py::arg("progress"));

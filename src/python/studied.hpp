@@ -60,6 +60,22 @@ inline Scene unsplit(const GivenScene& given, const std::string& command) {
   return scene;
 }
 
+/// The scene's study as `command` does it: `require` refuses a scene that has not what the study
+/// needs, and may be null; `study` does it, and `make_report` tells it.
+template <class Result>
+Studied<Result> studied(const GivenScene& given, const py::object& progress,
+                        const std::string& command,
+                        void (*require)(const Scene&, const std::string&),
+                        Result (*study)(const Scene&, const ProgressCallback&),
+                        typename Studied<Result>::MakeReport make_report) {
+  const Scene checked = unsplit(given, command);
+  if (require != nullptr) require(checked, given.file);
+  return interruptibly(progress, [scene = checked, file = given.file, study,
+                                  make_report](const ProgressCallback& report) {
+    return Studied<Result>(cli::study_of(file, [&] { return study(scene, report); }), make_report);
+  });
+}
+
 /// Columns of numbers that grow row by row.
 struct Table {
   std::vector<double> numbers = {};
@@ -73,13 +89,18 @@ struct Table {
   }
 };
 
-/// Binds what the studies have in common.
+/// Binds what the studies have in common; `csv` and `arrays` make the table's text and the arrays
+/// of a result.
 template <class Result>
-py::class_<Studied<Result>> bind_study(py::module_& module, const char* name) {
+py::class_<Studied<Result>> bind_study(py::module_& module, const char* name,
+                                       std::string (*csv)(const Result&),
+                                       py::dict (*arrays)(const Result&)) {
   return py::class_<Studied<Result>>(module, name)
       .def_property_readonly("summary",
                              [](const Studied<Result>& s) { return s.report().summary(); })
       .def_property_readonly("failure", [](const Studied<Result>& s) { return s.report().failure; })
+      .def_property_readonly("csv", [csv](const Studied<Result>& s) { return csv(*s.result()); })
+      .def("arrays", [arrays](const Studied<Result>& s) { return arrays(*s.result()); })
       .def("write", [](const Studied<Result>& s, const std::filesystem::path& directory) {
         write_set(s.report(), directory);
       });

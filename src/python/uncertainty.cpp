@@ -105,10 +105,7 @@ py::dict moments_of_polynomials(const Numbers& coefficients, const Exponents& ex
 }  // namespace
 
 void bind_uncertainty(py::module_& module) {
-  bind_study<UncertaintyResult>(module, "UncertaintyStudy")
-      .def_property_readonly(
-          "csv", [](const Studied<UncertaintyResult>& s) { return io::moments_csv(*s.result()); })
-      .def("arrays", [](const Studied<UncertaintyResult>& s) { return study_arrays(*s.result()); })
+  bind_study<UncertaintyResult>(module, "UncertaintyStudy", &io::moments_csv, &study_arrays)
       .def("flown_states", &flown_states);
   module.def("study_uncertainty", &study_moments, py::arg("scene"), py::arg("progress"));
   module.def("polynomial_moments", &moments_of_polynomials, py::arg("coefficients"),

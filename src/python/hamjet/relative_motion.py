@@ -23,9 +23,7 @@ Indices = npt.NDArray[np.int64]
 _MOST_INTERVALS = 1_000_000
 
 
-_Study = TypeVar("_Study", _hamjet.MotionStudy, _hamjet.TransferStudy, _hamjet.ValidityStudy,
-                 _hamjet.AssignmentStudy, _hamjet.PoincareStudy, _hamjet.BoundedStudy,
-                 _hamjet.UncertaintyStudy)
+_Study = TypeVar("_Study", bound="_hamjet._Study")
 
 
 def _required(study: _Study | None, what: str) -> _Study:
@@ -51,7 +49,7 @@ class Study(Immutable):
     """What the results of studies of two spacecraft and more have in common."""
 
     table: Table
-    _study: Any
+    _study: _hamjet._Study | None
 
     @property
     def summary(self) -> dict[str, Any]:
