@@ -98,6 +98,14 @@ void TaylorFlow::evaluate(std::size_t lane, double time, std::span<double> state
 }
 
 void TaylorFlow::advance(std::span<double> states, std::span<const double> times) {
+  const std::size_t size = system_->dimension();
+  for (std::size_t first = 0; first < times.size(); first += lanes) {
+    const std::size_t count = std::min(lanes, times.size() - first);
+    advance_lanes(states.subspan(first * size, count * size), times.subspan(first, count));
+  }
+}
+
+void TaylorFlow::advance_lanes(std::span<double> states, std::span<const double> times) {
   constexpr int most_expansions = 1000000;
   // A step that is this much shorter than the whole time runs into a collision.
   constexpr double least_part = 1e-9;

@@ -52,6 +52,9 @@ class TaylorFlow {
   void advance(std::span<double> states, std::span<const double> times);
 
  private:
+  /// `advance` of no more states than lanes.
+  void advance_lanes(std::span<double> states, std::span<const double> times);
+
   using Lanes = Pack<double, static_cast<int>(lanes)>;
 
   /// Of the positions, or of the momenta, the sum of the squares of a power's coefficients.

@@ -20,10 +20,13 @@ const TableDescription& collision_table() {
         "the sum of the radii of both spacecraft: nearer than this is a collision"},
        {"window_s", form::array(form::number(), 2), absent::other("from the start to the end"),
         "from when to when after the start, of which the first is before the second"},
-       {"event", form::choice({"nearer", "entry"}), absent::value("nearer"),
+       {"event", form::choice({collision_event_names.begin(), collision_event_names.end()}),
+        absent::value(collision_event_names[0]),
         "what counts: to be nearer at any time of the window; or to become nearer, for which those "
         "that are so when it begins do not count"},
-       {"sampling", form::choice({"automatic", "plain", "entries"}), absent::value("automatic"),
+       {"sampling",
+        form::choice({collision_sampling_names.begin(), collision_sampling_names.end()}),
+        absent::value(collision_sampling_names[0]),
         "plain: deviations as they are distributed; entries: weighted ones whose linear path "
         "enters a sphere somewhat larger; automatic: entries where they can be drawn"},
        {"samples", form::integer(fewest_samples, most_samples), absent::value(preset.samples),

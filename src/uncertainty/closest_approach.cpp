@@ -21,20 +21,20 @@ constexpr int highest_order = 6;
 constexpr double looks_per_revolution = 64;
 
 /// Times in the window between which the distance of the means has a minimum.
-std::vector<double> minima_of_means(const EncounterTrajectories& trajectories) {
-  const double from = trajectories.from(), to = trajectories.to();
-  const int looks = static_cast<int>(
-      std::clamp((to - from) / trajectories.period(0) * looks_per_revolution, 16.0, 1e5));
+std::vector<double> minima_of(const EncounterTrajectories& means) {
+  const double from = means.from(), to = means.to();
+  const int looks =
+      static_cast<int>(std::clamp((to - from) / means.period(0) * looks_per_revolution, 16.0, 1e5));
   std::vector<double> minima;
-  double before = trajectories.approach_rate(from);
+  double before = means.approach_rate(from);
   for (int k = 1; k <= looks; ++k) {
     const double time = k == looks ? to : from + (to - from) * k / looks;
-    const double rate = trajectories.approach_rate(time);
+    const double rate = means.approach_rate(time);
     if (before < 0 && rate >= 0) {
       double low = from + (to - from) * (k - 1) / looks, high = time;
       for (int i = 0; i < 60 && high - low > 1e-15 * to; ++i) {
         const double middle = (low + high) / 2;
-        (trajectories.approach_rate(middle) < 0 ? low : high) = middle;
+        (means.approach_rate(middle) < 0 ? low : high) = middle;
       }
       minima.push_back((low + high) / 2);
     }
@@ -59,7 +59,7 @@ SixNumbers<Series<double>> state_series(const EncounterProblem& problem, const F
   return {state[0], state[1], state[2], state[3], state[4], state[5]};
 }
 
-ClosestApproach approach_at(const EncounterProblem& problem,
+ClosestApproach approach_at(const EncounterProblem& problem, const EncounterTrajectories& means,
                             const EncounterTrajectories& trajectories, double time) {
   const SpacePointer space = SeriesSpace::create(encounter_variables, problem.order);
   std::array<SixNumbers<Series<double>>, 2> states = {
@@ -75,7 +75,7 @@ ClosestApproach approach_at(const EncounterProblem& problem,
     return z[a] * z[b] + z[a + 1] * z[b + 1] + z[a + 2] * z[b + 2];
   };
   // Newton's method with the derivative of the means, d(rho.v)/dt: a degree an iteration.
-  const double slope = trajectories.approach_rate_slope(time);
+  const double slope = means.approach_rate_slope(time);
   const SharedSystem crossing = time_scaled_first_order(*problem.system);
   for (int degree = 1; degree <= problem.order; ++degree) {
     Series<double> step = product(relative(), 0, 3) / -slope;
@@ -98,17 +98,22 @@ std::vector<ClosestApproach> closest_approaches(const EncounterProblem& problem,
                             "is taken",
                             problem.order, highest_order));
   }
-  const EncounterTrajectories trajectories(problem);
-  std::vector<double> times = minima_of_means(trajectories);
+  EncounterProblem of_means = problem;
+  of_means.order = 0;
+  const EncounterTrajectories means(of_means);
+  std::vector<double> times = minima_of(means);
   if (times.size() > most) {
-    std::sort(times.begin(), times.end(), [&](double a, double b) {
-      return trajectories.distance(a) < trajectories.distance(b);
-    });
+    std::sort(times.begin(), times.end(),
+              [&](double a, double b) { return means.distance(a) < means.distance(b); });
     times.resize(most);
     std::sort(times.begin(), times.end());
   }
   std::vector<ClosestApproach> result;
-  for (const double time : times) result.push_back(approach_at(problem, trajectories, time));
+  if (times.empty()) return result;
+  const EncounterTrajectories trajectories(problem);
+  for (const double time : times) {
+    result.push_back(approach_at(problem, means, trajectories, time));
+  }
   return result;
 }
 

@@ -243,7 +243,6 @@ CollisionProbability Estimate::result() const {
   }
   result.by_time.assign(time_count + 1, 0.0);
   if (sampler_) {
-    result.expected_entries = sampler_->expected_entries();
     result.sampled_radius = sampler_->radius();
     result.largest_difference = difference_;
     if (sampler_->is_empty()) return result;

@@ -16,6 +16,20 @@ double dot(const std::array<double, 3>& a, const std::array<double, 3>& b) {
 
 }  // namespace
 
+LinearRelativeState between(const LinearRelativeState& start, const LinearRelativeState& end,
+                            double length, double part) {
+  const HermiteWeights w = hermite_weights(length, part);
+  const auto combine = [&](const auto& first, const auto& last) {
+    std::remove_cvref_t<decltype(first)> result;
+    result.topRows(3) = w.position[0] * first.topRows(3) + w.position[1] * first.bottomRows(3) +
+                        w.position[2] * last.topRows(3) + w.position[3] * last.bottomRows(3);
+    result.bottomRows(3) = w.velocity[0] * first.topRows(3) + w.velocity[1] * first.bottomRows(3) +
+                           w.velocity[2] * last.topRows(3) + w.velocity[3] * last.bottomRows(3);
+    return result;
+  };
+  return {combine(start.mean, end.mean), combine(start.by_deviation, end.by_deviation)};
+}
+
 SquaredDistance::SquaredDistance(const std::array<double, 6>& start,
                                  const std::array<double, 6>& end, double length) {
   // Bezier's points of the cubic, and the product of two polynomials in Bernstein's basis:

@@ -35,9 +35,8 @@ class SquaredDistance {
   SquaredDistance(const std::array<double, 6>& start, const std::array<double, 6>& end,
                   double length);
 
-  /// At both ends.
+  /// At the start.
   double first() const { return c_[0]; }
-  double last() const { return c_[6]; }
   /// Below which it nowhere is.
   double lower_bound() const;
 

@@ -10,12 +10,11 @@
 namespace hamjet {
 namespace {
 
-/// The jets of one spacecraft in the window, of an order.
-JetTrajectory<double> window_trajectory(const EncounterProblem& problem, std::size_t craft,
-                                        int order) {
+/// The jets of one spacecraft in the window.
+JetTrajectory<double> window_trajectory(const EncounterProblem& problem, std::size_t craft) {
   FlowProblem<double> flow;
   flow.system = problem.system;
-  flow.space = SeriesSpace::create(6, order);
+  flow.space = SeriesSpace::create(6, problem.order);
   flow.variables = {0, 1, 2, 3, 4, 5};
   flow.initial_state = problem.spacecraft[craft].state;
   flow.duration = problem.from;
@@ -35,8 +34,7 @@ EncounterTrajectories::EncounterTrajectories(const EncounterProblem& problem)
   for (std::size_t craft = 0; craft < 2; ++craft) {
     starts_[craft] = problem.spacecraft[craft].state;
     factors_[craft] = problem.spacecraft[craft].factor;
-    trajectories_.push_back(window_trajectory(problem, craft, problem.order));
-    means_.push_back(window_trajectory(problem, craft, 0));
+    trajectories_.push_back(window_trajectory(problem, craft));
   }
 }
 
@@ -61,8 +59,7 @@ LinearRelativeState EncounterTrajectories::linear(double time) const {
 }
 
 Eigen::Matrix<double, 6, 1> EncounterTrajectories::relative_mean(double time) const {
-  const double elapsed = std::clamp(time - from_, 0.0, to_ - from_);
-  const FlowJet<double> first = means_[0].at(elapsed), second = means_[1].at(elapsed);
+  const FlowJet<double> first = jet(0, time), second = jet(1, time);
   Eigen::Matrix<double, 6, 1> state;
   for (Eigen::Index i = 0; i < 6; ++i) {
     state[i] = second[static_cast<std::size_t>(i)][0] - first[static_cast<std::size_t>(i)][0];

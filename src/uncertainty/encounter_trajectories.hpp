@@ -9,7 +9,8 @@
 
 namespace hamjet {
 
-/// The jets of both spacecraft of an encounter at the times of its window, after the epoch.
+/// The jets of both spacecraft of an encounter at the times of its window, after the epoch. Of the
+/// means alone, those of a problem of order 0 tell as much and are quicker.
 ///
 /// Immutable: threads may share one.
 class EncounterTrajectories {
@@ -41,7 +42,6 @@ class EncounterTrajectories {
   double from_;
   double to_;
   std::vector<JetTrajectory<double>> trajectories_;  ///< two, of the window
-  std::vector<JetTrajectory<double>> means_;         ///< two, of order 0
 };
 
 }  // namespace hamjet

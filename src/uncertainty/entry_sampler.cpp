@@ -179,10 +179,6 @@ EntrySampler::EntrySampler(const RelativePaths& paths, double radius, bool begin
   }
 }
 
-double EntrySampler::expected_entries() const {
-  return std::exp(entering_.log_mass()) + std::exp(inside_.log_mass());
-}
-
 EncounterDeviation EntrySampler::draw(RandomStream& random) const {
   const bool enters = random.uniform() < share_entering_;
   std::array<double, 5> uniform{};

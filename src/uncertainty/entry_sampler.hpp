@@ -47,16 +47,13 @@ class RandomStream {
 /// AAS 12-247 (2012), going back to S. O. Rice (1944).
 class EntrySampler {
  public:
-  /// `paths` must outlive it. Throws Error(numerical) where the position has no density: where the
-  /// uncertainty leaves out a direction.
-  /// With `begins_inside`, paths that begin inside are drawn too.
+  /// `paths` must outlive it; with `begins_inside`, paths that begin inside are drawn too. Throws
+  /// Error(numerical) where the position is nearly certain in a direction: by the hundredth part of
+  /// the radius.
   EntrySampler(const RelativePaths& paths, double radius, bool begins_inside);
 
   /// No path enters within the standard deviations that double precision can tell.
   bool is_empty() const { return entering_.is_empty() && inside_.is_empty(); }
-  /// The mean number of entries, and 1 for what begins inside, as the boxes have it: above the
-  /// probability that there is one.
-  double expected_entries() const;
 
   EncounterDeviation draw(RandomStream& random) const;
   /// The logarithm of q/p; none for a deviation without an entry. `states` are the linear relative

@@ -64,20 +64,6 @@ void validate(const EncounterProblem& problem) {
   }
 }
 
-LinearRelativeState between(const LinearRelativeState& start, const LinearRelativeState& end,
-                            double length, double part) {
-  const HermiteWeights w = hermite_weights(length, part);
-  const auto combine = [&](const auto& first, const auto& last) {
-    std::remove_cvref_t<decltype(first)> result;
-    result.topRows(3) = w.position[0] * first.topRows(3) + w.position[1] * first.bottomRows(3) +
-                        w.position[2] * last.topRows(3) + w.position[3] * last.bottomRows(3);
-    result.bottomRows(3) = w.velocity[0] * first.topRows(3) + w.velocity[1] * first.bottomRows(3) +
-                           w.velocity[2] * last.topRows(3) + w.velocity[3] * last.bottomRows(3);
-    return result;
-  };
-  return {combine(start.mean, end.mean), combine(start.by_deviation, end.by_deviation)};
-}
-
 RelativePaths::RelativePaths(const EncounterProblem& problem, double accuracy, double sphere) {
   validate(problem);
   for (std::size_t i = 0; i < 2; ++i) factors_[i] = problem.spacecraft[i].factor;
@@ -103,8 +89,9 @@ RelativePaths::RelativePaths(const EncounterProblem& problem, double accuracy, d
     const Node& end = ahead.back();
     const double length = end.time - start.time;
     const bool far = is_far(start.linear, end.linear, length, sphere);
-    Node middle = node_at((start.time + end.time) / 2);
-    if (far || midpoint_miss(start.linear, end.linear, middle.linear, length) <= accuracy) {
+    std::optional<Node> middle;
+    if (!far) middle = node_at((start.time + end.time) / 2);
+    if (far || midpoint_miss(start.linear, end.linear, middle->linear, length) <= accuracy) {
       nodes.push_back(std::move(ahead.back()));
       ahead.pop_back();
       is_arc.push_back(!far);
@@ -116,7 +103,7 @@ RelativePaths::RelativePaths(const EncounterProblem& problem, double accuracy, d
                               "a shorter window would do",
                               most_nodes));
     }
-    ahead.push_back(std::move(middle));
+    ahead.push_back(*std::move(middle));
   }
   is_arc.push_back(false);
   has_begin_ = is_arc.front();

@@ -5,22 +5,10 @@
 #include <optional>
 #include <vector>
 
+#include "hamjet/uncertainty/collision_choices.hpp"
 #include "hamjet/uncertainty/encounter.hpp"
 
 namespace hamjet {
-
-/// How a probability of collision is found from samples of the polynomials.
-enum class CollisionSampling {
-  automatic,  ///< entries, where they can be drawn; else plain
-  plain,      ///< deviations as they are distributed
-  entries,    ///< deviations whose linear path enters a sphere somewhat larger, weighted
-};
-
-/// What counts as a collision in the window.
-enum class CollisionEvent {
-  nearer,  ///< that they are nearer than the radius at any time of the window
-  entry,   ///< that they become nearer: those that are so when the window begins do not count
-};
 
 struct CollisionSettings {
   CollisionEvent event = CollisionEvent::nearer;
@@ -49,9 +37,6 @@ struct CollisionProbability {
   /// its standard error. What the order leaves out is of this size or below.
   double change_from_lower_order = 0;
   double standard_error_of_change = 0;
-  /// The mean number of entries of the linear motion (and of paths that begin inside), which is an
-  /// upper bound of its probability; of the entries alone that are sampled.
-  std::optional<double> expected_entries;
   /// The radius of the sphere whose entries are drawn, and the largest difference seen between the
   /// least distances of a linear path and of the polynomials': collisions for which it exceeds the
   /// difference of the radii are lost.

@@ -15,8 +15,8 @@
 namespace hamjet {
 namespace {
 
-/// Deviations that are flown to each closest approach: one to each lane, several times.
-constexpr std::size_t flown_deviations = 8 * TaylorFlow::lanes;
+/// Deviations that are flown to each closest approach.
+constexpr std::size_t flown_deviations = 64;
 /// The least separation is told for these shares of the samples, of which the smallest has ten.
 constexpr std::array<double, 4> separation_shares = {0.001, 0.01, 0.05, 0.5};
 constexpr long separation_samples = 10000;
@@ -69,11 +69,7 @@ std::vector<SixNumbers<double>> flown_pairs(const EncounterProblem& problem,
                          deviation[static_cast<Eigen::Index>(i)]);
       }
     }
-    for (std::size_t first = 0; first < deviations.size(); first += TaylorFlow::lanes) {
-      const std::size_t count = std::min(TaylorFlow::lanes, deviations.size() - first);
-      flow.advance(std::span(states).subspan(6 * first, 6 * count),
-                   std::span(times).subspan(first, count));
-    }
+    flow.advance(states, times);
     for (std::size_t k = 0; k < deviations.size(); ++k) {
       for (std::size_t i = 0; i < 6; ++i) {
         result[k][i] += (craft == 0 ? -1 : 1) * states[6 * k + i];

@@ -15,6 +15,7 @@
 #include "../formation/single_transfer.hpp"
 #include "../nominal_period.hpp"
 #include "../stopwatch.hpp"
+#include "hamjet/algebra/calculus.hpp"
 #include "hamjet/algebra/composition.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/studies/validity.hpp"
@@ -50,11 +51,10 @@ class Flights {
   }
 
   void advance_to(double time, const ProgressCallback& progress) {
-    constexpr std::size_t at_once = TaylorFlow::lanes;
+    constexpr std::size_t at_once = 4096;  // between two reports of progress
     const std::vector<double> times(at_once, time - time_);
     for (std::size_t k = 0; k <= samples_; k += at_once) {
-      if (progress && k % 4096 == 0)
-        progress("flights", static_cast<double>(k) / static_cast<double>(samples_ + 1));
+      if (progress) progress("flights", static_cast<double>(k) / static_cast<double>(samples_ + 1));
       const std::size_t count = std::min(at_once, samples_ + 1 - k);
       flow_.advance(std::span(states_).subspan(6 * k, 6 * count), std::span(times).first(count));
     }
@@ -138,10 +138,7 @@ std::vector<Cumulants> by_orders(const std::vector<Series<double>>& map, const I
       // A lower order leaves terms out before the mean is put in.
       const SpacePointer space = SeriesSpace::create(map[0].space().variables(), n);
       std::vector<Series<double>> lower;
-      for (const Series<double>& component : map) {
-        const auto kept = component.coefficients().first(space->size());
-        lower.emplace_back(space, std::vector<double>(kept.begin(), kept.end()));
-      }
+      for (const Series<double>& component : map) lower.push_back(in_space(component, space));
       result.push_back(
           Cumulants::of_polynomials(in_standard_normals(lower, start.covariance, start.mean)));
     } else {

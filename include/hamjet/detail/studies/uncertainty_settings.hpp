@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "hamjet/relative_motion/chief_frame.hpp"
-#include "hamjet/uncertainty/collision_probability.hpp"
+#include "hamjet/uncertainty/collision_choices.hpp"
 #include "hamjet/uncertainty/covariance.hpp"
 
 namespace hamjet {
@@ -52,7 +52,7 @@ struct UncertaintySettings {
   std::vector<double> times;              ///< canonical, moving away from 0; none is 0
   double acceleration_density_m2_s3 = 0;  ///< of each axis, of white noise; 0: none
   std::optional<CollisionWatch> collision;
-  int samples = 2000;                     ///< flown with the full equations; 0: none
+  int samples = 2000;  ///< flown with the full equations; 0: none
   std::uint64_t seed = 1;
 };
 
