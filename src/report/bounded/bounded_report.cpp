@@ -65,14 +65,18 @@ std::string failures_text(const BoundedFormation& formation) {
   return text;
 }
 
-std::string terminal_table(const BoundedFormation& formation) {
+std::vector<std::vector<std::string>> table_rows(const BoundedFormation& formation) {
   std::vector<std::vector<std::string>> rows = {headings(formation)};
   for (const BoundedDeputy& deputy : formation.deputies) rows.push_back(row_of(deputy));
+  return rows;
+}
+
+std::string terminal_table(const BoundedFormation& formation) {
   return fmt::format(
       "{}\n{}\norder {}; drifts are mean ones along the track, a revolution, in parts of the size; "
       "across: the same of the node; range: of the along-track difference over the window\n\n{}{}",
-      formation.scene.title, bounded_verdict(formation), formation.scene.order, aligned_table(rows),
-      failures_text(formation));
+      formation.scene.title, bounded_verdict(formation), formation.scene.order,
+      aligned_table(table_rows(formation)), failures_text(formation));
 }
 
 std::string page(const BoundedFormation& formation, const ReportOrigin& origin,
@@ -93,13 +97,6 @@ std::string page(const BoundedFormation& formation, const ReportOrigin& origin,
                             duration_text(formation.flight_seconds) + " for the flights");
   std::vector<Chart> orbits = bounded_orbit_charts(formation);
   for (Chart& chart : orbits) fit(chart);
-  std::string rows;
-  for (const BoundedDeputy& deputy : formation.deputies) {
-    const std::vector<std::string> cells = row_of(deputy);
-    rows += "<tr>" + row_name_cell(cells[0]);
-    for (std::size_t k = 1; k < cells.size(); ++k) rows += cell(cells[k]);
-    rows += "</tr>\n";
-  }
   page.sections =
       "<section>\n<h2>Relative orbits</h2>\n" + panels_html(orbits, drawer) + "</section>\n" +
       "<section>\n<h2>Deputies</h2>\n" +
@@ -108,7 +105,7 @@ std::string page(const BoundedFormation& formation, const ReportOrigin& origin,
           "window and over it, and across it, a revolution, in parts of the size; the range "
           "of the along-track difference over the window. Their initial conditions, in "
           "every form in which a scene takes a deputy, are in <code>bounded.csv</code>.",
-          "<tr>" + header_cells(headings(formation)) + "</tr>", rows) +
+          table_rows(formation)) +
       "<p>" + escape_html(failures_text(formation)) + "</p></section>\n";
   return page_html(page, drawer);
 }

@@ -34,8 +34,8 @@ std::string colour_commands(const std::string& label, double least, double most,
     text += fmt::format("set cbrange [{:.17g}:{:.17g}]\nset cbtics ('{:g}' {:.17g})\n", least - 1,
                         least + 1, least, least);
   }
-  return text +
-         fmt::format("set cblabel {} noenhanced offset 1.5,0\nset format cb '%g'\n", gnuplot_literal(label));
+  return text + fmt::format("set cblabel {} noenhanced offset 1.5,0\nset format cb '%g'\n",
+                            gnuplot_literal(label));
 }
 
 std::string map_commands(const ChartMap& map) {

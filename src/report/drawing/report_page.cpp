@@ -79,6 +79,17 @@ std::string table_html(std::string_view caption, std::string_view head, std::str
       head, rows);
 }
 
+std::string table_html(std::string_view caption,
+                       const std::vector<std::vector<std::string>>& rows) {
+  std::string body;
+  for (std::size_t k = 1; k < rows.size(); ++k) {
+    body += "<tr>" + row_name_cell(rows[k][0]);
+    for (std::size_t i = 1; i < rows[k].size(); ++i) body += cell(rows[k][i]);
+    body += "</tr>\n";
+  }
+  return table_html(caption, "<tr>" + header_cells(rows[0]) + "</tr>", body);
+}
+
 std::string header_cells(const std::vector<std::string>& names) {
   std::string cells;
   for (const std::string& name : names) {

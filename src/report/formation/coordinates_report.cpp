@@ -128,21 +128,6 @@ Chart time_chart(const ValidityInCoordinates& all) {
   return chart;
 }
 
-std::string table_html_of(const ValidityInCoordinates& all) {
-  const auto rows = table_rows(all);
-  std::string body;
-  for (std::size_t k = 1; k < rows.size(); ++k) {
-    body += "<tr>" + row_name_cell(rows[k][0]);
-    for (std::size_t i = 1; i < rows[k].size(); ++i) body += cell(rows[k][i]);
-    body += "</tr>\n";
-  }
-  return table_html(
-      "The largest separation at the last time by order and coordinates, and what the jets up to "
-      "there take. Flow-box coordinates are integrated in four or five variables of their own; the "
-      "others are made from the Cartesian jet.",
-      "<tr>" + header_cells(rows[0]) + "</tr>", body);
-}
-
 std::string page_of(const ValidityInCoordinates& all, const ReportOrigin& origin,
                     ChartDrawer& drawer) {
   const Scene& scene = all.results[0].scene;
@@ -156,7 +141,11 @@ std::string page_of(const ValidityInCoordinates& all, const ReportOrigin& origin
                fact_html("Scene", fmt::format("{}, order {}", scene.name, scene.order)) +
                fact_html("Frame", frame_text(scene.validity->frame)) +
                fact_html("Tolerance", length_text(scene.validity->tolerance_m));
-  page.sections = table_html_of(all);
+  page.sections = table_html(
+      "The largest separation at the last time by order and coordinates, and what the jets up to "
+      "there take. Flow-box coordinates are integrated in four or five variables of their own; the "
+      "others are made from the Cartesian jet.",
+      table_rows(all));
   if (all.results[0].points.size() > 1) {
     Chart along = time_chart(all);
     fit(along);

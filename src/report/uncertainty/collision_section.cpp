@@ -39,27 +39,27 @@ nlohmann::ordered_json approach_json(const UncertainApproach& approach, double r
   return json;
 }
 
-std::string sampling_name(CollisionSampling sampling) {
-  return sampling == CollisionSampling::plain ? "plain" : "entries";
+template <class Enumerator, std::size_t Count>
+std::string_view name_in(const std::array<std::string_view, Count>& names, Enumerator value) {
+  return names[static_cast<std::size_t>(value)];
 }
 
 nlohmann::ordered_json collision_json(const CollisionResult& result) {
   const CollisionProbability& p = result.probability;
-  nlohmann::ordered_json json = {
-      {"radius_m", result.watch.radius_m},
-      {"window_s", {result.from_s, result.to_s}},
-      {"event", result.watch.event == CollisionEvent::nearer ? "nearer" : "entry"},
-      {"order", result.order},
-      {"sampling", sampling_name(p.sampling)},
-      {"probability", p.probability},
-      {"confidence", result.watch.confidence},
-      {"interval", {p.lower, p.upper}},
-      {"standard_error", p.standard_error},
-      {"samples", p.samples},
-      {"hits", p.hits},
-      {"equivalent_samples", p.equivalent_samples},
-      {"change_from_lower_order", p.change_from_lower_order},
-      {"standard_error_of_change", p.standard_error_of_change}};
+  nlohmann::ordered_json json = {{"radius_m", result.watch.radius_m},
+                                 {"window_s", {result.from_s, result.to_s}},
+                                 {"event", name_in(collision_event_names, result.watch.event)},
+                                 {"order", result.order},
+                                 {"sampling", name_in(collision_sampling_names, p.sampling)},
+                                 {"probability", p.probability},
+                                 {"confidence", result.watch.confidence},
+                                 {"interval", {p.lower, p.upper}},
+                                 {"standard_error", p.standard_error},
+                                 {"samples", p.samples},
+                                 {"hits", p.hits},
+                                 {"equivalent_samples", p.equivalent_samples},
+                                 {"change_from_lower_order", p.change_from_lower_order},
+                                 {"standard_error_of_change", p.standard_error_of_change}};
   if (p.sampled_radius) json["sampled_radius_m"] = *p.sampled_radius;
   if (p.largest_difference) json["largest_difference_m"] = *p.largest_difference;
   json["least_separation"] = {{"samples", result.separations.samples},

@@ -100,17 +100,6 @@ std::string terminal_table(const UncertaintyResult& result,
   return text;
 }
 
-std::string table_of(const std::string& caption,
-                     const std::vector<std::vector<std::string>>& rows) {
-  std::string body;
-  for (std::size_t k = 1; k < rows.size(); ++k) {
-    body += "<tr>" + row_name_cell(rows[k][0]);
-    for (std::size_t i = 1; i < rows[k].size(); ++i) body += cell(rows[k][i]);
-    body += "</tr>\n";
-  }
-  return table_html(escape_html(caption), header_cells(rows[0]), body);
-}
-
 std::string page(const UncertaintyResult& result, const ReportOrigin& origin,
                  const std::vector<UncertaintySection>& sections, ChartDrawer& drawer) {
   const UncertaintyAt& last = result.points.back();
@@ -154,9 +143,9 @@ std::string page(const UncertaintyResult& result, const ReportOrigin& origin,
         "<section>\n<h2>{}</h2>\n{}{}{}{}</section>\n",
         escape_html(fmt::format("The {} after {}", state.name, time_text(result, last))),
         panels_html(charts, drawer), panels_html(histograms, drawer),
-        table_of("Moments of each component", moments_rows(result, state)),
-        table_of("How far it is from Gaussian, and the linear theory from it",
-                 gaussian_rows(result, last, state)));
+        table_html("Moments of each component", moments_rows(result, state)),
+        table_html("How far it is from Gaussian, and the linear theory from it",
+                   gaussian_rows(result, last, state)));
   }
   for (const UncertaintySection& section : sections) {
     std::vector<Chart> charts = section.charts;
