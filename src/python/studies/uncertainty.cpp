@@ -4,12 +4,12 @@
 #include <span>
 #include <vector>
 
-#include "../app/collision_sections.hpp"
-#include "../formats/relative_frame_text.hpp"
-#include "../report/uncertainty/uncertainty_arrays.hpp"
-#include "../report/uncertainty/uncertainty_report.hpp"
-#include "../report/uncertainty/uncertainty_view.hpp"
-#include "arrays.hpp"
+#include "../../app/collision_sections.hpp"
+#include "../../formats/relative_frame_text.hpp"
+#include "../../report/uncertainty/uncertainty_arrays.hpp"
+#include "../../report/uncertainty/uncertainty_report.hpp"
+#include "../../report/uncertainty/uncertainty_view.hpp"
+#include "../arrays.hpp"
 #include "studied.hpp"
 
 // Moments of uncertain states, and of any polynomials of Gaussian variables.
