@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "../../formats/orbit_messages/encounter_message.hpp"
 #include "../../store/csv_values.hpp"
+#include "../../text/html_text.hpp"
 #include "../../text/quantity_text.hpp"
 #include "../../text/time_axis.hpp"
 #include "../drawing/along_time_charts.hpp"
@@ -166,13 +168,21 @@ UncertaintySection collision_section(const Scene& scene, const CollisionResult& 
       result.watch.radius_m, p.probability, result.watch.confidence * 100, p.lower, p.upper);
   section.table = collision_table_text(result);
   section.title = "Collision";
-  section.html = fmt::format("<pre>{}</pre>\n", section.table);
   if (p.probability > 0) section.charts.push_back(probability_chart(scene, result));
   std::string csv = "time_s,probability\n";
   for (std::size_t k = 0; k < p.times.size(); ++k) {
     csv += fmt::format("{},{}\n", csv_number(p.times[k]), csv_number(p.by_time[k]));
   }
   section.files.push_back({"collision.csv", csv});
+  const auto lack = encounter_message_lack(scene, result);
+  if (!lack) {
+    section.files.push_back({"encounter.cdm", cdm_text(encounter_message(scene, result))});
+    section.json["message"] = "encounter.cdm";
+  } else {
+    section.json["no_message"] = *lack;
+    section.table += fmt::format("  no conjunction data message: {}\n", *lack);
+  }
+  section.html = fmt::format("<pre>{}</pre>\n", escape_html(section.table));
   return section;
 }
 
