@@ -131,6 +131,30 @@ TEST_F(Collision, WritesAConjunctionDataMessageOfTheNearestApproach) {
   EXPECT_NEAR(*message.collision_probability, collision["probability"].get<double>(), 1e-15);
 }
 
+// A covariance in all six directions and a burn's errors beside it are the covariance of their sum:
+// as wrong by a tenth in size and by a tenth of a radian in direction, 0.1 m/s is wrong by 0.01 m/s
+// in each direction.
+TEST_F(Collision, TakesTheErrorsOfABurnBesideAFullCovariance) {
+  const CrossingCircles circles;
+  const auto probability = [&](const std::string& folder, const std::string& tables) {
+    write("circles.toml", circles.scene("") + tables);
+    succeed({"uncertainty", "circles.toml", "-o", folder});
+    const Json collision = read_json(directory_ / folder / "summary.json")["collision"];
+    return collision["approaches"][0]["short_encounter"]["alfano"].get<double>();
+  };
+  const double burned = probability(
+      "burned", fmt::format("[uncertainty.deputy]\nposition_m = [10, 10, 10]\nvelocity_m_s = "
+                            "[0.01, 0.01, 0.01]\n[uncertainty.burn]\nvelocity_change_m_s = [0, "
+                            "0.1, 0]\nmagnitude = 0.1\ndirection_deg = {}\n",
+                            18 / std::numbers::pi));
+  const double v = 0.01 * std::sqrt(2.0);
+  const double summed =
+      probability("summed", fmt::format("[uncertainty.deputy]\nposition_m = [10, 10, 10]\n"
+                                        "velocity_m_s = [{0}, {0}, {0}]\n",
+                                        v));
+  EXPECT_NEAR(burned / summed, 1, 1e-9);
+}
+
 TEST_F(Collision, SaysWhatAMessageLacks) {
   const CrossingCircles circles;
   struct Lack {

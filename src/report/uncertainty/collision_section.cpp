@@ -4,6 +4,7 @@
 
 #include "../../formats/orbit_messages/encounter_message.hpp"
 #include "../../store/csv_values.hpp"
+#include "../../store/json_values.hpp"
 #include "../../text/html_text.hpp"
 #include "../../text/quantity_text.hpp"
 #include "../../text/time_axis.hpp"
@@ -66,7 +67,12 @@ nlohmann::ordered_json collision_json(const CollisionResult& result) {
   if (p.largest_difference) json["largest_difference_m"] = *p.largest_difference;
   json["least_separation"] = {{"samples", result.separations.samples},
                               {"shares", result.separations.shares},
-                              {"separations_m", result.separations.separations}};
+                              {"separations_m", result.separations.separations},
+                              {"lower_m", result.separations.lower},
+                              {"upper_m", nlohmann::ordered_json::array()}};
+  for (const double upper : result.separations.upper) {
+    json["least_separation"]["upper_m"].push_back(json_number(upper));
+  }
   json["approaches"] = nlohmann::ordered_json::array();
   for (const UncertainApproach& approach : result.approaches) {
     json["approaches"].push_back(approach_json(approach, result.watch.radius_m));

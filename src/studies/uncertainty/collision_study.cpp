@@ -22,8 +22,6 @@ constexpr std::size_t flown_deviations = 64;
 /// The least separation is told for these shares of the samples, of which the smallest has ten.
 constexpr std::array<double, 4> separation_shares = {0.001, 0.01, 0.05, 0.5};
 constexpr long separation_samples = 10000;
-/// The jets of both spacecraft, whatever integrates the scene's own.
-constexpr double jet_tolerance = 1e-12;
 
 EncounterProblem encounter_problem(const Scene& scene, const CollisionWatch& watch,
                                    const MetricUnits& units) {
@@ -33,17 +31,12 @@ EncounterProblem encounter_problem(const Scene& scene, const CollisionWatch& wat
   problem.to = watch.to;
   problem.radius = watch.radius_m / units.length_m;
   problem.order = scene.order;
-  problem.settings.tolerance = jet_tolerance;
+  problem.settings.tolerance = encounter_jet_tolerance;
   bool is_uncertain = false;
   for (const InitialState& start : initial_states(scene)) {
     UncertainSpacecraft& craft = problem.spacecraft[start.name == "deputy" ? 1 : 0];
-    craft.state = scene.nominal;
-    for (std::size_t i = 0; i < 6; ++i) {
-      craft.state[i] += start.mean[static_cast<Eigen::Index>(i)];
-    }
-    const Matrix<double>& factor = start.covariance.factor();
-    craft.factor.leftCols(factor.cols()) = factor;
-    is_uncertain = is_uncertain || factor.norm() > 0;
+    craft = uncertain_spacecraft(scene, start);
+    is_uncertain = is_uncertain || craft.factor.norm() > 0;
   }
   if (problem.spacecraft[0].state.empty()) problem.spacecraft[0].state = scene.nominal;
   if (!is_uncertain) {
@@ -229,7 +222,10 @@ CollisionResult study_collision(const Scene& scene, std::size_t threads,
   }
   result.separations =
       least_separations(problem, settings, {separation_shares.begin(), separation_shares.end()});
-  for (double& separation : result.separations.separations) separation *= units.length_m;
+  for (auto* lengths :
+       {&result.separations.separations, &result.separations.lower, &result.separations.upper}) {
+    for (double& length : *lengths) length *= units.length_m;
+  }
   // Series in twelve variables grow fast, and the third order is beyond what a deviation of the
   // time needs.
   constexpr int highest_order = 3;

@@ -9,6 +9,7 @@
 #include "hamjet/studies/scene.hpp"
 #include "hamjet/uncertainty/closest_approach.hpp"
 #include "hamjet/uncertainty/collision_probability.hpp"
+#include "hamjet/uncertainty/least_separations.hpp"
 
 namespace hamjet {
 
