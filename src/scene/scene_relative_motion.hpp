@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -68,6 +69,13 @@ RelativeState read_place(const TableReader& table, const Nominal& nominal);
 /// The start of the scene's deputy in the frame of another table.
 RelativeState in_other_frame(const TableReader& table, const Nominal& nominal,
                              const DeputySettings& deputy, RelativeFrame frame);
+
+/// What the tables that watch how near spacecraft come have in common: the canonical ends of
+/// `window_s` in a scene with a deputy that goes forwards, and a length that is small beside the
+/// chief's distance from the centre.
+SceneKey window_key();
+std::array<double, 2> read_window(const TableReader& table, const Scene& scene);
+double read_nearness(const TableReader& table, std::string_view key, const Scene& scene);
 
 /// A line for each deputy that is beyond what any polynomial resolves: a twentieth of the chief's
 /// distance from the centre away or more.

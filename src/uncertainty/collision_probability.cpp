@@ -3,15 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
+#include <tuple>
 
 #include "../integrators/concurrent_tasks.hpp"
+#include "binomial_interval.hpp"
 #include "cubic_arc.hpp"
 #include "entry_sampler.hpp"
 #include "hamjet/error.hpp"
 #include "relative_paths.hpp"
+#include "sampled_paths.hpp"
 
 namespace hamjet {
 namespace {
@@ -34,16 +36,8 @@ constexpr double widest_sphere = 20;
 constexpr std::size_t pilot_blocks = 32;
 constexpr std::size_t time_count = 200;
 
-/// The states of one sample at all nodes.
-void take_path(std::span<const double> states, std::size_t count, std::size_t sample,
-               std::vector<std::array<double, 6>>& path) {
-  for (std::size_t node = 0; node < path.size(); ++node) {
-    for (std::size_t c = 0; c < 6; ++c) path[node][c] = states[(6 * node + c) * count + sample];
-  }
-}
-
 void take_linear_path(const RelativePaths& paths, const EncounterDeviation& deviation,
-                      std::vector<std::array<double, 6>>& path) {
+                      SampledPath& path) {
   for (std::size_t node = 0; node < path.size(); ++node) {
     const LinearRelativeState& linear = paths.linear(node);
     const Eigen::Matrix<double, 6, 1> state = linear.mean + linear.by_deviation * deviation;
@@ -52,9 +46,8 @@ void take_linear_path(const RelativePaths& paths, const EncounterDeviation& devi
 }
 
 /// When a path first has what counts as a collision, if it ever has.
-std::optional<double> first_event(const RelativePaths& paths,
-                                  const std::vector<std::array<double, 6>>& path, double radius,
-                                  CollisionEvent event) {
+std::optional<double> first_event(const RelativePaths& paths, const SampledPath& path,
+                                  double radius, CollisionEvent event) {
   const double square = radius * radius;
   const std::vector<double>& times = paths.times();
   std::vector<double> parts;
@@ -71,15 +64,6 @@ std::optional<double> first_event(const RelativePaths& paths,
     if (!parts.empty()) return times[node] + length * *std::min_element(parts.begin(), parts.end());
   }
   return {};
-}
-
-double least_distance(const RelativePaths& paths, const std::vector<std::array<double, 6>>& path) {
-  double least = std::numeric_limits<double>::infinity();
-  const std::vector<double>& times = paths.times();
-  for (const std::size_t node : paths.arcs()) {
-    least = SquaredDistance(path[node], path[node + 1], times[node + 1] - times[node]).least(least);
-  }
-  return std::sqrt(least);
 }
 
 /// Sums over samples of x, the weight of a collision and 0 of none.
@@ -134,7 +118,7 @@ class Estimate {
 };
 
 void Estimate::draw(RandomStream& random, Block& samples) const {
-  std::vector<std::array<double, 6>> path(paths_->times().size());
+  SampledPath path(paths_->times().size());
   for (std::size_t j = 0; j < block; ++j) {
     EncounterDeviation deviation;
     samples.weights[j] = 1;
@@ -161,7 +145,7 @@ void Estimate::judge(const Block& samples, bool with_lower_order, Sums& sums) co
     lower.resize(states.size());
     paths_->evaluate(samples.points, problem_->order - 1, lower);
   }
-  std::vector<std::array<double, 6>> path(paths_->times().size());
+  SampledPath path(paths_->times().size());
   const double scale = static_cast<double>(time_count) / (problem_->to - problem_->from);
   for (std::size_t j = 0; j < block; ++j) {
     take_path(states, block, j, path);
@@ -189,7 +173,7 @@ void Estimate::judge(const Block& samples, bool with_lower_order, Sums& sums) co
 double Estimate::largest_difference() const {
   RandomStream random(settings_->seed, ~std::uint64_t{0});
   Block samples;
-  std::vector<std::array<double, 6>> path(paths_->times().size());
+  SampledPath path(paths_->times().size());
   std::vector<double> states(6 * path.size() * block);
   std::vector<std::pair<double, double>> differences;  // and weights
   double sum = 0;
@@ -278,18 +262,16 @@ CollisionProbability Estimate::result() const {
   const double variance =
       std::max(0.0, all.x_squared / count - result.probability * result.probability);
   result.standard_error = std::sqrt(variance / count);
-  const double tail = (1 - settings_->confidence) / 2;
   if (sampler_) {
+    const double tail = (1 - settings_->confidence) / 2;
     const double width = boost::math::quantile(boost::math::complement(
                              boost::math::normal_distribution<double>(), tail)) *
                          result.standard_error;
     result.lower = std::max(0.0, result.probability - width);
     result.upper = std::min(1.0, result.probability + width);
   } else {
-    using Binomial = boost::math::binomial_distribution<double>;
-    const auto hits = static_cast<double>(all.hits);
-    result.lower = Binomial::find_lower_bound_on_p(count, hits, tail);
-    result.upper = Binomial::find_upper_bound_on_p(count, hits, tail);
+    std::tie(result.lower, result.upper) =
+        binomial_interval(all.samples, all.hits, settings_->confidence);
   }
   if (variance > 0) {
     result.equivalent_samples = result.probability * (1 - result.probability) /
@@ -344,55 +326,6 @@ CollisionProbability collision_probability(const EncounterProblem& problem,
     }
   }
   return Estimate(problem, settings, paths).result();
-}
-
-LeastSeparations least_separations(const EncounterProblem& problem,
-                                   const CollisionSettings& settings,
-                                   const std::vector<double>& shares) {
-  validate(problem);
-  for (const double share : shares) {
-    if (!(share > 0 && share < 1)) {
-      throw Error(ErrorKind::usage, "least separations: a share must be between 0 and 1");
-    }
-  }
-  // Separations are told to a part of the radius, and no path is left out.
-  constexpr double accuracy = 0.01;
-  const RelativePaths paths(problem, accuracy * problem.radius,
-                            std::numeric_limits<double>::infinity());
-  const auto count = static_cast<std::size_t>(std::max(1L, settings.samples));
-  const std::size_t tasks = (count + block - 1) / block;
-  std::vector<double> least(tasks * block);
-  run_concurrently(
-      tasks, settings.threads,
-      [&](std::size_t task, TaskControl& control) {
-        RandomStream random(settings.seed, task);
-        std::vector<double> points(encounter_variables * block);
-        for (std::size_t j = 0; j < block; ++j) {
-          for (std::size_t i = 0; i < encounter_variables; ++i) {
-            points[i * block + j] = random.normal();
-          }
-        }
-        std::vector<double> states(6 * paths.times().size() * block);
-        paths.evaluate(points, problem.order, states);
-        std::vector<std::array<double, 6>> path(paths.times().size());
-        for (std::size_t j = 0; j < block; ++j) {
-          take_path(states, block, j, path);
-          least[task * block + j] = least_distance(paths, path);
-        }
-        control.advance();
-      },
-      [&](long done) {
-        if (settings.progress) {
-          settings.progress(static_cast<double>(done) / static_cast<double>(tasks));
-        }
-      });
-  std::sort(least.begin(), least.end());
-  LeastSeparations result{shares, {}, static_cast<long>(least.size())};
-  for (const double share : shares) {
-    const auto place = static_cast<std::size_t>(share * static_cast<double>(least.size()));
-    result.separations.push_back(least[std::min(place, least.size() - 1)]);
-  }
-  return result;
 }
 
 }  // namespace hamjet
