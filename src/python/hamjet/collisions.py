@@ -89,9 +89,10 @@ def collision_probability(states: npt.ArrayLike, covariances: npt.ArrayLike,
 
     states: (..., 2, 6), positions in m and velocities in m/s of both at the epoch, along inertial
     axes. covariances: (..., 2, 6, 6), of these, independent; with ``frame="RTN"`` along each one's
-    own R, T, N, velocities being inertial. radius_m: of both together, one number or one for
-    each pair. window_s: from when to when after the epoch, (2,) or (..., 2). system: the keys of a scene's [system], by
-    default the Earth's mu alone. The others are the keys of a scene of these names.
+    own R, T, N, velocities being inertial. radius_m: of both together, one number or one for each
+    pair. window_s: from when to when after the epoch, (2,) or (..., 2). system: the keys of a
+    scene's [system], by default the Earth's mu alone. The others are the keys of a scene of these
+    names.
 
     Raises UsageError for wrong shapes, SceneError for what is no covariance or no orbit,
     NumericalError, TooLargeError.
