@@ -21,7 +21,7 @@
 #include "hamjet/algebra/composition.hpp"
 #include "hamjet/integrators/error_estimate.hpp"
 #include "hamjet/integrators/jet_trajectory.hpp"
-#include "stability_limit.hpp"
+#include "stability/stability_limit.hpp"
 #include "stopwatch.hpp"
 
 namespace hamjet {

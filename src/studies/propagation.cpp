@@ -8,11 +8,11 @@
 
 #include "along_time_recorder.hpp"
 #include "arcs.hpp"
-#include "followed_nominal.hpp"
 #include "hamjet/dynamics/relative_hamiltonian.hpp"
 #include "integration.hpp"
 #include "map_analysis.hpp"
-#include "nominal_recorder.hpp"
+#include "nominal/followed_nominal.hpp"
+#include "nominal/nominal_recorder.hpp"
 #include "reference.hpp"
 
 namespace hamjet {

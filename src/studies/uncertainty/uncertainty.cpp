@@ -12,7 +12,7 @@
 #include "../formation/deputy_flows.hpp"
 #include "../formation/formation_problem.hpp"
 #include "../formation/single_transfer.hpp"
-#include "../nominal_period.hpp"
+#include "../nominal/nominal_period.hpp"
 #include "../stopwatch.hpp"
 #include "hamjet/algebra/calculus.hpp"
 #include "hamjet/algebra/composition.hpp"

@@ -1,9 +1,9 @@
 #include <numbers>
 
-#include "../report/bounded/bounded_report.hpp"
-#include "../report/bounded/frozen_orbit_report.hpp"
-#include "../studies/bounded/relative_orbit_extent.hpp"
-#include "bindings.hpp"
+#include "../../report/bounded/bounded_report.hpp"
+#include "../../report/bounded/frozen_orbit_report.hpp"
+#include "../../studies/bounded/relative_orbit_extent.hpp"
+#include "../bindings.hpp"
 #include "studied.hpp"
 
 namespace hamjet::python {

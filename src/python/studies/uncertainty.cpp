@@ -4,14 +4,14 @@
 #include <span>
 #include <vector>
 
-#include "../app/processors.hpp"
-#include "../app/uncertainty_sections.hpp"
-#include "../formats/relative_frame_text.hpp"
-#include "../report/uncertainty/collision_arrays.hpp"
-#include "../report/uncertainty/uncertainty_arrays.hpp"
-#include "../report/uncertainty/uncertainty_report.hpp"
-#include "../report/uncertainty/uncertainty_view.hpp"
-#include "arrays.hpp"
+#include "../../app/processors.hpp"
+#include "../../app/uncertainty_sections.hpp"
+#include "../../formats/relative_frame_text.hpp"
+#include "../../report/uncertainty/collision_arrays.hpp"
+#include "../../report/uncertainty/uncertainty_arrays.hpp"
+#include "../../report/uncertainty/uncertainty_report.hpp"
+#include "../../report/uncertainty/uncertainty_view.hpp"
+#include "../arrays.hpp"
 #include "studied.hpp"
 
 // Moments of uncertain states, and of any polynomials of Gaussian variables.
