@@ -152,7 +152,8 @@ class Keeper {
 
   /// Coasts to the last moment inside of a step that ends outside.
   void coast_to_face(double step) {
-    double inside = 0, outside = step;
+    double inside = 0;
+    double outside = step;
     constexpr int halvings = 40;
     for (int i = 0; i < halvings; ++i) {
       const double middle = (inside + outside) / 2;
