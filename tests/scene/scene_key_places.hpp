@@ -44,7 +44,7 @@ inline Place place_of(const std::string& table, std::string_view owner) {
   static const std::map<std::string, Place, std::less<>> of_tables = {
       {"formation", {orbit_file, {{"formation", "{separation_km=1}"}}}},
       {"deputy", {orbit_file, {{"deputy", "{position_m=[0, 100, 0]}"}}}},
-      {"bounded", {orbit_file, {{"bounded", "{}"}}}},
+      {"bounded", {orbit_file, {{"bounded", "{box={half_widths_m=[1, 1, 1]}}"}}}},
       {"figure", {orbit_file, {{"figure", "{quantity=\"exactness\"}"}}}},
       {"assignment",
        {orbit_file,
@@ -132,6 +132,8 @@ inline const std::map<std::string, Place>& special_places() {
       {"uncertainty.safety.window_s", {"", {}, "[1, 2]"}},
       {"uncertainty.safety.burn_shares", {"", {}, "[0.5, 1]"}},
       {"uncertainty.coordinates", {"", {}, "[\"spherical\", \"flow-box\"]"}},
+      {"bounded.box.reference", {"", {}, "\"member\""}},
+      {"bounded.box.position_m", {"", {{"bounded.box.reference", "\"rest\""}}}},
       {"system.gravity_file", {"", {field, highest}, "\"../gravity/EGM96-zonals.gfc\""}},
       {"system.highest_zonal", {"", {field}}},
       {"system.zonals", {"", {field}}},

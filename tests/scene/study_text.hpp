@@ -80,7 +80,10 @@ class StudyText {
   }
   void add(const AssignmentSettings& s) { add_all(s.deputies, s.slots, s.time); }
   void add(const BoundedSettings& s) {
-    add_all(s.sizes_m, s.phase_deg, s.cross_track, s.along_track, s.revolutions, s.refine);
+    add_all(s.sizes_m, s.phase_deg, s.cross_track, s.along_track, s.revolutions, s.refine, s.box);
+  }
+  void add(const BoxSettings& s) {
+    add_all(s.half_widths_m, s.reference, s.position_m, s.return_orbits, s.days);
   }
   void add(const EphemerisSettings& s) {
     add_all(s.epoch, s.time_system, s.reference_frame, s.center_name, s.reference_frame_epoch,
