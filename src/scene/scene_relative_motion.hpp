@@ -69,8 +69,9 @@ RelativeState read_place(const TableReader& table, const Nominal& nominal);
 RelativeState in_other_frame(const TableReader& table, const Nominal& nominal,
                              const DeputySettings& deputy, RelativeFrame frame);
 
-/// A line for each deputy that is beyond what any polynomial resolves: a twentieth of the chief's
-/// distance from the centre away or more.
-std::vector<std::string> distant_deputies(const TableReader& root, const Scene& scene);
+/// A line for each deputy that is beyond what any polynomial resolves, a twentieth of the chief's
+/// distance from the centre away or more; and for a kind of generating function that the scene's
+/// coordinates leave unused.
+std::vector<std::string> likely_slips_of_deputies(const TableReader& root, const Scene& scene);
 
 }  // namespace hamjet::io
