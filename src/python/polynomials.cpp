@@ -85,7 +85,8 @@ class PolynomialsStudy {
 };
 
 /// Of results of a run, or of a file.
-PolynomialsStudy load(const std::filesystem::path& path, const std::optional<std::string>& run) {
+PolynomialsStudy load_polynomials(const std::filesystem::path& path,
+                                  const std::optional<std::string>& run) {
   return interruptibly(py::none(), [path, run](const ProgressCallback&) {
     std::error_code none;
     if (std::filesystem::is_directory(path, none)) {
@@ -125,7 +126,7 @@ void bind_polynomials(py::module_& module) {
            py::arg("strict"))
       .def("reach", &PolynomialsStudy::reach, py::arg("tolerance_m"), py::arg("samples"),
            py::arg("progress"));
-  module.def("load_polynomials", &load, py::arg("path"), py::arg("run"));
+  module.def("load_polynomials", &load_polynomials, py::arg("path"), py::arg("run"));
   module.def("integrate_polynomials", &integrate, py::arg("scene"), py::arg("progress"));
 }
 

@@ -1,4 +1,4 @@
-#include "command_test.hpp"
+#include "../command_test.hpp"
 #include "formats/hdf5/hdf5_jets.hpp"
 
 // Polynomials in a scene's coordinates, which `hamjet run` stores beside its jets.
