@@ -36,7 +36,7 @@ int run_flow_jet(const RunOptions& options, const Scene& scene) {
   const std::filesystem::path directory = output_path(options, scene.name);
   io::OutputDirectory output(directory);
   const RemovedAtSuddenEnd leftovers(output.leftovers());
-  note_unused_coordinates(options, scene);
+  note_unused(options, unwritten_coordinates(scene));
   PropagationResult result;
   {
     Progress progress(!options.quiet);
@@ -139,8 +139,11 @@ void check_flow_jet(const RunOptions& options, const std::string& file, const Sc
       scene.duration, scene.duration * scene.units.time_s, scene.order,
       counted(scene.variables.size(), "variable"), counted(problem.space->size(), "coefficient"),
       components, estimate_memory(scene, *problem.system, scene.variables.size(), threads) / 1e6);
-  if (const auto unused = unused_coordinates(scene)) {
-    text += fmt::format("  coordinates  {}; {}\n", name_of(scene.coordinates), unused->why);
+  if (scene.coordinates != JetCoordinates::cartesian) {
+    const auto unwritten = unwritten_coordinates(scene);
+    text += fmt::format("  coordinates  {}; {}\n", name_of(scene.coordinates),
+                        unwritten ? "hamjet run does not write them: " + unwritten->why
+                                  : "hamjet run writes polynomials in them beside its jets");
   }
   if (!scene.jet_times.empty()) {
     text += fmt::format("  jets         at {} to {:.10g} s too\n",

@@ -77,8 +77,9 @@ SceneKey window_key();
 std::array<double, 2> read_window(const TableReader& table, const Scene& scene);
 double read_nearness(const TableReader& table, std::string_view key, const Scene& scene);
 
-/// A line for each deputy that is beyond what any polynomial resolves: a twentieth of the chief's
-/// distance from the centre away or more.
-std::vector<std::string> distant_deputies(const TableReader& root, const Scene& scene);
+/// A line for each deputy that is beyond what any polynomial resolves, a twentieth of the chief's
+/// distance from the centre away or more; and for a kind of generating function that the scene's
+/// coordinates leave unused.
+std::vector<std::string> likely_slips_of_deputies(const TableReader& root, const Scene& scene);
 
 }  // namespace hamjet::io

@@ -8,6 +8,7 @@
 
 #include "along_time_recorder.hpp"
 #include "arcs.hpp"
+#include "formation/charted_jet.hpp"
 #include "hamjet/dynamics/relative_hamiltonian.hpp"
 #include "integration.hpp"
 #include "map_analysis.hpp"
@@ -163,6 +164,10 @@ PropagationResult propagate(const Scene& scene, const ProgressCallback& progress
       } else {
         run_integrator<double>(scene, result.problem, threads, singular, run, on_step);
       }
+      if (scene.coordinates != JetCoordinates::cartesian && !reason_without_charted_jet(scene)) {
+        report(settings.label + ": coordinates", 1);
+        run.charted = charted_jet(scene, run);
+      }
       report(settings.label + ": inversion", 1);
       analysis.analyse(run);
       check(run, result.reference);
@@ -207,6 +212,9 @@ int exit_code(const PropagationResult& result) {
   int code = 0;
   for (const RunResult& run : result.runs) {
     if (!run.failure.empty()) return static_cast<int>(ErrorKind::numerical);
+    if (run.charted && !run.charted->failure.empty()) {
+      return static_cast<int>(ErrorKind::numerical);
+    }
     for (const KindResult& kind : run.kinds) {
       if (!kind.failure.empty()) return static_cast<int>(ErrorKind::numerical);
     }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "formation/charted_jet.hpp"
 #include "hamjet/integrators/flow_problem.hpp"
 
 namespace hamjet {
@@ -104,16 +105,23 @@ void add_parts(const PropagationResult& result, std::vector<SkippedWork>& skippe
 
 }  // namespace
 
-std::optional<SkippedWork> unused_coordinates(const Scene& scene) {
+std::optional<SkippedWork> unwritten_coordinates(const Scene& scene) {
+  const auto reason = reason_without_charted_jet(scene);
+  if (!reason) return std::nullopt;
+  return SkippedWork{fmt::format("{} coordinates", name_of(scene.coordinates)), *reason};
+}
+
+std::optional<SkippedWork> uncompared_coordinates(const Scene& scene) {
   if (scene.coordinates == JetCoordinates::cartesian) return std::nullopt;
   return SkippedWork{fmt::format("{} coordinates", name_of(scene.coordinates)),
-                     "runs write jets in positions and momenta, in which they are symplectic to "
-                     "rounding; jet.coordinates is of motion, validity, transfer, assign and eval"};
+                     "what is compared are jets in positions and momenta, which every method "
+                     "integrates and which have a reference; `hamjet validity --coordinates all` "
+                     "compares coordinates by flown deputies"};
 }
 
 std::vector<SkippedWork> skipped_work(const PropagationResult& result) {
   std::vector<SkippedWork> skipped;
-  if (const auto coordinates = unused_coordinates(result.scene)) skipped.push_back(*coordinates);
+  if (const auto coordinates = unwritten_coordinates(result.scene)) skipped.push_back(*coordinates);
   add_dynamics(result, skipped);
   add_symmetry(result, skipped);
   add_parts(result, skipped);

@@ -102,19 +102,26 @@ TEST(SkippedWork, OfZonalHarmonicsIsThoseThatAreAbsent) {
   EXPECT_EQ(reason(result, "J7 to J20").find("needs"), std::string::npos);
 }
 
-// A run's jet is the same whatever deputies are to be predicted by, and it says so.
-TEST(SkippedWork, IsTheCoordinatesOfAScene) {
+// A run's jet is the same whatever deputies are to be predicted by; polynomials in the scene's
+// coordinates are beside it, and where these are not known it says so.
+TEST(SkippedWork, IsTheCoordinatesThatAreNotKnown) {
   Scene scene = paper_chief(2);
   scene.duration = 0.1;
   const PropagationResult plain = propagate(scene);
   scene.coordinates = {JetCoordinates::nodal, JetCoordinates::poincare};
   const PropagationResult result = propagate(scene);
   Names names = with_parts({"J4 to J20", rotation});
-  names.insert(names.begin(), "nodal to poincare coordinates");
   EXPECT_EQ(left_out(result), names);
+  ASSERT_TRUE(result.runs[0].charted);
+  EXPECT_EQ(result.runs[0].charted->failure, "");
   const auto found = result.runs[0].jet[5].coefficients();
   const auto expected = plain.runs[0].jet[5].coefficients();
   EXPECT_TRUE(std::equal(found.begin(), found.end(), expected.begin(), expected.end()));
+  scene.coordinates = JetCoordinates::automatic;
+  const PropagationResult automatic = propagate(scene);
+  names.insert(names.begin(), "auto coordinates");
+  EXPECT_EQ(left_out(automatic), names);
+  EXPECT_FALSE(automatic.runs[0].charted);
 }
 
 TEST(SkippedWork, OfAnEquatorialOrbitIsTheMotionOutOfThePlane) {
