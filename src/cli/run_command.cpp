@@ -98,6 +98,17 @@ int run(const RunOptions& options) {
 
 namespace {
 
+/// What the check of a scene says of the symmetry that an integrator leaves out.
+std::string left_out_text(FlowSymmetry symmetry, std::size_t all) {
+  if (symmetry == FlowSymmetry::none) return "";
+  const std::string text =
+      fmt::format("; integrates {} of {} variables, ", all - variables_less(symmetry), all);
+  const std::string rotation = "the rotation about the axis put back";
+  if (symmetry == FlowSymmetry::rotation) return text + rotation;
+  return text + (symmetry == FlowSymmetry::time ? "" : rotation + ", ") +
+         "the shift in time put back to about the error of integration";
+}
+
 /// What the gravity field of a file is made of; empty for a scene without one.
 std::string field_text(const SystemSettings& system) {
   if (!system.gravity_file) return "";
@@ -159,11 +170,7 @@ void check_flow_jet(const RunOptions& options, const std::string& file, const Sc
     if (settings.tolerance) text += fmt::format(", tolerance {:g}", *settings.tolerance);
     if (settings.step_canonical)
       text += fmt::format(", step {:g} canonical", *settings.step_canonical);
-    if (left_out(scene, problem, settings) == FlowSymmetry::rotation) {
-      const std::size_t all = scene.variables.size();
-      text += fmt::format("; integrates {} of {} variables, the rotation about the axis put back",
-                          all - 1, all);
-    }
+    text += left_out_text(left_out(scene, problem, settings), scene.variables.size());
     text += "\n";
     if (scene.arcs == std::optional<std::size_t>(1)) continue;
     const ArcPlan plan = plan_arcs(scene, problem, settings,

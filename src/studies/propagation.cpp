@@ -56,6 +56,9 @@ void run_integrator(const Scene& scene, const ComputedProblem& problem, std::siz
                                   *run.arcs, record, progress, records_step_error)
           : integrate<Real>(flow, run.settings, run.statistics, on_step, records_step_error);
   run.jet = convert_map<Extended>(jet);
+  if (has_time_shift(run.statistics.left_out)) {
+    run.time_shift_difference = time_shift_difference<Real>(flow, jet, run);
+  }
   if (scene.checks[SelfCheckName::error_estimate].is_on) {
     run.error_estimate = estimate_jet_error<Real>(scene, flow, jet, run.statistics, progress);
     sample_rounding_in_doubt<Real>(scene, flow, jet, run, progress);

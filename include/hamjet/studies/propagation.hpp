@@ -98,6 +98,10 @@ struct RunResult {
   std::vector<SymplecticityDefect> symplecticity;  ///< empty if not all variables are expanded in
   std::optional<std::vector<double>> error_by_degree;  ///< see relative_error_by_degree
   JetErrorEstimate error_estimate;
+  /// By degree, what it costs that a shift in time was left out (FlowSymmetry): the relative
+  /// difference, along two lines of deviations, from the jet that the same steps make in all
+  /// variables. Empty where none was left out, and where it was not measured.
+  std::vector<double> time_shift_difference;
   /// Distance of the nominal's final position from the reference's.
   std::optional<double> position_error_m;
   std::optional<RunAlongTime> along_time;  ///< if the scene asks for a figure

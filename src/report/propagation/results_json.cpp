@@ -171,6 +171,11 @@ Json run_json(const PropagationResult& result, const RunResult& run) {
   json["symplecticity_by_degree"] = symplecticity_json(run.symplecticity);
   json["error_by_degree"] = by_degree_json(run.error_by_degree);
   json["error_estimate_by_degree"] = by_degree_json(run.error_estimate.by_degree);
+  if (has_time_shift(run.statistics.left_out)) {
+    json["time_shift_difference_by_degree"] = run.time_shift_difference.empty()
+                                                  ? Json(nullptr)
+                                                  : by_degree_json(run.time_shift_difference);
+  }
   json["position_error_m"] = or_null(run.position_error_m);
   json["operations"] = operations_json(result, run);
   if (!run.jets.empty()) json["jets"] = jets_json(result, run);
