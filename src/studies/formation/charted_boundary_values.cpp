@@ -70,8 +70,20 @@ BoundaryMomenta ChartedBoundaryValues::solve(std::span<const double> first,
     // A start that is rounded moves the end by as much times the growth on the way.
     rounding = 64 * std::numeric_limits<double>::epsilon() *
                (chief_distance + commanded_->norm() * chief_momentum);
-    if (miss.norm() <= rounding) break;
     const Eigen::Vector3d step = commanded_->partialPivLu().solve(miss);
+    if (miss.norm() <= rounding) {
+      // A kept matrix comes below the bound by little: one step more leaves what rounding leaves.
+      SixNumbers<double> next = start;
+      for (std::size_t k = 0; k < 3; ++k) next[3 + k] -= step[static_cast<Eigen::Index>(k)];
+      const SixNumbers<double> reached = predict(next);
+      const Eigen::Vector3d left = final_position(reached) - wanted;
+      if (left.norm() < miss.norm()) {
+        start = next;
+        end = reached;
+        miss = left;
+      }
+      break;
+    }
     double part = 1;
     bool is_nearer = false;
     bool is_slow = false;
