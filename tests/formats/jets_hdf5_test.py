@@ -290,7 +290,7 @@ class JetsHdf5Test(unittest.TestCase):
                               "runs"]
             self.damaged(having(key, 1.5 if is_text else "text"), key + ": the attribute must be")
             self.damaged(having(key, h5py.Empty("f8")), key + ": ")
-        self.damaged(having("format_version", 3), "format_version: is 3, this hamjet reads 1 and 2")
+        self.damaged(having("format_version", 4), "format_version: is 4, this hamjet reads 1 to 3")
         # Of the second version, which is that of jets in other coordinates, it must name them.
         self.damaged(having("format_version", 2), "coordinates: the attribute is missing")
         self.damaged(having("length_unit_km", -1.0), "length_unit_km: the attribute must be positive")

@@ -29,6 +29,9 @@ def objects():
                           overrides=["transfer.count=3"]),
             hamjet.poincare(BOUNDED, overrides=SHORT), hamjet.bounded(BOUNDED, overrides=SHORT),
             hamjet.uncertainty(UNCERTAINTY),
+            hamjet.collision_probability([[7e6, 0, 0, 0, 7546, 0], [7e6, 0, 0, 0, 6622, 3618]],
+                                         np.broadcast_to(np.diag([1e4] * 3 + [1e-2] * 3), (2, 6, 6)),
+                                         10, (0, 60), samples=4096),
             hamjet.polynomial_moments([[0.0, 1.0]], [[0], [1]], [[1.0]])]
 
 
