@@ -51,11 +51,15 @@ std::vector<double> read_jet_times(const TableReader& jet, const Scene& scene,
 RelativeFrame read_relative_frame(const TableReader& table, const TableReader& fallback);
 RelativeFrame read_relative_frame(const TableReader& table);
 
+/// Where a deputy may be: in what expansions about the chief reach at all, or anywhere, as the
+/// other spacecraft of an encounter, which has polynomials about its own trajectory.
+enum class DeputyPlace { near_chief, anywhere };
+
 /// A deputy at the start, in the given frame: `position_m` and, optional, `velocity_m_s` in that
 /// frame; numbers of another form (components_of); or its own orbit in the keys of [nominal], whose
 /// difference from the chief's is taken.
 RelativeState read_relative_state(const TableReader& table, const Nominal& nominal,
-                                  RelativeFrame frame);
+                                  RelativeFrame frame, DeputyPlace place = DeputyPlace::near_chief);
 
 /// A deputy at its arrival, in the same forms but a message: what they are relative to the chief
 /// depends on where that is then.
@@ -69,8 +73,12 @@ RelativeState read_place(const TableReader& table, const Nominal& nominal);
 RelativeState in_other_frame(const TableReader& table, const Nominal& nominal,
                              const DeputySettings& deputy, RelativeFrame frame);
 
-/// A line for each deputy that is beyond what any polynomial resolves: a twentieth of the chief's
-/// distance from the centre away or more.
+/// Whether the scene asks for collisions of chief and deputy, table [uncertainty.collision].
+bool has_collision(const TableReader& root);
+
+/// A line for each deputy that is beyond what any polynomial about the chief resolves: a twentieth
+/// of the chief's distance from the centre away or more. The deputy of a scene with
+/// [uncertainty.collision], which is flown about its own trajectory, is none of them.
 std::vector<std::string> distant_deputies(const TableReader& root, const Scene& scene);
 
 }  // namespace hamjet::io

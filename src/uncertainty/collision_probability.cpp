@@ -12,20 +12,20 @@
 #include "entry_sampler.hpp"
 #include "hamjet/error.hpp"
 #include "relative_paths.hpp"
+#include "sampled_paths.hpp"
 
 namespace hamjet {
 namespace {
 
 /// The cubics between nodes are right to this part of the radius.
-constexpr double path_accuracy = 1e-4;
-/// Samples that are evaluated side by side, and blocks of them in a task.
-constexpr std::size_t block = 64;
+constexpr double path_accuracy = 1e-5;
+/// Blocks of samples in a task.
 constexpr std::size_t blocks_in_task = 64;
 /// Every so many blocks the lower order is evaluated too.
 constexpr std::size_t lower_order_every = 8;
 /// The sampled sphere is wider than the collision's by this part of the radius at least, and by so
 /// many times the largest excess seen.
-constexpr double narrowest_margin = 1e-3;
+constexpr double narrowest_margin = 1e-5;
 constexpr double margin_factor = 1.5;
 /// Draws below this part of the mean weight hold no more than this part of the probability.
 constexpr double negligible_weight = 1e-4;
@@ -33,14 +33,6 @@ constexpr double negligible_weight = 1e-4;
 constexpr double widest_sphere = 20;
 constexpr std::size_t pilot_blocks = 32;
 constexpr std::size_t time_count = 200;
-
-/// The states of one sample at all nodes.
-void take_path(std::span<const double> states, std::size_t count, std::size_t sample,
-               std::vector<std::array<double, 6>>& path) {
-  for (std::size_t node = 0; node < path.size(); ++node) {
-    for (std::size_t c = 0; c < 6; ++c) path[node][c] = states[(6 * node + c) * count + sample];
-  }
-}
 
 void take_linear_path(const RelativePaths& paths, const EncounterDeviation& deviation,
                       std::vector<std::array<double, 6>>& path) {
@@ -73,15 +65,6 @@ std::optional<double> first_event(const RelativePaths& paths,
   return {};
 }
 
-double least_distance(const RelativePaths& paths, const std::vector<std::array<double, 6>>& path) {
-  double least = std::numeric_limits<double>::infinity();
-  const std::vector<double>& times = paths.times();
-  for (const std::size_t node : paths.arcs()) {
-    least = SquaredDistance(path[node], path[node + 1], times[node + 1] - times[node]).least(least);
-  }
-  return std::sqrt(least);
-}
-
 /// Sums over samples of x, the weight of a collision and 0 of none.
 struct Sums {
   long samples = 0;
@@ -107,8 +90,8 @@ struct Sums {
 
 /// A block of samples: their deviations, a structure of arrays, and weights.
 struct Block {
-  std::vector<double> points = std::vector<double>(encounter_variables * block);
-  std::vector<double> weights = std::vector<double>(block);
+  std::vector<double> points = std::vector<double>(encounter_variables * samples_in_block);
+  std::vector<double> weights = std::vector<double>(samples_in_block);
 };
 
 class Estimate {
@@ -123,7 +106,8 @@ class Estimate {
 
  private:
   void draw(RandomStream& random, Block& samples) const;
-  void judge(const Block& samples, bool with_lower_order, Sums& sums) const;
+  /// Adds the first `count` of a block.
+  void judge(const Block& samples, std::size_t count, bool with_lower_order, Sums& sums) const;
   double largest_difference() const;
 
   const EncounterProblem* problem_;
@@ -135,7 +119,7 @@ class Estimate {
 
 void Estimate::draw(RandomStream& random, Block& samples) const {
   std::vector<std::array<double, 6>> path(paths_->times().size());
-  for (std::size_t j = 0; j < block; ++j) {
+  for (std::size_t j = 0; j < samples_in_block; ++j) {
     EncounterDeviation deviation;
     samples.weights[j] = 1;
     if (sampler_) {
@@ -149,13 +133,14 @@ void Estimate::draw(RandomStream& random, Block& samples) const {
       for (Eigen::Index i = 0; i < deviation.size(); ++i) deviation[i] = random.normal();
     }
     for (std::size_t i = 0; i < encounter_variables; ++i) {
-      samples.points[i * block + j] = deviation[static_cast<Eigen::Index>(i)];
+      samples.points[i * samples_in_block + j] = deviation[static_cast<Eigen::Index>(i)];
     }
   }
 }
 
-void Estimate::judge(const Block& samples, bool with_lower_order, Sums& sums) const {
-  std::vector<double> states(6 * paths_->times().size() * block), lower;
+void Estimate::judge(const Block& samples, std::size_t count, bool with_lower_order,
+                     Sums& sums) const {
+  std::vector<double> states(6 * paths_->times().size() * samples_in_block), lower;
   paths_->evaluate(samples.points, problem_->order, states);
   if (with_lower_order) {
     lower.resize(states.size());
@@ -163,8 +148,8 @@ void Estimate::judge(const Block& samples, bool with_lower_order, Sums& sums) co
   }
   std::vector<std::array<double, 6>> path(paths_->times().size());
   const double scale = static_cast<double>(time_count) / (problem_->to - problem_->from);
-  for (std::size_t j = 0; j < block; ++j) {
-    take_path(states, block, j, path);
+  for (std::size_t j = 0; j < count; ++j) {
+    take_path(states, samples_in_block, j, path);
     const double weight = samples.weights[j];
     ++sums.samples;
     const auto entry = first_event(*paths_, path, problem_->radius, settings_->event);
@@ -176,7 +161,7 @@ void Estimate::judge(const Block& samples, bool with_lower_order, Sums& sums) co
       sums.by_time[std::min(place, time_count - 1)] += weight;
     }
     if (with_lower_order) {
-      take_path(lower, block, j, path);
+      take_path(lower, samples_in_block, j, path);
       const bool hit = first_event(*paths_, path, problem_->radius, settings_->event).has_value();
       const double change = (hit ? weight : 0) - (entry ? weight : 0);
       ++sums.compared;
@@ -190,18 +175,18 @@ double Estimate::largest_difference() const {
   RandomStream random(settings_->seed, ~std::uint64_t{0});
   Block samples;
   std::vector<std::array<double, 6>> path(paths_->times().size());
-  std::vector<double> states(6 * path.size() * block);
+  std::vector<double> states(6 * path.size() * samples_in_block);
   std::vector<std::pair<double, double>> differences;  // and weights
   double sum = 0;
   for (std::size_t k = 0; k < pilot_blocks; ++k) {
     draw(random, samples);
     paths_->evaluate(samples.points, problem_->order, states);
-    for (std::size_t j = 0; j < block; ++j) {
+    for (std::size_t j = 0; j < samples_in_block; ++j) {
       EncounterDeviation deviation;
       for (std::size_t i = 0; i < encounter_variables; ++i) {
-        deviation[static_cast<Eigen::Index>(i)] = samples.points[i * block + j];
+        deviation[static_cast<Eigen::Index>(i)] = samples.points[i * samples_in_block + j];
       }
-      take_path(states, block, j, path);
+      take_path(states, samples_in_block, j, path);
       const double least = least_distance(*paths_, path);
       take_linear_path(*paths_, deviation, path);
       differences.emplace_back(std::abs(least - least_distance(*paths_, path)), samples.weights[j]);
@@ -223,8 +208,11 @@ bool Estimate::sample_entries() {
   // differences of its own paths do not bridge the margin.
   double margin = narrowest_margin * problem_->radius;
   while (margin <= (widest_sphere - 1) * problem_->radius) {
-    sampler_.emplace(*paths_, problem_->radius + margin,
-                     settings_->event == CollisionEvent::nearer);
+    // An entry may come from between the two spheres too, where the path begins: of those that are
+    // to become nearer, what begins well inside is left out.
+    const double nearest_begin =
+        settings_->event == CollisionEvent::nearer ? 0 : std::max(0.0, problem_->radius - margin);
+    sampler_.emplace(*paths_, problem_->radius + margin, nearest_begin);
     if (sampler_->is_empty()) return true;
     difference_ = largest_difference();
     if (difference_ * margin_factor <= margin) return true;
@@ -248,8 +236,9 @@ CollisionProbability Estimate::result() const {
     if (sampler_->is_empty()) return result;
   }
   if (paths_->arcs().empty()) return result;
-  const std::size_t in_task = block * blocks_in_task;
-  const std::size_t tasks = (static_cast<std::size_t>(settings_->samples) + in_task - 1) / in_task;
+  const std::size_t in_task = samples_in_block * blocks_in_task;
+  const auto wanted = static_cast<std::size_t>(settings_->samples);
+  const std::size_t tasks = (wanted + in_task - 1) / in_task;
   std::vector<Sums> sums(tasks);
   run_concurrently(
       tasks, settings_->threads,
@@ -257,8 +246,10 @@ CollisionProbability Estimate::result() const {
         RandomStream random(settings_->seed, task);
         Block samples;
         for (std::size_t k = 0; k < blocks_in_task; ++k) {
+          const std::size_t count = in_block(wanted, task * in_task + k * samples_in_block);
+          if (count == 0) break;
           draw(random, samples);
-          judge(samples, problem_->order > 1 && k % lower_order_every == 0, sums[task]);
+          judge(samples, count, problem_->order > 1 && k % lower_order_every == 0, sums[task]);
         }
         control.advance();
       },
@@ -339,60 +330,12 @@ CollisionProbability collision_probability(const EncounterProblem& problem,
                               widest_sphere));
     }
   } catch (const Error& error) {
-    if (settings.sampling == CollisionSampling::entries || error.kind() != ErrorKind::numerical) {
-      throw;
+    if (error.kind() != ErrorKind::numerical) throw;
+    if (settings.sampling == CollisionSampling::entries) {
+      throw Error(ErrorKind::usage, error.what());
     }
   }
   return Estimate(problem, settings, paths).result();
-}
-
-LeastSeparations least_separations(const EncounterProblem& problem,
-                                   const CollisionSettings& settings,
-                                   const std::vector<double>& shares) {
-  validate(problem);
-  for (const double share : shares) {
-    if (!(share > 0 && share < 1)) {
-      throw Error(ErrorKind::usage, "least separations: a share must be between 0 and 1");
-    }
-  }
-  // Separations are told to a part of the radius, and no path is left out.
-  constexpr double accuracy = 0.01;
-  const RelativePaths paths(problem, accuracy * problem.radius,
-                            std::numeric_limits<double>::infinity());
-  const auto count = static_cast<std::size_t>(std::max(1L, settings.samples));
-  const std::size_t tasks = (count + block - 1) / block;
-  std::vector<double> least(tasks * block);
-  run_concurrently(
-      tasks, settings.threads,
-      [&](std::size_t task, TaskControl& control) {
-        RandomStream random(settings.seed, task);
-        std::vector<double> points(encounter_variables * block);
-        for (std::size_t j = 0; j < block; ++j) {
-          for (std::size_t i = 0; i < encounter_variables; ++i) {
-            points[i * block + j] = random.normal();
-          }
-        }
-        std::vector<double> states(6 * paths.times().size() * block);
-        paths.evaluate(points, problem.order, states);
-        std::vector<std::array<double, 6>> path(paths.times().size());
-        for (std::size_t j = 0; j < block; ++j) {
-          take_path(states, block, j, path);
-          least[task * block + j] = least_distance(paths, path);
-        }
-        control.advance();
-      },
-      [&](long done) {
-        if (settings.progress) {
-          settings.progress(static_cast<double>(done) / static_cast<double>(tasks));
-        }
-      });
-  std::sort(least.begin(), least.end());
-  LeastSeparations result{shares, {}, static_cast<long>(least.size())};
-  for (const double share : shares) {
-    const auto place = static_cast<std::size_t>(share * static_cast<double>(least.size()));
-    result.separations.push_back(least[std::min(place, least.size() - 1)]);
-  }
-  return result;
 }
 
 }  // namespace hamjet
