@@ -31,6 +31,9 @@ constexpr double margin_factor = 1.5;
 constexpr double negligible_weight = 1e-4;
 /// Spheres wider than this, in radii, hold too few collisions for what they cost.
 constexpr double widest_sphere = 20;
+/// A relative standard error as if fewer than a hundred draws had all of the weight: such draws say
+/// nothing of what they have missed.
+constexpr double few_draws = 0.1;
 constexpr std::size_t pilot_blocks = 32;
 constexpr std::size_t time_count = 200;
 
@@ -318,10 +321,18 @@ CollisionProbability collision_probability(const EncounterProblem& problem,
   try {
     if (estimate.sample_entries()) {
       const CollisionProbability result = estimate.result();
+      if (result.samples == 0) return result;
       // Weights of probable collisions may tell less than plain samples do.
-      const bool is_worse =
-          result.samples > 0 && result.equivalent_samples < static_cast<double>(result.samples);
-      if (settings.sampling == CollisionSampling::entries || !is_worse) return result;
+      const bool is_worse = result.equivalent_samples < static_cast<double>(result.samples);
+      const bool is_told_by_few = !(result.standard_error < few_draws * result.probability);
+      if (settings.sampling == CollisionSampling::entries && is_told_by_few) {
+        throw Error(ErrorKind::numerical,
+                    "collision: a few of the drawn entries have all of the weight, so that they "
+                    "may have missed where collisions come from; plain sampling does not");
+      }
+      if (settings.sampling == CollisionSampling::entries || (!is_worse && !is_told_by_few)) {
+        return result;
+      }
     }
     if (settings.sampling == CollisionSampling::entries) {
       throw Error(ErrorKind::numerical,
