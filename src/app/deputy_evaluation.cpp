@@ -8,6 +8,7 @@
 #include "../studies/formation/formation_problem.hpp"
 #include "../studies/formation/single_transfer.hpp"
 #include "../studies/stopwatch.hpp"
+#include "hamjet/charts/flow_box_states.hpp"
 #include "hamjet/studies/validity.hpp"
 
 namespace hamjet::cli {
@@ -39,6 +40,23 @@ EvaluatedScene evaluated_scene(const Scene& scene) {
   return result;
 }
 
+namespace {
+
+/// The linear part of the jet in positions and momenta of a flow-box map.
+Matrix<double> linear_part_of(const ZonalGravity& field, FlowBoxMap<double> map) {
+  const SpacePointer linear = SeriesSpace::create(map.start->variables(), 1);
+  const auto cut = [&](Series<double>& series) {
+    Series<double> result(linear);
+    for (std::size_t k = 0; k < linear->size(); ++k) result[k] = series[k];
+    series = result;
+  };
+  cut(map.time);
+  for (Series<double>& coordinate : map.coordinates) cut(coordinate);
+  return linear_part(without_constants(flow_box_jet(field, map).jet()));
+}
+
+}  // namespace
+
 EvaluatedScene evaluated_jet(const io::StoredJet& stored) {
   constexpr double canonical_mu = 1;
   EvaluatedScene result;
@@ -47,16 +65,26 @@ EvaluatedScene evaluated_jet(const io::StoredJet& stored) {
   result.coordinates = stored.coordinates;
   const SixNumbers<double> start = six_numbers(stored.nominal_initial);
   const SixNumbers<double> end = six_numbers(stored.nominal_final);
+  const auto set_rounding = [&](const Matrix<double>& linear) {
+    result.rounding_m = rounding_of_flights(linear, start, end, stored.momentum_exponent()) *
+                        stored.units.length_km * 1000;
+  };
+  if (stored.flow_box) {
+    const FlowBoxMap<double> map = flow_box_map(stored);
+    result.flow = flow_box_deputy_flow(stored.flow_box->field, map);
+    // What deviations are counted from, as where a scene is integrated.
+    result.chief.nominal_final.assign(result.flow->chief_end().begin(),
+                                      result.flow->chief_end().end());
+    set_rounding(linear_part_of(stored.flow_box->field, map));
+    return result;
+  }
   const CanonicalChart<double> first(chart_of(stored.coordinates.start), start, canonical_mu);
   const CanonicalChart<double> last(chart_of(stored.coordinates.end), end, canonical_mu);
   const FlowMap<double> map(convert_map<double>(stored.jet));
   result.flow = charted_deputy_flow(first, start, last, end, map);
   // The linear part in positions and momenta is that of the jet, whatever it is written in.
-  const Matrix<double> linear = result.flow->exit_derivative() *
-                                linear_part(without_constants(map.jet())) *
-                                result.flow->entry_derivative();
-  result.rounding_m = rounding_of_flights(linear, start, end, stored.momentum_exponent()) *
-                      stored.units.length_km * 1000;
+  set_rounding(result.flow->exit_derivative() * linear_part(without_constants(map.jet())) *
+               result.flow->entry_derivative());
   return result;
 }
 

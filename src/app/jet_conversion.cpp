@@ -6,6 +6,7 @@
 
 #include "../text/scene_message.hpp"
 #include "hamjet/charts/charted_map.hpp"
+#include "hamjet/charts/flow_box_states.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/studies/propagation.hpp"
 #include "refusal.hpp"
@@ -50,8 +51,8 @@ void require_charts(const CoordinatesAtEnds& coordinates) {
     refuse(fmt::format("--coordinates {}: {}", name_of(one),
                        one == JetCoordinates::flow_box
                            ? "its polynomials are no jet in six variables, and are not made from "
-                             "one: `hamjet eval scene.toml --set jet.coordinates=flow-box` "
-                             "integrates them"
+                             "one: `hamjet run scene.toml --set jet.coordinates=flow-box` "
+                             "integrates and stores them"
                            : "a stored jet has no scene to measure by, must name coordinates"));
   }
 }
@@ -60,18 +61,24 @@ void require_charts(const CoordinatesAtEnds& coordinates) {
 
 ConvertedJet converted_jet(const io::StoredJet& stored, const CoordinatesAtEnds& coordinates,
                            const std::string& name) {
+  if (stored.flow_box && coordinates == stored.coordinates) return {stored, coordinates, {}, {}};
   require_charts(coordinates);
   if (!is_orbit(stored.model) || stored.components.size() != 6 || stored.variables.size() != 6) {
     refuse(fmt::format("--coordinates {}: {}: coordinates are of orbits in all six variables",
                        name_of(coordinates), name));
   }
-  const Charts before(stored.coordinates, stored);
+  const CoordinatesAtEnds from = stored.flow_box ? JetCoordinates::cartesian : stored.coordinates;
+  const Charts before(from, stored);
   const Charts after(coordinates, stored);
   ConvertedJet result{stored, stored.coordinates, {}, {}};
   result.stored.coordinates = coordinates;
+  result.stored.flow_box.reset();
   result.stored.error_by_degree.clear();
   FlowJet<Extended>& jet = result.stored.jet;
-  jet = after.into(before.out_of(FlowMap<Extended>(stored.jet))).jet();
+  if (stored.flow_box) {
+    jet = convert_map<Extended>(flow_box_jet(stored.flow_box->field, flow_box_map(stored)).jet());
+  }
+  jet = after.into(before.out_of(FlowMap<Extended>(jet))).jet();
   if (stored.precision == Precision::double_precision) {
     for (Series<Extended>& component : jet) {
       for (Extended& c : component.coefficients()) c = static_cast<double>(c);
@@ -81,8 +88,10 @@ ConvertedJet converted_jet(const io::StoredJet& stored, const CoordinatesAtEnds&
     // The nominal's end is what the file has of it, not rounding beside.
     for (std::size_t i = 0; i < jet.size(); ++i) jet[i][0] = stored.nominal_final[i];
   }
-  result.there_and_back =
-      relative_error_by_degree(before.into(after.out_of(FlowMap<Extended>(jet))).jet(), stored.jet);
+  if (!stored.flow_box) {
+    result.there_and_back = relative_error_by_degree(
+        before.into(after.out_of(FlowMap<Extended>(jet))).jet(), stored.jet);
+  }
   result.symplecticity = symplecticity_by_degree(jet);
   return result;
 }

@@ -13,7 +13,8 @@ struct ConvertedJet {
   io::StoredJet stored;
   CoordinatesAtEnds from;  ///< those of the given one
   /// By how much the jet differs from the given one, degree by degree, once it is brought back: the
-  /// largest difference relative to the largest coefficient of the degree.
+  /// largest difference relative to the largest coefficient of the degree. Empty of a flow box,
+  /// into which no jet is brought back.
   std::vector<double> there_and_back;
   std::vector<SymplecticityDefect> symplecticity;  ///< in the new coordinates, which are canonical
 };

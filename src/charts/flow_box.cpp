@@ -62,6 +62,26 @@ SteadyMotion<Series<Real>> FlowBoxMap<Real>::steady() const {
 }
 
 template <class Real>
+FlowBoxMap<Real> flow_box_map(const ZonalGravity& field,
+                              std::shared_ptr<const FlowSection<Real>> start,
+                              std::shared_ptr<const FlowSection<Real>> end, const Real& duration,
+                              Series<Real> time, std::vector<Series<Real>> coordinates) {
+  FlowBoxMap<Real> map{std::move(start),
+                       std::move(end),
+                       duration,
+                       Real(0),
+                       Real(field.J[2]) * Real(field.radius) * Real(field.radius),
+                       Real(field.mu),
+                       std::move(time),
+                       std::move(coordinates)};
+  if (map.start->chart().is_of_elements()) {
+    map.advance = Real(1);
+    map.advance = duration / map.steady(map.start->energy(), map.start->chief()).time;
+  }
+  return map;
+}
+
+template <class Real>
 FlowBoxPropagation<Real>::FlowBoxPropagation(const ZonalGravity& field, ChartName chart,
                                              const SixNumbers<Real>& chief, int order,
                                              const GaussSettings& settings)
@@ -113,18 +133,7 @@ FlowBoxMap<Real> FlowBoxPropagation<Real>::advance_to(const Real& time) {
     c = end->chart().coordinates(z);
   }
 
-  FlowBoxMap<Real> map{start_,
-                       end,
-                       time,
-                       Real(0),
-                       Real(field_.J[2]) * Real(field_.radius) * Real(field_.radius),
-                       Real(field_.mu),
-                       flight,
-                       {}};
-  if (start_->chart().is_of_elements()) {
-    map.advance = Real(1);
-    map.advance = time / map.steady(start_->energy(), start_->chief()).time;
-  }
+  FlowBoxMap<Real> map = flow_box_map<Real>(field_, start_, end, time, flight, {});
   const SteadyMotion<Series<Real>> steady = map.steady();
   map.time -= steady.time;
   turn_steadily(*end, SteadyMotion<Series<Real>>{-steady.time, -steady.pericentre, -steady.node},
@@ -151,6 +160,10 @@ ChartName section_chart(const SixNumbers<Real>& z, const Real& mu) {
 }
 
 template struct FlowBoxMap<InstantiatedReal>;
+template FlowBoxMap<InstantiatedReal> flow_box_map(
+    const ZonalGravity&, std::shared_ptr<const FlowSection<InstantiatedReal>>,
+    std::shared_ptr<const FlowSection<InstantiatedReal>>, const InstantiatedReal&,
+    Series<InstantiatedReal>, std::vector<Series<InstantiatedReal>>);
 template class FlowBoxPropagation<InstantiatedReal>;
 template ChartName section_chart(const SixNumbers<InstantiatedReal>&, const InstantiatedReal&);
 

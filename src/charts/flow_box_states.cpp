@@ -81,6 +81,31 @@ std::vector<Series<double>> flow_box_coordinates(const ZonalGravity& field,
   return result;
 }
 
+FlowMap<double> flow_box_jet(const ZonalGravity& field, const FlowBoxMap<double>& map) {
+  const FlowSection<double>& end = *map.end;
+  const std::vector<Series<double>> arrived = flow_box_coordinates(field, map);
+  const SpacePointer& space = arrived[0].space_pointer();
+  const auto constant = [&](std::size_t i) { return Series<double>(space, end.chief()[i]); };
+  SixNumbers<Series<double>> c = {constant(0), constant(1), constant(2),
+                                  constant(3), constant(4), constant(5)};
+  for (std::size_t k = 0; k < end.places().size(); ++k) c[end.places()[k]] += arrived[k + 2];
+  if (end.ignored()) c[*end.ignored()] += arrived.back();
+  // The energy of its variable, about the chief's own at the end.
+  const Series<double> energy = map.start->is_bound()
+                                    ? end.energy() * pow(arrived[1] + 1.0, -2.0 / 3)
+                                    : arrived[1] * map.start->energy_unit() + end.energy();
+  const SharedSystem system(zonal_gravity(field));
+  for (int i = 0; i <= space->order(); ++i) {
+    Series<double> excess = energy_series(*system, end.chart().state(c)) - energy;
+    excess[0] = 0;
+    c[3] -= excess / end.rate();
+  }
+  SixNumbers<Series<double>> z = end.chart().state(c);
+  for (std::size_t i = 0; i < 6; ++i) z[i][0] = end.origin()[i];
+  z = carried(time_scaled_first_order(zonal_gravity(field)), z, arrived[0]);
+  return FlowMap<double>({z[0], z[1], z[2], z[3], z[4], z[5]});
+}
+
 std::array<std::string, 6> coordinate_names(ChartName chart) {
   switch (chart) {
     case ChartName::cartesian:

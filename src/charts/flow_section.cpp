@@ -25,6 +25,7 @@ FlowSection<Real>::FlowSection(const ZonalGravity& field, ChartName chart,
                                const SixNumbers<Real>& chief)
     : system_(zonal_gravity(field)),
       chart_(chart, chief, Real(field.mu)),
+      origin_(chief),
       chief_(chart_.coordinates(chief)) {
   using std::sqrt;
   if (chart == ChartName::cartesian) {

@@ -70,7 +70,7 @@ int compare(const CompareOptions& options) {
   ComparisonResult result;
   io::OutputDirectory output(directory);
   const RemovedAtSuddenEnd leftovers(output.leftovers());
-  note_unused_coordinates(options.scene, scene);
+  note_unused(options.scene, uncompared_coordinates(scene));
   if (options.resume) take_up(directory, origin.determinants, result);
   io::ReferenceCache cache(io::ReferenceCache::user_directory());
   auto saved = std::chrono::steady_clock::now();

@@ -64,8 +64,23 @@ void add_description_options(CLI::App& command, io::JetDescription& foreign) {
   }
 }
 
+/// Whether the flow boxes that a results directory may have are wanted as they are: no jet is
+/// converted to them.
+bool asks_for_stored_polynomials(const ConvertOptions& options) {
+  std::error_code none;
+  return options.coordinates == std::string(name_of(JetCoordinates::flow_box)) &&
+         std::filesystem::is_directory(options.from, none);
+}
+
 io::StoredJet read_jet(const ConvertOptions& options) {
-  if (!options.time) return read_noted_jet(options.from, options.run, options.foreign);
+  if (!options.time) {
+    if (asks_for_stored_polynomials(options)) {
+      if (auto polynomials = io::read_stored_polynomials(options.from, options.run)) {
+        if (polynomials->flow_box) return std::move(*polynomials);
+      }
+    }
+    return read_noted_jet(options.from, options.run, options.foreign);
+  }
   const io::WantedTimes wanted = wanted_times(*options.time);
   if (wanted.seconds.size() != 1) {
     refuse(
@@ -96,9 +111,12 @@ std::optional<ConvertedJet> in_coordinates(const ConvertOptions& options,
 
 /// What the conversion lost, by degree.
 std::string losses_text(const ConvertedJet& converted) {
+  if (converted.symplecticity.empty()) return "in flow-box coordinates, as they are stored\n";
   std::vector<std::vector<std::string>> rows = {{"degree", "there and back", "symplecticity"}};
-  for (std::size_t d = 1; d < converted.there_and_back.size(); ++d) {
-    rows.push_back({std::to_string(d), fmt::format("{:.2g}", converted.there_and_back[d]),
+  for (std::size_t d = 1; d <= converted.symplecticity.size(); ++d) {
+    const bool is_known = d < converted.there_and_back.size();
+    rows.push_back({std::to_string(d),
+                    is_known ? fmt::format("{:.2g}", converted.there_and_back[d]) : "no way back",
                     fmt::format("{:.2g}", converted.symplecticity.at(d - 1).scaled)});
   }
   return fmt::format(

@@ -226,10 +226,10 @@ int dispatch(int argc, char** argv) {
       "assignment.csv, costs.csv, pairs.csv and summary.json", hamjet::cli::assignment_suffix);
   const CLI::App* poincare =
       add_study("poincare", "the frozen orbit of the chief's energy, and what turns about it",
-                "poincare.csv and summary.json", hamjet::cli::poincare_suffix);
-  const CLI::App* bounded =
-      add_study("bounded", "deputies that stay with the chief for long without fuel",
-                "report.html, bounded.csv and summary.json", hamjet::cli::bounded_suffix);
+                "report.html, poincare.csv and summary.json", hamjet::cli::poincare_suffix);
+  const CLI::App* bounded = add_study(
+      "bounded", "deputies that stay with the chief for long without fuel",
+      "report.html, bounded.csv, box.csv of a box, summary.json", hamjet::cli::bounded_suffix);
 
   std::optional<std::string> suite;
   CLI::App* stability = app.add_subcommand(

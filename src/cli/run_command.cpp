@@ -36,7 +36,7 @@ int run_flow_jet(const RunOptions& options, const Scene& scene) {
   const std::filesystem::path directory = output_path(options, scene.name);
   io::OutputDirectory output(directory);
   const RemovedAtSuddenEnd leftovers(output.leftovers());
-  note_unused_coordinates(options, scene);
+  note_unused(options, unwritten_coordinates(scene));
   PropagationResult result;
   {
     Progress progress(!options.quiet);
@@ -98,6 +98,17 @@ int run(const RunOptions& options) {
 
 namespace {
 
+/// What the check of a scene says of the symmetry that an integrator leaves out.
+std::string left_out_text(FlowSymmetry symmetry, std::size_t all) {
+  if (symmetry == FlowSymmetry::none) return "";
+  const std::string text =
+      fmt::format("; integrates {} of {} variables, ", all - variables_less(symmetry), all);
+  const std::string rotation = "the rotation about the axis put back";
+  if (symmetry == FlowSymmetry::rotation) return text + rotation;
+  return text + (symmetry == FlowSymmetry::time ? "" : rotation + ", ") +
+         "the shift in time put back to about the error of integration";
+}
+
 /// What the gravity field of a file is made of; empty for a scene without one.
 std::string field_text(const SystemSettings& system) {
   if (!system.gravity_file) return "";
@@ -139,8 +150,11 @@ void check_flow_jet(const RunOptions& options, const std::string& file, const Sc
       scene.duration, scene.duration * scene.units.time_s, scene.order,
       counted(scene.variables.size(), "variable"), counted(problem.space->size(), "coefficient"),
       components, estimate_memory(scene, *problem.system, scene.variables.size(), threads) / 1e6);
-  if (const auto unused = unused_coordinates(scene)) {
-    text += fmt::format("  coordinates  {}; {}\n", name_of(scene.coordinates), unused->why);
+  if (scene.coordinates != JetCoordinates::cartesian) {
+    const auto unwritten = unwritten_coordinates(scene);
+    text += fmt::format("  coordinates  {}; {}\n", name_of(scene.coordinates),
+                        unwritten ? "hamjet run does not write them: " + unwritten->why
+                                  : "hamjet run writes polynomials in them beside its jets");
   }
   if (!scene.jet_times.empty()) {
     text += fmt::format("  jets         at {} to {:.10g} s too\n",
@@ -156,11 +170,7 @@ void check_flow_jet(const RunOptions& options, const std::string& file, const Sc
     if (settings.tolerance) text += fmt::format(", tolerance {:g}", *settings.tolerance);
     if (settings.step_canonical)
       text += fmt::format(", step {:g} canonical", *settings.step_canonical);
-    if (left_out(scene, problem, settings) == FlowSymmetry::rotation) {
-      const std::size_t all = scene.variables.size();
-      text += fmt::format("; integrates {} of {} variables, the rotation about the axis put back",
-                          all - 1, all);
-    }
+    text += left_out_text(left_out(scene, problem, settings), scene.variables.size());
     text += "\n";
     if (scene.arcs == std::optional<std::size_t>(1)) continue;
     const ArcPlan plan = plan_arcs(scene, problem, settings,

@@ -14,7 +14,6 @@
 #include "../studies/arcs.hpp"
 #include "../studies/descriptions/method_description.hpp"
 #include "../studies/formation/deputy_flows.hpp"
-#include "../studies/skipped_work.hpp"
 #include "../text/quantity_text.hpp"
 #include "../text/scene_message.hpp"
 #include "demo_scene.hpp"
@@ -99,8 +98,7 @@ void note_escape(const RunOptions& options, const Scene& scene) {
   if (const auto note = escape_note(scene)) print_error("note: " + *note);
 }
 
-void note_unused_coordinates(const RunOptions& options, const Scene& scene) {
-  const auto unused = unused_coordinates(scene);
+void note_unused(const RunOptions& options, const std::optional<SkippedWork>& unused) {
   if (!unused || options.quiet) return;
   print_error(fmt::format("note: {} are not used: {}", unused->what, unused->why));
 }

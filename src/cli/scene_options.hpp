@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "../scene/study_reader.hpp"
+#include "../studies/skipped_work.hpp"
 
 namespace hamjet::cli {
 
@@ -42,9 +43,9 @@ Scene read_unsplit_scene(const RunOptions& options, const std::string& command);
 /// Says likewise what is to be said of flow boxes near escape.
 void note_escape(const RunOptions& options, const Scene& scene);
 
-/// Says on standard error, unless that is to be quiet, what a command whose jets are in positions
-/// and momenta does not take of the scene.
-void note_unused_coordinates(const RunOptions& options, const Scene& scene);
+/// Says on standard error, unless that is to be quiet, what a command does not take of the scene,
+/// if there is such.
+void note_unused(const RunOptions& options, const std::optional<SkippedWork>& unused);
 
 /// The number of threads that the options ask for, at least 1.
 std::size_t thread_count(const RunOptions& options);

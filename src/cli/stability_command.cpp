@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #include "../app/report_origin.hpp"
 #include "../report/stability/stability_report.hpp"
 #include "../studies/descriptions/method_description.hpp"
+#include "../studies/stability/flow_box_cases.hpp"
 #include "../text/quantity_text.hpp"
 #include "../text/terminal_text.hpp"
 #include "hamjet/error.hpp"
@@ -48,6 +50,9 @@ void leave_out_what_is_not_built(std::vector<StabilityCase>& cases) {
 
 int stability(const RunOptions& options, const std::optional<std::string>& suite) {
   auto cases = io::read_stability_suite(suite ? std::filesystem::path(*suite) : default_suite());
+  if (!suite) {
+    for (StabilityCase& subject : flow_box_cases()) cases.push_back(std::move(subject));
+  }
   leave_out_what_is_not_built(cases);
   return report_study(options, "stability", [&](const ProgressCallback& progress) {
     std::vector<StabilityResult> results;

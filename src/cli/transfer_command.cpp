@@ -166,7 +166,8 @@ int poincare(const RunOptions& options) {
   const Scene scene = read_unsplit_scene(options, "hamjet poincare");
   return report_study(options, scene.name + poincare_suffix, [&](const ProgressCallback& progress) {
     return io::frozen_orbit_report(
-        study_of(*options.scene_file, [&] { return study_frozen_orbit(scene, progress); }));
+        study_of(*options.scene_file, [&] { return study_frozen_orbit(scene, progress); }),
+        report_origin(options.command));
   });
 }
 

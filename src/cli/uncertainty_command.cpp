@@ -1,8 +1,8 @@
 #include "uncertainty_command.hpp"
 
-#include "../app/collision_sections.hpp"
 #include "../app/report_origin.hpp"
 #include "../app/required_tables.hpp"
+#include "../app/uncertainty_sections.hpp"
 #include "../report/uncertainty/uncertainty_report.hpp"
 #include "../studies/uncertainty/uncertainty.hpp"
 #include "study_command.hpp"
@@ -16,7 +16,7 @@ int uncertainty(const RunOptions& options) {
       options, scene.name + uncertainty_suffix, [&](const ProgressCallback& progress) {
         return study_of(*options.scene_file, [&] {
           const UncertaintyResult moments = study_uncertainty(scene, progress);
-          const auto sections = collision_sections(scene, progress);
+          const auto sections = uncertainty_sections(scene, progress);
           return io::uncertainty_report(moments, report_origin(options.command), sections);
         });
       });

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include "../store/sealed_summary.hpp"
+#include "jet_description.hpp"
 #include "stored_coefficients.hpp"
 
 namespace hamjet::io {
@@ -23,6 +24,14 @@ std::string content_checksum(const StoredJet& description, const FlowJet<Extende
   }
   if (description.coordinates != JetCoordinates::cartesian) {
     text += name_of(description.coordinates) + "\n";
+  }
+  if (const auto& box = description.flow_box) {
+    text += fmt::format("{}\n{:.17g}\n", name_of(box->section), box->field.radius);
+    for (int n = ZonalCoefficients::lowest; n <= ZonalCoefficients::highest; ++n) {
+      text += fmt::format("{:.17g}\n", box->field.J[n]);
+    }
+    text += polynomials_csv(description, jet);
+    return fmt::format("{:08x}", record_of({}, text).crc32);
   }
   text += coefficients_csv(description.variable_names(), description.components,
                            description.variables, description.precision, jet);

@@ -1,5 +1,9 @@
 #include "relative_frame_text.hpp"
 
+#include <fmt/format.h>
+
+#include "hamjet/detail/studies/transfer_settings.hpp"
+
 namespace hamjet::io {
 
 std::string_view frame_name(RelativeFrame frame) {
@@ -50,6 +54,14 @@ std::array<std::string_view, 3> axis_columns(RelativeFrame frame) {
 std::string coordinates_text(const CoordinatesAtEnds& coordinates) {
   if (coordinates == JetCoordinates::cartesian) return "";
   return fmt::format("; {} coordinates", name_of(coordinates));
+}
+
+std::string transfer_kind_text(const std::string& kind, const CoordinatesAtEnds& coordinates) {
+  if (coordinates == JetCoordinates::cartesian) return kind;
+  const std::string unused =
+      kind == TransferSettings().kind ? "" : fmt::format(", transfer.kind = {} is not used", kind);
+  return fmt::format("none ({} polynomials are solved by Newton's method{})", name_of(coordinates),
+                     unused);
 }
 
 }  // namespace hamjet::io

@@ -29,4 +29,8 @@ std::array<std::string_view, 3> axis_columns(RelativeFrame frame);
 /// else nothing.
 std::string coordinates_text(const CoordinatesAtEnds& coordinates);
 
+/// A scene's kind of generating function for transfers, or that there is none: polynomials in other
+/// coordinates are solved for momenta by Newton's method, and a kind that is asked for is not used.
+std::string transfer_kind_text(const std::string& kind, const CoordinatesAtEnds& coordinates);
+
 }  // namespace hamjet::io

@@ -14,6 +14,7 @@
 #include "../text/scene_message.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/version.hpp"
+#include "jet_description.hpp"
 #include "stored_jet_source.hpp"
 
 namespace hamjet::io {
@@ -237,6 +238,64 @@ auto read_verified(const std::filesystem::path& directory, const Read& read) {
 }
 
 }  // namespace
+
+namespace {
+
+/// The field and the chart of a flow box.
+StoredFlowBox read_flow_box(const JsonReader& json) {
+  StoredFlowBox box;
+  const auto chart = chart_of(json.at("section").text());
+  if (!chart || *chart == ChartName::cartesian) json.at("section").fail("must name a chart");
+  box.section = *chart;
+  box.field.radius = positive_number(json.at("field").at("radius_canonical"));
+  const std::vector<double> J = json.at("field").at("J").list(finite_number);
+  constexpr int count = ZonalCoefficients::highest - ZonalCoefficients::lowest + 1;
+  if (J.size() != count) json.at("field").at("J").fail(fmt::format("must have {} numbers", count));
+  for (int n = 0; n < count; ++n) {
+    box.field.J[ZonalCoefficients::lowest + n] = J[static_cast<std::size_t>(n)];
+  }
+  return box;
+}
+
+/// The description of a run's polynomials in its scene's coordinates.
+DescribedRun with_polynomials(const DescribedRun& run, const JsonReader& json) {
+  DescribedRun one = run;
+  const std::vector<std::string_view> names(jet_coordinates_names.begin(),
+                                            jet_coordinates_names.end());
+  StoredJet& stored = one.stored;
+  stored.coordinates = {json.at("coordinates").one_of<JetCoordinates>(names),
+                        json.at("end_coordinates").one_of<JetCoordinates>(names)};
+  if (!is_orbit(stored.model) || stored.variables.size() != 6) {
+    json.fail("are of orbits in all six variables");
+  }
+  if (!stored.coordinates.fit_each_other() || stored.coordinates == JetCoordinates::automatic) {
+    json.at("coordinates").fail("must be those of polynomials");
+  }
+  if (stored.coordinates == JetCoordinates::flow_box) stored.flow_box = read_flow_box(json);
+  stored.nominal_final = state(json.at("nominal_final"), {6});
+  stored.error_by_degree.clear();
+  one.json = json;
+  return one;
+}
+
+}  // namespace
+
+std::optional<StoredJet> read_stored_polynomials(const std::filesystem::path& directory,
+                                                 const std::optional<std::string>& label) {
+  return read_verified(directory, [&](const FileReader& read) -> std::optional<StoredJet> {
+    const std::filesystem::path summary = directory / "summary.json";
+    const std::string summary_name = printable_path(summary);
+    const nlohmann::json json = JsonReader::parse(read(summary), summary_name);
+    const DescribedRun run = read_description({json, summary_name}, label);
+    if (!run.json.has("polynomials")) return std::nullopt;
+    const JsonReader polynomials = run.json.at("polynomials");
+    if (!polynomials.at("error").is_null()) return std::nullopt;
+    DescribedRun one = with_polynomials(run, polynomials);
+    const std::filesystem::path file = directory / one.stored.label / polynomials_file;
+    one.stored.jet = read_polynomials_csv(one.stored, one.order, printable_path(file), read(file));
+    return std::move(one.stored);
+  });
+}
 
 bool is_at(const StoredJet& stored, double time_s) {
   const double stored_s = stored.duration * stored.units.time_s;

@@ -7,8 +7,8 @@
 #include "../algebra/instantiated_real.hpp"
 #include "../dynamics/operation_count.hpp"
 #include "hamjet/detail/dynamics/slice_evaluator.hpp"
-#include "rotation_reduction.hpp"
 #include "splitting_integration.hpp"
+#include "symmetry/symmetry_reduction.hpp"
 
 namespace hamjet {
 namespace {
@@ -154,7 +154,7 @@ FlowJet<Real> integrate_splitting(const FlowProblem<Real>& problem, Splitting<Re
                                                            steps, statistics, watch)
         .run();
   };
-  return integrate_without_rotation<Real>(problem, statistics, observer, run);
+  return integrate_without_symmetry<Real>(problem, statistics, observer, run);
 }
 
 template <class Real>

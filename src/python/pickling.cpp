@@ -78,8 +78,10 @@ JetState state_of(const io::StoredJet& stored) {
   // The notes are of the file that was read, and have been said; a jet in Python is in positions
   // and momenta.
   const auto& [scene, label, model, precision, units, duration, nominal_initial, nominal_final,
-               components, variables, ephemeris, error_by_degree, coordinates, notes, jet] = stored;
+               components, variables, ephemeris, error_by_degree, coordinates, flow_box, notes,
+               jet] = stored;
   static_cast<void>(coordinates);
+  static_cast<void>(flow_box);
   return {scene,
           label,
           static_cast<std::size_t>(model),

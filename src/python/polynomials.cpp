@@ -1,18 +1,23 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
 #include "../app/deputy_evaluation.hpp"
 #include "../app/required_tables.hpp"
+#include "../store/text_file.hpp"
 #include "../studies/arcs.hpp"
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "given_scene.hpp"
+#include "hamjet/formats/jet_file.hpp"
 #include "hamjet/studies/validity.hpp"
 #include "interruptible.hpp"
 #include "refusal.hpp"
@@ -21,22 +26,26 @@
 namespace hamjet::python {
 namespace {
 
-/// The polynomials of a scene in its coordinates; the package makes a Polynomials of it.
+/// The polynomials of a scene in its coordinates, or stored ones; the package makes a Polynomials
+/// of it.
 class PolynomialsStudy {
  public:
   PolynomialsStudy(Scene scene, std::string file)
       : scene_(std::move(scene)), file_(std::move(file)) {
-    require_unsplit(scene_, "hamjet.polynomials");
-    evaluated_ = std::make_shared<const cli::EvaluatedScene>(cli::evaluated_scene(scene_));
+    require_unsplit(*scene_, "hamjet.polynomials");
+    evaluated_ = std::make_shared<const cli::EvaluatedScene>(cli::evaluated_scene(*scene_));
   }
 
-  std::string scene() const { return scene_.name; }
+  explicit PolynomialsStudy(const io::StoredJet& stored)
+      : evaluated_(std::make_shared<const cli::EvaluatedScene>(cli::evaluated_jet(stored))) {}
+
+  std::string scene() const { return evaluated_->chief.scene; }
   std::string run() const { return evaluated_->chief.label; }
   int order() const { return evaluated_->flow->order(); }
   std::size_t variables() const { return evaluated_->flow->variables(); }
   std::string coordinates() const { return std::string(name_of(evaluated_->coordinates.start)); }
   std::string end_coordinates() const { return std::string(name_of(evaluated_->coordinates.end)); }
-  double duration_s() const { return scene_.duration * scene_.units.time_s; }
+  double duration_s() const { return evaluated_->chief.duration * evaluated_->chief.units.time_s; }
 
   py::object evaluate_relative(const py::object& states, const std::string& frame,
                                const std::optional<std::string>& to,
@@ -51,10 +60,11 @@ class PolynomialsStudy {
 
   /// Proved reaches at the end of the duration, by order, in metres.
   py::array_t<double> reach(double tolerance_m, int samples, const py::object& progress) const {
-    Scene measured = scene_;
+    if (!scene_) refuse("reach: deputies are flown in a scene, and these polynomials are stored");
+    Scene measured = *scene_;
     measured.coordinates = evaluated_->coordinates;
-    measured.validity = scene_.validity.value_or(ValiditySettings{});
-    measured.validity->times = {scene_.duration};
+    measured.validity = scene_->validity.value_or(ValiditySettings{});
+    measured.validity->times = {scene_->duration};
     measured.validity->tolerance_m = tolerance_m;
     measured.validity->samples = samples;
     const ValidityResult result =
@@ -69,10 +79,29 @@ class PolynomialsStudy {
   }
 
  private:
-  Scene scene_;
+  std::optional<Scene> scene_;  ///< none of stored ones
   std::string file_;
   std::shared_ptr<const cli::EvaluatedScene> evaluated_;
 };
+
+/// Of results of a run, or of a file.
+PolynomialsStudy load_polynomials(const std::filesystem::path& path,
+                                  const std::optional<std::string>& run) {
+  return interruptibly(py::none(), [path, run](const ProgressCallback&) {
+    std::error_code none;
+    if (std::filesystem::is_directory(path, none)) {
+      if (const auto stored = io::read_stored_polynomials(path, run)) {
+        return PolynomialsStudy(*stored);
+      }
+    }
+    const io::StoredJet stored = io::read_jet_file(path, run);
+    if (!is_orbit(stored.model) || stored.variables.size() != 6) {
+      refuse(fmt::format("load: {}: polynomials are of orbits in all six variables",
+                         io::printable_path(path)));
+    }
+    return PolynomialsStudy(stored);
+  });
+}
 
 PolynomialsStudy integrate(const GivenScene& given, const py::object& progress) {
   const Scene scene = given.flow_jet();
@@ -97,6 +126,7 @@ void bind_polynomials(py::module_& module) {
            py::arg("strict"))
       .def("reach", &PolynomialsStudy::reach, py::arg("tolerance_m"), py::arg("samples"),
            py::arg("progress"));
+  module.def("load_polynomials", &load_polynomials, py::arg("path"), py::arg("run"));
   module.def("integrate_polynomials", &integrate, py::arg("scene"), py::arg("progress"));
 }
 

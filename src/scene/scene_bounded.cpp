@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "scene_relative_motion.hpp"
 
 namespace hamjet::io {
@@ -9,11 +11,65 @@ constexpr double largest_part = 0.95;
 constexpr int fewest_revolutions = 10;
 constexpr int most_revolutions = 100000;
 constexpr double metres_in_km = 1000;
+constexpr double shortest_return = 0.01;
+constexpr double longest_return = 5;
+constexpr double shortest_days = 0.01;
+constexpr double longest_days = 3650;
 
 std::vector<double> default_sizes_km() {
   std::vector<double> sizes = BoundedSettings{}.sizes_m;
   for (double& size : sizes) size /= metres_in_km;
   return sizes;
+}
+
+const TableDescription& box_table() {
+  static const BoxSettings preset;
+  static const TableDescription table = {
+      {{"half_widths_m", form::array(form::positive(), 3), absent::refused(),
+        "along the chief's R, T and N, from the box's middle to its faces"},
+       {"reference", form::choice({"rest", "member"}), absent::value("member"),
+        "the box's middle: `position_m`, where each return ends at rest in rotating axes; or the "
+        "deputy of the first of `sizes_km`, whose motion each return ends with"},
+       {"position_m", form::array(form::number(), 3), absent::other("refused with `rest`"),
+        "R, T and N of the box's middle, with `rest`"},
+       {"return_orbits", form::array(form::between(shortest_return, longest_return)),
+        absent::value(preset.return_orbits),
+        "times that a return may take, in the chief's nodal periods; the cheapest of those that "
+        "stay inside is flown"},
+       {"days", form::between(shortest_days, longest_days), absent::value(preset.days),
+        "for which the deputy is kept"}},
+      "A box in which the scene's `[deputy]` is kept by two impulses each time that it leaves; "
+      "without a deputy one that starts as the reference."};
+  return table;
+}
+
+BoxSettings read_box(const TableReader& box) {
+  box.check_keys();
+  BoxSettings settings;
+  const std::vector<double> widths = box.positive_numbers("half_widths_m", 3);
+  settings.half_widths_m.emplace(widths[0], widths[1], widths[2]);
+  if (box.has("reference")) settings.reference = BoxReference(box.choice("reference"));
+  if (settings.reference == BoxReference::rest) {
+    const std::vector<double> place = box.numbers("position_m", 3);
+    settings.position_m = {place[0], place[1], place[2]};
+  } else if (box.has("position_m")) {
+    box.fail("position_m",
+             "not of this reference, got a place, must be left out with "
+             "reference = \"member\", or reference = \"rest\"");
+  }
+  if (box.has("return_orbits")) {
+    settings.return_orbits = box.numbers("return_orbits");
+    for (std::size_t i = 0; i < settings.return_orbits.size(); ++i) {
+      const double part = settings.return_orbits[i];
+      if (part >= shortest_return && part <= longest_return) continue;
+      box.fail_element("return_orbits", i,
+                       fmt::format("out of range, got {}, must be from {} to {}", part,
+                                   shortest_return, longest_return));
+    }
+    std::sort(settings.return_orbits.begin(), settings.return_orbits.end());
+  }
+  box.read_if_any("days", settings.days);
+  return settings;
 }
 
 }  // namespace
@@ -35,7 +91,8 @@ const TableDescription& bounded_table() {
         absent::value(preset.revolutions),
         "over which mean periods and drifts of the node are the chief's; all are flown so long"},
        {"refine", form::boolean(), absent::value(preset.refine),
-        "also correct the polynomials' deputies by flying, until the flown means are the chief's"}},
+        "also correct the polynomials' deputies by flying, until the flown means are the chief's"},
+       {"box", form::table(box_table()), absent::other("no box"), "stationkeeping"}},
       "Deputies that stay with the chief for long without fuel."};
   return table;
 }
@@ -67,6 +124,7 @@ BoundedSettings read_bounded(const TableReader& bounded, const Scene& scene) {
   bounded.read_if_any("along_track", settings.along_track);
   bounded.read_if_any("revolutions", settings.revolutions);
   if (bounded.has("refine")) settings.refine = bounded.boolean("refine");
+  if (bounded.has("box")) settings.box = read_box(bounded.table("box"));
   return settings;
 }
 

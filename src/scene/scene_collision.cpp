@@ -18,8 +18,7 @@ const TableDescription& collision_table() {
   static const TableDescription table = {
       {{"radius_m", form::positive(), absent::refused(),
         "the sum of the radii of both spacecraft: nearer than this is a collision"},
-       {"window_s", form::array(form::number(), 2), absent::other("from the start to the end"),
-        "from when to when after the start, of which the first is before the second"},
+       window_key(),
        {"event", form::choice({collision_event_names.begin(), collision_event_names.end()}),
         absent::value(collision_event_names[0]),
         "what counts: to be nearer at any time of the window; or to become nearer, for which those "
@@ -37,44 +36,58 @@ const TableDescription& collision_table() {
   return table;
 }
 
-CollisionWatch read_collision(const TableReader& collision, const Scene& scene) {
-  collision.check_keys();
+std::array<double, 2> read_window(const TableReader& table, const Scene& scene) {
   if (!scene.deputy) {
-    collision.fail("", "of a scene without a deputy, got no table [deputy], must have one");
+    table.fail("", "of a scene without a deputy, got no table [deputy], must have one");
   }
   if (scene.duration < 0) {
-    collision.fail("", "of a scene that goes backwards, got a negative duration, must go forwards");
-  }
-  CollisionWatch watch;
-  watch.radius_m = collision.positive_number("radius_m");
-  const double distance_m =
-      Eigen::Vector3d(scene.nominal.data()).norm() * scene.units.length_km * 1000;
-  if (watch.radius_m >= largest_radius * distance_m) {
-    collision.fail("radius_m",
-                   fmt::format("too large, got {:.6g}, must be below {:.4g}, a hundredth "
-                               "of the chief's distance from the centre",
-                               watch.radius_m, largest_radius * distance_m));
+    table.fail("", "of a scene that goes backwards, got a negative duration, must go forwards");
   }
   const double duration_s = scene.duration * scene.units.time_s;
   std::vector<double> window = {0, duration_s};
-  if (collision.has("window_s")) {
-    window = collision.numbers("window_s", 2);
+  if (table.has("window_s")) {
+    window = table.numbers("window_s", 2);
     if (!(window[0] >= 0 && window[0] < window[1])) {
-      collision.fail("window_s",
-                     fmt::format("no window, got {} to {}, must begin at 0 or later and end after "
-                                 "it begins",
-                                 window[0], window[1]));
+      table.fail("window_s",
+                 fmt::format("no window, got {} to {}, must begin at 0 or later and end after "
+                             "it begins",
+                             window[0], window[1]));
     }
     // The end may be written rounded.
     constexpr double rounding = 1e-9;
     if (window[1] > duration_s * (1 + rounding)) {
-      collision.fail("window_s", fmt::format("beyond the scene's end, got {}, must be at most the "
-                                             "duration, {} s",
-                                             window[1], duration_s));
+      table.fail("window_s", fmt::format("beyond the scene's end, got {}, must be at most the "
+                                         "duration, {} s",
+                                         window[1], duration_s));
     }
   }
-  watch.from = window[0] / scene.units.time_s;
-  watch.to = window[1] / scene.units.time_s;
+  return {window[0] / scene.units.time_s, window[1] / scene.units.time_s};
+}
+
+SceneKey window_key() {
+  return {"window_s", form::array(form::number(), 2), absent::other("from the start to the end"),
+          "from when to when after the start, of which the first is before the second"};
+}
+
+double read_nearness(const TableReader& table, std::string_view key, const Scene& scene) {
+  const double length_m = table.positive_number(key);
+  const double distance_m =
+      Eigen::Vector3d(scene.nominal.data()).norm() * scene.units.length_km * 1000;
+  if (length_m >= largest_radius * distance_m) {
+    table.fail(key, fmt::format("too large, got {:.6g}, must be below {:.4g}, a hundredth "
+                                "of the chief's distance from the centre",
+                                length_m, largest_radius * distance_m));
+  }
+  return length_m;
+}
+
+CollisionWatch read_collision(const TableReader& collision, const Scene& scene) {
+  collision.check_keys();
+  CollisionWatch watch;
+  const auto window = read_window(collision, scene);
+  watch.from = window[0];
+  watch.to = window[1];
+  watch.radius_m = read_nearness(collision, "radius_m", scene);
   collision.read_if_any("event", watch.event);
   collision.read_if_any("sampling", watch.sampling);
   collision.read_if_any("samples", watch.samples);

@@ -115,8 +115,10 @@ const TableDescription& jet_table() {
                          form::integer(1, most_arcs)),
              absent::value(1),
              "pieces of the flow, computed on threads; `auto` decides from counts"},
-            {"symmetry", form::choice({"none", "rotation"}), absent::value("rotation"),
-             "left out of the integration and put back exactly: `rotation` about the field's axis"},
+            {"symmetry", form::choice({"none", "rotation", "rotation-and-time"}),
+             absent::value("rotation"),
+             "left out of the integration and put back: `rotation` about the field's axis exactly, "
+             "the shift in time besides to about the error of integration, which a run then tells"},
             {"coordinates",
              form::choice({jet_coordinates_names.begin(), jet_coordinates_names.end()}),
              absent::value("cartesian"),

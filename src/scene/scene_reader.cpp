@@ -122,7 +122,7 @@ Scene read_flow_jet(const TableReader& root) {
     scene.transfer = read_transfer(root.table("transfer"), scene, nominal, !root.has("assignment"));
   });
   if (!has_transfer || root.is_misspelt("transfer")) return scene;
-  for (std::string& warning : distant_deputies(root, scene)) {
+  for (std::string& warning : likely_slips_of_deputies(root, scene)) {
     scene.warnings.push_back(std::move(warning));
   }
   read_table("assignment",

@@ -257,8 +257,16 @@ bool has_collision(const TableReader& root) {
   }
 }
 
-std::vector<std::string> distant_deputies(const TableReader& root, const Scene& scene) {
+std::vector<std::string> likely_slips_of_deputies(const TableReader& root, const Scene& scene) {
   std::vector<std::string> warnings;
+  if (scene.transfer && scene.transfer->kind != TransferSettings().kind &&
+      scene.coordinates != JetCoordinates::cartesian) {
+    warnings.push_back(fmt::format(
+        "{}{}: not used, got {} with jet.coordinates = {}, should be left out: polynomials in such "
+        "coordinates have no generating function and are solved by Newton's method",
+        warning_head, root.table("transfer").head("kind"), in_quotes(scene.transfer->kind),
+        in_quotes(name_of(scene.coordinates))));
+  }
   const double distance_m =
       Eigen::Vector3d(scene.nominal.data()).norm() * scene.units.length_km * 1000;
   const auto look = [&](const TableReader& table, const RelativeState& state) {

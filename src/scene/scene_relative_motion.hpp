@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -76,9 +77,17 @@ RelativeState in_other_frame(const TableReader& table, const Nominal& nominal,
 /// Whether the scene asks for collisions of chief and deputy, table [uncertainty.collision].
 bool has_collision(const TableReader& root);
 
-/// A line for each deputy that is beyond what any polynomial about the chief resolves: a twentieth
-/// of the chief's distance from the centre away or more. The deputy of a scene with
-/// [uncertainty.collision], which is flown about its own trajectory, is none of them.
-std::vector<std::string> distant_deputies(const TableReader& root, const Scene& scene);
+/// What the tables that watch how near spacecraft come have in common: the canonical ends of
+/// `window_s` in a scene with a deputy that goes forwards, and a length that is small beside the
+/// chief's distance from the centre.
+SceneKey window_key();
+std::array<double, 2> read_window(const TableReader& table, const Scene& scene);
+double read_nearness(const TableReader& table, std::string_view key, const Scene& scene);
+
+/// A line for each deputy that is beyond what any polynomial about the chief resolves, a twentieth
+/// of the chief's distance from the centre away or more; and for a kind of generating function that
+/// the scene's coordinates leave unused. The deputy of a scene with [uncertainty.collision], which
+/// is flown about its own trajectory, is never too far.
+std::vector<std::string> likely_slips_of_deputies(const TableReader& root, const Scene& scene);
 
 }  // namespace hamjet::io

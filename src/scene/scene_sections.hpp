@@ -217,6 +217,10 @@ AssignmentSettings read_assignment(const TableReader& assignment, const Scene& s
 /// Table `[uncertainty.collision]` of a scene whose table `[deputy]` has been read.
 CollisionWatch read_collision(const TableReader& collision, const Scene& scene);
 
+/// Table `[uncertainty.safety]`, of a scene with a burn or without.
+SafetyWatch read_safety(const TableReader& safety, const Scene& scene, const Nominal& nominal,
+                        bool has_burn);
+
 /// Table `[uncertainty]` of a scene whose table `[deputy]` has been read, if it has one.
 UncertaintySettings read_uncertainty(const TableReader& uncertainty, const Scene& scene,
                                      const Nominal& nominal);

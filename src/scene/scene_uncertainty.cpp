@@ -56,6 +56,31 @@ std::vector<SceneKey> state_uncertainty_keys() {
            "name or identifier in the file"}};
 }
 
+/// All coordinates but `auto`.
+std::vector<std::string_view> names_of_measurable() {
+  return {jet_coordinates_names.begin(), jet_coordinates_names.end() - 1};
+}
+
+std::vector<JetCoordinates> read_compared_coordinates(const TableReader& uncertainty) {
+  constexpr std::string_view key = "coordinates";
+  const auto names = names_of_measurable();
+  std::vector<JetCoordinates> result;
+  const std::vector<std::string> given = uncertainty.texts(key);
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    const auto found = std::find(names.begin(), names.end(), given[i]);
+    const auto coordinates = static_cast<JetCoordinates>(found - names.begin());
+    if (found == names.end() ||
+        std::find(result.begin(), result.end(), coordinates) != result.end()) {
+      uncertainty.fail_element(key, i,
+                               fmt::format("unknown coordinates, or twice, got {}, must be one of "
+                                           "{}, once",
+                                           in_quotes(given[i]), listed(names)));
+    }
+    result.push_back(coordinates);
+  }
+  return result;
+}
+
 const TableDescription& deputy_uncertainty_table() {
   static const TableDescription table = {
       joined<SceneKey>(
@@ -216,12 +241,17 @@ const TableDescription& uncertainty_table() {
             {"burn", form::table(burn_table()), absent::other("none"), "errors of a burn"},
             {"collision", form::table(collision_table()), absent::other("not looked for"),
              "whether chief and deputy may hit each other"},
+            {"safety", form::table(safety_table()), absent::other("not looked for"),
+             "how near the spacecraft of a formation come to each other where a burn fails"},
             {"acceleration_density_m2_s3", form::between(0, 1e6),
              absent::value(preset.acceleration_density_m2_s3),
              "power spectral density of white noise of the acceleration along each axis; its part "
              "of the covariance is linear"}},
            transfer_time_keys(absent::other("the end")),
-           {{"samples", form::integer(0, most_flown_samples), absent::value(preset.samples),
+           {{"coordinates", form::array(form::choice(names_of_measurable())),
+             absent::other("those of `[jet]` alone"),
+             "in which the distribution at the last time is told too, beside one another"},
+            {"samples", form::integer(0, most_flown_samples), absent::value(preset.samples),
              "flown with the full equations beside the moments; 0: none"},
             {"seed", form::integer(0, largest_seed), absent::value(preset.seed),
              "of the samples"}}}),
@@ -254,7 +284,14 @@ UncertaintySettings read_uncertainty(const TableReader& uncertainty, const Scene
   if (uncertainty.has("collision")) {
     settings.collision = read_collision(uncertainty.table("collision"), scene);
   }
+  if (uncertainty.has("safety")) {
+    settings.safety =
+        read_safety(uncertainty.table("safety"), scene, nominal, settings.burn.has_value());
+  }
   settings.times = read_transfer_times(uncertainty, scene, nominal, 1);
+  if (uncertainty.has("coordinates")) {
+    settings.coordinates = read_compared_coordinates(uncertainty);
+  }
   uncertainty.read_if_any("acceleration_density_m2_s3", settings.acceleration_density_m2_s3);
   uncertainty.read_if_any("samples", settings.samples);
   uncertainty.read_if_any("seed", settings.seed);

@@ -7,7 +7,7 @@
 
 #include "../integrators/momentum_unit.hpp"
 #include "descriptions/system_description.hpp"
-#include "nominal_period.hpp"
+#include "nominal/nominal_period.hpp"
 #include "random_direction.hpp"
 
 namespace hamjet {

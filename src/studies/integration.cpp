@@ -14,14 +14,14 @@
 #include "../algebra/raise_to.hpp"
 #include "../integrators/gauss/gauss_tolerance.hpp"
 #include "../integrators/momentum_unit.hpp"
-#include "../integrators/rotation_reduction.hpp"
+#include "../integrators/symmetry/symmetry_reduction.hpp"
 #include "arcs.hpp"
 #include "checks/error_promise.hpp"
 #include "descriptions/method_description.hpp"
 #include "hamjet/algebra/composition.hpp"
 #include "hamjet/integrators/error_estimate.hpp"
 #include "hamjet/integrators/jet_trajectory.hpp"
-#include "stability_limit.hpp"
+#include "stability/stability_limit.hpp"
 #include "stopwatch.hpp"
 
 namespace hamjet {
@@ -125,8 +125,8 @@ FlowSymmetry left_out(const Scene& scene, const ComputedProblem& problem,
   const bool is_whole = scene.arcs == std::optional<std::size_t>(1);
   if (!is_whole || !description_of(settings.method).splittable(settings)) return FlowSymmetry::none;
   const auto reduction =
-      RotationReduction<double>::of(flow_problem<double>(problem, scene.duration));
-  return reduction ? FlowSymmetry::rotation : FlowSymmetry::none;
+      SymmetryReduction<double>::of(flow_problem<double>(problem, scene.duration));
+  return reduction ? reduction->left_out() : FlowSymmetry::none;
 }
 
 template <class Real>

@@ -32,6 +32,12 @@ FlowJet<Real> integrate_split(const FlowProblem<Real>& flow, const IntegratorSet
                               ArcStatistics& arc_statistics, const StepObserver<Real>& observer,
                               const ArcProgress& progress, bool records_step_error);
 
+/// For a run that has left out the shift in time: RunResult::time_shift_difference of its jet.
+/// Empty where the lines cannot be integrated.
+template <class Real>
+std::vector<double> time_shift_difference(const FlowProblem<Real>& flow, const FlowJet<Real>& jet,
+                                          const RunResult& run);
+
 /// Estimates the error of what an integration has delivered; a failure of the independent runs is
 /// recorded. They may take four times the steps of the integration, or as many as
 /// ErrorEstimateSettings allows. `progress` is called after their steps with the fraction done.

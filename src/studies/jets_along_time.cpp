@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "../integrators/rotation_reduction.hpp"
 #include "../integrators/statistics_sum.hpp"
+#include "../integrators/symmetry/symmetry_reduction.hpp"
 #include "descriptions/method_description.hpp"
 #include "exact_flow.hpp"
 #include "integration.hpp"
@@ -13,11 +13,11 @@ namespace hamjet {
 JetPropagation::JetPropagation(const ComputedProblem& problem, const IntegratorSettings& settings)
     : settings_(&settings), flow_(flow_problem<double>(problem, 0)) {
   if (description_of(settings.method).splittable(settings)) {
-    // A rotation is left out of any duration but none.
+    // A symmetry is left out of any duration but none.
     FlowProblem<double> moving = flow_;
     moving.duration = 1;
-    if (auto reduction = RotationReduction<double>::of(moving)) {
-      reduction_ = std::make_shared<const RotationReduction<double>>(std::move(*reduction));
+    if (auto reduction = SymmetryReduction<double>::of(moving)) {
+      reduction_ = std::make_shared<const SymmetryReduction<double>>(std::move(*reduction));
       flow_ = reduction_->problem();
     }
   }

@@ -10,7 +10,7 @@
 namespace hamjet {
 
 template <class Real>
-class RotationReduction;
+class SymmetryReduction;
 
 /// The flow's jet, brought from time to time by integrations that each go on from where the last
 /// one came to. A copy goes on by itself. A rotation that the problem allows is left out all along
@@ -29,7 +29,7 @@ class JetPropagation {
 
  private:
   const IntegratorSettings* settings_;
-  std::shared_ptr<const RotationReduction<double>> reduction_;  ///< none: no rotation is left out
+  std::shared_ptr<const SymmetryReduction<double>> reduction_;  ///< none: no symmetry is left out
   FlowProblem<double> flow_;
   double reached_ = 0;
   IntegrationStatistics total_;

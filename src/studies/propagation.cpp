@@ -8,11 +8,12 @@
 
 #include "along_time_recorder.hpp"
 #include "arcs.hpp"
-#include "followed_nominal.hpp"
+#include "formation/charted_jet.hpp"
 #include "hamjet/dynamics/relative_hamiltonian.hpp"
 #include "integration.hpp"
 #include "map_analysis.hpp"
-#include "nominal_recorder.hpp"
+#include "nominal/followed_nominal.hpp"
+#include "nominal/nominal_recorder.hpp"
 #include "reference.hpp"
 
 namespace hamjet {
@@ -55,6 +56,9 @@ void run_integrator(const Scene& scene, const ComputedProblem& problem, std::siz
                                   *run.arcs, record, progress, records_step_error)
           : integrate<Real>(flow, run.settings, run.statistics, on_step, records_step_error);
   run.jet = convert_map<Extended>(jet);
+  if (has_time_shift(run.statistics.left_out)) {
+    run.time_shift_difference = time_shift_difference<Real>(flow, jet, run);
+  }
   if (scene.checks[SelfCheckName::error_estimate].is_on) {
     run.error_estimate = estimate_jet_error<Real>(scene, flow, jet, run.statistics, progress);
     sample_rounding_in_doubt<Real>(scene, flow, jet, run, progress);
@@ -163,6 +167,10 @@ PropagationResult propagate(const Scene& scene, const ProgressCallback& progress
       } else {
         run_integrator<double>(scene, result.problem, threads, singular, run, on_step);
       }
+      if (scene.coordinates != JetCoordinates::cartesian && !reason_without_charted_jet(scene)) {
+        report(settings.label + ": coordinates", 1);
+        run.charted = charted_jet(scene, run);
+      }
       report(settings.label + ": inversion", 1);
       analysis.analyse(run);
       check(run, result.reference);
@@ -207,6 +215,9 @@ int exit_code(const PropagationResult& result) {
   int code = 0;
   for (const RunResult& run : result.runs) {
     if (!run.failure.empty()) return static_cast<int>(ErrorKind::numerical);
+    if (run.charted && !run.charted->failure.empty()) {
+      return static_cast<int>(ErrorKind::numerical);
+    }
     for (const KindResult& kind : run.kinds) {
       if (!kind.failure.empty()) return static_cast<int>(ErrorKind::numerical);
     }

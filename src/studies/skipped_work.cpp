@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "formation/charted_jet.hpp"
 #include "hamjet/integrators/flow_problem.hpp"
 
 namespace hamjet {
@@ -67,17 +68,46 @@ void add_dynamics(const PropagationResult& result, std::vector<SkippedWork>& ski
   }
 }
 
-void add_symmetry(const PropagationResult& result, std::vector<SkippedWork>& skipped) {
+/// The labels of the runs that left out a symmetry for which `is_meant` holds.
+template <class IsMeant>
+std::vector<std::string> labels_of(const PropagationResult& result, const IsMeant& is_meant) {
   std::vector<std::string> labels;
   for (const RunResult& run : result.runs) {
-    if (run.statistics.left_out == FlowSymmetry::rotation) labels.push_back(run.settings.label);
+    if (is_meant(run.statistics.left_out)) labels.push_back(run.settings.label);
   }
-  if (labels.empty()) return;
+  return labels;
+}
+
+/// What a shift in time that was left out and put back has cost a run in exactness.
+std::string cost_of_time_shift(const RunResult& run) {
+  if (run.time_shift_difference.empty()) return "what that costs was not measured";
+  std::vector<std::string> numbers;
+  for (const double x : run.time_shift_difference) numbers.push_back(fmt::format("{:.2g}", x));
+  return fmt::format(
+      "which its numerical map does not commute with: the coefficients differ from those of the "
+      "same steps in all variables by {} of the largest at degrees 0 to {}",
+      fmt::join(numbers, ", "), numbers.size() - 1);
+}
+
+void add_symmetry(const PropagationResult& result, std::vector<SkippedWork>& skipped) {
   const std::size_t all = result.scene.variables.size();
-  skipped.push_back({"the variable of the rotation about the axis",
-                     fmt::format("the field is symmetric: {} of {} variables were integrated and "
-                                 "the rotation put back, by {}",
-                                 all - 1, all, fmt::join(labels, ", "))});
+  const auto turned = labels_of(result, [](FlowSymmetry symmetry) {
+    return symmetry == FlowSymmetry::rotation || symmetry == FlowSymmetry::rotation_and_time;
+  });
+  if (!turned.empty()) {
+    skipped.push_back({"the variable of the rotation about the axis",
+                       fmt::format("the field is symmetric: {} of {} variables were integrated and "
+                                   "the rotation put back, by {}",
+                                   all - 1, all, fmt::join(turned, ", "))});
+  }
+  for (const RunResult& run : result.runs) {
+    if (!has_time_shift(run.statistics.left_out)) continue;
+    skipped.push_back({"the variable of the shift in time",
+                       fmt::format("the flow commutes with it: {} of {} variables were integrated "
+                                   "by {} and the shift put back, {}",
+                                   all - variables_less(run.statistics.left_out), all,
+                                   run.settings.label, cost_of_time_shift(run))});
+  }
 }
 
 void add_parts(const PropagationResult& result, std::vector<SkippedWork>& skipped) {
@@ -104,16 +134,23 @@ void add_parts(const PropagationResult& result, std::vector<SkippedWork>& skippe
 
 }  // namespace
 
-std::optional<SkippedWork> unused_coordinates(const Scene& scene) {
+std::optional<SkippedWork> unwritten_coordinates(const Scene& scene) {
+  const auto reason = reason_without_charted_jet(scene);
+  if (!reason) return std::nullopt;
+  return SkippedWork{fmt::format("{} coordinates", name_of(scene.coordinates)), *reason};
+}
+
+std::optional<SkippedWork> uncompared_coordinates(const Scene& scene) {
   if (scene.coordinates == JetCoordinates::cartesian) return std::nullopt;
   return SkippedWork{fmt::format("{} coordinates", name_of(scene.coordinates)),
-                     "runs write jets in positions and momenta, in which they are symplectic to "
-                     "rounding; jet.coordinates is of motion, validity, transfer, assign and eval"};
+                     "what is compared are jets in positions and momenta, which every method "
+                     "integrates and which have a reference; `hamjet validity --coordinates all` "
+                     "compares coordinates by flown deputies"};
 }
 
 std::vector<SkippedWork> skipped_work(const PropagationResult& result) {
   std::vector<SkippedWork> skipped;
-  if (const auto coordinates = unused_coordinates(result.scene)) skipped.push_back(*coordinates);
+  if (const auto coordinates = unwritten_coordinates(result.scene)) skipped.push_back(*coordinates);
   add_dynamics(result, skipped);
   add_symmetry(result, skipped);
   add_parts(result, skipped);

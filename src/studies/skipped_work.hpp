@@ -14,9 +14,10 @@ struct SkippedWork {
   std::string why;
 };
 
-/// What a run makes of `jet.coordinates`: its jets are in positions and momenta, whatever the key
-/// says. Nothing where it says just that.
-std::optional<SkippedWork> unused_coordinates(const Scene& scene);
+/// The scene's coordinates, where a run cannot write polynomials in them beside its jets.
+std::optional<SkippedWork> unwritten_coordinates(const Scene& scene);
+/// The scene's coordinates, where they are not Cartesian: a comparison is of jets in these.
+std::optional<SkippedWork> uncompared_coordinates(const Scene& scene);
 
 /// All that `propagate` left out: coordinates, force terms, degrees of freedom, variables, degrees,
 /// reference, inversions, figure, relative Hamiltonian, and each self-check that is off.

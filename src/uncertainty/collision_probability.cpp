@@ -3,11 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
+#include <tuple>
 
 #include "../integrators/concurrent_tasks.hpp"
+#include "binomial_interval.hpp"
 #include "cubic_arc.hpp"
 #include "entry_sampler.hpp"
 #include "hamjet/error.hpp"
@@ -38,7 +39,7 @@ constexpr std::size_t pilot_blocks = 32;
 constexpr std::size_t time_count = 200;
 
 void take_linear_path(const RelativePaths& paths, const EncounterDeviation& deviation,
-                      std::vector<std::array<double, 6>>& path) {
+                      SampledPath& path) {
   for (std::size_t node = 0; node < path.size(); ++node) {
     const LinearRelativeState& linear = paths.linear(node);
     const Eigen::Matrix<double, 6, 1> state = linear.mean + linear.by_deviation * deviation;
@@ -47,9 +48,8 @@ void take_linear_path(const RelativePaths& paths, const EncounterDeviation& devi
 }
 
 /// When a path first has what counts as a collision, if it ever has.
-std::optional<double> first_event(const RelativePaths& paths,
-                                  const std::vector<std::array<double, 6>>& path, double radius,
-                                  CollisionEvent event) {
+std::optional<double> first_event(const RelativePaths& paths, const SampledPath& path,
+                                  double radius, CollisionEvent event) {
   const double square = radius * radius;
   const std::vector<double>& times = paths.times();
   std::vector<double> parts;
@@ -121,7 +121,7 @@ class Estimate {
 };
 
 void Estimate::draw(RandomStream& random, Block& samples) const {
-  std::vector<std::array<double, 6>> path(paths_->times().size());
+  SampledPath path(paths_->times().size());
   for (std::size_t j = 0; j < samples_in_block; ++j) {
     EncounterDeviation deviation;
     samples.weights[j] = 1;
@@ -149,7 +149,7 @@ void Estimate::judge(const Block& samples, std::size_t count, bool with_lower_or
     lower.resize(states.size());
     paths_->evaluate(samples.points, problem_->order - 1, lower);
   }
-  std::vector<std::array<double, 6>> path(paths_->times().size());
+  SampledPath path(paths_->times().size());
   const double scale = static_cast<double>(time_count) / (problem_->to - problem_->from);
   for (std::size_t j = 0; j < count; ++j) {
     take_path(states, samples_in_block, j, path);
@@ -177,7 +177,7 @@ void Estimate::judge(const Block& samples, std::size_t count, bool with_lower_or
 double Estimate::largest_difference() const {
   RandomStream random(settings_->seed, ~std::uint64_t{0});
   Block samples;
-  std::vector<std::array<double, 6>> path(paths_->times().size());
+  SampledPath path(paths_->times().size());
   std::vector<double> states(6 * path.size() * samples_in_block);
   std::vector<std::pair<double, double>> differences;  // and weights
   double sum = 0;
@@ -272,18 +272,16 @@ CollisionProbability Estimate::result() const {
   const double variance =
       std::max(0.0, all.x_squared / count - result.probability * result.probability);
   result.standard_error = std::sqrt(variance / count);
-  const double tail = (1 - settings_->confidence) / 2;
   if (sampler_) {
+    const double tail = (1 - settings_->confidence) / 2;
     const double width = boost::math::quantile(boost::math::complement(
                              boost::math::normal_distribution<double>(), tail)) *
                          result.standard_error;
     result.lower = std::max(0.0, result.probability - width);
     result.upper = std::min(1.0, result.probability + width);
   } else {
-    using Binomial = boost::math::binomial_distribution<double>;
-    const auto hits = static_cast<double>(all.hits);
-    result.lower = Binomial::find_lower_bound_on_p(count, hits, tail);
-    result.upper = Binomial::find_upper_bound_on_p(count, hits, tail);
+    std::tie(result.lower, result.upper) =
+        binomial_interval(all.samples, all.hits, settings_->confidence);
   }
   if (variance > 0) {
     result.equivalent_samples = result.probability * (1 - result.probability) /

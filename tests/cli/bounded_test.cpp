@@ -35,6 +35,14 @@ TEST_F(LongMotion, PoincareWritesTheFrozenOrbit) {
   const double e =
       2.53e-6 / 1.0826e-3 * 6378.1363 / 7100 * std::sin(50 * std::acos(-1.0) / 180) / 2;
   EXPECT_NEAR(summary["frozen_orbit"]["e"].get<double>(), e, 1.5e-3);
+  // The page has its four plots, and says the same first.
+  const std::string page = content(directory_ / "out/low-poincare/report.html");
+  for (const char* const heading :
+       {"Multipliers", "Frequency against amplitude", "Where the normal form stops being right",
+        "Circles of the normal form"}) {
+    EXPECT_NE(page.find(std::string("<h2>") + heading), std::string::npos) << heading;
+  }
+  EXPECT_NE(page.find("The frozen orbit of the chief"), std::string::npos);
   const Table table = read_table(directory_ / "out/low-poincare/poincare.csv");
   ASSERT_EQ(table.rows.size(), summary["circles"].size());
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
@@ -71,6 +79,46 @@ TEST_F(LongMotion, BoundedWritesDeputiesThatStay) {
   succeed({"motion", "two.toml", "-q"});
   const Json motion = read_json(directory_ / "out/two-motion/summary.json");
   EXPECT_NEAR(motion["farthest"]["separation_m"].get<double>(), 2000, 2);
+}
+
+TEST_F(LongMotion, BoundedKeepsADeputyInABox) {
+  const std::string box = "[bounded.box]\nhalf_widths_m = [3, 3, 3]\ndays = 0.5\n";
+  write("kept.toml",
+        scene("50",
+              "[bounded]\nsizes_km = [0.1]\nalong_track = -1\ncross_track = 0\nrevolutions = 10\n" +
+                  box + "reference = \"rest\"\nposition_m = [0, -100, 0]\n"));
+  const std::string out = in_one_line(succeed({"bounded", "kept.toml"}).out);
+  EXPECT_NE(
+      out.find("Kept for 0.5 days in a box of +-3, 3 and 3 m along R, T and N about its place"),
+      std::string::npos)
+      << out;
+  const Json told = read_json(directory_ / "out/kept-bounded/summary.json")["box"];
+  const Table table = read_table(directory_ / "out/kept-bounded/box.csv");
+  ASSERT_EQ(table.rows.size(), told["returns"].get<std::size_t>());
+  ASSERT_GE(table.rows.size(), 1U);
+  double sum = 0;
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    for (const std::string which : {"first", "second"}) {
+      const auto part = [&](const char* axis) { return table.number(i, which + axis); };
+      sum += std::hypot(part("_r_m_s"), part("_t_m_s"), part("_n_m_s"));
+    }
+  }
+  EXPECT_NEAR(told["change_m_s"].get<double>(), sum, 1e-12 * sum);
+  EXPECT_NEAR(told["change_m_s_a_day"].get<double>(), sum / 0.5, 1e-12 * sum);
+  EXPECT_LE(told["farthest"].get<double>(), 1.001);
+  EXPECT_NE(content(directory_ / "out/kept-bounded/report.html").find("In the box"),
+            std::string::npos);
+  // What cannot be a box.
+  const std::string head = scene("50", "[bounded]\nsizes_km = [0.1]\n");
+  write("flat.toml", head + "[bounded.box]\nhalf_widths_m = [3, 0, 3]\n");
+  write("nowhere.toml", head + box + "reference = \"rest\"\n");
+  write("two.toml", head + box + "position_m = [0, 1, 0]\n");
+  write("late.toml", head + box + "return_orbits = [0.25, 9]\n");
+  expect_error({"bounded", "flat.toml"}, 3, {"bounded.box.half_widths_m"});
+  expect_error({"bounded", "nowhere.toml"}, 3, {"bounded.box.position_m: missing"});
+  expect_error({"bounded", "two.toml"}, 3, {"bounded.box.position_m: not of this reference"});
+  expect_error({"bounded", "late.toml"}, 3,
+               {"bounded.box.return_orbits.1: out of range, got 9, must be from 0.01 to 5"});
 }
 
 TEST_F(LongMotion, RefusesWithTheReason) {

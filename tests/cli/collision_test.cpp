@@ -1,4 +1,10 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
 #include "command_test.hpp"
+#include "hamjet/formats/conjunction_data_message.hpp"
 #include "support/reference_data.hpp"
 
 // Collisions in `hamjet uncertainty`: table [uncertainty.collision].
@@ -41,6 +47,133 @@ TEST_F(Collision, OfTheShippedSceneIsThePublishedOne) {
   const Table table = read_table(directory_ / "out/collision.csv");
   EXPECT_EQ(table.header, "time_s,probability");
   EXPECT_EQ(table.rows.size(), 201U);
+}
+
+/// Two spacecraft on circles of one radius whose planes cross by an angle iota about the deputy's
+/// start, which is ahead of the chief's by an angle phi.
+struct CrossingCircles {
+  static constexpr double mu = 398600.4415e9, radius = 7e6, phi = 100 / radius, iota = 1e-3;
+  double speed = std::sqrt(mu / radius);
+  double rate = speed / radius;
+
+  std::string scene(const std::string& ephemeris) const {
+    // Of the deputy less the chief, along inertial axes.
+    const std::array<double, 6> d = {radius * (std::cos(phi) - 1),
+                                     radius * std::sin(phi),
+                                     0,
+                                     -speed * std::sin(phi) * std::cos(iota),
+                                     speed * (std::cos(phi) * std::cos(iota) - 1),
+                                     speed * std::sin(iota)};
+    return fmt::format(
+        "title = \"Crossing circles\"\n[system]\nmodel = \"kepler\"\nmu_km3_s2 = 398600.4415\n"
+        "[nominal]\nposition_km = [7000, 0, 0]\nvelocity_km_s = [0, {}, 0]\n[deputy]\n"
+        "frame = \"inertial\"\nposition_m = [{}, {}, {}]\nvelocity_m_s = [{}, {}, {}]\n"
+        "[jet]\norder = 1\nduration_s = 4000\n{}"
+        "[uncertainty]\nposition_m = [10, 10, 10]\nvelocity_m_s = [0.01, 0.01, 0.01]\nsamples = 0\n"
+        "[uncertainty.collision]\nradius_m = 20\nsamples = 2000\nwindow_s = [1000, 4000]\n",
+        speed / 1000, d[0], d[1], d[2], d[3], d[4], d[5], ephemeris);
+  }
+  static std::string ephemeris(const std::string& system, const std::string& frame) {
+    return "[ephemeris]\nepoch = \"2026-03-01T00:00:00\"\ntime_system = \"" + system +
+           "\"\nreference_frame = \"" + frame +
+           "\"\ncenter_name = \"EARTH\"\nobject_name = \"CHIEF\"\nobject_id = \"2026-001A\"\n"
+           "originator = \"TESTERS\"\n";
+  }
+};
+
+TEST_F(Collision, WritesAConjunctionDataMessageOfTheNearestApproach) {
+  const CrossingCircles circles;
+  write("circles.toml", circles.scene(CrossingCircles::ephemeris("UTC", "EME2000")));
+  succeed({"uncertainty", "circles.toml", "-o", "out"});
+  EXPECT_EQ(read_json(directory_ / "out/summary.json")["collision"]["message"], "encounter.cdm");
+  const io::ConjunctionDataMessage message =
+      io::read_cdm("encounter.cdm", content(directory_ / "out/encounter.cdm"));
+  EXPECT_EQ(message.originator, "TESTERS");
+  EXPECT_EQ(message.objects[0].object_name, "CHIEF");
+  EXPECT_EQ(message.objects[0].international_designator, "2026-001A");
+  EXPECT_EQ(message.objects[1].object_name, "DEPUTY");
+  EXPECT_EQ(message.objects[1].reference_frame, "EME2000");
+  // Of the cosine of the angle between both, cos(2 theta - phi) (1 - cos iota) varies, so that they
+  // are nearest half a phi beyond each half revolution.
+  const double after = (std::numbers::pi + CrossingCircles::phi / 2) / circles.rate;
+  const auto seconds = std::chrono::duration<double>(
+      message.tca.day - std::chrono::sys_days(std::chrono::year(2026) / 3 / 1));
+  const double tca = seconds.count() + static_cast<double>(message.tca.picoseconds) * 1e-12;
+  // The rounding of two positions, some 1e-9 m, over 7.5 m/s.
+  EXPECT_NEAR(tca, after, 1e-7);
+  EXPECT_NEAR(message.miss_distance_m, 100, 1e-4);
+  EXPECT_NEAR((*message.relative_position_m)[1], 100, 1e-4);
+  // The planes cross, and both velocities are perpendicular to their positions.
+  const double across = circles.speed * CrossingCircles::iota;
+  const double along = circles.speed * CrossingCircles::phi;
+  EXPECT_NEAR(*message.relative_speed_m_s, std::hypot(across, along), 1e-5);
+  EXPECT_NEAR((*message.relative_velocity_m_s)[2], -across, 1e-5);
+  EXPECT_NEAR((*message.relative_velocity_m_s)[0], -along, 1e-5);
+  // Half a revolution on.
+  const io::ConjunctionObject& chief = message.objects[0];
+  EXPECT_NEAR(chief.position_km[0], -7000, 1e-4);
+  EXPECT_NEAR(chief.velocity_km_s[1], -circles.speed / 1000, 1e-7);
+  // Clohessy and Wiltshire after half a revolution, of inertial velocities along R, T, N:
+  //   R = 3 R0 + 4 vT0 / n ,  vT = -2 n R0 - 3 vT0 ,  N = -N0 ,  vN = -vN0 .
+  const double n = circles.rate, p = 100, v = 1e-4;
+  const auto& c = chief.covariance;
+  EXPECT_NEAR(c[0][0] / (9 * p + 16 * v / (n * n)), 1, 1e-8);
+  EXPECT_NEAR(c[4][4] / (4 * n * n * p + 9 * v), 1, 1e-8);
+  EXPECT_NEAR(c[4][0] / (-6 * n * p - 12 * v / n), 1, 1e-8);
+  EXPECT_NEAR(c[2][2] / p, 1, 1e-8);
+  EXPECT_NEAR(c[5][5] / v, 1, 1e-8);
+  EXPECT_NEAR(c[2][0] / p, 0, 1e-8);
+  // The deputy is known exactly.
+  for (const auto& row : message.objects[1].covariance) {
+    for (const double entry : row) EXPECT_EQ(entry, 0);
+  }
+  const Json collision = read_json(directory_ / "out/summary.json")["collision"];
+  EXPECT_NEAR(*message.collision_probability, collision["probability"].get<double>(), 1e-15);
+}
+
+// A covariance in all six directions and a burn's errors beside it are the covariance of their sum:
+// as wrong by a tenth in size and by a tenth of a radian in direction, 0.1 m/s is wrong by 0.01 m/s
+// in each direction.
+TEST_F(Collision, TakesTheErrorsOfABurnBesideAFullCovariance) {
+  const CrossingCircles circles;
+  const auto probability = [&](const std::string& folder, const std::string& tables) {
+    write("circles.toml", circles.scene("") + tables);
+    succeed({"uncertainty", "circles.toml", "-o", folder});
+    const Json collision = read_json(directory_ / folder / "summary.json")["collision"];
+    return collision["approaches"][0]["short_encounter"]["alfano"].get<double>();
+  };
+  const double burned = probability(
+      "burned", fmt::format("[uncertainty.deputy]\nposition_m = [10, 10, 10]\nvelocity_m_s = "
+                            "[0.01, 0.01, 0.01]\n[uncertainty.burn]\nvelocity_change_m_s = [0, "
+                            "0.1, 0]\nmagnitude = 0.1\ndirection_deg = {}\n",
+                            18 / std::numbers::pi));
+  const double v = 0.01 * std::sqrt(2.0);
+  const double summed =
+      probability("summed", fmt::format("[uncertainty.deputy]\nposition_m = [10, 10, 10]\n"
+                                        "velocity_m_s = [{0}, {0}, {0}]\n",
+                                        v));
+  EXPECT_NEAR(burned / summed, 1, 1e-9);
+}
+
+TEST_F(Collision, SaysWhatAMessageLacks) {
+  const CrossingCircles circles;
+  struct Lack {
+    std::string ephemeris;
+    const char* words;
+    const char* folder;
+  };
+  for (const Lack& lack :
+       {Lack{"", "the scene has no dates", "undated"},
+        Lack{CrossingCircles::ephemeris("TAI", "EME2000"), "got ephemeris.time_system TAI", "tai"},
+        Lack{CrossingCircles::ephemeris("UTC", "ICRF"), "got ephemeris.reference_frame ICRF",
+             "icrf"}}) {
+    write("circles.toml", circles.scene(lack.ephemeris));
+    const std::string out =
+        in_one_line(succeed({"uncertainty", "circles.toml", "-o", lack.folder}).out);
+    EXPECT_NE(out.find("no conjunction data message: "), std::string::npos) << out;
+    EXPECT_NE(out.find(lack.words), std::string::npos) << out;
+    EXPECT_FALSE(std::filesystem::exists(directory_ / lack.folder / "encounter.cdm"));
+  }
 }
 
 TEST_F(Collision, RefusesWhatIsNoWindowAndWhatIsCertain) {

@@ -85,7 +85,7 @@ TEST_F(ConvertTest, BetweenCoordinates) {
   EXPECT_EQ(evaluated({"eval", "copy.h5"})["rows"], stored["rows"]);
   expect_error({"convert", "chart.h5", "chart.csv"}, 2, {".csv", "nodal to poincare", ".h5"});
   expect_error({"convert", "results", "box.h5", "--coordinates", "flow-box"}, 2,
-               {"--coordinates flow-box", "hamjet eval scene.toml"});
+               {"--coordinates flow-box", "hamjet run scene.toml"});
   expect_error({"convert", "results", "auto.h5", "--coordinates", "auto"}, 2,
                {"--coordinates auto"});
   expect_error({"transfer", "quick.toml", "--jet", "chart.h5"}, 2,

@@ -144,28 +144,26 @@ TEST_F(Coordinates, OfASceneAreEvaluated) {
   expect_error({"eval", "far.toml", "--run", "gauss", row[0], row[1]}, 2, {"--run"});
 }
 
-// Jets that are written are in positions and momenta, and what says otherwise is answered.
-TEST_F(Coordinates, AreNotThoseOfARun) {
-  write("far.toml", far(""));
-  succeed({"run", "far.toml", "-o", "plain"});
-  const std::vector<std::string> asked = {"--set", "jet.coordinates=flow-box"};
-  CommandResult run = hamjet({"run", "far.toml", "-o", "boxes", asked[0], asked[1]});
-  EXPECT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_EQ(in_one_line(run.err).find("hamjet: note: flow-box coordinates are not used: "), 0U)
-      << run.err;
-  const Json summary = read_json(directory_ / "boxes/summary.json");
-  const std::string jet = summary["runs"][0]["label"].get<std::string>() + "/jet.csv";
-  EXPECT_EQ(content(directory_ / "boxes" / jet), content(directory_ / "plain" / jet));
-  const Json skipped = summary["skipped"];
-  EXPECT_EQ(skipped[0]["what"], "flow-box coordinates");
-  succeed({"run", "far.toml", "-o", "quiet", "-q", asked[0], asked[1]});
-  const std::string said = in_one_line(succeed({"check", "far.toml", asked[0], asked[1]}).out);
-  EXPECT_NE(said.find("coordinates flow-box; runs write jets in positions and momenta"),
-            std::string::npos)
-      << said;
-  const Json check = Json::parse(succeed({"check", "far.toml", "--json", asked[0], asked[1]}).out);
-  EXPECT_EQ(check["coordinates"], "flow-box");
-  EXPECT_EQ(check["end_coordinates"], "flow-box");
+// A kind of generating function has no meaning where none is solved, and a word says so.
+TEST_F(Coordinates, HaveNoKindOfGeneratingFunction) {
+  const std::string orbit = far("");
+  const std::string scene =
+      orbit.substr(0, orbit.find("[deputy]")) +
+      "[transfer]\nframe = \"RTN\"\nkind = \"F1\"\ntimes_s = [2000]\nstart.position_m = [0, -500, "
+      "0]\n"
+      "end.position_m = [0, -200, 0]\n[[integrator]]\nmethod = \"gauss\"\ntolerance = 1e-12\n";
+  write("kind.toml", scene);
+  const CommandResult boxes =
+      hamjet({"transfer", "kind.toml", "-o", "boxes", "--set", "jet.coordinates=flow-box"});
+  EXPECT_EQ(boxes.exit_code, 0) << boxes.err;
+  EXPECT_NE(in_one_line(boxes.err).find("transfer.kind: not used, got \"F1\""), std::string::npos)
+      << boxes.err;
+  EXPECT_NE(in_one_line(boxes.out).find("kind none (flow-box polynomials"), std::string::npos)
+      << boxes.out;
+  EXPECT_TRUE(read_json(directory_ / "boxes/summary.json")["kind"].is_null());
+  const CommandResult plain = hamjet({"transfer", "kind.toml", "-o", "plain"});
+  EXPECT_EQ(plain.err.find("not used"), std::string::npos) << plain.err;
+  EXPECT_EQ(read_json(directory_ / "plain/summary.json")["kind"], "F1");
 }
 
 // --set changes the scene that is integrated, and its deputy.

@@ -1,4 +1,4 @@
-#include "integrators/rotation_reduction.hpp"
+#include "integrators/symmetry/rotation_reduction.hpp"
 
 #include <gtest/gtest.h>
 

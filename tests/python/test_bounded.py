@@ -40,6 +40,18 @@ def test_bounded_deputies_are_those_of_the_command(tmp_path):
     assert "8 deputies" in repr(bounded)
 
 
+def test_a_deputy_in_a_box_is_that_of_the_command(tmp_path):
+    scene = SCENE.with_name("stationkeeping-follower.toml")
+    short = ["bounded.revolutions=20", "bounded.box.days=2"]
+    expected = table_of_command(tmp_path, "bounded", scene, short, "box.csv")
+    kept = hamjet.bounded(scene, overrides=short)
+    assert (kept.box_return_times_s == numbers(expected["time_s"])).all()
+    assert (kept.box_return_durations_s == numbers(expected["duration_s"])).all()
+    assert (kept.box_changes_m_s == numbers(expected["change_m_s"])).all()
+    assert len(kept.box_changes_m_s) > 0 and kept.box_farthest < 1.001
+    assert kept.box_change_m_s_a_day == pytest.approx(kept.box_changes_m_s.sum() / 2, rel=1e-14)
+
+
 def test_a_chief_in_the_equator_is_refused():
     with pytest.raises(hamjet.NumericalError, match="equatorial"):
         hamjet.poincare(SCENE, overrides=["nominal.i_deg=0"])

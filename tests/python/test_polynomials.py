@@ -118,3 +118,19 @@ def test_mistakes_are_those_of_the_command(tmp_path, boxes):
         boxes.evaluate_relative([0] * 6, degree=4)
     with pytest.raises(hamjet.UsageError, match="tolerance_m"):
         boxes.reach(0)
+
+
+def test_what_a_run_stores_is_what_is_integrated(tmp_path, boxes):
+    (tmp_path / "scene.toml").write_text(SCENE)
+    command("run", "scene.toml", "-q", "-o", "out", "--set", "jet.coordinates=flow-box",
+            directory=tmp_path)
+    stored = hamjet.Polynomials.load(tmp_path / "out")
+    assert (stored.coordinates, stored.variables, stored.order) == ("flow-box", 4, 3)
+    states = np.random.default_rng(5).uniform(-1, 1, (30, 6)) * ([1e3, 5e3, 1e3] + [1] * 3)
+    found, expected = stored.evaluate_relative(states), boxes.evaluate_relative(states)
+    assert (found.states == expected.states).all()
+    assert list(found.support) == list(expected.support)
+    with pytest.raises(hamjet.UsageError, match="reach: deputies are flown in a scene"):
+        stored.reach()
+    with pytest.raises(hamjet.InputOutputError):
+        hamjet.Polynomials.load(tmp_path / "nowhere")

@@ -44,7 +44,7 @@ inline Place place_of(const std::string& table, std::string_view owner) {
   static const std::map<std::string, Place, std::less<>> of_tables = {
       {"formation", {orbit_file, {{"formation", "{separation_km=1}"}}}},
       {"deputy", {orbit_file, {{"deputy", "{position_m=[0, 100, 0]}"}}}},
-      {"bounded", {orbit_file, {{"bounded", "{}"}}}},
+      {"bounded", {orbit_file, {{"bounded", "{box={half_widths_m=[1, 1, 1]}}"}}}},
       {"figure", {orbit_file, {{"figure", "{quantity=\"exactness\"}"}}}},
       {"assignment",
        {orbit_file,
@@ -55,7 +55,7 @@ inline Place place_of(const std::string& table, std::string_view owner) {
          {"uncertainty",
           "{position_m=[1, 1, 1], deputy={position_m=[1, 1, 1]}, count=2, "
           "burn={velocity_change_m_s=[1, 0, 0], magnitude=0.1, direction_deg=1}, "
-          "collision={radius_m=5}}"}}}},
+          "collision={radius_m=5}, safety={keep_apart_m=5, deputy=[{position_m=[0, 200, 0]}]}}"}}}},
       {"ephemeris",
        {orbit_file,
         {{"ephemeris",
@@ -129,6 +129,11 @@ inline const std::map<std::string, Place>& special_places() {
   static const Override no_time = {"transfer.waypoint.0.time_s", "null"};
   static const std::map<std::string, Place> listed = {
       {"uncertainty.collision.window_s", {"", {}, "[1, 2]"}},
+      {"uncertainty.safety.window_s", {"", {}, "[1, 2]"}},
+      {"uncertainty.safety.burn_shares", {"", {}, "[0.5, 1]"}},
+      {"uncertainty.coordinates", {"", {}, "[\"spherical\", \"flow-box\"]"}},
+      {"bounded.box.reference", {"", {}, "\"member\""}},
+      {"bounded.box.position_m", {"", {{"bounded.box.reference", "\"rest\""}}}},
       {"system.gravity_file", {"", {field, highest}, "\"../gravity/EGM96-zonals.gfc\""}},
       {"system.highest_zonal", {"", {field}}},
       {"system.zonals", {"", {field}}},

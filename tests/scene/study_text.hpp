@@ -69,13 +69,21 @@ class StudyText {
   void add(const CollisionWatch& s) {
     add_all(s.radius_m, s.from, s.to, s.event, s.sampling, s.samples, s.confidence);
   }
+  void add(const SafetyWatch& s) {
+    add_all(s.keep_apart_m, s.from, s.to, s.burn_shares, s.deputies, s.share, s.confidence,
+            s.samples);
+    if (s.keep_out_m) add_all((*s.keep_out_m)[0], (*s.keep_out_m)[1], (*s.keep_out_m)[2]);
+  }
   void add(const UncertaintySettings& s) {
     add_all(s.frame, s.chief, s.deputy, s.burn, s.times, s.acceleration_density_m2_s3, s.collision,
-            s.samples, s.seed);
+            s.safety, s.coordinates, s.samples, s.seed);
   }
   void add(const AssignmentSettings& s) { add_all(s.deputies, s.slots, s.time); }
   void add(const BoundedSettings& s) {
-    add_all(s.sizes_m, s.phase_deg, s.cross_track, s.along_track, s.revolutions, s.refine);
+    add_all(s.sizes_m, s.phase_deg, s.cross_track, s.along_track, s.revolutions, s.refine, s.box);
+  }
+  void add(const BoxSettings& s) {
+    add_all(s.half_widths_m, s.reference, s.position_m, s.return_orbits, s.days);
   }
   void add(const EphemerisSettings& s) {
     add_all(s.epoch, s.time_system, s.reference_frame, s.center_name, s.reference_frame_epoch,

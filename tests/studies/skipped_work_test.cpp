@@ -102,19 +102,74 @@ TEST(SkippedWork, OfZonalHarmonicsIsThoseThatAreAbsent) {
   EXPECT_EQ(reason(result, "J7 to J20").find("needs"), std::string::npos);
 }
 
-// A run's jet is the same whatever deputies are to be predicted by, and it says so.
-TEST(SkippedWork, IsTheCoordinatesOfAScene) {
+/// The largest difference of a coefficient of one degree, in parts of the largest.
+double difference(const RunResult& a, const RunResult& b, int degree) {
+  const SeriesSpace& space = a.jet[0].space();
+  Extended most = 0;
+  Extended size = 0;
+  for (std::size_t i = 0; i < a.jet.size(); ++i) {
+    for (std::size_t k = space.first(degree); k < space.first(degree + 1); ++k) {
+      most = std::max(most, Extended(abs(a.jet[i][k] - b.jet[i][k])));
+      size = std::max(size, Extended(abs(b.jet[i][k])));
+    }
+  }
+  return static_cast<double>(Extended(most / size));
+}
+
+// The implicit midpoint rule does not commute with a shift in time: what that costs is told as the
+// jets of both runs differ. Along a line some ten coefficients come together.
+TEST(SkippedWork, OfTheShiftInTimeIsSaidWithWhatItCosts) {
+  Scene scene = paper_chief(2);
+  scene.duration = 2;
+  scene.integrators[0].stages = 1;
+  scene.integrators[0].tolerance.reset();
+  scene.integrators[0].step_canonical = 0.02;
+  scene.symmetry = FlowSymmetry::none;
+  const PropagationResult whole = propagate(scene);
+  scene.symmetry = FlowSymmetry::rotation_and_time;
+  const PropagationResult result = propagate(scene);
+  const std::string shift = "the variable of the shift in time";
+  EXPECT_EQ(left_out(result), with_parts({"J4 to J20", rotation, shift}));
+  EXPECT_NE(reason(result, shift).find("4 of 6 variables were integrated"), std::string::npos);
+  const std::vector<double>& told = result.runs[0].time_shift_difference;
+  ASSERT_EQ(told.size(), 3U);
+  EXPECT_EQ(told[0], 0);
+  for (int d = 1; d <= 2; ++d) {
+    const double found = difference(result.runs[0], whole.runs[0], d);
+    const auto degree = static_cast<std::size_t>(d);
+    EXPECT_GT(found, 1e-8);
+    EXPECT_GT(told[degree], found / 30) << d;
+    EXPECT_LT(told[degree], found * 30) << d;
+  }
+  const SelfCheck* symplectic = nullptr;
+  for (const SelfCheck& check : result.runs[0].checks) {
+    if (check.name == SelfCheckName::symplecticity) symplectic = &check;
+  }
+  ASSERT_NE(symplectic, nullptr);
+  EXPECT_EQ(symplectic->state, SelfCheckState::not_applicable);
+  EXPECT_TRUE(whole.runs[0].time_shift_difference.empty());
+}
+
+// A run's jet is the same whatever deputies are to be predicted by; polynomials in the scene's
+// coordinates are beside it, and where these are not known it says so.
+TEST(SkippedWork, IsTheCoordinatesThatAreNotKnown) {
   Scene scene = paper_chief(2);
   scene.duration = 0.1;
   const PropagationResult plain = propagate(scene);
   scene.coordinates = {JetCoordinates::nodal, JetCoordinates::poincare};
   const PropagationResult result = propagate(scene);
   Names names = with_parts({"J4 to J20", rotation});
-  names.insert(names.begin(), "nodal to poincare coordinates");
   EXPECT_EQ(left_out(result), names);
+  ASSERT_TRUE(result.runs[0].charted);
+  EXPECT_EQ(result.runs[0].charted->failure, "");
   const auto found = result.runs[0].jet[5].coefficients();
   const auto expected = plain.runs[0].jet[5].coefficients();
   EXPECT_TRUE(std::equal(found.begin(), found.end(), expected.begin(), expected.end()));
+  scene.coordinates = JetCoordinates::automatic;
+  const PropagationResult automatic = propagate(scene);
+  names.insert(names.begin(), "auto coordinates");
+  EXPECT_EQ(left_out(automatic), names);
+  EXPECT_FALSE(automatic.runs[0].charted);
 }
 
 TEST(SkippedWork, OfAnEquatorialOrbitIsTheMotionOutOfThePlane) {

@@ -10,6 +10,7 @@
 
 #include "hamjet/error.hpp"
 #include "hamjet/uncertainty/closest_approach.hpp"
+#include "hamjet/uncertainty/least_separations.hpp"
 #include "uncertainty/published_encounters.hpp"
 
 // Probabilities of collision against published samples, closed forms, and plain samples, which

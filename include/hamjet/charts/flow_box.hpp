@@ -58,6 +58,14 @@ struct FlowBoxMap {
   std::vector<SymplecticityDefect> symplecticity() const;
 };
 
+/// The map between two sections of a field whose polynomials are known, as FlowBoxMap has them: the
+/// steady motion's constants follow from the rest.
+template <class Real>
+FlowBoxMap<Real> flow_box_map(const ZonalGravity& field,
+                              std::shared_ptr<const FlowSection<Real>> start,
+                              std::shared_ptr<const FlowSection<Real>> end, const Real& duration,
+                              Series<Real> time, std::vector<Series<Real>> coordinates);
+
 /// Makes the flow-box maps of one chief from its start to several times.
 ///
 /// The states of the start's section are integrated by a Gauss method at a pace of each orbit's

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "hamjet/charts/flow_box.hpp"
+#include "hamjet/maps/flow_map.hpp"
 
 namespace hamjet {
 
@@ -15,6 +16,11 @@ namespace hamjet {
 /// ignored one, where the chart has it. Six of them; the chief's are all 0.
 std::vector<Series<double>> flow_box_coordinates(const ZonalGravity& field,
                                                  const FlowBoxMap<double>& map);
+
+/// The jet in positions and momenta of a flow-box map, to its order: those coordinates carried out
+/// of the end's section. It differs from a jet that is integrated in positions and momenta by the
+/// error of the integrations; its constant terms are the end that the section goes through.
+FlowMap<double> flow_box_jet(const ZonalGravity& field, const FlowBoxMap<double>& map);
 
 /// Their names: tau, period, and those of the chart's.
 std::array<std::string, 6> flow_box_coordinate_names(const FlowSection<double>& section);

@@ -36,6 +36,8 @@ class FlowSection {
   FlowSection(const ZonalGravity& field, ChartName chart, const SixNumbers<Real>& chief);
 
   const CanonicalChart<Real>& chart() const noexcept { return chart_; }
+  /// The state that the surface goes through, as it was given.
+  const SixNumbers<Real>& origin() const noexcept { return origin_; }
   /// The chief's coordinates in the chart.
   const SixNumbers<Real>& chief() const noexcept { return chief_; }
   const Real& energy() const noexcept { return energy_; }
@@ -65,6 +67,7 @@ class FlowSection {
  private:
   SharedSystem system_;
   CanonicalChart<Real> chart_;
+  SixNumbers<Real> origin_;
   SixNumbers<Real> chief_;
   Real energy_;
   Real energy_unit_;

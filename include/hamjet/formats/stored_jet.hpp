@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "hamjet/algebra/extended.hpp"
+#include "hamjet/charts/flow_box.hpp"
+#include "hamjet/charts/jet_coordinates.hpp"
 #include "hamjet/integrators/flow_problem.hpp"
 #include "hamjet/studies/scene.hpp"
 
@@ -18,6 +20,12 @@ struct RunResult;
 }  // namespace hamjet
 
 namespace hamjet::io {
+
+/// What a jet between flow boxes needs beside the nominal's states: where its sections are.
+struct StoredFlowBox {
+  ChartName section = ChartName::nodal;  ///< chart of both sections, which go through the nominal
+  ZonalGravity field;                    ///< canonical
+};
 
 /// The jet of one run as `hamjet run` has stored it. Indices are those of the model's state (q, p);
 /// numbers are canonical.
@@ -45,6 +53,9 @@ struct StoredJet {
   /// Cartesian the constant terms are the chief's, in the chart of the end; nominal states are
   /// positions and momenta all the same.
   CoordinatesAtEnds coordinates = {};
+  /// Of flow boxes, and of these alone. Then the series are FlowBoxMap's, `time` before
+  /// `coordinates`, in the variables of the sections, which are fewer than the state's.
+  std::optional<StoredFlowBox> flow_box = {};
   /// What its reader has to tell of the file, a line each.
   std::vector<std::string> notes = {};
   /// One series a component. The printed digits bring back the numbers of the run bit by bit; in
@@ -80,8 +91,17 @@ std::vector<StoredJet> read_stored_jets(const std::filesystem::path& directory,
                                         const std::optional<std::string>& label,
                                         const WantedTimes& wanted);
 
-/// Throws Error(usage) unless a stored jet is in positions and momenta, for those who can do nothing
-/// with another; `name` is the file's.
+/// The polynomials that a run wrote in its scene's coordinates, other than Cartesian ones, beside
+/// its jet; nothing if it has none. Throws as read_stored_jet.
+std::optional<StoredJet> read_stored_polynomials(const std::filesystem::path& directory,
+                                                 const std::optional<std::string>& label = {});
+
+/// Its series as a map between flow boxes, in double precision. Throws Error(numerical) where its
+/// orbit has not such sections. Precondition: it has `flow_box`.
+FlowBoxMap<double> flow_box_map(const StoredJet& stored);
+
+/// Throws Error(usage) unless a stored jet is in positions and momenta, for those who can do
+/// nothing with another; `name` is the file's.
 void require_positions_and_momenta(const StoredJet& stored, const std::string& name);
 
 /// Whether a stored jet is of this time, to 1e-9 of it.

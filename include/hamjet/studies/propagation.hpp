@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "hamjet/algebra/extended.hpp"
+#include "hamjet/charts/canonical_chart.hpp"
+#include "hamjet/charts/jet_coordinates.hpp"
 #include "hamjet/detail/studies/progress.hpp"
 #include "hamjet/detail/studies/run_along_time.hpp"
 #include "hamjet/detail/studies/self_checks.hpp"
@@ -59,6 +61,19 @@ struct JetAtTime {
   std::vector<double> error_estimate;  ///< by degree; empty where there is none
 };
 
+/// A run's polynomials in the scene's own coordinates, beside its jet in positions and momenta.
+struct ChartedJet {
+  CoordinatesAtEnds coordinates;
+  /// Of flow boxes the chart of their sections, and its values are FlowBoxMap's, `time` before
+  /// `coordinates`; else absent, and it is in_charts of the run's jet.
+  std::optional<ChartName> section;
+  FlowJet<Extended> jet;
+  std::vector<double> nominal_final;  ///< in positions and momenta
+  std::vector<SymplecticityDefect> symplecticity;
+  double seconds = 0;   ///< of making it
+  std::string failure;  ///< not empty: there is none, and why
+};
+
 /// What one integrator gave.
 struct RunResult {
   IntegratorSettings settings;
@@ -70,7 +85,9 @@ struct RunResult {
   FlowJet<Extended> jet;
   std::vector<double> nominal_final;
   std::vector<JetAtTime> jets;  ///< at the scene's `jet_times`
-  double energy_error = 0;      ///< the largest magnitude along the nominal
+  std::optional<ChartedJet>
+      charted;              ///< if the scene's coordinates can be written, see charted_jet
+  double energy_error = 0;  ///< the largest magnitude along the nominal
   EnergyAlongNominal energy;
   AnalysisCounts counts;
   std::optional<ArcStatistics> arcs;          ///< unless the scene has one arc, as by default
@@ -81,6 +98,10 @@ struct RunResult {
   std::vector<SymplecticityDefect> symplecticity;  ///< empty if not all variables are expanded in
   std::optional<std::vector<double>> error_by_degree;  ///< see relative_error_by_degree
   JetErrorEstimate error_estimate;
+  /// By degree, what it costs that a shift in time was left out (FlowSymmetry): the relative
+  /// difference, along two lines of deviations, from the jet that the same steps make in all
+  /// variables. Empty where none was left out, and where it was not measured.
+  std::vector<double> time_shift_difference;
   /// Distance of the nominal's final position from the reference's.
   std::optional<double> position_error_m;
   std::optional<RunAlongTime> along_time;  ///< if the scene asks for a figure

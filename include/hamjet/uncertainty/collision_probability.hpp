@@ -55,17 +55,4 @@ struct CollisionProbability {
 CollisionProbability collision_probability(const EncounterProblem& problem,
                                            const CollisionSettings& settings);
 
-/// How near two spacecraft come in the window, by plain samples.
-struct LeastSeparations {
-  std::vector<double> shares;       ///< of all samples, ascending
-  std::vector<double> separations;  ///< below which the share has its least separation
-  long samples = 0;
-};
-
-/// Of so many samples as the settings have, which say seed and threads too. Throws as
-/// collision_probability, and Error(usage) unless the shares lie between 0 and 1.
-LeastSeparations least_separations(const EncounterProblem& problem,
-                                   const CollisionSettings& settings,
-                                   const std::vector<double>& shares);
-
 }  // namespace hamjet

@@ -34,6 +34,21 @@ constexpr std::string_view standard_input = "-";
 
 }  // namespace
 
+namespace {
+
+/// Of results in the coordinates that their scene asks for, the polynomials in these.
+io::StoredJet read_polynomials_or_jet(const EvalOptions& options) {
+  std::error_code none;
+  if (std::filesystem::is_directory(options.directory, none)) {
+    if (auto polynomials = io::read_stored_polynomials(options.directory, options.run)) {
+      return std::move(*polynomials);
+    }
+  }
+  return read_noted_jet(options.directory, options.run);
+}
+
+}  // namespace
+
 void take_standard_input(EvalOptions& options) {
   if (options.directory != standard_input && options.deputy != standard_input) return;
   RunOptions scene;
@@ -64,10 +79,11 @@ RunOptions scene_named(const EvalOptions& options, const std::string& name) {
 std::vector<EvalSource> read_eval_sources(const EvalOptions& options) {
   if (is_of_scene(options)) return {integrated_scene(options)};
   if (!options.time) {
-    io::StoredJet stored = read_noted_jet(options.directory, options.run);
+    io::StoredJet stored = read_polynomials_or_jet(options);
     if (stored.coordinates == JetCoordinates::cartesian) return {{std::move(stored)}};
     EvaluatedScene polynomials = evaluated_jet(stored);
-    return {{std::move(stored), std::move(polynomials)}};
+    io::StoredJet chief = polynomials.chief;
+    return {{std::move(chief), std::move(polynomials)}};
   }
   std::vector<EvalSource> jets;
   for (io::StoredJet& stored :

@@ -12,6 +12,8 @@ inline const std::string format = "hamjet jets";
 inline constexpr int format_version = 1;
 /// Of files whose jet is in other coordinates than Cartesian, which version 1 does not know.
 inline constexpr int charted_format_version = 2;
+/// Of files whose jet is between flow boxes, in other variables than the state's.
+inline constexpr int flow_box_format_version = 3;
 
 /// Attribute of a run: relative errors of the coefficients of each degree, where they are known.
 inline constexpr const char* error_attribute = "coefficient_error_by_degree";

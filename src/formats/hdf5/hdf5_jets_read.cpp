@@ -6,6 +6,7 @@
 
 #include "../../text/scene_message.hpp"
 #include "../content_checksum.hpp"
+#include "../jet_description.hpp"
 #include "../stored_coefficients.hpp"
 #include "hamjet/charts/canonical_chart.hpp"
 #include "hamjet/error.hpp"
@@ -24,10 +25,10 @@ void require_this_format(const Reader& root) {
     root.fail("format", fmt::format("must be {}: the file holds no jets", in_quotes(hdf5::format)));
   }
   const int stored = root.integer("format_version");
-  if (stored != hdf5::format_version && stored != hdf5::charted_format_version) {
+  if (stored < hdf5::format_version || stored > hdf5::flow_box_format_version) {
     root.fail("format_version",
-              fmt::format("is {}, this hamjet reads {} and {}; write the file again", stored,
-                          hdf5::format_version, hdf5::charted_format_version));
+              fmt::format("is {}, this hamjet reads {} to {}; write the file again", stored,
+                          hdf5::format_version, hdf5::flow_box_format_version));
   }
 }
 
@@ -60,6 +61,22 @@ std::vector<std::size_t> indices(const Reader& root, const char* attribute,
     root.fail(attribute, "the attribute must ascend in the order of the state");
   }
   return result;
+}
+
+StoredFlowBox read_flow_box(const Reader& root) {
+  StoredFlowBox box;
+  const auto section = hamjet::chart_of(root.text("section_chart"));
+  if (!section || *section == ChartName::cartesian) {
+    root.fail("section_chart", "the attribute must name a chart of sections");
+  }
+  box.section = *section;
+  box.field.radius = positive(root, "field_radius");
+  constexpr int count = ZonalCoefficients::highest - ZonalCoefficients::lowest + 1;
+  const std::vector<double> J = root.numbers("field_J", count);
+  for (int n = 0; n < count; ++n) {
+    box.field.J[ZonalCoefficients::lowest + n] = J[static_cast<std::size_t>(n)];
+  }
+  return box;
 }
 
 StoredJet read_scene(const Reader& root) {
@@ -99,6 +116,18 @@ StoredJet read_scene(const Reader& root) {
       return static_cast<JetCoordinates>(index);
     };
     stored.coordinates = {read("coordinates"), read("end_coordinates")};
+    if (!is_orbit(stored.model) || stored.variables.size() != 6) {
+      root.fail("coordinates", "the attribute is for jets of orbits in all six variables");
+    }
+  }
+  if (root.integer("format_version") == hdf5::flow_box_format_version) {
+    for (const char* name : {"coordinates", "end_coordinates"}) {
+      if (root.text(name) != name_of(JetCoordinates::flow_box)) {
+        root.fail(name, "the attribute must be flow-box in a file of this version");
+      }
+    }
+    stored.coordinates = JetCoordinates::flow_box;
+    stored.flow_box = read_flow_box(root);
     if (!is_orbit(stored.model) || stored.variables.size() != 6) {
       root.fail("coordinates", "the attribute is for jets of orbits in all six variables");
     }
@@ -152,15 +181,21 @@ void require_graded(const Reader& run, const SeriesSpace& space) {
 }
 
 FlowJet<Extended> read_jet(const Reader& run, const StoredJet& stored, int order) {
-  const std::size_t components = stored.components.size();
+  std::size_t components = stored.components.size();
+  std::size_t variables = stored.variables.size();
+  if (stored.flow_box) {
+    const SeriesNames names = series_names(stored);
+    components = names.components.size();
+    variables = names.variables.size();
+  }
   const auto terms =
-      static_cast<hsize_t>(std::round(SeriesSpace::monomial_count(stored.variables.size(), order)));
+      static_cast<hsize_t>(std::round(SeriesSpace::monomial_count(variables, order)));
   // Read before anything of this size is made: a damaged order could ask for gigabytes.
   const std::vector<double> rounded = run.doubles("coefficients", {components, terms});
   const bool is_extended = stored.precision == Precision::extended;
   std::vector<std::string> decimals;
   if (is_extended) decimals = run.decimals("coefficients_decimal", {components, terms});
-  const SpacePointer space = SeriesSpace::create(stored.variables.size(), order);
+  const SpacePointer space = SeriesSpace::create(variables, order);
   require_graded(run, *space);
   FlowJet<Extended> jet;
   for (std::size_t c = 0; c < components; ++c) {

@@ -26,7 +26,12 @@ Each group but this one is a run, with the jet of one integrator. Component c of
 where d are the deviations of the variables from the nominal at the start; the term 0 is the nominal's
 final state. Where the file has the attributes coordinates and end_coordinates, d and the final state
 are in these canonical coordinates about the chief (coordinates_names, end_coordinates_names), else
-in positions and momenta. Names of components and variables, of the axes (DIMENSION_LABELS) and the units stand in
+in positions and momenta. In coordinates "flow-box" a state is flown to the section through the chief's
+start, where its first angle in the chart section_chart is the chief's: d are its period over the
+chief's less one and differences of the other coordinates; the values are the time of flight to the
+section through the chief's end less that of the steady motion, and the coordinates there, turned back
+by it (hamjet/charts/flow_box.hpp), in the zonal field of field_radius and field_J (J2 to J20).
+Names of components and variables, of the axes (DIMENSION_LABELS) and the units stand in
 attributes. Numbers are canonical: a length is length_unit_km km, a time time_unit_s s.
 Where precision is "extended", coefficients_decimal holds all 113 bits as 36 digits, and coefficients
 the nearest doubles.
@@ -66,7 +71,9 @@ void write_scene(const Writer& file, const StoredJet& jet, int order, const std:
   file.attribute(root, "format", hdf5::format);
   const bool is_charted = jet.coordinates != JetCoordinates::cartesian;
   file.attribute(root, "format_version",
-                 is_charted ? hdf5::charted_format_version : hdf5::format_version);
+                 jet.flow_box ? hdf5::flow_box_format_version
+                 : is_charted ? hdf5::charted_format_version
+                              : hdf5::format_version);
   file.attribute(root, "hamjet_version", std::string(version));
   file.attribute(root, "description", std::string(description));
   file.attribute(root, "scene", jet.scene);
@@ -84,7 +91,21 @@ void write_scene(const Writer& file, const StoredJet& jet, int order, const std:
   file.attribute(root, "variables", names_of(names, jet.variables));
   file.attribute(root, "nominal_initial", jet.nominal_initial);
   file.attribute(root, "runs", labels);
-  if (is_charted) {
+  if (jet.flow_box) {
+    const std::string coordinates(name_of(JetCoordinates::flow_box));
+    const SeriesNames series = series_names(jet);
+    file.attribute(root, "coordinates", coordinates);
+    file.attribute(root, "coordinates_names", series.of(series.variables));
+    file.attribute(root, "end_coordinates", coordinates);
+    file.attribute(root, "end_coordinates_names", series.of(series.components));
+    file.attribute(root, "section_chart", std::string(name_of(jet.flow_box->section)));
+    file.attribute(root, "field_radius", jet.flow_box->field.radius);
+    std::vector<double> J;
+    for (int n = ZonalCoefficients::lowest; n <= ZonalCoefficients::highest; ++n) {
+      J.push_back(jet.flow_box->field.J[n]);
+    }
+    file.attribute(root, "field_J", J);
+  } else if (is_charted) {
     const auto write = [&](const std::string& key, JetCoordinates coordinates) {
       file.attribute(root, key.c_str(), std::string(name_of(coordinates)));
       file.attribute(root, (key + "_names").c_str(),

@@ -4,7 +4,7 @@
 
 #include "../../algebra/instantiated_real.hpp"
 #include "../integration_clock.hpp"
-#include "../rotation_reduction.hpp"
+#include "../symmetry/symmetry_reduction.hpp"
 #include "gauss_lanes.hpp"
 #include "gauss_tolerance.hpp"
 
@@ -27,7 +27,7 @@ FlowJet<Real> integrate_with(const FlowProblem<Real>& problem, const GaussSettin
       return run_gauss<Lanes>(integrated, settings, statistics, watch);
     });
   };
-  return integrate_without_rotation(problem, statistics, observer, run);
+  return integrate_without_symmetry(problem, statistics, observer, run);
 }
 
 }  // namespace

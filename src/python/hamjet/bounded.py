@@ -61,6 +61,11 @@ class Bounded(Study):
     starts: Floats  #: (K, 6): position in m and velocity in m/s along R, T, N, rotating derivatives
     revolutions: int  #: over which all were flown
     failures: tuple[str, ...]  #: why there is no deputy; empty where there is one
+    box_return_times_s: Floats  #: (J,): of the first impulses of the returns into [bounded.box]
+    box_return_durations_s: Floats  #: (J,): to the second ones
+    box_changes_m_s: Floats  #: (J,): of both impulses
+    box_change_m_s_a_day: float  #: NaN without a box
+    box_farthest: float  #: from the box's middle, in half widths, as flown; NaN without a box
     verdict: str  #: what ``hamjet bounded`` says first
     table: Table = field(repr=False)  #: the columns of ``bounded.csv``, by name
     _study: _hamjet.BoundedStudy | None = field(repr=False)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+
 import numpy.typing as npt
 
 from . import _hamjet, arguments, scenes, shown
@@ -20,6 +22,17 @@ class Polynomials:
 
     def __init__(self, study: _hamjet.PolynomialsStudy) -> None:
         self._study = study
+
+    @classmethod
+    def load(cls, path: str | os.PathLike[str], run: str | None = None) -> Polynomials:
+        """Reads what `hamjet run` has written in a scene's coordinates, or a file .h5.
+
+        path: results of `hamjet run`, whose polynomials in the coordinates of their scene are taken
+        where they are other than Cartesian, or a file that `hamjet convert` has written. run: the
+        label of the run; by default the first that has a result. Raises UsageError and
+        InputOutputError.
+        """
+        return cls(_hamjet.load_polynomials(arguments.path(path, "path"), run))
 
     @property
     def run(self) -> str:
@@ -74,7 +87,7 @@ class Polynomials:
         """How far from the chief each order is right to a tolerance at the end: (order,), in m.
 
         It is what ``validity`` proves by flying so many random deputies, and the worst. Raises as
-        ``transfer``.
+        ``transfer``, and UsageError for polynomials that were loaded.
         """
         tolerance = arguments.number(tolerance_m, "reach: tolerance_m")
         if not tolerance > 0:

@@ -62,6 +62,9 @@ class Uncertainty(Study):
     flown_standard_deviation_scatter: Floats  #: (T, S, 6)
     flown_skewness_scatter: Floats  #: (T, S, 6)
     flown_excess_kurtosis_scatter: Floats  #: (T, S, 6)
+    #: By name of the coordinates that ``uncertainty.coordinates`` asks for and the orbit has, at the
+    #: last time: (S, N), nats.
+    negentropy_in: dict[str, Floats]
     verdict: str  #: whether the linear covariance misleads: what ``hamjet uncertainty`` says first
     notes: tuple[str, ...]  #: what to know beside the numbers
     table: Table = field(repr=False)  #: the columns of ``moments.csv``, by name
@@ -109,7 +112,8 @@ def uncertainty(scene: scenes.Scene, *, overrides: scenes.Overrides | None = Non
     """How a covariance grows, to every order, as ``hamjet uncertainty`` finds it.
 
     The scene has a table [uncertainty]; with a table [uncertainty.collision] the member
-    ``collision`` of the summary has the probability that chief and deputy hit each other.
+    ``collision`` of the summary has the probability that chief and deputy hit each other, and with
+    [uncertainty.safety] ``safety`` how near every pair of a formation comes where a burn fails.
     Arguments as of ``run``. Raises SceneError, UsageError,
     NumericalError, TooLargeError, InputOutputError.
     """

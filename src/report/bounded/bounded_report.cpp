@@ -14,6 +14,7 @@
 #include "../drawing/report_page.hpp"
 #include "../formation/transfer_json.hpp"
 #include "bounded_charts.hpp"
+#include "box_report.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -107,6 +108,11 @@ std::string page(const BoundedFormation& formation, const ReportOrigin& origin,
           "every form in which a scene takes a deputy, are in <code>bounded.csv</code>.",
           table_rows(formation)) +
       "<p>" + escape_html(failures_text(formation)) + "</p></section>\n";
+  if (formation.box) {
+    Chart box = box_chart(formation);
+    fit(box);
+    page.sections += section_html(box, drawer);
+  }
   return page_html(page, drawer);
 }
 
@@ -136,7 +142,8 @@ std::string bounded_verdict(const BoundedFormation& formation) {
   if (worst_invariant > 0) {
     text += fmt::format("; those of first-order J2 invariance by up to {:.2g}", worst_invariant);
   }
-  return text + ".";
+  text += ".";
+  return formation.box ? text + " " + box_verdict(formation) : text;
 }
 
 std::string bounded_csv(const BoundedFormation& formation) {
@@ -231,6 +238,7 @@ Json bounded_json(const BoundedFormation& formation) {
     }
     json["deputies"].push_back(std::move(entry));
   }
+  json["box"] = formation.box ? box_json(formation) : Json(nullptr);
   json["seconds"] = {{"all", formation.seconds}, {"flights", formation.flight_seconds}};
   json["exit_code"] = 0;
   return json;
@@ -241,6 +249,7 @@ StudyReport bounded_report(const BoundedFormation& formation, const ReportOrigin
   ChartDrawer drawer(origin.gnuplot);
   report.files = {{"bounded.csv", bounded_csv(formation)},
                   {"report.html", page(formation, origin, drawer)}};
+  if (formation.box) report.files.push_back({"box.csv", box_csv(formation)});
   report.drawing_problem = drawer.problem();
   report.files.push_back({"summary.json", bounded_json(formation).dump(2) + "\n"});
   report.table = terminal_table(formation);

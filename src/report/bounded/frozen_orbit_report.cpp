@@ -9,7 +9,9 @@
 #include "../../store/json_values.hpp"
 #include "../../text/quantity_text.hpp"
 #include "../../text/terminal_text.hpp"
+#include "../drawing/report_page.hpp"
 #include "../formation/transfer_json.hpp"
+#include "frozen_orbit_charts.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -18,16 +20,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr double degrees = 180 / std::numbers::pi;
 
-/// The two multipliers, as their real and imaginary parts; the second one's are its inverse's.
-std::array<double, 2> multiplier(const FrozenOrbitStudy& study) {
-  const double half = study.trace / 2;
-  // (t/2)^2 - 1 = (t - 2)(t + 2)/4 without the loss of digits.
-  const double discriminant = study.trace_less_2 * (study.trace + 2) / 4;
-  if (discriminant < 0) return {half, std::sqrt(-discriminant)};
-  return {half + std::copysign(std::sqrt(discriminant), half), 0};
-}
-
-std::string circles_table(const FrozenOrbitStudy& study) {
+std::vector<std::vector<std::string>> circles_rows(const FrozenOrbitStudy& study) {
   std::vector<std::vector<std::string>> rows = {
       {"amplitude", "turns a revolution", "revolutions a turn", "nodal period (s)",
        "node (deg a revolution)",
@@ -41,13 +34,46 @@ std::string circles_table(const FrozenOrbitStudy& study) {
          fmt::format("{:.9g}", circle.mean_node * degrees),
          circle.miss ? fmt::format("{:.2e}", *circle.miss) : std::string()});
   }
-  return aligned_table(rows);
+  return rows;
+}
+
+std::string frozen_orbit_page(const FrozenOrbitStudy& study, const ReportOrigin& origin,
+                              ChartDrawer& drawer) {
+  ReportPage page;
+  page.title = study.scene.title + ": frozen orbit";
+  page.verdict = frozen_orbit_verdict(study);
+  const auto drawn = [&](Chart chart) {
+    fit(chart);
+    return chart;
+  };
+  const Chart multipliers = drawn(multiplier_chart(study));
+  page.first_figure = figure_html(
+      study.circles.empty() ? multipliers : drawn(invariant_curve_chart(study)), drawer);
+  page.facts =
+      origin_facts_html(origin) +
+      fact_html("Scene", fmt::format("{}, order {}", study.scene.name, study.scene.order)) +
+      fact_html("Return", duration_text(study.nodal_period * study.scene.units.time_s)) +
+      fact_html("Moved by a return", fmt::format("{:.1e}", study.residual)) +
+      fact_html("Trace less 2", fmt::format("{:.9g}", study.trace_less_2));
+  if (!study.circles.empty()) {
+    page.sections = section_html(multipliers, drawer) +
+                    section_html(drawn(frequency_chart(study)), drawer) +
+                    section_html(drawn(reach_chart(study)), drawer) +
+                    "<section>\n<h2>Circles of the normal form</h2>\n" +
+                    table_html(
+                        "Of each amplitude: how fast orbits turn about the frozen one, their "
+                        "mean nodal period and advance of the node, and how far a flown one "
+                        "is from where the normal form has it, in parts of the amplitude.",
+                        circles_rows(study)) +
+                    "</section>\n";
+  }
+  return page_html(page, drawer);
 }
 
 }  // namespace
 
 std::string frozen_orbit_verdict(const FrozenOrbitStudy& study) {
-  const auto [real, imaginary] = multiplier(study);
+  const auto [real, imaginary] = study.multiplier();
   std::string text = fmt::format(
       "The frozen orbit of the chief's energy and angular momentum about the axis has, osculating "
       "where the chief starts, a = {:.7g} km, e = {:.6g}, i = {:.7g} deg and its perigee at {:.6g} "
@@ -94,7 +120,7 @@ std::string frozen_orbit_csv(const FrozenOrbitStudy& study) {
 }
 
 Json frozen_orbit_json(const FrozenOrbitStudy& study) {
-  const auto [real, imaginary] = multiplier(study);
+  const auto [real, imaginary] = study.multiplier();
   Json json = study_head_json(study.scene, "poincare", "gauss8");
   json["verdict"] = frozen_orbit_verdict(study);
   json["frozen_orbit"] = {{"state_canonical", study.state},
@@ -134,12 +160,15 @@ Json frozen_orbit_json(const FrozenOrbitStudy& study) {
   return json;
 }
 
-StudyReport frozen_orbit_report(const FrozenOrbitStudy& study) {
+StudyReport frozen_orbit_report(const FrozenOrbitStudy& study, const ReportOrigin& origin) {
   StudyReport report;
+  ChartDrawer drawer(origin.gnuplot);
   report.files = {{"poincare.csv", frozen_orbit_csv(study)},
+                  {"report.html", frozen_orbit_page(study, origin, drawer)},
                   {"summary.json", frozen_orbit_json(study).dump(2) + "\n"}};
+  report.drawing_problem = drawer.problem();
   report.table = fmt::format("{}\n{}\n", study.scene.title, frozen_orbit_verdict(study));
-  if (!study.circles.empty()) report.table += "\n" + circles_table(study);
+  if (!study.circles.empty()) report.table += "\n" + aligned_table(circles_rows(study));
   return report;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "../../studies/bounded/frozen_orbit_study.hpp"
+#include "hamjet/detail/report/report_origin.hpp"
 #include "hamjet/detail/report/study_report.hpp"
 
 namespace hamjet::io {
@@ -17,7 +18,7 @@ std::string frozen_orbit_csv(const FrozenOrbitStudy& study);
 /// `summary.json`.
 nlohmann::ordered_json frozen_orbit_json(const FrozenOrbitStudy& study);
 
-/// The files of `hamjet poincare`: `poincare.csv`, `summary.json`.
-StudyReport frozen_orbit_report(const FrozenOrbitStudy& study);
+/// The files of `hamjet poincare`: `poincare.csv`, `report.html`, `summary.json`.
+StudyReport frozen_orbit_report(const FrozenOrbitStudy& study, const ReportOrigin& origin);
 
 }  // namespace hamjet::io

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../../studies/nominal_period.hpp"
+#include "../../studies/nominal/nominal_period.hpp"
 #include "../../text/time_axis.hpp"
 
 namespace hamjet::io {

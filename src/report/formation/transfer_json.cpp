@@ -137,7 +137,9 @@ Json transfer_summary_json(const TransferResult& result) {
   json["frame"] = frame_name(settings.frame);
   json["derivatives"] = text_or_null(std::string(derivatives_name(settings.frame)));
   json["axes"] = axis_letters(settings.frame);
-  json["kind"] = settings.kind;
+  // Where no generating function is solved, none is named.
+  json["kind"] =
+      result.coordinates == JetCoordinates::cartesian ? Json(settings.kind) : Json(nullptr);
   json["tolerance_m"] = settings.tolerance_m;
   json["refine"] = settings.refine;
   json["refined_miss_m"] = settings.refine ? Json(settings.refined_miss_m) : Json(nullptr);

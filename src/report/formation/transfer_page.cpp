@@ -60,7 +60,7 @@ std::string facts_html(const TransferResult& result, const ReportOrigin& origin)
          fact_html("Transfer times", fmt::format("{}, {:.6g} s to {:.6g} s{}", result.points.size(),
                                                  settings.times.front() * unit,
                                                  settings.times.back() * unit, outcomes)) +
-         fact_html("Generating function", settings.kind) +
+         fact_html("Generating function", transfer_kind_text(settings.kind, result.coordinates)) +
          fact_html("Time", fmt::format("{} for the answers, {} to prove them by flying",
                                        duration_text(result.seconds.study()),
                                        duration_text(result.seconds.proof)));

@@ -54,7 +54,8 @@ std::string terminal_table(const TransferResult& result) {
       "  transfer times   {}, {:.6g} s to {:.6g} s:\n",
       result.scene.title, transfer_verdict(result),
       frame_text(settings.frame) + coordinates_text(result.coordinates), result.scene.order,
-      settings.kind, counts.times, settings.times.front() * unit, settings.times.back() * unit);
+      transfer_kind_text(settings.kind, result.coordinates), counts.times,
+      settings.times.front() * unit, settings.times.back() * unit);
   for (const TransferOutcome& outcome : transfer_outcomes(result)) {
     text += fmt::format("{:19}{} {}\n", "", outcome.count, outcome.text);
   }

@@ -171,10 +171,11 @@ std::string remedy_text(const TransferResult& result, const TransferCounts& coun
     text += " A higher jet.order reaches further and may answer those beyond the tolerance.";
   }
   if (counts.unanswered_away > 0) {
-    text += fmt::format(" Why a time has no answer is in the column failure; {}.",
-                        result.scene.transfer->kind == "auto"
-                            ? "one a little earlier or later may have one"
-                            : "the kind auto may have one");
+    text += fmt::format(
+        " Why a time has no answer is in the column failure; {}.",
+        result.scene.transfer->kind == "auto" || result.coordinates != JetCoordinates::cartesian
+            ? "one a little earlier or later may have one"
+            : "the kind auto may have one");
   }
   return text;
 }

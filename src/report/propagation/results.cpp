@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "../../formats/hdf5/hdf5_jets.hpp"
+#include "../../formats/jet_description.hpp"
 #include "../../formats/output_formats.hpp"
 #include "../../formats/results_names.hpp"
 
@@ -48,6 +50,21 @@ void write_jets(const PropagationResult& result, const RunResult& run, OutputDir
   }
 }
 
+/// The polynomials in the scene's coordinates, and in HDF5 where that is asked for.
+void write_polynomials(const PropagationResult& result, const RunResult& run,
+                       OutputDirectory& output) {
+  if (!run.charted || !run.charted->failure.empty()) return;
+  StoredJet stored = describe_charted_jet(result, run);
+  stored.jet = run.charted->jet;
+  const std::filesystem::path file = run.settings.label / std::filesystem::path(polynomials_file);
+  output.write(file, polynomials_csv(stored, stored.jet));
+  for (const OutputFormat* format : wanted_formats(result.scene)) {
+    if (format->ending != hdf5_format.ending) continue;
+    output.write(std::filesystem::path(file).replace_extension(format->ending),
+                 format->of_jet(stored));
+  }
+}
+
 /// The jets before the duration, a folder each, in every format that holds one jet.
 void write_jets_at_times(const PropagationResult& result, const RunResult& run,
                          OutputDirectory& output) {
@@ -78,6 +95,7 @@ std::string write_results(const PropagationResult& result, const std::string& fi
     output.write(folder / "jet.csv", jet_csv(result, run));
     write_jets(result, run, output);
     write_jets_at_times(result, run, output);
+    write_polynomials(result, run, output);
     output.write(folder / "nominal.csv", nominal_csv(result, run));
     for (const OutputFormat* format : formats) {
       if (format->of_nominal != nullptr) {

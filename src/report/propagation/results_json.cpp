@@ -1,5 +1,6 @@
 #include <nlohmann/json.hpp>
 
+#include "../../formats/jet_description.hpp"
 #include "../../formats/results_names.hpp"
 #include "../../scene/system_json.hpp"
 #include "../../store/json_values.hpp"
@@ -87,6 +88,17 @@ Json arcs_json(const Scene& scene, const ArcStatistics& arcs) {
           {"composition_seconds", arcs.composition_seconds}};
 }
 
+/// Defects by degree, or null.
+Json symplecticity_json(const std::vector<SymplecticityDefect>& defects) {
+  if (defects.empty()) return nullptr;
+  Json json = Json::array();
+  for (const SymplecticityDefect& entry : defects) {
+    json.push_back(
+        {{"degree", entry.degree}, {"absolute", entry.absolute}, {"scaled", entry.scaled}});
+  }
+  return json;
+}
+
 /// The jets before the duration.
 Json jets_json(const PropagationResult& result, const RunResult& run) {
   Json json = Json::array();
@@ -100,6 +112,33 @@ Json jets_json(const PropagationResult& result, const RunResult& run) {
                     {"error_estimate_by_degree",
                      is_estimated ? by_degree_json(one.error_estimate) : Json(nullptr)}});
   }
+  return json;
+}
+
+/// The polynomials in the scene's coordinates: what their file does not say.
+Json polynomials_json(const PropagationResult& result, const RunResult& run) {
+  const ChartedJet& charted = *run.charted;
+  Json json = {{"coordinates", name_of(charted.coordinates.start)},
+               {"end_coordinates", name_of(charted.coordinates.end)},
+               {"error", text_or_null(charted.failure)},
+               {"wall_seconds", charted.seconds}};
+  if (!charted.failure.empty()) return json;
+  const StoredJet description = describe_charted_jet(result, run);
+  const SeriesNames names = series_names(description);
+  json["file"] = polynomials_file;
+  json["variables"] = names.of(names.variables);
+  json["components"] = names.of(names.components);
+  json["coefficients_per_component"] = charted.jet.front().size();
+  json["nominal_final"] = charted.nominal_final;
+  json["symplecticity_by_degree"] = symplecticity_json(charted.symplecticity);
+  if (!description.flow_box) return json;
+  const ZonalGravity& field = description.flow_box->field;
+  Json J = Json::array();
+  for (int n = ZonalCoefficients::lowest; n <= ZonalCoefficients::highest; ++n) {
+    J.push_back(field.J[n]);
+  }
+  json["section"] = name_of(description.flow_box->section);
+  json["field"] = {{"radius_canonical", field.radius}, {"J", J}};
   return json;
 }
 
@@ -129,19 +168,18 @@ Json run_json(const PropagationResult& result, const RunResult& run) {
   for (const KindResult& kind : run.kinds)
     json["exactness"].push_back(exactness_json(result, kind));
   if (!result.scene.kinds || !result.problem.is_full_jet) json["exactness"] = nullptr;
-  json["symplecticity_by_degree"] = nullptr;
-  if (!run.symplecticity.empty()) {
-    json["symplecticity_by_degree"] = Json::array();
-    for (const SymplecticityDefect& entry : run.symplecticity) {
-      json["symplecticity_by_degree"].push_back(
-          {{"degree", entry.degree}, {"absolute", entry.absolute}, {"scaled", entry.scaled}});
-    }
-  }
+  json["symplecticity_by_degree"] = symplecticity_json(run.symplecticity);
   json["error_by_degree"] = by_degree_json(run.error_by_degree);
   json["error_estimate_by_degree"] = by_degree_json(run.error_estimate.by_degree);
+  if (has_time_shift(run.statistics.left_out)) {
+    json["time_shift_difference_by_degree"] = run.time_shift_difference.empty()
+                                                  ? Json(nullptr)
+                                                  : by_degree_json(run.time_shift_difference);
+  }
   json["position_error_m"] = or_null(run.position_error_m);
   json["operations"] = operations_json(result, run);
   if (!run.jets.empty()) json["jets"] = jets_json(result, run);
+  if (run.charted) json["polynomials"] = polynomials_json(result, run);
   if (run.arcs) json["arcs"] = arcs_json(result.scene, *run.arcs);
   return json;
 }

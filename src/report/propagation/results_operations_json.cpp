@@ -23,9 +23,9 @@ Json operations_json(const PropagationResult& result, const RunResult& run) {
   const OperationList& list = result.problem.system->evaluated_list();
   const int order = working_order(*result.problem.system, result.scene.order);
   const SpacePointer& whole = result.problem.space;
-  const bool has_less = run.statistics.left_out != FlowSymmetry::none;
+  const std::size_t less = variables_less(run.statistics.left_out);
   const SpacePointer integrated =
-      has_less ? SeriesSpace::create(whole->variables() - 1, whole->order()) : whole;
+      less > 0 ? SeriesSpace::create(whole->variables() - less, whole->order()) : whole;
   return {{"operations_per_evaluation", list.operations().size() - list.inputs()},
           {"nonlinear_operations_per_evaluation", list.nonlinear_operations()},
           {"multiply_adds_per_evaluation", series_multiply_adds(list, *integrated, order)},

@@ -32,10 +32,27 @@ std::string relative_error(const PropagationResult& result, const RunResult& run
   return error < claimed ? fmt::format("< {:.0e}", claimed) : size_text(error);
 }
 
-std::string largest_defect(const RunResult& run) {
+std::string largest_of(const std::vector<SymplecticityDefect>& defects) {
   double worst = 0;
-  for (const SymplecticityDefect& entry : run.symplecticity) worst = std::max(worst, entry.scaled);
-  return run.symplecticity.empty() ? "" : size_text(worst);
+  for (const SymplecticityDefect& entry : defects) worst = std::max(worst, entry.scaled);
+  return defects.empty() ? "" : size_text(worst);
+}
+
+std::string largest_defect(const RunResult& run) { return largest_of(run.symplecticity); }
+
+/// What came of the polynomials in the scene's coordinates, if it has others than Cartesian.
+std::string charted_line(const RunResult& run) {
+  if (!run.charted) return "";
+  const ChartedJet& charted = *run.charted;
+  const std::string coordinates = name_of(charted.coordinates);
+  if (!charted.failure.empty()) {
+    return fmt::format("NOT COMPUTED: {}: {} coordinates: {}\n", run.settings.label, coordinates,
+                       charted.failure);
+  }
+  return fmt::format(
+      "{}: polynomials in {} coordinates too, in {}, time {}; symplecticity in them {}\n",
+      run.settings.label, coordinates, counted(charted.jet.front().space().variables(), "variable"),
+      duration_text(charted.seconds), largest_of(charted.symplecticity));
 }
 
 /// In a word what came of a run; the lines below the table say more.
@@ -236,6 +253,7 @@ std::string summary_table(const PropagationResult& result) {
     for (const std::string& check : run.failed_checks) {
       text += fmt::format("CHECK FAILED: {}: {}\n", run.settings.label, check);
     }
+    text += charted_line(run);
     for (const KindResult& kind : run.kinds) {
       if (!kind.failure.empty()) {
         text += fmt::format("NOT COMPUTED: {}: {}\n", run.settings.label, kind.failure);

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include "../../formats/orbit_messages/encounter_message.hpp"
 #include "../../store/csv_values.hpp"
+#include "../../store/json_values.hpp"
+#include "../../text/html_text.hpp"
 #include "../../text/quantity_text.hpp"
 #include "../../text/time_axis.hpp"
 #include "../drawing/along_time_charts.hpp"
@@ -65,7 +68,12 @@ nlohmann::ordered_json collision_json(const CollisionResult& result) {
   if (p.largest_difference) json["largest_difference_m"] = *p.largest_difference;
   json["least_separation"] = {{"samples", result.separations.samples},
                               {"shares", result.separations.shares},
-                              {"separations_m", result.separations.separations}};
+                              {"separations_m", result.separations.separations},
+                              {"lower_m", result.separations.lower},
+                              {"upper_m", nlohmann::ordered_json::array()}};
+  for (const double upper : result.separations.upper) {
+    json["least_separation"]["upper_m"].push_back(json_number(upper));
+  }
   json["approaches"] = nlohmann::ordered_json::array();
   for (const UncertainApproach& approach : result.approaches) {
     json["approaches"].push_back(approach_json(approach, result.watch.radius_m));
@@ -174,13 +182,21 @@ UncertaintySection collision_section(const Scene& scene, const CollisionResult& 
       result.watch.radius_m, p.probability, result.watch.confidence * 100, p.lower, p.upper);
   section.table = collision_table_text(result);
   section.title = "Collision";
-  section.html = fmt::format("<pre>{}</pre>\n", section.table);
   if (p.probability > 0) section.charts.push_back(probability_chart(scene, result));
   std::string csv = "time_s,probability\n";
   for (std::size_t k = 0; k < p.times.size(); ++k) {
     csv += fmt::format("{},{}\n", csv_number(p.times[k]), csv_number(p.by_time[k]));
   }
   section.files.push_back({"collision.csv", csv});
+  const auto lack = encounter_message_lack(scene, result);
+  if (!lack) {
+    section.files.push_back({"encounter.cdm", cdm_text(encounter_message(scene, result))});
+    section.json["message"] = "encounter.cdm";
+  } else {
+    section.json["no_message"] = *lack;
+    section.table += fmt::format("  no conjunction data message: {}\n", *lack);
+  }
+  section.html = fmt::format("<pre>{}</pre>\n", escape_html(section.table));
   return section;
 }
 

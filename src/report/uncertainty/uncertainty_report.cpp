@@ -56,7 +56,9 @@ std::vector<std::vector<std::string>> gaussian_rows(const UncertaintyResult& res
                                                     const UncertaintyAt& at,
                                                     const UncertainState& state) {
   std::vector<std::vector<std::string>> rows = {{"order"}};
-  const auto families = moments_families(result, at, state);
+  auto families = moments_families(result, at, state);
+  // Those have a table of their own.
+  std::erase_if(families, [](const MomentsFamily& family) { return family.is_compared; });
   for (const MomentsFamily& family : families) {
     const std::string where = family.polynomials == family.told_in
                                   ? family.told_in
@@ -79,6 +81,23 @@ std::vector<std::vector<std::string>> gaussian_rows(const UncertaintyResult& res
   return rows;
 }
 
+/// How far from Gaussian a state is at the last time in the coordinates that are compared.
+std::vector<std::vector<std::string>> coordinates_rows(const UncertaintyResult& result,
+                                                       const UncertainState& state) {
+  std::vector<std::vector<std::string>> rows = {
+      {"coordinates", fmt::format("negentropy of order {}", result.scene.order),
+       "linear wrong by"}};
+  for (const GaussianityInCoordinates& one : gaussianity_in_coordinates(result, state)) {
+    if (one.refusal.empty()) {
+      rows.push_back({one.coordinates, fmt::format("{:.3g}", one.negentropy),
+                      fmt::format("{:.3g}", one.error_of_linear)});
+    } else {
+      rows.push_back({one.coordinates, "-", "-"});
+    }
+  }
+  return rows;
+}
+
 std::string terminal_table(const UncertaintyResult& result,
                            const std::vector<UncertaintySection>& sections) {
   const UncertaintyAt& at = result.points.back();
@@ -95,6 +114,9 @@ std::string terminal_table(const UncertaintyResult& result,
   text += fmt::format(
       "s: standard deviation; skewness and excess kurtosis are 0 of a Gaussian;\nlinear wrong by: "
       "the largest error of a probability by the linear covariance\n");
+  if (!result.in_coordinates.empty()) {
+    text += "\n" + aligned_table(coordinates_rows(result, state));
+  }
   for (const std::string& note : uncertainty_notes(result)) text += note + "\n";
   for (const UncertaintySection& section : sections) text += "\n" + section.table;
   return text;
@@ -145,7 +167,11 @@ std::string page(const UncertaintyResult& result, const ReportOrigin& origin,
         panels_html(charts, drawer), panels_html(histograms, drawer),
         table_html("Moments of each component", moments_rows(result, state)),
         table_html("How far it is from Gaussian, and the linear theory from it",
-                   gaussian_rows(result, last, state)));
+                   gaussian_rows(result, last, state)) +
+            (result.in_coordinates.empty()
+                 ? ""
+                 : table_html("In other coordinates, the nearest to Gaussian first",
+                              coordinates_rows(result, state))));
   }
   for (const UncertaintySection& section : sections) {
     std::vector<Chart> charts = section.charts;

@@ -105,7 +105,39 @@ std::vector<MomentsFamily> moments_families(const UncertaintyResult& result,
     for (const std::string& coordinate : at.charted_names) coordinates.push_back({coordinate, ""});
     families.push_back({name, name, &state.charted, &state.charted.front(), coordinates});
   }
+  if (&at != &result.points.back()) return families;
+  for (const MomentsInCoordinates& compared : result.in_coordinates) {
+    const std::string other(name_of(compared.coordinates));
+    for (std::size_t s = 0; s < compared.states.size(); ++s) {
+      // The scene's own are there already.
+      if (compared.states[s] != state.name || (other == name && !state.charted.empty())) continue;
+      std::vector<StateComponent> coordinates;
+      for (const std::string& component : compared.components) {
+        coordinates.push_back({component, ""});
+      }
+      const std::vector<Cumulants>& by_order = compared.by_order[s];
+      families.push_back({other, other, &by_order, &by_order.front(), coordinates, true});
+    }
+  }
   return families;
+}
+
+std::vector<GaussianityInCoordinates> gaussianity_in_coordinates(const UncertaintyResult& result,
+                                                                 const UncertainState& state) {
+  std::vector<GaussianityInCoordinates> all;
+  for (const MomentsInCoordinates& compared : result.in_coordinates) {
+    all.push_back({std::string(name_of(compared.coordinates)), 0, 0, compared.refusal});
+    for (std::size_t s = 0; s < compared.states.size(); ++s) {
+      if (compared.states[s] != state.name) continue;
+      all.back().negentropy = compared.by_order[s].back().negentropy();
+      all.back().error_of_linear = linear_error_of_probability(compared.by_order[s]);
+    }
+  }
+  std::stable_sort(all.begin(), all.end(), [](const auto& one, const auto& other) {
+    if (one.refusal.empty() != other.refusal.empty()) return one.refusal.empty();
+    return one.negentropy < other.negentropy;
+  });
+  return all;
 }
 
 std::string time_text(const UncertaintyResult& result, const UncertaintyAt& at) {
@@ -173,6 +205,18 @@ std::string uncertainty_verdict(const UncertaintyResult& result) {
       text += " In flow-box coordinates (jet.coordinates) a distribution stays Gaussian longer.";
     }
   }
+  const auto compared = gaussianity_in_coordinates(result, state);
+  // Those that the orbit has not come last.
+  const auto last = std::find_if(compared.rbegin(), compared.rend(),
+                                 [](const auto& one) { return one.refusal.empty(); });
+  constexpr double alike = 0.9;  // of two negentropies, which are leading terms alone
+  if (last != compared.rend() && order > 1 &&
+      compared.front().negentropy < alike * last->negentropy) {
+    text += fmt::format(
+        " Of the coordinates that are compared the distribution is nearest to Gaussian in {} ones "
+        "(negentropy {:.2g} nats).",
+        compared.front().coordinates, compared.front().negentropy);
+  }
   return text;
 }
 
@@ -212,6 +256,11 @@ std::vector<std::string> uncertainty_notes(const UncertaintyResult& result) {
             : fmt::format("Moments along {} by polynomials in {} coordinates were not computed at "
                           "some time: some states have no place in these.",
                           frame_name(settings.frame), name_of(result.coordinates)));
+  }
+  for (const MomentsInCoordinates& compared : result.in_coordinates) {
+    if (compared.refusal.empty()) continue;
+    notes.push_back(fmt::format("No moments in {} coordinates: {}.", name_of(compared.coordinates),
+                                compared.refusal));
   }
   if (settings.samples < 2) notes.push_back("No samples were flown (uncertainty.samples).");
   return notes;

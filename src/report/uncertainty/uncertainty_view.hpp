@@ -22,10 +22,22 @@ struct MomentsFamily {
   const std::vector<Cumulants>* by_order;
   const Cumulants* linear;  ///< the linear theory's Gaussian distribution, told alike
   std::vector<StateComponent> components;
+  bool is_compared = false;  ///< of `uncertainty.coordinates`, beside the scene's own
 };
-/// All that were computed, Cartesian ones first.
+/// All that were computed, Cartesian ones first; at the last time those that are compared, too.
 std::vector<MomentsFamily> moments_families(const UncertaintyResult& result,
                                             const UncertaintyAt& at, const UncertainState& state);
+
+/// How far from Gaussian a state at the last time is, each in its own coordinates, by name and the
+/// nearest first; with whatever the orbit has not, and why.
+struct GaussianityInCoordinates {
+  std::string coordinates;
+  double negentropy = 0;       ///< of the highest order
+  double error_of_linear = 0;  ///< of a probability, at most
+  std::string refusal;         ///< not empty: why there are none
+};
+std::vector<GaussianityInCoordinates> gaussianity_in_coordinates(const UncertaintyResult& result,
+                                                                 const UncertainState& state);
 
 /// The time of a point, for people.
 std::string time_text(const UncertaintyResult& result, const UncertaintyAt& at);

@@ -155,6 +155,7 @@ const TableDescription& relative_hamiltonian_table();
 const TableDescription& system_table();
 const TableDescription& transfer_table();
 const TableDescription& collision_table();
+const TableDescription& safety_table();
 const TableDescription& uncertainty_table();
 const TableDescription& units_table();
 const TableDescription& validity_table();

@@ -61,10 +61,25 @@ class BoundedStudy {
         result_.deputies.push_back(deputy_of(rule, size_m));
       }
     }
+    if (settings_.box.half_widths_m) {
+      result_.box = keep_in_box(scene_, state_in_box(), family_.nodal_period(), progress_);
+    }
     return std::move(result_);
   }
 
  private:
+  /// The state of the deputy that the box is about: the map's of the first size, or what was
+  /// refined of it; empty where the box is about a place.
+  std::vector<double> state_in_box() const {
+    if (settings_.box.reference == BoxReference::rest) return {};
+    const BoundedDeputy& deputy = result_.deputies[settings_.refine ? 1 : 0];
+    if (!deputy.failure.empty()) {
+      throw Error(ErrorKind::numerical,
+                  "bounded.box: its reference is not there: " + deputy.failure);
+    }
+    return deputy.state;
+  }
+
   /// The difference of the pericentres' pairs of a deputy, and the turn of its node.
   struct Offset {
     double q;

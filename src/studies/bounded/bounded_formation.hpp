@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "box_control.hpp"
 #include "hamjet/detail/studies/progress.hpp"
 #include "hamjet/relative_motion/deputy_coordinates.hpp"
 #include "hamjet/studies/scene.hpp"
@@ -66,6 +67,7 @@ struct BoundedFormation {
   double mean_node = 0;                 ///< radians a revolution
   int revolutions = 0;                  ///< of the window
   std::vector<BoundedDeputy> deputies;  ///< by size, then rule
+  std::optional<BoxControl> box;        ///< where the scene has a table [bounded.box]
   double seconds = 0;                   ///< of all
   double flight_seconds = 0;
 };

@@ -18,6 +18,7 @@ namespace {
 constexpr double search_tolerance = 1e-14;
 constexpr double refining_tolerance = 1e-22;
 constexpr int flown_returns = 100;
+constexpr int points_of_curve = 96;
 
 /// Nearer to the critical inclination than this value of |5 cos^2 i - 1|, frozen orbits of any
 /// eccentricity may be near; elsewhere the nearly circular one is the only one.
@@ -39,10 +40,16 @@ SixNumbers<To> converted(const SixNumbers<From>& z) {
   return result;
 }
 
-/// How far, relative to the radius, an orbit of a circle is from its place after the returns.
-std::optional<double> flown_miss(const ZonalGravity& field, const FlowSection<double>& section,
-                                 const RotationNormalForm& form,
-                                 const RotationNormalForm::Circle& circle) {
+/// Where an orbit of a circle is after the returns, (q, p) less the frozen orbit's, and how far
+/// that is from its place in the normal form, relative to the radius.
+struct FlownCircle {
+  std::array<double, 2> end;
+  double miss;
+};
+std::optional<FlownCircle> flown_circle(const ZonalGravity& field,
+                                        const FlowSection<double>& section,
+                                        const RotationNormalForm& form,
+                                        const RotationNormalForm::Circle& circle) {
   try {
     SixNumbers<double> z = section.chief();
     const auto from = form.pair(circle, 0);
@@ -53,9 +60,9 @@ std::optional<double> flown_miss(const ZonalGravity& field, const FlowSection<do
         field, state, flown_returns * form.mean_period(circle), 0, search_tolerance);
     const auto wanted = form.pair(circle, form.angle_after(circle, 0, flown_returns));
     const SixNumbers<double>& end = back.map.end->chief();
-    return std::hypot(end[q_place] - section.chief()[q_place] - wanted[0],
-                      end[p_place] - section.chief()[p_place] - wanted[1]) /
-           circle.radius;
+    const std::array<double, 2> pair = {end[q_place] - section.chief()[q_place],
+                                        end[p_place] - section.chief()[p_place]};
+    return FlownCircle{pair, std::hypot(pair[0] - wanted[0], pair[1] - wanted[1]) / circle.radius};
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::numerical) throw;
     return std::nullopt;
@@ -73,10 +80,25 @@ void add_normal_form(const ZonalGravity& field, const SixNumbers<double>& chief,
   const double unit = std::sqrt(section.chief()[3]);
   const double length_km = study.semi_major_axis * study.scene.units.length_km;
   const auto add = [&](const RotationNormalForm::Circle& circle, bool is_chiefs) {
-    study.circles.push_back({is_chiefs, circle.radius / unit, form.rotation_number(circle),
-                             form.mean_period(circle), form.mean_node(circle), form.action(circle),
-                             circle.radius > 0 ? flown_miss(field, section, form, circle)
-                                               : std::optional<double>(study.residual)});
+    LibrationCircle told{is_chiefs,
+                         circle.radius / unit,
+                         form.rotation_number(circle),
+                         form.mean_period(circle),
+                         form.mean_node(circle),
+                         form.action(circle),
+                         study.residual,
+                         {},
+                         {}};
+    if (circle.radius > 0) {
+      const std::optional<FlownCircle> flown = flown_circle(field, section, form, circle);
+      told.miss = flown ? std::optional(flown->miss) : std::nullopt;
+      if (flown) told.flown_to = {flown->end[0] / unit, flown->end[1] / unit};
+      for (int k = 0; k <= points_of_curve; ++k) {
+        const auto pair = form.pair(circle, 2 * std::numbers::pi * k / points_of_curve);
+        told.curve.push_back({pair[0] / unit, pair[1] / unit});
+      }
+    }
+    study.circles.push_back(std::move(told));
   };
   constexpr std::array<double, 4> amplitudes_km = {1, 10, 100, 1000};
   for (const double amplitude_km : amplitudes_km) {
@@ -97,20 +119,33 @@ void add_normal_form(const ZonalGravity& field, const SixNumbers<double>& chief,
   constexpr int most_trials = 14;
   for (int i = 0; i < most_trials && (bad == 0 || bad > 1.1 * good); ++i) {
     if (progress) progress("reach", static_cast<double>(i) / most_trials);
-    const auto miss = flown_miss(field, section, form, {at * unit, 0, 0});
-    (miss && *miss <= FrozenOrbitStudy::largest_miss ? good : bad) = at;
+    const RotationNormalForm::Circle circle{at * unit, 0, 0};
+    const std::optional<FlownCircle> flown = flown_circle(field, section, form, circle);
+    study.flown_amplitudes.push_back(
+        {at, form.rotation_number(circle), flown ? std::optional(flown->miss) : std::nullopt});
+    (flown && flown->miss <= FrozenOrbitStudy::largest_miss ? good : bad) = at;
     if (good >= largest) break;
     at = bad == 0    ? std::min(largest, at * factor)
          : good == 0 ? at / factor
                      : std::sqrt(good * bad);
   }
   study.reach = good;
+  std::sort(study.flown_amplitudes.begin(), study.flown_amplitudes.end(),
+            [](const auto& a, const auto& b) { return a.amplitude < b.amplitude; });
 }
 
 }  // namespace
 
 double FrozenOrbitStudy::length_m(double of_eccentricity) const {
   return of_eccentricity * semi_major_axis * scene.units.length_km * 1000;
+}
+
+std::array<double, 2> FrozenOrbitStudy::multiplier() const {
+  const double half = trace / 2;
+  // (t/2)^2 - 1 = (t - 2)(t + 2)/4 without the loss of digits.
+  const double discriminant = trace_less_2 * (trace + 2) / 4;
+  if (discriminant < 0) return {half, std::sqrt(-discriminant)};
+  return {half + std::copysign(std::sqrt(discriminant), half), 0};
 }
 
 FrozenOrbitStudy study_frozen_orbit(const Scene& scene, const ProgressCallback& progress) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +21,18 @@ struct LibrationCircle {
   /// How far an orbit of the circle is from where the normal form has it after the flown
   /// revolutions, in (q, p) relative to the radius; none where it could not be flown.
   std::optional<double> miss;
+  /// The circle in (q, p) less the frozen orbit's, over sqrt(L): for small eccentricities that of
+  /// the eccentricity vector.
+  std::vector<std::array<double, 2>> curve;
+  /// Where the flown orbit is after these revolutions; none where there is no miss.
+  std::optional<std::array<double, 2>> flown_to;
+};
+
+/// An amplitude that was flown to find how far the normal form reaches.
+struct FlownAmplitude {
+  double amplitude = 0;
+  double rotation_number = 0;
+  std::optional<double> miss;  ///< none where it could not be flown
 };
 
 /// The frozen orbit of a scene's chief, of its energy and momentum H about the axis, and what
@@ -48,10 +61,13 @@ struct FrozenOrbitStudy {
   std::vector<LibrationCircle> circles;  ///< by amplitude, the chief's last
   /// The largest amplitude at which an orbit is flown to within largest_miss of the normal form.
   double reach = 0;
+  std::vector<FlownAmplitude> flown_amplitudes;  ///< ascending
 
   static constexpr double largest_miss = 1e-3;
   /// The amplitude of an eccentricity as a length, metres: a times it.
   double length_m(double of_eccentricity) const;
+  /// One of the two multipliers, its real and imaginary parts; the other one is its inverse.
+  std::array<double, 2> multiplier() const;
   bool is_stable() const { return trace_less_2 < 0 && trace > -2; }
   bool is_inside_body() const { return pericentre_depth > 0; }
 };

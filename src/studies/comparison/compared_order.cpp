@@ -7,7 +7,7 @@
 #include "../../dynamics/operation_count.hpp"
 #include "../along_time_recorder.hpp"
 #include "../integration.hpp"
-#include "../nominal_recorder.hpp"
+#include "../nominal/nominal_recorder.hpp"
 #include "../reference.hpp"
 #include "hamjet/error.hpp"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "../descriptions/method_description.hpp"
-#include "../nominal_period.hpp"
+#include "../nominal/nominal_period.hpp"
 #include "hamjet/studies/comparison.hpp"
 
 namespace hamjet {

@@ -7,7 +7,7 @@
 
 #include "../../text/quantity_text.hpp"
 #include "../descriptions/method_description.hpp"
-#include "../nominal_period.hpp"
+#include "../nominal/nominal_period.hpp"
 #include "hamjet/studies/comparison.hpp"
 
 namespace hamjet {

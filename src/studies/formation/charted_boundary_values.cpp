@@ -42,42 +42,63 @@ Eigen::Matrix3d commanded_positions(DeputyPredictor& predictor, const SixNumbers
   return result;
 }
 
-BoundaryMomenta solve_positions(const DeputyFlow& flow, std::span<const double> first,
-                                std::span<const double> last, int degree,
-                                std::span<const double> guess) {
-  constexpr int most_iterations = 30;
+BoundaryMomenta ChartedBoundaryValues::solve(std::span<const double> first,
+                                             std::span<const double> last, int degree,
+                                             std::span<const double> guess) {
+  constexpr int most_iterations = 60;
   constexpr double least_part = 1e-3;  // of a step of Newton's method
+  constexpr double least_gain = 0.25;  // of the miss, that is left by a matrix that is kept
   const Eigen::Vector3d wanted(last[0], last[1], last[2]);
-  const SixNumbers<double>& chief = flow.chief_end();
-  DeputyPredictor predictor(flow);
-  double rounding = 0;
+  const SixNumbers<double>& chief = predictor_.flow().chief_end();
+  const double chief_distance = distance_of(chief);
+  const double chief_momentum = momentum_part(chief).norm();
   SixNumbers<double> start = {first[0], first[1], first[2], guess[0], guess[1], guess[2]};
-  SixNumbers<double> end = predictor.predict(start, degree).deviation;
+  const auto predict = [&](const SixNumbers<double>& from) {
+    ++predictions_;
+    return predictor_.predict(from, degree).deviation;
+  };
+  SixNumbers<double> end = predict(start);
   Eigen::Vector3d miss = final_position(end) - wanted;
+  double rounding = 0;
+  bool is_fresh = false;  // whether the matrix is that of this start
   for (int i = 0; i < most_iterations && std::isfinite(miss.norm()); ++i) {
-    const Eigen::Matrix3d commanded = commanded_positions(predictor, start, degree);
+    if (!commanded_ || !commanded_->allFinite()) {
+      commanded_ = commanded_positions(predictor_, start, degree);
+      ++predictions_;
+      is_fresh = true;
+    }
     // A start that is rounded moves the end by as much times the growth on the way.
     rounding = 64 * std::numeric_limits<double>::epsilon() *
-               (distance_of(chief) + commanded.norm() * momentum_part(chief).norm());
+               (chief_distance + commanded_->norm() * chief_momentum);
     if (miss.norm() <= rounding) break;
-    const Eigen::Vector3d step = commanded.partialPivLu().solve(miss);
+    const Eigen::Vector3d step = commanded_->partialPivLu().solve(miss);
     double part = 1;
     bool is_nearer = false;
-    for (; part >= least_part && !is_nearer; part /= 2) {
+    bool is_slow = false;
+    for (; part >= least_part && !is_nearer && !is_slow; part /= 2) {
       SixNumbers<double> next = start;
       for (std::size_t k = 0; k < 3; ++k) next[3 + k] -= part * step[static_cast<Eigen::Index>(k)];
-      const SixNumbers<double> reached = predictor.predict(next, degree).deviation;
+      const SixNumbers<double> reached = predict(next);
       const Eigen::Vector3d left = final_position(reached) - wanted;
       is_nearer = left.norm() < miss.norm();
+      is_slow = !is_fresh && !(left.norm() <= least_gain * miss.norm()) && left.norm() > rounding;
       if (!is_nearer) continue;
+      const Eigen::Vector3d moved = -part * step;
+      *commanded_ += (left - miss - *commanded_ * moved) * moved.transpose() / moved.squaredNorm();
       start = next;
       end = reached;
       miss = left;
     }
-    // Where no step comes nearer, there is no solution, or rounding is all that is left.
-    if (!is_nearer) break;
+    if (is_slow || (!is_nearer && !is_fresh)) {
+      commanded_.reset();
+    } else if (!is_nearer) {
+      // Where no step comes nearer, there is no solution, or rounding is all that is left.
+      break;
+    }
+    is_fresh = false;
   }
   if (!(miss.norm() <= rounding)) {
+    commanded_.reset();
     throw Error(ErrorKind::numerical,
                 fmt::format("the polynomials of order {} lead to no such place from here", degree));
   }

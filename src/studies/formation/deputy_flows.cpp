@@ -18,18 +18,6 @@ namespace {
 /// An orbit's gravitational parameter in its canonical units.
 constexpr double canonical_mu = 1;
 
-GaussSettings gauss_settings_of(const IntegratorSettings& settings) {
-  const auto splittable = description_of(settings.method).splittable(settings);
-  const GaussSettings* gauss = splittable ? std::get_if<GaussSettings>(&*splittable) : nullptr;
-  if (gauss == nullptr) {
-    throw Error(ErrorKind::scene,
-                fmt::format("jet.coordinates: flow-box is integrated by Gauss methods, got the "
-                            "integrator {}, must be gauss, or other coordinates",
-                            settings.label));
-  }
-  return *gauss;
-}
-
 /// Does what needs coordinates at a time; an orbit that has not such is told with their name.
 template <class Work>
 auto in_coordinates(JetCoordinates coordinates, const std::string& when, const Work& work) {
@@ -43,6 +31,18 @@ auto in_coordinates(JetCoordinates coordinates, const std::string& when, const W
 }
 
 }  // namespace
+
+GaussSettings gauss_settings_of(const IntegratorSettings& settings) {
+  const auto splittable = description_of(settings.method).splittable(settings);
+  const GaussSettings* gauss = splittable ? std::get_if<GaussSettings>(&*splittable) : nullptr;
+  if (gauss == nullptr) {
+    throw Error(ErrorKind::scene,
+                fmt::format("jet.coordinates: flow-box is integrated by Gauss methods, got the "
+                            "integrator {}, must be gauss, or other coordinates",
+                            settings.label));
+  }
+  return *gauss;
+}
 
 ZonalGravity orbit_field(const Scene& scene) {
   return {canonical_mu, scene.canonical_radius, scene.system.J};

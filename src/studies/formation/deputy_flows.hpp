@@ -16,6 +16,10 @@ namespace hamjet {
 /// The gravity field of a scene about an orbit, canonical.
 ZonalGravity orbit_field(const Scene& scene);
 
+/// The Gauss method of an integrator, which flow boxes are integrated by. Throws Error(scene) for
+/// other methods.
+GaussSettings gauss_settings_of(const IntegratorSettings& settings);
+
 /// The six numbers of an orbit's state.
 SixNumbers<double> six_numbers(std::span<const double> state);
 

@@ -67,9 +67,9 @@ BoundaryMomenta SingleTransfer::solve(PositionBoundaryValues& boundary, int orde
   return boundary.solve(std::span(start_).first(3), std::span(end_).first(3), order);
 }
 
-BoundaryMomenta SingleTransfer::solve(const DeputyFlow& flow, int degree,
+BoundaryMomenta SingleTransfer::solve(ChartedBoundaryValues& boundary, int degree,
                                       std::span<const double> guess) const {
-  return solve_positions(flow, std::span(start_).first(3), std::span(end_).first(3), degree, guess);
+  return boundary.solve(std::span(start_).first(3), std::span(end_).first(3), degree, guess);
 }
 
 std::vector<double> SingleTransfer::variables(const GeneratingFunctionKind& kind,

@@ -38,8 +38,9 @@ class SingleTransfer {
   /// The momenta of one order. Throws as PositionBoundaryValues::solve.
   BoundaryMomenta solve(PositionBoundaryValues& boundary, int order) const;
   /// The momenta of one degree of a flow in other coordinates, from a guess of the first. Throws as
-  /// solve_positions.
-  BoundaryMomenta solve(const DeputyFlow& flow, int degree, std::span<const double> guess) const;
+  /// ChartedBoundaryValues::solve.
+  BoundaryMomenta solve(ChartedBoundaryValues& boundary, int degree,
+                        std::span<const double> guess) const;
   /// The variables of a kind's generating function with these momenta.
   std::vector<double> variables(const GeneratingFunctionKind& kind,
                                 const BoundaryMomenta& momenta) const;

@@ -209,13 +209,17 @@ TransferPoint TransferPoints::answer(const ChosenKind& chosen, const FlowJet<dou
   {
     const Stopwatch watch(seconds_.solution);
     std::optional<PositionBoundaryValues> boundary;
-    if (flow == nullptr) boundary.emplace(*chosen.inversion);
+    std::optional<ChartedBoundaryValues> charted;
+    if (flow == nullptr) {
+      boundary.emplace(*chosen.inversion);
+    } else {
+      charted.emplace(*flow);
+    }
     std::vector<double> guess = transfer.momentum_before();
     for (int order = 1; order <= scene_.order; ++order) {
       point.answers.push_back(attempt(order, [&] {
         BoundaryMomenta& found = momenta[static_cast<std::size_t>(order - 1)];
-        found = flow != nullptr ? transfer.solve(*flow, order, guess)
-                                : transfer.solve(*boundary, order);
+        found = charted ? transfer.solve(*charted, order, guess) : transfer.solve(*boundary, order);
         if (flow != nullptr) guess = found.initial;
         return transfer.answer(found, order);
       }));

@@ -9,9 +9,9 @@
 
 #include "../comparison/convergence_fit.hpp"
 #include "../energy_error.hpp"
-#include "../followed_nominal.hpp"
 #include "../integration.hpp"
 #include "../largest_coefficient.hpp"
+#include "../nominal/followed_nominal.hpp"
 #include "hamjet/error.hpp"
 
 namespace hamjet {

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "../stopwatch.hpp"
+#include "flow_box_cases.hpp"
 #include "growth_curves.hpp"
 #include "hamjet/studies/propagation.hpp"
 #include "stability_errors.hpp"
@@ -73,6 +74,12 @@ std::string first_excess(const StabilityResult& result) {
 Finding investigate(const StabilityCase& subject, const ProgressCallback& progress,
                     StabilityResult& result) {
   if (const Error* error = std::get_if<Error>(&subject.scene)) return refusal(*error);
+  if (const FlowBoxCase* box = std::get_if<FlowBoxCase>(&subject.scene)) {
+    result.error = flow_box_error(*box);
+    result.measured = {*result.error};
+    const std::string excess = first_excess(result);
+    return {excess.empty() ? CaseOutcome::right : CaseOutcome::wrong, 0, excess};
+  }
   const Scene& scene = std::get<Scene>(subject.scene);
   if (scene.integrators.size() != 1) {
     return {CaseOutcome::wrong, 0, "a case has one [[integrator]]"};

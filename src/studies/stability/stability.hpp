@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "hamjet/algebra/extended.hpp"
+#include "hamjet/charts/canonical_chart.hpp"
 #include "hamjet/detail/studies/progress.hpp"
+#include "hamjet/dynamics/zonal_gravity.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/studies/scene.hpp"
 
@@ -68,14 +70,21 @@ struct StabilityExpectation {
   std::string mark;     ///< marked: the self-check that must fail
 };
 
-/// A scene with what is right for it.
+/// A chief of a flow box, whose deputies are predicted and flown: see flow_box_error.
+struct FlowBoxCase {
+  ZonalGravity field;
+  SixNumbers<double> start;
+  double time = 0;
+};
+
+/// A scene, or a flow box's chief, with what is right for it.
 struct StabilityCase {
   std::string name;   ///< stem of its file
   std::string title;  ///< of the scene
   std::string group;
   std::string why;  ///< what is hard about it
   StabilityExpectation expected;
-  std::variant<Scene, Error> scene;  ///< or the error that refused it on reading
+  std::variant<Scene, Error, FlowBoxCase> scene;  ///< or the error that refused it on reading
 };
 
 /// How far a result may be from the largest of a sample of 32 in which everything is rounded once.

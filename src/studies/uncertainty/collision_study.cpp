@@ -7,9 +7,11 @@
 #include <cmath>
 
 #include "../../integrators/taylor_flow.hpp"
+#include "../../uncertainty/encounter_trajectories.hpp"
 #include "../../uncertainty/entry_sampler.hpp"
 #include "../formation/formation_problem.hpp"
 #include "../formation/single_transfer.hpp"
+#include "hamjet/algebra/composition.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/maps/map_evaluator.hpp"
 #include "initial_states.hpp"
@@ -22,8 +24,6 @@ constexpr std::size_t flown_deviations = 64;
 /// The least separation is told for these shares of the samples, of which the smallest has ten.
 constexpr std::array<double, 4> separation_shares = {0.001, 0.01, 0.05, 0.5};
 constexpr long separation_samples = 10000;
-/// The jets of both spacecraft, whatever integrates the scene's own.
-constexpr double jet_tolerance = 1e-12;
 
 EncounterProblem encounter_problem(const Scene& scene, const CollisionWatch& watch,
                                    const MetricUnits& units) {
@@ -33,17 +33,12 @@ EncounterProblem encounter_problem(const Scene& scene, const CollisionWatch& wat
   problem.to = watch.to;
   problem.radius = watch.radius_m / units.length_m;
   problem.order = scene.order;
-  problem.settings.tolerance = jet_tolerance;
+  problem.settings.tolerance = encounter_jet_tolerance;
   bool is_uncertain = false;
   for (const InitialState& start : initial_states(scene)) {
     UncertainSpacecraft& craft = problem.spacecraft[start.name == "deputy" ? 1 : 0];
-    craft.state = scene.nominal;
-    for (std::size_t i = 0; i < 6; ++i) {
-      craft.state[i] += start.mean[static_cast<Eigen::Index>(i)];
-    }
-    const Matrix<double>& factor = start.covariance.factor();
-    craft.factor.leftCols(factor.cols()) = factor;
-    is_uncertain = is_uncertain || factor.norm() > 0;
+    craft = uncertain_spacecraft(scene, start);
+    is_uncertain = is_uncertain || craft.factor.norm() > 0;
   }
   if (problem.spacecraft[0].state.empty()) problem.spacecraft[0].state = scene.nominal;
   if (!is_uncertain) {
@@ -157,6 +152,20 @@ void fly(const EncounterProblem& problem, const ClosestApproach& approach, std::
   result.flights = static_cast<int>(flown_deviations);
 }
 
+std::array<ApproachingSpacecraft, 2> both_at(const EncounterProblem& problem,
+                                             const EncounterTrajectories& linear, double time,
+                                             const MetricUnits& units) {
+  std::array<ApproachingSpacecraft, 2> result;
+  for (std::size_t craft = 0; craft < 2; ++craft) {
+    const FlowJet<double> jet = linear.jet(craft, time);
+    for (const Series<double>& component : jet) result[craft].state.push_back(component[0]);
+    const ChiefFrame own(result[craft].state, units, RelativeFrame::rtn_inertial);
+    result[craft].covariance = Covariance::of_factor(
+        relative_states_of_deviations(own) * linear_part(jet) * problem.spacecraft[craft].factor);
+  }
+  return result;
+}
+
 UncertainApproach uncertain_approach(const EncounterProblem& problem,
                                      const ClosestApproach& approach, std::uint64_t seed,
                                      const MetricUnits& units) {
@@ -167,6 +176,7 @@ UncertainApproach uncertain_approach(const EncounterProblem& problem,
                      std::pow(approach.state[first + 2][0], 2));
   };
   const double distance = norm_of(0);
+  result.time = approach.time;
   result.time_s = approach.time * units.time_s;
   result.distance_m = distance * units.length_m;
   result.speed_m_s = norm_of(3) * units.velocity_m_s();
@@ -194,6 +204,13 @@ UncertainApproach uncertain_approach(const EncounterProblem& problem,
 }
 
 }  // namespace
+
+const UncertainApproach* nearest_approach(const CollisionResult& result) {
+  const auto nearest = std::min_element(
+      result.approaches.begin(), result.approaches.end(),
+      [](const auto& one, const auto& other) { return one.distance_m < other.distance_m; });
+  return nearest == result.approaches.end() ? nullptr : &*nearest;
+}
 
 CollisionResult study_collision(const Scene& scene, std::size_t threads,
                                 const ProgressCallback& progress) {
@@ -230,16 +247,26 @@ CollisionResult study_collision(const Scene& scene, std::size_t threads,
   }
   result.separations =
       least_separations(problem, settings, {separation_shares.begin(), separation_shares.end()});
-  for (double& separation : result.separations.separations) separation *= units.length_m;
+  for (auto* lengths :
+       {&result.separations.separations, &result.separations.lower, &result.separations.upper}) {
+    for (double& length : *lengths) length *= units.length_m;
+  }
   // Series in twelve variables grow fast, and the third order is beyond what a deviation of the
   // time needs.
   constexpr int highest_order = 3;
   EncounterProblem lower = problem;
   lower.order = std::min(problem.order, highest_order);
+  std::optional<EncounterTrajectories> linear;
   for (const ClosestApproach& approach : closest_approaches(lower)) {
     if (progress) progress("closest approaches", 0);
     result.approaches.push_back(
         uncertain_approach(lower, approach, scene.uncertainty->seed, units));
+    if (!linear) {
+      EncounterProblem first_order = problem;
+      first_order.order = 1;
+      linear.emplace(first_order);
+    }
+    result.approaches.back().spacecraft = both_at(lower, *linear, approach.time, units);
   }
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   return result;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,11 +9,21 @@
 #include "hamjet/studies/scene.hpp"
 #include "hamjet/uncertainty/closest_approach.hpp"
 #include "hamjet/uncertainty/collision_probability.hpp"
+#include "hamjet/uncertainty/least_separations.hpp"
 
 namespace hamjet {
 
+/// One of both at a closest approach.
+struct ApproachingSpacecraft {
+  std::vector<double> state;  ///< the mean's, canonical
+  /// Of the state at that time to first order in the deviations, along the spacecraft's own R, T,
+  /// N with inertial velocities: metres and metres a second.
+  Covariance covariance;
+};
+
 /// A minimum of the distance between the means of chief and deputy.
 struct UncertainApproach {
+  double time = 0;  ///< canonical
   double time_s = 0;
   double distance_m = 0;  ///< of the means
   double speed_m_s = 0;
@@ -28,8 +39,9 @@ struct UncertainApproach {
   bool holds(double radius_m) const {
     return flights > 0 && position_error_m < 0.1 * (distance_m > radius_m ? distance_m : radius_m);
   }
-  std::optional<ShortEncounter> plane;  ///< lengths in metres, times in seconds
-  std::string refusal;                  ///< why there is no plane
+  std::optional<ShortEncounter> plane;              ///< lengths in metres, times in seconds
+  std::string refusal;                              ///< why there is no plane
+  std::array<ApproachingSpacecraft, 2> spacecraft;  ///< the chief and the deputy
 };
 
 /// The probability that chief and deputy come near each other, from their states at the start.
@@ -43,6 +55,9 @@ struct CollisionResult {
   int order = 0;
   double seconds = 0;
 };
+
+/// The approach at which the means are nearest; null where they have none in the window.
+const UncertainApproach* nearest_approach(const CollisionResult& result);
 
 /// The study of table `[uncertainty.collision]`. Throws as collision_probability and
 /// closest_approaches, and Error(scene) where both states are known exactly.

@@ -1,6 +1,7 @@
 #include "initial_states.hpp"
 
 #include "../formation/single_transfer.hpp"
+#include "hamjet/uncertainty/polynomial_moments.hpp"
 
 namespace hamjet {
 namespace {
@@ -19,7 +20,35 @@ Covariance canonical_covariance(const Covariance& covariance, RelativeFrame fram
 
 }  // namespace
 
-std::vector<InitialState> initial_states(const Scene& scene) {
+InitialState initial_deputy(const Scene& scene, const RelativeState& start) {
+  const UncertaintySettings& settings = *scene.uncertainty;
+  const MetricUnits units = metric_units(scene);
+  InitialState result{
+      "deputy",
+      as_vector(ChiefFrame(scene.nominal, units, scene.deputy->frame).deviation(start)),
+      {}};
+  if (settings.deputy) {
+    result.covariance = canonical_covariance(settings.deputy->covariance, settings.deputy->frame,
+                                             as_vector(scene.nominal) + result.mean, units);
+  }
+  return result;
+}
+
+UncertainSpacecraft uncertain_spacecraft(const Scene& scene, const InitialState& start) {
+  UncertainSpacecraft craft;
+  craft.state = scene.nominal;
+  for (std::size_t i = 0; i < 6; ++i) {
+    craft.state[i] += start.mean[static_cast<Eigen::Index>(i)];
+  }
+  // Of a sum of covariances the factor has more columns than its numbers have directions.
+  const Matrix<double> factor = start.covariance.rank() <= 6
+                                    ? start.covariance.factor()
+                                    : Cumulants(Vector<double>::Zero(6), start.covariance).axes();
+  craft.factor.leftCols(factor.cols()) = factor;
+  return craft;
+}
+
+std::vector<InitialState> initial_states(const Scene& scene, double burn_share) {
   const UncertaintySettings& settings = *scene.uncertainty;
   const MetricUnits units = metric_units(scene);
   const Vector<double> chief = as_vector(scene.nominal);
@@ -29,19 +58,17 @@ std::vector<InitialState> initial_states(const Scene& scene) {
     result.back().covariance =
         canonical_covariance(settings.chief->covariance, settings.chief->frame, chief, units);
   }
-  if (scene.deputy) {
-    const std::vector<double> deviation =
-        ChiefFrame(scene.nominal, units, scene.deputy->frame).deviation(scene.deputy->start);
-    result.push_back({"deputy", as_vector(deviation), {}});
-    if (settings.deputy) {
-      result.back().covariance = canonical_covariance(
-          settings.deputy->covariance, settings.deputy->frame, chief + result.back().mean, units);
-    }
-  }
+  if (scene.deputy) result.push_back(initial_deputy(scene, scene.deputy->start));
   if (settings.burn) {
     InitialState& burning = result.back();
-    burning.covariance = burning.covariance.plus(canonical_covariance(
-        settings.burn->covariance(), settings.burn->frame, chief + burning.mean, units));
+    const Vector<double> state = chief + burning.mean;
+    const Matrix<double> factor = burn_share * settings.burn->covariance().factor();
+    burning.covariance = burning.covariance.plus(
+        canonical_covariance(Covariance::of_factor(factor), settings.burn->frame, state, units));
+    Vector<double> change = Vector<double>::Zero(6);
+    change.tail(3) = (1 - burn_share) * settings.burn->velocity_change_m_s;
+    const ChiefFrame own(std::span(state.data(), 6), units, settings.burn->frame);
+    burning.mean -= deviations_of_relative_states(own) * change;
   }
   return result;
 }

@@ -5,6 +5,7 @@
 
 #include "hamjet/studies/scene.hpp"
 #include "hamjet/uncertainty/covariance.hpp"
+#include "hamjet/uncertainty/encounter.hpp"
 
 namespace hamjet {
 
@@ -16,7 +17,18 @@ struct InitialState {
 };
 
 /// Those of the chief and of the deputy, as far as the scene has them, with the burn's errors in
-/// the one that it belongs to.
-std::vector<InitialState> initial_states(const Scene& scene);
+/// the one that it belongs to. Of a burn that ended early a share is done: the rest of its velocity
+/// change is missing, and its errors are as much smaller.
+std::vector<InitialState> initial_states(const Scene& scene, double burn_share = 1);
+
+/// A spacecraft relative to the chief in the frame of the scene's deputy, and known as well as
+/// that, without a burn.
+InitialState initial_deputy(const Scene& scene, const RelativeState& start);
+
+/// The jets of both spacecraft of an encounter, whatever integrates the scene's own.
+inline constexpr double encounter_jet_tolerance = 1e-12;
+
+/// One side of an encounter.
+UncertainSpacecraft uncertain_spacecraft(const Scene& scene, const InitialState& start);
 
 }  // namespace hamjet

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -13,13 +12,14 @@
 #include "../formation/deputy_flows.hpp"
 #include "../formation/formation_problem.hpp"
 #include "../formation/single_transfer.hpp"
-#include "../nominal_period.hpp"
+#include "../nominal/nominal_period.hpp"
 #include "../stopwatch.hpp"
 #include "hamjet/algebra/calculus.hpp"
 #include "hamjet/algebra/composition.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/studies/validity.hpp"
 #include "initial_states.hpp"
+#include "moments_in_coordinates.hpp"
 #include "process_noise.hpp"
 #include "quadrature.hpp"
 #include "standard_normals.hpp"
@@ -127,27 +127,6 @@ double difference_of(const Cumulants& one, const Cumulants& other) {
   return result;
 }
 
-std::vector<Cumulants> by_orders(const std::vector<Series<double>>& map, const InitialState& start,
-                                 int order) {
-  const bool is_moved = (start.mean.array() != 0).any();
-  std::vector<Cumulants> result;
-  std::vector<Series<double>> whole;
-  if (!is_moved) whole = in_standard_normals(map, start.covariance);
-  for (int n = 1; n <= order; ++n) {
-    if (is_moved) {
-      // A lower order leaves terms out before the mean is put in.
-      const SpacePointer space = SeriesSpace::create(map[0].space().variables(), n);
-      std::vector<Series<double>> lower;
-      for (const Series<double>& component : map) lower.push_back(in_space(component, space));
-      result.push_back(
-          Cumulants::of_polynomials(in_standard_normals(lower, start.covariance, start.mean)));
-    } else {
-      result.push_back(Cumulants::of_polynomials(whole, n));
-    }
-  }
-  return result;
-}
-
 /// The polynomials of one spacecraft about its own mean, from time to time.
 class OwnFlow {
  public:
@@ -181,11 +160,6 @@ void map_all(std::vector<Cumulants>& all, const Matrix<double>& map) {
   for (Cumulants& one : all) one = one.mapped(map);
 }
 
-/// Adds an independent vector to each.
-void add_to_all(std::vector<Cumulants>& all, const Cumulants& other) {
-  for (Cumulants& one : all) one = Cumulants::of_sum(one, other);
-}
-
 /// Adds to every column what the noise of the acceleration adds at one time.
 void add_noise(Matrix<double>& deviations, const Covariance& noise, StandardNormals& normals) {
   const Cumulants reduced(Vector<double>::Zero(6), noise);
@@ -206,16 +180,16 @@ UncertainState moments_of(const InitialState& start, const FlowJet<double>& jet,
   const int order = jet[0].order();
   UncertainState state;
   state.name = start.name;
-  state.cartesian = by_orders(without_constants(own),
-                              {start.name, Vector<double>::Zero(6), start.covariance}, order);
+  state.cartesian = moments_by_order(without_constants(own),
+                                     {start.name, Vector<double>::Zero(6), start.covariance});
   Vector<double> between(6);
   for (Eigen::Index i = 0; i < 6; ++i) {
     const auto c = static_cast<std::size_t>(i);
     between[i] = own[c][0] - jet[c][0];
   }
-  if (between.norm() > 0) add_to_all(state.cartesian, Cumulants(between, {}));
+  if (between.norm() > 0) add_noise(state.cartesian, Cumulants(between, {}));
   if (flow) {
-    state.charted = by_orders(coordinates, start, order);
+    state.charted = charted_moments(coordinates, start, jet, noise);
     const Matrix<double> factor = stretched_factor(start.covariance, linear_part(jet));
     for (int n = 1; n <= order && factor.cols() > 0; ++n) {
       const auto fine = moments_through(*flow, n, start, factor, finer_nodes);
@@ -230,15 +204,8 @@ UncertainState moments_of(const InitialState& start, const FlowJet<double>& jet,
   }
   if (noise) {
     const Cumulants added(Vector<double>::Zero(6), *noise);
-    add_to_all(state.cartesian, added);
-    add_to_all(state.through, added);
-    if (flow) {
-      // From states at the end to coordinates there: both as linear maps of the start's deviations.
-      const Matrix<double> by_state =
-          linear_part(coordinates) *
-          Eigen::PartialPivLU<Matrix<double>>(linear_part(jet)).inverse();
-      add_to_all(state.charted, added.mapped(by_state));
-    }
+    add_noise(state.cartesian, added);
+    add_noise(state.through, added);
   }
   return state;
 }
@@ -247,19 +214,10 @@ UncertainState moments_of(const InitialState& start, const FlowJet<double>& jet,
 UncertainState difference(const UncertainState& deputy, const UncertainState& chief) {
   UncertainState result;
   result.name = "relative";
-  const Matrix<double> minus = -Matrix<double>::Identity(6, 6);
-  const auto subtract = [&](const std::vector<Cumulants>& from,
-                            const std::vector<Cumulants>& what) {
-    std::vector<Cumulants> all;
-    for (std::size_t i = 0; i < std::min(from.size(), what.size()); ++i) {
-      all.push_back(Cumulants::of_sum(from[i], what[i].mapped(minus)));
-    }
-    return all;
-  };
-  result.cartesian = subtract(deputy.cartesian, chief.cartesian);
-  result.through = subtract(deputy.through, chief.through);
+  result.cartesian = difference_by_order(deputy.cartesian, chief.cartesian);
+  result.through = difference_by_order(deputy.through, chief.through);
   result.through_doubt = std::max(deputy.through_doubt, chief.through_doubt);
-  result.charted = subtract(deputy.charted, chief.charted);
+  result.charted = difference_by_order(deputy.charted, chief.charted);
   if (deputy.flown && chief.flown) {
     result.flown_states = deputy.flown_states - chief.flown_states;
     result.flown = flown_moments(result.flown_states);
@@ -311,6 +269,8 @@ UncertaintyResult study_uncertainty(const Scene& scene, const ProgressCallback& 
     flights.emplace_back(problem.system, scene, start, settings.samples, normals);
   }
 
+  FlowJet<double> jet_at_end;
+  std::optional<Covariance> noise_at_end;
   for (std::size_t t = 0; t < settings.times.size(); ++t) {
     const double time = settings.times[t];
     if (progress) {
@@ -359,7 +319,11 @@ UncertaintyResult study_uncertainty(const Scene& scene, const ProgressCallback& 
     }
     if (at.states.size() == 2) at.states.push_back(difference(at.states[1], at.states[0]));
     result.points.push_back(std::move(at));
+    jet_at_end = jet;
+    noise_at_end = added;
   }
+  result.in_coordinates = moments_in_coordinates(scene, problem, integrator, starts, jet_at_end,
+                                                 noise_at_end, progress);
   result.propagation_seconds =
       jets.statistics().wall_seconds + (charts ? charts->statistics().wall_seconds : 0);
   for (const auto& own : own_flows) {

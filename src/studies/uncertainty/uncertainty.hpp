@@ -54,11 +54,22 @@ struct UncertaintyAt {
   std::vector<UncertainState> states;
 };
 
+/// The distributions of the states at the last time in other coordinates: those of the chart, less
+/// the chief's, canonical and exact for their polynomials.
+struct MomentsInCoordinates {
+  JetCoordinates coordinates = JetCoordinates::cartesian;
+  std::array<std::string, 6> components;         ///< names of the coordinates
+  std::vector<std::string> states;               ///< as of UncertaintyAt
+  std::vector<std::vector<Cumulants>> by_order;  ///< of each state, by the orders 1..N
+  std::string refusal;                           ///< why there are none
+};
+
 struct UncertaintyResult {
   Scene scene;  ///< with `uncertainty`
   std::string integrator;
   JetCoordinates coordinates = JetCoordinates::cartesian;  ///< not automatic
   std::vector<UncertaintyAt> points;
+  std::vector<MomentsInCoordinates> in_coordinates;  ///< as `uncertainty.coordinates` asks
   double propagation_seconds = 0;
   double moments_seconds = 0;
   double flight_seconds = 0;

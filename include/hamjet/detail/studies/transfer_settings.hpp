@@ -99,6 +99,19 @@ struct ValiditySettings {
   RelativeFrame frame = RelativeFrame::rtn_rotating;
 };
 
+/// What a box is about: a place at which the deputy is held at rest, or a deputy of `[bounded]`.
+enum class BoxReference { rest, member };
+
+/// Table `[bounded.box]`: a box along the chief's R, T and N that a deputy is kept in by impulses.
+struct BoxSettings {
+  std::optional<Eigen::Vector3d> half_widths_m;  ///< none: there is no box
+  BoxReference reference = BoxReference::member;
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  ///< of `rest`
+  /// Times that a return may take, in the chief's nodal periods at its start.
+  std::vector<double> return_orbits = {0.1, 0.2, 0.3, 0.4, 0.6, 0.7, 0.8, 0.9};
+  double days = 10;
+};
+
 /// Table `[bounded]`: deputies that stay with the chief for long.
 struct BoundedSettings {
   std::vector<double> sizes_m = {1e3, 1e4, 1e5, 1e6};  ///< largest distances over a revolution
@@ -109,6 +122,7 @@ struct BoundedSettings {
   double along_track = 0;    ///< mean place ahead of the chief, of the size; between -1 and 1
   int revolutions = 1000;    ///< over which drifts are the chief's, and are flown
   bool refine = true;        ///< also by Newton's method on flown drifts
+  BoxSettings box;
 };
 
 /// How the transfer times of an assignment are chosen.

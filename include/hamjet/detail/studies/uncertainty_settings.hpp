@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "hamjet/charts/jet_coordinates.hpp"
 #include "hamjet/relative_motion/chief_frame.hpp"
 #include "hamjet/uncertainty/collision_choices.hpp"
 #include "hamjet/uncertainty/covariance.hpp"
@@ -43,6 +44,21 @@ struct CollisionWatch {
   double confidence = 0.95;
 };
 
+/// Table `[uncertainty.safety]`: how near the spacecraft of a formation come to each other where a
+/// burn fails.
+struct SafetyWatch {
+  double keep_apart_m = 0;
+  double from = 0;  ///< the window, canonical
+  double to = 0;
+  std::optional<Eigen::Vector3d> keep_out_m;  ///< semi-axes along R, T, N, about the chief
+  /// How much of the burn is done, as shares of it; [1] without a burn.
+  std::vector<double> burn_shares = {0, 1};
+  std::vector<RelativeState> deputies;  ///< beside the scene's, in its frame
+  double share = 0.99;                  ///< of all cases, which stay farther than what is told
+  double confidence = 0.95;             ///< of intervals
+  int samples = 2000;                   ///< of the polynomials, for each pair and share of the burn
+};
+
 /// Table `[uncertainty]`.
 struct UncertaintySettings {
   RelativeFrame frame = RelativeFrame::rtn_inertial;  ///< of the results, at the chief
@@ -52,6 +68,9 @@ struct UncertaintySettings {
   std::vector<double> times;              ///< canonical, moving away from 0; none is 0
   double acceleration_density_m2_s3 = 0;  ///< of each axis, of white noise; 0: none
   std::optional<CollisionWatch> collision;
+  std::optional<SafetyWatch> safety;
+  /// Others than the scene's in which the distribution is told too at the last time.
+  std::vector<JetCoordinates> coordinates;
   int samples = 2000;  ///< flown with the full equations; 0: none
   std::uint64_t seed = 1;
 };

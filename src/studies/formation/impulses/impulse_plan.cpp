@@ -11,7 +11,7 @@
 
 #include "../../../integrators/momentum_unit.hpp"
 #include "../../exact_flow.hpp"
-#include "../../nominal_period.hpp"
+#include "../../nominal/nominal_period.hpp"
 #include "../keep_out.hpp"
 #include "../single_transfer.hpp"
 #include "hamjet/error.hpp"

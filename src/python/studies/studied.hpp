@@ -10,14 +10,14 @@
 #include <utility>
 #include <vector>
 
-#include "../app/report_origin.hpp"
-#include "../app/required_tables.hpp"
-#include "../studies/arcs.hpp"
-#include "arrays.hpp"
-#include "given_scene.hpp"
+#include "../../app/report_origin.hpp"
+#include "../../app/required_tables.hpp"
+#include "../../studies/arcs.hpp"
+#include "../arrays.hpp"
+#include "../given_scene.hpp"
+#include "../interruptible.hpp"
+#include "../written_set.hpp"
 #include "hamjet/detail/report/study_report.hpp"
-#include "interruptible.hpp"
-#include "written_set.hpp"
 
 // What the bindings of studies of more than one spacecraft have in common.
 

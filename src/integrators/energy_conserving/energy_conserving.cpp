@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <utility>
 
-#include "../algebra/instantiated_real.hpp"
-#include "compensated_addition.hpp"
+#include "../../algebra/instantiated_real.hpp"
+#include "../compensated_addition.hpp"
 #include "energy_conserving_midpoint.hpp"
 #include "energy_conserving_stormer.hpp"
 #include "hamjet/detail/dynamics/differentiable_function.hpp"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "descriptions/system_description.hpp"
+#include "../descriptions/system_description.hpp"
 
 namespace hamjet {
 

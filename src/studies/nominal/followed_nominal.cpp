@@ -1,7 +1,7 @@
 #include "followed_nominal.hpp"
 
+#include "../integration.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
-#include "integration.hpp"
 
 namespace hamjet {
 

@@ -4,12 +4,14 @@
 #include <span>
 #include <vector>
 
-#include "../app/collision_sections.hpp"
-#include "../formats/relative_frame_text.hpp"
-#include "../report/uncertainty/uncertainty_arrays.hpp"
-#include "../report/uncertainty/uncertainty_report.hpp"
-#include "../report/uncertainty/uncertainty_view.hpp"
-#include "arrays.hpp"
+#include "../../app/processors.hpp"
+#include "../../app/uncertainty_sections.hpp"
+#include "../../formats/relative_frame_text.hpp"
+#include "../../report/uncertainty/collision_arrays.hpp"
+#include "../../report/uncertainty/uncertainty_arrays.hpp"
+#include "../../report/uncertainty/uncertainty_report.hpp"
+#include "../../report/uncertainty/uncertainty_view.hpp"
+#include "../arrays.hpp"
 #include "studied.hpp"
 
 // Moments of uncertain states, and of any polynomials of Gaussian variables.
@@ -25,7 +27,7 @@ Studied<UncertaintyResult> study_moments(const GivenScene& given, const py::obje
         UncertaintyResult moments =
             cli::study_of(file, [&] { return study_uncertainty(scene, report); });
         const auto sections =
-            cli::study_of(file, [&] { return cli::collision_sections(scene, report); });
+            cli::study_of(file, [&] { return cli::uncertainty_sections(scene, report); });
         return Studied<UncertaintyResult>(
             std::move(moments), [sections](const UncertaintyResult& result) {
               return io::uncertainty_report(result, origin(), sections);
@@ -38,6 +40,20 @@ py::object array_of_numbers(io::NumberArray& array) {
   std::vector<py::ssize_t> shape;
   for (const std::size_t length : array.shape) shape.push_back(size_of(length));
   return python::array_of(std::move(array.numbers), std::move(shape));
+}
+
+/// The study of [uncertainty.collision] alone, as arrays.
+py::dict collision_of(const GivenScene& given, const py::object& progress) {
+  const Scene checked = unsplit(given, "hamjet uncertainty");
+  auto arrays =
+      interruptibly(progress, [scene = checked, file = given.file](const ProgressCallback& report) {
+        return cli::study_of(file, [&] {
+          return io::collision_arrays(study_collision(scene, cli::usable_processors(), report));
+        });
+      });
+  py::dict result;
+  for (io::NumberArray& array : arrays) result[py::str(array.name)] = array_of_numbers(array);
+  return result;
 }
 
 py::dict study_arrays(const UncertaintyResult& result) {
@@ -58,6 +74,18 @@ py::dict study_arrays(const UncertaintyResult& result) {
   arrays["components"] = py::tuple(py::cast(components));
   arrays["charted_components"] = py::tuple(py::cast(
       names[0].empty() ? std::vector<std::string>() : std::vector(names.begin(), names.end())));
+  py::dict negentropy_in;
+  for (const MomentsInCoordinates& compared : result.in_coordinates) {
+    std::vector<double> numbers;
+    for (const std::vector<Cumulants>& by_order : compared.by_order) {
+      for (const Cumulants& moments : by_order) numbers.push_back(moments.negentropy());
+    }
+    if (!compared.refusal.empty()) continue;
+    negentropy_in[py::str(std::string(name_of(compared.coordinates)))] =
+        python::array_of(std::move(numbers),
+                         {size_of(compared.states.size()), size_of(compared.by_order[0].size())});
+  }
+  arrays["negentropy_in"] = negentropy_in;
   arrays["samples"] = result.scene.uncertainty->samples;
   arrays["verdict"] = io::uncertainty_verdict(result);
   arrays["notes"] = py::tuple(py::cast(io::uncertainty_notes(result)));
@@ -108,6 +136,7 @@ void bind_uncertainty(py::module_& module) {
   bind_study<UncertaintyResult>(module, "UncertaintyStudy", &io::moments_csv, &study_arrays)
       .def("flown_states", &flown_states);
   module.def("study_uncertainty", &study_moments, py::arg("scene"), py::arg("progress"));
+  module.def("study_collision", &collision_of, py::arg("scene"), py::arg("progress"));
   module.def("polynomial_moments", &moments_of_polynomials, py::arg("coefficients"),
              py::arg("exponents"), py::arg("covariance"));
 }

@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../algebra/instantiated_real.hpp"
+#include "../../algebra/instantiated_real.hpp"
+#include "../real_number.hpp"
 #include "hamjet/algebra/elementary_functions.hpp"
-#include "real_number.hpp"
+#include "section_turn.hpp"
 
 namespace hamjet {
 namespace {
@@ -43,7 +44,7 @@ template <class Real>
 std::optional<RotationReduction<Real>> RotationReduction<Real>::of(
     const FlowProblem<Real>& problem) {
   const auto& planes = problem.system->rotated_planes;
-  const bool is_asked = problem.symmetry == FlowSymmetry::rotation && !problem.initial_jet;
+  const bool is_asked = problem.symmetry != FlowSymmetry::none && !problem.initial_jet;
   const bool has_jet = problem.duration != 0 && working_order(problem) >= 1;
   if (!is_asked || !has_jet || planes.empty()) return std::nullopt;
   const std::array<Real, 2> sizes = sizes_of(problem.initial_state);
@@ -154,14 +155,9 @@ void RotationReduction<Real>::set_series(const Numbers& y0) {
     y.back()[rotated_space_->linear_index(k)] = scales_[k];
   }
   const std::size_t i = section_, j = section_ + 1;
-  const Real square = y0[i] * y0[i] + y0[j] * y0[j];
-  Series<Real> a = (y0[i] * y[i] + y0[j] * y[j]) / square;
-  Series<Real> b = (y0[i] * y[j] - y0[j] * y[i]) / square;
-  a[0] = Real(1);
-  b[0] = Real(0);
-  const Series<Real> inverse = pow(hamjet::square(a) + hamjet::square(b), Real(-0.5));
-  cosine_ = a * inverse;
-  sine_ = b * inverse;
+  const SectionTurn<Real> turn({y0[i], y0[j]}, y[i], y[j]);
+  cosine_ = turn.cosine;
+  sine_ = turn.sine;
   const std::vector<Series<Real>> turned = quarter_turn(y);
   // R(-phi) y - y0 along the basis.
   for (const Numbers& axis : basis_) {

@@ -1,17 +1,18 @@
 #include <numbers>
 
-#include "../report/bounded/bounded_report.hpp"
-#include "../report/bounded/frozen_orbit_report.hpp"
-#include "../studies/bounded/relative_orbit_extent.hpp"
-#include "bindings.hpp"
+#include "../../report/bounded/bounded_report.hpp"
+#include "../../report/bounded/frozen_orbit_report.hpp"
+#include "../../studies/bounded/relative_orbit_extent.hpp"
+#include "../bindings.hpp"
 #include "studied.hpp"
 
 namespace hamjet::python {
 namespace {
 
 Studied<FrozenOrbitStudy> study_poincare(const GivenScene& given, const py::object& progress) {
-  return studied<FrozenOrbitStudy>(given, progress, "hamjet poincare", nullptr, &study_frozen_orbit,
-                                   &io::frozen_orbit_report);
+  return studied<FrozenOrbitStudy>(
+      given, progress, "hamjet poincare", nullptr, &study_frozen_orbit,
+      [](const FrozenOrbitStudy& study) { return io::frozen_orbit_report(study, origin()); });
 }
 
 Studied<BoundedFormation> study_company(const GivenScene& given, const py::object& progress) {
@@ -85,6 +86,19 @@ py::dict bounded_arrays(const BoundedFormation& formation) {
   arrays["starts"] = start.array({count, 6});
   arrays["revolutions"] = formation.revolutions;
   arrays["failures"] = py::tuple(failures);
+  Table changes, durations, moments;
+  if (formation.box) {
+    for (const BoxReturn& one : formation.box->returns) {
+      moments.add(one.time * formation.scene.units.time_s);
+      durations.add(one.duration * formation.scene.units.time_s);
+      changes.add(one.change_m_s());
+    }
+  }
+  arrays["box_return_times_s"] = moments.array();
+  arrays["box_return_durations_s"] = durations.array();
+  arrays["box_changes_m_s"] = changes.array();
+  arrays["box_change_m_s_a_day"] = formation.box ? formation.box->change_a_day_m_s() : none;
+  arrays["box_farthest"] = formation.box ? formation.box->farthest : none;
   arrays["verdict"] = io::bounded_verdict(formation);
   return arrays;
 }

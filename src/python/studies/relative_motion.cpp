@@ -2,13 +2,13 @@
 
 #include <cstdint>
 
-#include "../app/required_tables.hpp"
-#include "../formats/relative_frame_text.hpp"
-#include "../report/formation/deputy_motion_report.hpp"
-#include "../report/formation/transfer_view.hpp"
-#include "../studies/formation/deputy_motion.hpp"
-#include "../studies/formation/flown_trajectory.hpp"
-#include "bindings.hpp"
+#include "../../app/required_tables.hpp"
+#include "../../formats/relative_frame_text.hpp"
+#include "../../report/formation/deputy_motion_report.hpp"
+#include "../../report/formation/transfer_view.hpp"
+#include "../../studies/formation/deputy_motion.hpp"
+#include "../../studies/formation/flown_trajectory.hpp"
+#include "../bindings.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/report/relative_motion_report.hpp"
 #include "hamjet/studies/assignment.hpp"

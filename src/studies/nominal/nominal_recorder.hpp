@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include "energy_error.hpp"
+#include "../energy_error.hpp"
+#include "../lowest_point.hpp"
+#include "../stopwatch.hpp"
+#include "../thinned_list.hpp"
 #include "hamjet/studies/propagation.hpp"
-#include "lowest_point.hpp"
-#include "stopwatch.hpp"
-#include "thinned_list.hpp"
 
 namespace hamjet {
 

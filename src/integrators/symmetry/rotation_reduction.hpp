@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "hamjet/integrators/flow_problem.hpp"
-#include "integration_clock.hpp"
+#include "time_reduction.hpp"
 
 namespace hamjet {
 
@@ -23,14 +23,13 @@ namespace hamjet {
 /// than delta has, and the jet in delta is composed of P, sigma(delta) and phi(delta), which are
 /// closed:
 ///
-///   A = y0.y / |y0|^2 ,   B = (y0_1 y_2 - y0_2 y_1) / |y0|^2 ,   cos phi = A / sqrt(A^2 + B^2) ,
-///   sin phi = B / sqrt(A^2 + B^2) ,
+///   cos phi = A / sqrt(A^2 + B^2) ,   sin phi = B / sqrt(A^2 + B^2)
 ///
-/// A and B linear in delta. The coordinates that are not rotated pass through, so that sigma and
-/// phi are series in the rotated ones alone (four for an orbit), and nothing is composed in all of
-/// them. Source: the reduction of a symmetry, in J. E. Marsden and T. S. Ratiu, Introduction to
-/// Mechanics and Symmetry, 2nd ed., Springer 1999, section 1.3; for the methods, E. Hairer, C.
-/// Lubich and G. Wanner, Geometric Numerical Integration, section V.1.
+/// with A and B linear in delta (SectionTurn). The coordinates that are not rotated pass through,
+/// so that sigma and phi are series in the rotated ones alone (four for an orbit), and nothing is
+/// composed in all of them. Source: the reduction of a symmetry, in J. E. Marsden and T. S. Ratiu,
+/// Introduction to Mechanics and Symmetry, 2nd ed., Springer 1999, section 1.3; for the methods, E.
+/// Hairer, C. Lubich and G. Wanner, Geometric Numerical Integration, section V.1.
 template <class Real>
 class RotationReduction {
  public:
@@ -42,6 +41,11 @@ class RotationReduction {
   /// The problem in one variable less, which starts at z0 + sigma. Its `variables` name the
   /// coordinate that each does most of, for the sizes of lines.
   const FlowProblem<Real>& problem() const { return reduced_; }
+
+  /// The rotation, for what is left out besides.
+  LeftOutRotation left_out() const {
+    return {planes_, {rotated_[section_], rotated_[section_ + 1]}};
+  }
 
   /// The jet in all variables, from that of the reduced problem.
   FlowJet<Real> expand(const FlowJet<Real>& reduced) const;
@@ -83,29 +87,5 @@ class RotationReduction {
   std::vector<Series<Real>> powers_;  ///< the monomials of sigma, in the order of their space
   std::vector<Block> blocks_;
 };
-
-/// Integrates a problem with its rotation left out where there is one: `run` integrates a problem
-/// with an observer and commutes with the rotation. What leaving out and putting back takes is
-/// added to the statistics' seconds.
-template <class Real, class Run>
-FlowJet<Real> integrate_without_rotation(const FlowProblem<Real>& problem,
-                                         IntegrationStatistics& statistics,
-                                         const StepObserver<Real>& observer, const Run& run) {
-  IntegrationClock clock;
-  const auto reduction = RotationReduction<Real>::of(problem);
-  if (!reduction) return run(problem, observer);
-  StepObserver<Real> of_reduced = observer;
-  if (observer && !problem.observes_constant_terms) {
-    of_reduced = [&](const Real& time, const FlowJet<Real>& jet) {
-      observer(time, reduction->expand(jet));
-    };
-  }
-  FlowJet<Real> jet;
-  clock.exclude([&] { jet = run(reduction->problem(), of_reduced); });
-  jet = reduction->expand(jet);
-  statistics.left_out = FlowSymmetry::rotation;
-  statistics.wall_seconds += clock.seconds();
-  return jet;
-}
 
 }  // namespace hamjet

@@ -4,13 +4,13 @@
 #include <string>
 #include <utility>
 
-#include "../app/required_tables.hpp"
-#include "../studies/scene_trajectory.hpp"
-#include "arrays.hpp"
-#include "bindings.hpp"
-#include "given_scene.hpp"
-#include "interruptible.hpp"
-#include "jet.hpp"
+#include "../../app/required_tables.hpp"
+#include "../../studies/scene_trajectory.hpp"
+#include "../arrays.hpp"
+#include "../bindings.hpp"
+#include "../given_scene.hpp"
+#include "../interruptible.hpp"
+#include "../jet.hpp"
 
 namespace hamjet::python {
 namespace {

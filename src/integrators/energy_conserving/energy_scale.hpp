@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "../real_number.hpp"
 #include "hamjet/detail/dynamics/differentiable_function.hpp"
-#include "real_number.hpp"
 
 namespace hamjet {
 

@@ -1,0 +1,79 @@
+#include "dated_scene.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "hamjet/error.hpp"
+#include "hamjet/version.hpp"
+
+namespace hamjet::io {
+namespace {
+
+/// A text for messages, which are printable ASCII; other characters become question marks.
+std::string ascii(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c < 0x20 || c >= 0x7f; }, '?');
+  return text;
+}
+
+std::string model_text(const SystemSettings& system) {
+  std::string text =
+      fmt::format("Model: {}, GM = {} km**3/s**2", model_name(system.model), system.mu_km3_s2);
+  if (system.J.any()) text += fmt::format(", radius {} km", system.radius_km);
+  for (int n = ZonalCoefficients::lowest; n <= ZonalCoefficients::highest; ++n) {
+    if (system.J[n] != 0) text += fmt::format(", J{} = {}", n, system.J[n]);
+  }
+  return text + "; no drag, no other bodies";
+}
+
+}  // namespace
+
+Epoch current_epoch() {
+  const auto moment = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
+  const auto day = std::chrono::floor<std::chrono::days>(moment);
+  return {day, (moment - day).count() * std::int64_t{1'000'000'000'000}};
+}
+
+std::vector<std::string> origin_comments(const Scene& scene, const std::string& source) {
+  return {
+      ascii(fmt::format("Written by hamjet {}, scene {}: {}", version, scene.name, scene.title)),
+      ascii(source)};
+}
+
+std::vector<std::string> model_comments(const Scene& scene) {
+  const EphemerisSettings& settings = *scene.ephemeris;
+  return {model_text(scene.system),
+          fmt::format(
+              "The axes of {} are taken as inertial{}", settings.reference_frame,
+              scene.system.J.any()
+                  ? ", its z axis as that of the zonal field: true of TOD; of EME2000, GCRF and "
+                    "ICRF the nearer their poles are to the body's"
+                  : ""),
+          fmt::format(
+              "Times: {} {} and the seconds of the motion, every day with 86400{}", settings.epoch,
+              settings.time_system,
+              settings.time_system == "UTC"
+                  ? "; no leap second is known in this span (the last one known here is that at "
+                    "the end of 2016-12-31)"
+                  : "")};
+}
+
+Epoch moment_of(const Scene& scene, double time) {
+  const EphemerisSettings& settings = *scene.ephemeris;
+  const Epoch start = parse_epoch(settings.epoch).value();
+  const Extended seconds = Extended(time) * scene.units.time_s;
+  const auto epoch = later(start, seconds);
+  const bool is_dated =
+      epoch && !(settings.time_system == "UTC" && leap_second_between(start, *epoch));
+  if (!is_dated) {
+    throw Error(ErrorKind::input_output,
+                fmt::format("ephemeris.epoch: {} {} and {:.6g} s are no moment that is known, must "
+                            "not be across a leap second nor outside of the years 1 to 9999",
+                            settings.epoch, settings.time_system, convert<double>(seconds)));
+  }
+  return *epoch;
+}
+
+}  // namespace hamjet::io

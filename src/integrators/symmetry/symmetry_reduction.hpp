@@ -1,0 +1,57 @@
+#pragma once
+
+#include <optional>
+
+#include "../integration_clock.hpp"
+#include "rotation_reduction.hpp"
+#include "time_reduction.hpp"
+
+namespace hamjet {
+
+/// A problem without the symmetries that it asks to leave out (FlowProblem::symmetry), as far as it
+/// has them, and put together with them again: the rotation first, then the shift in time of what
+/// is left.
+template <class Real>
+class SymmetryReduction {
+ public:
+  /// None where nothing is left out.
+  static std::optional<SymmetryReduction> of(const FlowProblem<Real>& problem);
+
+  FlowSymmetry left_out() const;
+  const FlowProblem<Real>& problem() const {
+    return time_ ? time_->problem() : rotation_->problem();
+  }
+  FlowJet<Real> expand(const FlowJet<Real>& reduced) const;
+
+ private:
+  SymmetryReduction() = default;
+
+  std::optional<RotationReduction<Real>> rotation_;
+  std::optional<TimeReduction<Real>> time_;
+};
+
+/// Integrates a problem with its symmetries left out where there are any: `run` integrates a
+/// problem with an observer and commutes with the rotation. What leaving out and putting back takes
+/// is added to the statistics' seconds.
+template <class Real, class Run>
+FlowJet<Real> integrate_without_symmetry(const FlowProblem<Real>& problem,
+                                         IntegrationStatistics& statistics,
+                                         const StepObserver<Real>& observer, const Run& run) {
+  IntegrationClock clock;
+  const auto reduction = SymmetryReduction<Real>::of(problem);
+  if (!reduction) return run(problem, observer);
+  StepObserver<Real> of_reduced = observer;
+  if (observer && !problem.observes_constant_terms) {
+    of_reduced = [&](const Real& time, const FlowJet<Real>& jet) {
+      observer(time, reduction->expand(jet));
+    };
+  }
+  FlowJet<Real> jet;
+  clock.exclude([&] { jet = run(reduction->problem(), of_reduced); });
+  jet = reduction->expand(jet);
+  statistics.left_out = reduction->left_out();
+  statistics.wall_seconds += clock.seconds();
+  return jet;
+}
+
+}  // namespace hamjet

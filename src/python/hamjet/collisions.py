@@ -1,0 +1,132 @@
+"""Probabilities of collision of pairs that are given as arrays."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _hamjet, arguments, scenes, shown
+from .errors import UsageError
+from .immutable import Immutable
+from .results import Floats, Progress
+
+#: The name of the scene that a pair makes, for messages.
+_NAME = "pair"
+
+
+@dataclass(frozen=True, eq=False)
+class Collisions(Immutable):
+    """Of pairs, whose dimensions are ... below; immutable, arrays read-only."""
+
+    probability: Floats  #: (...), of coming nearer than the radius in the window
+    interval: Floats  #: (..., 2), of the confidence, what the samples leave
+    standard_error: Floats  #: (...)
+    samples: Floats  #: (...), that were drawn; 0 where no path comes near
+    hits: Floats  #: (...)
+    equivalent_samples: Floats  #: (...): so many plain ones would tell as much
+    change_from_lower_order: Floats  #: (...), by polynomials of one order less
+    times_s: Floats  #: (..., 201), equal parts of the window
+    by_time: Floats  #: (..., 201), the probability of having come nearer by then
+    separation_shares: Floats  #: (..., 4), of all cases
+    separations_m: Floats  #: (..., 4), below which these shares have their least separation
+    separation_intervals_m: Floats  #: (..., 4, 2), of the confidence
+    approach_time_s: Floats  #: (...), of the nearest approach of the means; NaN without one
+    approach_distance_m: Floats  #: (...)
+    approach_speed_m_s: Floats  #: (...)
+    foster: Floats  #: (...), by the formula of Foster and Estes for short encounters
+    alfano: Floats  #: (...), by that of Alfano
+    chan: Floats  #: (...), by that of Chan
+    short_encounter_departure: Floats  #: (...), the formulas hold below 0.1
+    confidence: float
+
+    def __repr__(self) -> str:
+        return shown.of(self, f": {self.probability.size} of them, largest probability "
+                        f"{shown.largest(self.probability)}")
+
+
+def _numbers(values: npt.ArrayLike, place: str, tail: tuple[int, ...]) -> Floats:
+    try:
+        array = np.asarray(values, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise UsageError(f"{place}: wrong type, must be an array of numbers") from None
+    if array.shape[array.ndim - len(tail):] != tail:
+        wanted = ", ".join(str(length) for length in tail)
+        raise UsageError(f"{place}: wrong shape, got {array.shape}, must end with ({wanted})")
+    if not np.isfinite(array).all():
+        raise UsageError(f"{place}: not finite, must be finite numbers")
+    return array
+
+
+def _scene(states: Floats, covariances: Floats, radius_m: float, window_s: Floats,
+           frame: str, settings: Mapping[str, Any]) -> dict[str, Any]:
+    difference = states[1] - states[0]
+    return {
+        "system": {**_hamjet.earth_system(), **settings["system"]},
+        "nominal": {"position_km": (states[0, :3] / 1000).tolist(),
+                    "velocity_km_s": (states[0, 3:] / 1000).tolist()},
+        "deputy": {"frame": "inertial", "position_m": difference[:3].tolist(),
+                   "velocity_m_s": difference[3:].tolist()},
+        "jet": {"order": settings["order"], "duration_s": float(window_s[1])},
+        "uncertainty": {
+            "frame": frame, "covariance_m_m_s": covariances[0].tolist(), "seed": settings["seed"],
+            "deputy": {"frame": frame, "covariance_m_m_s": covariances[1].tolist()},
+            "collision": {"radius_m": radius_m, "window_s": window_s.tolist(),
+                          **{key: settings[key]
+                             for key in ("event", "sampling", "samples", "confidence")}}}}
+
+
+def collision_probability(states: npt.ArrayLike, covariances: npt.ArrayLike,
+                          radius_m: npt.ArrayLike, window_s: npt.ArrayLike, *,
+                          frame: str = "inertial", system: Mapping[str, Any] | None = None,
+                          order: int = 3, event: str = "nearer", sampling: str = "automatic",
+                          samples: int = 200000, confidence: float = 0.95, seed: int = 1,
+                          progress: Progress | None = None) -> Collisions:
+    """How likely two spacecraft are to hit each other, as ``[uncertainty.collision]`` finds it.
+
+    states: (..., 2, 6), positions in m and velocities in m/s of both at the epoch, along inertial
+    axes. covariances: (..., 2, 6, 6), of these, independent; with ``frame="RTN"`` along each one's
+    own R, T, N, velocities being inertial. radius_m: of both together, one number or one for each
+    pair. window_s: from when to when after the epoch, (2,) or (..., 2). system: the keys of a
+    scene's [system], by default the Earth's mu alone. The others are the keys of a scene of these
+    names.
+
+    Raises UsageError for wrong shapes, SceneError for what is no covariance or no orbit,
+    NumericalError, TooLargeError.
+    """
+    both = _numbers(states, "states", (2, 6))
+    matrices = _numbers(covariances, "covariances", (2, 6, 6))
+    pairs = both.shape[:-2]
+    if matrices.shape[:-3] != pairs:
+        raise UsageError(f"covariances: wrong shape, got {matrices.shape}, must be "
+                         f"{pairs + (2, 6, 6)} as the states have it")
+    given_radii = _numbers(radius_m, "radius_m", ())
+    given_windows = _numbers(window_s, "window_s", (2,))
+    try:
+        radii = np.broadcast_to(given_radii, pairs)
+        windows = np.broadcast_to(given_windows, pairs + (2,))
+    except ValueError:
+        raise UsageError(f"radius_m and window_s: wrong shapes, got {given_radii.shape} and "
+                         f"{given_windows.shape}, must be those of the pairs, {pairs} and "
+                         f"{pairs + (2,)}") from None
+    settings = {"system": dict(system or {}), "order": order, "event": event,
+                "sampling": sampling, "samples": samples, "confidence": confidence, "seed": seed}
+    found: list[dict[str, Any]] = []
+    for index in np.ndindex(pairs):
+        scene = _scene(both[index], matrices[index], float(radii[index]), windows[index], frame,
+                       settings)
+        found.append(_hamjet.study_collision(scenes.read(scene, None, _NAME),
+                                             arguments.progress(progress)))
+    if not found:
+        raise UsageError(f"states: no pair, got {both.shape}, must have one at least")
+
+    def stacked(name: str) -> Floats:
+        array = np.array([one[name] for one in found], dtype=np.float64)
+        array = array.reshape(pairs + array.shape[1:])
+        array.flags.writeable = False
+        return array
+
+    return Collisions(**{name: stacked(name) for name in found[0]}, confidence=confidence)

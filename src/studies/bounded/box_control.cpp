@@ -1,0 +1,321 @@
+#include "box_control.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "../../integrators/momentum_unit.hpp"
+#include "../../integrators/taylor_flow.hpp"
+#include "../exact_flow.hpp"
+#include "../formation/single_transfer.hpp"
+#include "../thinned_list.hpp"
+#include "hamjet/error.hpp"
+#include "hamjet/integrators/gauss_collocation.hpp"
+#include "hamjet/maps/position_boundary_values.hpp"
+#include "hamjet/studies/propagation.hpp"
+
+namespace hamjet {
+namespace {
+
+constexpr double seconds_a_day = 86400;
+constexpr std::size_t numbers_of_state = 6;
+constexpr std::size_t drawn_places = 4001;
+
+/// The chief, the deputy and the reference, flown side by side.
+class Company {
+ public:
+  Company(const Scene& scene, std::vector<double> chief, std::vector<double> deputy,
+          std::vector<double> member)
+      : settings_(&scene.bounded->box), units_(metric_units(scene)) {
+    for (const auto* state : {&chief, &deputy, &member}) {
+      states_.insert(states_.end(), state->begin(), state->end());
+    }
+  }
+
+  void advance(TaylorFlow& flow, double time) {
+    std::array<double, 3> times;
+    times.fill(time);
+    flow.advance(states_, std::span(times).first(states_.size() / numbers_of_state));
+    for (const double x : states_) {
+      if (!std::isfinite(x)) {
+        throw Error(ErrorKind::numerical, "bounded: the flight in the box ends in a collision");
+      }
+    }
+  }
+
+  std::vector<double> chief() const { return state(0); }
+  std::vector<double> deputy() const { return state(1); }
+  void set_deputy(std::span<const double> deputy) {
+    std::copy(deputy.begin(), deputy.end(), states_.begin() + numbers_of_state);
+  }
+  /// The reference's deviation from the chief.
+  std::vector<double> reference() const {
+    if (settings_->reference == BoxReference::member) return difference(state(2), chief());
+    return frame().deviation({settings_->position_m, Eigen::Vector3d::Zero()});
+  }
+  std::vector<double> deviation() const { return difference(deputy(), chief()); }
+  ChiefFrame frame() const { return {chief(), units_, RelativeFrame::rtn_rotating}; }
+  Eigen::Vector3d place_m() const { return frame().relative(deviation()).position_m; }
+  Eigen::Vector3d from_reference_m() const {
+    return frame().relative(difference(deviation(), reference())).position_m;
+  }
+  /// The largest of the distances from the reference, in parts of the box.
+  double part() const {
+    return from_reference_m().cwiseQuotient(*settings_->half_widths_m).cwiseAbs().maxCoeff();
+  }
+
+ private:
+  std::vector<double> state(std::size_t lane) const {
+    const auto first = states_.begin() + static_cast<std::ptrdiff_t>(lane * numbers_of_state);
+    return {first, first + numbers_of_state};
+  }
+  static std::vector<double> difference(std::vector<double> a, const std::vector<double>& b) {
+    for (std::size_t i = 0; i < a.size(); ++i) a[i] -= b[i];
+    return a;
+  }
+
+  const BoxSettings* settings_;
+  MetricUnits units_;
+  std::vector<double> states_;
+};
+
+class Keeper {
+ public:
+  Keeper(const Scene& scene, const std::vector<double>& member, double revolution,
+         const ProgressCallback& progress)
+      : scene_(scene),
+        settings_(scene.bounded->box),
+        units_(metric_units(scene)),
+        revolution_(revolution),
+        step_(revolution / BoxControl::places_a_revolution),
+        progress_(progress),
+        system_(make_system(scene)),
+        flow_(system_),
+        company_(scene, scene.nominal, start_of(member), member_of(member)) {}
+
+  BoxControl run() {
+    const double end = settings_.days * seconds_a_day / units_.time_s;
+    result_.days = settings_.days;
+    result_.start = company_.deputy();
+    result_.least_m = result_.most_m = company_.place_m();
+    if (company_.part() > 1) {
+      throw Error(ErrorKind::numerical,
+                  fmt::format("bounded.box: the deputy starts outside of it, at {:.4g} of its half "
+                              "widths from its middle",
+                              company_.part()));
+    }
+    look(company_, result_.farthest);
+    while (time_ < end) {
+      if (progress_) progress_("box", time_ / end);
+      const double step = std::min(step_, end - time_);
+      Company next = company_;
+      next.advance(flow_, step);
+      if (next.part() <= 1) {
+        company_ = std::move(next);
+        time_ += step;
+        look(company_, result_.farthest);
+        continue;
+      }
+      coast_to_face(step);
+      bring_back();
+    }
+    result_.places = places_.take();
+    return std::move(result_);
+  }
+
+ private:
+  std::vector<double> start_of(const std::vector<double>& member) const {
+    if (!scene_.deputy && settings_.reference == BoxReference::member) return member;
+    const RelativeState start =
+        scene_.deputy ? scene_.deputy->start : RelativeState{settings_.position_m, {0, 0, 0}};
+    const RelativeFrame frame = scene_.deputy ? scene_.deputy->frame : RelativeFrame::rtn_rotating;
+    std::vector<double> state = ChiefFrame(scene_.nominal, units_, frame).deviation(start);
+    for (std::size_t i = 0; i < state.size(); ++i) state[i] += scene_.nominal[i];
+    return state;
+  }
+  std::vector<double> member_of(const std::vector<double>& member) const {
+    return settings_.reference == BoxReference::member ? member : std::vector<double>();
+  }
+
+  /// Notes where the deputy is.
+  void look(const Company& company, double& farthest) {
+    const Eigen::Vector3d place = company.place_m();
+    result_.least_m = result_.least_m.cwiseMin(place);
+    result_.most_m = result_.most_m.cwiseMax(place);
+    farthest = std::max(farthest, company.part());
+    result_.farthest = std::max(result_.farthest, farthest);
+    places_.add({time_, company.from_reference_m()});
+  }
+
+  /// Coasts to the last moment inside of a step that ends outside.
+  void coast_to_face(double step) {
+    double inside = 0;
+    double outside = step;
+    constexpr int halvings = 40;
+    for (int i = 0; i < halvings; ++i) {
+      const double middle = (inside + outside) / 2;
+      Company at = company_;
+      at.advance(flow_, middle);
+      (at.part() <= 1 ? inside : outside) = middle;
+    }
+    company_.advance(flow_, inside);
+    time_ += inside;
+    look(company_, result_.farthest);
+  }
+
+  /// A return of a duration, flown but not noted; none where the polynomials have no answer.
+  struct Flown {
+    BoxReturn told;
+    Company end;
+    std::vector<double> momenta;  ///< of the deputy, the first impulse made
+  };
+
+  void bring_back() {
+    std::optional<Flown> best;
+    FlowJet<double> jet;
+    for (std::size_t i = 0; i < numbers_of_state; ++i) {
+      jet.push_back(Series<double>::variable(space_, i, company_.chief()[i]));
+    }
+    double reached = 0;
+    for (const double part : settings_.return_orbits) {
+      const double duration = part * revolution_;
+      advance(jet, duration - reached);
+      reached = duration;
+      std::optional<Flown> flown = flown_return(jet, duration);
+      if (flown && (!best || is_better(flown->told, best->told))) best = std::move(flown);
+    }
+    if (!best) {
+      throw Error(ErrorKind::numerical,
+                  "bounded.box.return_orbits: no return of these times has an answer");
+    }
+    fly(*best);
+    if (const double part = company_.part(); part > 1) {
+      throw Error(ErrorKind::numerical,
+                  fmt::format("bounded.box: too small for polynomials of order {} and the rounding "
+                              "of flights, a return ends at {:.3g} of its half widths",
+                              scene_.order, part));
+    }
+  }
+
+  static bool is_better(const BoxReturn& one, const BoxReturn& other) {
+    const bool is_inside = one.farthest <= 1 + rounding;
+    const bool other_is_inside = other.farthest <= 1 + rounding;
+    if (is_inside != other_is_inside) return is_inside;
+    return is_inside ? one.change_m_s() < other.change_m_s() : one.farthest < other.farthest;
+  }
+
+  void advance(FlowJet<double>& jet, double time) {
+    if (time == 0) return;
+    FlowProblem<double> problem;
+    problem.system = system_;
+    problem.space = space_;
+    for (std::size_t i = 0; i < numbers_of_state; ++i) problem.variables.push_back(i);
+    problem.initial_state = nominal_of(jet);
+    problem.initial_jet = jet;
+    problem.duration = time;
+    problem.symmetry = FlowSymmetry::none;
+    GaussSettings gauss;
+    gauss.tolerance = 1e-12;
+    IntegrationStatistics statistics;
+    jet = integrate_gauss<double>(problem, gauss, statistics);
+  }
+
+  std::optional<Flown> flown_return(const FlowJet<double>& jet, double duration) {
+    Flown flown{{}, company_, {}};
+    BoxReturn& told = flown.told;
+    told.time = time_;
+    told.duration = duration;
+    told.deputy_before = company_.deputy();
+    told.chief_before = company_.chief();
+    Company target = company_;
+    target.advance(flow_, duration);
+    const std::vector<double> from = company_.deviation();
+    const std::vector<double> to = target.reference();
+    try {
+      const PartialInversion<double> inversion = invert_partially(
+          jet, parse_kind("F1", 3), std::numeric_limits<double>::epsilon(), momentum_exponent_);
+      const BoundaryMomenta momenta = PositionBoundaryValues(inversion).solve(
+          std::span(from).first(3), std::span(to).first(3), scene_.order);
+      std::vector<double> deputy = told.deputy_before;
+      Eigen::Vector3d change;
+      for (std::size_t i = 0; i < 3; ++i) {
+        deputy[3 + i] = told.chief_before[3 + i] + momenta.initial[i];
+        change[static_cast<Eigen::Index>(i)] = deputy[3 + i] - told.deputy_before[3 + i];
+      }
+      told.first_m_s = company_.frame().velocity_change_m_s(change);
+      flown.momenta = deputy;
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::numerical) throw;
+      return std::nullopt;
+    }
+    flown.end.set_deputy(flown.momenta);
+    const int steps = static_cast<int>(std::ceil(duration / step_));
+    for (int k = 0; k < steps; ++k) {
+      flown.end.advance(flow_, duration / steps);
+      told.farthest = std::max(told.farthest, flown.end.part());
+    }
+    // At its end the deputy takes the reference's velocity; its place is what the flight missed.
+    told.miss_m = flown.end.from_reference_m().norm();
+    const std::vector<double> reference = flown.end.reference();
+    told.chief_after = flown.end.chief();
+    told.deputy_after = flown.end.deputy();
+    Eigen::Vector3d change;
+    for (std::size_t i = 3; i < numbers_of_state; ++i) {
+      const double wanted = told.chief_after[i] + reference[i];
+      change[static_cast<Eigen::Index>(i - 3)] = wanted - told.deputy_after[i];
+      told.deputy_after[i] = wanted;
+    }
+    told.second_m_s = flown.end.frame().velocity_change_m_s(change);
+    flown.end.set_deputy(told.deputy_after);
+    return flown;
+  }
+
+  /// Flies the chosen return again, and notes its places.
+  void fly(const Flown& chosen) {
+    company_.set_deputy(chosen.momenta);
+    const int steps = static_cast<int>(std::ceil(chosen.told.duration / step_));
+    for (int k = 0; k < steps; ++k) {
+      company_.advance(flow_, chosen.told.duration / steps);
+      time_ += chosen.told.duration / steps;
+      look(company_, result_.farthest);
+    }
+    company_ = chosen.end;
+    result_.returns.push_back(chosen.told);
+  }
+
+  /// Faces are found to the rounding of flights.
+  static constexpr double rounding = 1e-6;
+
+  const Scene& scene_;
+  const BoxSettings& settings_;
+  MetricUnits units_;
+  double revolution_;
+  double step_;
+  const ProgressCallback& progress_;
+  SharedSystem system_;
+  TaylorFlow flow_;
+  Company company_;
+  SpacePointer space_ = SeriesSpace::create(numbers_of_state, scene_.order);
+  int momentum_exponent_ = natural_momentum_exponent(true, scene_.nominal);
+  double time_ = 0;
+  ThinnedList<BoxControl::Place, drawn_places> places_;
+  BoxControl result_;
+};
+
+}  // namespace
+
+double BoxControl::change_m_s() const {
+  double sum = 0;
+  for (const BoxReturn& one : returns) sum += one.change_m_s();
+  return sum;
+}
+
+BoxControl keep_in_box(const Scene& scene, const std::vector<double>& member, double revolution,
+                       const ProgressCallback& progress) {
+  return Keeper(scene, member, revolution, progress).run();
+}
+
+}  // namespace hamjet

@@ -1,0 +1,110 @@
+#include "moments_in_coordinates.hpp"
+
+#include <Eigen/LU>
+
+#include "../formation/deputy_flows.hpp"
+#include "hamjet/algebra/calculus.hpp"
+#include "hamjet/algebra/composition.hpp"
+#include "hamjet/error.hpp"
+
+namespace hamjet {
+namespace {
+
+/// In one kind of coordinates; throws as DeputyFlowPropagation.
+MomentsInCoordinates moments_in(JetCoordinates coordinates, const Scene& scene,
+                                const ComputedProblem& problem,
+                                const IntegratorSettings& integrator,
+                                const std::vector<InitialState>& starts, const FlowJet<double>& jet,
+                                const std::optional<Covariance>& noise) {
+  DeputyFlowPropagation propagation(scene, problem, integrator, coordinates);
+  propagation.advance_to(scene.uncertainty->times.back());
+  const std::vector<Series<double>> series = propagation.end_coordinates();
+  MomentsInCoordinates result;
+  result.coordinates = coordinates;
+  result.components = propagation.end_coordinate_names();
+  for (const InitialState& start : starts) {
+    result.states.push_back(start.name);
+    result.by_order.push_back(charted_moments(series, start, jet, noise));
+  }
+  if (starts.size() == 2) {
+    result.states.emplace_back("relative");
+    result.by_order.push_back(difference_by_order(result.by_order[1], result.by_order[0]));
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<Cumulants> moments_by_order(const std::vector<Series<double>>& map,
+                                        const InitialState& start) {
+  const int order = map[0].order();
+  const bool is_moved = (start.mean.array() != 0).any();
+  std::vector<Cumulants> result;
+  std::vector<Series<double>> whole;
+  if (!is_moved) whole = in_standard_normals(map, start.covariance);
+  for (int n = 1; n <= order; ++n) {
+    if (is_moved) {
+      // A lower order leaves terms out before the mean is put in.
+      const SpacePointer space = SeriesSpace::create(map[0].space().variables(), n);
+      std::vector<Series<double>> lower;
+      for (const Series<double>& component : map) lower.push_back(in_space(component, space));
+      result.push_back(
+          Cumulants::of_polynomials(in_standard_normals(lower, start.covariance, start.mean)));
+    } else {
+      result.push_back(Cumulants::of_polynomials(whole, n));
+    }
+  }
+  return result;
+}
+
+std::vector<Cumulants> charted_moments(const std::vector<Series<double>>& coordinates,
+                                       const InitialState& start, const FlowJet<double>& jet,
+                                       const std::optional<Covariance>& noise) {
+  std::vector<Cumulants> moments = moments_by_order(coordinates, start);
+  if (noise) {
+    // From states at the end to coordinates there: both as linear maps of the start's deviations.
+    const Matrix<double> by_state =
+        linear_part(coordinates) * Eigen::PartialPivLU<Matrix<double>>(linear_part(jet)).inverse();
+    add_noise(moments, Cumulants(Vector<double>::Zero(6), *noise).mapped(by_state));
+  }
+  return moments;
+}
+
+void add_noise(std::vector<Cumulants>& all, const Cumulants& noise) {
+  for (Cumulants& one : all) one = Cumulants::of_sum(one, noise);
+}
+
+std::vector<Cumulants> difference_by_order(const std::vector<Cumulants>& from,
+                                           const std::vector<Cumulants>& what) {
+  const Matrix<double> minus = -Matrix<double>::Identity(6, 6);
+  std::vector<Cumulants> all;
+  for (std::size_t i = 0; i < std::min(from.size(), what.size()); ++i) {
+    all.push_back(Cumulants::of_sum(from[i], what[i].mapped(minus)));
+  }
+  return all;
+}
+
+std::vector<MomentsInCoordinates> moments_in_coordinates(
+    const Scene& scene, const ComputedProblem& problem, const IntegratorSettings& integrator,
+    const std::vector<InitialState>& starts, const FlowJet<double>& jet,
+    const std::optional<Covariance>& noise, const ProgressCallback& progress) {
+  const std::vector<JetCoordinates>& asked = scene.uncertainty->coordinates;
+  std::vector<MomentsInCoordinates> all;
+  for (const JetCoordinates coordinates : asked) {
+    if (progress) {
+      progress("coordinates", static_cast<double>(all.size()) / static_cast<double>(asked.size()));
+    }
+    try {
+      all.push_back(moments_in(coordinates, scene, problem, integrator, starts, jet, noise));
+    } catch (const Error& error) {
+      // An orbit may lack some coordinates, and a method may not serve for some.
+      if (error.kind() != ErrorKind::numerical && error.kind() != ErrorKind::scene) throw;
+      all.emplace_back();
+      all.back().coordinates = coordinates;
+      all.back().refusal = error.what();
+    }
+  }
+  return all;
+}
+
+}  // namespace hamjet

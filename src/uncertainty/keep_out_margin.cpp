@@ -1,0 +1,257 @@
+#include "hamjet/uncertainty/keep_out_margin.hpp"
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "../integrators/taylor_flow.hpp"
+#include "encounter_trajectories.hpp"
+#include "hamjet/algebra/calculus.hpp"
+#include "hamjet/error.hpp"
+#include "hamjet/relative_motion/chief_frame.hpp"
+
+namespace hamjet {
+namespace {
+
+using Position = Eigen::Vector3d;
+using Jacobian = Eigen::Matrix<double, 3, 12>;
+
+/// The linear theory's length is looked at so often in a revolution, and so many of its lowest
+/// minima are followed by the polynomials.
+constexpr double length_looks_per_revolution = 64;
+constexpr std::size_t most_minima = 6;
+constexpr int most_iterations = 60;
+constexpr double never = std::numeric_limits<double>::infinity();
+
+/// The shortest xi with |a + M xi| <= 1; none where none is. With M = U S V^T and b = U^T a, of the
+/// multiplier l it is V eta, eta_i = -l s_i b_i / (1 + l s_i^2), where
+///
+///   sum b_i^2 / (1 + l s_i^2)^2 = 1 .
+std::optional<EncounterDeviation> shortest(const Position& a, const Jacobian& m) {
+  if (a.norm() <= 1) return EncounterDeviation(EncounterDeviation::Zero());
+  const Eigen::JacobiSVD<Eigen::MatrixXd> parts(m, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const Eigen::VectorXd s = parts.singularValues();
+  const Eigen::VectorXd b = parts.matrixU().transpose() * a;
+  const auto length = [&](double l) {
+    double sum = 0;
+    for (Eigen::Index i = 0; i < 3; ++i) sum += std::pow(b[i] / (1 + l * s[i] * s[i]), 2);
+    return sum;
+  };
+  // Directions below the rounding of the others reach nothing.
+  const double least = 1e-13 * s[0];
+  double rest = 0;
+  for (Eigen::Index i = 0; i < 3; ++i) rest += s[i] > least ? 0 : b[i] * b[i];
+  if (rest >= 1 || s[0] == 0) return std::nullopt;
+  double low = 0, high = 1 / (s[0] * s[0]);
+  while (length(high) > 1 && std::isfinite(high)) high *= 4;
+  if (!std::isfinite(high)) return std::nullopt;
+  for (int k = 0; k < 200 && high - low > 1e-15 * high; ++k) {
+    const double middle = (low + high) / 2;
+    (length(middle) > 1 ? low : high) = middle;
+  }
+  Eigen::VectorXd eta(3);
+  for (Eigen::Index i = 0; i < 3; ++i) eta[i] = -high * s[i] * b[i] / (1 + high * s[i] * s[i]);
+  return EncounterDeviation(parts.matrixV() * eta);
+}
+
+/// The relative position in the ellipsoid's own measure, and its derivatives by the twelve numbers.
+struct Measured {
+  Position position;
+  Jacobian slope;
+};
+
+class Ellipsoid {
+ public:
+  Ellipsoid(const EncounterProblem& problem, const Eigen::Vector3d& semi_axes)
+      : problem_(&problem), semi_axes_(semi_axes), trajectories_(problem) {}
+
+  /// From inertial axes, with the axes of the first spacecraft's mean.
+  Eigen::Matrix3d measure(std::span<const double> state) const {
+    const ChiefFrame frame(state, {}, RelativeFrame::rtn_inertial);
+    Eigen::Matrix3d result;
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      result.col(i) = frame.along_axes(Eigen::Vector3d::Unit(i)).cwiseQuotient(semi_axes_);
+    }
+    return result;
+  }
+
+  /// By the shortest vector at one time, from one nearby that `xi` has; infinity where none leads
+  /// there. Throws where the iteration does not settle.
+  double length_at(double time, EncounterDeviation& xi) const {
+    const std::array<FlowJet<double>, 2> jets = {trajectories_.jet(0, time),
+                                                 trajectories_.jet(1, time)};
+    for (int k = 0; k < most_iterations; ++k) {
+      const Measured now = measured(jets, xi);
+      const auto next = shortest(now.position - now.slope * xi, now.slope);
+      if (!next) return never;
+      const double step = (*next - xi).norm();
+      // Half steps after the first ones damp what swings about the answer.
+      xi += (k < 20 ? 1.0 : 0.5) * (*next - xi);
+      if (step <= 1e-9 * (1 + xi.norm())) return xi.norm();
+      if (!std::isfinite(step)) break;
+    }
+    throw Error(ErrorKind::numerical,
+                "keep-out: the shortest deviation into the ellipsoid was not found, the motion "
+                "bends too much within it");
+  }
+
+  double linear_length(const EncounterTrajectories& linear, double time) const {
+    const FlowJet<double> chief = linear.jet(0, time);
+    std::vector<double> state;
+    for (const Series<double>& component : chief) state.push_back(component[0]);
+    const Eigen::Matrix3d to = measure(state);
+    const LinearRelativeState relative = linear.linear(time);
+    const auto xi = shortest(to * relative.mean.head(3), to * relative.by_deviation.topRows(3));
+    return xi ? xi->norm() : never;
+  }
+
+  double flown_ratio(double time, const EncounterDeviation& xi) const {
+    TaylorFlow flow(problem_->system);
+    std::vector<double> states;
+    for (std::size_t craft = 0; craft < 2; ++craft) {
+      const UncertainSpacecraft& one = problem_->spacecraft[craft];
+      const Eigen::Matrix<double, 6, 1> deviation =
+          one.factor * xi.segment<6>(static_cast<Eigen::Index>(6 * craft));
+      for (std::size_t i = 0; i < 6; ++i) {
+        states.push_back(one.state[i] + deviation[static_cast<Eigen::Index>(i)]);
+      }
+    }
+    const std::vector<double>& mean = problem_->spacecraft[0].state;
+    states.insert(states.end(), mean.begin(), mean.end());
+    flow.advance(states, std::vector<double>(3, time));
+    const Eigen::Map<const Eigen::Matrix<double, 6, 3>> flown(states.data());
+    return (measure(std::span<const double>(states).last(6)) *
+            (flown.col(1) - flown.col(0)).head<3>())
+        .norm();
+  }
+
+ private:
+  Measured measured(const std::array<FlowJet<double>, 2>& jets,
+                    const EncounterDeviation& xi) const {
+    std::array<Position, 2> positions;
+    Jacobian slope;
+    std::vector<double> mean;
+    for (const Series<double>& component : jets[0]) mean.push_back(component[0]);
+    for (std::size_t craft = 0; craft < 2; ++craft) {
+      const auto first = static_cast<Eigen::Index>(6 * craft);
+      const Eigen::Matrix<double, 6, 1> x =
+          problem_->spacecraft[craft].factor * xi.segment<6>(first);
+      const std::span<const double> point(x.data(), 6);
+      Eigen::Matrix<double, 3, 6> by_state;
+      for (std::size_t row = 0; row < 3; ++row) {
+        const auto r = static_cast<Eigen::Index>(row);
+        positions[craft][r] = evaluate(jets[craft][row], point);
+        for (std::size_t i = 0; i < 6; ++i) {
+          by_state(r, static_cast<Eigen::Index>(i)) =
+              evaluate(derivative(jets[craft][row], i), point);
+        }
+      }
+      slope.middleCols(first, 6) =
+          (craft == 0 ? -1 : 1) * by_state * problem_->spacecraft[craft].factor;
+    }
+    const Eigen::Matrix3d to = measure(mean);
+    return {to * (positions[1] - positions[0]), to * slope};
+  }
+
+  const EncounterProblem* problem_;
+  Eigen::Vector3d semi_axes_;
+  EncounterTrajectories trajectories_;
+};
+
+struct Candidate {
+  double length;
+  double from;
+  double time;
+  double to;
+};
+
+/// Local minima of the linear theory's length, the lowest first.
+std::vector<Candidate> linear_minima(const EncounterProblem& problem, const Ellipsoid& ellipsoid) {
+  EncounterProblem first_order = problem;
+  first_order.order = 1;
+  const EncounterTrajectories linear(first_order);
+  const double span = problem.to - problem.from;
+  const auto looks = static_cast<std::size_t>(
+      std::clamp(span / linear.period(0) * length_looks_per_revolution, 64.0, 2e4));
+  std::vector<double> times, lengths;
+  for (std::size_t k = 0; k <= looks; ++k) {
+    times.push_back(problem.from + span * static_cast<double>(k) / static_cast<double>(looks));
+    lengths.push_back(ellipsoid.linear_length(linear, times.back()));
+  }
+  std::vector<Candidate> minima;
+  for (std::size_t k = 0; k <= looks; ++k) {
+    const std::size_t before = k == 0 ? 0 : k - 1, after = std::min(k + 1, looks);
+    const bool is_least = lengths[k] <= lengths[before] && lengths[k] <= lengths[after];
+    if (is_least && lengths[k] < never) {
+      minima.push_back({lengths[k], times[before], times[k], times[after]});
+    }
+  }
+  std::sort(minima.begin(), minima.end(),
+            [](const Candidate& a, const Candidate& b) { return a.length < b.length; });
+  if (minima.size() > most_minima) minima.resize(most_minima);
+  return minima;
+}
+
+/// The least of a minimum's length over its interval, by golden sections.
+KeepOutMargin followed(const Ellipsoid& ellipsoid, const Candidate& candidate) {
+  KeepOutMargin margin;
+  EncounterDeviation xi = EncounterDeviation::Zero();
+  const auto look = [&](double time) {
+    const double length = ellipsoid.length_at(time, xi);
+    if (!margin.deviations || length < *margin.deviations) {
+      margin.deviations = length;
+      margin.time = time;
+      margin.deviation = xi;
+    }
+    return length;
+  };
+  look(candidate.time);
+  look(candidate.from);
+  look(candidate.to);
+  xi = margin.deviation;
+  const double section = (std::sqrt(5.0) - 1) / 2;
+  double from = candidate.from, to = candidate.to;
+  double left = to - section * (to - from), right = from + section * (to - from);
+  double of_left = look(left), of_right = look(right);
+  // The length is flat at its least: half the digits of the time are enough.
+  while (to - from > 1e-8 * std::max(1.0, std::abs(to))) {
+    if (of_left < of_right) {
+      to = right;
+      right = left;
+      of_right = of_left;
+      left = to - section * (to - from);
+      of_left = look(left);
+    } else {
+      from = left;
+      left = right;
+      of_left = of_right;
+      right = from + section * (to - from);
+      of_right = look(right);
+    }
+  }
+  if (*margin.deviations == never) margin.deviations.reset();
+  return margin;
+}
+
+}  // namespace
+
+KeepOutMargin keep_out_margin(const EncounterProblem& problem, const Eigen::Vector3d& semi_axes) {
+  validate(problem);
+  if (!(semi_axes.minCoeff() > 0) || !semi_axes.allFinite()) {
+    throw Error(ErrorKind::usage, "keep-out: semi-axes must be positive");
+  }
+  const Ellipsoid ellipsoid(problem, semi_axes);
+  KeepOutMargin best;
+  for (const Candidate& candidate : linear_minima(problem, ellipsoid)) {
+    const KeepOutMargin margin = followed(ellipsoid, candidate);
+    const bool is_less =
+        margin.deviations && (!best.deviations || *margin.deviations < *best.deviations);
+    if (is_less) best = margin;
+  }
+  if (best.deviations) best.flown_ratio = ellipsoid.flown_ratio(best.time, best.deviation);
+  return best;
+}
+
+}  // namespace hamjet

@@ -1,0 +1,135 @@
+#include "../command_test.hpp"
+#include "formats/hdf5/hdf5_jets.hpp"
+
+// Polynomials in a scene's coordinates, which `hamjet run` stores beside its jets.
+
+namespace hamjet::test {
+namespace {
+
+class StoredPolynomials : public CommandTest {
+ protected:
+  void SetUp() override {
+    write("far.toml",
+          "title = \"two far apart\"\n[system]\nmodel = \"zonal-gravity\"\nmu_km3_s2 = "
+          "398600.4415\nradius_km = 6378.1363\n"
+          "J2 = 1.0826267e-3\nJ3 = -2.53e-6\n[nominal]\n"
+          "a_km = 7086\ne = 0.01\ni_deg = 98\nraan_deg = 10\nargp_deg = 20\n"
+          "ta_deg = 30\n[jet]\norder = 3\nduration_orbits = 1.3\n"
+          "[[integrator]]\nmethod = \"gauss\"\ntolerance = 1e-12\n");
+  }
+
+  CommandResult run_in(const std::string& coordinates, const std::string& folder) {
+    return succeed({"run", "far.toml", "-o", folder, "--set", "jet.coordinates=" + coordinates});
+  }
+
+  Json rows(std::vector<std::string> words) {
+    for (const char* word : {"--deviation=30000,-70000,20000,1,-20,5", "--json", "-q"}) {
+      words.emplace_back(word);
+    }
+    return Json::parse(succeed(words).out);
+  }
+
+  std::string label() { return read_json(directory_ / "boxes/summary.json")["runs"][0]["label"]; }
+};
+
+// What is read is what is integrated: the digits of every coefficient come back, and with them all
+// of the prediction, from the results as from the file that a conversion writes.
+TEST_F(StoredPolynomials, OfFlowBoxesPredictAsIntegratedOnes) {
+  const std::string said = run_in("flow-box", "boxes").out;
+  EXPECT_NE(in_one_line(said).find("polynomials in flow-box coordinates too, in 4 variables"),
+            std::string::npos)
+      << said;
+  succeed({"run", "far.toml", "-o", "plain", "-q"});
+  EXPECT_EQ(content(directory_ / "boxes" / label() / "jet.csv"),
+            content(directory_ / "plain" / label() / "jet.csv"));
+  const Json summary = read_json(directory_ / "boxes/summary.json")["runs"][0]["polynomials"];
+  EXPECT_EQ(summary["section"], "nodal");
+  // Poisson brackets of the exact flow vanish; the integration is right to 1e-12 and its error
+  // relative to the bracket's own terms is of that size, times what they cancel.
+  for (const Json& defect : summary["symplecticity_by_degree"]) {
+    EXPECT_LT(defect["scaled"].get<double>(), 1e-10) << summary;
+  }
+  const Json integrated = rows({"eval", "far.toml", "--set", "jet.coordinates=flow-box"});
+  const Json stored = rows({"eval", "boxes"});
+  EXPECT_EQ(stored["coordinates"], "flow-box");
+  const auto expect_same = [&](const Json& found) {
+    for (const char* const name : {"R_m", "T_m", "N_m"}) {
+      EXPECT_EQ(found["rows"][0][name], integrated["rows"][0][name]) << name;
+    }
+  };
+  expect_same(stored);
+  // The Cartesian jet of the same order is kilometres away there, so that it was not read.
+  EXPECT_GT(std::abs(rows({"eval", "plain"})["rows"][0]["T_m"].get<double>() -
+                     stored["rows"][0]["T_m"].get<double>()),
+            100);
+  if (!io::hdf5_available()) return;
+  succeed({"convert", "boxes", "box.h5", "--coordinates", "flow-box"});
+  expect_same(rows({"eval", "box.h5"}));
+  succeed({"convert", "box.h5", "again.h5"});
+  EXPECT_EQ(content(directory_ / "again.h5"), content(directory_ / "box.h5"));
+  expect_error({"convert", "box.h5", "box.csv"}, 2, {".csv", "flow-box", ".h5"});
+  expect_error({"transfer", "far.toml", "--jet", "box.h5"}, 2, {"flow-box coordinates"});
+}
+
+// In positions and momenta a flow box is the jet that is integrated there, to the errors of both
+// integrations, which are 1e-12 of the largest coefficient, grown by as much as a degree has terms.
+TEST_F(StoredPolynomials, OfFlowBoxesBecomeJets) {
+  if (!io::hdf5_available()) GTEST_SKIP();
+  run_in("flow-box", "boxes");
+  succeed({"convert", "boxes", "box.h5", "--coordinates", "flow-box"});
+  const std::string said =
+      succeed({"convert", "box.h5", "jet.h5", "--coordinates", "cartesian"}).out;
+  EXPECT_NE(said.find("no way back"), std::string::npos) << said;
+  const Json jet = rows({"eval", "jet.h5"})["rows"][0];
+  const Json plain = rows({"eval", "boxes/" + label() + "/jet.csv"})["rows"][0];
+  for (const char* const name : {"R_m", "T_m", "N_m"}) {
+    // 1e-12 of 7000 km, grown by the shear along the orbit of a revolution to a hundred of that.
+    EXPECT_NEAR(jet[name].get<double>(), plain[name].get<double>(), 1e-3) << name;
+  }
+}
+
+TEST_F(StoredPolynomials, OfChartsPredictAsIntegratedOnes) {
+  run_in("spherical", "boxes");
+  const Json stored = rows({"eval", "boxes"});
+  EXPECT_EQ(stored["coordinates"], "spherical");
+  const Json integrated = rows({"eval", "far.toml", "--set", "jet.coordinates=spherical"});
+  for (const char* const name : {"R_m", "T_m", "N_m"}) {
+    // Rounding of 7000 km, times the growth on the way.
+    EXPECT_NEAR(stored["rows"][0][name].get<double>(), integrated["rows"][0][name].get<double>(),
+                1e-6);
+  }
+}
+
+// What a run cannot write is said, and what a method cannot integrate fails that part alone.
+TEST_F(StoredPolynomials, AreRefusedWithTheReason) {
+  const CommandResult automatic =
+      hamjet({"run", "far.toml", "-o", "auto", "--set", "jet.coordinates=auto"});
+  EXPECT_EQ(automatic.exit_code, 0) << automatic.err;
+  EXPECT_NE(in_one_line(automatic.err).find("auto coordinates are not used: which reach"),
+            std::string::npos)
+      << automatic.err;
+  const CommandResult other =
+      hamjet({"run", "far.toml", "-o", "other", "--set", "jet.coordinates=flow-box", "--set",
+              "integrator.0.method=fehlberg78"});
+  EXPECT_EQ(other.exit_code, 4) << other.err;
+  EXPECT_NE(in_one_line(other.out).find("flow-box is integrated by Gauss methods"),
+            std::string::npos)
+      << other.out << other.err;
+  const CommandResult compared = hamjet({"check", "far.toml", "--set", "jet.coordinates=flow-box"});
+  EXPECT_NE(in_one_line(compared.out).find("coordinates flow-box; hamjet run writes polynomials"),
+            std::string::npos)
+      << compared.out;
+}
+
+// A damaged description of the sections is refused before anything is made of it.
+TEST_F(StoredPolynomials, OfAnotherFieldAreRefused) {
+  run_in("flow-box", "boxes");
+  const std::filesystem::path file = directory_ / "boxes" / label() / "polynomials.csv";
+  std::string text = content(file);
+  text.replace(text.rfind('1'), 1, "7");
+  write("boxes/" + label() + "/polynomials.csv", text);
+  expect_error({"eval", "boxes", "--deviation=1,0,0,0,0,0"}, 5, {"polynomials.csv"});
+}
+
+}  // namespace
+}  // namespace hamjet::test
