@@ -8,16 +8,19 @@ const TableDescription& deputy_table() {
       "The second satellite at the start: relative to the chief, or by its own orbit in the keys "
       "of "
       "`[nominal]`, all of one form, of the same moment and in the same axes. The frame is that of "
-      "its motion too."};
+      "its motion too. With `[uncertainty.collision]` it may be anywhere, at any speed."};
   return table;
 }
 
-DeputySettings read_deputy(const TableReader& deputy, const Scene& scene, const Nominal& nominal) {
+DeputySettings read_deputy(const TableReader& deputy, const Scene& scene, const Nominal& nominal,
+                           bool is_anywhere) {
   deputy.check_keys();
   require_relative_motion(deputy, scene);
   DeputySettings settings;
   settings.frame = read_relative_frame(deputy);
-  settings.start = read_relative_state(deputy, nominal, settings.frame);
+  settings.start =
+      read_relative_state(deputy, nominal, settings.frame,
+                          is_anywhere ? DeputyPlace::anywhere : DeputyPlace::near_chief);
   return settings;
 }
 

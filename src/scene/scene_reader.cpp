@@ -109,8 +109,9 @@ Scene read_flow_jet(const TableReader& root) {
   read_table("validity",
              [&](const auto& table) { scene.validity = read_validity(table, scene, nominal); });
   read_table("bounded", [&](const auto& table) { scene.bounded = read_bounded(table, scene); });
-  const bool has_deputy = read_table(
-      "deputy", [&](const auto& table) { scene.deputy = read_deputy(table, scene, nominal); });
+  const bool has_deputy = read_table("deputy", [&](const auto& table) {
+    scene.deputy = read_deputy(table, scene, nominal, has_collision(root));
+  });
   if (!has_deputy || root.is_misspelt("deputy")) return scene;
   read_table("uncertainty", [&](const auto& table) {
     scene.uncertainty = read_uncertainty(table, scene, nominal);

@@ -248,6 +248,15 @@ RelativeFrame read_relative_frame(const TableReader& table) {
   return read_relative_frame(table, table);
 }
 
+bool has_collision(const TableReader& root) {
+  if (!root.has("uncertainty")) return false;
+  try {
+    return root.table("uncertainty").has("collision");
+  } catch (const Error&) {
+    return false;  // what is no table is told where it is read
+  }
+}
+
 std::vector<std::string> likely_slips_of_deputies(const TableReader& root, const Scene& scene) {
   std::vector<std::string> warnings;
   if (scene.transfer && scene.transfer->kind != TransferSettings().kind &&
@@ -269,7 +278,7 @@ std::vector<std::string> likely_slips_of_deputies(const TableReader& root, const
         "chief alone, and hamjet validity says how far",
         warning_head, table.head(""), length_text(separation_m), length_text(distance_m / 20)));
   };
-  if (scene.deputy) look(root.table("deputy"), scene.deputy->start);
+  if (scene.deputy && !has_collision(root)) look(root.table("deputy"), scene.deputy->start);
   if (!scene.transfer) return warnings;
   const TableReader transfer = root.table("transfer");
   if (transfer.has("start")) look(transfer.table("start"), scene.transfer->start);

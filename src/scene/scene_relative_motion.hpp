@@ -52,11 +52,15 @@ std::vector<double> read_jet_times(const TableReader& jet, const Scene& scene,
 RelativeFrame read_relative_frame(const TableReader& table, const TableReader& fallback);
 RelativeFrame read_relative_frame(const TableReader& table);
 
+/// Where a deputy may be: in what expansions about the chief reach at all, or anywhere, as the
+/// other spacecraft of an encounter, which has polynomials about its own trajectory.
+enum class DeputyPlace { near_chief, anywhere };
+
 /// A deputy at the start, in the given frame: `position_m` and, optional, `velocity_m_s` in that
 /// frame; numbers of another form (components_of); or its own orbit in the keys of [nominal], whose
 /// difference from the chief's is taken.
 RelativeState read_relative_state(const TableReader& table, const Nominal& nominal,
-                                  RelativeFrame frame);
+                                  RelativeFrame frame, DeputyPlace place = DeputyPlace::near_chief);
 
 /// A deputy at its arrival, in the same forms but a message: what they are relative to the chief
 /// depends on where that is then.
@@ -70,6 +74,9 @@ RelativeState read_place(const TableReader& table, const Nominal& nominal);
 RelativeState in_other_frame(const TableReader& table, const Nominal& nominal,
                              const DeputySettings& deputy, RelativeFrame frame);
 
+/// Whether the scene asks for collisions of chief and deputy, table [uncertainty.collision].
+bool has_collision(const TableReader& root);
+
 /// What the tables that watch how near spacecraft come have in common: the canonical ends of
 /// `window_s` in a scene with a deputy that goes forwards, and a length that is small beside the
 /// chief's distance from the centre.
@@ -77,9 +84,10 @@ SceneKey window_key();
 std::array<double, 2> read_window(const TableReader& table, const Scene& scene);
 double read_nearness(const TableReader& table, std::string_view key, const Scene& scene);
 
-/// A line for each deputy that is beyond what any polynomial resolves, a twentieth of the chief's
-/// distance from the centre away or more; and for a kind of generating function that the scene's
-/// coordinates leave unused.
+/// A line for each deputy that is beyond what any polynomial about the chief resolves, a twentieth
+/// of the chief's distance from the centre away or more; and for a kind of generating function that
+/// the scene's coordinates leave unused. The deputy of a scene with [uncertainty.collision], which
+/// is flown about its own trajectory, is never too far.
 std::vector<std::string> likely_slips_of_deputies(const TableReader& root, const Scene& scene);
 
 }  // namespace hamjet::io

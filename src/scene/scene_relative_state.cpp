@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -115,8 +116,8 @@ void require_near(const TableReader& table, const Nominal& nominal,
 
 /// The relative state of a deputy that is given by its own orbit: the difference of the two
 /// inertial states, neither of which has been rounded before.
-RelativeState read_own_orbit(const TableReader& table, const Nominal& nominal,
-                             RelativeFrame frame) {
+RelativeState read_own_orbit(const TableReader& table, const Nominal& nominal, RelativeFrame frame,
+                             DeputyPlace place) {
   const Orbit deputy = read_orbit(table, nominal.centre);
   if (deputy.file) require_same_date(table, nominal, deputy.file->ephemeris);
   const CanonicalScale& scale = nominal.scale;
@@ -130,7 +131,7 @@ RelativeState read_own_orbit(const TableReader& table, const Nominal& nominal,
         convert<double>((deputy.state.velocity_km_s[i] - nominal.orbit->velocity_km_s[i]) *
                         scale.time_s / scale.length_km));
   }
-  require_near(table, nominal, deviation);
+  if (place == DeputyPlace::near_chief) require_near(table, nominal, deviation);
   return frame_at_chief(table, nominal, frame).relative(deviation);
 }
 
@@ -154,7 +155,7 @@ std::array<double, 6> numbers_of_form(const TableReader& table, DeputyForm form)
 
 /// The relative state of a deputy whose table has numbers of this form.
 RelativeState read_in_form(const TableReader& table, const Nominal& nominal, RelativeFrame frame,
-                           DeputyForm form) {
+                           DeputyForm form, DeputyPlace place) {
   const std::array<double, 6> numbers = numbers_of_form(table, form);
   const std::string_view first = *key_of_form(table, form);
   std::array<double, 6> deviation{};
@@ -167,19 +168,24 @@ RelativeState read_in_form(const TableReader& table, const Nominal& nominal, Rel
                                   "orbit, or another form: {}",
                                   name_of(form), fmt::join(numbers, ", "), error.what()));
   }
-  require_near(table, nominal, deviation);
+  if (place == DeputyPlace::near_chief) require_near(table, nominal, deviation);
   return frame_at_chief(table, nominal, frame).relative(deviation);
 }
 
 /// A state relative to the chief, along the axes of the frame.
-RelativeState read_along_axes(const TableReader& table, const Nominal& nominal) {
+RelativeState read_along_axes(const TableReader& table, const Nominal& nominal,
+                              DeputyPlace place = DeputyPlace::near_chief) {
   const MetricUnits units = metric_units(nominal);
+  const bool is_near = place == DeputyPlace::near_chief;
+  constexpr double no_limit = std::numeric_limits<double>::infinity();
   RelativeState state;
-  state.position_m = read_vector(table, "position_m", distance_of(nominal) * units.length_m,
-                                 "the chief's distance from the centre");
+  state.position_m =
+      read_vector(table, "position_m", is_near ? distance_of(nominal) * units.length_m : no_limit,
+                  "the chief's distance from the centre");
   if (table.has("velocity_m_s")) {
     state.velocity_m_s =
-        read_vector(table, "velocity_m_s", circular_speed_of(nominal) * units.velocity_m_s(),
+        read_vector(table, "velocity_m_s",
+                    is_near ? circular_speed_of(nominal) * units.velocity_m_s() : no_limit,
                     "the speed of a circular orbit through the chief");
   }
   return state;
@@ -258,11 +264,11 @@ std::vector<SceneKey> arrival_keys() {
 }
 
 RelativeState read_relative_state(const TableReader& table, const Nominal& nominal,
-                                  RelativeFrame frame) {
+                                  RelativeFrame frame, DeputyPlace place) {
   const GivenForm given = form_of(table);
-  if (given.is_own_orbit) return read_own_orbit(table, nominal, frame);
-  if (given.form) return read_in_form(table, nominal, frame, *given.form);
-  return read_along_axes(table, nominal);
+  if (given.is_own_orbit) return read_own_orbit(table, nominal, frame, place);
+  if (given.form) return read_in_form(table, nominal, frame, *given.form, place);
+  return read_along_axes(table, nominal, place);
 }
 
 ArrivalState read_arrival(const TableReader& table, const Nominal& nominal) {

@@ -197,7 +197,8 @@ void require_calendar(const TableReader& table, std::string_view key, const Scen
 FigureSettings read_figure(const TableReader& figure, const Scene& scene);
 
 /// Table `[deputy]`, checked against what `scene` already holds.
-DeputySettings read_deputy(const TableReader& deputy, const Scene& scene, const Nominal& nominal);
+DeputySettings read_deputy(const TableReader& deputy, const Scene& scene, const Nominal& nominal,
+                           bool is_anywhere);
 
 /// Table `[transfer]`, checked against what `scene` already holds. The tables `[transfer.start]`
 /// and `[transfer.end]` may be left out together where `needs_ends` is false, and the start where

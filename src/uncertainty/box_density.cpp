@@ -19,7 +19,7 @@ constexpr double share_of_bound = 0.01;
 constexpr double spread_factor = 2;
 /// Boxes are fine enough where no more than this part of the whole may be missed: weights then
 /// differ by some hundredths.
-constexpr double fine_enough = 0.1;
+constexpr double fine_enough = 0.03;
 /// Slopes of a logarithm across a box are taken as no larger: the exponential is at its end then.
 constexpr double steepest_slope = 20;
 constexpr double level_slope = 1e-6;

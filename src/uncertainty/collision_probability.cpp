@@ -19,20 +19,22 @@ namespace hamjet {
 namespace {
 
 /// The cubics between nodes are right to this part of the radius.
-constexpr double path_accuracy = 1e-4;
-/// Samples that are evaluated side by side, and blocks of them in a task.
-constexpr std::size_t block = 64;
+constexpr double path_accuracy = 1e-5;
+/// Blocks of samples in a task.
 constexpr std::size_t blocks_in_task = 64;
 /// Every so many blocks the lower order is evaluated too.
 constexpr std::size_t lower_order_every = 8;
 /// The sampled sphere is wider than the collision's by this part of the radius at least, and by so
 /// many times the largest excess seen.
-constexpr double narrowest_margin = 1e-3;
+constexpr double narrowest_margin = 1e-5;
 constexpr double margin_factor = 1.5;
 /// Draws below this part of the mean weight hold no more than this part of the probability.
 constexpr double negligible_weight = 1e-4;
 /// Spheres wider than this, in radii, hold too few collisions for what they cost.
 constexpr double widest_sphere = 20;
+/// A relative standard error as if fewer than a hundred draws had all of the weight: such draws say
+/// nothing of what they have missed.
+constexpr double few_draws = 0.1;
 constexpr std::size_t pilot_blocks = 32;
 constexpr std::size_t time_count = 200;
 
@@ -91,8 +93,8 @@ struct Sums {
 
 /// A block of samples: their deviations, a structure of arrays, and weights.
 struct Block {
-  std::vector<double> points = std::vector<double>(encounter_variables * block);
-  std::vector<double> weights = std::vector<double>(block);
+  std::vector<double> points = std::vector<double>(encounter_variables * samples_in_block);
+  std::vector<double> weights = std::vector<double>(samples_in_block);
 };
 
 class Estimate {
@@ -107,7 +109,8 @@ class Estimate {
 
  private:
   void draw(RandomStream& random, Block& samples) const;
-  void judge(const Block& samples, bool with_lower_order, Sums& sums) const;
+  /// Adds the first `count` of a block.
+  void judge(const Block& samples, std::size_t count, bool with_lower_order, Sums& sums) const;
   double largest_difference() const;
 
   const EncounterProblem* problem_;
@@ -119,7 +122,7 @@ class Estimate {
 
 void Estimate::draw(RandomStream& random, Block& samples) const {
   SampledPath path(paths_->times().size());
-  for (std::size_t j = 0; j < block; ++j) {
+  for (std::size_t j = 0; j < samples_in_block; ++j) {
     EncounterDeviation deviation;
     samples.weights[j] = 1;
     if (sampler_) {
@@ -133,13 +136,14 @@ void Estimate::draw(RandomStream& random, Block& samples) const {
       for (Eigen::Index i = 0; i < deviation.size(); ++i) deviation[i] = random.normal();
     }
     for (std::size_t i = 0; i < encounter_variables; ++i) {
-      samples.points[i * block + j] = deviation[static_cast<Eigen::Index>(i)];
+      samples.points[i * samples_in_block + j] = deviation[static_cast<Eigen::Index>(i)];
     }
   }
 }
 
-void Estimate::judge(const Block& samples, bool with_lower_order, Sums& sums) const {
-  std::vector<double> states(6 * paths_->times().size() * block), lower;
+void Estimate::judge(const Block& samples, std::size_t count, bool with_lower_order,
+                     Sums& sums) const {
+  std::vector<double> states(6 * paths_->times().size() * samples_in_block), lower;
   paths_->evaluate(samples.points, problem_->order, states);
   if (with_lower_order) {
     lower.resize(states.size());
@@ -147,8 +151,8 @@ void Estimate::judge(const Block& samples, bool with_lower_order, Sums& sums) co
   }
   SampledPath path(paths_->times().size());
   const double scale = static_cast<double>(time_count) / (problem_->to - problem_->from);
-  for (std::size_t j = 0; j < block; ++j) {
-    take_path(states, block, j, path);
+  for (std::size_t j = 0; j < count; ++j) {
+    take_path(states, samples_in_block, j, path);
     const double weight = samples.weights[j];
     ++sums.samples;
     const auto entry = first_event(*paths_, path, problem_->radius, settings_->event);
@@ -160,7 +164,7 @@ void Estimate::judge(const Block& samples, bool with_lower_order, Sums& sums) co
       sums.by_time[std::min(place, time_count - 1)] += weight;
     }
     if (with_lower_order) {
-      take_path(lower, block, j, path);
+      take_path(lower, samples_in_block, j, path);
       const bool hit = first_event(*paths_, path, problem_->radius, settings_->event).has_value();
       const double change = (hit ? weight : 0) - (entry ? weight : 0);
       ++sums.compared;
@@ -174,18 +178,18 @@ double Estimate::largest_difference() const {
   RandomStream random(settings_->seed, ~std::uint64_t{0});
   Block samples;
   SampledPath path(paths_->times().size());
-  std::vector<double> states(6 * path.size() * block);
+  std::vector<double> states(6 * path.size() * samples_in_block);
   std::vector<std::pair<double, double>> differences;  // and weights
   double sum = 0;
   for (std::size_t k = 0; k < pilot_blocks; ++k) {
     draw(random, samples);
     paths_->evaluate(samples.points, problem_->order, states);
-    for (std::size_t j = 0; j < block; ++j) {
+    for (std::size_t j = 0; j < samples_in_block; ++j) {
       EncounterDeviation deviation;
       for (std::size_t i = 0; i < encounter_variables; ++i) {
-        deviation[static_cast<Eigen::Index>(i)] = samples.points[i * block + j];
+        deviation[static_cast<Eigen::Index>(i)] = samples.points[i * samples_in_block + j];
       }
-      take_path(states, block, j, path);
+      take_path(states, samples_in_block, j, path);
       const double least = least_distance(*paths_, path);
       take_linear_path(*paths_, deviation, path);
       differences.emplace_back(std::abs(least - least_distance(*paths_, path)), samples.weights[j]);
@@ -207,8 +211,11 @@ bool Estimate::sample_entries() {
   // differences of its own paths do not bridge the margin.
   double margin = narrowest_margin * problem_->radius;
   while (margin <= (widest_sphere - 1) * problem_->radius) {
-    sampler_.emplace(*paths_, problem_->radius + margin,
-                     settings_->event == CollisionEvent::nearer);
+    // An entry may come from between the two spheres too, where the path begins: of those that are
+    // to become nearer, what begins well inside is left out.
+    const double nearest_begin =
+        settings_->event == CollisionEvent::nearer ? 0 : std::max(0.0, problem_->radius - margin);
+    sampler_.emplace(*paths_, problem_->radius + margin, nearest_begin);
     if (sampler_->is_empty()) return true;
     difference_ = largest_difference();
     if (difference_ * margin_factor <= margin) return true;
@@ -232,8 +239,9 @@ CollisionProbability Estimate::result() const {
     if (sampler_->is_empty()) return result;
   }
   if (paths_->arcs().empty()) return result;
-  const std::size_t in_task = block * blocks_in_task;
-  const std::size_t tasks = (static_cast<std::size_t>(settings_->samples) + in_task - 1) / in_task;
+  const std::size_t in_task = samples_in_block * blocks_in_task;
+  const auto wanted = static_cast<std::size_t>(settings_->samples);
+  const std::size_t tasks = (wanted + in_task - 1) / in_task;
   std::vector<Sums> sums(tasks);
   run_concurrently(
       tasks, settings_->threads,
@@ -241,8 +249,10 @@ CollisionProbability Estimate::result() const {
         RandomStream random(settings_->seed, task);
         Block samples;
         for (std::size_t k = 0; k < blocks_in_task; ++k) {
+          const std::size_t count = in_block(wanted, task * in_task + k * samples_in_block);
+          if (count == 0) break;
           draw(random, samples);
-          judge(samples, problem_->order > 1 && k % lower_order_every == 0, sums[task]);
+          judge(samples, count, problem_->order > 1 && k % lower_order_every == 0, sums[task]);
         }
         control.advance();
       },
@@ -309,10 +319,18 @@ CollisionProbability collision_probability(const EncounterProblem& problem,
   try {
     if (estimate.sample_entries()) {
       const CollisionProbability result = estimate.result();
+      if (result.samples == 0) return result;
       // Weights of probable collisions may tell less than plain samples do.
-      const bool is_worse =
-          result.samples > 0 && result.equivalent_samples < static_cast<double>(result.samples);
-      if (settings.sampling == CollisionSampling::entries || !is_worse) return result;
+      const bool is_worse = result.equivalent_samples < static_cast<double>(result.samples);
+      const bool is_told_by_few = !(result.standard_error < few_draws * result.probability);
+      if (settings.sampling == CollisionSampling::entries && is_told_by_few) {
+        throw Error(ErrorKind::numerical,
+                    "collision: a few of the drawn entries have all of the weight, so that they "
+                    "may have missed where collisions come from; plain sampling does not");
+      }
+      if (settings.sampling == CollisionSampling::entries || (!is_worse && !is_told_by_few)) {
+        return result;
+      }
     }
     if (settings.sampling == CollisionSampling::entries) {
       throw Error(ErrorKind::numerical,
@@ -321,8 +339,9 @@ CollisionProbability collision_probability(const EncounterProblem& problem,
                               widest_sphere));
     }
   } catch (const Error& error) {
-    if (settings.sampling == CollisionSampling::entries || error.kind() != ErrorKind::numerical) {
-      throw;
+    if (error.kind() != ErrorKind::numerical) throw;
+    if (settings.sampling == CollisionSampling::entries) {
+      throw Error(ErrorKind::usage, error.what());
     }
   }
   return Estimate(problem, settings, paths).result();

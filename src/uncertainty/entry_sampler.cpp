@@ -17,6 +17,8 @@ namespace {
 constexpr double whole_turn = 2 * std::numbers::pi;
 /// Standard deviations below this part of the radius make entries a sheet too thin for boxes.
 constexpr double narrowest = 0.01;
+/// Conditions whose rows depend on each other to this part are one.
+constexpr double dependent = 1e-6;
 /// The most boxes: a tenth of a second.
 constexpr std::size_t box_count = 100000;
 
@@ -152,13 +154,14 @@ std::vector<Box> EntrySampler::boxes() const {
   return boxes;
 }
 
-EntrySampler::EntrySampler(const RelativePaths& paths, double radius, bool begins_inside)
+EntrySampler::EntrySampler(const RelativePaths& paths, double radius, double nearest_begin)
     : paths_(&paths),
       radius_(radius),
       entering_(boxes(), entering(), box_count),
       inside_(
-          begins_inside && paths.has_begin()
-              ? std::vector<Box>{{{0, -whole_turn / 4, 0}, {1, whole_turn / 4, whole_turn}}}
+          nearest_begin < radius && paths.has_begin()
+              ? std::vector<Box>{{{nearest_begin / radius, -whole_turn / 4, 0},
+                                  {1, whole_turn / 4, whole_turn}}}
               : std::vector<Box>{},
           [this](const std::array<double, 3>& point) { return inside(point); }, box_count) {
   for (std::size_t node = 0; node < paths.times().size(); ++node) {
@@ -214,8 +217,13 @@ EncounterDeviation EntrySampler::draw(RandomStream& random) const {
   const auto b = conditions.topRows(count);
   const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 4, 1> missing =
       wanted.head(count) - b * deviation;
-  const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 4, 4> products = b * b.transpose();
-  deviation += b.transpose() * products.ldlt().solve(missing);
+  // Where the position tells the velocity, as of states whose velocity is known exactly, the fourth
+  // condition follows from the others and must not be divided by.
+  Eigen::CompleteOrthogonalDecomposition<Eigen::Matrix<double, Eigen::Dynamic, 12, 0, 4, 12>>
+      solver;
+  solver.setThreshold(dependent);
+  solver.compute(b);
+  deviation += solver.solve(missing);
   return deviation;
 }
 

@@ -16,18 +16,16 @@
 namespace hamjet {
 namespace {
 
-/// Samples that are evaluated side by side, each block from a stream of its own.
-constexpr std::size_t side_by_side = 64;
 /// Separations are told to a part of the radius.
 constexpr double separation_accuracy = 0.01;
 
 /// The deviations of a block, a structure of arrays.
 std::vector<double> deviations_of(std::uint64_t seed, std::size_t number) {
   RandomStream random(seed, number);
-  std::vector<double> points(encounter_variables * side_by_side);
-  for (std::size_t j = 0; j < side_by_side; ++j) {
+  std::vector<double> points(encounter_variables * samples_in_block);
+  for (std::size_t j = 0; j < samples_in_block; ++j) {
     for (std::size_t i = 0; i < encounter_variables; ++i)
-      points[i * side_by_side + j] = random.normal();
+      points[i * samples_in_block + j] = random.normal();
   }
   return points;
 }
@@ -42,7 +40,7 @@ std::vector<double> flown_block(const EncounterProblem& problem, const RelativeP
     for (std::size_t j = 0; j < count; ++j) {
       Eigen::Matrix<double, 6, 1> xi;
       for (std::size_t i = 0; i < 6; ++i) {
-        xi[static_cast<Eigen::Index>(i)] = points[(6 * craft + i) * side_by_side + j];
+        xi[static_cast<Eigen::Index>(i)] = points[(6 * craft + i) * samples_in_block + j];
       }
       const Eigen::Matrix<double, 6, 1> deviation = problem.spacecraft[craft].factor * xi;
       for (std::size_t i = 0; i < 6; ++i) {
@@ -103,17 +101,17 @@ LeastSeparations least_separations(const EncounterProblem& problem,
   const RelativePaths paths(problem, separation_accuracy * problem.radius,
                             std::numeric_limits<double>::infinity());
   const auto count = static_cast<std::size_t>(std::max(1L, settings.samples));
-  const std::size_t tasks = (count + side_by_side - 1) / side_by_side;
-  std::vector<double> least(tasks * side_by_side);
+  const std::size_t tasks = (count + samples_in_block - 1) / samples_in_block;
+  std::vector<double> least(count);
   run_concurrently(
       tasks, settings.threads,
       [&](std::size_t task, TaskControl& control) {
-        std::vector<double> states(6 * paths.times().size() * side_by_side);
+        std::vector<double> states(6 * paths.times().size() * samples_in_block);
         paths.evaluate(deviations_of(settings.seed, task), problem.order, states);
         SampledPath path(paths.times().size());
-        for (std::size_t j = 0; j < side_by_side; ++j) {
-          take_path(states, side_by_side, j, path);
-          least[task * side_by_side + j] = least_distance(paths, path);
+        for (std::size_t j = 0; j < in_block(count, task * samples_in_block); ++j) {
+          take_path(states, samples_in_block, j, path);
+          least[task * samples_in_block + j] = least_distance(paths, path);
         }
         control.advance();
       },
@@ -127,15 +125,15 @@ LeastSeparations least_separations(const EncounterProblem& problem,
   result.samples = static_cast<long>(least.size());
   result.flights = std::min(flights, result.samples);
   const auto flown_blocks =
-      (static_cast<std::size_t>(result.flights) + side_by_side - 1) / side_by_side;
+      (static_cast<std::size_t>(result.flights) + samples_in_block - 1) / samples_in_block;
   for (std::size_t k = 0; k < flown_blocks; ++k) {
     const std::size_t number =
-        std::min(side_by_side, static_cast<std::size_t>(result.flights) - k * side_by_side);
+        std::min(samples_in_block, static_cast<std::size_t>(result.flights) - k * samples_in_block);
     const std::vector<double> flown =
         flown_block(problem, paths, deviations_of(settings.seed, k), number);
     for (std::size_t j = 0; j < number; ++j) {
       result.flight_difference =
-          std::max(result.flight_difference, std::abs(flown[j] - least[k * side_by_side + j]));
+          std::max(result.flight_difference, std::abs(flown[j] - least[k * samples_in_block + j]));
     }
   }
   std::sort(least.begin(), least.end());

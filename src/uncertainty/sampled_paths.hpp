@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <span>
@@ -8,6 +9,14 @@
 #include "relative_paths.hpp"
 
 namespace hamjet {
+
+/// Samples of relative paths that are evaluated side by side.
+inline constexpr std::size_t samples_in_block = 64;
+
+/// How many samples of so many are in the block that begins with one of them.
+inline std::size_t in_block(std::size_t count, std::size_t first) {
+  return first < count ? std::min(samples_in_block, count - first) : 0;
+}
 
 /// A relative path: position and velocity at each node.
 using SampledPath = std::vector<std::array<double, 6>>;

@@ -114,6 +114,7 @@ ShortEncounter short_encounter(const EncounterProblem& problem, double time_of_c
 
   const double spread = std::sqrt(std::max(0.0, along.dot(covariance * along)));
   result.passage = (problem.radius + 3 * spread) / result.speed;
+  result.is_cut = time - result.passage < problem.from || time + result.passage > problem.to;
   for (const double side : {-1.0, 1.0}) {
     const double then = std::clamp(time + side * result.passage, problem.from, problem.to);
     const LinearRelativeState other = trajectories.linear(then);

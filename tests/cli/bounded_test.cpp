@@ -129,9 +129,32 @@ TEST_F(LongMotion, RefusesWithTheReason) {
                {"low.toml: bounded: missing, must be a table [bounded]; the smallest is"});
   expect_error({"bounded", "wide.toml"}, 3, {"bounded.sizes_km.1: out of range, got 9000"});
   for (const char* const command : {"bounded", "poincare"}) {
-    expect_error({command, "flat.toml"}, 4, {"nearly in the equatorial plane"});
+    expect_error({command, "flat.toml"}, 3,
+                 {"flat.toml: nominal: no chief with a node", "got an inclination of 0.1 deg",
+                  "nearly in the equatorial plane"});
   }
   EXPECT_FALSE(std::filesystem::exists(directory_ / "out"));
+}
+
+// Frozen eccentricities of a thousandth take an orbit a kilometre above the equator's radius below
+// it.
+TEST_F(LongMotion, PoincareSaysThatTheOrbitIsInsideTheBody) {
+  std::string low = scene("50", "");
+  low.replace(low.find("7100"), 4, "6379");
+  write("inside.toml", low);
+  write("outside.toml", scene("50", ""));
+  const std::string out = in_one_line(succeed({"poincare", "inside.toml"}).out);
+  EXPECT_NE(out.find("no orbit that can be flown: its perigee lies"), std::string::npos) << out;
+  EXPECT_EQ(in_one_line(succeed({"poincare", "outside.toml"}).out).find("can be flown"),
+            std::string::npos);
+  const auto frozen = [&](const char* name) {
+    return read_json(directory_ / "out" / (std::string(name) + "-poincare") / "summary.json")
+        .at("frozen_orbit");
+  };
+  EXPECT_EQ(frozen("inside")["inside_body"], true);
+  EXPECT_LT(frozen("inside")["a_km"].get<double>() * (1 - frozen("inside")["e"].get<double>()),
+            6378.1363);
+  EXPECT_EQ(frozen("outside")["inside_body"], false);
 }
 
 }  // namespace

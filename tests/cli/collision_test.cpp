@@ -192,5 +192,58 @@ TEST_F(Collision, RefusesWhatIsNoWindowAndWhatIsCertain) {
   expect_error({"uncertainty", "certain.toml"}, 3, {"known exactly", "must have a covariance"});
 }
 
+// Two circular orbits in one plane, one against the other: they meet head-on after a quarter of a
+// revolution at twice the orbital speed, where the integral over the disc is exact to the curvature
+// within milliseconds.
+TEST_F(Collision, OfAHeadOnEncounterIsThatOfThePlane) {
+  write("head-on.toml",
+        "[system]\nmodel = \"kepler\"\nmu_km3_s2 = 398600.4415\n[nominal]\n"
+        "position_km = [7000, 0, 0]\nvelocity_km_s = [0, 7.546053286, 0]\n"
+        "[deputy]\nposition_km = [-7000, 0, 0]\nvelocity_km_s = [0, 7.546053286, 0]\n"
+        "[jet]\norder = 2\nduration_s = 1500\n"
+        "[uncertainty]\nposition_m = [10, 10, 10]\nvelocity_m_s = [1e-3, 1e-3, 1e-3]\n"
+        "samples = 2000\n[uncertainty.deputy]\nposition_m = [10, 10, 10]\n"
+        "[uncertainty.collision]\nradius_m = 5\nwindow_s = [1400, 1500]\nsamples = 20001\n");
+  const CommandResult outcome = succeed({"uncertainty", "head-on.toml"});
+  EXPECT_EQ(outcome.err.find("far from its chief"), std::string::npos) << outcome.err;
+  const Json summary = read_json(directory_ / "out/head-on-uncertainty/summary.json");
+  const Json& collision = summary["collision"];
+  EXPECT_EQ(collision["samples"], 20001);
+  ASSERT_EQ(collision["approaches"].size(), 1U);
+  const Json& approach = collision["approaches"][0];
+  EXPECT_NEAR(approach["speed_m_s"].get<double>(), 2 * 7546.053286, 1e-2);
+  EXPECT_EQ(approach["short_encounter"]["holds"], true);
+  EXPECT_EQ(approach["short_encounter"]["cut_by_window"], false);
+  const double plane = approach["short_encounter"]["alfano"];
+  EXPECT_NEAR(collision["probability"].get<double>(), plane,
+              4 * collision["standard_error"].get<double>() + 1e-3 * plane);
+  // Moments of the deputy are by polynomials about its own trajectory, 14 000 km from the chief's.
+  const Json& deputy = summary["times"][0]["states"][1];
+  ASSERT_EQ(deputy["name"], "deputy");
+  const Json& moments = deputy["families"][0]["orders"][1];
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (const char* const key : {"mean", "standard_deviations"}) {
+      // Five scatters are left by chance once in some 100 000 tries of twelve numbers.
+      EXPECT_NEAR(moments[key][i].get<double>(), deputy["flown"][key][i].get<double>(),
+                  5 * deputy["flown"]["scatter"][key][i].get<double>())
+          << key << i;
+    }
+  }
+}
+
+TEST_F(Collision, NamesTheKeyOfWhatCannotBeSampled) {
+  std::string flat = scene("radius_m = 5\nsampling = \"entries\"\n",
+                           "[uncertainty.deputy]\nposition_m = [10, 10, 0]\n");
+  flat.replace(flat.find("[10, 10, 10]"), 12, "[10, 10, 0]");
+  write("flat.toml", flat);
+  expect_error({"uncertainty", "flat.toml"}, 3,
+               {"flat.toml: uncertainty.collision.sampling: not possible for this encounter",
+                "\"plain\"", "certain in a direction"});
+  write("thin.toml", scene("radius_m = 1e-6\n", "[uncertainty.deputy]\nposition_m = [1, 1, 1]\n"));
+  expect_error({"uncertainty", "thin.toml"}, 6,
+               {"uncertainty.collision.radius_m: too small beside the window, got 1e-06"});
+  EXPECT_FALSE(std::filesystem::exists(directory_ / "out"));
+}
+
 }  // namespace
 }  // namespace hamjet::test

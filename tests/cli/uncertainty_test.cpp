@@ -64,6 +64,25 @@ TEST_F(UncertaintyCommand, SaysThatASmallCovarianceHolds) {
   EXPECT_EQ(summary["times"][0]["states"][0]["linear_misleads"], false);
 }
 
+// After three revolutions 100 m along R and 0.1 m/s have drifted some 8 km along T, whose bend of
+// T^2/(2 r) = 4 m stays small beside what each component spreads by, but not beside the 1e-6 m that
+// the start's T leaves to a combination of them.
+TEST_F(UncertaintyCommand, TellsCombinationsFromComponentsOfANearlySingularCovariance) {
+  write("line.toml", scene("[uncertainty]\nposition_m = [100, 1e-6, 100]\n"
+                           "velocity_m_s = [0.1, 0.1, 0.1]\nsamples = 0\n"));
+  const std::string out = in_one_line(succeed({"uncertainty", "line.toml"}).out);
+  for (const char* const words : {"holds for each component alone",
+                                  "but not for all together, of which one may be wrong by "
+                                  "anything",
+                                  "most where one linear standard deviation is"}) {
+    EXPECT_NE(out.find(words), std::string::npos) << words << " is not in " << out;
+  }
+  const Json state =
+      read_json(directory_ / "out/line-uncertainty/summary.json")["times"][0]["states"][0];
+  EXPECT_EQ(state["linear_misleads"], false);
+  EXPECT_EQ(state["linear_misleads_of_combinations"], true);
+}
+
 TEST_F(UncertaintyCommand, NeedsATableAndAGoodCovariance) {
   write("none.toml", scene(""));
   expect_error({"uncertainty", "none.toml"}, 3,

@@ -263,6 +263,26 @@ TEST(SceneDeputy, OfAMessageIsOfTheChiefsMomentAxesAndCentre) {
                [&] { read(changed(same, "\"EARTH\"", "\"EARTH BARYCENTER\"")); });
 }
 
+// Each spacecraft of an encounter has polynomials about its own trajectory.
+TEST(SceneDeputy, OfACollisionMayBeAnywhere) {
+  const std::string collision =
+      "[uncertainty]\nposition_m = [1, 1, 1]\n[uncertainty.collision]\nradius_m = 2\n";
+  const auto start = [&](const std::string& deputy, const std::string& tables) {
+    return scene_of("[deputy]\nframe = \"inertial\"\n" + deputy + tables);
+  };
+  // From the other side, against the chief's motion.
+  const std::string opposite = "position_km = [-4, 0, 0]\nvelocity_km_s = [0, 0.5, 0]\n";
+  const Scene met = start(opposite, collision);
+  EXPECT_EQ(met.deputy->start.position_m, Eigen::Vector3d(-8000, 0, 0));
+  EXPECT_EQ(met.deputy->start.velocity_m_s, Eigen::Vector3d(0, 0, 0));
+  EXPECT_TRUE(met.warnings.empty());
+  const std::string head_on = "position_m = [0, 5, 0]\nvelocity_m_s = [0, -1000, 0]\n";
+  EXPECT_EQ(start(head_on, collision).deputy->start.velocity_m_s, Eigen::Vector3d(0, -1000, 0));
+  for (const std::string& deputy : {opposite, head_on}) {
+    expect_error([&] { start(deputy, ""); }, ErrorKind::scene, {"deputy"}, deputy);
+  }
+}
+
 TEST(SceneDeputy, FarFromItsChiefIsWarnedOf) {
   EXPECT_TRUE(scene_of("[deputy]\nposition_m = [0, 199, 0]\n").warnings.empty());
   const Scene far = scene_of("[deputy]\nposition_m = [0, 201, 0]\n");

@@ -134,6 +134,28 @@ TEST(ShortEncounter, FailsOnSlowEncountersAsPublished) {
   }
 }
 
+TEST(ShortEncounter, DoesNotHoldWhereTheWindowCutsThePassage) {
+  // Case 3 is short; a window that begins or ends within its passage leaves part of the disc out.
+  for (const test::PublishedEncounter& e : test::published_encounters()) {
+    if (e.number != 3) continue;
+    const double time = closest_approaches(e.problem)[0].time;
+    const ShortEncounter whole = short_encounter(e.problem, time);
+    EXPECT_TRUE(whole.holds() && !whole.is_cut);
+    for (const double side : {-1.0, 1.0}) {
+      EncounterProblem cut = e.problem;
+      (side < 0 ? cut.from : cut.to) = time + side * whole.passage / 2;
+      const ShortEncounter s = short_encounter(cut, time);
+      EXPECT_TRUE(s.is_cut);
+      EXPECT_FALSE(s.holds()) << s.departure;
+      // Both windows are integrated for themselves, to the tolerance in positions a step: beside
+      // the least standard deviation, which is what a probability changes by.
+      const double rounding = 10 * *cut.settings.tolerance / whole.deviation[0];
+      EXPECT_NEAR(s.alfano / whole.alfano, 1, rounding);
+      EXPECT_LT(rounding, 1e-3);
+    }
+  }
+}
+
 TEST(ClosestApproach, RefusesOrdersOfTooLongSeries) {
   EXPECT_THROW(closest_approaches(passing_pair(7, 1e-6)), Error);
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/non_central_chi_squared.hpp>
 #include <cmath>
 #include <string>
@@ -130,6 +131,70 @@ TEST(CollisionProbability, OfFastEncountersIsThatOfThePlaneDownToRareOnes) {
         << miss << ": " << result.probability << ", " << plane.alfano;
     EXPECT_LT(result.standard_error, 0.02 * plane.alfano);
     EXPECT_NEAR(plane.foster / plane.alfano, 1, 1e-9);
+  }
+}
+
+TEST(CollisionProbability, OfExactVelocitiesIsThatOfPlainSamples) {
+  // Positions tell the velocities then, and the speed of entry follows from where a path enters.
+  EncounterProblem problem;
+  problem.system = kepler();
+  const double s = 1e-6;
+  for (UncertainSpacecraft& craft : problem.spacecraft) {
+    craft.state = {1, 0, 0, 0, 1, 0.1};
+    craft.factor.topLeftCorner<3, 3>() = s * Eigen::Matrix3d::Identity();
+  }
+  problem.spacecraft[1].state[1] += 3 * s;
+  problem.to = 1;
+  problem.radius = s;
+  problem.order = 2;
+  problem.settings.tolerance = 1e-12;
+  const CollisionProbability plain =
+      collision_probability(problem, settings(50'000, CollisionSampling::plain));
+  const CollisionProbability weighted =
+      collision_probability(problem, settings(20'000, CollisionSampling::entries));
+  ASSERT_GT(plain.hits, 100);
+  expect_agreement(plain.probability, plain.standard_error, weighted.probability,
+                   weighted.standard_error, "exact velocities");
+}
+
+TEST(CollisionProbability, OfBeginningInsideIsWhatEntriesLeaveOut) {
+  // To be nearer is to begin so, or to become so: what the two events differ by is the probability
+  // that a normal vector of independent components is in a ball. The orbits bend so much that the
+  // sampled sphere is wider than the radius by a part of a hundred, and paths that begin between
+  // the two spheres are half of a hundredth of that probability.
+  EncounterProblem problem;
+  problem.system = kepler();
+  const double s = 1e-3;
+  for (UncertainSpacecraft& craft : problem.spacecraft) {
+    craft.state = {1, 0, 0, 0, 1, 0};
+    craft.factor.topLeftCorner<3, 3>() = s / std::sqrt(2.0) * Eigen::Matrix3d::Identity();
+    craft.factor.bottomRightCorner<3, 3>() = s * Eigen::Matrix3d::Identity();
+  }
+  problem.to = 1;
+  problem.radius = s;
+  problem.order = 3;
+  problem.settings.tolerance = 1e-12;
+  CollisionSettings s_of = settings(60'000, CollisionSampling::entries);
+  const CollisionProbability nearer = collision_probability(problem, s_of);
+  s_of.event = CollisionEvent::entry;
+  const CollisionProbability entry = collision_probability(problem, s_of);
+  const double begin = boost::math::cdf(boost::math::chi_squared(3.0), 1.0);
+  const double error = std::hypot(nearer.standard_error, entry.standard_error);
+  EXPECT_NEAR(nearer.probability - entry.probability, begin, 4 * error);
+  EXPECT_GT(*entry.sampled_radius, 1.002 * problem.radius);
+  // Without the shell the difference would be larger by half of its probability.
+  const double wide = std::pow(*entry.sampled_radius / problem.radius, 2);
+  const double shell = boost::math::cdf(boost::math::chi_squared(3.0), wide) - begin;
+  EXPECT_GT(shell / 2, 6 * error);
+}
+
+TEST(CollisionProbability, TakesAsManySamplesAsAreAskedFor) {
+  const EncounterProblem problem = test::published_encounters()[0].problem;
+  for (const long samples : {1000L, 4095L, 4097L}) {
+    for (const auto sampling : {CollisionSampling::plain, CollisionSampling::entries}) {
+      EXPECT_EQ(collision_probability(problem, settings(samples, sampling)).samples, samples);
+    }
+    EXPECT_EQ(least_separations(problem, settings(samples), {0.5}).samples, samples);
   }
 }
 

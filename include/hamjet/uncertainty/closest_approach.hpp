@@ -52,9 +52,11 @@ struct ShortEncounter {
   /// Within that time, the largest departure of the means from straight motion and of the standard
   /// deviations in the plane from constancy: in the least standard deviation, relative.
   double departure = 0;
+  /// The window begins or ends while they pass: the formulas are about the whole passage.
+  bool is_cut = false;
 
   /// A tenth of a standard deviation changes a probability by a tenth of its exponent or less.
-  bool holds() const { return departure < largest_departure; }
+  bool holds() const { return departure < largest_departure && !is_cut; }
   static constexpr double largest_departure = 0.1;
 };
 

@@ -50,8 +50,8 @@ struct CollisionProbability {
 /// By random samples of the polynomials, in the window, each path judged between the times too.
 /// Plain samples have the interval of Clopper and Pearson, weighted ones that of the normal
 /// distribution. Throws as validate, integrate_gauss, and Error(usage) for less than 1000 samples
-/// or a confidence outside 0.5 to 1; entries, if they are asked for, throw as EntrySampler, and
-/// Error(numerical) where linear paths say too little of true ones.
+/// or a confidence outside 0.5 to 1, and where entries are asked for that cannot be drawn: where
+/// EntrySampler has none, or linear paths say too little of true ones.
 CollisionProbability collision_probability(const EncounterProblem& problem,
                                            const CollisionSettings& settings);
 

@@ -81,6 +81,11 @@ std::string frozen_orbit_verdict(const FrozenOrbitStudy& study) {
       study.semi_major_axis * study.scene.units.length_km, study.eccentricity,
       study.inclination_deg, study.pericentre_deg, study.nodal_period * study.scene.units.time_s,
       study.residual);
+  if (study.is_inside_body()) {
+    text += fmt::format(
+        "It is no orbit that can be flown: its perigee lies {} below the body's radius. ",
+        length_text(study.pericentre_depth * study.scene.units.length_km * 1000));
+  }
   if (!study.is_stable()) {
     return text + fmt::format(
                       "It is unstable: its multipliers are {:.10g} and its inverse, so "
@@ -123,6 +128,7 @@ Json frozen_orbit_json(const FrozenOrbitStudy& study) {
                           {"e", study.eccentricity},
                           {"i_deg", study.inclination_deg},
                           {"argp_deg", study.pericentre_deg},
+                          {"inside_body", study.is_inside_body()},
                           {"nodal_period_s", study.nodal_period * study.scene.units.time_s},
                           {"node_deg_per_revolution", study.node * degrees},
                           {"residual", study.residual},

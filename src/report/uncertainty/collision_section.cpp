@@ -21,6 +21,7 @@ nlohmann::ordered_json plane_json(const ShortEncounter& plane) {
           {"deviation_m", plane.deviation},
           {"passage_s", plane.passage},
           {"departure", plane.departure},
+          {"cut_by_window", plane.is_cut},
           {"holds", plane.holds()}};
 }
 
@@ -81,17 +82,24 @@ nlohmann::ordered_json collision_json(const CollisionResult& result) {
   return json;
 }
 
+/// Whether the formulas of a short encounter hold, and why not.
+std::string judgement(const ShortEncounter& plane) {
+  if (plane.holds()) return "motion is straight while they pass";
+  const std::string passage = duration_text(2 * plane.passage);
+  if (plane.is_cut) {
+    return fmt::format("does not hold, the window cuts the passage of {} off", passage);
+  }
+  return fmt::format(
+      "does not hold, the motion departs from a straight one by {:.2g} standard deviations in the "
+      "{} of the passage",
+      plane.departure, passage);
+}
+
 std::string plane_text(const UncertainApproach& approach) {
   if (!approach.plane) return fmt::format("    {}\n", approach.refusal);
   const ShortEncounter& plane = *approach.plane;
-  return fmt::format(
-      "    as a short encounter {:.3e} (Foster, Alfano), {:.3e} (Chan): {}\n", plane.alfano,
-      plane.chan,
-      plane.holds()
-          ? "motion is straight while they pass"
-          : fmt::format("does not hold, the motion departs from a straight one by {:.2g} standard "
-                        "deviations in the {} of the passage",
-                        plane.departure, duration_text(2 * plane.passage)));
+  return fmt::format("    as a short encounter {:.3e} (Foster, Alfano), {:.3e} (Chan): {}\n",
+                     plane.alfano, plane.chan, judgement(plane));
 }
 
 std::string collision_table_text(const CollisionResult& result) {

@@ -69,9 +69,11 @@ Json state_json(const UncertaintyResult& result, const UncertaintyAt& at,
                                 {"skewness", numbers_json(state.flown->skewness_error)},
                                 {"excess_kurtosis", numbers_json(state.flown->kurtosis_error)}};
   }
-  const double error = linear_error_of_probability(state.cartesian);
-  json["linear_misleads"] =
-      result.scene.order == 1 ? Json(nullptr) : Json(error > misleading_probability);
+  const auto misleads = [&](double error) {
+    return result.scene.order == 1 ? Json(nullptr) : Json(error > misleading_probability);
+  };
+  json["linear_misleads"] = misleads(linear_error_of_component(state.cartesian));
+  json["linear_misleads_of_combinations"] = misleads(linear_error_of_probability(state.cartesian));
   return json;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "../../formats/relative_frame_text.hpp"
 #include "../../text/time_axis.hpp"
@@ -32,6 +33,52 @@ Eigen::Index worst_component(const std::vector<Cumulants>& by_order) {
     most = std::max(most, ratio);
   }
   return worst;
+}
+
+/// The combination of components of which the linear standard deviation is most too small.
+struct Combination {
+  double position_m = 0;    ///< how far one linear standard deviation of it is, at most
+  double velocity_m_s = 0;  ///< the same of the velocity
+  double ratio = 1;         ///< of its standard deviation by all orders to the linear one
+};
+
+/// None where the linear covariance vanishes.
+std::optional<Combination> worst_combination(const std::vector<Cumulants>& by_order) {
+  const Cumulants& linear = by_order.front();
+  if (linear.rank() == 0) return std::nullopt;
+  // In units of the standard deviations, of which an exact component has none.
+  const Vector<double> deviations =
+      linear.standard_deviations().unaryExpr([](double s) { return s > 0 ? s : 1.0; });
+  const Matrix<double> axes = deviations.cwiseInverse().asDiagonal() * linear.axes();
+  const Matrix<double> full = deviations.cwiseInverse().asDiagonal() * by_order.back().axes();
+  // The columns of the axes are orthogonal.
+  const Matrix<double> white =
+      axes.colwise().squaredNorm().cwiseInverse().asDiagonal() * (axes.transpose() * full);
+  const Eigen::SelfAdjointEigenSolver<Matrix<double>> solver(white * white.transpose());
+  // Eigenvalues ascend; what the linear covariance is too wide in changes probabilities less.
+  const Eigen::Index worst = linear.rank() - 1;
+  const Vector<double> step = linear.axes() * solver.eigenvectors().col(worst);
+  return Combination{step.head(3).norm(), step.tail(3).norm(),
+                     std::sqrt(std::max(0.0, solver.eigenvalues()[worst]))};
+}
+
+/// The verdict where the linear covariance is right of each component but not of all together.
+std::string combinations_text(const UncertainState& state, double of_components, double of_all,
+                              int order) {
+  std::string text = fmt::format(
+      "holds for each component alone, of which a probability may be wrong by up to {}, but not "
+      "for all together, of which one may be wrong by {}{}",
+      probability_text(of_components), of_all >= 1 ? "" : "up to ", probability_text(of_all));
+  if (state.cartesian.back().rank() > state.cartesian.front().rank()) {
+    text +=
+        fmt::format(": in some combination it has no spread at all, where order {} has one", order);
+  } else if (const auto worst = worst_combination(state.cartesian)) {
+    text += fmt::format(
+        ": most where one linear standard deviation is {:.2g} m and {:.2g} m/s, by order {} {:.3g} "
+        "times that",
+        worst->position_m, worst->velocity_m_s, order, worst->ratio);
+  }
+  return text;
 }
 
 }  // namespace
@@ -105,6 +152,17 @@ double linear_error_of_probability(const std::vector<Cumulants>& by_order) {
   return largest_error_of_probability(divergence_from_linear(by_order));
 }
 
+double linear_error_of_component(const std::vector<Cumulants>& by_order) {
+  double largest = 0;
+  for (Eigen::Index i = 0; i < by_order.front().size(); ++i) {
+    const Matrix<double> component = Matrix<double>::Identity(6, 6).row(i);
+    largest = std::max(largest,
+                       largest_error_of_probability(divergence_from_gaussian(
+                           by_order.back().mapped(component), by_order.front().mapped(component))));
+  }
+  return largest;
+}
+
 std::string uncertainty_verdict(const UncertaintyResult& result) {
   const UncertaintyAt& at = result.points.back();
   const UncertainState& state = judged_state(at);
@@ -117,15 +175,23 @@ std::string uncertainty_verdict(const UncertaintyResult& result) {
         "jet.order of 2 or more does.",
         after);
   } else {
-    const double error = linear_error_of_probability(state.cartesian);
-    const bool misleads = error > misleading_probability;
+    const double error = linear_error_of_component(state.cartesian);
+    const double of_all = linear_error_of_probability(state.cartesian);
+    const bool misleads = of_all > misleading_probability;
     const Eigen::Index worst = worst_component(state.cartesian);
     const StateComponent component = state_components(result)[static_cast<std::size_t>(worst)];
+    const std::string judgement =
+        misleads && error <= misleading_probability
+            ? combinations_text(state, error, of_all, order)
+            : fmt::format("{}: a probability {} may be wrong by {}{}",
+                          misleads ? "misleads" : "holds",
+                          misleads ? "of one component alone" : "that it gives",
+                          (misleads ? error : of_all) >= 1 ? "" : "up to ",
+                          probability_text(misleads ? error : of_all));
     text = fmt::format(
-        "{} the linear covariance of {} {}: a probability that it gives may be wrong by {}{}; the "
-        "standard deviation along {} is {:.4g} {} by order {}, and {:.4g} {} by the linear theory.",
-        after, told_state(state), misleads ? "misleads" : "holds", error >= 1 ? "" : "up to ",
-        probability_text(error), component.name,
+        "{} the linear covariance of {} {}; the standard deviation along {} is {:.4g} {} by order "
+        "{}, and {:.4g} {} by the linear theory.",
+        after, told_state(state), judgement, component.name,
         state.cartesian.back().standard_deviations()[worst], component.unit, order,
         state.cartesian.front().standard_deviations()[worst], component.unit);
     if (!state.charted.empty()) {

@@ -45,8 +45,11 @@ std::string time_text(const UncertaintyResult& result, const UncertaintyAt& at);
 /// The state that a verdict is about: the last one of a time.
 const UncertainState& judged_state(const UncertaintyAt& at);
 
-/// By how much a probability by the linear covariance may be wrong.
+/// By how much a probability by the linear covariance may be wrong, of any event, whatever
+/// combination of components it is about.
 double linear_error_of_probability(const std::vector<Cumulants>& by_order);
+/// The same of events about one component alone, the largest of the six.
+double linear_error_of_component(const std::vector<Cumulants>& by_order);
 
 /// The first that a reader sees: whether the linear covariance misleads, and in which coordinates
 /// the distribution stays Gaussian.

@@ -16,6 +16,7 @@
 #include "hamjet/algebra/calculus.hpp"
 #include "hamjet/error.hpp"
 #include "mean_element_deputies.hpp"
+#include "nodal_section.hpp"
 #include "relative_orbit_extent.hpp"
 
 namespace hamjet {
@@ -271,6 +272,7 @@ std::string_view name_of(BoundedRule rule) {
 
 BoundedFormation study_bounded(const Scene& scene, const ProgressCallback& progress) {
   require_formation_problem(scene, scene.bounded.has_value(), "bounded");
+  require_nodal_section(scene);
   double seconds = 0;
   BoundedFormation result;
   {

@@ -10,6 +10,7 @@
 #include "../formation/formation_problem.hpp"
 #include "../formation/single_transfer.hpp"
 #include "hamjet/error.hpp"
+#include "nodal_section.hpp"
 
 namespace hamjet {
 namespace {
@@ -163,6 +164,7 @@ FrozenOrbitStudy study_frozen_orbit(const Scene& scene, const ProgressCallback& 
                 "revolution, and none is singled out");
   }
   if (progress) progress("frozen orbit", 0);
+  require_nodal_section(scene);
   const SixNumbers<double> z = FlowSection<double>(field, ChartName::nodal, chief).chief();
   const double cosine = inclination_cosine(z);
   const bool from_circle = std::abs(5 * cosine * cosine - 1) > critical;
@@ -178,6 +180,7 @@ FrozenOrbitStudy study_frozen_orbit(const Scene& scene, const ProgressCallback& 
   study.inclination_deg = std::acos(inclination_cosine(at)) * 180 / std::numbers::pi;
   study.pericentre_deg = std::atan2(-at[q_place], at[p_place]) * 180 / std::numbers::pi;
   if (study.pericentre_deg < 0) study.pericentre_deg += 360;
+  study.pericentre_depth = field.radius - study.semi_major_axis * (1 - study.eccentricity);
   study.nodal_period = static_cast<double>(frozen.period);
   study.node = static_cast<double>(frozen.node);
   study.residual = static_cast<double>(frozen.residual);

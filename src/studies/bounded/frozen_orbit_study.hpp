@@ -53,6 +53,7 @@ struct FrozenOrbitStudy {
   double trace_less_2 = 0;  ///< the same less 2, without the loss of digits
   double area_defect = 0;   ///< their product less 1
   int iterations = 0;
+  double pericentre_depth = 0;  ///< of the pericentre below the body's radius; negative above it
   // The normal form.
   std::string failure;  ///< why there is none; what follows is empty then
   double smallest_divisor = 0;
@@ -68,11 +69,12 @@ struct FrozenOrbitStudy {
   /// One of the two multipliers, its real and imaginary parts; the other one is its inverse.
   std::array<double, 2> multiplier() const;
   bool is_stable() const { return trace_less_2 < 0 && trace > -2; }
+  bool is_inside_body() const { return pericentre_depth > 0; }
 };
 
 /// Finds the frozen orbit and its normal form to the scene's order. Throws Error(scene) for a scene
-/// whose chief is no orbit, and Error(numerical) where no frozen orbit is found or the chief has no
-/// nodal section.
+/// whose chief is no orbit or has no nodal section, and Error(numerical) where no frozen orbit is
+/// found.
 FrozenOrbitStudy study_frozen_orbit(const Scene& scene, const ProgressCallback& progress = {});
 
 }  // namespace hamjet

@@ -1,5 +1,7 @@
 #include "collision_study.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -72,6 +74,29 @@ std::vector<SixNumbers<double>> flown_pairs(const EncounterProblem& problem,
     }
   }
   return result;
+}
+
+/// collision_probability, whose refusals name the key of the scene that they come from.
+CollisionProbability probability_of(const EncounterProblem& problem,
+                                    const CollisionSettings& settings,
+                                    const CollisionWatch& watch) {
+  try {
+    return collision_probability(problem, settings);
+  } catch (const Error& error) {
+    if (error.kind() == ErrorKind::too_large) {
+      throw Error(ErrorKind::too_large,
+                  fmt::format("uncertainty.collision.radius_m: too small beside the window, got "
+                              "{:.6g}, must be larger, or window_s shorter: {}",
+                              watch.radius_m, error.what()));
+    }
+    if (error.kind() == ErrorKind::usage && watch.sampling == CollisionSampling::entries) {
+      throw Error(ErrorKind::scene,
+                  fmt::format("uncertainty.collision.sampling: not possible for this encounter, "
+                              "got \"entries\", must be \"automatic\" or \"plain\": {}",
+                              error.what()));
+    }
+    throw;
+  }
 }
 
 std::vector<EncounterDeviation> random_deviations(std::uint64_t seed, std::size_t count) {
@@ -210,7 +235,7 @@ CollisionResult study_collision(const Scene& scene, std::size_t threads,
   if (progress) {
     settings.progress = [&](double fraction) { progress("collision", fraction); };
   }
-  result.probability = collision_probability(problem, settings);
+  result.probability = probability_of(problem, settings, result.watch);
   for (double& time : result.probability.times) time *= units.time_s;
   for (auto* radius :
        {&result.probability.sampled_radius, &result.probability.largest_difference}) {

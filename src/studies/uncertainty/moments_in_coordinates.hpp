@@ -20,7 +20,7 @@ std::vector<Cumulants> charted_moments(const std::vector<Series<double>>& coordi
                                        const InitialState& start, const FlowJet<double>& jet,
                                        const std::optional<Covariance>& noise);
 
-/// Adds independent noise to all.
+/// Adds an independent vector, noise or a known one, to all.
 void add_noise(std::vector<Cumulants>& all, const Cumulants& noise);
 
 /// Of the difference of two independent vectors, as far as both have orders.

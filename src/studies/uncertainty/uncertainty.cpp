@@ -127,6 +127,35 @@ double difference_of(const Cumulants& one, const Cumulants& other) {
   return result;
 }
 
+/// The polynomials of one spacecraft about its own mean, from time to time.
+class OwnFlow {
+ public:
+  OwnFlow(const ComputedProblem& chief, const IntegratorSettings& settings,
+          const InitialState& start)
+      : problem_(moved(chief, start.mean)), jets_(problem_, settings) {}
+  OwnFlow(const OwnFlow&) = delete;
+  OwnFlow& operator=(const OwnFlow&) = delete;
+
+  FlowJet<double> advance_to(double time) { return jets_.advance_to(time); }
+  const IntegrationStatistics& statistics() const { return jets_.statistics(); }
+
+ private:
+  static ComputedProblem moved(ComputedProblem problem, const Vector<double>& by) {
+    for (std::size_t i = 0; i < 6; ++i) problem.nominal[i] += by[static_cast<Eigen::Index>(i)];
+    return problem;
+  }
+
+  ComputedProblem problem_;
+  JetPropagation jets_;
+};
+
+/// Whether a spacecraft starts so far from the chief that coordinates about the chief say nothing
+/// of it.
+bool is_distant(const InitialState& start, const Scene& scene) {
+  constexpr double part = 0.05;  // of the chief's distance from the centre
+  return start.mean.head(3).norm() >= part * Eigen::Vector3d(scene.nominal.data()).norm();
+}
+
 void map_all(std::vector<Cumulants>& all, const Matrix<double>& map) {
   for (Cumulants& one : all) one = one.mapped(map);
 }
@@ -141,15 +170,24 @@ void add_noise(Matrix<double>& deviations, const Covariance& noise, StandardNorm
   }
 }
 
-/// The moments at one time, of canonical deviations; `flow` and `coordinates` are those of the
-/// scene's other coordinates, if it has such.
+/// The moments at one time, of canonical deviations from the chief, whose jet is `jet`; `own` is
+/// that about the spacecraft's own mean. `flow` and `coordinates` are those of the scene's other
+/// coordinates, if it has such.
 UncertainState moments_of(const InitialState& start, const FlowJet<double>& jet,
-                          const DeputyFlow* flow, const std::vector<Series<double>>& coordinates,
+                          const FlowJet<double>& own, const DeputyFlow* flow,
+                          const std::vector<Series<double>>& coordinates,
                           const std::optional<Covariance>& noise) {
   const int order = jet[0].order();
   UncertainState state;
   state.name = start.name;
-  state.cartesian = moments_by_order(without_constants(jet), start);
+  state.cartesian = moments_by_order(without_constants(own),
+                                     {start.name, Vector<double>::Zero(6), start.covariance});
+  Vector<double> between(6);
+  for (Eigen::Index i = 0; i < 6; ++i) {
+    const auto c = static_cast<std::size_t>(i);
+    between[i] = own[c][0] - jet[c][0];
+  }
+  if (between.norm() > 0) add_noise(state.cartesian, Cumulants(between, {}));
   if (flow) {
     state.charted = charted_moments(coordinates, start, jet, noise);
     const Matrix<double> factor = stretched_factor(start.covariance, linear_part(jet));
@@ -207,6 +245,12 @@ UncertaintyResult study_uncertainty(const Scene& scene, const ProgressCallback& 
   result.coordinates = coordinates_at_ends.end;
   const bool is_charted = result.coordinates != JetCoordinates::cartesian;
   JetPropagation jets(problem, integrator);
+  // The chief's mean is its nominal.
+  std::vector<std::unique_ptr<OwnFlow>> own_flows;
+  for (const InitialState& start : starts) {
+    const bool is_moved = (start.mean.array() != 0).any();
+    own_flows.push_back(is_moved ? std::make_unique<OwnFlow>(problem, integrator, start) : nullptr);
+  }
   std::optional<DeputyFlowPropagation> charts;
   if (is_charted) charts.emplace(scene, problem, integrator, coordinates_at_ends);
   ComputedProblem linear = problem;
@@ -251,7 +295,9 @@ UncertaintyResult study_uncertainty(const Scene& scene, const ProgressCallback& 
       UncertainState state;
       {
         const Stopwatch watch(result.moments_seconds);
-        state = moments_of(starts[s], jet, flow.get(), coordinates, added);
+        const DeputyFlow* const charted = is_distant(starts[s], scene) ? nullptr : flow.get();
+        state = moments_of(starts[s], jet, own_flows[s] ? own_flows[s]->advance_to(time) : jet,
+                           charted, coordinates, added);
         map_all(state.cartesian, to_frame);
         map_all(state.through, to_frame);
       }
@@ -280,6 +326,9 @@ UncertaintyResult study_uncertainty(const Scene& scene, const ProgressCallback& 
                                                  noise_at_end, progress);
   result.propagation_seconds =
       jets.statistics().wall_seconds + (charts ? charts->statistics().wall_seconds : 0);
+  for (const auto& own : own_flows) {
+    if (own) result.propagation_seconds += own->statistics().wall_seconds;
+  }
   return result;
 }
 
