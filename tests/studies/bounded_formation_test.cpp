@@ -184,7 +184,7 @@ TEST(BoundedFormation, RefusesWhatIsNoOrbitAndWhatLiesInTheEquator) {
     study_bounded(scene);
     FAIL();
   } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::numerical);
+    EXPECT_EQ(error.kind(), ErrorKind::scene);
     EXPECT_NE(std::string(error.what()).find("equatorial"), std::string::npos);
   }
 }
