@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "command_test.hpp"
+#include "../command_test.hpp"
 
 // The command `uncertainty`: how the covariance of a scene grows.
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "command_test.hpp"
+#include "../command_test.hpp"
 #include "hamjet/formats/conjunction_data_message.hpp"
 #include "support/reference_data.hpp"
 

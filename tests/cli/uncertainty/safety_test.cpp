@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "command_test.hpp"
+#include "../command_test.hpp"
 
 // Passive safety in `hamjet uncertainty`: table [uncertainty.safety].
 
