@@ -8,6 +8,7 @@
 #include "../studies/formation/formation_problem.hpp"
 #include "../studies/formation/single_transfer.hpp"
 #include "../studies/stopwatch.hpp"
+#include "hamjet/algebra/calculus.hpp"
 #include "hamjet/charts/flow_box_states.hpp"
 #include "hamjet/studies/validity.hpp"
 
@@ -45,13 +46,8 @@ namespace {
 /// The linear part of the jet in positions and momenta of a flow-box map.
 Matrix<double> linear_part_of(const ZonalGravity& field, FlowBoxMap<double> map) {
   const SpacePointer linear = SeriesSpace::create(map.start->variables(), 1);
-  const auto cut = [&](Series<double>& series) {
-    Series<double> result(linear);
-    for (std::size_t k = 0; k < linear->size(); ++k) result[k] = series[k];
-    series = result;
-  };
-  cut(map.time);
-  for (Series<double>& coordinate : map.coordinates) cut(coordinate);
+  map.time = in_space(map.time, linear);
+  for (Series<double>& coordinate : map.coordinates) coordinate = in_space(coordinate, linear);
   return linear_part(without_constants(flow_box_jet(field, map).jet()));
 }
 

@@ -64,17 +64,10 @@ void add_description_options(CLI::App& command, io::JetDescription& foreign) {
   }
 }
 
-/// Whether the flow boxes that a results directory may have are wanted as they are: no jet is
-/// converted to them.
-bool asks_for_stored_polynomials(const ConvertOptions& options) {
-  std::error_code none;
-  return options.coordinates == std::string(name_of(JetCoordinates::flow_box)) &&
-         std::filesystem::is_directory(options.from, none);
-}
-
 io::StoredJet read_jet(const ConvertOptions& options) {
   if (!options.time) {
-    if (asks_for_stored_polynomials(options)) {
+    // No jet is converted to flow boxes: those that results may have are wanted as they are.
+    if (options.coordinates == std::string(name_of(JetCoordinates::flow_box))) {
       if (auto polynomials = io::read_stored_polynomials(options.from, options.run)) {
         if (polynomials->flow_box) return std::move(*polynomials);
       }

@@ -27,9 +27,7 @@ std::string content_checksum(const StoredJet& description, const FlowJet<Extende
   }
   if (const auto& box = description.flow_box) {
     text += fmt::format("{}\n{:.17g}\n", name_of(box->section), box->field.radius);
-    for (int n = ZonalCoefficients::lowest; n <= ZonalCoefficients::highest; ++n) {
-      text += fmt::format("{:.17g}\n", box->field.J[n]);
-    }
+    for (const double J : box->field.J.values()) text += fmt::format("{:.17g}\n", J);
     text += polynomials_csv(description, jet);
     return fmt::format("{:08x}", record_of({}, text).crc32);
   }

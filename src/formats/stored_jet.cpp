@@ -237,10 +237,6 @@ auto read_verified(const std::filesystem::path& directory, const Read& read) {
                           printable(run.stored.label), time_s, listed));
 }
 
-}  // namespace
-
-namespace {
-
 /// The field and the chart of a flow box.
 StoredFlowBox read_flow_box(const JsonReader& json) {
   StoredFlowBox box;
@@ -249,11 +245,9 @@ StoredFlowBox read_flow_box(const JsonReader& json) {
   box.section = *chart;
   box.field.radius = positive_number(json.at("field").at("radius_canonical"));
   const std::vector<double> J = json.at("field").at("J").list(finite_number);
-  constexpr int count = ZonalCoefficients::highest - ZonalCoefficients::lowest + 1;
+  constexpr std::size_t count = ZonalCoefficients::count;
   if (J.size() != count) json.at("field").at("J").fail(fmt::format("must have {} numbers", count));
-  for (int n = 0; n < count; ++n) {
-    box.field.J[ZonalCoefficients::lowest + n] = J[static_cast<std::size_t>(n)];
-  }
+  box.field.J = ZonalCoefficients(std::span(J).first<count>());
   return box;
 }
 
@@ -282,6 +276,8 @@ DescribedRun with_polynomials(const DescribedRun& run, const JsonReader& json) {
 
 std::optional<StoredJet> read_stored_polynomials(const std::filesystem::path& directory,
                                                  const std::optional<std::string>& label) {
+  std::error_code none;
+  if (!std::filesystem::is_directory(directory, none)) return std::nullopt;
   return read_verified(directory, [&](const FileReader& read) -> std::optional<StoredJet> {
     const std::filesystem::path summary = directory / "summary.json";
     const std::string summary_name = printable_path(summary);

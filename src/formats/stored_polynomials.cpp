@@ -1,6 +1,7 @@
 #include <numeric>
 #include <utility>
 
+#include "../studies/formation/deputy_flows.hpp"
 #include "hamjet/charts/flow_box_states.hpp"
 #include "hamjet/studies/propagation.hpp"
 #include "jet_description.hpp"
@@ -17,15 +18,13 @@ std::vector<std::size_t> range(std::size_t first, std::size_t end) {
   return result;
 }
 
-SixNumbers<double> six(const std::vector<double>& state) {
-  return {state[0], state[1], state[2], state[3], state[4], state[5]};
-}
-
 FlowSection<double> section_at(const StoredJet& stored, const std::vector<double>& state) {
-  return {stored.flow_box->field, stored.flow_box->section, six(state)};
+  return {stored.flow_box->field, stored.flow_box->section, six_numbers(state)};
 }
 
-ChartName chart_of(JetCoordinates coordinates) { return *hamjet::chart_of(name_of(coordinates)); }
+std::vector<std::string_view> views(const std::vector<std::string>& names) {
+  return {names.begin(), names.end()};
+}
 
 }  // namespace
 
@@ -65,14 +64,6 @@ StoredJet describe_charted_jet(const PropagationResult& result, const RunResult&
   }
   return description;
 }
-
-namespace {
-
-std::vector<std::string_view> views(const std::vector<std::string>& names) {
-  return {names.begin(), names.end()};
-}
-
-}  // namespace
 
 std::string polynomials_csv(const StoredJet& description, const FlowJet<Extended>& jet) {
   const SeriesNames names = series_names(description);

@@ -6,7 +6,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -88,11 +87,8 @@ class PolynomialsStudy {
 PolynomialsStudy load_polynomials(const std::filesystem::path& path,
                                   const std::optional<std::string>& run) {
   return interruptibly(py::none(), [path, run](const ProgressCallback&) {
-    std::error_code none;
-    if (std::filesystem::is_directory(path, none)) {
-      if (const auto stored = io::read_stored_polynomials(path, run)) {
-        return PolynomialsStudy(*stored);
-      }
+    if (const auto stored = io::read_stored_polynomials(path, run)) {
+      return PolynomialsStudy(*stored);
     }
     const io::StoredJet stored = io::read_jet_file(path, run);
     if (!is_orbit(stored.model) || stored.variables.size() != 6) {

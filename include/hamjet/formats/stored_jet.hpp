@@ -92,7 +92,7 @@ std::vector<StoredJet> read_stored_jets(const std::filesystem::path& directory,
                                         const WantedTimes& wanted);
 
 /// The polynomials that a run wrote in its scene's coordinates, other than Cartesian ones, beside
-/// its jet; nothing if it has none. Throws as read_stored_jet.
+/// its jet; nothing if it has none, and of a path that is no directory. Throws as read_stored_jet.
 std::optional<StoredJet> read_stored_polynomials(const std::filesystem::path& directory,
                                                  const std::optional<std::string>& label = {});
 

@@ -32,19 +32,10 @@ EvalSource integrated_scene(const EvalOptions& options) {
 
 constexpr std::string_view standard_input = "-";
 
-}  // namespace
-
-namespace {
-
 /// Of results in the coordinates that their scene asks for, the polynomials in these.
 io::StoredJet read_polynomials_or_jet(const EvalOptions& options) {
-  std::error_code none;
-  if (std::filesystem::is_directory(options.directory, none)) {
-    if (auto polynomials = io::read_stored_polynomials(options.directory, options.run)) {
-      return std::move(*polynomials);
-    }
-  }
-  return read_noted_jet(options.directory, options.run);
+  auto polynomials = io::read_stored_polynomials(options.directory, options.run);
+  return polynomials ? std::move(*polynomials) : read_noted_jet(options.directory, options.run);
 }
 
 }  // namespace

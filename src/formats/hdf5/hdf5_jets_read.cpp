@@ -71,12 +71,37 @@ StoredFlowBox read_flow_box(const Reader& root) {
   }
   box.section = *section;
   box.field.radius = positive(root, "field_radius");
-  constexpr int count = ZonalCoefficients::highest - ZonalCoefficients::lowest + 1;
+  constexpr std::size_t count = ZonalCoefficients::count;
   const std::vector<double> J = root.numbers("field_J", count);
-  for (int n = 0; n < count; ++n) {
-    box.field.J[ZonalCoefficients::lowest + n] = J[static_cast<std::size_t>(n)];
-  }
+  box.field.J = ZonalCoefficients(std::span(J).first<count>());
   return box;
+}
+
+/// The coordinates of a file of the second or third version, and its flow box.
+void read_coordinates(const Reader& root, int version, StoredJet& stored) {
+  if (version == hdf5::flow_box_format_version) {
+    for (const char* name : {"coordinates", "end_coordinates"}) {
+      if (root.text(name) != name_of(JetCoordinates::flow_box)) {
+        root.fail(name, "the attribute must be flow-box in a file of this version");
+      }
+    }
+    stored.coordinates = JetCoordinates::flow_box;
+    stored.flow_box = read_flow_box(root);
+  } else {
+    const std::vector<std::string_view> names(jet_coordinates_names.begin(),
+                                              jet_coordinates_names.end());
+    const auto read = [&](const char* name) {
+      const std::size_t index = index_of(root, name, root.text(name), names);
+      if (!chart_of(names[index])) {
+        root.fail(name, "the attribute must name coordinates of a jet in six variables");
+      }
+      return static_cast<JetCoordinates>(index);
+    };
+    stored.coordinates = {read("coordinates"), read("end_coordinates")};
+  }
+  if (!is_orbit(stored.model) || stored.variables.size() != 6) {
+    root.fail("coordinates", "the attribute is for jets of orbits in all six variables");
+  }
 }
 
 StoredJet read_scene(const Reader& root) {
@@ -104,34 +129,8 @@ StoredJet read_scene(const Reader& root) {
                      stored.variables.end())) {
     root.fail("variables", "the attribute must be among the components");
   }
-  if (root.integer("format_version") == hdf5::charted_format_version) {
-    const auto read = [&](const char* name) {
-      const std::size_t index =
-          index_of(root, name, root.text(name),
-                   std::vector<std::string_view>(jet_coordinates_names.begin(),
-                                                 jet_coordinates_names.end()));
-      if (!chart_of(jet_coordinates_names[index])) {
-        root.fail(name, "the attribute must name coordinates of a jet in six variables");
-      }
-      return static_cast<JetCoordinates>(index);
-    };
-    stored.coordinates = {read("coordinates"), read("end_coordinates")};
-    if (!is_orbit(stored.model) || stored.variables.size() != 6) {
-      root.fail("coordinates", "the attribute is for jets of orbits in all six variables");
-    }
-  }
-  if (root.integer("format_version") == hdf5::flow_box_format_version) {
-    for (const char* name : {"coordinates", "end_coordinates"}) {
-      if (root.text(name) != name_of(JetCoordinates::flow_box)) {
-        root.fail(name, "the attribute must be flow-box in a file of this version");
-      }
-    }
-    stored.coordinates = JetCoordinates::flow_box;
-    stored.flow_box = read_flow_box(root);
-    if (!is_orbit(stored.model) || stored.variables.size() != 6) {
-      root.fail("coordinates", "the attribute is for jets of orbits in all six variables");
-    }
-  }
+  const int version = root.integer("format_version");
+  if (version != hdf5::format_version) read_coordinates(root, version, stored);
   if (root.has_attribute("epoch")) {
     EphemerisSettings& ephemeris = stored.ephemeris.emplace();
     ephemeris.epoch = root.text("epoch");

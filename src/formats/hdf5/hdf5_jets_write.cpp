@@ -100,11 +100,8 @@ void write_scene(const Writer& file, const StoredJet& jet, int order, const std:
     file.attribute(root, "end_coordinates_names", series.of(series.components));
     file.attribute(root, "section_chart", std::string(name_of(jet.flow_box->section)));
     file.attribute(root, "field_radius", jet.flow_box->field.radius);
-    std::vector<double> J;
-    for (int n = ZonalCoefficients::lowest; n <= ZonalCoefficients::highest; ++n) {
-      J.push_back(jet.flow_box->field.J[n]);
-    }
-    file.attribute(root, "field_J", J);
+    const auto J = jet.flow_box->field.J.values();
+    file.attribute(root, "field_J", std::vector<double>(J.begin(), J.end()));
   } else if (is_charted) {
     const auto write = [&](const std::string& key, JetCoordinates coordinates) {
       file.attribute(root, key.c_str(), std::string(name_of(coordinates)));

@@ -133,12 +133,8 @@ Json polynomials_json(const PropagationResult& result, const RunResult& run) {
   json["symplecticity_by_degree"] = symplecticity_json(charted.symplecticity);
   if (!description.flow_box) return json;
   const ZonalGravity& field = description.flow_box->field;
-  Json J = Json::array();
-  for (int n = ZonalCoefficients::lowest; n <= ZonalCoefficients::highest; ++n) {
-    J.push_back(field.J[n]);
-  }
   json["section"] = name_of(description.flow_box->section);
-  json["field"] = {{"radius_canonical", field.radius}, {"J", J}};
+  json["field"] = {{"radius_canonical", field.radius}, {"J", field.J.values()}};
   return json;
 }
 

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <initializer_list>
+#include <span>
 #include <utility>
 
 namespace hamjet {
@@ -13,6 +15,7 @@ class ZonalCoefficients {
  public:
   static constexpr int lowest = 2;
   static constexpr int highest = 20;
+  static constexpr std::size_t count = highest - lowest + 1;
 
   /// No coefficient is present.
   ZonalCoefficients() = default;
@@ -21,10 +24,17 @@ class ZonalCoefficients {
     for (const auto& [n, value] : given) (*this)[n] = value;
   }
 
+  /// Takes all of them, the lowest first.
+  explicit ZonalCoefficients(std::span<const double, count> values) {
+    std::copy(values.begin(), values.end(), values_.begin());
+  }
+
   /// J_n; throws std::out_of_range unless lowest <= n <= highest.
   double operator[](int n) const { return values_.at(static_cast<std::size_t>(n - lowest)); }
   double& operator[](int n) { return values_.at(static_cast<std::size_t>(n - lowest)); }
 
+  /// All of them, the lowest first.
+  std::span<const double, count> values() const { return values_; }
   /// The largest n with a J_n that is not 0; 0 if no coefficient is present.
   int highest_present() const {
     for (int n = highest; n >= lowest; --n) {
@@ -42,7 +52,7 @@ class ZonalCoefficients {
   }
 
  private:
-  std::array<double, highest - lowest + 1> values_{};
+  std::array<double, count> values_{};
 };
 
 }  // namespace hamjet
