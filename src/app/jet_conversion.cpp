@@ -2,10 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
+#include "../studies/formation/orbit_charts.hpp"
 #include "../text/scene_message.hpp"
-#include "hamjet/charts/charted_map.hpp"
 #include "hamjet/charts/flow_box_states.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/studies/propagation.hpp"
@@ -13,37 +11,6 @@
 
 namespace hamjet::cli {
 namespace {
-
-/// An orbit's gravitational parameter in its canonical units.
-const Extended canonical_mu = 1;
-
-SixNumbers<Extended> extended_state(const std::vector<double>& state) {
-  SixNumbers<Extended> result;
-  std::copy_n(state.begin(), result.size(), result.begin());
-  return result;
-}
-
-/// Between positions and momenta and the coordinates of one pair of charts, about a chief.
-class Charts {
- public:
-  Charts(const CoordinatesAtEnds& coordinates, const io::StoredJet& stored)
-      : start_state_(extended_state(stored.nominal_initial)),
-        start_(*chart_of(name_of(coordinates.start)), start_state_, canonical_mu),
-        end_(*chart_of(name_of(coordinates.end)), extended_state(stored.nominal_final),
-             canonical_mu) {}
-
-  FlowMap<Extended> into(const FlowMap<Extended>& jet) const {
-    return in_charts(jet, start_, start_state_, end_);
-  }
-  FlowMap<Extended> out_of(const FlowMap<Extended>& map) const {
-    return out_of_charts(map, start_, start_state_, end_);
-  }
-
- private:
-  SixNumbers<Extended> start_state_;
-  CanonicalChart<Extended> start_;
-  CanonicalChart<Extended> end_;
-};
 
 void require_charts(const CoordinatesAtEnds& coordinates) {
   for (const JetCoordinates one : {coordinates.start, coordinates.end}) {
@@ -68,8 +35,8 @@ ConvertedJet converted_jet(const io::StoredJet& stored, const CoordinatesAtEnds&
                        name_of(coordinates), name));
   }
   const CoordinatesAtEnds from = stored.flow_box ? JetCoordinates::cartesian : stored.coordinates;
-  const Charts before(from, stored);
-  const Charts after(coordinates, stored);
+  const OrbitCharts before(from, stored.nominal_initial, stored.nominal_final);
+  const OrbitCharts after(coordinates, stored.nominal_initial, stored.nominal_final);
   ConvertedJet result{stored, stored.coordinates, {}, {}};
   result.stored.coordinates = coordinates;
   result.stored.flow_box.reset();
@@ -79,11 +46,7 @@ ConvertedJet converted_jet(const io::StoredJet& stored, const CoordinatesAtEnds&
     jet = convert_map<Extended>(flow_box_jet(stored.flow_box->field, flow_box_map(stored)).jet());
   }
   jet = after.into(before.out_of(FlowMap<Extended>(jet))).jet();
-  if (stored.precision == Precision::double_precision) {
-    for (Series<Extended>& component : jet) {
-      for (Extended& c : component.coefficients()) c = static_cast<double>(c);
-    }
-  }
+  round_to(stored.precision, jet);
   if (coordinates.end == JetCoordinates::cartesian) {
     // The nominal's end is what the file has of it, not rounding beside.
     for (std::size_t i = 0; i < jet.size(); ++i) jet[i][0] = stored.nominal_final[i];

@@ -79,13 +79,7 @@ class AssignmentStudy {
     const DeputyFlow* const flow = points_.charted_flow(times[index]);
     const Stopwatch watch(seconds_.solution);
     const std::vector<double> chief_end = nominal_of(jet);
-    std::optional<PositionBoundaryValues> boundary;
-    std::optional<ChartedBoundaryValues> charted;
-    if (flow == nullptr) {
-      boundary.emplace(*chosen.inversion);
-    } else {
-      charted.emplace(*flow);
-    }
+    TransferBoundary boundary(chosen.inversion, flow);
     for (std::size_t i = 0; i < settings_.deputies.size(); ++i) {
       if (progress_) {
         progress_("costs", static_cast<double>(index) / static_cast<double>(times.size()));
@@ -95,8 +89,7 @@ class AssignmentStudy {
           const SingleTransfer transfer(scene_, points_.problem(), times[index], chief_end,
                                         settings_.deputies[i], settings_.slots[j]);
           const BoundaryMomenta momenta =
-              charted ? transfer.solve(*charted, scene_.order, transfer.momentum_before())
-                      : transfer.solve(*boundary, scene_.order);
+              transfer.solve(boundary, scene_.order, transfer.momentum_before());
           const TransferAnswer answer = transfer.answer(momenta, scene_.order);
           const double cost = answer.total_change_m_s();
           const double most = scene_.transfer->largest_impulse_m_s.value_or(no_cost);

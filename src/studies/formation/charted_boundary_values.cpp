@@ -52,54 +52,49 @@ BoundaryMomenta ChartedBoundaryValues::solve(std::span<const double> first,
   const SixNumbers<double>& chief = predictor_.flow().chief_end();
   const double chief_distance = distance_of(chief);
   const double chief_momentum = momentum_part(chief).norm();
-  SixNumbers<double> start = {first[0], first[1], first[2], guess[0], guess[1], guess[2]};
-  const auto predict = [&](const SixNumbers<double>& from) {
-    ++predictions_;
-    return predictor_.predict(from, degree).deviation;
+  struct Trial {
+    SixNumbers<double> start;
+    SixNumbers<double> end;
+    Eigen::Vector3d miss;
   };
-  SixNumbers<double> end = predict(start);
-  Eigen::Vector3d miss = final_position(end) - wanted;
+  const auto tried = [&](const SixNumbers<double>& start) -> Trial {
+    const SixNumbers<double> end = predictor_.predict(start, degree).deviation;
+    return {start, end, final_position(end) - wanted};
+  };
+  const auto moved = [](SixNumbers<double> start, const Eigen::Vector3d& by) {
+    for (std::size_t k = 0; k < 3; ++k) start[3 + k] += by[static_cast<Eigen::Index>(k)];
+    return start;
+  };
+  Trial best = tried({first[0], first[1], first[2], guess[0], guess[1], guess[2]});
   double rounding = 0;
   bool is_fresh = false;  // whether the matrix is that of this start
-  for (int i = 0; i < most_iterations && std::isfinite(miss.norm()); ++i) {
+  for (int i = 0; i < most_iterations && std::isfinite(best.miss.norm()); ++i) {
     if (!commanded_ || !commanded_->allFinite()) {
-      commanded_ = commanded_positions(predictor_, start, degree);
-      ++predictions_;
+      commanded_ = commanded_positions(predictor_, best.start, degree);
       is_fresh = true;
     }
     // A start that is rounded moves the end by as much times the growth on the way.
     rounding = 64 * std::numeric_limits<double>::epsilon() *
                (chief_distance + commanded_->norm() * chief_momentum);
-    const Eigen::Vector3d step = commanded_->partialPivLu().solve(miss);
-    if (miss.norm() <= rounding) {
+    const Eigen::Vector3d step = -commanded_->partialPivLu().solve(best.miss);
+    if (best.miss.norm() <= rounding) {
       // A kept matrix comes below the bound by little: one step more leaves what rounding leaves.
-      SixNumbers<double> next = start;
-      for (std::size_t k = 0; k < 3; ++k) next[3 + k] -= step[static_cast<Eigen::Index>(k)];
-      const SixNumbers<double> reached = predict(next);
-      const Eigen::Vector3d left = final_position(reached) - wanted;
-      if (left.norm() < miss.norm()) {
-        start = next;
-        end = reached;
-        miss = left;
-      }
+      const Trial next = tried(moved(best.start, step));
+      if (next.miss.norm() < best.miss.norm()) best = next;
       break;
     }
-    double part = 1;
     bool is_nearer = false;
     bool is_slow = false;
-    for (; part >= least_part && !is_nearer && !is_slow; part /= 2) {
-      SixNumbers<double> next = start;
-      for (std::size_t k = 0; k < 3; ++k) next[3 + k] -= part * step[static_cast<Eigen::Index>(k)];
-      const SixNumbers<double> reached = predict(next);
-      const Eigen::Vector3d left = final_position(reached) - wanted;
-      is_nearer = left.norm() < miss.norm();
-      is_slow = !is_fresh && !(left.norm() <= least_gain * miss.norm()) && left.norm() > rounding;
+    for (double part = 1; part >= least_part && !is_nearer && !is_slow; part /= 2) {
+      const Eigen::Vector3d change = part * step;
+      const Trial next = tried(moved(best.start, change));
+      is_nearer = next.miss.norm() < best.miss.norm();
+      is_slow = !is_fresh && !(next.miss.norm() <= least_gain * best.miss.norm()) &&
+                next.miss.norm() > rounding;
       if (!is_nearer) continue;
-      const Eigen::Vector3d moved = -part * step;
-      *commanded_ += (left - miss - *commanded_ * moved) * moved.transpose() / moved.squaredNorm();
-      start = next;
-      end = reached;
-      miss = left;
+      *commanded_ += (next.miss - best.miss - *commanded_ * change) * change.transpose() /
+                     change.squaredNorm();
+      best = next;
     }
     if (is_slow || (!is_nearer && !is_fresh)) {
       commanded_.reset();
@@ -109,12 +104,12 @@ BoundaryMomenta ChartedBoundaryValues::solve(std::span<const double> first,
     }
     is_fresh = false;
   }
-  if (!(miss.norm() <= rounding)) {
+  if (!(best.miss.norm() <= rounding)) {
     commanded_.reset();
     throw Error(ErrorKind::numerical,
                 fmt::format("the polynomials of order {} lead to no such place from here", degree));
   }
-  return {{start.begin() + 3, start.end()}, {end.begin() + 3, end.end()}};
+  return {{best.start.begin() + 3, best.start.end()}, {best.end.begin() + 3, best.end.end()}};
 }
 
 }  // namespace hamjet

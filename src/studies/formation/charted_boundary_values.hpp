@@ -34,14 +34,9 @@ class ChartedBoundaryValues {
   BoundaryMomenta solve(std::span<const double> first, std::span<const double> last, int degree,
                         std::span<const double> guess);
 
-  DeputyPredictor& predictor() { return predictor_; }
-  /// Predictions so far, those of a difference counted as the block that they are made in.
-  long predictions() const { return predictions_; }
-
  private:
   DeputyPredictor predictor_;
   std::optional<Eigen::Matrix3d> commanded_;  ///< of the last problem's solution
-  long predictions_ = 0;
 };
 
 }  // namespace hamjet

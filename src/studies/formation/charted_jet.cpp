@@ -1,21 +1,13 @@
 #include "charted_jet.hpp"
 
-#include <algorithm>
-
 #include "../stopwatch.hpp"
 #include "deputy_flows.hpp"
-#include "hamjet/charts/charted_map.hpp"
 #include "hamjet/charts/flow_box.hpp"
 #include "hamjet/error.hpp"
+#include "orbit_charts.hpp"
 
 namespace hamjet {
 namespace {
-
-SixNumbers<Extended> extended_state(const std::vector<double>& state) {
-  SixNumbers<Extended> result;
-  std::copy_n(state.begin(), result.size(), result.begin());
-  return result;
-}
 
 void integrate_flow_box(const Scene& scene, const RunResult& run, ChartedJet& result) {
   const ZonalGravity field = orbit_field(scene);
@@ -34,17 +26,9 @@ void integrate_flow_box(const Scene& scene, const RunResult& run, ChartedJet& re
 }
 
 void change_charts(const Scene& scene, const RunResult& run, ChartedJet& result) {
-  const Extended canonical_mu = 1;
-  const SixNumbers<Extended> start = extended_state(scene.nominal);
-  const CanonicalChart<Extended> first(chart_of(scene.coordinates.start), start, canonical_mu);
-  const CanonicalChart<Extended> last(chart_of(scene.coordinates.end),
-                                      extended_state(run.nominal_final), canonical_mu);
-  result.jet = in_charts(FlowMap<Extended>(run.jet), first, start, last).jet();
-  if (scene.precision == Precision::double_precision) {
-    for (Series<Extended>& component : result.jet) {
-      for (Extended& c : component.coefficients()) c = static_cast<double>(c);
-    }
-  }
+  const OrbitCharts charts(scene.coordinates, scene.nominal, run.nominal_final);
+  result.jet = charts.into(FlowMap<Extended>(run.jet)).jet();
+  round_to(scene.precision, result.jet);
   result.nominal_final = run.nominal_final;
   result.symplecticity = symplecticity_by_degree(result.jet);
 }

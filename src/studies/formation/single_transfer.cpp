@@ -63,13 +63,9 @@ std::vector<double> SingleTransfer::linear_deviation(
   return {start[0], start[1], start[2], momentum[0], momentum[1], momentum[2]};
 }
 
-BoundaryMomenta SingleTransfer::solve(PositionBoundaryValues& boundary, int order) const {
-  return boundary.solve(std::span(start_).first(3), std::span(end_).first(3), order);
-}
-
-BoundaryMomenta SingleTransfer::solve(ChartedBoundaryValues& boundary, int degree,
+BoundaryMomenta SingleTransfer::solve(TransferBoundary& boundary, int order,
                                       std::span<const double> guess) const {
-  return boundary.solve(std::span(start_).first(3), std::span(end_).first(3), degree, guess);
+  return boundary.solve(std::span(start_).first(3), std::span(end_).first(3), order, guess);
 }
 
 std::vector<double> SingleTransfer::variables(const GeneratingFunctionKind& kind,

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "charted_boundary_values.hpp"
@@ -21,6 +23,30 @@ double rounding_of_flights(const Matrix<double>& linear, std::span<const double>
 /// The same from the linear flow of a time, which is integrated.
 double rounding_of_flights(const ComputedProblem& problem, double time);
 
+/// The two-point problems of one transfer time: by a generating function of the jet or, where there
+/// is a flow in other coordinates, through its polynomials.
+class TransferBoundary {
+ public:
+  /// Both must outlive it; `flow` may be null, and `inversion` is there if it is.
+  TransferBoundary(const std::optional<PartialInversion<double>>& inversion,
+                   const DeputyFlow* flow) {
+    if (flow == nullptr) {
+      cartesian_.emplace(*inversion);
+    } else {
+      charted_.emplace(*flow);
+    }
+  }
+  BoundaryMomenta solve(std::span<const double> first, std::span<const double> last, int order,
+                        std::span<const double> guess) {
+    return charted_ ? charted_->solve(first, last, order, guess)
+                    : cartesian_->solve(first, last, order);
+  }
+
+ private:
+  std::optional<PositionBoundaryValues> cartesian_;
+  std::optional<ChartedBoundaryValues> charted_;
+};
+
 /// One transfer of a deputy, from one relative state to another in one time. What it looks at must
 /// outlive it.
 class SingleTransfer {
@@ -35,12 +61,9 @@ class SingleTransfer {
   /// The deviation of the momentum before the first impulse: where the deputy's orbit is like the
   /// chief's, so is the one that is looked for, however far apart the two are.
   std::vector<double> momentum_before() const { return {start_.begin() + 3, start_.end()}; }
-  /// The momenta of one order. Throws as PositionBoundaryValues::solve.
-  BoundaryMomenta solve(PositionBoundaryValues& boundary, int order) const;
-  /// The momenta of one degree of a flow in other coordinates, from a guess of the first. Throws as
-  /// ChartedBoundaryValues::solve.
-  BoundaryMomenta solve(ChartedBoundaryValues& boundary, int degree,
-                        std::span<const double> guess) const;
+  /// The momenta of one order; in other coordinates than Cartesian from a guess of the first.
+  /// Throws as PositionBoundaryValues::solve and ChartedBoundaryValues::solve.
+  BoundaryMomenta solve(TransferBoundary& boundary, int order, std::span<const double> guess) const;
   /// The variables of a kind's generating function with these momenta.
   std::vector<double> variables(const GeneratingFunctionKind& kind,
                                 const BoundaryMomenta& momenta) const;

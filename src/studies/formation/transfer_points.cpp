@@ -208,19 +208,13 @@ TransferPoint TransferPoints::answer(const ChosenKind& chosen, const FlowJet<dou
   const DeputyFlow* const flow = charted_flow(chosen.time);
   {
     const Stopwatch watch(seconds_.solution);
-    std::optional<PositionBoundaryValues> boundary;
-    std::optional<ChartedBoundaryValues> charted;
-    if (flow == nullptr) {
-      boundary.emplace(*chosen.inversion);
-    } else {
-      charted.emplace(*flow);
-    }
+    TransferBoundary boundary(chosen.inversion, flow);
     std::vector<double> guess = transfer.momentum_before();
     for (int order = 1; order <= scene_.order; ++order) {
       point.answers.push_back(attempt(order, [&] {
         BoundaryMomenta& found = momenta[static_cast<std::size_t>(order - 1)];
-        found = charted ? transfer.solve(*charted, order, guess) : transfer.solve(*boundary, order);
-        if (flow != nullptr) guess = found.initial;
+        found = transfer.solve(boundary, order, guess);
+        guess = found.initial;
         return transfer.answer(found, order);
       }));
     }
