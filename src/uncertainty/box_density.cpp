@@ -76,7 +76,10 @@ BoxDensity::Node BoxDensity::made(const Box& box, const Density& density) {
   node.box = box;
   node.log_even = node.log_mean = node.priority = nothing;
   const NormalFactor& centre = factors[8];
-  double largest = nothing, amplitude = nothing, spread = 0, speeds = 0;
+  double largest = nothing;
+  double amplitude = nothing;
+  double spread = 0;
+  double speeds = 0;
   for (const NormalFactor& factor : factors) {
     if (!std::isfinite(factor.log_value())) continue;
     largest = std::max(largest, factor.log_value());
@@ -90,8 +93,10 @@ BoxDensity::Node BoxDensity::made(const Box& box, const Density& density) {
     return spread_factor * (std::numbers::sqrt3 * d + 3 * dd);
   };
   for (std::size_t k = 0; k < 4; ++k) {
-    const NormalFactor &one = factors[k], &opposite = factors[7 - k];
-    std::array<double, 3> d{}, dd{};
+    const NormalFactor& one = factors[k];
+    const NormalFactor& opposite = factors[7 - k];
+    std::array<double, 3> d{};
+    std::array<double, 3> dd{};
     for (std::size_t i = 0; i < 3; ++i) {
       d[i] = (one.white[i] - opposite.white[i]) / 2;
       dd[i] = (one.white[i] + opposite.white[i]) / 2 - centre.white[i];
@@ -119,7 +124,8 @@ BoxDensity::Node BoxDensity::made(const Box& box, const Density& density) {
   double steepest = -1;
   for (std::size_t i = 0; i < 3; ++i) {
     std::array<double, 3> difference{};
-    double factor = 0, value = 0;
+    double factor = 0;
+    double value = 0;
     for (std::size_t k = 0; k < 8; ++k) {
       const double sign = ((k >> i) & 1U) != 0 ? 0.25 : -0.25;
       for (std::size_t c = 0; c < 3; ++c) difference[c] += sign * factors[k].white[c];
@@ -146,7 +152,8 @@ bool BoxDensity::is_fine() const {
   for (const Node& node : nodes_) {
     if (node.first_child == 0) most = std::max(most, node.log_mass());
   }
-  double missed = 0, whole = 0;
+  double missed = 0;
+  double whole = 0;
   for (const Node& node : nodes_) {
     if (node.first_child != 0 || node.log_mean == nothing) continue;
     missed += std::exp(node.priority - most);
@@ -177,7 +184,8 @@ BoxDensity::BoxDensity(const std::vector<Box>& boxes, const Density& density, st
     queue.pop();
     if (entry.priority == nothing) break;
     const auto dimension = static_cast<std::size_t>(nodes_[entry.node].dimension);
-    Box lower = nodes_[entry.node].box, upper = lower;
+    Box lower = nodes_[entry.node].box;
+    Box upper = lower;
     lower.high[dimension] = upper.low[dimension] =
         (lower.low[dimension] + lower.high[dimension]) / 2;
     nodes_[entry.node].first_child = nodes_.size();

@@ -22,7 +22,8 @@ constexpr double looks_per_revolution = 64;
 
 /// Times in the window between which the distance of the means has a minimum.
 std::vector<double> minima_of(const EncounterTrajectories& means) {
-  const double from = means.from(), to = means.to();
+  const double from = means.from();
+  const double to = means.to();
   const int looks =
       static_cast<int>(std::clamp((to - from) / means.period(0) * looks_per_revolution, 16.0, 1e5));
   std::vector<double> minima;
@@ -31,7 +32,8 @@ std::vector<double> minima_of(const EncounterTrajectories& means) {
     const double time = k == looks ? to : from + (to - from) * k / looks;
     const double rate = means.approach_rate(time);
     if (before < 0 && rate >= 0) {
-      double low = from + (to - from) * (k - 1) / looks, high = time;
+      double low = from + (to - from) * (k - 1) / looks;
+      double high = time;
       for (int i = 0; i < 60 && high - low > 1e-15 * to; ++i) {
         const double middle = (low + high) / 2;
         (means.approach_rate(middle) < 0 ? low : high) = middle;

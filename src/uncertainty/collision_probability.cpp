@@ -143,7 +143,8 @@ void Estimate::draw(RandomStream& random, Block& samples) const {
 
 void Estimate::judge(const Block& samples, std::size_t count, bool with_lower_order,
                      Sums& sums) const {
-  std::vector<double> states(6 * paths_->times().size() * samples_in_block), lower;
+  std::vector<double> states(6 * paths_->times().size() * samples_in_block);
+  std::vector<double> lower;
   paths_->evaluate(samples.points, problem_->order, states);
   if (with_lower_order) {
     lower.resize(states.size());
@@ -316,6 +317,8 @@ CollisionProbability collision_probability(const EncounterProblem& problem,
   const RelativePaths paths(problem, path_accuracy * problem.radius, problem.radius);
   Estimate estimate(problem, settings, paths);
   if (settings.sampling == CollisionSampling::plain) return estimate.result();
+  const bool must_enter = settings.sampling == CollisionSampling::entries;
+  std::string reason;  // why not by entries
   try {
     if (estimate.sample_entries()) {
       const CollisionProbability result = estimate.result();
@@ -323,27 +326,21 @@ CollisionProbability collision_probability(const EncounterProblem& problem,
       // Weights of probable collisions may tell less than plain samples do.
       const bool is_worse = result.equivalent_samples < static_cast<double>(result.samples);
       const bool is_told_by_few = !(result.standard_error < few_draws * result.probability);
-      if (settings.sampling == CollisionSampling::entries && is_told_by_few) {
-        throw Error(ErrorKind::numerical,
-                    "collision: a few of the drawn entries have all of the weight, so that they "
-                    "may have missed where collisions come from; plain sampling does not");
-      }
-      if (settings.sampling == CollisionSampling::entries || (!is_worse && !is_told_by_few)) {
-        return result;
-      }
-    }
-    if (settings.sampling == CollisionSampling::entries) {
-      throw Error(ErrorKind::numerical,
-                  fmt::format("collision: the linear motion misses by more than {} radii, so that "
-                              "its entries say too little; plain sampling needs none",
-                              widest_sphere));
+      if (!is_told_by_few && (must_enter || !is_worse)) return result;
+      reason =
+          "collision: a few of the drawn entries have all of the weight, so that they may have "
+          "missed where collisions come from; plain sampling does not";
+    } else {
+      reason = fmt::format(
+          "collision: the linear motion misses by more than {} radii, so that "
+          "its entries say too little; plain sampling needs none",
+          widest_sphere);
     }
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::numerical) throw;
-    if (settings.sampling == CollisionSampling::entries) {
-      throw Error(ErrorKind::usage, error.what());
-    }
+    reason = error.what();
   }
+  if (must_enter) throw Error(ErrorKind::usage, reason);
   return Estimate(problem, settings, paths).result();
 }
 

@@ -34,7 +34,10 @@ SquaredDistance::SquaredDistance(const std::array<double, 6>& start,
                                  const std::array<double, 6>& end, double length) {
   // Bezier's points of the cubic, and the product of two polynomials in Bernstein's basis:
   //   c_m = sum over i + j = m of binomial(3, i) binomial(3, j) / binomial(6, m) b_i . b_j .
-  std::array<double, 3> b0{}, b1{}, b2{}, b3{};
+  std::array<double, 3> b0{};
+  std::array<double, 3> b1{};
+  std::array<double, 3> b2{};
+  std::array<double, 3> b3{};
   for (std::size_t i = 0; i < 3; ++i) {
     b0[i] = start[i];
     b1[i] = start[i] + length / 3 * start[i + 3];
@@ -54,7 +57,9 @@ double SquaredDistance::lower_bound() const { return *std::min_element(c_.begin(
 
 std::array<SquaredDistance, 2> SquaredDistance::halves() const {
   // De Casteljau's triangle.
-  std::array<double, 7> row = c_, left{}, right{};
+  std::array<double, 7> row = c_;
+  std::array<double, 7> left{};
+  std::array<double, 7> right{};
   for (std::size_t k = 0; k < 7; ++k) {
     left[k] = row[0];
     right[6 - k] = row[6 - k];

@@ -59,7 +59,8 @@ LinearRelativeState EncounterTrajectories::linear(double time) const {
 }
 
 Eigen::Matrix<double, 6, 1> EncounterTrajectories::relative_mean(double time) const {
-  const FlowJet<double> first = jet(0, time), second = jet(1, time);
+  const FlowJet<double> first = jet(0, time);
+  const FlowJet<double> second = jet(1, time);
   Eigen::Matrix<double, 6, 1> state;
   for (Eigen::Index i = 0; i < 6; ++i) {
     state[i] = second[static_cast<std::size_t>(i)][0] - first[static_cast<std::size_t>(i)][0];

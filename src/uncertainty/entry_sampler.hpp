@@ -48,9 +48,8 @@ class RandomStream {
 class EntrySampler {
  public:
   /// `paths` must outlive it; those that begin inside, but not nearer than `nearest_begin`, are
-  /// drawn too. Throws
-  /// Error(numerical) where the position is nearly certain in a direction: by the hundredth part of
-  /// the radius.
+  /// drawn too. Throws Error(numerical) where the position is nearly certain in a direction: by the
+  /// hundredth part of the radius.
   EntrySampler(const RelativePaths& paths, double radius, double nearest_begin);
 
   /// No path enters within the standard deviations that double precision can tell.

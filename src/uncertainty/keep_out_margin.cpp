@@ -44,7 +44,8 @@ std::optional<EncounterDeviation> shortest(const Position& a, const Jacobian& m)
   double rest = 0;
   for (Eigen::Index i = 0; i < 3; ++i) rest += s[i] > least ? 0 : b[i] * b[i];
   if (rest >= 1 || s[0] == 0) return std::nullopt;
-  double low = 0, high = 1 / (s[0] * s[0]);
+  double low = 0;
+  double high = 1 / (s[0] * s[0]);
   while (length(high) > 1 && std::isfinite(high)) high *= 4;
   if (!std::isfinite(high)) return std::nullopt;
   for (int k = 0; k < 200 && high - low > 1e-15 * high; ++k) {
@@ -111,12 +112,9 @@ class Ellipsoid {
     TaylorFlow flow(problem_->system);
     std::vector<double> states;
     for (std::size_t craft = 0; craft < 2; ++craft) {
-      const UncertainSpacecraft& one = problem_->spacecraft[craft];
-      const Eigen::Matrix<double, 6, 1> deviation =
-          one.factor * xi.segment<6>(static_cast<Eigen::Index>(6 * craft));
-      for (std::size_t i = 0; i < 6; ++i) {
-        states.push_back(one.state[i] + deviation[static_cast<Eigen::Index>(i)]);
-      }
+      const auto start =
+          problem_->spacecraft[craft].deviated(xi.segment<6>(static_cast<Eigen::Index>(6 * craft)));
+      states.insert(states.end(), start.begin(), start.end());
     }
     const std::vector<double>& mean = problem_->spacecraft[0].state;
     states.insert(states.end(), mean.begin(), mean.end());
@@ -175,14 +173,16 @@ std::vector<Candidate> linear_minima(const EncounterProblem& problem, const Elli
   const double span = problem.to - problem.from;
   const auto looks = static_cast<std::size_t>(
       std::clamp(span / linear.period(0) * length_looks_per_revolution, 64.0, 2e4));
-  std::vector<double> times, lengths;
+  std::vector<double> times;
+  std::vector<double> lengths;
   for (std::size_t k = 0; k <= looks; ++k) {
     times.push_back(problem.from + span * static_cast<double>(k) / static_cast<double>(looks));
     lengths.push_back(ellipsoid.linear_length(linear, times.back()));
   }
   std::vector<Candidate> minima;
   for (std::size_t k = 0; k <= looks; ++k) {
-    const std::size_t before = k == 0 ? 0 : k - 1, after = std::min(k + 1, looks);
+    const std::size_t before = k == 0 ? 0 : k - 1;
+    const std::size_t after = std::min(k + 1, looks);
     const bool is_least = lengths[k] <= lengths[before] && lengths[k] <= lengths[after];
     if (is_least && lengths[k] < never) {
       minima.push_back({lengths[k], times[before], times[k], times[after]});
@@ -212,9 +212,12 @@ KeepOutMargin followed(const Ellipsoid& ellipsoid, const Candidate& candidate) {
   look(candidate.to);
   xi = margin.deviation;
   const double section = (std::sqrt(5.0) - 1) / 2;
-  double from = candidate.from, to = candidate.to;
-  double left = to - section * (to - from), right = from + section * (to - from);
-  double of_left = look(left), of_right = look(right);
+  double from = candidate.from;
+  double to = candidate.to;
+  double left = to - section * (to - from);
+  double right = from + section * (to - from);
+  double of_left = look(left);
+  double of_right = look(right);
   // The length is flat at its least: half the digits of the time are enough.
   while (to - from > 1e-8 * std::max(1.0, std::abs(to))) {
     if (of_left < of_right) {

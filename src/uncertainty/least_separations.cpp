@@ -42,11 +42,8 @@ std::vector<double> flown_block(const EncounterProblem& problem, const RelativeP
       for (std::size_t i = 0; i < 6; ++i) {
         xi[static_cast<Eigen::Index>(i)] = points[(6 * craft + i) * samples_in_block + j];
       }
-      const Eigen::Matrix<double, 6, 1> deviation = problem.spacecraft[craft].factor * xi;
-      for (std::size_t i = 0; i < 6; ++i) {
-        states.push_back(problem.spacecraft[craft].state[i] +
-                         deviation[static_cast<Eigen::Index>(i)]);
-      }
+      const auto start = problem.spacecraft[craft].deviated(xi);
+      states.insert(states.end(), start.begin(), start.end());
     }
     double time = 0;
     for (std::size_t node = 0; node < paths.times().size(); ++node) {
@@ -88,6 +85,13 @@ void tell_quantiles(const std::vector<double>& sorted, double confidence,
 
 }  // namespace
 
+void LeastSeparations::scale(double unit) {
+  for (auto* lengths : {&separations, &lower, &upper}) {
+    for (double& length : *lengths) length *= unit;
+  }
+  flight_difference *= unit;
+}
+
 LeastSeparations least_separations(const EncounterProblem& problem,
                                    const CollisionSettings& settings,
                                    const std::vector<double>& shares, long flights) {
@@ -128,7 +132,7 @@ LeastSeparations least_separations(const EncounterProblem& problem,
       (static_cast<std::size_t>(result.flights) + samples_in_block - 1) / samples_in_block;
   for (std::size_t k = 0; k < flown_blocks; ++k) {
     const std::size_t number =
-        std::min(samples_in_block, static_cast<std::size_t>(result.flights) - k * samples_in_block);
+        in_block(static_cast<std::size_t>(result.flights), k * samples_in_block);
     const std::vector<double> flown =
         flown_block(problem, paths, deviations_of(settings.seed, k), number);
     for (std::size_t j = 0; j < number; ++j) {

@@ -39,6 +39,14 @@ bool is_far(const LinearRelativeState& start, const LinearRelativeState& end, do
 
 }  // namespace
 
+std::array<double, 6> UncertainSpacecraft::deviated(const Eigen::Matrix<double, 6, 1>& xi) const {
+  const Eigen::Matrix<double, 6, 1> deviation = factor * xi;
+  std::array<double, 6> result{};
+  for (std::size_t i = 0; i < 6; ++i)
+    result[i] = state[i] + deviation[static_cast<Eigen::Index>(i)];
+  return result;
+}
+
 void validate(const EncounterProblem& problem) {
   if (!problem.system || problem.system->dimension() != 6) {
     throw Error(ErrorKind::usage, "encounter: the system must be one of an orbit");

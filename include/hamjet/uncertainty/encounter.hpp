@@ -14,6 +14,9 @@ struct UncertainSpacecraft {
   /// L of the covariance L L^T: the deviation from the mean is L xi, xi six independent standard
   /// normal numbers.
   Eigen::Matrix<double, 6, 6> factor = Eigen::Matrix<double, 6, 6>::Zero();
+
+  /// The state with the deviation of these numbers xi.
+  std::array<double, 6> deviated(const Eigen::Matrix<double, 6, 1>& xi) const;
 };
 
 /// Two spacecraft whose states at the epoch are uncertain and independent, and a window of time in

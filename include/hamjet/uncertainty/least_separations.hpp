@@ -26,6 +26,9 @@ struct LeastSeparations {
   /// at most.
   long flights = 0;
   double flight_difference = 0;
+
+  /// Tells all lengths in a unit of which this is the present one.
+  void scale(double unit);
 };
 
 /// Of so many samples as the settings have, which say seed, confidence and threads too; `flights`

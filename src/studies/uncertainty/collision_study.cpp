@@ -27,13 +27,8 @@ constexpr long separation_samples = 10000;
 
 EncounterProblem encounter_problem(const Scene& scene, const CollisionWatch& watch,
                                    const MetricUnits& units) {
-  EncounterProblem problem;
-  problem.system = make_system(scene);
-  problem.from = watch.from;
-  problem.to = watch.to;
-  problem.radius = watch.radius_m / units.length_m;
-  problem.order = scene.order;
-  problem.settings.tolerance = encounter_jet_tolerance;
+  EncounterProblem problem =
+      empty_encounter(scene, watch.from, watch.to, watch.radius_m / units.length_m);
   bool is_uncertain = false;
   for (const InitialState& start : initial_states(scene)) {
     UncertainSpacecraft& craft = problem.spacecraft[start.name == "deputy" ? 1 : 0];
@@ -59,12 +54,9 @@ std::vector<SixNumbers<double>> flown_pairs(const EncounterProblem& problem,
   for (std::size_t craft = 0; craft < 2; ++craft) {
     std::vector<double> states;
     for (const EncounterDeviation& xi : deviations) {
-      const Eigen::Matrix<double, 6, 1> deviation =
-          problem.spacecraft[craft].factor * xi.segment<6>(static_cast<Eigen::Index>(6 * craft));
-      for (std::size_t i = 0; i < 6; ++i) {
-        states.push_back(problem.spacecraft[craft].state[i] +
-                         deviation[static_cast<Eigen::Index>(i)]);
-      }
+      const auto start =
+          problem.spacecraft[craft].deviated(xi.segment<6>(static_cast<Eigen::Index>(6 * craft)));
+      states.insert(states.end(), start.begin(), start.end());
     }
     flow.advance(states, times);
     for (std::size_t k = 0; k < deviations.size(); ++k) {
@@ -140,7 +132,9 @@ void fly(const EncounterProblem& problem, const ClosestApproach& approach, std::
   }
   const auto flown = flown_pairs(problem, deviations, times);
   for (std::size_t k = 0; k < flown_deviations; ++k) {
-    double square = 0, rate = 0, speed = 0;
+    double square = 0;
+    double rate = 0;
+    double speed = 0;
     for (std::size_t i = 0; i < 3; ++i) {
       square += std::pow(flown[k][i] - values[i * flown_deviations + k], 2);
       rate += flown[k][i] * flown[k][i + 3];
@@ -247,10 +241,7 @@ CollisionResult study_collision(const Scene& scene, std::size_t threads,
   }
   result.separations =
       least_separations(problem, settings, {separation_shares.begin(), separation_shares.end()});
-  for (auto* lengths :
-       {&result.separations.separations, &result.separations.lower, &result.separations.upper}) {
-    for (double& length : *lengths) length *= units.length_m;
-  }
+  result.separations.scale(units.length_m);
   // Series in twelve variables grow fast, and the third order is beyond what a deviation of the
   // time needs.
   constexpr int highest_order = 3;

@@ -34,6 +34,17 @@ InitialState initial_deputy(const Scene& scene, const RelativeState& start) {
   return result;
 }
 
+EncounterProblem empty_encounter(const Scene& scene, double from, double to, double radius) {
+  EncounterProblem problem;
+  problem.system = make_system(scene);
+  problem.from = from;
+  problem.to = to;
+  problem.radius = radius;
+  problem.order = scene.order;
+  problem.settings.tolerance = 1e-12;
+  return problem;
+}
+
 UncertainSpacecraft uncertain_spacecraft(const Scene& scene, const InitialState& start) {
   UncertainSpacecraft craft;
   craft.state = scene.nominal;

@@ -25,8 +25,10 @@ std::vector<InitialState> initial_states(const Scene& scene, double burn_share =
 /// that, without a burn.
 InitialState initial_deputy(const Scene& scene, const RelativeState& start);
 
-/// The jets of both spacecraft of an encounter, whatever integrates the scene's own.
-inline constexpr double encounter_jet_tolerance = 1e-12;
+/// An encounter in the scene's field and order, still without its spacecraft: the window and the
+/// radius canonical. The jets of both have a tolerance of their own, whatever integrates the
+/// scene's.
+EncounterProblem empty_encounter(const Scene& scene, double from, double to, double radius);
 
 /// One side of an encounter.
 UncertainSpacecraft uncertain_spacecraft(const Scene& scene, const InitialState& start);

@@ -32,23 +32,11 @@ std::vector<InitialState> formation(const Scene& scene, double burn_share) {
   return all;
 }
 
-void to_metres(LeastSeparations& separations, double length_m) {
-  for (auto* lengths : {&separations.separations, &separations.lower, &separations.upper}) {
-    for (double& length : *lengths) length *= length_m;
-  }
-  separations.flight_difference *= length_m;
-}
-
 SafetyPair safety_of(const Scene& scene, const std::array<const InitialState*, 2>& states,
                      const CollisionSettings& settings, const MetricUnits& units) {
   const SafetyWatch& watch = *scene.uncertainty->safety;
-  EncounterProblem problem;
-  problem.system = make_system(scene);
-  problem.from = watch.from;
-  problem.to = watch.to;
-  problem.radius = watch.keep_apart_m / units.length_m;
-  problem.order = scene.order;
-  problem.settings.tolerance = encounter_jet_tolerance;
+  EncounterProblem problem =
+      empty_encounter(scene, watch.from, watch.to, watch.keep_apart_m / units.length_m);
   for (std::size_t craft = 0; craft < 2; ++craft) {
     problem.spacecraft[craft] = uncertain_spacecraft(scene, *states[craft]);
   }
@@ -58,7 +46,7 @@ SafetyPair safety_of(const Scene& scene, const std::array<const InitialState*, 2
   std::vector<double> shares = {1 - watch.share};
   for (int k = 0; k < quantiles; ++k) shares.push_back((k + 0.5) / quantiles);
   pair.separations = least_separations(problem, settings, shares, flown_samples);
-  to_metres(pair.separations, units.length_m);
+  pair.separations.scale(units.length_m);
   EncounterProblem means = problem;
   for (UncertainSpacecraft& craft : means.spacecraft) craft.factor.setZero();
   means.order = 1;

@@ -127,27 +127,14 @@ double difference_of(const Cumulants& one, const Cumulants& other) {
   return result;
 }
 
-/// The polynomials of one spacecraft about its own mean, from time to time.
-class OwnFlow {
- public:
-  OwnFlow(const ComputedProblem& chief, const IntegratorSettings& settings,
-          const InitialState& start)
-      : problem_(moved(chief, start.mean)), jets_(problem_, settings) {}
-  OwnFlow(const OwnFlow&) = delete;
-  OwnFlow& operator=(const OwnFlow&) = delete;
-
-  FlowJet<double> advance_to(double time) { return jets_.advance_to(time); }
-  const IntegrationStatistics& statistics() const { return jets_.statistics(); }
-
- private:
-  static ComputedProblem moved(ComputedProblem problem, const Vector<double>& by) {
-    for (std::size_t i = 0; i < 6; ++i) problem.nominal[i] += by[static_cast<Eigen::Index>(i)];
-    return problem;
+/// The jets of one spacecraft about its own mean, from time to time.
+JetPropagation own_jets(ComputedProblem problem, const IntegratorSettings& settings,
+                        const InitialState& start) {
+  for (std::size_t i = 0; i < 6; ++i) {
+    problem.nominal[i] += start.mean[static_cast<Eigen::Index>(i)];
   }
-
-  ComputedProblem problem_;
-  JetPropagation jets_;
-};
+  return {problem, settings};
+}
 
 /// Whether a spacecraft starts so far from the chief that coordinates about the chief say nothing
 /// of it.
@@ -246,10 +233,10 @@ UncertaintyResult study_uncertainty(const Scene& scene, const ProgressCallback& 
   const bool is_charted = result.coordinates != JetCoordinates::cartesian;
   JetPropagation jets(problem, integrator);
   // The chief's mean is its nominal.
-  std::vector<std::unique_ptr<OwnFlow>> own_flows;
-  for (const InitialState& start : starts) {
-    const bool is_moved = (start.mean.array() != 0).any();
-    own_flows.push_back(is_moved ? std::make_unique<OwnFlow>(problem, integrator, start) : nullptr);
+  std::vector<std::optional<JetPropagation>> own_flows(starts.size());
+  for (std::size_t s = 0; s < starts.size(); ++s) {
+    const bool is_moved = (starts[s].mean.array() != 0).any();
+    if (is_moved) own_flows[s].emplace(own_jets(problem, integrator, starts[s]));
   }
   std::optional<DeputyFlowPropagation> charts;
   if (is_charted) charts.emplace(scene, problem, integrator, coordinates_at_ends);
