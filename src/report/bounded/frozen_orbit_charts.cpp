@@ -13,6 +13,20 @@ namespace {
 
 constexpr int places_of_circle = 128;
 
+/// One curve against the amplitude, through points in any order.
+Chart amplitude_chart(const std::string& quantity, const std::string& title,
+                      std::vector<std::pair<double, double>> points) {
+  Chart chart;
+  chart.x = logarithmic_axis("amplitude of the eccentricity vector times a", AxisUnit::metres);
+  chart.y = logarithmic_axis(quantity);
+  std::sort(points.begin(), points.end());
+  ChartCurve curve;
+  curve.title = title;
+  curve.points = std::move(points);
+  chart.curves.push_back(std::move(curve));
+  return chart;
+}
+
 }  // namespace
 
 Chart invariant_curve_chart(const FrozenOrbitStudy& study) {
@@ -26,10 +40,8 @@ Chart invariant_curve_chart(const FrozenOrbitStudy& study) {
   chart.reading = fmt::format(
       "Curves on which orbits about the frozen one return to the section, after the normal form: p "
       "is about e cos g and -q about e sin g, times the square root of L, and each curve is "
-      "divided "
-      "by its amplitude. Small ones are ellipses of one shape. Markers of the same colour: an "
-      "orbit "
-      "of each, flown over {}, which belongs on its curve.",
+      "divided by its amplitude. Small ones are ellipses of one shape. Markers of the same colour: "
+      "an orbit of each, flown over {}, which belongs on its curve.",
       counted(study.flown_revolutions, "revolution"));
   std::size_t style = 0;
   for (const LibrationCircle& circle : study.circles) {
@@ -92,17 +104,7 @@ Chart multiplier_chart(const FrozenOrbitStudy& study) {
 }
 
 Chart frequency_chart(const FrozenOrbitStudy& study) {
-  Chart chart;
-  chart.name = "poincare-frequencies";
-  chart.title = "Frequency against amplitude";
-  chart.x = logarithmic_axis("amplitude of the eccentricity vector times a", AxisUnit::metres);
-  chart.y = logarithmic_axis("change of the rotation number (parts of it)");
   const double smallest = study.circles.front().rotation_number;
-  chart.reading = fmt::format(
-      "By how much orbits of an amplitude turn faster or slower about the frozen one than those of "
-      "{}, which take {:.6g} revolutions for a turn, by the normal form: the twist grows with the "
-      "square of the amplitude where its lowest term leads.",
-      length_text(study.length_m(study.circles.front().amplitude)), 1 / std::abs(smallest));
   std::vector<std::pair<double, double>> points;
   const auto add = [&](double amplitude, double rotation) {
     const double change = std::abs(rotation / smallest - 1);
@@ -115,25 +117,19 @@ Chart frequency_chart(const FrozenOrbitStudy& study) {
   for (const FlownAmplitude& flown : study.flown_amplitudes) {
     add(flown.amplitude, flown.rotation_number);
   }
-  std::sort(points.begin(), points.end());
-  ChartCurve curve;
-  curve.title = "normal form";
-  curve.points = std::move(points);
-  chart.curves.push_back(std::move(curve));
+  Chart chart = amplitude_chart("change of the rotation number (parts of it)", "normal form",
+                                std::move(points));
+  chart.name = "poincare-frequencies";
+  chart.title = "Frequency against amplitude";
+  chart.reading = fmt::format(
+      "By how much orbits of an amplitude turn faster or slower about the frozen one than those of "
+      "{}, which take {:.6g} revolutions for a turn, by the normal form: the twist grows with the "
+      "square of the amplitude where its lowest term leads.",
+      length_text(study.length_m(study.circles.front().amplitude)), 1 / std::abs(smallest));
   return chart;
 }
 
 Chart reach_chart(const FrozenOrbitStudy& study) {
-  Chart chart;
-  chart.name = "poincare-reach";
-  chart.title = "Where the normal form stops being right";
-  chart.x = logarithmic_axis("amplitude of the eccentricity vector times a", AxisUnit::metres);
-  chart.y = logarithmic_axis("miss (parts of the amplitude)");
-  chart.reading = fmt::format(
-      "How far an orbit that starts on each circle is from where the normal form has it, flown "
-      "over "
-      "{} with the whole field; the line is the miss up to which the form is called right.",
-      counted(study.flown_revolutions, "revolution"));
   std::vector<std::pair<double, double>> points;
   for (const LibrationCircle& circle : study.circles) {
     if (!circle.is_chiefs && circle.flown_to) {
@@ -143,11 +139,14 @@ Chart reach_chart(const FrozenOrbitStudy& study) {
   for (const FlownAmplitude& flown : study.flown_amplitudes) {
     if (flown.miss) points.emplace_back(study.length_m(flown.amplitude), *flown.miss);
   }
-  std::sort(points.begin(), points.end());
-  ChartCurve curve;
-  curve.title = fmt::format("order {}", study.scene.order);
-  curve.points = std::move(points);
-  chart.curves.push_back(std::move(curve));
+  Chart chart = amplitude_chart("miss (parts of the amplitude)",
+                                fmt::format("order {}", study.scene.order), std::move(points));
+  chart.name = "poincare-reach";
+  chart.title = "Where the normal form stops being right";
+  chart.reading = fmt::format(
+      "How far an orbit that starts on each circle is from where the normal form has it, flown "
+      "over {} with the whole field; the line is the miss up to which the form is called right.",
+      counted(study.flown_revolutions, "revolution"));
   chart.rules.push_back({false, FrozenOrbitStudy::largest_miss, "right below", false});
   return chart;
 }

@@ -7,13 +7,12 @@
 #include <cmath>
 #include <limits>
 
-#include "../../integrators/momentum_unit.hpp"
 #include "../../integrators/taylor_flow.hpp"
 #include "../exact_flow.hpp"
 #include "../formation/single_transfer.hpp"
+#include "../jets_along_time.hpp"
 #include "../thinned_list.hpp"
 #include "hamjet/error.hpp"
-#include "hamjet/integrators/gauss_collocation.hpp"
 #include "hamjet/maps/position_boundary_values.hpp"
 #include "hamjet/studies/propagation.hpp"
 
@@ -92,9 +91,12 @@ class Keeper {
         revolution_(revolution),
         step_(revolution / BoxControl::places_a_revolution),
         progress_(progress),
-        system_(make_system(scene)),
-        flow_(system_),
-        company_(scene, scene.nominal, start_of(member), member_of(member)) {}
+        flow_(make_system(scene)),
+        company_(scene, scene.nominal, start_of(member), member_of(member)),
+        problem_(make_problem(scene, available_memory())) {
+    problem_.symmetry = FlowSymmetry::none;
+    integrator_.tolerance = 1e-12;
+  }
 
   BoxControl run() {
     const double end = settings_.days * seconds_a_day / units_.time_s;
@@ -107,7 +109,7 @@ class Keeper {
                               "widths from its middle",
                               company_.part()));
     }
-    look(company_, result_.farthest);
+    note(looked(company_, time_));
     while (time_ < end) {
       if (progress_) progress_("box", time_ / end);
       const double step = std::min(step_, end - time_);
@@ -116,7 +118,7 @@ class Keeper {
       if (next.part() <= 1) {
         company_ = std::move(next);
         time_ += step;
-        look(company_, result_.farthest);
+        note(looked(company_, time_));
         continue;
       }
       coast_to_face(step);
@@ -140,14 +142,20 @@ class Keeper {
     return settings_.reference == BoxReference::member ? member : std::vector<double>();
   }
 
-  /// Notes where the deputy is.
-  void look(const Company& company, double& farthest) {
-    const Eigen::Vector3d place = company.place_m();
-    result_.least_m = result_.least_m.cwiseMin(place);
-    result_.most_m = result_.most_m.cwiseMax(place);
-    farthest = std::max(farthest, company.part());
-    result_.farthest = std::max(result_.farthest, farthest);
-    places_.add({time_, company.from_reference_m()});
+  /// Where the deputy is at a time.
+  struct Look {
+    BoxControl::Place place;
+    Eigen::Vector3d from_chief_m;
+    double part;  ///< of the box
+  };
+  static Look looked(const Company& company, double time) {
+    return {{time, company.from_reference_m()}, company.place_m(), company.part()};
+  }
+  void note(const Look& look) {
+    result_.least_m = result_.least_m.cwiseMin(look.from_chief_m);
+    result_.most_m = result_.most_m.cwiseMax(look.from_chief_m);
+    result_.farthest = std::max(result_.farthest, look.part);
+    places_.add(look.place);
   }
 
   /// Coasts to the last moment inside of a step that ends outside.
@@ -163,35 +171,33 @@ class Keeper {
     }
     company_.advance(flow_, inside);
     time_ += inside;
-    look(company_, result_.farthest);
+    note(looked(company_, time_));
   }
 
-  /// A return of a duration, flown but not noted; none where the polynomials have no answer.
+  /// A return of a duration, flown but not noted.
   struct Flown {
     BoxReturn told;
     Company end;
-    std::vector<double> momenta;  ///< of the deputy, the first impulse made
+    std::vector<Look> looks;
   };
 
   void bring_back() {
     std::optional<Flown> best;
-    FlowJet<double> jet;
-    for (std::size_t i = 0; i < numbers_of_state; ++i) {
-      jet.push_back(Series<double>::variable(space_, i, company_.chief()[i]));
-    }
-    double reached = 0;
+    problem_.nominal = company_.chief();
+    JetPropagation jets(problem_, integrator_);
     for (const double part : settings_.return_orbits) {
       const double duration = part * revolution_;
-      advance(jet, duration - reached);
-      reached = duration;
-      std::optional<Flown> flown = flown_return(jet, duration);
+      std::optional<Flown> flown = flown_return(jets.advance_to(duration), duration);
       if (flown && (!best || is_better(flown->told, best->told))) best = std::move(flown);
     }
     if (!best) {
       throw Error(ErrorKind::numerical,
                   "bounded.box.return_orbits: no return of these times has an answer");
     }
-    fly(*best);
+    for (const Look& look : best->looks) note(look);
+    time_ = best->looks.back().place.time;
+    company_ = std::move(best->end);
+    result_.returns.push_back(std::move(best->told));
     if (const double part = company_.part(); part > 1) {
       throw Error(ErrorKind::numerical,
                   fmt::format("bounded.box: too small for polynomials of order {} and the rounding "
@@ -207,22 +213,7 @@ class Keeper {
     return is_inside ? one.change_m_s() < other.change_m_s() : one.farthest < other.farthest;
   }
 
-  void advance(FlowJet<double>& jet, double time) {
-    if (time == 0) return;
-    FlowProblem<double> problem;
-    problem.system = system_;
-    problem.space = space_;
-    for (std::size_t i = 0; i < numbers_of_state; ++i) problem.variables.push_back(i);
-    problem.initial_state = nominal_of(jet);
-    problem.initial_jet = jet;
-    problem.duration = time;
-    problem.symmetry = FlowSymmetry::none;
-    GaussSettings gauss;
-    gauss.tolerance = 1e-12;
-    IntegrationStatistics statistics;
-    jet = integrate_gauss<double>(problem, gauss, statistics);
-  }
-
+  /// None where the polynomials have no answer.
   std::optional<Flown> flown_return(const FlowJet<double>& jet, double duration) {
     Flown flown{{}, company_, {}};
     BoxReturn& told = flown.told;
@@ -235,8 +226,9 @@ class Keeper {
     const std::vector<double> from = company_.deviation();
     const std::vector<double> to = target.reference();
     try {
-      const PartialInversion<double> inversion = invert_partially(
-          jet, parse_kind("F1", 3), std::numeric_limits<double>::epsilon(), momentum_exponent_);
+      const PartialInversion<double> inversion =
+          invert_partially(jet, parse_kind("F1", 3), std::numeric_limits<double>::epsilon(),
+                           problem_.momentum_exponent);
       const BoundaryMomenta momenta = PositionBoundaryValues(inversion).solve(
           std::span(from).first(3), std::span(to).first(3), scene_.order);
       std::vector<double> deputy = told.deputy_before;
@@ -246,16 +238,18 @@ class Keeper {
         change[static_cast<Eigen::Index>(i)] = deputy[3 + i] - told.deputy_before[3 + i];
       }
       told.first_m_s = company_.frame().velocity_change_m_s(change);
-      flown.momenta = deputy;
+      flown.end.set_deputy(deputy);
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::numerical) throw;
       return std::nullopt;
     }
-    flown.end.set_deputy(flown.momenta);
     const int steps = static_cast<int>(std::ceil(duration / step_));
+    double time = time_;
     for (int k = 0; k < steps; ++k) {
       flown.end.advance(flow_, duration / steps);
-      told.farthest = std::max(told.farthest, flown.end.part());
+      time += duration / steps;
+      flown.looks.push_back(looked(flown.end, time));
+      told.farthest = std::max(told.farthest, flown.looks.back().part);
     }
     // At its end the deputy takes the reference's velocity; its place is what the flight missed.
     told.miss_m = flown.end.from_reference_m().norm();
@@ -273,19 +267,6 @@ class Keeper {
     return flown;
   }
 
-  /// Flies the chosen return again, and notes its places.
-  void fly(const Flown& chosen) {
-    company_.set_deputy(chosen.momenta);
-    const int steps = static_cast<int>(std::ceil(chosen.told.duration / step_));
-    for (int k = 0; k < steps; ++k) {
-      company_.advance(flow_, chosen.told.duration / steps);
-      time_ += chosen.told.duration / steps;
-      look(company_, result_.farthest);
-    }
-    company_ = chosen.end;
-    result_.returns.push_back(chosen.told);
-  }
-
   /// Faces are found to the rounding of flights.
   static constexpr double rounding = 1e-6;
 
@@ -295,11 +276,10 @@ class Keeper {
   double revolution_;
   double step_;
   const ProgressCallback& progress_;
-  SharedSystem system_;
   TaylorFlow flow_;
   Company company_;
-  SpacePointer space_ = SeriesSpace::create(numbers_of_state, scene_.order);
-  int momentum_exponent_ = natural_momentum_exponent(true, scene_.nominal);
+  ComputedProblem problem_;  ///< of the jets about the chief where it is
+  IntegratorSettings integrator_;
   double time_ = 0;
   ThinnedList<BoxControl::Place, drawn_places> places_;
   BoxControl result_;

@@ -18,7 +18,8 @@ void require_nodal_section(const Scene& scene) {
                                       six_numbers(scene.nominal));
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::numerical) throw;
-    const Eigen::Vector3d q(scene.nominal.data()), p(scene.nominal.data() + 3);
+    const Eigen::Vector3d q(scene.nominal.data());
+    const Eigen::Vector3d p(scene.nominal.data() + 3);
     const Eigen::Vector3d momentum = q.cross(p);
     const double inclination =
         std::atan2(std::hypot(momentum[0], momentum[1]), momentum[2]) * 180 / std::numbers::pi;
