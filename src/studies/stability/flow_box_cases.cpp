@@ -4,48 +4,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
 #include <string>
 
+#include "../../charts/chief_orbit.hpp"
 #include "hamjet/algebra/composition.hpp"
 #include "hamjet/charts/deputy_flow.hpp"
-#include "hamjet/dynamics/osculating_elements.hpp"
 #include "hamjet/integrators/explicit_runge_kutta.hpp"
 
 namespace hamjet {
 namespace {
 
-const double turn_angle = 2 * std::acos(-1.0);
-
-/// A chief in units of its start's distance, mu = 1.
-struct ChiefOrbit {
-  ZonalGravity field;
-  SixNumbers<double> start;
-  double period = 0;  ///< of Kepler's ellipse
-};
-
-/// Of elements (km, degrees) in the Earth's J2 and J3.
-ChiefOrbit orbit_of(double a, double e, double i, double node, double pericentre,
-                    double true_anomaly) {
-  const double mu = 398600.4415;
-  const CartesianState state = state_from_elements({a, e, i, node, pericentre, true_anomaly}, mu);
-  double r = 0;
-  for (const Extended& x : state.position_km) r = std::hypot(r, static_cast<double>(x));
-  const double velocity = std::sqrt(mu / r);
-  ChiefOrbit orbit;
-  for (std::size_t k = 0; k < 3; ++k) {
-    orbit.start[k] = static_cast<double>(state.position_km[k]) / r;
-    orbit.start[3 + k] = static_cast<double>(state.velocity_km_s[k]) / velocity;
-  }
-  orbit.field.radius = 6378.1363 / r;
-  orbit.field.J[2] = 1.0826267e-3;
-  orbit.field.J[3] = -2.53e-6;
-  orbit.period = turn_angle * std::pow(a / r, 1.5);
-  return orbit;
-}
-
 ChiefOrbit state(const SixNumbers<double>& z, double J2 = 1e-3) {
-  ChiefOrbit orbit{{.mu = 1, .radius = 0.9}, z, turn_angle};
+  ChiefOrbit orbit{{.mu = 1, .radius = 0.9}, z, 2 * std::numbers::pi};
   orbit.field.J[2] = J2;
   return orbit;
 }
