@@ -33,12 +33,12 @@ from .uncertainty import Moments, Uncertainty, polynomial_moments, uncertainty
 
 __all__ = [
     "AlongTime", "Assignment", "Bounded", "Collisions", "Error", "ExistingFileError",
-    "FrozenOrbit", "GeneratingFunction", "InputOutputError", "Jet", "ManyJets", "MissingFileError", "Moments",
-    "Motion", "Nominal", "NumericalError", "Polynomials", "RelativeStates", "Result", "Run",
-    "SceneError", "Separation", "StudyResult", "TooLargeError", "Trajectory", "Transfers",
-    "Uncertainty", "Units", "UsageError", "Validity", "__version__", "assign", "bounded",
-    "collision_probability",
-    "elements_of_states", "load", "mean_states", "motion", "orbit", "osculating_states", "poincare",
-    "polynomial_moments", "polynomials", "propagate_many", "run", "states_of_elements",
-    "trajectory", "transfer", "uncertainty", "validity",
+    "FrozenOrbit", "GeneratingFunction", "InputOutputError", "Jet", "ManyJets",
+    "MissingFileError", "Moments", "Motion", "Nominal", "NumericalError", "Polynomials",
+    "RelativeStates", "Result", "Run", "SceneError", "Separation", "StudyResult",
+    "TooLargeError", "Trajectory", "Transfers", "Uncertainty", "Units", "UsageError",
+    "Validity", "__version__", "assign", "bounded", "collision_probability",
+    "elements_of_states", "load", "mean_states", "motion", "orbit", "osculating_states",
+    "poincare", "polynomial_moments", "polynomials", "propagate_many", "run",
+    "states_of_elements", "trajectory", "transfer", "uncertainty", "validity",
 ]
