@@ -68,11 +68,11 @@ FlowJet<Real> integrate_unsplit(const FlowProblem<Real>& problem, const Splittab
 /// A method with its local tolerance chosen, where it has one.
 template <class Real>
 SplittableMethod with_step_tolerance(const FlowProblem<Real>& problem, SplittableMethod method,
-                                     StepTolerance<Real>& choice) {
+                                     std::size_t threads, StepTolerance<Real>& choice) {
   if (auto* gauss = std::get_if<GaussSettings>(&method)) {
     validate_gauss(*gauss);
     if (gauss->tolerance) {
-      choice = choose_step_tolerance(problem, *gauss);
+      choice = choose_step_tolerance(problem, *gauss, threads);
       gauss->tolerance = choice.tolerance;
     }
   }
@@ -347,7 +347,7 @@ FlowJet<Real> integrate_in_arcs(const FlowProblem<Real>& problem, const Splittab
   }
   StepTolerance<Real> choice;
   const IntegrationClock clock;
-  const SplittableMethod used = with_step_tolerance(problem, method, choice);
+  const SplittableMethod used = with_step_tolerance(problem, method, settings.threads, choice);
   const double choice_seconds = clock.seconds();
   const auto arcs = make_arcs(problem, used);
   FlowJet<Real> jet = ArcSplitting<Real>(problem, used, choice, *arcs, settings, statistics,
@@ -365,7 +365,7 @@ ArcPlan plan_arcs(const FlowProblem<Real>& problem, const SplittableMethod& meth
   validate(problem);
   validate_arcs(asked, 1);
   StepTolerance<Real> choice;
-  const auto arcs = make_arcs(problem, with_step_tolerance(problem, method, choice));
+  const auto arcs = make_arcs(problem, with_step_tolerance(problem, method, 1, choice));
   IntegrationStatistics statistics;
   if (problem.duration != 0) {
     arcs->run_nominal(statistics, [&](const Real& time, const FlowJet<Real>&) {

@@ -60,18 +60,33 @@ DirectionalFlow<Real>::DirectionalFlow(const FlowProblem<Real>& problem, std::si
 template <class Real>
 typename DirectionalFlow<Real>::Lines DirectionalFlow<Real>::integrate(
     const Integrate& integrate) const {
-  const bool is_cheaper_together =
-      starts_.size() == 2 && problem_.space->order() <= highest_order_together;
-  if (is_cheaper_together) return apart(integrate(together()));
-  Lines result;
+  std::vector<FlowJet<Real>> jets;
+  for (const FlowProblem<Real>& problem : problems()) jets.push_back(integrate(problem));
+  return lines(std::move(jets));
+}
+
+template <class Real>
+std::vector<FlowProblem<Real>> DirectionalFlow<Real>::problems() const {
+  if (is_cheaper_together()) return {together()};
+  std::vector<FlowProblem<Real>> result;
   for (const FlowJet<Real>& start : starts_) {
-    FlowProblem<Real> line = problem_;
+    FlowProblem<Real>& line = result.emplace_back(problem_);
     line.space = line_space_;
     line.variables = {0};  // stands for s; the initial jet says what s moves
     line.initial_jet = start;
-    result.push_back(integrate(line));
   }
   return result;
+}
+
+template <class Real>
+typename DirectionalFlow<Real>::Lines DirectionalFlow<Real>::lines(
+    std::vector<FlowJet<Real>> jets) const {
+  return is_cheaper_together() ? apart(jets[0]) : std::move(jets);
+}
+
+template <class Real>
+bool DirectionalFlow<Real>::is_cheaper_together() const {
+  return starts_.size() == 2 && problem_.space->order() <= highest_order_together;
 }
 
 template <class Real>

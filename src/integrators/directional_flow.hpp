@@ -40,6 +40,10 @@ class DirectionalFlow {
   /// whatever the products of several are they do not enter them.
   Lines integrate(const Integrate& integrate) const;
 
+  /// The problems of these integrations, and the lines from their jets.
+  std::vector<FlowProblem<Real>> problems() const;
+  Lines lines(std::vector<FlowJet<Real>> jets) const;
+
   /// The problem in one variable a line, and the lines from its jet.
   FlowProblem<Real> together() const;
   Lines apart(const FlowJet<Real>& jet) const;
@@ -54,6 +58,8 @@ class DirectionalFlow {
   std::vector<double> relative_difference(const Lines& lines, const Lines& reference) const;
 
  private:
+  bool is_cheaper_together() const;
+
   /// Where the powers of a line's variable stand among those of all.
   std::vector<std::size_t> places_of(std::size_t line, const SeriesSpace& all) const;
 

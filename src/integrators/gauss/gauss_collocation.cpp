@@ -49,7 +49,7 @@ FlowJet<Real> integrate_gauss(const FlowProblem<Real>& problem, const GaussSetti
   if (is_tried_whole) {
     FlowJet<Real> jet = integrate_with(problem, used, statistics, observer);
     const FirstTrial<Real> first{jet, statistics};
-    choice = choose_step_tolerance(problem, settings, &first);
+    choice = choose_step_tolerance(problem, settings, 1, &first);
     if (choice.tolerance == *settings.tolerance) {
       statistics.choice_seconds = clock.seconds() - statistics.wall_seconds;
       statistics.wall_seconds = clock.seconds();

@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <type_traits>
 #include <utility>
 
 #include "../../algebra/instantiated_real.hpp"
+#include "../arc_integrator.hpp"
+#include "../concurrent_tasks.hpp"
 #include "gauss_lanes.hpp"
 #include "hamjet/algebra/composition.hpp"
 #include "hamjet/algebra/extended.hpp"
@@ -57,14 +60,50 @@ struct Trial {
   double largest_excess() const { return largest_error() / limit; }
 };
 
+/// Lines in one method's steps.
 template <class Real>
-FlowJet<Real> integrate_as_given(const FlowProblem<Real>& problem, const GaussSettings& settings,
-                                 IntegrationStatistics& statistics) {
-  statistics = {};
-  return with_lanes<Real>(settings.stages, [&]<int Lanes>(std::integral_constant<int, Lanes>) {
-    return run_gauss<Lanes>(problem, settings, statistics, StepObserver<Real>{});
-  });
-}
+class LinesInSteps {
+ public:
+  LinesInSteps(const std::vector<FlowProblem<Real>>& problems, GaussSettings settings)
+      : problems_(problems), settings_(std::move(settings)), jets_(problems.size()) {
+    settings_.profile = nullptr;
+  }
+
+  /// The nominal of several lines is integrated once; one integration has its own.
+  void follow() {
+    if (problems_.size() == 1) return;
+    nominal_ =
+        with_lanes<Real>(settings_.stages, [&]<int Lanes>(std::integral_constant<int, Lanes>) {
+          return make_gauss_arcs<Lanes, Real>(problems_[0], settings_);
+        });
+    nominal_->run_nominal(statistics_, {});
+  }
+
+  void integrate(std::size_t line) {
+    const FlowProblem<Real>& problem = problems_[line];
+    if (nominal_ != nullptr) {
+      IntegrationStatistics own;
+      jets_[line] = nominal_->run_arc(0, statistics_.steps, problem.space, problem.variables,
+                                      *problem.initial_jet, own, [] {});
+      return;
+    }
+    jets_[line] =
+        with_lanes<Real>(settings_.stages, [&]<int Lanes>(std::integral_constant<int, Lanes>) {
+          return run_gauss<Lanes>(problem, settings_, statistics_, StepObserver<Real>{});
+        });
+  }
+
+  /// Of the nominal.
+  const IntegrationStatistics& statistics() const { return statistics_; }
+  std::vector<FlowJet<Real>> take() { return std::move(jets_); }
+
+ private:
+  const std::vector<FlowProblem<Real>>& problems_;
+  GaussSettings settings_;
+  std::unique_ptr<ArcIntegrator<Real>> nominal_;  ///< one arc, with its checkpoints
+  IntegrationStatistics statistics_;
+  std::vector<FlowJet<Real>> jets_;
+};
 
 template <class Real>
 void judge(Trial<Real>& trial, const DirectionalFlow<Real>& flow, const GaussSettings& settings,
@@ -75,22 +114,31 @@ void judge(Trial<Real>& trial, const DirectionalFlow<Real>& flow, const GaussSet
 
 template <class Real>
 Trial<Real> try_tolerance(const DirectionalFlow<Real>& flow, const GaussSettings& settings,
-                          double tolerance, const FirstTrial<Real>* known = nullptr) {
-  GaussSettings coarse = settings;
-  coarse.tolerance = tolerance;
-  coarse.profile = nullptr;
-  const GaussSettings fine = finer_gauss<Real>(settings, tolerance);
-  IntegrationStatistics statistics;
-  const auto with = [&](const GaussSettings& used) {
-    return flow.integrate(
-        [&](const FlowProblem<Real>& line) { return integrate_as_given(line, used, statistics); });
-  };
+                          double tolerance, std::size_t threads,
+                          const FirstTrial<Real>* known = nullptr) {
+  const std::vector<FlowProblem<Real>> problems = flow.problems();
+  GaussSettings own = settings;
+  own.tolerance = tolerance;
+  LinesInSteps<Real> finer(problems, finer_gauss<Real>(settings, tolerance));
+  LinesInSteps<Real> coarse(problems, own);
+  // The steps asked for come first: where both fail, theirs is the failure that is told.
+  std::vector<LinesInSteps<Real>*> both;
+  if (known == nullptr) both.push_back(&coarse);
+  both.push_back(&finer);
+  run_concurrently(
+      both.size(), threads, [&](std::size_t i, TaskControl&) { both[i]->follow(); }, [](long) {});
+  run_concurrently(
+      both.size() * problems.size(), threads,
+      [&](std::size_t i, TaskControl&) {
+        both[i / problems.size()]->integrate(i % problems.size());
+      },
+      [](long) {});
   Trial<Real> trial;
   trial.tolerance = tolerance;
-  trial.lines = known != nullptr ? flow.restrict(known->jet) : with(coarse);
-  trial.steps = known != nullptr ? known->statistics.steps : statistics.steps;
-  trial.finer_lines = with(fine);
-  judge(trial, flow, settings, statistics.periods);
+  trial.lines = known != nullptr ? flow.restrict(known->jet) : flow.lines(coarse.take());
+  trial.steps = known != nullptr ? known->statistics.steps : coarse.statistics().steps;
+  trial.finer_lines = flow.lines(finer.take());
+  judge(trial, flow, settings, finer.statistics().periods);
   return trial;
 }
 
@@ -151,13 +199,13 @@ bool needs_choice(const FlowProblem<Real>& problem, const GaussSettings& setting
 
 template <class Real>
 StepTolerance<Real> choose_step_tolerance(const FlowProblem<Real>& problem,
-                                          const GaussSettings& settings,
+                                          const GaussSettings& settings, std::size_t threads,
                                           const FirstTrial<Real>* first) {
   const double asked = settings.tolerance.value_or(0);
   if (!needs_choice(problem, settings)) return {asked, {}, {}, {}, {}};
   const double smallest = smallest_step_tolerance<Real>();
   const DirectionalFlow<Real> flow(problem, 2);
-  Trial<Real> before = try_tolerance(flow, settings, asked, first);
+  Trial<Real> before = try_tolerance(flow, settings, asked, threads, first);
   if (!(before.largest_excess() > 1)) return chosen(asked, flow, std::move(before));
   double power = 1;
   double largest_reduction = 0.1;
@@ -166,7 +214,7 @@ StepTolerance<Real> choose_step_tolerance(const FlowProblem<Real>& problem,
     const double wanted = std::isfinite(excess) ? std::pow(aim / excess, 1 / power) : 0;
     const double next = std::max(
         std::clamp(wanted, least_reduction, largest_reduction) * before.tolerance, smallest);
-    Trial<Real> trial = try_tolerance(flow, settings, next);
+    Trial<Real> trial = try_tolerance(flow, settings, next, threads);
     if (!(trial.largest_excess() > 1)) return chosen(next, flow, std::move(trial));
     const bool is_shorter = trial.steps > before.steps;
     // Steps that much shorter would take away far more of a truncation error.
@@ -230,12 +278,14 @@ FlowJet<Real> integrate_with_step_tolerance(const FlowProblem<Real>& problem,
   settings.tolerance = step_tolerance;
   settings.profile = nullptr;
   IntegrationStatistics statistics;
-  return integrate_as_given(problem, settings, statistics);
+  return with_lanes<Real>(settings.stages, [&]<int Lanes>(std::integral_constant<int, Lanes>) {
+    return run_gauss<Lanes>(problem, settings, statistics, StepObserver<Real>{});
+  });
 }
 
 template bool needs_choice(const FlowProblem<InstantiatedReal>&, const GaussSettings&);
 template StepTolerance<InstantiatedReal> choose_step_tolerance(const FlowProblem<InstantiatedReal>&,
-                                                               const GaussSettings&,
+                                                               const GaussSettings&, std::size_t,
                                                                const FirstTrial<InstantiatedReal>*);
 template std::optional<StepTolerance<InstantiatedReal>> accept_first_trial(
     const GaussSettings&, const DirectionalFlow<InstantiatedReal>&,

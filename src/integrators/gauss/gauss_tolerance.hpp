@@ -55,9 +55,10 @@ bool needs_choice(const FlowProblem<Real>& problem, const GaussSettings& setting
 /// settings' tolerance is returned, or 0. Throws what integrate_gauss throws.
 ///
 /// A jet that was integrated with the settings' own tolerance may be given as the first trial.
+/// Lines are integrated on up to `threads` threads, with the same result on any number.
 template <class Real>
 StepTolerance<Real> choose_step_tolerance(const FlowProblem<Real>& problem,
-                                          const GaussSettings& settings,
+                                          const GaussSettings& settings, std::size_t threads = 1,
                                           const FirstTrial<Real>* first = nullptr);
 
 /// choose_step_tolerance where the first trial, the jet's own lines and the finer ones, of so many
