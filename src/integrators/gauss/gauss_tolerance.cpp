@@ -28,6 +28,9 @@ constexpr double least_reduction = 1e-5;
 /// it is the waves of the field that limit them, not yet the tolerance.
 constexpr double next_reduction = 1e-3;
 constexpr int most_trials = 6;
+/// Finer steps serve the next trial too if their tolerance is that much below its own: then what
+/// they are wrong by is a thirtieth of what is measured.
+constexpr double fine_enough = 30;
 /// Lines of more steps are tried twice only: each trial is a good part of the whole work then.
 constexpr long most_steps_of_more_trials = 10000;
 /// Steps that leave a degree fewer than two digits are too coarse to converge yet, so that an error
@@ -52,6 +55,8 @@ struct Trial {
   std::vector<double> error_by_degree;
   double limit = 0;
   long steps = 0;  ///< of each line: the nominal chooses them, and both have one
+  double finer_tolerance = 0;
+  double periods = 0;  ///< of the finer lines
 
   double excess(std::size_t degree) const { return error_by_degree[degree] / limit; }
   double largest_error() const {
@@ -106,25 +111,28 @@ class LinesInSteps {
 };
 
 template <class Real>
-void judge(Trial<Real>& trial, const DirectionalFlow<Real>& flow, const GaussSettings& settings,
-           double periods) {
+void judge(Trial<Real>& trial, const DirectionalFlow<Real>& flow, const GaussSettings& settings) {
   trial.error_by_degree = flow.relative_difference(trial.lines, trial.finer_lines);
-  trial.limit = allowed_excess * *settings.tolerance * std::max(1.0, periods);
+  trial.limit = allowed_excess * *settings.tolerance * std::max(1.0, trial.periods);
 }
 
+/// Tries a tolerance: the jet of a first trial may be there already, or the finer lines of the one
+/// before.
 template <class Real>
 Trial<Real> try_tolerance(const DirectionalFlow<Real>& flow, const GaussSettings& settings,
-                          double tolerance, std::size_t threads,
-                          const FirstTrial<Real>* known = nullptr) {
+                          double tolerance, std::size_t threads, const FirstTrial<Real>* known,
+                          const Trial<Real>* before = nullptr) {
   const std::vector<FlowProblem<Real>> problems = flow.problems();
+  const bool has_finer = before != nullptr && fine_enough * before->finer_tolerance <= tolerance;
   GaussSettings own = settings;
   own.tolerance = tolerance;
-  LinesInSteps<Real> finer(problems, finer_gauss<Real>(settings, tolerance));
   LinesInSteps<Real> coarse(problems, own);
+  const GaussSettings finest = finer_gauss<Real>(settings, tolerance);
+  LinesInSteps<Real> finer(problems, finest);
   // The steps asked for come first: where both fail, theirs is the failure that is told.
   std::vector<LinesInSteps<Real>*> both;
   if (known == nullptr) both.push_back(&coarse);
-  both.push_back(&finer);
+  if (!has_finer) both.push_back(&finer);
   run_concurrently(
       both.size(), threads, [&](std::size_t i, TaskControl&) { both[i]->follow(); }, [](long) {});
   run_concurrently(
@@ -137,8 +145,10 @@ Trial<Real> try_tolerance(const DirectionalFlow<Real>& flow, const GaussSettings
   trial.tolerance = tolerance;
   trial.lines = known != nullptr ? flow.restrict(known->jet) : flow.lines(coarse.take());
   trial.steps = known != nullptr ? known->statistics.steps : coarse.statistics().steps;
-  trial.finer_lines = flow.lines(finer.take());
-  judge(trial, flow, settings, finer.statistics().periods);
+  trial.finer_lines = has_finer ? before->finer_lines : flow.lines(finer.take());
+  trial.finer_tolerance = has_finer ? before->finer_tolerance : *finest.tolerance;
+  trial.periods = has_finer ? before->periods : finer.statistics().periods;
+  judge(trial, flow, settings);
   return trial;
 }
 
@@ -214,7 +224,7 @@ StepTolerance<Real> choose_step_tolerance(const FlowProblem<Real>& problem,
     const double wanted = std::isfinite(excess) ? std::pow(aim / excess, 1 / power) : 0;
     const double next = std::max(
         std::clamp(wanted, least_reduction, largest_reduction) * before.tolerance, smallest);
-    Trial<Real> trial = try_tolerance(flow, settings, next, threads);
+    Trial<Real> trial = try_tolerance<Real>(flow, settings, next, threads, nullptr, &before);
     if (!(trial.largest_excess() > 1)) return chosen(next, flow, std::move(trial));
     const bool is_shorter = trial.steps > before.steps;
     // Steps that much shorter would take away far more of a truncation error.
@@ -249,7 +259,8 @@ std::optional<StepTolerance<Real>> accept_first_trial(const GaussSettings& setti
   trial.tolerance = *settings.tolerance;
   trial.lines = std::move(lines);
   trial.finer_lines = std::move(finer_lines);
-  judge(trial, flow, settings, periods);
+  trial.periods = periods;
+  judge(trial, flow, settings);
   if (trial.largest_excess() > 1) return std::nullopt;
   return chosen(trial.tolerance, flow, std::move(trial));
 }

@@ -230,16 +230,22 @@ class StageSlopes {
     const std::size_t first = space_->first(d);
     const std::size_t last = space_->first(d + 1);
     if (system_.second_order() && !system_.unit_mass() && d >= 2) apply_inverse_mass(d);
-    for (std::size_t c = 0; c < system_.components(); ++c) {
-      std::size_t k = first;
-      for (; k + tile <= last; k += tile) solve_tile<tile>(c, d, k, state);
-      for (; k < last; ++k) solve_tile<1>(c, d, k, state);
-    }
+    const auto solve =
+        [&]<std::size_t Components>(std::integral_constant<std::size_t, Components>) {
+          for (std::size_t c = 0; c < system_.components(); c += Components) {
+            std::size_t k = first;
+            for (; k + tile <= last; k += tile) solve_tile<tile, Components>(c, d, k, state);
+            for (; k < last; ++k) solve_tile<1, Components>(c, d, k, state);
+          }
+        };
+    // Three components share what is read of the remainders.
+    if (system_.components() == 3) return solve(std::integral_constant<std::size_t, 3>{});
+    solve(std::integral_constant<std::size_t, 1>{});
   }
 
  private:
   static constexpr int largest_iteration_count = 40;
-  static constexpr std::size_t tile = 6;
+  static constexpr std::size_t tile = 7;
 
   template <class State>
   void place_stages(const State& state) {
@@ -334,28 +340,34 @@ class StageSlopes {
     return is_mapped ? mapped_[c].data() : evaluator_.output(c);
   }
 
-  /// Forms Y_c for `Width` monomials at once: each entry of K is loaded once for all of them.
-  template <std::size_t Width>
+  /// Forms Y of `Components` components from c on for `Width` monomials at once: each entry of K is
+  /// loaded once for all of the monomials, each remainder once for all of the components.
+  template <std::size_t Width, std::size_t Components>
   void solve_tile(std::size_t c, int d, std::size_t monomial,
                   const std::vector<const Real*>& state) {
-    std::array<P, Width> sum;
-    for (std::size_t t = 0; t < Width; ++t) sum[t] = P(Real(0));
+    std::array<std::array<P, Width>, Components> sum;
+    for (auto& row : sum) row.fill(P(Real(0)));
+    const auto add = [&](const P* entries, const auto& value) {
+      for (std::size_t t = 0; t < Width; ++t) {
+        const P broadcast(value(t));
+        for (std::size_t i = 0; i < Components; ++i) sum[i][t] += entries[i] * broadcast;
+      }
+    };
     for (std::size_t k = 0; k < state.size(); ++k) {
-      const P b = system_.base_response(k, c);
-      for (std::size_t t = 0; t < Width; ++t) sum[t] += b * P(state[k][monomial + t]);
+      add(&system_.base_response(k, c), [&](std::size_t t) { return state[k][monomial + t]; });
     }
     for (std::size_t from = 0; from < system_.components(); ++from) {
       if (!has_remainder(from, d)) continue;
       const P* r = remainder(from) + monomial;
       for (std::size_t j = 0; j < system_.stages(); ++j) {
-        const P entry = system_.response(from, j, c);
-        for (std::size_t t = 0; t < Width; ++t) {
-          sum[t] += entry * P(r[t].lane(static_cast<int>(j)));
-        }
+        add(&system_.response(from, j, c),
+            [&](std::size_t t) { return r[t].lane(static_cast<int>(j)); });
       }
     }
-    P* target = evaluator_.input(c) + monomial;
-    for (std::size_t t = 0; t < Width; ++t) target[t] = sum[t];
+    for (std::size_t i = 0; i < Components; ++i) {
+      P* target = evaluator_.input(c + i) + monomial;
+      for (std::size_t t = 0; t < Width; ++t) target[t] = sum[i][t];
+    }
   }
 
   StageSystem<Real, Lanes> system_;
