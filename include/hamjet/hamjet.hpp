@@ -38,6 +38,7 @@
 #include "hamjet/maps/position_boundary_values.hpp"
 #include "hamjet/maps/symplecticity.hpp"
 #include "hamjet/maps/truncation_estimate.hpp"
+#include "hamjet/poincare/event_map.hpp"
 #include "hamjet/relative_motion/chief_frame.hpp"
 #include "hamjet/report/comparison_report.hpp"
 #include "hamjet/report/relative_motion_report.hpp"

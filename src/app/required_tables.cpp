@@ -55,6 +55,10 @@ void require_uncertainty(const Scene& scene, const std::string& file) {
                 "position_m = [100, 100, 100], velocity_m_s = [0.1, 0.1, 0.1]");
 }
 
+void require_event(const Scene& scene, const std::string& file) {
+  require_table(file, scene.event.has_value(), "event", "surface = \"equator\"");
+}
+
 void require_bounded(const Scene& scene, const std::string& file) {
   require_table(file, scene.bounded.has_value(), "bounded", "sizes_km = [1, 10]");
 }

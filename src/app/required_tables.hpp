@@ -20,6 +20,7 @@ void require_deputy(const Scene& scene, const std::string& file);
 void require_validity(const Scene& scene, const std::string& file);
 void require_uncertainty(const Scene& scene, const std::string& file);
 void require_bounded(const Scene& scene, const std::string& file);
+void require_event(const Scene& scene, const std::string& file);
 void require_assignment(const Scene& scene, const std::string& file);
 
 /// An Error(scene) that comes from a study gets the file's name before it.

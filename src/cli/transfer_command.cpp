@@ -10,6 +10,7 @@
 #include "../app/required_tables.hpp"
 #include "../app/stored_chief.hpp"
 #include "../report/bounded/bounded_report.hpp"
+#include "../report/bounded/event_report.hpp"
 #include "../report/bounded/frozen_orbit_report.hpp"
 #include "../report/formation/deputy_motion_report.hpp"
 #include "../studies/bounded/bounded_formation.hpp"
@@ -165,6 +166,11 @@ int assign(const RunOptions& options) {
 int poincare(const RunOptions& options) {
   const Scene scene = read_unsplit_scene(options, "hamjet poincare");
   return report_study(options, scene.name + poincare_suffix, [&](const ProgressCallback& progress) {
+    if (scene.event) {
+      return io::event_report(
+          study_of(*options.scene_file, [&] { return study_event(scene, progress); }),
+          report_origin(options.command));
+    }
     return io::frozen_orbit_report(
         study_of(*options.scene_file, [&] { return study_frozen_orbit(scene, progress); }),
         report_origin(options.command));

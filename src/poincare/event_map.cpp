@@ -1,4 +1,4 @@
-#include "event_map.hpp"
+#include "hamjet/poincare/event_map.hpp"
 
 #include <cmath>
 #include <limits>

@@ -227,6 +227,9 @@ UncertaintySettings read_uncertainty(const TableReader& uncertainty, const Scene
 /// Table `[bounded]`, checked against what `scene` already holds.
 BoundedSettings read_bounded(const TableReader& bounded, const Scene& scene);
 
+/// Table `[event]`, checked against what `scene` already holds.
+EventSettings read_event(const TableReader& event, const Scene& scene);
+
 /// Why the energy-conserving methods integrate no flow jet, for messages.
 inline constexpr std::string_view no_energy_conserving_jet =
     "the map of an energy-conserving method at a fixed physical time is not symplectic, because "

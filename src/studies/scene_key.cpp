@@ -105,7 +105,7 @@ std::string scene_key(const Scene& scene, int jet_order, KeyOf whose) {
   const auto& [name, title, precision, system, units, canonical_radius, nominal, duration, order,
                arcs, symmetry, coordinates, variables, jet_times, integrators, separation, kinds,
                reference, relative_hamiltonian_times, checks, comparison, figure, deputy, transfer,
-               validity, assignment, uncertainty, bounded, output, ephemeris, nominal_file,
+               validity, assignment, uncertainty, bounded, event, output, ephemeris, nominal_file,
                warnings, own_system] = scene;
   KeyText key;
   key.add("key", 6);  // version of this text, and of what is kept under it

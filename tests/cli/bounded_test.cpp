@@ -51,6 +51,43 @@ TEST_F(LongMotion, PoincareWritesTheFrozenOrbit) {
   }
 }
 
+TEST_F(LongMotion, PoincareWritesTheEventOfAScene) {
+  const std::string kepler =
+      "[system]\nmodel = \"kepler\"\nmu_km3_s2 = 398600.4415\n[nominal]\na_km = 9000\ne = 0.2\n"
+      "i_deg = 50\nraan_deg = 30\nargp_deg = 70\nta_deg = 90\n"
+      "[jet]\norder = 4\nduration_orbits = 3\n[event]\n";
+  write("apsis.toml", kepler + "surface = \"apsis\"\ndirection = \"rising\"\nnumber = 2\n");
+  const std::string out = in_one_line(succeed({"poincare", "apsis.toml"}).out);
+  EXPECT_NE(out.find("The chief meets r . v = 0, rising (event 2) after"), std::string::npos)
+      << out;
+  const Json summary = read_json(directory_ / "out/apsis-poincare/summary.json");
+  // From the true anomaly of 90 degrees, cos E = e: the second pericentre is a period less M, and a
+  // period, later (Kepler's equation).
+  const double E = std::acos(0.2);
+  const double n = std::sqrt(398600.4415 / std::pow(9000.0, 3));
+  const double pi = std::acos(-1.0);
+  EXPECT_NEAR(summary["time_s"].get<double>(), (4 * pi - (E - 0.2 * std::sin(E))) / n, 1e-8);
+  // Degree 4 leaves what grows with the fifth power, linear polynomials with the second.
+  const Table misses = read_table(directory_ / "out/apsis-poincare/event.csv");
+  ASSERT_EQ(misses.rows.size(), 5U);
+  EXPECT_NEAR(
+      std::log10(misses.number(4, "linear_position_m") / misses.number(3, "linear_position_m")), 2,
+      0.1);
+  EXPECT_LT(misses.number(3, "position_m"), 1e-3 * misses.number(3, "linear_position_m"));
+  // The derivative of the time by the velocity along the orbit is the slope of the polynomials.
+  const Table map = read_table(directory_ / "out/apsis-poincare/event-map.csv");
+  EXPECT_EQ(map.rows.size(), 7U * 210);
+  // Fewer within the duration, and keys of other surfaces, are refused.
+  for (const auto& [keys, message] : std::vector<std::pair<std::string, std::string>>{
+           {"surface = \"apsis\"\nnumber = 7\n", "meets 6; must be at most that"},
+           {"surface = \"distance\"\n", "event.distance_km: missing"},
+           {"surface = \"apsis\"\nnormal = [0, 0, 1]\n", "event.normal: not of this surface"},
+           {"surface = \"plane\"\nnormal = [0, 0, 0]\n", "event.normal: no direction"}}) {
+    write("bad.toml", kepler + keys);
+    expect_error({"poincare", "bad.toml"}, 3, {message});
+  }
+}
+
 TEST_F(LongMotion, BoundedWritesDeputiesThatStay) {
   write("low.toml", scene("50", "[bounded]\nsizes_km = [2]\nrevolutions = 20\n"));
   const std::string out = in_one_line(succeed({"bounded", "low.toml"}).out);

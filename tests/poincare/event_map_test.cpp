@@ -1,4 +1,4 @@
-#include "poincare/event_map.hpp"
+#include "hamjet/poincare/event_map.hpp"
 
 #include <gtest/gtest.h>
 

@@ -55,3 +55,47 @@ def test_a_deputy_in_a_box_is_that_of_the_command(tmp_path):
 def test_a_chief_in_the_equator_is_refused():
     with pytest.raises(hamjet.SceneError, match="equatorial"):
         hamjet.poincare(SCENE, overrides=["nominal.i_deg=0"])
+
+
+EVENT = ["jet.order=3", "event.surface='equator'", "event.direction='rising'",
+         "event.amplitudes_m=[100, 1000]"]
+
+
+def test_an_event_is_that_of_the_command(tmp_path):
+    expected = table_of_command(tmp_path, "poincare", SCENE, EVENT, "event.csv")
+    event = hamjet.event(SCENE, overrides=EVENT)
+    assert (event.misses_m == numbers(expected["position_m"])).all()
+    assert (event.linear_misses_s == numbers(expected["linear_time_s"])).all()
+    loaded = hamjet.load(tmp_path / "out")
+    assert loaded.summary["time_s"] == event.time_s
+    assert loaded.summary["state_canonical"] == event.state_canonical.tolist()
+    assert event.exponents.shape == (84, 6) and event.coefficients.shape == (84, 7)
+
+
+def test_a_neighbour_has_the_event_that_the_polynomials_say():
+    """The neighbour's own event, from its own scene, is what the polynomials say."""
+    event = hamjet.event(SCENE, overrides=EVENT)
+    deviation = np.array([1, -2, 1, 2, 1, -1]) * 1e-5
+    time, *state = event.evaluate(deviation)
+    chief = hamjet.run(SCENE, overrides=["jet.order=1", "generating_function=null"]
+                       ).runs["gauss8"].nominal.states[0]
+    start = np.array(chief) + deviation
+    speed = event.length_km / event.time_unit_s
+    own = hamjet.event(SCENE, overrides=[
+        *EVENT, "nominal={position_km=" + str((start[:3] * event.length_km).tolist())
+        + ", velocity_km_s=" + str((start[3:] * speed).tolist()) + "}"])
+    # Of degree 4: 1e-20 times coefficients of thousands at most, far below the rounding.
+    assert abs(own.time_s - time * event.time_unit_s) < 1e-7
+    scale = own.length_km / event.length_km
+    assert np.allclose(own.state_canonical[:3] * scale, state[:3], atol=1e-11)
+    assert np.allclose(event.evaluate(np.zeros((2, 6)))[:, 0] * event.time_unit_s, event.time_s,
+                       rtol=1e-15, atol=0)
+    with pytest.raises(hamjet.UsageError, match="six numbers"):
+        event.evaluate([1, 2])
+
+
+def test_an_event_that_does_not_happen_is_refused():
+    with pytest.raises(hamjet.SceneError, match="meets 1; must be at most that"):
+        hamjet.event(SCENE, overrides=[*EVENT, "event.number=7"])
+    with pytest.raises(hamjet.SceneError, match="event: missing"):
+        hamjet.event(SCENE)

@@ -28,6 +28,7 @@ def objects():
             hamjet.assign(SOURCE / "data" / "scenes" / "assignment-tetrahedron.toml",
                           overrides=["transfer.count=3"]),
             hamjet.poincare(BOUNDED, overrides=SHORT), hamjet.bounded(BOUNDED, overrides=SHORT),
+            hamjet.event(BOUNDED, overrides=[*SHORT, "event.surface='apsis'"]),
             hamjet.uncertainty(UNCERTAINTY),
             hamjet.collision_probability([[7e6, 0, 0, 0, 7546, 0], [7e6, 0, 0, 0, 6622, 3618]],
                                          np.broadcast_to(np.diag([1e4] * 3 + [1e-2] * 3), (2, 6, 6)),

@@ -82,6 +82,10 @@ class StudyText {
   void add(const BoundedSettings& s) {
     add_all(s.sizes_m, s.phase_deg, s.cross_track, s.along_track, s.revolutions, s.refine, s.box);
   }
+  void add(const EventSettings& s) {
+    add_all(s.surface, s.normal[0], s.normal[1], s.normal[2], s.offset_km, s.distance_km,
+            s.direction, s.number, s.amplitudes_m);
+  }
   void add(const BoxSettings& s) {
     add_all(s.half_widths_m, s.reference, s.position_m, s.return_orbits, s.days);
   }
@@ -95,7 +99,7 @@ class StudyText {
     add_all(s.title, s.precision, s.system, s.units, s.canonical_radius, s.nominal, s.duration,
             s.order, s.arcs, s.variables, s.jet_times, s.integrators, s.separation, s.kinds,
             s.reference, s.relative_hamiltonian_times, s.comparison, s.figure, s.deputy, s.transfer,
-            s.validity, s.assignment, s.uncertainty, s.bounded, s.output.formats, s.ephemeris);
+            s.validity, s.assignment, s.uncertainty, s.bounded, s.event, s.output.formats, s.ephemeris);
     for (std::size_t i = 0; i < self_check_count; ++i) add(s.checks[SelfCheckName(i)]);
   }
   void add(const EnergyConservationStudy& s) {

@@ -132,6 +132,7 @@ struct Scene {
   std::optional<AssignmentSettings> assignment;
   std::optional<UncertaintySettings> uncertainty;
   std::optional<BoundedSettings> bounded;
+  std::optional<EventSettings> event;
   OutputSettings output;
   std::optional<EphemerisSettings> ephemeris;
   std::optional<NominalFile> nominal_file;  ///< absent: the scene has the numbers itself

@@ -4,7 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+import numpy as np
+import numpy.typing as npt
+
 from . import _hamjet, arguments, scenes, shown
+from .errors import UsageError
 from .relative_motion import Flags, Study
 from .results import Floats, Progress
 from .tables import Table, read_table
@@ -42,6 +46,49 @@ class FrozenOrbit(Study):
     def __repr__(self) -> str:
         return shown.of(self, f": a={self.a_km:.7g} km, e={self.e:.6g}, i={self.i_deg:.7g} deg, "
                         f"argp={self.argp_deg:.6g} deg, {'' if self.stable else 'un'}stable")
+
+
+@dataclass(frozen=True, eq=False)
+class Event(Study):
+    """When a condition holds along an orbit, and where, as polynomials; immutable.
+
+    Of the M monomials of the deviations (x, y, z, px, py, pz) of the initial state, in canonical
+    units: with ``time_unit_s`` and ``length_km`` the units of time and length.
+    """
+
+    time_s: float  #: of the chief's event, after the start
+    state_canonical: Floats  #: (6,): the chief's then
+    exponents: Floats  #: (M, 6): of each monomial
+    coefficients: Floats  #: (M, 7): of the time, and of x, y, z, px, py, pz at the event
+    length_km: float  #: the canonical unit of length
+    time_unit_s: float  #: the canonical unit of time
+    amplitudes_m: Floats  #: (A,): deviations of deputies that were flown
+    misses_m: Floats  #: (A,): the largest, in position, of the polynomials
+    misses_s: Floats  #: (A,): in time
+    linear_misses_m: Floats  #: (A,): of the linear polynomials
+    linear_misses_s: Floats  #: (A,)
+    rounding_m: float  #: of a flown position
+    verdict: str  #: what ``hamjet poincare`` says first
+    table: Table = field(repr=False)  #: the columns of ``event.csv``, by name
+    _study: _hamjet.EventStudy | None = field(repr=False)
+
+    def evaluate(self, deviations: npt.ArrayLike) -> Floats:
+        """Time and state of neighbours, canonical.
+
+        ``deviations`` of the initial state, canonical, shape (6,) or (K, 6). Returns (7,) or
+        (K, 7): time, x, y, z, px, py, pz. Raises UsageError for other shapes.
+        """
+        points = np.asarray(deviations, dtype=float)
+        if points.ndim not in (1, 2) or points.shape[-1] != 6:
+            raise UsageError(f"deviations: no array of six numbers a row, got the shape "
+                             f"{points.shape}, must be (6,) or (K, 6)")
+        monomials = np.prod(points[..., None, :] ** self.exponents, axis=-1)
+        return monomials @ self.coefficients
+
+    def __repr__(self) -> str:
+        return shown.of(self, f": after {self.time_s:.9g} s, {len(self.exponents)} monomials; "
+                        f"misses up to {shown.largest(self.misses_m)} m for deviations up to "
+                        f"{shown.largest(self.amplitudes_m)} m")
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,6 +132,18 @@ def poincare(scene: scenes.Scene, *, overrides: scenes.Overrides | None = None,
     """
     study = _hamjet.study_poincare(scenes.read(scene, overrides), arguments.progress(progress))
     return FrozenOrbit(**study.arrays(), table=read_table(study.csv), _study=study)
+
+
+def event(scene: scenes.Scene, *, overrides: scenes.Overrides | None = None,
+          progress: Progress | None = None) -> Event:
+    """Time and state at a condition along the orbit, as ``hamjet poincare`` finds them.
+
+    The scene has a table [event]; arguments as of ``run``. Raises SceneError (also for fewer
+    events within the duration than asked for), UsageError, NumericalError (the orbit only touches
+    the surface), TooLargeError, InputOutputError.
+    """
+    study = _hamjet.study_event(scenes.read(scene, overrides), arguments.progress(progress))
+    return Event(**study.arrays(), table=read_table(study.csv), _study=study)
 
 
 def bounded(scene: scenes.Scene, *, overrides: scenes.Overrides | None = None,

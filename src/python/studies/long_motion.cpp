@@ -1,6 +1,7 @@
 #include <numbers>
 
 #include "../../report/bounded/bounded_report.hpp"
+#include "../../report/bounded/event_report.hpp"
 #include "../../report/bounded/frozen_orbit_report.hpp"
 #include "../../studies/bounded/relative_orbit_extent.hpp"
 #include "../bindings.hpp"
@@ -19,6 +20,46 @@ Studied<BoundedFormation> study_company(const GivenScene& given, const py::objec
   return studied<BoundedFormation>(
       given, progress, "hamjet bounded", &cli::require_bounded, &study_bounded,
       [](const BoundedFormation& formation) { return io::bounded_report(formation, origin()); });
+}
+
+Studied<EventStudy> study_condition(const GivenScene& given, const py::object& progress) {
+  return studied<EventStudy>(
+      given, progress, "hamjet poincare", &cli::require_event, &study_event,
+      [](const EventStudy& study) { return io::event_report(study, origin()); });
+}
+
+py::dict event_arrays(const EventStudy& study) {
+  const SeriesSpace& space = study.map.time.space();
+  Table state, exponents, coefficients, amplitude, position, time, linear_position, linear_time;
+  for (const double x : study.state()) state.add(x);
+  for (std::size_t k = 0; k < space.size(); ++k) {
+    for (const auto exponent : space.exponents(k)) exponents.add(exponent);
+    coefficients.add(study.map.time[k]);
+    for (const Series<double>& component : study.map.state) coefficients.add(component[k]);
+  }
+  for (const EventMisses& one : study.misses) {
+    amplitude.add(one.amplitude_m);
+    position.add(one.position_m);
+    time.add(one.time_s);
+    linear_position.add(one.linear_position_m);
+    linear_time.add(one.linear_time_s);
+  }
+  const auto count = size_of(space.size());
+  py::dict arrays;
+  arrays["time_s"] = study.time_s();
+  arrays["state_canonical"] = state.array();
+  arrays["exponents"] = exponents.array({count, 6});
+  arrays["coefficients"] = coefficients.array({count, 7});
+  arrays["length_km"] = study.scene.units.length_km;
+  arrays["time_unit_s"] = study.scene.units.time_s;
+  arrays["amplitudes_m"] = amplitude.array();
+  arrays["misses_m"] = position.array();
+  arrays["misses_s"] = time.array();
+  arrays["linear_misses_m"] = linear_position.array();
+  arrays["linear_misses_s"] = linear_time.array();
+  arrays["rounding_m"] = study.position_rounding_m;
+  arrays["verdict"] = io::event_verdict(study);
+  return arrays;
 }
 
 py::dict poincare_arrays(const FrozenOrbitStudy& study) {
@@ -108,6 +149,8 @@ py::dict bounded_arrays(const BoundedFormation& formation) {
 void bind_long_motion(py::module_& module) {
   bind_study<FrozenOrbitStudy>(module, "PoincareStudy", &io::frozen_orbit_csv, &poincare_arrays);
   bind_study<BoundedFormation>(module, "BoundedStudy", &io::bounded_csv, &bounded_arrays);
+  bind_study<EventStudy>(module, "EventStudy", &io::event_csv, &event_arrays);
+  module.def("study_event", &study_condition, py::arg("scene"), py::arg("progress"));
   module.def("study_poincare", &study_poincare, py::arg("scene"), py::arg("progress"));
   module.def("study_bounded", &study_company, py::arg("scene"), py::arg("progress"));
 }

@@ -135,6 +135,7 @@ struct TableDescription {
 
 const TableDescription& assignment_table();
 const TableDescription& bounded_table();
+const TableDescription& event_table();
 const TableDescription& canonical_transformation_table();
 const TableDescription& case_table();
 const TableDescription& checks_table();

@@ -125,6 +125,24 @@ struct BoundedSettings {
   BoxSettings box;
 };
 
+/// A function of the state whose zeros are events: the height over the equator, that over a plane,
+/// the distance from the centre less a radius, the product of position and velocity.
+enum class EventSurface { equator, plane, distance, apsis };
+/// Whether the function grows or falls with time at the event.
+enum class EventDirection { either, rising, falling };
+
+/// Table `[event]`: a condition along the orbit, whose time and state are wanted as polynomials.
+struct EventSettings {
+  EventSurface surface = EventSurface::equator;
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< of a plane, inertial
+  double offset_km = 0;    ///< of a plane, along its normal from the centre
+  double distance_km = 0;  ///< of `distance`
+  EventDirection direction = EventDirection::either;
+  int number = 1;  ///< among those that the chief meets after its start
+  /// Sizes of the deviations in position with which deputies are flown.
+  std::vector<double> amplitudes_m = {1, 10, 100, 1e3, 1e4};
+};
+
 /// How the transfer times of an assignment are chosen.
 enum class AssignmentTime {
   per_pair,  ///< the best time for each deputy and slot

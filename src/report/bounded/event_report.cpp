@@ -1,0 +1,197 @@
+#include "event_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "../../store/columns.hpp"
+#include "../../text/quantity_text.hpp"
+#include "../../text/terminal_text.hpp"
+#include "../drawing/report_page.hpp"
+#include "../formation/transfer_json.hpp"
+
+namespace hamjet::io {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::array<const char*, 6> component_names = {"x", "y", "z", "px", "py", "pz"};
+
+std::string condition_text(const EventSettings& event) {
+  const std::string way = event.direction == EventDirection::rising    ? ", rising"
+                          : event.direction == EventDirection::falling ? ", falling"
+                                                                       : "";
+  switch (event.surface) {
+    case EventSurface::equator:
+      return "z = 0" + way;
+    case EventSurface::plane:
+      return fmt::format("({:.6g}, {:.6g}, {:.6g}) . r = {:.10g} km{}", event.normal[0],
+                         event.normal[1], event.normal[2], event.offset_km, way);
+    case EventSurface::distance:
+      return fmt::format("|r| = {:.10g} km{}", event.distance_km, way);
+    case EventSurface::apsis:
+      break;
+  }
+  return "r . v = 0" + way;
+}
+
+/// The largest amplitude up to which all misses in position are at most a metre.
+std::optional<double> reach_m(const EventStudy& study) {
+  std::vector<EventMisses> misses = study.misses;
+  std::sort(misses.begin(), misses.end(),
+            [](const auto& a, const auto& b) { return a.amplitude_m < b.amplitude_m; });
+  std::optional<double> reach;
+  for (const EventMisses& one : misses) {
+    if (!(one.position_m <= 1)) break;
+    reach = one.amplitude_m;
+  }
+  return reach;
+}
+
+std::vector<std::vector<std::string>> miss_rows(const EventStudy& study) {
+  const int order = study.scene.order;
+  std::vector<std::vector<std::string>> rows = {
+      {"deviation", fmt::format("miss, order {} (m)", order), "in time (s)", "miss, order 1 (m)",
+       "in time (s)"}};
+  for (const EventMisses& one : study.misses) {
+    rows.push_back({length_text(one.amplitude_m), fmt::format("{:.3g}", one.position_m),
+                    fmt::format("{:.3g}", one.time_s), fmt::format("{:.3g}", one.linear_position_m),
+                    fmt::format("{:.3g}", one.linear_time_s)});
+  }
+  return rows;
+}
+
+Chart miss_chart(const EventStudy& study) {
+  Chart chart;
+  chart.name = "event-misses";
+  chart.title = "Misses of flown deputies";
+  chart.reading = fmt::format(
+      "How far {} deputies of each deviation, flown with the full equations to the time that the "
+      "polynomials give, are from where these have them; the largest. The rule is what rounding "
+      "makes of a flown position.",
+      study.flown);
+  chart.x = logarithmic_axis("deviation in position (m)");
+  chart.y = logarithmic_axis("miss in position (m)");
+  const auto add = [&](const std::string& title, double EventMisses::*miss, std::size_t style) {
+    ChartCurve curve;
+    curve.title = title;
+    curve.style = style;
+    for (const EventMisses& one : study.misses) {
+      curve.points.emplace_back(one.amplitude_m, one.*miss);
+    }
+    std::sort(curve.points.begin(), curve.points.end());
+    chart.curves.push_back(std::move(curve));
+  };
+  add(fmt::format("order {}", study.scene.order), &EventMisses::position_m, 0);
+  if (study.scene.order > 1) add("order 1", &EventMisses::linear_position_m, 1);
+  chart.rules.push_back({false, study.position_rounding_m, "rounding", false});
+  fit(chart);
+  return chart;
+}
+
+std::string event_page(const EventStudy& study, const ReportOrigin& origin, ChartDrawer& drawer) {
+  ReportPage page;
+  page.title = study.scene.title + ": event";
+  page.verdict = event_verdict(study);
+  page.first_figure = figure_html(miss_chart(study), drawer);
+  page.facts =
+      origin_facts_html(origin) +
+      fact_html("Scene", fmt::format("{}, order {}", study.scene.name, study.scene.order)) +
+      fact_html("Condition", condition_text(*study.scene.event)) +
+      fact_html("Time", fmt::format("{:.12g} s", study.time_s())) +
+      fact_html("Rounding", length_text(study.position_rounding_m));
+  page.sections =
+      "<section>\n<h2>Misses</h2>\n" +
+      table_html("Of flown deputies, by the size of their deviation.", miss_rows(study)) +
+      "</section>\n";
+  return page_html(page, drawer);
+}
+
+}  // namespace
+
+std::string event_verdict(const EventStudy& study) {
+  const std::vector<double> state = study.state();
+  const double kilometres = study.scene.units.length_km;
+  const std::optional<double> reach = reach_m(study);
+  return fmt::format(
+      "The chief meets {} (event {}) after {:.12g} s, at ({:.9g}, {:.9g}, {:.9g}) km. Time and "
+      "state are polynomials of order {} in the initial state; {}.",
+      condition_text(*study.scene.event), study.scene.event->number, study.time_s(),
+      state[0] * kilometres, state[1] * kilometres, state[2] * kilometres, study.scene.order,
+      reach ? fmt::format("deputies flown with the full equations are within 1 m of them up to "
+                          "deviations of {} at least",
+                          length_text(*reach))
+            : "no deputy that was flown is within 1 m of them");
+}
+
+std::string event_csv(const EventStudy& study) {
+  Columns<EventMisses> columns;
+  columns.add("amplitude_m", &EventMisses::amplitude_m);
+  columns.add("position_m", &EventMisses::position_m);
+  columns.add("time_s", &EventMisses::time_s);
+  columns.add("linear_position_m", &EventMisses::linear_position_m);
+  columns.add("linear_time_s", &EventMisses::linear_time_s);
+  return columns.csv(study.misses);
+}
+
+std::string event_map_csv(const EventStudy& study) {
+  struct Row {
+    std::string_view component;
+    const Series<double>* series;
+    std::size_t monomial;
+  };
+  std::vector<Row> rows;
+  const auto add = [&](std::string_view name, const Series<double>& series) {
+    for (std::size_t k = 0; k < series.space().size(); ++k) rows.push_back({name, &series, k});
+  };
+  add("time", study.map.time);
+  for (std::size_t i = 0; i < 6; ++i) add(component_names[i], study.map.state[i]);
+  Columns<Row> columns;
+  columns.add("component", &Row::component);
+  for (std::size_t v = 0; v < 6; ++v) {
+    columns.add(std::string("e_") + component_names[v], [v](const Row& row) {
+      return static_cast<int>(row.series->space().exponents(row.monomial)[v]);
+    });
+  }
+  columns.add("coefficient", [](const Row& row) { return (*row.series)[row.monomial]; });
+  return columns.csv(rows);
+}
+
+Json event_json(const EventStudy& study) {
+  Json json = study_head_json(study.scene, "event", "gauss8");
+  json["verdict"] = event_verdict(study);
+  json["condition"] = condition_text(*study.scene.event);
+  json["number"] = study.scene.event->number;
+  json["time_s"] = study.time_s();
+  json["time_canonical"] = study.map.time[0];
+  json["state_canonical"] = study.state();
+  json["position_rounding_m"] = study.position_rounding_m;
+  json["flown_deputies"] = study.flown;
+  json["misses"] = Json::array();
+  for (const EventMisses& one : study.misses) {
+    json["misses"].push_back({{"amplitude_m", one.amplitude_m},
+                              {"position_m", one.position_m},
+                              {"time_s", one.time_s},
+                              {"linear_position_m", one.linear_position_m},
+                              {"linear_time_s", one.linear_time_s}});
+  }
+  json["exit_code"] = 0;
+  return json;
+}
+
+StudyReport event_report(const EventStudy& study, const ReportOrigin& origin) {
+  StudyReport report;
+  ChartDrawer drawer(origin.gnuplot);
+  report.files = {{"event.csv", event_csv(study)},
+                  {"event-map.csv", event_map_csv(study)},
+                  {"report.html", event_page(study, origin, drawer)},
+                  {"summary.json", event_json(study).dump(2) + "\n"}};
+  report.drawing_problem = drawer.problem();
+  report.table = fmt::format("{}\n{}\n\n", study.scene.title, event_verdict(study)) +
+                 aligned_table(miss_rows(study));
+  return report;
+}
+
+}  // namespace hamjet::io

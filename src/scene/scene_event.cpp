@@ -1,0 +1,82 @@
+#include <fmt/format.h>
+
+#include "scene_relative_motion.hpp"
+
+namespace hamjet::io {
+namespace {
+
+constexpr int most_events = 100000;
+
+/// Refuses a key that belongs to another surface.
+void refuse(const TableReader& event, std::string_view key, std::string_view surface) {
+  if (!event.has(key)) return;
+  event.fail(key, fmt::format("not of this surface, got {}, must be left out, or surface = \"{}\"",
+                              event.found(key), surface));
+}
+
+}  // namespace
+
+const TableDescription& event_table() {
+  static const EventSettings preset;
+  static const TableDescription table = {
+      {{"surface", form::choice({"equator", "plane", "distance", "apsis"}), absent::refused(),
+        "what vanishes at the event: the height over the equator (a node where it rises), the "
+        "height over a plane, the distance from the centre less `distance_km`, or the product of "
+        "position and velocity (a pericentre where it rises, an apocentre where it falls)"},
+       {"normal", form::array(form::number(), 3), absent::other("refused with `plane`"),
+        "of the plane, x, y, z of the nominal's axes; of any length"},
+       {"offset_km", form::number(), absent::value(preset.offset_km),
+        "of the plane from the centre, along its normal"},
+       {"distance_km", form::positive(), absent::other("refused with `distance`"),
+        "from the centre"},
+       {"direction", form::choice({"either", "rising", "falling"}), absent::value("either"),
+        "whether the height, the distance less `distance_km` or the product grows or falls with "
+        "time at the event"},
+       {"number", form::integer(1, most_events), absent::value(preset.number),
+        "which of these events of the chief after its start, within `jet.duration`"},
+       {"amplitudes_m", form::array(form::positive()), absent::value(preset.amplitudes_m),
+        "distances from the chief of deputies that are flown to see how far the polynomials hold; "
+        "their velocities differ by as much times the mean motion"}},
+      "A condition along the orbit: the time at which it holds and the state then, as polynomials "
+      "of "
+      "the initial state, which with a surface that the orbit comes back to are its Poincaré map."};
+  return table;
+}
+
+EventSettings read_event(const TableReader& event, const Scene& scene) {
+  event.check_keys();
+  require_relative_motion(event, scene);
+  EventSettings settings;
+  settings.surface = EventSurface(event.choice("surface"));
+  if (settings.surface == EventSurface::plane) {
+    const std::vector<double> normal = event.numbers("normal", 3);
+    settings.normal = {normal[0], normal[1], normal[2]};
+    if (!(settings.normal.norm() > 0)) {
+      event.fail("normal", "no direction, got zeros, must be a vector across the plane");
+    }
+    settings.normal.normalize();
+    event.read_if_any("offset_km", settings.offset_km);
+  } else {
+    refuse(event, "normal", "plane");
+    refuse(event, "offset_km", "plane");
+  }
+  if (settings.surface == EventSurface::distance) {
+    settings.distance_km = event.positive_number("distance_km");
+  } else {
+    refuse(event, "distance_km", "distance");
+  }
+  event.read_if_any("direction", settings.direction);
+  event.read_if_any("number", settings.number);
+  if (event.has("amplitudes_m")) {
+    settings.amplitudes_m = event.numbers("amplitudes_m");
+    for (std::size_t i = 0; i < settings.amplitudes_m.size(); ++i) {
+      if (settings.amplitudes_m[i] > 0) continue;
+      event.fail_element(
+          "amplitudes_m", i,
+          fmt::format("out of range, got {}, must be above 0", settings.amplitudes_m[i]));
+    }
+  }
+  return settings;
+}
+
+}  // namespace hamjet::io

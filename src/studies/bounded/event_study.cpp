@@ -1,0 +1,268 @@
+#include "event_study.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <random>
+#include <span>
+
+#include "../exact_flow.hpp"
+#include "../formation/deputy_flows.hpp"
+#include "../formation/formation_problem.hpp"
+#include "../formation/single_transfer.hpp"
+#include "hamjet/algebra/calculus.hpp"
+#include "hamjet/algebra/elementary_functions.hpp"
+#include "hamjet/error.hpp"
+#include "hamjet/integrators/jet_trajectory.hpp"
+#include "hamjet/studies/propagation.hpp"
+
+namespace hamjet {
+namespace {
+
+constexpr double tolerance = 1e-14;
+/// Places within a step of the trajectory at which a change of sign is looked for.
+constexpr int places_of_step = 8;
+/// A start nearer to the surface than this part of the condition's size is on it.
+constexpr double on_surface = 1e-12;
+constexpr int flown_deputies = 8;
+
+using State = std::vector<double>;
+
+double value_at(const EventCondition<double>& condition, const State& state) {
+  static const SpacePointer constants = SeriesSpace::create(1, 0);
+  const auto z = [&](std::size_t i) { return Series<double>(constants, state[i]); };
+  return condition({z(0), z(1), z(2), z(3), z(4), z(5)})[0];
+}
+
+/// Finds the chief's events one after the other, by their changes of sign along its trajectory.
+class EventSearch {
+ public:
+  EventSearch(const Scene& scene, const EventCondition<double>& condition)
+      : condition_(condition),
+        direction_(scene.event->direction),
+        trajectory_(trajectory_problem(make_system(scene), scene.nominal, scene.duration),
+                    gauss()) {}
+
+  /// The time of the event of a number; none if there are fewer, whose count is then found().
+  std::optional<double> find(int number) {
+    const std::vector<double>& steps = trajectory_.step_times();
+    double before = 0;
+    double value = at(0);
+    const double size = std::abs(value) + std::abs(at(steps.back() / 2));
+    if (std::abs(value) <= on_surface * size) value = 0;
+    for (std::size_t k = 1; k < steps.size(); ++k) {
+      for (int i = 1; i <= places_of_step; ++i) {
+        const double time = steps[k - 1] + (steps[k] - steps[k - 1]) * i / places_of_step;
+        const double next = at(time);
+        if (next == 0) continue;
+        if (value * next < 0 && is_wanted((next - value) / (time - before)) && ++found_ == number) {
+          return crossing(before, value, time);
+        }
+        before = time;
+        value = next;
+      }
+    }
+    return std::nullopt;
+  }
+
+  int found() const { return found_; }
+
+ private:
+  static GaussSettings gauss() {
+    GaussSettings settings;
+    settings.tolerance = tolerance;
+    return settings;
+  }
+
+  double at(double time) const { return value_at(condition_, nominal_of(trajectory_.at(time))); }
+
+  bool is_wanted(double slope) const {
+    return direction_ == EventDirection::either ||
+           (slope > 0) == (direction_ == EventDirection::rising);
+  }
+
+  double crossing(double from, double value, double to) const {
+    // Newton's method on the jet does the rest.
+    constexpr int halvings = 30;
+    for (int i = 0; i < halvings; ++i) {
+      const double middle = (from + to) / 2;
+      const double there = at(middle);
+      (value * there <= 0 ? to : from) = middle;
+    }
+    return (from + to) / 2;
+  }
+
+  const EventCondition<double>& condition_;
+  EventDirection direction_;
+  JetTrajectory<double> trajectory_;
+  int found_ = 0;
+};
+
+/// What polynomials of a degree say of a deviation: all, or constant and linear terms.
+double predicted(const Series<double>& series, std::span<const double> deviation, bool is_linear) {
+  if (!is_linear) return evaluate<double>(series, deviation);
+  double sum = series[0];
+  for (std::size_t i = 0; i < deviation.size(); ++i) sum += series[1 + i] * deviation[i];
+  return sum;
+}
+
+/// Deputies flown to their predicted events.
+class EventFlights {
+ public:
+  EventFlights(const Scene& scene, const EventCondition<double>& condition,
+               const EventMap<double>& map)
+      : scene_(scene), condition_(condition), map_(map), system_(make_system(scene)) {}
+
+  EventMisses fly(double amplitude_m) const {
+    EventMisses misses;
+    misses.amplitude_m = amplitude_m;
+    std::mt19937_64 generator(1);
+    for (int k = 0; k < flown_deputies; ++k) {
+      const State deviation = random_deviation(generator, amplitude_m);
+      for (const bool is_linear : {false, true}) {
+        const auto [position, time] = miss(deviation, is_linear);
+        double& worst_position = is_linear ? misses.linear_position_m : misses.position_m;
+        double& worst_time = is_linear ? misses.linear_time_s : misses.time_s;
+        // A miss that is no number stays.
+        if (!(position <= worst_position)) worst_position = position;
+        if (!(time <= worst_time)) worst_time = time;
+      }
+    }
+    return misses;
+  }
+
+ private:
+  double metres() const { return scene_.units.length_km * 1000; }
+
+  /// The size in position, and that times the mean motion of the chief's distance in velocity, each
+  /// in a random direction; the standard library's distributions differ between implementations.
+  State random_deviation(std::mt19937_64& generator, double amplitude_m) const {
+    const Eigen::Vector3d chief(scene_.nominal.data());
+    const double motion = std::sqrt(orbit_field(scene_).mu / std::pow(chief.norm(), 3));
+    State deviation;
+    for (const double size : {amplitude_m / metres(), amplitude_m / metres() * motion}) {
+      Eigen::Vector3d direction;
+      do {
+        for (double& x : direction) x = std::ldexp(static_cast<double>(generator() >> 11), -52) - 1;
+      } while (direction.norm() > 1 || direction.norm() < 0.1);
+      direction *= size / direction.norm();
+      deviation.insert(deviation.end(), direction.begin(), direction.end());
+    }
+    return deviation;
+  }
+
+  struct Miss {
+    double position_m;
+    double time_s;
+  };
+  Miss miss(const State& deviation, bool is_linear) const {
+    State start = scene_.nominal;
+    for (std::size_t i = 0; i < start.size(); ++i) start[i] += deviation[i];
+    const double time = predicted(map_.time, deviation, is_linear);
+    const State end = exact_flow(system_, start, time);
+    Eigen::Vector3d apart;
+    for (std::size_t i = 0; i < 3; ++i) {
+      apart[static_cast<Eigen::Index>(i)] = end[i] - predicted(map_.state[i], deviation, is_linear);
+    }
+    // The slope need only be right to a few digits.
+    const double later = std::ldexp(std::abs(map_.time[0]), -16);
+    const double value = value_at(condition_, end);
+    const double slope = (value_at(condition_, exact_flow(system_, end, later)) - value) / later;
+    return {apart.norm() * metres(), std::abs(value / slope) * scene_.units.time_s};
+  }
+
+  const Scene& scene_;
+  const EventCondition<double>& condition_;
+  const EventMap<double>& map_;
+  SharedSystem system_;
+};
+
+/// Rounding of a flown position, canonical: that of the linear flow over the chief's time, which is
+/// that of the map less what the time's change adds along the chief's motion.
+double rounding_at(const EventStudy& study) {
+  const State end = study.state();
+  const double mu = orbit_field(study.scene).mu;
+  const double distance = std::hypot(end[0], end[1], end[2]);
+  Matrix<double> linear(6, 6);
+  for (std::size_t i = 0; i < 6; ++i) {
+    // Of the size, for which the field of the centre will do.
+    const double motion = i < 3 ? end[3 + i] : -mu * end[i - 3] / std::pow(distance, 3);
+    for (std::size_t j = 0; j < 6; ++j) {
+      linear(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
+          study.map.state[i][1 + j] - motion * study.map.time[1 + j];
+    }
+  }
+  return rounding_of_flights(linear, study.scene.nominal, end, 0);
+}
+
+}  // namespace
+
+std::vector<double> EventStudy::state() const {
+  std::vector<double> result;
+  for (const Series<double>& component : map.state) result.push_back(component[0]);
+  return result;
+}
+
+EventCondition<double> event_condition(const Scene& scene) {
+  using Z = SixNumbers<Series<double>>;
+  const EventSettings& event = *scene.event;
+  const double kilometre = 1 / scene.units.length_km;
+  switch (event.surface) {
+    case EventSurface::equator:
+      return [](const Z& z) { return z[2]; };
+    case EventSurface::plane:
+      return [normal = event.normal, offset = event.offset_km * kilometre](const Z& z) {
+        Series<double> height = z[0] * normal[0] + z[1] * normal[1] + z[2] * normal[2];
+        height[0] -= offset;
+        return height;
+      };
+    case EventSurface::distance:
+      return [distance = event.distance_km * kilometre](const Z& z) {
+        Series<double> height = sqrt(z[0] * z[0] + z[1] * z[1] + z[2] * z[2]);
+        height[0] -= distance;
+        return height;
+      };
+    case EventSurface::apsis:
+      break;
+  }
+  return [](const Z& z) { return z[0] * z[3] + z[1] * z[4] + z[2] * z[5]; };
+}
+
+EventStudy study_event(const Scene& scene, const ProgressCallback& progress) {
+  require_formation_problem(scene, scene.event.has_value(), "event");
+  const EventCondition<double> condition = event_condition(scene);
+  if (progress) progress("event", 0);
+  EventSearch search(scene, condition);
+  const std::optional<double> near = search.find(scene.event->number);
+  if (!near) {
+    throw Error(
+        ErrorKind::scene,
+        fmt::format("event.number: no such event, got {}, but within jet.duration "
+                    "({:.10g} s) the chief meets {}; must be at most that, with a longer "
+                    "jet.duration, another surface or another direction",
+                    scene.event->number, scene.duration * scene.units.time_s, search.found()));
+  }
+  if (progress) progress("event", 0.2);
+  SixNumbers<double> chief = six_numbers(scene.nominal);
+  EventStudy study{
+      scene,
+      event_map<double>(make_system(scene), chief, *near, scene.order, tolerance, condition),
+      0,
+      flown_deputies,
+      {}};
+  const EventFlights flights(scene, condition, study.map);
+  const std::vector<double>& amplitudes = scene.event->amplitudes_m;
+  for (std::size_t k = 0; k < amplitudes.size(); ++k) {
+    if (progress) {
+      progress("flights", static_cast<double>(k) / static_cast<double>(amplitudes.size()));
+    }
+    study.misses.push_back(flights.fly(amplitudes[k]));
+  }
+  study.position_rounding_m = rounding_at(study) * scene.units.length_km * 1000;
+  return study;
+}
+
+}  // namespace hamjet

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "hamjet/detail/studies/progress.hpp"
+#include "hamjet/poincare/event_map.hpp"
+#include "hamjet/studies/scene.hpp"
+
+namespace hamjet {
+
+/// How far deputies that were flown with the full equations to the time that polynomials give are
+/// from where these have them: the largest of several with deviations of one size.
+struct EventMisses {
+  double amplitude_m = 0;
+  double position_m = 0;
+  double time_s = 0;  ///< from the event itself
+  // The same of the linear polynomials.
+  double linear_position_m = 0;
+  double linear_time_s = 0;
+};
+
+/// An event of a scene's chief, and those of its neighbours as polynomials.
+struct EventStudy {
+  Scene scene;
+  EventMap<double> map;
+  double position_rounding_m = 0;   ///< of a flown position: a miss below says nothing
+  int flown = 0;                    ///< deputies of each amplitude
+  std::vector<EventMisses> misses;  ///< by amplitude, as in the scene
+
+  double time_s() const { return map.time[0] * scene.units.time_s; }
+  std::vector<double> state() const;  ///< of the chief at the event, canonical
+};
+
+/// The condition of a scene's event.
+EventCondition<double> event_condition(const Scene& scene);
+
+/// Finds the scene's event and its polynomials to the scene's order, and flies deputies. Throws
+/// Error(scene) where the chief does not meet that many events within the duration, and
+/// Error(numerical) where its orbit only touches the surface; and as integrate_gauss.
+EventStudy study_event(const Scene& scene, const ProgressCallback& progress = {});
+
+}  // namespace hamjet

@@ -1,0 +1,124 @@
+#include "studies/bounded/event_study.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "hamjet/algebra/calculus.hpp"
+#include "hamjet/error.hpp"
+#include "hamjet/scene/scene_reader.hpp"
+
+namespace hamjet {
+namespace {
+
+constexpr double event_mu = 398600.4415;
+constexpr double axis_km = 9000;
+constexpr double ellipse_e = 0.2;
+
+/// An ellipse from a true anomaly of 90 degrees, where x = r cos f vanishes; inclined by 50
+/// degrees, with the node along x and the pericentre at the node.
+Scene scene_with_event(const std::string& event, double revolutions = 2) {
+  const std::string text =
+      "[system]\nmodel = \"kepler\"\nmu_km3_s2 = 398600.4415\n[nominal]\na_km = 9000\ne = 0.2\n"
+      "i_deg = 50\nraan_deg = 0\nargp_deg = 0\nta_deg = 90\n[jet]\norder = 3\nduration_orbits = " +
+      std::to_string(revolutions) + "\n[event]\n" + event;
+  return io::parse_scene(text, "kepler.toml");
+}
+
+/// Seconds from the pericentre to a true anomaly, by Kepler's equation.
+double since_pericentre(double anomaly) {
+  const double E =
+      2 * std::atan(std::sqrt((1 - ellipse_e) / (1 + ellipse_e)) * std::tan(anomaly / 2));
+  return (E - ellipse_e * std::sin(E)) * std::sqrt(axis_km * axis_km * axis_km / event_mu);
+}
+const double full_period = 2 * std::numbers::pi * std::sqrt(axis_km * axis_km * axis_km / event_mu);
+const double passed = since_pericentre(std::numbers::pi / 2);
+
+double time_of(const std::string& event, double revolutions = 2) {
+  return study_event(scene_with_event(event, revolutions)).time_s();
+}
+
+// Times of nodes, apsides, distances and planes of a Kepler ellipse, from Kepler's equation.
+TEST(EventStudy, FindsEventsOfKeplersEllipse) {
+  const double half = std::numbers::pi;
+  // The apocentre is the descending node, half a period after the pericentre.
+  EXPECT_NEAR(time_of("surface = \"equator\""), full_period / 2 - passed, 1e-7);
+  EXPECT_NEAR(time_of("surface = \"equator\"\ndirection = \"rising\""), full_period - passed, 1e-7);
+  EXPECT_NEAR(time_of("surface = \"equator\"\nnumber = 3"), 1.5 * full_period - passed, 1e-7);
+  EXPECT_NEAR(time_of("surface = \"apsis\""), full_period / 2 - passed, 1e-7);
+  EXPECT_NEAR(time_of("surface = \"apsis\"\ndirection = \"falling\"\nnumber = 2"),
+              1.5 * full_period - passed, 1e-7);
+  // r = a (1 - e^2) / (1 + e cos f): at 9000 km cos f = -e, once outwards and once inwards.
+  const double f = std::acos(-ellipse_e);
+  EXPECT_NEAR(time_of("surface = \"distance\"\ndistance_km = 9000"), since_pericentre(f) - passed,
+              1e-7);
+  EXPECT_NEAR(time_of("surface = \"distance\"\ndistance_km = 9000\ndirection = \"falling\""),
+              full_period - since_pericentre(f) - passed, 1e-7);
+  // x = r cos f = -7200 km: r = a (1 - e^2) - e x = 10080 km, cos f = -7200 / 10080; outwards
+  // first.
+  const double g = std::acos(-7200.0 / 10080);
+  EXPECT_NEAR(time_of("surface = \"plane\"\nnormal = [-3, 0, 0]\noffset_km = 7200"),
+              since_pericentre(g) - passed, 1e-7);
+  EXPECT_LT(g, half);
+  // Backwards the last pericentre is met first, and the product of position and velocity still
+  // grows with time there.
+  EXPECT_NEAR(time_of("surface = \"apsis\"\ndirection = \"rising\"", -2), -passed, 1e-7);
+}
+
+// A start on the surface is no event.
+TEST(EventStudy, DoesNotCountTheStart) {
+  Scene scene = scene_with_event("surface = \"plane\"\nnormal = [1, 0, 0]");
+  // The passed, at 90 degrees from the node, has x = 0 to rounding; the plane is met again at -90.
+  const double f = -std::numbers::pi / 2;
+  EXPECT_NEAR(study_event(scene).time_s(), full_period + since_pericentre(f) - passed, 1e-7);
+}
+
+// The time at which a neighbour of another semi-major axis, in the same place, meets its own
+// apocentre, by its own elements.
+TEST(EventStudy, HasTheTimesOfNeighbours) {
+  const EventStudy study = study_event(scene_with_event("surface = \"apsis\"\nnumber = 1"));
+  const auto own_time = [&](double change) {
+    // Faster by a part `change` at 90 degrees: r = p0, v_r = e sqrt(mu/p0), v_t = sqrt(mu/p0).
+    const double p0 = axis_km * (1 - ellipse_e * ellipse_e);
+    const double faster = 1 + change;
+    const double radial = ellipse_e * faster;
+    const double across = faster;
+    const double axis = p0 / (2 - (radial * radial + across * across));
+    const double parameter = p0 * across * across;
+    const double eccentricity = std::sqrt(1 - parameter / axis);
+    // e cos f = p/r - 1, e sin f = v_r sqrt(p/mu).
+    const double anomaly = std::atan2(radial * across, across * across - 1);
+    const double E =
+        2 * std::atan(std::sqrt((1 - eccentricity) / (1 + eccentricity)) * std::tan(anomaly / 2));
+    const double n = std::sqrt(event_mu / (axis * axis * axis));
+    return (std::numbers::pi - (E - eccentricity * std::sin(E))) / n;
+  };
+  ASSERT_NEAR(own_time(0), study.time_s(), 1e-7);
+  const auto miss = [&](double change) {
+    std::vector<double> deviation(6, 0.0);
+    for (std::size_t i = 3; i < 6; ++i) deviation[i] = study.scene.nominal[i] * change;
+    return std::abs(evaluate<double>(study.map.time, deviation) * study.scene.units.time_s -
+                    own_time(change));
+  };
+  // Order 3 leaves the fourth power.
+  EXPECT_LT(miss(1e-4), 1e-6);
+  EXPECT_NEAR(std::log2(miss(4e-3) / miss(2e-3)), 4, 0.3);
+}
+
+TEST(EventStudy, RefusesWhatIsNotMet) {
+  const auto refused = [&](const std::string& event, ErrorKind kind, const std::string& words) {
+    try {
+      study_event(scene_with_event(event));
+      FAIL() << event << " was not refused";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), kind) << error.what();
+      EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+    }
+  };
+  refused("surface = \"distance\"\ndistance_km = 20000", ErrorKind::scene, "meets 0");
+  refused("surface = \"apsis\"\nnumber = 5", ErrorKind::scene, "meets 4");
+}
+
+}  // namespace
+}  // namespace hamjet
