@@ -7,8 +7,10 @@
 namespace hamjet {
 namespace {
 
-/// Below this speed-up on two threads a flow is not split.
-constexpr double least_speed_up = 1.2;
+/// Below this speed-up on so many threads a flow is not split: the jet's digits depend on the arcs,
+/// and may not on the machine's threads.
+constexpr double least_speed_up = 1.5;
+constexpr std::size_t threads_of_choice = 4;
 /// Largest part of the whole work that composing more than two arcs may take.
 constexpr double composing_share = 0.02;
 
@@ -30,11 +32,12 @@ double speed_up(std::size_t arcs, std::size_t threads, double steps, const ArcCo
 }
 
 std::size_t choose_arcs(double steps, const ArcCosts& costs, std::string& reason) {
-  if (steps < 2 || speed_up(2, 2, steps, costs) < least_speed_up) {
-    reason = "splitting would not pay on two threads";
+  if (steps < threads_of_choice ||
+      speed_up(threads_of_choice, threads_of_choice, steps, costs) < least_speed_up) {
+    reason = fmt::format("splitting would not pay on {} threads", threads_of_choice);
     return 1;
   }
-  std::size_t arcs = 2;
+  std::size_t arcs = threads_of_choice;
   while (2 * arcs <= most_chosen_arcs && 2 * static_cast<double>(arcs) <= steps &&
          static_cast<double>(2 * arcs - 1) * costs.composition <=
              composing_share * steps * costs.step) {

@@ -11,9 +11,8 @@
 #include <vector>
 
 #include "../algebra/instantiated_real.hpp"
-#include "../dynamics/operation_count.hpp"
+#include "arc_costs.hpp"
 #include "arc_integrator.hpp"
-#include "arc_plan.hpp"
 #include "concurrent_tasks.hpp"
 #include "cut_coordinates.hpp"
 #include "directional_flow.hpp"
@@ -23,6 +22,7 @@
 #include "hamjet/error.hpp"
 #include "integration_clock.hpp"
 #include "splitting_integration.hpp"
+#include "symmetry/symmetry_reduction.hpp"
 
 namespace hamjet {
 namespace {
@@ -77,40 +77,6 @@ SplittableMethod with_step_tolerance(const FlowProblem<Real>& problem, Splittabl
     }
   }
   return method;
-}
-
-/// The space of an arc behind the first: all components vary.
-template <class Real>
-SpacePointer arc_space(const FlowProblem<Real>& problem) {
-  const std::size_t dimension = problem.system->dimension();
-  if (problem.space->variables() == dimension) return problem.space;
-  return SeriesSpace::create(dimension, problem.space->order());
-}
-
-/// Multiply-adds of numbers in one composition: Horner's scheme on lanes that are filled up, the
-/// energy along the inner map, and the rotation.
-template <class Real>
-double composition_cost(const FlowProblem<Real>& problem) {
-  const double components = static_cast<double>(problem.system->dimension());
-  const int order = working_order(problem);
-  double lanes = 0;
-  for (double left = components; left > 0; left -= 8) {
-    lanes += left <= 2 ? 2 : (left <= 4 ? 4 : 8);
-  }
-  return lanes * composition_multiply_adds(problem.system->dimension(), order, *problem.space) +
-         series_multiply_adds(problem.system->hamiltonian, *problem.space, order) +
-         components * components * static_cast<double>(problem.space->size());
-}
-
-template <class Real>
-ArcPlan plan_for(const FlowProblem<Real>& problem, const ArcIntegrator<Real>& arcs,
-                 const std::optional<std::size_t>& asked, long steps) {
-  const StepCost first = arcs.cost(*problem.space);
-  const StepCost later = arcs.cost(*arc_space(problem));
-  // A fifth of the nominal's time alone goes into its own update and checkpoints.
-  return make_arc_plan(asked, steps,
-                       {first.nominal, 0.8 * first.nominal + first.series, first.arc, later.arc,
-                        composition_cost(problem)});
 }
 
 /// One split integration.
@@ -199,8 +165,7 @@ class ArcSplitting {
     }
     const IntegrationClock clock;
     IntegrationStatistics whole;
-    FlowJet<Real> jet = arcs_.run_arc(0, statistics_.steps, problem_.space, problem_.variables,
-                                      starting_jet(problem_), whole, [] {});
+    FlowJet<Real> jet = run_whole(whole, [] {});
     for (std::size_t i = 0; i < jet.size(); ++i) jet[i][0] = nominal[i][0];
     statistics_.vector_field_evaluations += whole.vector_field_evaluations;
     statistics_.nominal_evaluations += whole.nominal_evaluations;
@@ -245,6 +210,19 @@ class ArcSplitting {
     arc_statistics_.plan.arcs = cuts_.size();
   }
 
+  /// One arc, with the symmetries left out that can be.
+  FlowJet<Real> run_whole(IntegrationStatistics& whole, const std::function<void()>& after_step) {
+    const auto reduction = SymmetryReduction<Real>::of(problem_);
+    if (!reduction) {
+      return arcs_.run_arc(0, statistics_.steps, problem_.space, problem_.variables,
+                           starting_jet(problem_), whole, after_step);
+    }
+    const FlowProblem<Real>& reduced = reduction->problem();
+    statistics_.left_out = reduction->left_out();
+    return reduction->expand(arcs_.run_arc(0, statistics_.steps, reduced.space, reduced.variables,
+                                           *reduced.initial_jet, whole, after_step));
+  }
+
   std::vector<FlowJet<Real>> run_arcs() {
     const std::size_t count = cuts_.size();
     std::vector<FlowJet<Real>> jets(count);
@@ -259,6 +237,10 @@ class ArcSplitting {
         [&](std::size_t k, TaskControl& control) {
           const long last = k + 1 < count ? arcs_.step(cuts_[k + 1]) : statistics_.steps;
           const auto after_step = [&] { control.advance(); };
+          if (count == 1) {
+            jets[k] = run_whole(each[k], after_step);
+            return;
+          }
           if (k == 0) {
             jets[k] = arcs_.run_arc(cuts_[k], last, problem_.space, problem_.variables,
                                     starting_jet(problem_), each[k], after_step);

@@ -113,12 +113,13 @@ TEST_F(Arcs, AreDecidedAndShown) {
   EXPECT_NE(decision(table).find(" on 1, "), std::string::npos) << table;
   const Json arcs = run({"--set", "jet.arcs=auto"}).run["arcs"];
   EXPECT_EQ(arcs["asked"], "auto");
-  EXPECT_GT(arcs["estimated_speed_up_by_threads"]["2"], 1.2);
+  // It is split, for it is expected to pay on four threads.
+  EXPECT_GE(arcs["estimated_speed_up_by_threads"]["4"], 1.5);
   EXPECT_GT(arcs["multiply_adds"]["composition"], 0);
   // Where it does not pay.
   const Json low = run({"--set", "jet.arcs=auto", "--set", "jet.order=1"}).run["arcs"];
   EXPECT_EQ(low["count"], 1);
-  EXPECT_EQ(low["reason"], "splitting would not pay on two threads");
+  EXPECT_EQ(low["reason"], "splitting would not pay on 4 threads");
 }
 
 TEST_F(Arcs, AreRefusedWhereTheyAreNotPossible) {

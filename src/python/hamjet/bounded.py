@@ -83,7 +83,8 @@ class Event(Study):
             raise UsageError(f"deviations: no array of six numbers a row, got the shape "
                              f"{points.shape}, must be (6,) or (K, 6)")
         monomials = np.prod(points[..., None, :] ** self.exponents, axis=-1)
-        return monomials @ self.coefficients
+        values: Floats = monomials @ self.coefficients
+        return values
 
     def __repr__(self) -> str:
         return shown.of(self, f": after {self.time_s:.9g} s, {len(self.exponents)} monomials; "
