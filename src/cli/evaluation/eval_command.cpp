@@ -277,8 +277,7 @@ void report(const EvalCoordinates& coordinates, const EvalSource& jet, const Eva
   if (jet.scene) {
     print_note(fmt::format(
         "{} coordinates, {}; of a point's time {:.3g} ns are the polynomials, with the lower "
-        "degrees "
-        "that the estimate needs, and {:.3g} ns the coordinates at both ends",
+        "degrees that the estimate needs, and {:.3g} ns the coordinates at both ends",
         name_of(jet.coordinates()),
         jet.scene->seconds > 0 ? "integrated in " + duration_text(jet.scene->seconds) : "stored",
         (work.seconds - work.chart_seconds) / points * 1e9, work.chart_seconds / points * 1e9));
