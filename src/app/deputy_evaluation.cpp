@@ -88,14 +88,20 @@ void DeputyEvaluation::add(const std::vector<double>& deviation) {
   pending_.push_back(six_numbers(deviation));
 }
 
-void DeputyEvaluation::run(
-    const std::function<void(const std::vector<double>&, const MissEstimate&)>& take) {
+std::vector<int> DeputyEvaluation::degrees() const {
   // The curved ends are in no degree of the polynomials, so that lower degrees go through them too.
   const bool is_curved = scene_.coordinates != JetCoordinates::cartesian;
   std::vector<int> degrees = {degree_};
   for (int below = 1; is_curved && below <= 2 && degree_ - below >= 1; ++below) {
     degrees.push_back(degree_ - below);
   }
+  return degrees;
+}
+
+void DeputyEvaluation::run(
+    const std::function<void(const std::vector<double>&, const MissEstimate&)>& take) {
+  const bool is_curved = scene_.coordinates != JetCoordinates::cartesian;
+  const std::vector<int> degrees = this->degrees();
   const std::size_t count = pending_.size();
   predictions_.resize(count * degrees.size());
   {

@@ -47,6 +47,11 @@ class DeputyEvaluation {
   /// Seconds of all predictions so far, the coordinates at both ends included, and the lower
   /// degrees that the estimate needs.
   double seconds() const { return seconds_; }
+  /// Of these, the seconds of the polynomials, the lower degrees included.
+  double polynomial_seconds() const { return predictor_.polynomial_seconds(); }
+  /// The degrees that are evaluated: that asked for and, in other coordinates than Cartesian, up to
+  /// two below it, which go through the curved ends too.
+  std::vector<int> degrees() const;
 
  private:
   /// In positions and momenta, whose degrees add up: see estimate_truncation.

@@ -7,7 +7,9 @@
 #include "../algebra/instantiated_real.hpp"
 #include "../integrators/statistics_sum.hpp"
 #include "carried_states.hpp"
+#include "hamjet/algebra/composition.hpp"
 #include "hamjet/algebra/elementary_functions.hpp"
+#include "hamjet/error.hpp"
 #include "secular_motion.hpp"
 #include "steady_turn.hpp"
 #include "time_scaled_system.hpp"
@@ -108,6 +110,44 @@ FlowBoxPropagation<Real>::FlowBoxPropagation(const ZonalGravity& field, ChartNam
                                     Series<Real>(space)};
 }
 
+namespace {
+
+/// The map of states on the start's section that have come to z, near the chief, in flights of
+/// these times: they are carried on to the section through the chief there.
+template <class Real>
+FlowBoxMap<Real> map_of_flights(const ZonalGravity& field, const SharedSystem& crossing,
+                                std::shared_ptr<const FlowSection<Real>> start,
+                                const Real& duration, SixNumbers<Series<Real>> z,
+                                Series<Real> flight) {
+  const auto end =
+      std::make_shared<const FlowSection<Real>>(field, start->chart().name(), constants_of(z));
+  SixNumbers<Series<Real>> c = end->chart().coordinates(z);
+  // Each iteration of Newton's method with the chief's rate gains a degree.
+  for (int i = 0; i < z[0].order(); ++i) {
+    Series<Real> left = (end->chief()[0] - c[0]) / end->rate();
+    left[0] = Real(0);
+    z = carried(crossing, z, left);
+    flight += left;
+    c = end->chart().coordinates(z);
+  }
+
+  FlowBoxMap<Real> map =
+      flow_box_map<Real>(field, std::move(start), end, duration, std::move(flight), {});
+  const SteadyMotion<Series<Real>> steady = map.steady();
+  map.time -= steady.time;
+  turn_steadily(*end, SteadyMotion<Series<Real>>{-steady.time, -steady.pericentre, -steady.node},
+                c);
+  for (const std::size_t place : end->places()) map.coordinates.push_back(c[place]);
+  if (end->ignored()) {
+    map.coordinates.push_back(c[*end->ignored()] - map.start->chief()[*end->ignored()] -
+                              steady.node);
+    map.coordinates.back()[0] = within_half_a_turn(map.coordinates.back()[0]);
+  }
+  return map;
+}
+
+}  // namespace
+
 template <class Real>
 FlowBoxMap<Real> FlowBoxPropagation<Real>::advance_to(const Real& time) {
   flow_.duration = time - reached_;
@@ -118,32 +158,26 @@ FlowBoxMap<Real> FlowBoxPropagation<Real>::advance_to(const Real& time) {
   jet = integrate_gauss<Real>(flow_, settings_, statistics);
   add_integration(total_, statistics);
   reached_ = time;
+  return map_of_flights<Real>(
+      field_, crossing_, start_, time,
+      {jet[0], jet[1], jet[2], jet[4] / periods_, jet[5] / periods_, jet[6] / periods_},
+      periods_ * time);
+}
 
-  SixNumbers<Series<Real>> z = {
-      jet[0], jet[1], jet[2], jet[4] / periods_, jet[5] / periods_, jet[6] / periods_};
-  const auto end = std::make_shared<const FlowSection<Real>>(field_, chart_, constants_of(z));
-  Series<Real> flight = periods_ * time;
-  SixNumbers<Series<Real>> c = end->chart().coordinates(z);
-  // Each iteration of Newton's method with the chief's rate gains a degree.
-  for (int i = 0; i < z[0].order(); ++i) {
-    Series<Real> left = (end->chief()[0] - c[0]) / end->rate();
-    left[0] = Real(0);
-    z = carried(crossing_, z, left);
-    flight += left;
-    c = end->chart().coordinates(z);
+template <class Real>
+FlowBoxMap<Real> flow_box_map_of_jet(const ZonalGravity& field, ChartName chart,
+                                     const SixNumbers<Real>& chief, const Real& duration,
+                                     const FlowMap<Real>& jet) {
+  if (jet.components() != 6 || jet.variables() != 6) {
+    throw Error(ErrorKind::usage, "flow box: a jet of six components in six variables is needed");
   }
-
-  FlowBoxMap<Real> map = flow_box_map<Real>(field_, start_, end, time, flight, {});
-  const SteadyMotion<Series<Real>> steady = map.steady();
-  map.time -= steady.time;
-  turn_steadily(*end, SteadyMotion<Series<Real>>{-steady.time, -steady.pericentre, -steady.node},
-                c);
-  for (const std::size_t place : end->places()) map.coordinates.push_back(c[place]);
-  if (end->ignored()) {
-    map.coordinates.push_back(c[*end->ignored()] - start_->chief()[*end->ignored()] - steady.node);
-    map.coordinates.back()[0] = within_half_a_turn(map.coordinates.back()[0]);
-  }
-  return map;
+  const auto start = std::make_shared<const FlowSection<Real>>(field, chart, chief);
+  const SpacePointer space = SeriesSpace::create(start->variables(), jet.space()->order());
+  const SixNumbers<Series<Real>> from = start->states(space);
+  const std::vector<Series<Real>> z =
+      compose(jet.jet(), without_constants(std::vector<Series<Real>>(from.begin(), from.end())));
+  return map_of_flights<Real>(field, time_scaled_first_order(zonal_gravity(field)), start, duration,
+                              {z[0], z[1], z[2], z[3], z[4], z[5]}, Series<Real>(space, duration));
 }
 
 template <class Real>
@@ -165,6 +199,10 @@ template FlowBoxMap<InstantiatedReal> flow_box_map(
     std::shared_ptr<const FlowSection<InstantiatedReal>>, const InstantiatedReal&,
     Series<InstantiatedReal>, std::vector<Series<InstantiatedReal>>);
 template class FlowBoxPropagation<InstantiatedReal>;
+template FlowBoxMap<InstantiatedReal> flow_box_map_of_jet(const ZonalGravity&, ChartName,
+                                                          const SixNumbers<InstantiatedReal>&,
+                                                          const InstantiatedReal&,
+                                                          const FlowMap<InstantiatedReal>&);
 template ChartName section_chart(const SixNumbers<InstantiatedReal>&, const InstantiatedReal&);
 
 }  // namespace hamjet

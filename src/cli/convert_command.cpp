@@ -22,6 +22,7 @@
 #include "noted_jet.hpp"
 #include "output_file.hpp"
 #include "process/standard_streams.hpp"
+#include "scene_options.hpp"
 
 namespace hamjet::cli {
 namespace {
@@ -66,7 +67,7 @@ void add_description_options(CLI::App& command, io::JetDescription& foreign) {
 
 io::StoredJet read_jet(const ConvertOptions& options) {
   if (!options.time) {
-    // No jet is converted to flow boxes: those that results may have are wanted as they are.
+    // Flow boxes that results have are wanted as they are; without any they are made of the jet.
     if (options.coordinates == std::string(name_of(JetCoordinates::flow_box))) {
       if (auto polynomials = io::read_stored_polynomials(options.from, options.run)) {
         if (polynomials->flow_box) return std::move(*polynomials);
@@ -97,9 +98,18 @@ CoordinatesAtEnds coordinates_of(const ConvertOptions& options, const io::Stored
 /// The jet in the coordinates that are asked for, if any are.
 std::optional<ConvertedJet> in_coordinates(const ConvertOptions& options,
                                            const io::StoredJet& stored) {
-  if (!options.coordinates && !options.end_coordinates) return std::nullopt;
+  if (!options.coordinates && !options.end_coordinates) {
+    if (options.scene) refuse("--scene: is for --coordinates flow-box");
+    return std::nullopt;
+  }
+  std::optional<Scene> scene;
+  if (options.scene) {
+    RunOptions scene_options;
+    scene_options.scene_file = options.scene;
+    scene = read_scene(scene_options);
+  }
   return converted_jet(stored, coordinates_of(options, stored),
-                       io::printable(options.from, std::string::npos));
+                       io::printable(options.from, std::string::npos), scene ? &*scene : nullptr);
 }
 
 /// What the conversion lost, by degree.
@@ -148,6 +158,11 @@ CLI::App* add_convert_command(CLI::App& app, ConvertOptions& options) {
       ->add_option("--end-coordinates", options.end_coordinates,
                    "of their results, where others than at the start")
       ->check(CLI::IsMember(names));
+  command
+      ->add_option("--scene", options.scene,
+                   "the jet's scene, whose gravity field --coordinates flow-box needs to make "
+                   "flow boxes of a jet that has none")
+      ->type_name("FILE");
   add_description_options(*command, options.foreign);
   return command;
 }

@@ -18,6 +18,7 @@ struct ConvertOptions {
   std::optional<std::string> time;             ///< of the jet, in seconds; absent: the end
   std::optional<std::string> coordinates;      ///< of both ends; absent: as they are
   std::optional<std::string> end_coordinates;  ///< of the results alone
+  std::optional<std::string> scene;            ///< of the jet, for the field of flow boxes
   io::JetDescription foreign;                  ///< what is told of a jet from elsewhere
 };
 

@@ -1,7 +1,9 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -10,9 +12,11 @@
 #include <vector>
 
 #include "../app/deputy_evaluation.hpp"
+#include "../app/jet_conversion.hpp"
 #include "../app/required_tables.hpp"
 #include "../store/text_file.hpp"
 #include "../studies/arcs.hpp"
+#include "../text/scene_message.hpp"
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "given_scene.hpp"
@@ -83,19 +87,50 @@ class PolynomialsStudy {
   std::shared_ptr<const cli::EvaluatedScene> evaluated_;
 };
 
-/// Of results of a run, or of a file.
-PolynomialsStudy load_polynomials(const std::filesystem::path& path,
-                                  const std::optional<std::string>& run) {
-  return interruptibly(py::none(), [path, run](const ProgressCallback&) {
-    if (const auto stored = io::read_stored_polynomials(path, run)) {
-      return PolynomialsStudy(*stored);
+/// The coordinates by name in place of the wanted ones, as `hamjet convert` has its options.
+CoordinatesAtEnds named_coordinates(CoordinatesAtEnds wanted,
+                                    const std::optional<std::string>& both,
+                                    const std::optional<std::string>& end) {
+  const auto named = [](const char* argument, const std::string& name) {
+    const auto& names = jet_coordinates_names;
+    const auto* const found = std::find(names.begin(), names.end(), name);
+    if (found == names.end()) {
+      refuse(fmt::format("{}: got {}, must be {}", argument, io::in_quotes(name),
+                         fmt::join(names, ", ")));
     }
-    const io::StoredJet stored = io::read_jet_file(path, run);
-    if (!is_orbit(stored.model) || stored.variables.size() != 6) {
+    return static_cast<JetCoordinates>(found - names.begin());
+  };
+  if (both) wanted = named("coordinates", *both);
+  if (end) wanted.end = named("end_coordinates", *end);
+  return wanted;
+}
+
+/// Of results of a run, or of a file; in other coordinates where they are named.
+PolynomialsStudy load_polynomials(const std::filesystem::path& path,
+                                  const std::optional<std::string>& run,
+                                  const std::optional<std::string>& coordinates,
+                                  const std::optional<std::string>& end_coordinates,
+                                  const GivenScene* given) {
+  std::optional<Scene> scene;
+  if (given != nullptr) scene = given->flow_jet();
+  return interruptibly(py::none(), [=](const ProgressCallback&) {
+    const auto wanted_of = [&](const io::StoredJet& one) {
+      return named_coordinates(one.coordinates, coordinates, end_coordinates);
+    };
+    // What is converted is the jet in positions and momenta, as the command does.
+    std::optional<io::StoredJet> stored = io::read_stored_polynomials(path, run);
+    if (!stored || wanted_of(*stored) != stored->coordinates) {
+      stored = io::read_jet_file(path, run);
+    }
+    if (!is_orbit(stored->model) || stored->variables.size() != 6) {
       refuse(fmt::format("load: {}: polynomials are of orbits in all six variables",
                          io::printable_path(path)));
     }
-    return PolynomialsStudy(stored);
+    const CoordinatesAtEnds wanted = wanted_of(*stored);
+    if (wanted == stored->coordinates) return PolynomialsStudy(*stored);
+    return PolynomialsStudy(cli::converted_jet(*stored, wanted, io::printable_path(path),
+                                               scene ? &*scene : nullptr, cli::Caller::module)
+                                .stored);
   });
 }
 
@@ -122,7 +157,8 @@ void bind_polynomials(py::module_& module) {
            py::arg("strict"))
       .def("reach", &PolynomialsStudy::reach, py::arg("tolerance_m"), py::arg("samples"),
            py::arg("progress"));
-  module.def("load_polynomials", &load_polynomials, py::arg("path"), py::arg("run"));
+  module.def("load_polynomials", &load_polynomials, py::arg("path"), py::arg("run"),
+             py::arg("coordinates"), py::arg("end_coordinates"), py::arg("scene"));
   module.def("integrate_polynomials", &integrate, py::arg("scene"), py::arg("progress"));
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "hamjet/error.hpp"
 #include "hamjet/integrators/explicit_runge_kutta.hpp"
 #include "hamjet/maps/map_evaluator.hpp"
 #include "orbits.hpp"
@@ -109,6 +110,68 @@ TEST(FlowBoxJet, IsTheJetOfPositionsAndMomenta) {
       EXPECT_LT(difference, 1e-9 * largest) << "degree " << d;
     }
   }
+}
+
+/// The largest difference of series by degree, relative to the largest coefficient of the degree.
+std::vector<double> differences(const std::vector<Series<double>>& found,
+                                const std::vector<Series<double>>& right) {
+  const SeriesSpace& space = right[0].space();
+  std::vector<double> result;
+  for (int d = 0; d <= right[0].order(); ++d) {
+    double largest = 0;
+    double difference = 0;
+    for (std::size_t i = 0; i < right.size(); ++i) {
+      for (std::size_t k = space.first(d); k < space.first(d + 1); ++k) {
+        largest = std::max(largest, std::abs(right[i][k]));
+        difference = std::max(difference, std::abs(found[i][k] - right[i][k]));
+      }
+    }
+    result.push_back(difference / largest);
+  }
+  return result;
+}
+
+// The composed map is the one that is integrated in variables of its own, but for the errors of
+// both integrations as above; in positions and momenta it is the jet that it was made of, but for
+// the rounding of some thousand operations a coefficient, which cancel by a factor of up to ten.
+TEST(FlowBoxMapOfJet, IsTheIntegratedMapAndTheInverseOfItsJet) {
+  std::vector<test::ChiefOrbit> orbits = test::bound_orbits();
+  orbits.push_back(orbits[1]);
+  orbits.back().start = {1, 0.1, 0, 0.2, 1.3, 0.8};
+  for (const test::ChiefOrbit& orbit : orbits) {
+    const double time = 0.8 * orbit.period;
+    constexpr int order = 3;
+    GaussSettings settings;
+    settings.tolerance = 1e-13;
+    const ChartName chart = section_chart(orbit.start, 1.0);
+    FlowProblem<double> problem{zonal_gravity(orbit.field),
+                                SeriesSpace::create(6, order),
+                                {0, 1, 2, 3, 4, 5},
+                                {orbit.start.begin(), orbit.start.end()},
+                                time};
+    IntegrationStatistics statistics;
+    const FlowMap<double> jet(integrate_gauss<double>(problem, settings, statistics));
+    const FlowBoxMap<double> found =
+        flow_box_map_of_jet<double>(orbit.field, chart, orbit.start, time, jet);
+    FlowBoxPropagation<double> propagation(orbit.field, chart, orbit.start, order, settings);
+    const auto beside =
+        differences(flow_box_coordinates(orbit.field, found),
+                    flow_box_coordinates(orbit.field, propagation.advance_to(time)));
+    const auto back = differences(flow_box_jet(orbit.field, found).jet(), jet.jet());
+    for (int d = 1; d <= order; ++d) {
+      EXPECT_LT(beside[static_cast<std::size_t>(d)], 1e-9) << "degree " << d;
+      EXPECT_LT(back[static_cast<std::size_t>(d)], 2e-12) << "degree " << d;
+    }
+  }
+}
+
+TEST(FlowBoxMapOfJet, RefusesAJetOfFewerVariables) {
+  const test::ChiefOrbit orbit = test::bound_orbits().front();
+  const SpacePointer space = SeriesSpace::create(4, 2);
+  const FlowMap<double> small(FlowJet<double>(4, Series<double>(space)));
+  EXPECT_THROW(
+      flow_box_map_of_jet<double>(orbit.field, ChartName::nodal, orbit.start, orbit.period, small),
+      Error);
 }
 
 }  // namespace

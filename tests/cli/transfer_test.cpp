@@ -345,6 +345,10 @@ TEST_F(TransferCommand, DeputiesGoToTheSlotsThatCostLeast) {
   ASSERT_EQ(costs.rows.size(), 4U);
   const double total = std::stod(costs.rows[1].back()) + std::stod(costs.rows[2].back());
   EXPECT_NEAR(summary["total_change_m_s"].get<double>(), total, 1e-6 * total);
+  EXPECT_EQ(summary["kind"], "auto");
+  // No generating function answers in a chart.
+  succeed({"assign", "assignment.toml", "-q", "-o", "chart", "--set", "jet.coordinates=spherical"});
+  EXPECT_TRUE(read_json(directory_ / "chart" / "summary.json")["kind"].is_null());
 }
 
 TEST_F(TransferCommand, DeputiesAndSlotsOfDifferentNumber) {

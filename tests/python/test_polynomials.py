@@ -134,3 +134,26 @@ def test_what_a_run_stores_is_what_is_integrated(tmp_path, boxes):
         stored.reach()
     with pytest.raises(hamjet.InputOutputError):
         hamjet.Polynomials.load(tmp_path / "nowhere")
+
+
+def test_a_jet_that_is_converted_says_what_the_integrated_polynomials_say(tmp_path, boxes):
+    (tmp_path / "scene.toml").write_text(SCENE)
+    command("run", "scene.toml", "-q", "-o", "out", directory=tmp_path)
+    states = np.random.default_rng(6).uniform(-1, 1, (30, 6)) * ([1e3, 5e3, 1e3] + [1] * 3)
+    load = hamjet.Polynomials.load
+    converted = load(tmp_path / "out", coordinates="flow-box", scene=SCENE)
+    assert (converted.coordinates, converted.variables, converted.order) == ("flow-box", 4, 3)
+    # Of 7000 km some 1e-12: both integrations' errors, and rounding.
+    found, expected = converted.evaluate_relative(states), boxes.evaluate_relative(states)
+    assert np.abs(found.states[:, :3] - expected.states[:, :3]).max() < 1e-5
+    nodal = load(tmp_path / "out", coordinates="nodal", end_coordinates="poincare")
+    assert (nodal.coordinates, nodal.end_coordinates) == ("nodal", "poincare")
+    integrated = hamjet.polynomials(SCENE, coordinates="nodal", end_coordinates="poincare")
+    found, expected = nodal.evaluate_relative(states), integrated.evaluate_relative(states)
+    assert np.abs(found.states[:, :3] - expected.states[:, :3]).max() < 1e-5
+    with pytest.raises(hamjet.UsageError, match="coordinates='flow-box'.*gravity field.*scene"):
+        load(tmp_path / "out", coordinates="flow-box")
+    with pytest.raises(hamjet.UsageError, match="scene: .*another field"):
+        load(tmp_path / "out", coordinates="flow-box", scene=SCENE.replace("1.08262", "1.1"))
+    with pytest.raises(hamjet.UsageError, match="coordinates: got .*polar.*, must be cartesian"):
+        load(tmp_path / "out", coordinates="polar")

@@ -111,12 +111,17 @@ class DeputyPredictor {
   void predict(std::span<const SixNumbers<double>> initial, std::span<const int> degrees,
                std::span<DeputyPrediction> predictions);
 
+  /// Seconds that the polynomials of all predictions took, without the ways into their variables
+  /// and out of their values.
+  double polynomial_seconds() const { return polynomial_seconds_; }
+
  private:
   const DeputyFlow& flow_;
   std::unique_ptr<DeputyFlow::Passage> passage_;
   std::vector<SixNumbers<double>> carried_;
   std::vector<double> points_;
   std::vector<double> results_[3];
+  double polynomial_seconds_ = 0;
 };
 
 /// The flow by the jet in positions and momenta themselves. Throws Error(usage) unless it has six

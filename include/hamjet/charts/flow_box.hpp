@@ -5,6 +5,7 @@
 
 #include "hamjet/charts/flow_section.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
+#include "hamjet/maps/flow_map.hpp"
 #include "hamjet/maps/symplecticity.hpp"
 
 namespace hamjet {
@@ -95,6 +96,17 @@ class FlowBoxPropagation {
   Real reached_ = 0;
   IntegrationStatistics total_;
 };
+
+/// The map of a jet in positions and momenta, by composition to the jet's order, without another
+/// integration: the states of the start's section go through the jet, all for the duration, and
+/// from there to the section through the chief's end. The inverse of flow_box_jet. Beside the map
+/// that FlowBoxPropagation integrates it has the jet's errors, which shear along the orbit
+/// magnifies: the pace of each orbit is not taken out before they are made. Throws Error(usage)
+/// unless the jet has six components in six variables, and as FlowSection.
+template <class Real>
+FlowBoxMap<Real> flow_box_map_of_jet(const ZonalGravity& field, ChartName chart,
+                                     const SixNumbers<Real>& chief, const Real& duration,
+                                     const FlowMap<Real>& jet);
 
 /// The chart of the sections that suits an orbit: nodal, or Poincaré's near the equatorial plane,
 /// or spherical for an orbit that is no ellipse.

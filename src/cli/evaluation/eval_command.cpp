@@ -23,6 +23,7 @@
 #include "../process/interruption.hpp"
 #include "../process/standard_streams.hpp"
 #include "eval_source.hpp"
+#include "evaluation_work.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/relative_motion/chief_frame.hpp"
 
@@ -227,27 +228,11 @@ class Output {
   std::optional<double> largest_miss_;
 };
 
-/// What all evaluations took.
-struct Work {
-  double seconds = 0;
-  int degree = 0;
-  std::size_t multiply_adds_per_point = 0;
-  std::size_t products_per_point = 0;
-
-  void add(double taken, const MapEvaluator& evaluator) {
-    seconds += taken;
-    degree = evaluator.degree();
-    multiply_adds_per_point = evaluator.multiply_adds_per_point();
-    products_per_point = evaluator.products_per_point();
-  }
-};
-
 std::string summary(const EvalOptions& options, const std::vector<EvalSource>& jets,
-                    const Work& work, const Output& output) {
+                    const EvaluationWork& work, const Output& output) {
   const io::StoredJet& stored = jets.front().stored;
   const bool is_rtn = options.frames.frame == "RTN" || options.frames.final_frame() == "RTN";
   const auto points = static_cast<double>(output.rows());
-  const auto multiply_adds = static_cast<double>(work.multiply_adds_per_point);
   const Json json = {{"scene", stored.scene},
                      {"run", stored.label},
                      {"model", model_name(stored.model)},
@@ -271,29 +256,31 @@ std::string summary(const EvalOptions& options, const std::vector<EvalSource>& j
                      {"evaluation",
                       {{"seconds", work.seconds},
                        {"nanoseconds_per_point", work.seconds / points * 1e9},
+                       {"chart_seconds", work.chart_seconds},
+                       {"chart_nanoseconds_per_point", work.chart_seconds / points * 1e9},
                        {"multiply_adds_per_point", work.multiply_adds_per_point},
                        {"products_per_point", work.products_per_point},
-                       {"multiply_adds_per_second", multiply_adds * points / work.seconds}}},
+                       {"multiply_adds_per_second", work.multiply_adds_per_second(points)}}},
                      {"rows", output.json_rows()}};
   return json.dump(2) + "\n";
 }
 
-void report(const EvalCoordinates& coordinates, const EvalSource& jet, const Work& work,
+void report(const EvalCoordinates& coordinates, const EvalSource& jet, const EvaluationWork& work,
             const Output& output) {
   const bool is_linear = jet.order() < 2;
   const auto points = static_cast<double>(output.rows());
-  const std::size_t multiply_adds = work.multiply_adds_per_point;
   print_note(fmt::format(
       "points {}, evaluation alone {:.3g} s, {:.3g} ns a point, {} multiply-adds a point, "
       "{:.3g} multiply-adds a second",
-      output.rows(), work.seconds, work.seconds / points * 1e9, multiply_adds,
-      static_cast<double>(multiply_adds) * points / work.seconds));
+      output.rows(), work.seconds, work.seconds / points * 1e9, work.multiply_adds_per_point,
+      work.multiply_adds_per_second(points)));
   if (jet.scene) {
     print_note(fmt::format(
-        "{} coordinates, {}; the time of the evaluation is that of polynomials, of the coordinates "
-        "at both ends and of the lower degrees that the estimate needs",
+        "{} coordinates, {}; of a point's time {:.3g} ns are the polynomials, with the lower "
+        "degrees that the estimate needs, and {:.3g} ns the coordinates at both ends",
         name_of(jet.coordinates()),
-        jet.scene->seconds > 0 ? "integrated in " + duration_text(jet.scene->seconds) : "stored"));
+        jet.scene->seconds > 0 ? "integrated in " + duration_text(jet.scene->seconds) : "stored",
+        (work.seconds - work.chart_seconds) / points * 1e9, work.chart_seconds / points * 1e9));
   }
   print_note(fmt::format("frame {}; the estimates of the miss cover {}", coordinates.text(),
                          miss_covers(jet)));
@@ -332,14 +319,20 @@ void carry(const EvalOptions& options, const EvalCoordinates& coordinates, doubl
 }
 
 void evaluate(const EvalOptions& options, const EvalSource& jet, const io::NumberTable& deviations,
-              Work& work, Output& output) {
+              EvaluationWork& work, Output& output) {
   const EvalCoordinates coordinates(jet.stored, options.frames);
   const double time_s = jet.stored.duration * jet.stored.units.time_s;
   if (jet.scene) {
     const int degree = options.degree.value_or(jet.order());
     DeputyEvaluation evaluation(*jet.scene, degree);
     carry(options, coordinates, time_s, deviations, evaluation, output);
-    work.add(evaluation.seconds(), MapEvaluator(jet.scene->flow->polynomials(), degree));
+    const auto& polynomials = jet.scene->flow->polynomials();
+    work.add(evaluation.seconds(), MapEvaluator(polynomials, degree));
+    for (const int one : evaluation.degrees()) {
+      if (one == degree) continue;  // has been added
+      work.all_multiply_adds_per_point += MapEvaluator(polynomials, one).multiply_adds_per_point();
+    }
+    work.chart_seconds += evaluation.seconds() - evaluation.polynomial_seconds();
     return;
   }
   JetEvaluation evaluation(jet.stored, options.degree);
@@ -364,7 +357,7 @@ int eval(const EvalOptions& given) {
   if (options.output) file.emplace(*options.output);
   const io::NumberTable deviations = read_deviations(options, stored, coordinates);
 
-  Work work;
+  EvaluationWork work;
   Output output(coordinates.final_columns(), deviations.rows() * jets.size(),
                 options.time.has_value());
   for (const EvalSource& jet : jets) evaluate(options, jet, deviations, work, output);

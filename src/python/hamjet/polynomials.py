@@ -24,15 +24,22 @@ class Polynomials:
         self._study = study
 
     @classmethod
-    def load(cls, path: str | os.PathLike[str], run: str | None = None) -> Polynomials:
+    def load(cls, path: str | os.PathLike[str], run: str | None = None, *,
+             coordinates: str | None = None, end_coordinates: str | None = None,
+             scene: scenes.Scene | None = None) -> Polynomials:
         """Reads what `hamjet run` has written in a scene's coordinates, or a file .h5.
 
         path: results of `hamjet run`, whose polynomials in the coordinates of their scene are taken
         where they are other than Cartesian, or a file that `hamjet convert` has written. run: the
-        label of the run; by default the first that has a result. Raises UsageError and
-        InputOutputError.
+        label of the run; by default the first that has a result. coordinates: what they are
+        converted to, by composition, at both ends unless end_coordinates has others for the
+        results; by default they stay as they are. scene: that of a jet that is converted to
+        "flow-box", for its gravity field. Raises UsageError, InputOutputError, NumericalError where
+        the orbit has no such coordinates, and as ``polynomials`` for the scene.
         """
-        return cls(_hamjet.load_polynomials(arguments.path(path, "path"), run))
+        given = None if scene is None else scenes.read(scene, None)
+        return cls(_hamjet.load_polynomials(arguments.path(path, "path"), run, coordinates,
+                                            end_coordinates, given))
 
     @property
     def run(self) -> str:

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "../../formats/relative_frame_text.hpp"
 #include "../../store/json_values.hpp"
 #include "../../text/quantity_text.hpp"
@@ -125,6 +127,14 @@ std::string terminal_details(const AssignmentResult& result) {
                      length_text(result.flight_floor_m));
 }
 
+/// Whether generating functions answer: in other coordinates than Cartesian no kind is used, and
+/// measured ones may turn out to be Cartesian.
+bool uses_kind(const AssignmentResult& result) {
+  const auto has_kind = [](const AssignedTransfer& one) { return one.transfer.kind.has_value(); };
+  return result.scene.coordinates == JetCoordinates::cartesian ||
+         std::any_of(result.transfers.begin(), result.transfers.end(), has_kind);
+}
+
 Json transfers_json(const AssignmentResult& result) {
   Json json = Json::array();
   for (const AssignedTransfer& assigned : result.transfers) {
@@ -142,7 +152,7 @@ std::string summary(const AssignmentResult& result) {
   json["frame"] = frame_name(settings.frame);
   json["derivatives"] = text_or_null(std::string(derivatives_name(settings.frame)));
   json["axes"] = axis_letters(settings.frame);
-  json["kind"] = settings.kind;
+  json["kind"] = uses_kind(result) ? Json(settings.kind) : Json(nullptr);
   json["tolerance_m"] = settings.tolerance_m;
   json["deputies"] = result.scene.assignment->deputies.size();
   json["slots"] = result.scene.assignment->slots.size();

@@ -279,6 +279,7 @@ TEST_F(Eval, SaysWhatTheEvaluationTook) {
   EXPECT_GT(evaluation["seconds"], 0);
   EXPECT_GT(evaluation["nanoseconds_per_point"], 0);
   EXPECT_GT(evaluation["multiply_adds_per_second"], 0);
+  EXPECT_EQ(evaluation["chart_seconds"], 0);  // in positions and momenta there is no chart
 }
 
 TEST_F(Eval, ManyRowsAreCountedInJson) {
