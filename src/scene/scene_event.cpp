@@ -6,6 +6,7 @@ namespace hamjet::io {
 namespace {
 
 constexpr int most_events = 100000;
+constexpr double largest_amplitude = 0.05;  // of the distance from the centre
 
 /// Refuses a key that belongs to another surface.
 void refuse(const TableReader& event, std::string_view key, std::string_view surface) {
@@ -69,11 +70,16 @@ EventSettings read_event(const TableReader& event, const Scene& scene) {
   event.read_if_any("number", settings.number);
   if (event.has("amplitudes_m")) {
     settings.amplitudes_m = event.numbers("amplitudes_m");
+    // Deputies beyond it have orbits of their own, some of which meet the centre.
+    const double most_m = largest_amplitude * Eigen::Vector3d(scene.nominal.data()).norm() *
+                          scene.units.length_km * 1000;
     for (std::size_t i = 0; i < settings.amplitudes_m.size(); ++i) {
-      if (settings.amplitudes_m[i] > 0) continue;
-      event.fail_element(
-          "amplitudes_m", i,
-          fmt::format("out of range, got {}, must be above 0", settings.amplitudes_m[i]));
+      const double amplitude = settings.amplitudes_m[i];
+      if (amplitude > 0 && amplitude <= most_m) continue;
+      event.fail_element("amplitudes_m", i,
+                         fmt::format("out of range, got {}, must be above 0 and at most a "
+                                     "twentieth of the chief's distance from the centre, {:.6g}",
+                                     amplitude, most_m));
     }
   }
   return settings;

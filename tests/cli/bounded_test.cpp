@@ -79,7 +79,7 @@ TEST_F(LongMotion, PoincareWritesTheEventOfAScene) {
   EXPECT_EQ(map.rows.size(), 7U * 210);
   // Fewer within the duration, and keys of other surfaces, are refused.
   for (const auto& [keys, message] : std::vector<std::pair<std::string, std::string>>{
-           {"surface = \"apsis\"\nnumber = 7\n", "meets 6; must be at most that"},
+           {"surface = \"apsis\"\nnumber = 7\n", "meets 6; must be at most so many"},
            {"surface = \"distance\"\n", "event.distance_km: missing"},
            {"surface = \"apsis\"\nnormal = [0, 0, 1]\n", "event.normal: not of this surface"},
            {"surface = \"plane\"\nnormal = [0, 0, 0]\n", "event.normal: no direction"}}) {

@@ -95,7 +95,7 @@ def test_a_neighbour_has_the_event_that_the_polynomials_say():
 
 
 def test_an_event_that_does_not_happen_is_refused():
-    with pytest.raises(hamjet.SceneError, match="meets 1; must be at most that"):
+    with pytest.raises(hamjet.SceneError, match="meets 1; must be at most so many"):
         hamjet.event(SCENE, overrides=[*EVENT, "event.number=7"])
     with pytest.raises(hamjet.SceneError, match="event: missing"):
         hamjet.event(SCENE)

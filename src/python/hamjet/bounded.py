@@ -63,7 +63,7 @@ class Event(Study):
     length_km: float  #: the canonical unit of length
     time_unit_s: float  #: the canonical unit of time
     amplitudes_m: Floats  #: (A,): deviations of deputies that were flown
-    misses_m: Floats  #: (A,): the largest, in position, of the polynomials
+    misses_m: Floats  #: (A,): the largest, in position, of the polynomials; NaN: not flown
     misses_s: Floats  #: (A,): in time
     linear_misses_m: Floats  #: (A,): of the linear polynomials
     linear_misses_s: Floats  #: (A,)

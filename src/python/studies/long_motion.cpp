@@ -39,10 +39,10 @@ py::dict event_arrays(const EventStudy& study) {
   }
   for (const EventMisses& one : study.misses) {
     amplitude.add(one.amplitude_m);
-    position.add(one.position_m);
-    time.add(one.time_s);
-    linear_position.add(one.linear_position_m);
-    linear_time.add(one.linear_time_s);
+    position.add(one.position_m.value_or(none));
+    time.add(one.time_s.value_or(none));
+    linear_position.add(one.linear_position_m.value_or(none));
+    linear_time.add(one.linear_time_s.value_or(none));
   }
   const auto count = size_of(space.size());
   py::dict arrays;

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "../../store/columns.hpp"
+#include "../../store/json_values.hpp"
 #include "../../text/quantity_text.hpp"
 #include "../../text/terminal_text.hpp"
 #include "../drawing/report_page.hpp"
@@ -44,7 +45,7 @@ std::optional<double> reach_m(const EventStudy& study) {
             [](const auto& a, const auto& b) { return a.amplitude_m < b.amplitude_m; });
   std::optional<double> reach;
   for (const EventMisses& one : misses) {
-    if (!(one.position_m <= 1)) break;
+    if (!one.position_m || *one.position_m > 1) break;
     reach = one.amplitude_m;
   }
   return reach;
@@ -56,9 +57,11 @@ std::vector<std::vector<std::string>> miss_rows(const EventStudy& study) {
       {"deviation", fmt::format("miss, order {} (m)", order), "in time (s)", "miss, order 1 (m)",
        "in time (s)"}};
   for (const EventMisses& one : study.misses) {
-    rows.push_back({length_text(one.amplitude_m), fmt::format("{:.3g}", one.position_m),
-                    fmt::format("{:.3g}", one.time_s), fmt::format("{:.3g}", one.linear_position_m),
-                    fmt::format("{:.3g}", one.linear_time_s)});
+    std::vector<std::string>& row = rows.emplace_back(1, length_text(one.amplitude_m));
+    for (const auto& miss :
+         {one.position_m, one.time_s, one.linear_position_m, one.linear_time_s}) {
+      row.push_back(miss ? fmt::format("{:.3g}", *miss) : "not flown");
+    }
   }
   return rows;
 }
@@ -74,12 +77,13 @@ Chart miss_chart(const EventStudy& study) {
       study.flown);
   chart.x = logarithmic_axis("deviation in position (m)");
   chart.y = logarithmic_axis("miss in position (m)");
-  const auto add = [&](const std::string& title, double EventMisses::*miss, std::size_t style) {
+  const auto add = [&](const std::string& title, std::optional<double> EventMisses::*miss,
+                       std::size_t style) {
     ChartCurve curve;
     curve.title = title;
     curve.style = style;
     for (const EventMisses& one : study.misses) {
-      curve.points.emplace_back(one.amplitude_m, one.*miss);
+      if (one.*miss) curve.points.emplace_back(one.amplitude_m, *(one.*miss));
     }
     std::sort(curve.points.begin(), curve.points.end());
     chart.curves.push_back(std::move(curve));
@@ -172,10 +176,10 @@ Json event_json(const EventStudy& study) {
   json["misses"] = Json::array();
   for (const EventMisses& one : study.misses) {
     json["misses"].push_back({{"amplitude_m", one.amplitude_m},
-                              {"position_m", one.position_m},
-                              {"time_s", one.time_s},
-                              {"linear_position_m", one.linear_position_m},
-                              {"linear_time_s", one.linear_time_s}});
+                              {"position_m", json_number(one.position_m)},
+                              {"time_s", json_number(one.time_s)},
+                              {"linear_position_m", json_number(one.linear_position_m)},
+                              {"linear_time_s", json_number(one.linear_time_s)}});
   }
   json["exit_code"] = 0;
   return json;

@@ -119,16 +119,14 @@ class EventFlights {
   EventMisses fly(double amplitude_m) const {
     EventMisses misses;
     misses.amplitude_m = amplitude_m;
-    std::mt19937_64 generator(1);
-    for (int k = 0; k < flown_deputies; ++k) {
-      const State deviation = random_deviation(generator, amplitude_m);
-      for (const bool is_linear : {false, true}) {
-        const auto [position, time] = miss(deviation, is_linear);
-        double& worst_position = is_linear ? misses.linear_position_m : misses.position_m;
-        double& worst_time = is_linear ? misses.linear_time_s : misses.time_s;
-        // A miss that is no number stays.
-        if (!(position <= worst_position)) worst_position = position;
-        if (!(time <= worst_time)) worst_time = time;
+    for (const bool is_linear : {false, true}) {
+      try {
+        const Miss worst = largest_miss(amplitude_m, is_linear);
+        if (!std::isfinite(worst.position_m) || !std::isfinite(worst.time_s)) continue;
+        (is_linear ? misses.linear_position_m : misses.position_m) = worst.position_m;
+        (is_linear ? misses.linear_time_s : misses.time_s) = worst.time_s;
+      } catch (const Error& error) {
+        if (error.kind() != ErrorKind::numerical && error.kind() != ErrorKind::too_large) throw;
       }
     }
     return misses;
@@ -155,9 +153,22 @@ class EventFlights {
   }
 
   struct Miss {
-    double position_m;
-    double time_s;
+    double position_m = 0;
+    double time_s = 0;
   };
+
+  Miss largest_miss(double amplitude_m, bool is_linear) const {
+    std::mt19937_64 generator(1);
+    Miss worst;
+    for (int k = 0; k < flown_deputies; ++k) {
+      const Miss one = miss(random_deviation(generator, amplitude_m), is_linear);
+      // A miss that is no number stays.
+      if (!(one.position_m <= worst.position_m)) worst.position_m = one.position_m;
+      if (!(one.time_s <= worst.time_s)) worst.time_s = one.time_s;
+    }
+    return worst;
+  }
+
   Miss miss(const State& deviation, bool is_linear) const {
     State start = scene_.nominal;
     for (std::size_t i = 0; i < start.size(); ++i) start[i] += deviation[i];
@@ -241,7 +252,7 @@ EventStudy study_event(const Scene& scene, const ProgressCallback& progress) {
     throw Error(
         ErrorKind::scene,
         fmt::format("event.number: no such event, got {}, but within jet.duration "
-                    "({:.10g} s) the chief meets {}; must be at most that, with a longer "
+                    "({:.10g} s) the chief meets {}; must be at most so many; or with a longer "
                     "jet.duration, another surface or another direction",
                     scene.event->number, scene.duration * scene.units.time_s, search.found()));
   }

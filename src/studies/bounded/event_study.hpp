@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,14 +11,15 @@
 namespace hamjet {
 
 /// How far deputies that were flown with the full equations to the time that polynomials give are
-/// from where these have them: the largest of several with deviations of one size.
+/// from where these have them: the largest of several with deviations of one size; none where one
+/// of them could not be flown.
 struct EventMisses {
   double amplitude_m = 0;
-  double position_m = 0;
-  double time_s = 0;  ///< from the event itself
+  std::optional<double> position_m;
+  std::optional<double> time_s;  ///< from the event itself
   // The same of the linear polynomials.
-  double linear_position_m = 0;
-  double linear_time_s = 0;
+  std::optional<double> linear_position_m;
+  std::optional<double> linear_time_s;
 };
 
 /// An event of a scene's chief, and those of its neighbours as polynomials.
