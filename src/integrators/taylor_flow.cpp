@@ -30,20 +30,20 @@ TaylorFlow::Lanes TaylorFlow::squares(int power, bool is_of_momenta) const {
   return sum;
 }
 
-bool TaylorFlow::is_rounding(int k, const Lanes& times) const {
+TaylorFlow::Lanes TaylorFlow::last_shares(int k, const Lanes& times) const {
   const Lanes square = times * times;
   Lanes before(1);
   for (int i = 1; i < k; ++i) before *= square;
   // Positions and momenta have units of their own. Both of the last powers are looked at, for one
-  // may vanish by symmetry. What is no number is no rounding either.
+  // may vanish by symmetry.
+  Lanes largest;
   for (const bool is_of_momenta : {false, true}) {
     const Lanes unit = before / squares(0, is_of_momenta);
     const Lanes last = squares(k, is_of_momenta) * square;
-    for (const Lanes& part : {squares(k - 1, is_of_momenta), last}) {
-      if (!(largest_magnitude(part * unit) <= least_share * least_share)) return false;
-    }
+    // A sum, so that what is no number stays.
+    largest += (squares(k - 1, is_of_momenta) + last) * unit;
   }
-  return true;
+  return largest;
 }
 
 void TaylorFlow::expand(std::span<const double> times) {
@@ -51,17 +51,24 @@ void TaylorFlow::expand(std::span<const double> times) {
   const std::size_t size = system_->dimension();
   const Lanes spans = Lanes::of_lanes(
       [&](std::size_t lane) { return lane < times.size() ? std::abs(times[lane]) : 0.0; });
-  powers_ = 0;
+  const std::size_t timed = std::min(times.size(), lanes);
+  powers_.fill(order);
   proved_ = Lanes();
+  std::size_t proved = 0;
   for (int k = 0; k < order; ++k) {
     field_.expand(k);
     const double factor = 1.0 / (k + 1);
     for (std::size_t i = 0; i < size; ++i) field_.input(i)[k + 1] = field_.output(i)[k] * factor;
-    powers_ = k + 1;
-    if (!times.empty() && powers_ >= fewest && is_rounding(powers_, spans)) {
-      proved_ = spans;
-      return;
+    if (timed == 0 || k + 1 < fewest) continue;
+    const Lanes shares = last_shares(k + 1, spans);
+    for (std::size_t lane = 0; lane < timed; ++lane) {
+      const auto i = static_cast<int>(lane);
+      if (powers_[lane] < order || !(shares.lane(i) <= least_share * least_share)) continue;
+      powers_[lane] = k + 1;
+      proved_.set_lane(i, spans.lane(i));
+      ++proved;
     }
+    if (proved == timed) return;
   }
 }
 
@@ -71,7 +78,7 @@ double TaylorFlow::reach(std::size_t lane) const {
   };
   double reach = std::numeric_limits<double>::infinity();
   for (const bool is_of_momenta : {false, true}) {
-    for (const int k : {powers_ - 1, powers_}) {
+    for (const int k : {powers_[lane] - 1, powers_[lane]}) {
       const double last = of_lane(k, is_of_momenta);
       if (!std::isfinite(last)) return 0;
       if (last > 0) {
@@ -92,7 +99,7 @@ void TaylorFlow::evaluate(std::size_t lane, double time, std::span<double> state
   for (std::size_t i = 0; i < state.size(); ++i) {
     const auto* const z = field_.input(i);
     double sum = 0;
-    for (int k = powers_; k >= 1; --k) sum = (sum + z[k].lane(static_cast<int>(lane))) * time;
+    for (int k = powers_[lane]; k >= 1; --k) sum = (sum + z[k].lane(static_cast<int>(lane))) * time;
     state[i] = z[0].lane(static_cast<int>(lane)) + sum;
   }
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <span>
 
@@ -33,11 +34,12 @@ class TaylorFlow {
 
   /// Sets the state, of 2n numbers, that a lane is to be expanded about.
   void set_state(std::size_t lane, std::span<const double> state);
-  /// Expands the flow of all lanes: to the highest power, or to one at which each of the first
-  /// lanes leaves out no more than rounding at its time of `times`.
+  /// Expands the flow of all lanes: to the highest power, or to those at which each of the first
+  /// lanes leaves out no more than rounding at its time of `times`. A lane has powers of its own,
+  /// so that no digit of it depends on the others.
   void expand(std::span<const double> times = {});
-  /// The power that the last expansion went to.
-  int powers() const { return powers_; }
+  /// The power that a lane's last expansion went to.
+  int powers(std::size_t lane) const { return powers_[lane]; }
   /// The time, either way, within which a lane's polynomial leaves out no more than rounding; 0
   /// where the vector field is not finite.
   double reach(std::size_t lane) const;
@@ -59,12 +61,13 @@ class TaylorFlow {
 
   /// Of the positions, or of the momenta, the sum of the squares of a power's coefficients.
   Lanes squares(int power, bool is_of_momenta) const;
-  /// Whether the powers k - 1 and k add no more than rounding at these times.
-  bool is_rounding(int k, const Lanes& times) const;
+  /// By lane, the largest square of what the powers k - 1 and k add at these times, relative to the
+  /// state.
+  Lanes last_shares(int k, const Lanes& times) const;
 
   SharedSystem system_;
   TimeExpansion<Lanes, double> field_;
-  int powers_ = 0;
+  std::array<int, lanes> powers_{};
   Lanes proved_;  ///< times that the last expansion is known to reach, where it ended early
 };
 
