@@ -59,6 +59,12 @@ const TableDescription& safety_table() {
         "of the polynomials, for each pair and each share of the burn"},
        {"confidence", form::between(0.5, 0.999999), absent::value(preset.confidence),
         "of the intervals that are given"},
+       {"least_separation_m", form::positive(), absent::other("not checked"),
+        "a check of every pair: the separation that `share` of all cases must keep, by the lower "
+        "end of its interval; exit code 1 where one does not"},
+       {"least_deviations", form::positive(), absent::other("not checked"),
+        "a check of every pair that `keep_out_m` is told of: the standard deviations up to which "
+        "the ellipsoid must stay free; exit code 1 where it does not"},
        {"deputy",
         form::words(fmt::format("up to {} tables", most_safe_deputies),
                     form::array(form::table(safe_deputy_table()))),
@@ -90,6 +96,16 @@ SafetyWatch read_safety(const TableReader& safety, const Scene& scene, const Nom
   safety.read_if_any("share", watch.share);
   safety.read_if_any("samples", watch.samples);
   safety.read_if_any("confidence", watch.confidence);
+  if (safety.has("least_separation_m")) {
+    watch.least_separation_m = read_nearness(safety, "least_separation_m", scene);
+  }
+  if (safety.has("least_deviations")) {
+    if (!watch.keep_out_m) {
+      safety.fail("least_deviations",
+                  "of no ellipsoid, got a number without the key keep_out_m, must have one");
+    }
+    watch.least_deviations = safety.positive_number("least_deviations");
+  }
   const std::vector<TableReader> deputies =
       safety.has("deputy") ? safety.tables("deputy") : std::vector<TableReader>();
   if (deputies.size() > most_safe_deputies) {

@@ -56,7 +56,8 @@ inline Place place_of(const std::string& table, std::string_view owner) {
          {"uncertainty",
           "{position_m=[1, 1, 1], deputy={position_m=[1, 1, 1]}, count=2, "
           "burn={velocity_change_m_s=[1, 0, 0], magnitude=0.1, direction_deg=1}, "
-          "collision={radius_m=5}, safety={keep_apart_m=5, deputy=[{position_m=[0, 200, 0]}]}}"}}}},
+          "collision={radius_m=5}, safety={keep_apart_m=5, keep_out_m=[1, 1, 1], "
+          "deputy=[{position_m=[0, 200, 0]}]}}"}}}},
       {"ephemeris",
        {orbit_file,
         {{"ephemeris",

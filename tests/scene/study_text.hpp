@@ -71,7 +71,7 @@ class StudyText {
   }
   void add(const SafetyWatch& s) {
     add_all(s.keep_apart_m, s.from, s.to, s.burn_shares, s.deputies, s.share, s.confidence,
-            s.samples);
+            s.samples, s.least_separation_m, s.least_deviations);
     if (s.keep_out_m) add_all((*s.keep_out_m)[0], (*s.keep_out_m)[1], (*s.keep_out_m)[2]);
   }
   void add(const UncertaintySettings& s) {
@@ -99,7 +99,8 @@ class StudyText {
     add_all(s.title, s.precision, s.system, s.units, s.canonical_radius, s.nominal, s.duration,
             s.order, s.arcs, s.variables, s.jet_times, s.integrators, s.separation, s.kinds,
             s.reference, s.relative_hamiltonian_times, s.comparison, s.figure, s.deputy, s.transfer,
-            s.validity, s.assignment, s.uncertainty, s.bounded, s.event, s.output.formats, s.ephemeris);
+            s.validity, s.assignment, s.uncertainty, s.bounded, s.event, s.output.formats,
+            s.ephemeris);
     for (std::size_t i = 0; i < self_check_count; ++i) add(s.checks[SelfCheckName(i)]);
   }
   void add(const EnergyConservationStudy& s) {

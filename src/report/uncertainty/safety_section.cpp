@@ -41,6 +41,36 @@ bool has_burn(const SafetyResult& result) {
   return false;
 }
 
+/// Of the checks that the scene asks for, a sentence for each pair that fails one.
+std::vector<std::string> failed_checks(const SafetyResult& result) {
+  const SafetyWatch& watch = result.watch;
+  std::vector<std::string> failed;
+  for (const SafetyPair& pair : result.pairs) {
+    const std::string whose =
+        pair_text(pair) + (pair.burn_share ? ", burn " + burn_text(pair) : "");
+    const double surely = pair.separations.lower[0];
+    if (watch.least_separation_m && !(surely >= *watch.least_separation_m)) {
+      failed.push_back(fmt::format(
+          "{}: {:g} % of cases stay beyond {:.4g} m, at {:g} % confidence, must be {:g} m "
+          "(uncertainty.safety.least_separation_m)",
+          whose, 100 * watch.share, surely, 100 * watch.confidence, *watch.least_separation_m));
+    }
+    if (!watch.least_deviations || pair.first != "chief") continue;
+    // Without a deviation that leads into it the ellipsoid is free up to any.
+    if (pair.margin &&
+        (!pair.margin->deviations || *pair.margin->deviations >= *watch.least_deviations)) {
+      continue;
+    }
+    failed.push_back(fmt::format(
+        "{}: {}, must be {:g} sigma (uncertainty.safety.least_deviations)", whose,
+        pair.margin
+            ? fmt::format("the ellipsoid stays free up to {:.4g} sigma", *pair.margin->deviations)
+            : "how far the ellipsoid stays free was not found",
+        *watch.least_deviations));
+  }
+  return failed;
+}
+
 nlohmann::ordered_json pair_json(const SafetyPair& pair) {
   const LeastSeparations& s = pair.separations;
   nlohmann::ordered_json json = {{"first", pair.first},
@@ -80,6 +110,9 @@ nlohmann::ordered_json safety_json(const SafetyResult& result) {
     const Eigen::Vector3d& axes = *result.watch.keep_out_m;
     json["keep_out_m"] = {axes[0], axes[1], axes[2]};
   }
+  if (const auto& least = result.watch.least_separation_m) json["least_separation_m"] = *least;
+  if (const auto& least = result.watch.least_deviations) json["least_deviations"] = *least;
+  json["failed_checks"] = failed_checks(result);
   json["pairs"] = nlohmann::ordered_json::array();
   for (const SafetyPair& pair : result.pairs) json["pairs"].push_back(pair_json(pair));
   json["seconds"] = result.seconds;
@@ -199,6 +232,7 @@ UncertaintySection safety_section(const SafetyResult& result) {
   section.html =
       table_html("Least separations, and how large deviations may be", safety_rows(result));
   section.charts.push_back(separations_chart(result));
+  section.failed_checks = failed_checks(result);
   section.files.push_back({"safety.csv", safety_csv(result)});
   return section;
 }

@@ -10,6 +10,7 @@
 #include "../../text/quantity_text.hpp"
 #include "../../text/terminal_text.hpp"
 #include "../drawing/report_page.hpp"
+#include "hamjet/error.hpp"
 #include "uncertainty_view.hpp"
 
 namespace hamjet::io {
@@ -98,6 +99,14 @@ std::vector<std::vector<std::string>> coordinates_rows(const UncertaintyResult& 
   return rows;
 }
 
+std::vector<std::string> all_failed_checks(const std::vector<UncertaintySection>& sections) {
+  std::vector<std::string> failed;
+  for (const UncertaintySection& section : sections) {
+    failed.insert(failed.end(), section.failed_checks.begin(), section.failed_checks.end());
+  }
+  return failed;
+}
+
 std::string terminal_table(const UncertaintyResult& result,
                            const std::vector<UncertaintySection>& sections) {
   const UncertaintyAt& at = result.points.back();
@@ -105,6 +114,9 @@ std::string terminal_table(const UncertaintyResult& result,
   std::string text = fmt::format("{}\n{}\n", result.scene.title, uncertainty_verdict(result));
   for (const UncertaintySection& section : sections) {
     if (!section.verdict.empty()) text += section.verdict + "\n";
+  }
+  for (const std::string& failed : all_failed_checks(sections)) {
+    text += "check failed: " + failed + "\n";
   }
   text += fmt::format(
       "frame {}; order {}; {} after {}\n\n{}\n{}",
@@ -131,6 +143,9 @@ std::string page(const UncertaintyResult& result, const ReportOrigin& origin,
   page.verdict = uncertainty_verdict(result);
   for (const UncertaintySection& section : sections) {
     if (!section.verdict.empty()) page.verdict += " " + section.verdict;
+  }
+  for (const std::string& failed : all_failed_checks(sections)) {
+    page.verdict += " Check failed: " + failed + ".";
   }
   Chart first = ellipse_chart(result, last, judged, 1, 0);
   first.is_panel = false;
@@ -201,9 +216,17 @@ StudyReport uncertainty_report(const UncertaintyResult& result, const ReportOrig
   }
   report.drawing_problem = drawer.problem();
   nlohmann::ordered_json summary = uncertainty_json(result);
-  const auto exit_code = summary["exit_code"];
+  auto exit_code = summary["exit_code"];
   summary.erase("exit_code");
   for (const UncertaintySection& section : sections) summary[section.key] = section.json;
+  const std::vector<std::string> failed = all_failed_checks(sections);
+  if (!failed.empty()) {
+    report.exit_code = static_cast<int>(ErrorKind::check_failed);
+    report.failure = "a check that the scene asks for failed: " + failed.front();
+    if (failed.size() > 1) report.failure += fmt::format(" (and {} more)", failed.size() - 1);
+    exit_code = report.exit_code;
+  }
+  summary["failed_checks"] = failed;
   summary["exit_code"] = exit_code;
   report.files.push_back({"summary.json", summary.dump(2) + "\n"});
   report.table = terminal_table(result, sections);

@@ -22,6 +22,7 @@ struct UncertaintySection {
   std::string html;             ///< above the charts
   std::vector<Chart> charts;    ///< not fitted
   std::vector<ReportFile> files;
+  std::vector<std::string> failed_checks;  ///< that the scene asks for, a sentence each
 };
 
 /// `moments.csv`: a row for each time, state, family, order and component; those of flown samples

@@ -254,7 +254,8 @@ std::vector<std::string> uncertainty_notes(const UncertaintyResult& result) {
                           "deviations relative, skewness and kurtosis absolute).",
                           frame_name(settings.frame), name_of(result.coordinates), doubt)
             : fmt::format("Moments along {} by polynomials in {} coordinates were not computed at "
-                          "some time: some states have no place in these.",
+                          "some time: some states have no place in these, or lie too far from the "
+                          "chief for polynomials about it.",
                           frame_name(settings.frame), name_of(result.coordinates)));
   }
   for (const MomentsInCoordinates& compared : result.in_coordinates) {

@@ -1,8 +1,13 @@
 #include "moments_in_coordinates.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/LU>
+#include <cmath>
+#include <limits>
 
 #include "../formation/deputy_flows.hpp"
+#include "../formation/single_transfer.hpp"
 #include "hamjet/algebra/calculus.hpp"
 #include "hamjet/algebra/composition.hpp"
 #include "hamjet/error.hpp"
@@ -10,14 +15,33 @@
 namespace hamjet {
 namespace {
 
+constexpr double never = std::numeric_limits<double>::infinity();
+
 /// In one kind of coordinates; throws as DeputyFlowPropagation.
 MomentsInCoordinates moments_in(JetCoordinates coordinates, const Scene& scene,
                                 const ComputedProblem& problem,
                                 const IntegratorSettings& integrator,
                                 const std::vector<InitialState>& starts, const FlowJet<double>& jet,
+                                const std::vector<MeanOfStart>& means,
                                 const std::optional<Covariance>& noise) {
   DeputyFlowPropagation propagation(scene, problem, integrator, coordinates);
-  propagation.advance_to(scene.uncertainty->times.back());
+  const auto flow = propagation.advance_to(scene.uncertainty->times.back());
+  for (std::size_t s = 0; s < starts.size(); ++s) {
+    const double miss = miss_of_mean(*flow, scene.order, starts[s], means[s]);
+    if (miss <= largest_miss) continue;
+    throw Error(
+        ErrorKind::numerical,
+        fmt::format("the {} starts {:.4g} km from the chief, whose polynomials of order {} {}; a "
+                    "start nearer to the chief, or a higher jet.order, would be right",
+                    starts[s].name,
+                    starts[s].mean.head(3).norm() * metric_units(scene).length_m / 1000,
+                    scene.order,
+                    std::isfinite(miss)
+                        ? fmt::format("miss its mean by {:.2g} of its standard deviations, above "
+                                      "{:g}",
+                                      miss, largest_miss)
+                        : "have no place for its mean"));
+  }
   const std::vector<Series<double>> series = propagation.end_coordinates();
   MomentsInCoordinates result;
   result.coordinates = coordinates;
@@ -57,6 +81,29 @@ std::vector<Cumulants> moments_by_order(const std::vector<Series<double>>& map,
   return result;
 }
 
+double miss_of_mean(const DeputyFlow& flow, int order, const InitialState& start,
+                    const MeanOfStart& mean) {
+  if ((start.mean.array() == 0).all()) return 0;
+  std::vector<SixNumbers<double>> deviations(1);
+  std::copy_n(start.mean.data(), 6, deviations[0].begin());
+  std::vector<DeputyPrediction> predictions(1);
+  flow.predict(deviations, order, predictions);
+  const Vector<double> flown = mean.to_frame * mean.deviation;
+  const Vector<double> predicted =
+      mean.to_frame * Eigen::Map<const Vector<double>>(predictions[0].deviation.data(), 6);
+  double worst = 0;
+  for (Eigen::Index i = 0; i < 6; ++i) {
+    const double sigma = mean.standard_deviations[i] > 0
+                             ? mean.standard_deviations[i]
+                             : 1e-3 * flown.segment<3>(i < 3 ? 0 : 3).norm();
+    const double miss = std::abs(predicted[i] - flown[i]) / sigma;
+    // What is not a number compares with nothing.
+    worst = miss <= worst ? worst : std::isfinite(miss) ? miss : never;
+    if (worst == never) break;
+  }
+  return worst;
+}
+
 std::vector<Cumulants> charted_moments(const std::vector<Series<double>>& coordinates,
                                        const InitialState& start, const FlowJet<double>& jet,
                                        const std::optional<Covariance>& noise) {
@@ -87,7 +134,8 @@ std::vector<Cumulants> difference_by_order(const std::vector<Cumulants>& from,
 std::vector<MomentsInCoordinates> moments_in_coordinates(
     const Scene& scene, const ComputedProblem& problem, const IntegratorSettings& integrator,
     const std::vector<InitialState>& starts, const FlowJet<double>& jet,
-    const std::optional<Covariance>& noise, const ProgressCallback& progress) {
+    const std::vector<MeanOfStart>& means, const std::optional<Covariance>& noise,
+    const ProgressCallback& progress) {
   const std::vector<JetCoordinates>& asked = scene.uncertainty->coordinates;
   std::vector<MomentsInCoordinates> all;
   for (const JetCoordinates coordinates : asked) {
@@ -95,7 +143,7 @@ std::vector<MomentsInCoordinates> moments_in_coordinates(
       progress("coordinates", static_cast<double>(all.size()) / static_cast<double>(asked.size()));
     }
     try {
-      all.push_back(moments_in(coordinates, scene, problem, integrator, starts, jet, noise));
+      all.push_back(moments_in(coordinates, scene, problem, integrator, starts, jet, means, noise));
     } catch (const Error& error) {
       // An orbit may lack some coordinates, and a method may not serve for some.
       if (error.kind() != ErrorKind::numerical && error.kind() != ErrorKind::scene) throw;

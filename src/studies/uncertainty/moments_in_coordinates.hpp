@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "../integration.hpp"
+#include "hamjet/charts/deputy_flow.hpp"
 #include "hamjet/integrators/flow_problem.hpp"
 #include "initial_states.hpp"
 #include "uncertainty.hpp"
@@ -27,11 +28,30 @@ void add_noise(std::vector<Cumulants>& all, const Cumulants& noise);
 std::vector<Cumulants> difference_by_order(const std::vector<Cumulants>& from,
                                            const std::vector<Cumulants>& what);
 
+/// The moments of a start by polynomials about its own mean at one time, and what tells whether
+/// polynomials about the chief hold there.
+struct MeanOfStart {
+  Vector<double> deviation;            ///< of the mean's own flight from the chief's, canonical
+  Matrix<double> to_frame;             ///< of canonical deviations to the frame of the results
+  Vector<double> standard_deviations;  ///< there, of the linear theory
+};
+
+/// By how many standard deviations, in the worst component, polynomials about the chief miss where
+/// the mean of a start is flown to: what they say of the distribution is then of another place. Of
+/// a component without a deviation the thousandth part of the way from the chief stands for one.
+/// Infinity where the mean has no place in the coordinates.
+double miss_of_mean(const DeputyFlow& flow, int order, const InitialState& start,
+                    const MeanOfStart& mean);
+/// Above this the coordinates say nothing of a spacecraft.
+constexpr double largest_miss = 0.1;
+
 /// The moments at the last time in the coordinates that the scene asks for (`uncertainty
-/// .coordinates`); `jet` and `noise` are of that time.
+/// .coordinates`); `jet`, `noise` and `means` (of each start) are of that time. Coordinates whose
+/// polynomials miss the mean of a start are refused.
 std::vector<MomentsInCoordinates> moments_in_coordinates(
     const Scene& scene, const ComputedProblem& problem, const IntegratorSettings& integrator,
     const std::vector<InitialState>& starts, const FlowJet<double>& jet,
-    const std::optional<Covariance>& noise, const ProgressCallback& progress);
+    const std::vector<MeanOfStart>& means, const std::optional<Covariance>& noise,
+    const ProgressCallback& progress);
 
 }  // namespace hamjet

@@ -158,22 +158,17 @@ void add_noise(Matrix<double>& deviations, const Covariance& noise, StandardNorm
 }
 
 /// The moments at one time, of canonical deviations from the chief, whose jet is `jet`; `own` is
-/// that about the spacecraft's own mean. `flow` and `coordinates` are those of the scene's other
-/// coordinates, if it has such.
+/// that about the spacecraft's own mean, which is `between` from the chief. `flow` and
+/// `coordinates` are those of the scene's other coordinates, if it has such.
 UncertainState moments_of(const InitialState& start, const FlowJet<double>& jet,
-                          const FlowJet<double>& own, const DeputyFlow* flow,
-                          const std::vector<Series<double>>& coordinates,
+                          const FlowJet<double>& own, const Vector<double>& between,
+                          const DeputyFlow* flow, const std::vector<Series<double>>& coordinates,
                           const std::optional<Covariance>& noise) {
   const int order = jet[0].order();
   UncertainState state;
   state.name = start.name;
   state.cartesian = moments_by_order(without_constants(own),
                                      {start.name, Vector<double>::Zero(6), start.covariance});
-  Vector<double> between(6);
-  for (Eigen::Index i = 0; i < 6; ++i) {
-    const auto c = static_cast<std::size_t>(i);
-    between[i] = own[c][0] - jet[c][0];
-  }
   if (between.norm() > 0) add_noise(state.cartesian, Cumulants(between, {}));
   if (flow) {
     state.charted = charted_moments(coordinates, start, jet, noise);
@@ -195,6 +190,19 @@ UncertainState moments_of(const InitialState& start, const FlowJet<double>& jet,
     add_noise(state.through, added);
   }
   return state;
+}
+
+/// Where the mean of a start is at one time.
+MeanOfStart mean_of(const InitialState& start, const FlowJet<double>& jet,
+                    const FlowJet<double>& own, const Matrix<double>& to_frame) {
+  MeanOfStart mean{Vector<double>(6), to_frame, {}};
+  for (Eigen::Index i = 0; i < 6; ++i) {
+    const auto c = static_cast<std::size_t>(i);
+    mean.deviation[i] = own[c][0] - jet[c][0];
+  }
+  mean.standard_deviations =
+      start.covariance.mapped(Matrix<double>(to_frame * linear_part(own))).standard_deviations();
+  return mean;
 }
 
 /// The deputy less the chief, independent of each other.
@@ -257,6 +265,7 @@ UncertaintyResult study_uncertainty(const Scene& scene, const ProgressCallback& 
   }
 
   FlowJet<double> jet_at_end;
+  std::vector<MeanOfStart> means(starts.size());
   std::optional<Covariance> noise_at_end;
   for (std::size_t t = 0; t < settings.times.size(); ++t) {
     const double time = settings.times[t];
@@ -282,9 +291,13 @@ UncertaintyResult study_uncertainty(const Scene& scene, const ProgressCallback& 
       UncertainState state;
       {
         const Stopwatch watch(result.moments_seconds);
-        const DeputyFlow* const charted = is_distant(starts[s], scene) ? nullptr : flow.get();
-        state = moments_of(starts[s], jet, own_flows[s] ? own_flows[s]->advance_to(time) : jet,
-                           charted, coordinates, added);
+        const FlowJet<double> own = own_flows[s] ? own_flows[s]->advance_to(time) : jet;
+        means[s] = mean_of(starts[s], jet, own, to_frame);
+        const bool has_charts =
+            flow && !is_distant(starts[s], scene) &&
+            miss_of_mean(*flow, scene.order, starts[s], means[s]) <= largest_miss;
+        state = moments_of(starts[s], jet, own, means[s].deviation,
+                           has_charts ? flow.get() : nullptr, coordinates, added);
         map_all(state.cartesian, to_frame);
         map_all(state.through, to_frame);
       }
@@ -310,7 +323,7 @@ UncertaintyResult study_uncertainty(const Scene& scene, const ProgressCallback& 
     noise_at_end = added;
   }
   result.in_coordinates = moments_in_coordinates(scene, problem, integrator, starts, jet_at_end,
-                                                 noise_at_end, progress);
+                                                 means, noise_at_end, progress);
   result.propagation_seconds =
       jets.statistics().wall_seconds + (charts ? charts->statistics().wall_seconds : 0);
   for (const auto& own : own_flows) {

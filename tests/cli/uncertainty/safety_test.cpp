@@ -87,6 +87,45 @@ TEST_F(Safety, TellsEveryPairWithTheBurnDoneAndNotDone) {
   EXPECT_EQ(table.rows.size(), 5U);
 }
 
+TEST_F(Safety, ChecksWhatTheSceneAsksFor) {
+  const auto run = [&](const std::string& keys) {
+    write("scene.toml", stopped + keys);
+    return hamjet({"uncertainty", "scene.toml", "-o", "out"});
+  };
+  const auto summary = [&] { return read_json(directory_ / "out/summary.json"); };
+  // Without the burn, which nothing scatters, the deputy passes at the drift's least separation.
+  const double missed = least_of_drift(0.1, 1000);
+  const auto separation = [](double metres) {
+    return "burn_shares = [0]\nleast_separation_m = " + std::to_string(metres) + "\n";
+  };
+  EXPECT_EQ(run(separation(missed - accuracy_m)).exit_code, 0);
+  EXPECT_EQ(summary()["exit_code"], 0);
+  EXPECT_TRUE(summary()["failed_checks"].empty());
+  const CommandResult failed = run(separation(missed + accuracy_m));
+  EXPECT_EQ(failed.exit_code, 1);
+  EXPECT_NE(failed.err.find("uncertainty.safety.least_separation_m"), std::string::npos)
+      << failed.err;
+  EXPECT_NE(in_one_line(failed.out).find("check failed: chief and deputy, burn not done: 99 % of"),
+            std::string::npos)
+      << failed.out;
+  EXPECT_EQ(summary()["exit_code"], 1);
+  EXPECT_EQ(summary()["failed_checks"].size(), 1U);
+  // With the burn, a deputy so many standard deviations of 1 mm/s too slow comes within 400 m.
+  double least = 0;
+  double most = 40;  // there 700 m of drift a revolution
+  for (int k = 0; k < 30; ++k) {
+    const double middle = (least + most) / 2;
+    (least_of_drift(0.001 * middle, 1000) > 400 ? least : most) = middle;
+  }
+  const auto deviations = [&](double part) {
+    return run("burn_shares = [1]\nleast_deviations = " + std::to_string(part * least) + "\n")
+        .exit_code;
+  };
+  // A tenth is more than what the ellipsoid's other axes make of it.
+  EXPECT_EQ(deviations(0.9), 0);
+  EXPECT_EQ(deviations(1.1), 1);
+}
+
 TEST_F(Safety, RefusesWhatDoesNotFit) {
   const auto refuse = [&](std::string scene, const std::string& from, const std::string& to,
                           const std::vector<std::string>& words) {
@@ -101,6 +140,8 @@ TEST_F(Safety, RefusesWhatDoesNotFit) {
          {"uncertainty.safety.burn_shares.1", "out of range"});
   refuse(stopped, "keep_apart_m = 50", "keep_apart_m = 50\nburn_shares = [0.5, 0.5]",
          {"uncertainty.safety.burn_shares.1", "or twice"});
+  refuse(stopped + "least_deviations = 3\n", "keep_out_m = [200, 400, 200]\n", "",
+         {"uncertainty.safety.least_deviations", "of no ellipsoid"});
   refuse(stopped + "burn_shares = [1]\n",
          "[uncertainty.burn]\nvelocity_change_m_s = [0, -0.1, 0]\nmagnitude = 0.01\n",
          "position_m = [1, 1, 1]\n[uncertainty.deputy]\nposition_m = [1, 1, 1]\n",

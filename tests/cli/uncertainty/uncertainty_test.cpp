@@ -52,6 +52,27 @@ TEST_F(UncertaintyCommand, SaysWhetherTheLinearCovarianceMisleads) {
   EXPECT_EQ(table.rows.size(), 3U * 3U * 6U);
 }
 
+// Three hundred kilometres along the tangent are 6.4 km above the circle: to first order that is
+// nothing, and of the deputy's metre it is thousands. A kilometre along it is 7 cm above, which in
+// three revolutions drift by 18 pi times as much, 4 m of a standard deviation of 60.
+TEST_F(UncertaintyCommand, RefusesCoordinatesThatDoNotReachADeputy) {
+  const auto said = [&](const std::string& place) {
+    write("far.toml",
+          scene("[deputy]\nposition_m = [0, " + place + ", 0]\n" +
+                "[uncertainty]\nsamples = 0\ncoordinates = [\"spherical\", \"nodal\"]\n"
+                "[uncertainty.deputy]\nposition_m = [1, 1, 1]\nvelocity_m_s = [0, 0, 0]\n"));
+    return in_one_line(succeed({"uncertainty", "far.toml", "--set", "jet.order=1"}).out);
+  };
+  const std::string far = said("300000");
+  for (const char* const coordinates : {"spherical", "nodal"}) {
+    const std::string words = std::string("No moments in ") + coordinates +
+                              " coordinates: the deputy starts 300 km from the chief, whose "
+                              "polynomials of order 1 miss its mean by";
+    EXPECT_NE(far.find(words), std::string::npos) << words << " is not in " << far;
+  }
+  EXPECT_EQ(said("1000").find("No moments in"), std::string::npos);
+}
+
 TEST_F(UncertaintyCommand, SaysThatASmallCovarianceHolds) {
   write("small.toml",
         scene("[uncertainty]\nposition_m = [0.1, 0.1, 0.1]\nvelocity_m_s = [1e-4, 1e-4, 1e-4]\n"

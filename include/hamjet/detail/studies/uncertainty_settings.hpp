@@ -57,6 +57,10 @@ struct SafetyWatch {
   double share = 0.99;                  ///< of all cases, which stay farther than what is told
   double confidence = 0.95;             ///< of intervals
   int samples = 2000;                   ///< of the polynomials, for each pair and share of the burn
+  /// Checked of every pair, where given: the separation that `share` of all cases keep, by the
+  /// lower end of its interval; and the standard deviations up to which the ellipsoid stays free.
+  std::optional<double> least_separation_m;
+  std::optional<double> least_deviations;
 };
 
 /// Table `[uncertainty]`.
