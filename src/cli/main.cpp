@@ -224,11 +224,12 @@ int dispatch(int argc, char** argv) {
   const CLI::App* assign = add_study(
       "assign", "send deputies to slots at the least total velocity change",
       "assignment.csv, costs.csv, pairs.csv and summary.json", hamjet::cli::assignment_suffix);
-  const CLI::App* poincare =
-      add_study("poincare",
-                "the frozen orbit of the chief's energy, and what turns about it; or a scene's "
-                "[event] as polynomials",
-                "report.html, poincare.csv and summary.json", hamjet::cli::poincare_suffix);
+  const CLI::App* poincare = add_study(
+      "poincare",
+      "the frozen orbit of the chief's energy, and what turns about it; or a scene's "
+      "[event] as polynomials",
+      "report.html, poincare.csv (with [event]: event.csv, event-map.csv) and summary.json",
+      hamjet::cli::poincare_suffix);
   const CLI::App* bounded = add_study(
       "bounded", "deputies that stay with the chief for long without fuel",
       "report.html, bounded.csv, box.csv of a box, summary.json", hamjet::cli::bounded_suffix);

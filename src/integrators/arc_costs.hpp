@@ -34,6 +34,7 @@ double composition_cost(const FlowProblem<Real>& problem) {
          components * components * static_cast<double>(problem.space->size());
 }
 
+/// The plan for arcs of a problem whose nominal takes so many steps.
 template <class Real>
 ArcPlan plan_for(const FlowProblem<Real>& problem, const ArcIntegrator<Real>& arcs,
                  const std::optional<std::size_t>& asked, long steps) {

@@ -1,5 +1,7 @@
 #include "hamjet/poincare/event_map.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <limits>
 
@@ -55,6 +57,7 @@ EventMap<Real> event_map(const DynamicalSystem& system, const SixNumbers<Real>& 
                          const Real& near, int order, double tolerance,
                          const EventCondition<Real>& condition) {
   using std::abs;
+  using std::sqrt;
   const SharedSystem shared(system);
   const SharedSystem crossing(time_scaled_first_order(system));
   const SpacePointer space = SeriesSpace::create(6, order);
@@ -80,9 +83,12 @@ EventMap<Real> event_map(const DynamicalSystem& system, const SixNumbers<Real>& 
   advance(near);
   Real time = near;
   Real rate = 0;
-  // As with any root, rounding moves the last one to and fro.
   constexpr int most_iterations = 40;
   const Real least = Real(16) * std::numeric_limits<Real>::epsilon();
+  // Steps that no longer shrink are rounding if they are no larger than this: towards a surface
+  // that is only touched they halve.
+  const Real largest_rounding = sqrt(std::numeric_limits<Real>::epsilon());
+  Real previous = 0;
   for (int i = 0;; ++i) {
     const Crossing<Real> at = crossing_at(crossing, six_of(*flow.initial_jet), condition);
     rate = at.slope;
@@ -90,13 +96,23 @@ EventMap<Real> event_map(const DynamicalSystem& system, const SixNumbers<Real>& 
     const Real scale = abs(near) + Real(1);
     // At a smaller angle the time of a neighbour is no series but next to the chief.
     constexpr double least_sine = 1e-6;
-    if (!(abs(step) < Real(0.5) * scale) || !(at.sine > Real(least_sine)) || i == most_iterations) {
+    if (!(at.sine > Real(least_sine))) {
       throw Error(ErrorKind::numerical,
-                  "event: the chief's is not found near the time, or the flow only touches it");
+                  fmt::format("event: at {:.10g} canonical the flow only touches the surface, and "
+                              "the time at which neighbours meet it is no series",
+                              static_cast<double>(time)));
     }
-    if (abs(step) <= least * scale) break;
+    if (!(abs(step) < Real(0.5) * scale) || i == most_iterations) {
+      throw Error(ErrorKind::numerical,
+                  fmt::format("event: the chief has none near {:.10g} canonical",
+                              static_cast<double>(near)));
+    }
+    const bool is_rounding =
+        i > 0 && abs(step) > Real(0.7) * previous && abs(step) <= largest_rounding * scale;
+    if (abs(step) <= least * scale || is_rounding) break;
     advance(step);
     time += step;
+    previous = abs(step);
   }
   EventMap<Real> map{Series<Real>(space, time), six_of(*flow.initial_jet)};
   for (int i = 0; i < order; ++i) {

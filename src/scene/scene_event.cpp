@@ -24,11 +24,12 @@ const TableDescription& event_table() {
         "what vanishes at the event: the height over the equator (a node where it rises), the "
         "height over a plane, the distance from the centre less `distance_km`, or the product of "
         "position and velocity (a pericentre where it rises, an apocentre where it falls)"},
-       {"normal", form::array(form::number(), 3), absent::other("refused with `plane`"),
+       {"normal", form::array(form::number(), 3),
+        absent::other("required with `plane`, refused without"),
         "of the plane, x, y, z of the nominal's axes; of any length"},
        {"offset_km", form::number(), absent::value(preset.offset_km),
         "of the plane from the centre, along its normal"},
-       {"distance_km", form::positive(), absent::other("refused with `distance`"),
+       {"distance_km", form::positive(), absent::other("required with `distance`, refused without"),
         "from the centre"},
        {"direction", form::choice({"either", "rising", "falling"}), absent::value("either"),
         "whether the height, the distance less `distance_km` or the product grows or falls with "
@@ -52,10 +53,10 @@ EventSettings read_event(const TableReader& event, const Scene& scene) {
   if (settings.surface == EventSurface::plane) {
     const std::vector<double> normal = event.numbers("normal", 3);
     settings.normal = {normal[0], normal[1], normal[2]};
-    if (!(settings.normal.norm() > 0)) {
+    if (settings.normal.isZero(0)) {
       event.fail("normal", "no direction, got zeros, must be a vector across the plane");
     }
-    settings.normal.normalize();
+    settings.normal.stableNormalize();
     event.read_if_any("offset_km", settings.offset_km);
   } else {
     refuse(event, "normal", "plane");
@@ -68,19 +69,21 @@ EventSettings read_event(const TableReader& event, const Scene& scene) {
   }
   event.read_if_any("direction", settings.direction);
   event.read_if_any("number", settings.number);
-  if (event.has("amplitudes_m")) {
-    settings.amplitudes_m = event.numbers("amplitudes_m");
-    // Deputies beyond it have orbits of their own, some of which meet the centre.
-    const double most_m = largest_amplitude * Eigen::Vector3d(scene.nominal.data()).norm() *
-                          scene.units.length_km * 1000;
-    for (std::size_t i = 0; i < settings.amplitudes_m.size(); ++i) {
-      const double amplitude = settings.amplitudes_m[i];
-      if (amplitude > 0 && amplitude <= most_m) continue;
-      event.fail_element("amplitudes_m", i,
-                         fmt::format("out of range, got {}, must be above 0 and at most a "
-                                     "twentieth of the chief's distance from the centre, {:.6g}",
-                                     amplitude, most_m));
-    }
+  // Deputies beyond it have orbits of their own, some of which meet the centre.
+  const double most_m = largest_amplitude * Eigen::Vector3d(scene.nominal.data()).norm() *
+                        scene.units.length_km * 1000;
+  if (!event.has("amplitudes_m")) {
+    std::erase_if(settings.amplitudes_m, [&](double amplitude) { return amplitude > most_m; });
+    return settings;
+  }
+  settings.amplitudes_m = event.numbers("amplitudes_m");
+  for (std::size_t i = 0; i < settings.amplitudes_m.size(); ++i) {
+    const double amplitude = settings.amplitudes_m[i];
+    if (amplitude > 0 && amplitude <= most_m) continue;
+    event.fail_element("amplitudes_m", i,
+                       fmt::format("out of range, got {}, must be above 0 and at most a "
+                                   "twentieth of the chief's distance from the centre, {:.6g}",
+                                   amplitude, most_m));
   }
   return settings;
 }

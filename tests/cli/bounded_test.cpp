@@ -74,12 +74,12 @@ TEST_F(LongMotion, PoincareWritesTheEventOfAScene) {
       std::log10(misses.number(4, "linear_position_m") / misses.number(3, "linear_position_m")), 2,
       0.1);
   EXPECT_LT(misses.number(3, "position_m"), 1e-3 * misses.number(3, "linear_position_m"));
-  // The derivative of the time by the velocity along the orbit is the slope of the polynomials.
+  // Time and six components, of 210 monomials each.
   const Table map = read_table(directory_ / "out/apsis-poincare/event-map.csv");
   EXPECT_EQ(map.rows.size(), 7U * 210);
   // Fewer within the duration, and keys of other surfaces, are refused.
   for (const auto& [keys, message] : std::vector<std::pair<std::string, std::string>>{
-           {"surface = \"apsis\"\nnumber = 7\n", "meets 6; must be at most so many"},
+           {"surface = \"apsis\"\nnumber = 7\n", "the chief has 6; must be at most 6"},
            {"surface = \"distance\"\n", "event.distance_km: missing"},
            {"surface = \"apsis\"\nnormal = [0, 0, 1]\n", "event.normal: not of this surface"},
            {"surface = \"plane\"\nnormal = [0, 0, 0]\n", "event.normal: no direction"}}) {

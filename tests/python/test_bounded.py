@@ -92,10 +92,13 @@ def test_a_neighbour_has_the_event_that_the_polynomials_say():
                        rtol=1e-15, atol=0)
     with pytest.raises(hamjet.UsageError, match="six numbers"):
         event.evaluate([1, 2])
+    for wrong in ("abc", [[1, 2], [3]], np.full(6, np.nan)):
+        with pytest.raises(hamjet.UsageError, match="deviations: no"):
+            event.evaluate(wrong)
 
 
 def test_an_event_that_does_not_happen_is_refused():
-    with pytest.raises(hamjet.SceneError, match="meets 1; must be at most so many"):
+    with pytest.raises(hamjet.SceneError, match="has 1; must be at most 1"):
         hamjet.event(SCENE, overrides=[*EVENT, "event.number=7"])
     with pytest.raises(hamjet.SceneError, match="event: missing"):
         hamjet.event(SCENE)

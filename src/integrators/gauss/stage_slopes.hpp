@@ -245,6 +245,8 @@ class StageSlopes {
 
  private:
   static constexpr int largest_iteration_count = 40;
+  /// Numbers of monomials of a degree, binomial coefficients, are often multiples of it; and 21
+  /// sums of three components fit the registers.
   static constexpr std::size_t tile = 7;
 
   template <class State>
@@ -341,7 +343,8 @@ class StageSlopes {
   }
 
   /// Forms Y of `Components` components from c on for `Width` monomials at once: each entry of K is
-  /// loaded once for all of the monomials, each remainder once for all of the components.
+  /// loaded once for all of the monomials, each remainder once for all of the components, which
+  /// stand side by side in K and B.
   template <std::size_t Width, std::size_t Components>
   void solve_tile(std::size_t c, int d, std::size_t monomial,
                   const std::vector<const Real*>& state) {

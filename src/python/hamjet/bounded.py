@@ -78,13 +78,26 @@ class Event(Study):
         ``deviations`` of the initial state, canonical, shape (6,) or (K, 6). Returns (7,) or
         (K, 7): time, x, y, z, px, py, pz. Raises UsageError for other shapes.
         """
-        points = np.asarray(deviations, dtype=float)
+        try:
+            points = np.asarray(deviations, dtype=float)
+        except (TypeError, ValueError) as error:
+            raise UsageError(f"deviations: not numbers: {error}") from None
         if points.ndim not in (1, 2) or points.shape[-1] != 6:
             raise UsageError(f"deviations: no array of six numbers a row, got the shape "
                              f"{points.shape}, must be (6,) or (K, 6)")
-        monomials = np.prod(points[..., None, :] ** self.exponents, axis=-1)
-        values: Floats = monomials @ self.coefficients
-        return values
+        if not np.isfinite(points).all():
+            raise UsageError("deviations: not finite, must be finite numbers")
+        rows = points.reshape(-1, 6)
+        values = np.empty((len(rows), self.coefficients.shape[1]))
+        exponents = self.exponents.astype(int)
+        for first in range(0, len(rows), 4096):  # of which the monomials fit a cache
+            part = rows[first:first + 4096]
+            powers = part[:, :, None] ** np.arange(exponents.max() + 1)
+            monomials = powers[:, 0, exponents[:, 0]]
+            for variable in range(1, 6):
+                monomials *= powers[:, variable, exponents[:, variable]]
+            values[first:first + 4096] = monomials @ self.coefficients
+        return values.reshape((*points.shape[:-1], -1))
 
     def __repr__(self) -> str:
         return shown.of(self, f": after {self.time_s:.9g} s, {len(self.exponents)} monomials; "
@@ -126,7 +139,7 @@ class Bounded(Study):
 
 def poincare(scene: scenes.Scene, *, overrides: scenes.Overrides | None = None,
              progress: Progress | None = None) -> FrozenOrbit:
-    """The frozen orbit of a scene's chief, as ``hamjet poincare`` finds it.
+    """The frozen orbit of a scene's chief, as ``hamjet poincare`` finds it without a table [event].
 
     Arguments as of ``run``. Raises SceneError, UsageError, NumericalError (no frozen orbit, or a
     chief near the equatorial plane), TooLargeError, InputOutputError.

@@ -4,10 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numbers>
 #include <optional>
 #include <random>
 #include <span>
+#include <string>
 
 #include "../exact_flow.hpp"
 #include "../formation/deputy_flows.hpp"
@@ -49,20 +50,21 @@ class EventSearch {
   /// The time of the event of a number; none if there are fewer, whose count is then found().
   std::optional<double> find(int number) {
     const std::vector<double>& steps = trajectory_.step_times();
-    double before = 0;
-    double value = at(0);
-    const double size = std::abs(value) + std::abs(at(steps.back() / 2));
-    if (std::abs(value) <= on_surface * size) value = 0;
-    for (std::size_t k = 1; k < steps.size(); ++k) {
-      for (int i = 1; i <= places_of_step; ++i) {
-        const double time = steps[k - 1] + (steps[k] - steps[k - 1]) * i / places_of_step;
-        const double next = at(time);
-        if (next == 0) continue;
-        if (value * next < 0 && is_wanted((next - value) / (time - before)) && ++found_ == number) {
-          return crossing(before, value, time);
+    double size = 0;
+    for (const double time : steps) size = std::max(size, std::abs(at(time)));
+    std::optional<Place> before;
+    std::optional<Place> last;
+    for (std::size_t k = 0; k < steps.size(); ++k) {
+      for (int i = k == 0 ? places_of_step : 1; i <= places_of_step; ++i) {
+        const double from = k == 0 ? 0 : steps[k - 1];
+        const double time = from + (steps[k] - from) * i / places_of_step;
+        const Place now{time, at(time)};
+        if (now.value == 0 || (k == 0 && std::abs(now.value) <= on_surface * size)) continue;
+        if (last) {
+          if (const auto event = between(before, *last, now, number)) return event;
         }
-        before = time;
-        value = next;
+        before = last;
+        last = now;
       }
     }
     return std::nullopt;
@@ -78,6 +80,60 @@ class EventSearch {
   }
 
   double at(double time) const { return value_at(condition_, nominal_of(trajectory_.at(time))); }
+
+  struct Place {
+    double time;
+    double value;
+  };
+
+  /// The event of the number, if it is between the last two of these places, or in a dip of the
+  /// three through zero and back.
+  std::optional<double> between(const std::optional<Place>& before, const Place& last,
+                                const Place& now, int number) {
+    if (last.value * now.value < 0) return counted(last, now, number);
+    const bool may_dip = before && before->value * last.value > 0 &&
+                         std::abs(last.value) <= std::abs(before->value) &&
+                         std::abs(last.value) <= std::abs(now.value);
+    if (!may_dip) return std::nullopt;
+    const Place dip = nearest(before->time, now.time, last.value < 0 ? -1 : 1);
+    if (dip.value * last.value >= 0) return std::nullopt;
+    const auto first = counted(*before, dip, number);
+    return first ? first : counted(dip, now, number);
+  }
+
+  /// The least of the condition times `sign` between two times, by golden sections.
+  Place nearest(double from, double to, int sign) const {
+    constexpr double section = std::numbers::phi - 1;
+    constexpr int sections = 60;
+    double left = to - section * (to - from);
+    double right = from + section * (to - from);
+    double of_left = sign * at(left);
+    double of_right = sign * at(right);
+    // A value below zero is enough.
+    for (int i = 0; i < sections && of_left > 0 && of_right > 0; ++i) {
+      if (of_left < of_right) {
+        to = right;
+        right = left;
+        of_right = of_left;
+        left = to - section * (to - from);
+        of_left = sign * at(left);
+      } else {
+        from = left;
+        left = right;
+        of_left = of_right;
+        right = from + section * (to - from);
+        of_right = sign * at(right);
+      }
+    }
+    return of_left < of_right ? Place{left, sign * of_left} : Place{right, sign * of_right};
+  }
+
+  /// Counts a change of sign if it has the direction; its time if it is the number's.
+  std::optional<double> counted(const Place& from, const Place& to, int number) {
+    if (!is_wanted((to.value - from.value) / (to.time - from.time))) return std::nullopt;
+    if (++found_ != number) return std::nullopt;
+    return crossing(from.time, from.value, to.time);
+  }
 
   bool is_wanted(double slope) const {
     return direction_ == EventDirection::either ||
@@ -134,14 +190,17 @@ class EventFlights {
 
  private:
   double metres() const { return scene_.units.length_km * 1000; }
+  /// Of a circle through the chief's start.
+  double mean_motion() const {
+    const Eigen::Vector3d chief(scene_.nominal.data());
+    return std::sqrt(orbit_field(scene_).mu / std::pow(chief.norm(), 3));
+  }
 
   /// The size in position, and that times the mean motion of the chief's distance in velocity, each
   /// in a random direction; the standard library's distributions differ between implementations.
   State random_deviation(std::mt19937_64& generator, double amplitude_m) const {
-    const Eigen::Vector3d chief(scene_.nominal.data());
-    const double motion = std::sqrt(orbit_field(scene_).mu / std::pow(chief.norm(), 3));
     State deviation;
-    for (const double size : {amplitude_m / metres(), amplitude_m / metres() * motion}) {
+    for (const double size : {amplitude_m / metres(), amplitude_m / metres() * mean_motion()}) {
       Eigen::Vector3d direction;
       do {
         for (double& x : direction) x = std::ldexp(static_cast<double>(generator() >> 11), -52) - 1;
@@ -173,6 +232,11 @@ class EventFlights {
     State start = scene_.nominal;
     for (std::size_t i = 0; i < start.size(); ++i) start[i] += deviation[i];
     const double time = predicted(map_.time, deviation, is_linear);
+    // Beyond their reach polynomials give any time, up to one that would take days to fly.
+    const double chiefs = map_.time[0];
+    if (!(std::abs(time - chiefs) <= std::max(std::abs(chiefs), 1 / mean_motion()))) {
+      throw Error(ErrorKind::numerical, "event: the polynomials give no time near the chief's");
+    }
     const State end = exact_flow(system_, start, time);
     Eigen::Vector3d apart;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -251,10 +315,13 @@ EventStudy study_event(const Scene& scene, const ProgressCallback& progress) {
   if (!near) {
     throw Error(
         ErrorKind::scene,
-        fmt::format("event.number: no such event, got {}, but within jet.duration "
-                    "({:.10g} s) the chief meets {}; must be at most so many; or with a longer "
-                    "jet.duration, another surface or another direction",
-                    scene.event->number, scene.duration * scene.units.time_s, search.found()));
+        fmt::format("event.number: no such event, got {}, where within jet.duration "
+                    "({:.10g} s) the chief has {}; must be {}a longer jet.duration, another "
+                    "surface or another direction would be right",
+                    scene.event->number, scene.duration * scene.units.time_s,
+                    search.found() == 0 ? "none" : std::to_string(search.found()),
+                    search.found() == 0 ? "one that it meets: "
+                                        : fmt::format("at most {}, or ", search.found())));
   }
   if (progress) progress("event", 0.2);
   SixNumbers<double> chief = six_numbers(scene.nominal);

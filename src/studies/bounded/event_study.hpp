@@ -12,7 +12,7 @@ namespace hamjet {
 
 /// How far deputies that were flown with the full equations to the time that polynomials give are
 /// from where these have them: the largest of several with deviations of one size; none where one
-/// of them could not be flown.
+/// of them could not be flown, or has a time far from the chief's.
 struct EventMisses {
   double amplitude_m = 0;
   std::optional<double> position_m;
