@@ -27,6 +27,10 @@ JetTrajectory<double> window_trajectory(const EncounterProblem& problem, std::si
   return {flow, problem.settings};
 }
 
+double small_circle_period(double x, double y, double z) {
+  return 2 * std::numbers::pi * std::pow(std::hypot(x, y, z), 1.5);
+}
+
 }  // namespace
 
 EncounterTrajectories::EncounterTrajectories(const EncounterProblem& problem)
@@ -86,7 +90,12 @@ double EncounterTrajectories::approach_rate_slope(double time) const {
 
 double EncounterTrajectories::period(std::size_t craft) const {
   const std::vector<double>& r = starts_[craft];
-  return 2 * std::numbers::pi * std::pow(std::hypot(r[0], r[1], r[2]), 1.5);
+  return small_circle_period(r[0], r[1], r[2]);
+}
+
+double EncounterTrajectories::local_period(std::size_t craft, double time) const {
+  const FlowJet<double> now = jet(craft, time);
+  return small_circle_period(now[0][0], now[1][0], now[2][0]);
 }
 
 }  // namespace hamjet

@@ -32,6 +32,8 @@ class EncounterTrajectories {
   /// The period of the small circle through a spacecraft's start, sqrt(r^3), in units of the
   /// system: a revolution for a central body of unit gravity.
   double period(std::size_t craft) const;
+  /// The same of where it is at a time.
+  double local_period(std::size_t craft, double time) const;
 
  private:
   Eigen::Matrix<double, 6, 1> relative_mean(double time) const;

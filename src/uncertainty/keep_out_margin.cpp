@@ -18,9 +18,13 @@ namespace {
 using Position = Eigen::Vector3d;
 using Jacobian = Eigen::Matrix<double, 3, 12>;
 
-/// The linear theory's length is looked at so often in a revolution, and so many of its lowest
-/// minima are followed by the polynomials.
+/// The linear theory's length is looked at so often in a revolution of the small circle through
+/// where the first spacecraft is, more often near its perigee than elsewhere; its minima are sought
+/// to this part of the time between two looks, and so many of the lowest are followed by the
+/// polynomials.
 constexpr double length_looks_per_revolution = 64;
+constexpr double most_length_looks = 2e4;
+constexpr double accuracy_of_minima = 1e-3;
 constexpr std::size_t most_minima = 6;
 constexpr int most_iterations = 60;
 constexpr double never = std::numeric_limits<double>::infinity();
@@ -165,28 +169,76 @@ struct Candidate {
   double to;
 };
 
+/// Looks at a function at times that close in on a minimum between `from` and `to`, by golden
+/// sections, until these are `accuracy` apart.
+template <class Function>
+void look_for_minimum(double from, double to, double accuracy, Function&& look) {
+  const double section = (std::sqrt(5.0) - 1) / 2;
+  double left = to - section * (to - from);
+  double right = from + section * (to - from);
+  double of_left = look(left);
+  double of_right = look(right);
+  while (to - from > accuracy) {
+    if (of_left < of_right) {
+      to = right;
+      right = left;
+      of_right = of_left;
+      left = to - section * (to - from);
+      of_left = look(left);
+    } else {
+      from = left;
+      left = right;
+      of_left = of_right;
+      right = from + section * (to - from);
+      of_right = look(right);
+    }
+  }
+}
+
+/// Times at which the linear theory's length is looked at. Equal ones would see too little of a
+/// perigee, where an eccentric orbit turns many times as fast as on average.
+std::vector<double> times_of_looks(const EncounterProblem& problem,
+                                   const EncounterTrajectories& linear) {
+  const double span = problem.to - problem.from;
+  std::vector<double> times = {problem.from};
+  while (times.back() < problem.to) {
+    const double step =
+        std::clamp(linear.local_period(0, times.back()) / length_looks_per_revolution,
+                   span / most_length_looks, span / 64);
+    // The last step is not a sliver.
+    const bool is_last = times.back() + 1.5 * step > problem.to;
+    times.push_back(is_last ? problem.to : times.back() + step);
+  }
+  return times;
+}
+
 /// Local minima of the linear theory's length, the lowest first.
 std::vector<Candidate> linear_minima(const EncounterProblem& problem, const Ellipsoid& ellipsoid) {
   EncounterProblem first_order = problem;
   first_order.order = 1;
   const EncounterTrajectories linear(first_order);
-  const double span = problem.to - problem.from;
-  const auto looks = static_cast<std::size_t>(
-      std::clamp(span / linear.period(0) * length_looks_per_revolution, 64.0, 2e4));
-  std::vector<double> times;
+  const std::vector<double> times = times_of_looks(problem, linear);
   std::vector<double> lengths;
-  for (std::size_t k = 0; k <= looks; ++k) {
-    times.push_back(problem.from + span * static_cast<double>(k) / static_cast<double>(looks));
-    lengths.push_back(ellipsoid.linear_length(linear, times.back()));
-  }
+  for (const double time : times) lengths.push_back(ellipsoid.linear_length(linear, time));
   std::vector<Candidate> minima;
-  for (std::size_t k = 0; k <= looks; ++k) {
+  for (std::size_t k = 0; k < times.size(); ++k) {
     const std::size_t before = k == 0 ? 0 : k - 1;
-    const std::size_t after = std::min(k + 1, looks);
+    const std::size_t after = std::min(k + 1, times.size() - 1);
     const bool is_least = lengths[k] <= lengths[before] && lengths[k] <= lengths[after];
-    if (is_least && lengths[k] < never) {
-      minima.push_back({lengths[k], times[before], times[k], times[after]});
-    }
+    if (!is_least || lengths[k] == never) continue;
+    // Paths may cross the ellipsoid between two looks: which minima are lowest is told by
+    // themselves, not by the nearest looks.
+    Candidate minimum{lengths[k], times[before], times[k], times[after]};
+    look_for_minimum(minimum.from, minimum.to, accuracy_of_minima * (minimum.to - minimum.from),
+                     [&](double time) {
+                       const double length = ellipsoid.linear_length(linear, time);
+                       if (length < minimum.length) {
+                         minimum.length = length;
+                         minimum.time = time;
+                       }
+                       return length;
+                     });
+    minima.push_back(minimum);
   }
   std::sort(minima.begin(), minima.end(),
             [](const Candidate& a, const Candidate& b) { return a.length < b.length; });
@@ -194,7 +246,7 @@ std::vector<Candidate> linear_minima(const EncounterProblem& problem, const Elli
   return minima;
 }
 
-/// The least of a minimum's length over its interval, by golden sections.
+/// The least of a minimum's length over its interval.
 KeepOutMargin followed(const Ellipsoid& ellipsoid, const Candidate& candidate) {
   KeepOutMargin margin;
   EncounterDeviation xi = EncounterDeviation::Zero();
@@ -211,29 +263,9 @@ KeepOutMargin followed(const Ellipsoid& ellipsoid, const Candidate& candidate) {
   look(candidate.from);
   look(candidate.to);
   xi = margin.deviation;
-  const double section = (std::sqrt(5.0) - 1) / 2;
-  double from = candidate.from;
-  double to = candidate.to;
-  double left = to - section * (to - from);
-  double right = from + section * (to - from);
-  double of_left = look(left);
-  double of_right = look(right);
   // The length is flat at its least: half the digits of the time are enough.
-  while (to - from > 1e-8 * std::max(1.0, std::abs(to))) {
-    if (of_left < of_right) {
-      to = right;
-      right = left;
-      of_right = of_left;
-      left = to - section * (to - from);
-      of_left = look(left);
-    } else {
-      from = left;
-      left = right;
-      of_left = of_right;
-      right = from + section * (to - from);
-      of_right = look(right);
-    }
-  }
+  look_for_minimum(candidate.from, candidate.to, 1e-8 * std::max(1.0, std::abs(candidate.to)),
+                   look);
   if (*margin.deviations == never) margin.deviations.reset();
   return margin;
 }
@@ -252,6 +284,8 @@ KeepOutMargin keep_out_margin(const EncounterProblem& problem, const Eigen::Vect
     const bool is_less =
         margin.deviations && (!best.deviations || *margin.deviations < *best.deviations);
     if (is_less) best = margin;
+    // Nothing is less, and where others bend does not matter then.
+    if (best.deviations == 0.0) break;
   }
   if (best.deviations) best.flown_ratio = ellipsoid.flown_ratio(best.time, best.deviation);
   return best;
