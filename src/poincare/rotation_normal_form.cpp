@@ -89,10 +89,15 @@ RotationNormalForm::RotationNormalForm(const NodalFlight<double>& flight)
   };
   const double cosine = (slope(flight.q, q_variable) + slope(flight.p, p_variable)) / 2;
   if (!(std::abs(cosine) < 1)) {
+    // Of a sum of numbers near 1.
+    constexpr double rounding = 1e-14;
     throw Error(ErrorKind::numerical,
-                fmt::format("normal form: the frozen orbit is unstable, its multipliers add up to "
-                            "{:.12g}, beyond 2, so that no orbit librates about it",
-                            2 * cosine));
+                std::abs(cosine) < 1 + rounding
+                    ? "normal form: to double precision both multipliers are 1 or -1, so that no "
+                      "turn about the frozen orbit can be told"
+                    : fmt::format("normal form: the frozen orbit is unstable, its multipliers add "
+                                  "up to {:.12g}, beyond 2, so that no orbit librates about it",
+                                  2 * cosine));
   }
   // The linear return as a turn, by the axes of its invariant ellipse (Courant and Snyder):
   // q = sqrt(beta) X, p = (Y - alpha X) / sqrt(beta), w' = exp(-i mu) w.

@@ -223,5 +223,32 @@ TEST(FrozenOrbitStudy, FindsTheFrozenOrbitAndTheChiefsCircle) {
   EXPECT_EQ(json["frozen_orbit"]["stable"], true);
 }
 
+// Far from the body J2 turns the pericentre by (3/4) J2 (R/a)^2 (5 cos^2 i - 1) of a turn a
+// revolution. From 2000 units the sum of the multipliers differs from 2 by less than a bit of
+// double precision: there is no normal form rather than a wrong one.
+TEST(FrozenOrbitStudy, TellsNoTurnThatRoundingMakes) {
+  const auto far = [](double distance) {
+    Scene scene = oblate_circle(2, 0.01);
+    scene.nominal = {distance, 0, 0, 0, 0.6 / std::sqrt(distance), 0.8 / std::sqrt(distance)};
+    return scene;
+  };
+  const double radius = far(1).canonical_radius;
+  const auto turn = [&](double distance) {
+    return 0.75 * far(distance).system.J[2] * radius * radius / (distance * distance) *
+           (5 * 0.36 - 1);
+  };
+  const FrozenOrbitStudy near = study_frozen_orbit(far(20));
+  ASSERT_EQ(near.failure, "");
+  // The next order is of J2 and of the eccentricity squared.
+  EXPECT_NEAR(std::abs(near.circles.front().rotation_number) / turn(20), 1, 0.005);
+  for (const double distance : {2000., 8000.}) {
+    const FrozenOrbitStudy study = study_frozen_orbit(far(distance));
+    EXPECT_TRUE(study.is_stable()) << distance;
+    EXPECT_TRUE(study.circles.empty()) << distance;
+    EXPECT_NE(study.failure.find("normal form: "), std::string::npos) << study.failure;
+    EXPECT_EQ(study.failure.find("unstable"), std::string::npos) << study.failure;
+  }
+}
+
 }  // namespace
 }  // namespace hamjet

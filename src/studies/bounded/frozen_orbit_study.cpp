@@ -1,5 +1,7 @@
 #include "frozen_orbit_study.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -69,12 +71,29 @@ std::optional<FlownCircle> flown_circle(const ZonalGravity& field,
   }
 }
 
+/// Refuses a normal form, made of a return in double precision, whose turn is not that of the
+/// multipliers, found in extended precision: the sum of multipliers near 1 loses their angle's
+/// digits.
+void require_resolved_turn(const RotationNormalForm& form, const FrozenOrbitStudy& study) {
+  if (!study.is_stable()) return;
+  // 2 - t = 4 sin^2(pi rho)
+  const double turn = std::asin(std::sqrt(-study.trace_less_2) / 2) / std::numbers::pi;
+  const double miss = std::abs(std::abs(form.rotation_number({})) - turn) / turn;
+  if (miss <= FrozenOrbitStudy::largest_miss) return;
+  throw Error(ErrorKind::numerical,
+              fmt::format("normal form: neighbours turn about the frozen orbit in {:.6g} "
+                          "revolutions, too slowly for a return in double precision, which "
+                          "misses that by {:.1g} of it",
+                          1 / turn, miss));
+}
+
 void add_normal_form(const ZonalGravity& field, const SixNumbers<double>& chief,
                      const ProgressCallback& progress, FrozenOrbitStudy& study) {
   const ReturnMap<double> back =
       first_return<double>(field, six_numbers(study.state), study.scene.order, search_tolerance);
   const FlowSection<double> section(field, ChartName::nodal, six_numbers(study.state));
   const RotationNormalForm form(back.flight);
+  require_resolved_turn(form, study);
   study.smallest_divisor = form.smallest_divisor();
   study.flown_revolutions = flown_returns;
   const double unit = std::sqrt(section.chief()[3]);
