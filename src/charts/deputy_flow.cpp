@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <utility>
 
+#include "../integrators/integration_clock.hpp"
 #include "hamjet/error.hpp"
 
 namespace hamjet {
@@ -70,10 +70,9 @@ void DeputyPredictor::predict(std::span<const SixNumbers<double>> initial,
     }
     for (std::size_t d = 0; d < degrees.size(); ++d) {
       const auto degree = static_cast<std::size_t>(degrees[d]);
-      using Clock = std::chrono::steady_clock;
-      const Clock::time_point start = Clock::now();
+      const IntegrationClock clock;
       flow_.evaluators_[degree - 1].evaluate(points_, {results_[0], results_[1], results_[2]});
-      polynomial_seconds_ += std::chrono::duration<double>(Clock::now() - start).count();
+      polynomial_seconds_ += clock.seconds();
       const auto found = predictions.subspan(d * initial.size() + first, count);
       for (std::size_t j = 0; j < count; j += block) {
         const std::size_t some = std::min(block, count - j);

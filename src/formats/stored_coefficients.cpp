@@ -156,28 +156,37 @@ FlowJet<Extended> read_coefficients(const CoefficientFile& file, std::string_vie
   return CoefficientReader(file).read(text);
 }
 
-std::string coefficients_csv(const std::vector<std::string_view>& names,
-                             const std::vector<std::size_t>& components,
-                             const std::vector<std::size_t>& variables, Precision precision,
-                             const FlowJet<Extended>& jet) {
+std::string series_csv(const std::vector<std::string_view>& series,
+                       const std::vector<std::string_view>& columns,
+                       const std::vector<std::size_t>& places, Precision precision,
+                       const FlowJet<Extended>& jet) {
   const SeriesSpace& space = jet.at(0).space();
   fmt::memory_buffer out;
   const auto write = std::back_inserter(out);
   fmt::format_to(write, "component");
-  for (const auto name : names) fmt::format_to(write, ",e_{}", name);
+  for (const auto name : columns) fmt::format_to(write, ",e_{}", name);
   fmt::format_to(write, ",coefficient\n");
   for (std::size_t c = 0; c < jet.size(); ++c) {
     for (std::size_t k = 0; k < space.size(); ++k) {
-      std::vector<int> exponents(names.size(), 0);
+      std::vector<int> exponents(columns.size(), 0);
       for (std::size_t v = 0; v < space.variables(); ++v) {
-        exponents[variables[v]] = space.exponents(k)[v];
+        exponents[places[v]] = space.exponents(k)[v];
       }
-      fmt::format_to(write, "{}", names[components[c]]);
+      fmt::format_to(write, "{}", series[c]);
       for (const int e : exponents) fmt::format_to(write, ",{}", e);
       fmt::format_to(write, ",{}\n", coefficient_digits(jet[c][k], precision));
     }
   }
   return fmt::to_string(out);
+}
+
+std::string coefficients_csv(const std::vector<std::string_view>& names,
+                             const std::vector<std::size_t>& components,
+                             const std::vector<std::size_t>& variables, Precision precision,
+                             const FlowJet<Extended>& jet) {
+  std::vector<std::string_view> series;
+  for (const std::size_t c : components) series.push_back(names[c]);
+  return series_csv(series, names, variables, precision, jet);
 }
 
 const OutputFormat csv_format = {

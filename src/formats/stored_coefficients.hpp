@@ -40,6 +40,14 @@ struct CoefficientFile {
 /// Error(input_output), one line with file and line, if it holds anything else.
 FlowJet<Extended> read_coefficients(const CoefficientFile& file, std::string_view text);
 
+/// Series in the form of `jet.csv`: a row for each of `jet`, by its name, and each monomial, whose
+/// exponents stand in the columns e_... of `columns`: that of variable v in the `places[v]`-th, 0
+/// in the others.
+std::string series_csv(const std::vector<std::string_view>& series,
+                       const std::vector<std::string_view>& columns,
+                       const std::vector<std::size_t>& places, Precision precision,
+                       const FlowJet<Extended>& jet);
+
 /// The text of a `jet.csv`; components and variables are indices of the names of the model's state.
 std::string coefficients_csv(const std::vector<std::string_view>& names,
                              const std::vector<std::size_t>& components,

@@ -32,9 +32,7 @@ std::unique_ptr<ArcIntegrator<Real>> make_arcs(const FlowProblem<Real>& problem,
                                                const SplittableMethod& method) {
   if (const auto* gauss = std::get_if<GaussSettings>(&method)) {
     validate_gauss(*gauss);
-    return with_lanes<Real>(gauss->stages, [&]<int Lanes>(std::integral_constant<int, Lanes>) {
-      return make_gauss_arcs<Lanes, Real>(problem, *gauss);
-    });
+    return make_gauss_arcs<Real>(problem, *gauss);
   }
   if (const auto* stormer = std::get_if<StormerSettings>(&method)) {
     return make_splitting_arcs(problem, splitting_of<Real>(*stormer));
@@ -51,9 +49,7 @@ template <class Real>
 FlowJet<Real> integrate_unsplit(const FlowProblem<Real>& problem, const SplittableMethod& method) {
   IntegrationStatistics statistics;
   if (const auto* gauss = std::get_if<GaussSettings>(&method)) {
-    return with_lanes<Real>(gauss->stages, [&]<int Lanes>(std::integral_constant<int, Lanes>) {
-      return run_gauss<Lanes>(problem, *gauss, statistics, StepObserver<Real>{});
-    });
+    return run_gauss<Real>(problem, *gauss, statistics);
   }
   if (const auto* stormer = std::get_if<StormerSettings>(&method)) {
     return integrate_stormer<Real>(problem, *stormer, statistics);

@@ -134,8 +134,9 @@ TEST(CollisionProbability, OfFastEncountersIsThatOfThePlaneDownToRareOnes) {
   }
 }
 
-TEST(CollisionProbability, OfExactVelocitiesIsThatOfPlainSamples) {
-  // Positions tell the velocities then, and the speed of entry follows from where a path enters.
+/// Two spacecraft on one orbit with exact velocities, independent deviations in position of one
+/// size, which is the radius too, and so many of them apart along the orbit.
+EncounterProblem exact_velocities(double apart, double duration) {
   EncounterProblem problem;
   problem.system = kepler();
   const double s = 1e-6;
@@ -143,11 +144,17 @@ TEST(CollisionProbability, OfExactVelocitiesIsThatOfPlainSamples) {
     craft.state = {1, 0, 0, 0, 1, 0.1};
     craft.factor.topLeftCorner<3, 3>() = s * Eigen::Matrix3d::Identity();
   }
-  problem.spacecraft[1].state[1] += 3 * s;
-  problem.to = 1;
+  problem.spacecraft[1].state[1] += apart * s;
+  problem.to = duration;
   problem.radius = s;
   problem.order = 2;
   problem.settings.tolerance = 1e-12;
+  return problem;
+}
+
+TEST(CollisionProbability, OfExactVelocitiesIsThatOfPlainSamples) {
+  // Positions tell the velocities then, and the speed of entry follows from where a path enters.
+  const EncounterProblem problem = exact_velocities(3, 1);
   const CollisionProbability plain =
       collision_probability(problem, settings(50'000, CollisionSampling::plain));
   const CollisionProbability weighted =
@@ -160,18 +167,7 @@ TEST(CollisionProbability, OfExactVelocitiesIsThatOfPlainSamples) {
 TEST(CollisionProbability, DoesNotBelieveTheWeightsOfAFewDraws) {
   // With exact velocities nearly half a revolution leads most entries to where no start can be: a
   // few draws have all of the weight.
-  EncounterProblem problem;
-  problem.system = kepler();
-  const double s = 1e-6;
-  for (UncertainSpacecraft& craft : problem.spacecraft) {
-    craft.state = {1, 0, 0, 0, 1, 0.1};
-    craft.factor.topLeftCorner<3, 3>() = s * Eigen::Matrix3d::Identity();
-  }
-  problem.spacecraft[1].state[1] += 4 * s;
-  problem.to = 3;
-  problem.radius = s;
-  problem.order = 2;
-  problem.settings.tolerance = 1e-12;
+  const EncounterProblem problem = exact_velocities(4, 3);
   const CollisionProbability result = collision_probability(problem, settings(20'000));
   EXPECT_EQ(result.sampling, CollisionSampling::plain);
   // From 14 million samples of the linear motion of two bodies, whose matrices are differences of

@@ -23,9 +23,7 @@ FlowJet<Real> integrate_with(const FlowProblem<Real>& problem, const GaussSettin
                              IntegrationStatistics& statistics,
                              const StepObserver<Real>& observer) {
   const auto run = [&](const FlowProblem<Real>& integrated, const StepObserver<Real>& watch) {
-    return with_lanes<Real>(settings.stages, [&]<int Lanes>(std::integral_constant<int, Lanes>) {
-      return run_gauss<Lanes>(integrated, settings, statistics, watch);
-    });
+    return run_gauss<Real>(integrated, settings, statistics, watch);
   };
   return integrate_without_symmetry(problem, statistics, observer, run);
 }

@@ -36,6 +36,23 @@ auto with_lanes(int stages, const Call& call) {
   return call(std::integral_constant<int, 16>{});
 }
 
+/// run_gauss and make_gauss_arcs with the lanes that the settings' stages need.
+template <class Real>
+FlowJet<Real> run_gauss(const FlowProblem<Real>& problem, const GaussSettings& settings,
+                        IntegrationStatistics& statistics,
+                        const StepObserver<Real>& observer = {}) {
+  return with_lanes<Real>(settings.stages, [&]<int Lanes>(std::integral_constant<int, Lanes>) {
+    return run_gauss<Lanes>(problem, settings, statistics, observer);
+  });
+}
+template <class Real>
+std::unique_ptr<ArcIntegrator<Real>> make_gauss_arcs(const FlowProblem<Real>& problem,
+                                                     const GaussSettings& settings) {
+  return with_lanes<Real>(settings.stages, [&]<int Lanes>(std::integral_constant<int, Lanes>) {
+    return make_gauss_arcs<Lanes>(problem, settings);
+  });
+}
+
 /// Throws Error(usage) for settings out of range.
 void validate_gauss(const GaussSettings& settings);
 

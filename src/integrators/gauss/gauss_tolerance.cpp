@@ -77,10 +77,7 @@ class LinesInSteps {
   /// The nominal of several lines is integrated once; one integration has its own.
   void follow() {
     if (problems_.size() == 1) return;
-    nominal_ =
-        with_lanes<Real>(settings_.stages, [&]<int Lanes>(std::integral_constant<int, Lanes>) {
-          return make_gauss_arcs<Lanes, Real>(problems_[0], settings_);
-        });
+    nominal_ = make_gauss_arcs<Real>(problems_[0], settings_);
     nominal_->run_nominal(statistics_, {});
   }
 
@@ -92,10 +89,7 @@ class LinesInSteps {
                                       *problem.initial_jet, own, [] {});
       return;
     }
-    jets_[line] =
-        with_lanes<Real>(settings_.stages, [&]<int Lanes>(std::integral_constant<int, Lanes>) {
-          return run_gauss<Lanes>(problem, settings_, statistics_, StepObserver<Real>{});
-        });
+    jets_[line] = run_gauss<Real>(problem, settings_, statistics_);
   }
 
   /// Of the nominal.
@@ -289,9 +283,7 @@ FlowJet<Real> integrate_with_step_tolerance(const FlowProblem<Real>& problem,
   settings.tolerance = step_tolerance;
   settings.profile = nullptr;
   IntegrationStatistics statistics;
-  return with_lanes<Real>(settings.stages, [&]<int Lanes>(std::integral_constant<int, Lanes>) {
-    return run_gauss<Lanes>(problem, settings, statistics, StepObserver<Real>{});
-  });
+  return run_gauss<Real>(problem, settings, statistics);
 }
 
 template bool needs_choice(const FlowProblem<InstantiatedReal>&, const GaussSettings&);

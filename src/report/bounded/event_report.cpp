@@ -3,22 +3,24 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <numeric>
 #include <optional>
+#include <string_view>
+#include <vector>
 
+#include "../../formats/stored_coefficients.hpp"
 #include "../../store/columns.hpp"
 #include "../../store/json_values.hpp"
 #include "../../text/quantity_text.hpp"
 #include "../../text/terminal_text.hpp"
 #include "../drawing/report_page.hpp"
 #include "../formation/transfer_json.hpp"
+#include "hamjet/algebra/composition.hpp"
 
 namespace hamjet::io {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr std::array<const char*, 6> component_names = {"x", "y", "z", "px", "py", "pz"};
 
 std::string condition_text(const EventSettings& event) {
   const std::string way = event.direction == EventDirection::rising    ? ", rising"
@@ -141,26 +143,14 @@ std::string event_csv(const EventStudy& study) {
 }
 
 std::string event_map_csv(const EventStudy& study) {
-  struct Row {
-    std::string_view component;
-    const Series<double>* series;
-    std::size_t monomial;
-  };
-  std::vector<Row> rows;
-  const auto add = [&](std::string_view name, const Series<double>& series) {
-    for (std::size_t k = 0; k < series.space().size(); ++k) rows.push_back({name, &series, k});
-  };
-  add("time", study.map.time);
-  for (std::size_t i = 0; i < 6; ++i) add(component_names[i], study.map.state[i]);
-  Columns<Row> columns;
-  columns.add("component", &Row::component);
-  for (std::size_t v = 0; v < 6; ++v) {
-    columns.add(std::string("e_") + component_names[v], [v](const Row& row) {
-      return static_cast<int>(row.series->space().exponents(row.monomial)[v]);
-    });
-  }
-  columns.add("coefficient", [](const Row& row) { return (*row.series)[row.monomial]; });
-  return columns.csv(rows);
+  const std::vector<std::string_view> names = variable_names(study.scene.system);
+  std::vector<std::string_view> series = {"time"};
+  series.insert(series.end(), names.begin(), names.end());
+  FlowJet<double> map = {study.map.time};
+  map.insert(map.end(), study.map.state.begin(), study.map.state.end());
+  std::vector<std::size_t> places(names.size());
+  std::iota(places.begin(), places.end(), std::size_t{0});
+  return series_csv(series, names, places, Precision::double_precision, convert_map<Extended>(map));
 }
 
 Json event_json(const EventStudy& study) {

@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/math/tools/minima.hpp>
 #include <cmath>
-#include <numbers>
+#include <limits>
 #include <optional>
 #include <random>
 #include <span>
@@ -101,31 +102,13 @@ class EventSearch {
     return first ? first : counted(dip, now, number);
   }
 
-  /// The least of the condition times `sign` between two times, by golden sections.
+  /// The least of the condition times `sign` between two times.
   Place nearest(double from, double to, int sign) const {
-    constexpr double section = std::numbers::phi - 1;
-    constexpr int sections = 60;
-    double left = to - section * (to - from);
-    double right = from + section * (to - from);
-    double of_left = sign * at(left);
-    double of_right = sign * at(right);
-    // A value below zero is enough.
-    for (int i = 0; i < sections && of_left > 0 && of_right > 0; ++i) {
-      if (of_left < of_right) {
-        to = right;
-        right = left;
-        of_right = of_left;
-        left = to - section * (to - from);
-        of_left = sign * at(left);
-      } else {
-        from = left;
-        left = right;
-        of_left = of_right;
-        right = from + section * (to - from);
-        of_right = sign * at(right);
-      }
-    }
-    return of_left < of_right ? Place{left, sign * of_left} : Place{right, sign * of_right};
+    // Half of the digits: a minimum is flat.
+    constexpr int bits = std::numeric_limits<double>::digits / 2;
+    const auto [time, least] = boost::math::tools::brent_find_minima(
+        [&](double t) { return sign * at(t); }, std::min(from, to), std::max(from, to), bits);
+    return {time, sign * least};
   }
 
   /// Counts a change of sign if it has the direction; its time if it is the number's.
