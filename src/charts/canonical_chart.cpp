@@ -16,6 +16,8 @@ namespace {
 /// A chart does not exist where an angle or a ratio vanishes; below this part of its whole size it
 /// is too near to that for series of any use.
 constexpr double least_part = 0.01;
+/// The same as an angle.
+constexpr double least_angle_deg = least_part * 180 / boost::math::constants::pi<double>();
 
 template <class Real>
 Real abs_of(const Real& x) {
@@ -240,7 +242,7 @@ CanonicalChart<Real>::CanonicalChart(ChartName name, const SixNumbers<Real>& chi
   const Vector<Real> normal = cross(x, v);
   const Real r = sqrt(dot(x, x));
   const Real G = sqrt(dot(normal, normal));
-  const auto refuse = [&](const char* reason) {
+  const auto refuse = [&](std::string_view reason) {
     throw Error(ErrorKind::numerical, fmt::format("{} coordinates: {}", name_of(name), reason));
   };
   for (std::size_t i = 0; i < 3; ++i) {
@@ -255,11 +257,13 @@ CanonicalChart<Real>::CanonicalChart(ChartName name, const SixNumbers<Real>& chi
   }
   if (name == ChartName::nodal &&
       !(G - abs_of(normal[2]) > Real(least_part * least_part) / 2 * G)) {
-    refuse("the orbit lies nearly in the equatorial plane, where no node is defined");
+    refuse(fmt::format(
+        "the orbit lies within {:.2g} deg of the equatorial plane, in which no node is defined",
+        least_angle_deg));
   }
   if (name == ChartName::cylindrical &&
       !(x[0] * x[0] + x[1] * x[1] > Real(least_part * least_part) * r * r)) {
-    refuse("the chief is nearly on the axis of the field");
+    refuse(fmt::format("the chief is within {:.2g} deg of the axis of the field", least_angle_deg));
   }
   if (name == ChartName::spherical) {
     for (std::size_t j = 0; j < 3; ++j) {

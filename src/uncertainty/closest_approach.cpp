@@ -17,24 +17,20 @@ namespace {
 
 /// Longer series in twelve variables take seconds to multiply: 18564 terms at order 6.
 constexpr int highest_order = 6;
-/// The distance is looked at so often in a revolution of the first spacecraft, for minima.
-constexpr double looks_per_revolution = 64;
+/// The distance is looked at so often in a local period, for minima.
+constexpr double distance_looks_per_period = 64;
 
-/// Times in the window between which the distance of the means has a minimum.
+/// Times in the window at which the distance of the means has a minimum.
 std::vector<double> minima_of(const EncounterTrajectories& means) {
-  const double from = means.from();
-  const double to = means.to();
-  const int looks =
-      static_cast<int>(std::clamp((to - from) / means.period(0) * looks_per_revolution, 16.0, 1e5));
+  const std::vector<double> times = means.times_of_looks(distance_looks_per_period);
   std::vector<double> minima;
-  double before = means.approach_rate(from);
-  for (int k = 1; k <= looks; ++k) {
-    const double time = k == looks ? to : from + (to - from) * k / looks;
-    const double rate = means.approach_rate(time);
+  double before = means.approach_rate(times.front());
+  for (std::size_t k = 1; k < times.size(); ++k) {
+    const double rate = means.approach_rate(times[k]);
     if (before < 0 && rate >= 0) {
-      double low = from + (to - from) * (k - 1) / looks;
-      double high = time;
-      for (int i = 0; i < 60 && high - low > 1e-15 * to; ++i) {
+      double low = times[k - 1];
+      double high = times[k];
+      for (int i = 0; i < 60 && high - low > 1e-15 * means.to(); ++i) {
         const double middle = (low + high) / 2;
         (means.approach_rate(middle) < 0 ? low : high) = middle;
       }

@@ -10,6 +10,9 @@
 namespace hamjet {
 namespace {
 
+constexpr double fewest_looks = 64;
+constexpr double most_looks = 2e4;
+
 /// The jets of one spacecraft in the window.
 JetTrajectory<double> window_trajectory(const EncounterProblem& problem, std::size_t craft) {
   FlowProblem<double> flow;
@@ -96,6 +99,21 @@ double EncounterTrajectories::period(std::size_t craft) const {
 double EncounterTrajectories::local_period(std::size_t craft, double time) const {
   const FlowJet<double> now = jet(craft, time);
   return small_circle_period(now[0][0], now[1][0], now[2][0]);
+}
+
+std::vector<double> EncounterTrajectories::times_of_looks(double looks_per_period) const {
+  const double span = to_ - from_;
+  std::vector<double> times = {from_};
+  while (times.back() < to_) {
+    const double now = times.back();
+    const double step =
+        std::clamp(std::min(local_period(0, now), local_period(1, now)) / looks_per_period,
+                   span / most_looks, span / fewest_looks);
+    // The last step is not a sliver.
+    const bool is_last = now + 1.5 * step > to_;
+    times.push_back(is_last ? to_ : now + step);
+  }
+  return times;
 }
 
 }  // namespace hamjet

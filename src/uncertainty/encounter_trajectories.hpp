@@ -32,10 +32,14 @@ class EncounterTrajectories {
   /// The period of the small circle through a spacecraft's start, sqrt(r^3), in units of the
   /// system: a revolution for a central body of unit gravity.
   double period(std::size_t craft) const;
-  /// The same of where it is at a time.
-  double local_period(std::size_t craft, double time) const;
+  /// The window in steps of the shorter of the two local periods, those of the small circles
+  /// through where the spacecraft are, by `looks_per_period`: equal steps would see too little of a
+  /// perigee, where an eccentric orbit turns many times as fast as on average. There are at least
+  /// 64 steps, and none is shorter than 2e4 of them would be.
+  std::vector<double> times_of_looks(double looks_per_period) const;
 
  private:
+  double local_period(std::size_t craft, double time) const;
   Eigen::Matrix<double, 6, 1> relative_mean(double time) const;
 
   SharedSystem system_;

@@ -18,12 +18,10 @@ namespace {
 using Position = Eigen::Vector3d;
 using Jacobian = Eigen::Matrix<double, 3, 12>;
 
-/// The linear theory's length is looked at so often in a revolution of the small circle through
-/// where the first spacecraft is, more often near its perigee than elsewhere; its minima are sought
-/// to this part of the time between two looks, and so many of the lowest are followed by the
+/// The linear theory's length is looked at so often in a local period; its minima are sought to
+/// this part of the time between two looks, and so many of the lowest are followed by the
 /// polynomials.
-constexpr double length_looks_per_revolution = 64;
-constexpr double most_length_looks = 2e4;
+constexpr double length_looks_per_period = 64;
 constexpr double accuracy_of_minima = 1e-3;
 constexpr std::size_t most_minima = 6;
 constexpr int most_iterations = 60;
@@ -195,29 +193,12 @@ void look_for_minimum(double from, double to, double accuracy, Function&& look) 
   }
 }
 
-/// Times at which the linear theory's length is looked at. Equal ones would see too little of a
-/// perigee, where an eccentric orbit turns many times as fast as on average.
-std::vector<double> times_of_looks(const EncounterProblem& problem,
-                                   const EncounterTrajectories& linear) {
-  const double span = problem.to - problem.from;
-  std::vector<double> times = {problem.from};
-  while (times.back() < problem.to) {
-    const double step =
-        std::clamp(linear.local_period(0, times.back()) / length_looks_per_revolution,
-                   span / most_length_looks, span / 64);
-    // The last step is not a sliver.
-    const bool is_last = times.back() + 1.5 * step > problem.to;
-    times.push_back(is_last ? problem.to : times.back() + step);
-  }
-  return times;
-}
-
 /// Local minima of the linear theory's length, the lowest first.
 std::vector<Candidate> linear_minima(const EncounterProblem& problem, const Ellipsoid& ellipsoid) {
   EncounterProblem first_order = problem;
   first_order.order = 1;
   const EncounterTrajectories linear(first_order);
-  const std::vector<double> times = times_of_looks(problem, linear);
+  const std::vector<double> times = linear.times_of_looks(length_looks_per_period);
   std::vector<double> lengths;
   for (const double time : times) lengths.push_back(ellipsoid.linear_length(linear, time));
   std::vector<Candidate> minima;

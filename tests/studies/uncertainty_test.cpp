@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/QR>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -106,6 +107,30 @@ TEST(Uncertainty, MomentsAreThoseOfStatesThatWereFlown) {
   }
 }
 
+// Small negentropies are leading terms, of the square of the deviations; larger ones are told by
+// volumes, of which the period's coordinate changes its own. Between 5.6e-5 and 1e-4 one takes the
+// other's place: they differ by their squares and what the order leaves out.
+TEST(Uncertainty, NegentropiesOfBothKindsMeetInEveryChart) {
+  const std::string orbit = "a_km=9000, e=0.1, i_deg=51.6, raan_deg=0, argp_deg=0, ta_deg=0";
+  const auto negentropy = [&](const char* coordinates, double size, double orbits) {
+    const UncertaintyResult result = study_uncertainty(scene_of(
+        {"", orbit.c_str(), fmt::format("duration_orbits = {}", orbits).c_str()}, 4,
+        fmt::format("[uncertainty]\nposition_m = [{0}, {0}, {0}]\nvelocity_m_s = [{1}, {1}, {1}]\n"
+                    "samples = 0\n",
+                    500 * size, size),
+        coordinates));
+    return result.points[0].states[0].charted.back().negentropy();
+  };
+  const double small = negentropy("flow-box", 3, 2), large = negentropy("flow-box", 12, 2);
+  EXPECT_LT(small, 1e-4);
+  EXPECT_GT(large, 5e-4);
+  EXPECT_NEAR(large / small, 16, 16 * 2e-3);
+  const double few = negentropy("poincare", 0.5, 2), many = negentropy("poincare", 1.5, 2);
+  EXPECT_LT(few, 1e-4);
+  EXPECT_GT(many, 2e-4);
+  EXPECT_NEAR(many / few, 9, 9 * 5e-3);
+}
+
 TEST(Uncertainty, TheLinearCovarianceMisleadsInCartesianCoordinatesAlone) {
   for (const UncertainOrbit& orbit : {low, geostationary}) {
     SCOPED_TRACE(orbit.name);
@@ -119,6 +144,15 @@ TEST(Uncertainty, TheLinearCovarianceMisleadsInCartesianCoordinatesAlone) {
     EXPECT_LT(largest_error_of_probability(divergence_from_linear(state.charted)),
               misleading_probability);
     EXPECT_LT(state.charted.back().negentropy(), 1e-3 * state.cartesian.back().negentropy());
+    // No flow changes the volume of 1 km and 1 m/s along three axes. A sample's log of a volume of
+    // six variables scatters by sqrt(6 / (2 n)).
+    const Matrix<double>& flown = state.flown_states;
+    const Matrix<double> centred = flown.colwise() - Vector<double>(flown.rowwise().mean());
+    const Eigen::HouseholderQR<Matrix<double>> parts(centred.transpose() /
+                                                     std::sqrt(state.flown->count - 1.0));
+    const double volume = parts.matrixQR().diagonal().cwiseAbs().array().log().sum();
+    EXPECT_NEAR(state.cartesian.back().negentropy(), volume - 3 * std::log(1000),
+                4 * std::sqrt(3.0 / state.flown->count));
     // The bend of the orbit: along R the mean is lower by s_T^2 / (2 r), in second order of the
     // angle, with which the radial skewness of -chi^2 of one degree comes, -sqrt(8).
     const double s = state.through.front().standard_deviations()[1];

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include "hamjet/error.hpp"
@@ -91,6 +93,76 @@ TEST(ClosestApproach, OfDeviatedSpacecraftIsThatOfTheirFlights) {
     }
     EXPECT_LT(errors[1], errors[0] / std::pow(2, order + 0.5)) << "order " << order;
     EXPECT_LT(errors[0], std::pow(4e-2, order + 1) * 20) << "order " << order;
+  }
+}
+
+/// The position and velocity on an ellipse about a centre with mu = 1 at a time after a mean
+/// anomaly, by Kepler's equation.
+struct Ellipse {
+  double a = 1, e = 0, anomaly = 0;
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< columns: to the pericentre, along there
+
+  Eigen::Matrix<double, 6, 1> state(double time) const {
+    const double mean = anomaly + time / std::sqrt(a * a * a);
+    double angle = mean + e * std::sin(mean);
+    for (int k = 0; k < 60; ++k) {
+      angle -= (angle - e * std::sin(angle) - mean) / (1 - e * std::cos(angle));
+    }
+    const double b = std::sqrt(1 - e * e), rate = 1 / std::sqrt(a) / (1 - e * std::cos(angle));
+    Eigen::Matrix<double, 6, 1> result;
+    result << axes * Eigen::Vector3d(a * (std::cos(angle) - e), a * b * std::sin(angle), 0),
+        axes * Eigen::Vector3d(-rate * std::sin(angle), rate * b * std::cos(angle), 0);
+    return result;
+  }
+};
+
+Eigen::Matrix3d random_rotation(std::mt19937_64& generator) {
+  std::normal_distribution<double> normal;
+  return Eigen::Quaterniond(normal(generator), normal(generator), normal(generator),
+                            normal(generator))
+      .normalized()
+      .toRotationMatrix();
+}
+
+// Near a perigee distances have minima that follow each other far faster than orbits turn on
+// average. All of them, and no other, by Kepler's equation at 20000 times a unit of time.
+TEST(ClosestApproach, FindsEveryMinimumOfEccentricPairs) {
+  std::mt19937_64 generator(8);
+  std::uniform_real_distribution<double> uniform;
+  for (int pair = 0; pair < 12; ++pair) {
+    SCOPED_TRACE(pair);
+    std::array<Ellipse, 2> orbits;
+    EncounterProblem problem;
+    problem.system = kepler();
+    problem.to = 20;
+    problem.radius = 1e-6;
+    problem.order = 1;
+    problem.settings.tolerance = 1e-12;
+    for (std::size_t craft = 0; craft < 2; ++craft) {
+      orbits[craft] = {1 + 0.3 * uniform(generator), 0.6 + 0.28 * uniform(generator),
+                       2 * std::numbers::pi * uniform(generator), random_rotation(generator)};
+      const Eigen::Matrix<double, 6, 1> start = orbits[craft].state(0);
+      problem.spacecraft[craft].state.assign(start.begin(), start.end());
+    }
+    const auto rate = [&](double time) {
+      const Eigen::Matrix<double, 6, 1> z = orbits[1].state(time) - orbits[0].state(time);
+      return z.head<3>().dot(z.tail<3>());
+    };
+    std::vector<double> expected;
+    constexpr double step = 5e-5;
+    double before = rate(0);
+    for (int k = 1; k * step <= problem.to; ++k) {
+      const double now = rate(k * step);
+      if (before < 0 && now >= 0) expected.push_back(step * (k - now / (now - before)));
+      before = now;
+    }
+    const auto approaches = closest_approaches(problem, 1000);
+    ASSERT_EQ(approaches.size(), expected.size());
+    for (std::size_t k = 0; k < expected.size(); ++k) {
+      // The straight line through both looks is right to the square of their distance, in units of
+      // the time at a perigee, r^1.5 with r of at least 0.12.
+      EXPECT_NEAR(approaches[k].time, expected[k], step * step / std::pow(0.12, 1.5) + 1e-9);
+    }
   }
 }
 

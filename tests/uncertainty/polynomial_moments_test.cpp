@@ -215,6 +215,35 @@ TEST(PolynomialMoments, AgreeWithThoseOfNumpy) {
   EXPECT_NEAR(of.negentropy(), 45.834686651797966, 1e-11);
 }
 
+// A shear y = (x_1, x_2 + k x_1^2) keeps areas; the variance of k x_1^2 is 2 k^2, and nothing is
+// correlated.
+TEST(PolynomialMoments, NegentropyOfAShearIsThatOfItsCovariance) {
+  for (const double k : {0.003, 0.1, 1.0, 1e3, 1e6}) {
+    const SpacePointer space = SeriesSpace::create(2, 2);
+    const Series<double> x = Series<double>::variable(space, 0);
+    Cumulants of = moments({x, Series<double>::variable(space, 1) + k * x * x},
+                           Covariance::of_standard_deviations(Vector<double>::Ones(2)));
+    of.carried_without_compression(0);
+    const double exact = std::log(1 + 2 * k * k) / 2;
+    // The leading terms, which stand where they are small, come to k^2 + 6 k^4, exactly it is
+    // k^2 - k^4.
+    EXPECT_NEAR(of.negentropy() / exact, 1, k < 0.1 ? 8 * exact : 1e-9) << k;
+    // Along other axes, in other units and elsewhere it is the same.
+    Matrix<double> map(2, 2);
+    map << 3, 1, -2, 500;
+    const Cumulants shifted = Cumulants::of_sum(
+        of.mapped(map),
+        Cumulants(Vector<double>::Ones(2), Covariance::of_factor(Matrix<double>(2, 0))));
+    EXPECT_NEAR(shifted.negentropy() / of.negentropy(), 1, 1e-6) << k;
+    // Of a part of it nothing is known but the cumulants: those of chi-square in the limit.
+    const Cumulants part = of.mapped(Matrix<double>::Identity(2, 2).bottomRows(1));
+    EXPECT_EQ(part.gaussian_log_volume(), std::nullopt);
+    if (k >= 1e3) {
+      EXPECT_NEAR(part.negentropy(), 8.0 / 12 + 144.0 / 48, 1e-4);
+    }
+  }
+}
+
 TEST(PolynomialMoments, OfALinearMapAreGaussian) {
   const auto map = random_map(1, 6, 6, 1, 1);
   Matrix<double> factor = Matrix<double>::Random(6, 6);

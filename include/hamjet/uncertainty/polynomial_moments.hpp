@@ -87,15 +87,37 @@ class Cumulants {
   double mardia_skewness() const;
   double mardia_excess_kurtosis() const;
 
-  /// How non-Gaussian the vector is: the leading terms of the Kullback-Leibler divergence from its
-  /// distribution to the Gaussian one of the same mean and covariance, in nats,
+  /// How non-Gaussian the vector is: the Kullback-Leibler divergence from its distribution to the
+  /// Gaussian one of the same mean and covariance, in nats, which no linear change of coordinates
+  /// alters. Of a vector of which more is not known, and where they are small, the leading terms
   ///
   ///   J = 1/12 sum k_ijk^2 + 1/48 sum k_ijkl^2 ,
   ///
-  /// which no linear change of coordinates alters. Source: P. Comon, "Independent component
-  /// analysis, a new concept?", Signal Processing 36 (1994) 287, section 3.2 (from Edgeworth's
-  /// expansion).
+  /// which say little above some tenths: of a vector that is all but on a curve they come to 6 or
+  /// so, however thin it is. Of a vector that carried_without_compression() knows, otherwise
+  ///
+  ///   J = 1/2 ln det C - 1/2 ln det C_0 ,
+  ///
+  /// the entropy of a Gaussian vector of its covariance less its own, which the map has not
+  /// changed. Source: P. Comon, "Independent component analysis, a new concept?", Signal Processing
+  /// 36 (1994) 287, section 3.2 (the leading terms, from Edgeworth's expansion); T. M. Cover and J.
+  /// A. Thomas, Elements of Information Theory, 2nd ed., theorem 8.4.1 and section 8.6 (entropies).
   double negentropy() const;
+  /// Whether that is right however far from Gaussian the vector is.
+  bool is_negentropy_exact() const { return gaussian_log_volume_ && rank() == size(); }
+
+  /// ln sqrt(det C), the logarithm of the volume that the standard deviations span; none where the
+  /// covariance is singular.
+  std::optional<double> log_volume() const;
+
+  /// Tells that the vector stands for what a map that keeps volumes, as a flow of Hamilton's
+  /// equations, makes of a Gaussian one whose covariance has this log_volume(). Linear maps and
+  /// known shifts keep that knowledge, sums with other random vectors do not.
+  void carried_without_compression(double gaussian_log_volume) {
+    gaussian_log_volume_ = gaussian_log_volume;
+  }
+  /// What that has told, after linear maps.
+  const std::optional<double>& gaussian_log_volume() const { return gaussian_log_volume_; }
 
   /// Cumulants of w: at (i r + j) r + k, and at ((i r + j) r + k) r + l.
   const std::vector<double>& third() const { return third_; }
@@ -113,6 +135,7 @@ class Cumulants {
   Matrix<double> axes_;
   std::vector<double> third_;
   std::vector<double> fourth_;
+  std::optional<double> gaussian_log_volume_;
 };
 
 /// The Kullback-Leibler divergence, in nats, from a distribution to a Gaussian one of another mean

@@ -40,7 +40,10 @@ class Uncertainty(Study):
     covariance: Floats  #: (T, S, N, 6, 6)
     mardia_skewness: Floats  #: (T, S, N)
     mardia_excess_kurtosis: Floats  #: (T, S, N)
-    negentropy: Floats  #: (T, S, N): how non-Gaussian, in nats
+    #: (T, S, N): how non-Gaussian, in nats: of "chief" and "deputy" from the volume of the covariance,
+    #: which a flow does not change of a Gaussian start; of "relative", with noise or of a singular
+    #: start the leading terms, which say little above some tenths
+    negentropy: Floats
     linear_error_of_probability: Floats  #: (T, S): the most by which the linear covariance errs
     charted_mean: Floats  #: (T, S, N, 6)
     charted_standard_deviation: Floats  #: (T, S, N, 6)
@@ -98,7 +101,7 @@ class Moments(Immutable):
     covariance: Floats  #: (m, m)
     mardia_skewness: float  #: of all components together, after Mardia (1970)
     mardia_excess_kurtosis: float  #: likewise; 0 of a Gaussian
-    negentropy: float  #: how non-Gaussian, in nats
+    negentropy: float  #: how non-Gaussian, in nats: the leading terms, good to some tenths
 
     def __repr__(self) -> str:
         return shown.of(self, f": of {len(self.mean)}, largest skewness "

@@ -15,6 +15,7 @@
 #include "../formation/transfer_json.hpp"
 #include "bounded_charts.hpp"
 #include "box_report.hpp"
+#include "hamjet/error.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -78,6 +79,17 @@ std::string terminal_table(const BoundedFormation& formation) {
       "across: the same of the node; range: of the along-track difference over the window\n\n{}{}",
       formation.scene.title, bounded_verdict(formation), formation.scene.order,
       aligned_table(table_rows(formation)), failures_text(formation));
+}
+
+int exit_code_of(const BoundedFormation& formation) {
+  const auto is_found = [](const BoundedDeputy& deputy) {
+    return is_of_map(deputy.rule) && deputy.failure.empty();
+  };
+  if (std::ranges::none_of(formation.deputies, is_found)) {
+    return static_cast<int>(ErrorKind::numerical);
+  }
+  const bool is_kept = !formation.box || formation.box->is_held();
+  return is_kept ? 0 : static_cast<int>(ErrorKind::check_failed);
 }
 
 std::string page(const BoundedFormation& formation, const ReportOrigin& origin,
@@ -240,7 +252,7 @@ Json bounded_json(const BoundedFormation& formation) {
   }
   json["box"] = formation.box ? box_json(formation) : Json(nullptr);
   json["seconds"] = {{"all", formation.seconds}, {"flights", formation.flight_seconds}};
-  json["exit_code"] = 0;
+  json["exit_code"] = exit_code_of(formation);
   return json;
 }
 
@@ -252,6 +264,13 @@ StudyReport bounded_report(const BoundedFormation& formation, const ReportOrigin
   if (formation.box) report.files.push_back({"box.csv", box_csv(formation)});
   report.drawing_problem = drawer.problem();
   report.files.push_back({"summary.json", bounded_json(formation).dump(2) + "\n"});
+  report.exit_code = exit_code_of(formation);
+  if (report.exit_code == static_cast<int>(ErrorKind::numerical)) {
+    report.failure =
+        "bounded: none of the sizes has a deputy: " + formation.deputies.front().failure;
+  } else if (report.exit_code != 0) {
+    report.failure = box_failure(*formation.box);
+  }
   report.table = terminal_table(formation);
   report.details = fmt::format("{} in all, {} for the flights\n", duration_text(formation.seconds),
                                duration_text(formation.flight_seconds));

@@ -19,7 +19,8 @@ std::string bounded_csv(const BoundedFormation& formation);
 /// `summary.json`.
 nlohmann::ordered_json bounded_json(const BoundedFormation& formation);
 
-/// The files of `hamjet bounded`: `bounded.csv`, `report.html`, `summary.json`.
+/// The files of `hamjet bounded`: `bounded.csv`, `report.html`, `summary.json`, and `box.csv` of a
+/// scene with a box. Exit code 4 where no size has a deputy, 1 where the box was left.
 StudyReport bounded_report(const BoundedFormation& formation, const ReportOrigin& origin);
 
 }  // namespace hamjet::io

@@ -34,10 +34,18 @@ std::string box_verdict(const BoundedFormation& formation) {
     text += fmt::format(" of two impulses, {:.4g} m/s together or {:.4g} m/s a day",
                         box.change_m_s(), box.change_a_day_m_s());
   }
+  if (!box.is_held()) return text + ". Check failed: " + box_failure(box) + ".";
   return text + fmt::format(
                     "; flown, it is never farther from the middle than {:.4g} of the half "
                     "widths.",
                     box.farthest);
+}
+
+std::string box_failure(const BoxControl& box) {
+  return fmt::format(
+      "bounded.box: the deputy was not kept inside, on its way back it was up to {:.4g} half "
+      "widths from the middle; other return_orbits (shorter ones) or a wider box may keep it",
+      box.farthest);
 }
 
 std::string box_csv(const BoundedFormation& formation) {
@@ -71,6 +79,7 @@ nlohmann::ordered_json box_json(const BoundedFormation& formation) {
           {"change_m_s", box.change_m_s()},
           {"change_m_s_a_day", box.change_a_day_m_s()},
           {"farthest", json_number(box.farthest)},
+          {"held", box.is_held()},
           {"places_a_revolution", BoxControl::places_a_revolution},
           {"least_m", vector_json(box.least_m)},
           {"most_m", vector_json(box.most_m)},

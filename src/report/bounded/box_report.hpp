@@ -14,6 +14,9 @@ namespace hamjet::io {
 /// What it costs, in a sentence or two.
 std::string box_verdict(const BoundedFormation& formation);
 
+/// Why the deputy was not kept in the box, where it was not.
+std::string box_failure(const BoxControl& box);
+
 /// `box.csv`: one row a return, with the states at both impulses.
 std::string box_csv(const BoundedFormation& formation);
 

@@ -33,7 +33,8 @@ Json moments_json(const Cumulants& moments) {
           {"rank", moments.rank()},
           {"mardia_skewness", json_number(moments.mardia_skewness())},
           {"mardia_excess_kurtosis", json_number(moments.mardia_excess_kurtosis())},
-          {"negentropy", json_number(moments.negentropy())}};
+          {"negentropy", json_number(moments.negentropy())},
+          {"negentropy_is_exact", moments.is_negentropy_exact()}};
 }
 
 Json family_json(const MomentsFamily& family) {

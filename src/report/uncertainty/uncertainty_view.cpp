@@ -126,10 +126,11 @@ std::vector<GaussianityInCoordinates> gaussianity_in_coordinates(const Uncertain
                                                                  const UncertainState& state) {
   std::vector<GaussianityInCoordinates> all;
   for (const MomentsInCoordinates& compared : result.in_coordinates) {
-    all.push_back({std::string(name_of(compared.coordinates)), 0, 0, compared.refusal});
+    all.push_back({std::string(name_of(compared.coordinates)), 0, true, 0, compared.refusal});
     for (std::size_t s = 0; s < compared.states.size(); ++s) {
       if (compared.states[s] != state.name) continue;
       all.back().negentropy = compared.by_order[s].back().negentropy();
+      all.back().is_exact = compared.by_order[s].back().is_negentropy_exact();
       all.back().error_of_linear = linear_error_of_probability(compared.by_order[s]);
     }
   }
@@ -209,15 +210,40 @@ std::string uncertainty_verdict(const UncertaintyResult& result) {
   // Those that the orbit has not come last.
   const auto last = std::find_if(compared.rbegin(), compared.rend(),
                                  [](const auto& one) { return one.refusal.empty(); });
-  constexpr double alike = 0.9;  // of two negentropies, which are leading terms alone
+  constexpr double alike = 0.9;  // of two negentropies, which may be leading terms alone
   if (last != compared.rend() && order > 1 &&
       compared.front().negentropy < alike * last->negentropy) {
     text += fmt::format(
         " Of the coordinates that are compared the distribution is nearest to Gaussian in {} ones "
-        "(negentropy {:.2g} nats).",
-        compared.front().coordinates, compared.front().negentropy);
+        "(negentropy {} nats).",
+        compared.front().coordinates,
+        negentropy_text(compared.front().negentropy, compared.front().is_exact));
   }
   return text;
+}
+
+namespace {
+
+/// Whether a table has one after a tilde.
+bool has_uncertain_negentropy(const UncertaintyResult& result) {
+  const UncertaintyAt& last = result.points.back();
+  for (const UncertainState& state : last.states) {
+    for (const MomentsFamily& family : moments_families(result, last, state)) {
+      const Cumulants& moments = family.by_order->back();
+      if (negentropy_text(moments.negentropy(), moments.is_negentropy_exact())[0] == '~')
+        return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+std::string negentropy_text(double negentropy, bool is_exact) {
+  // Below the first the rounding of sums over some thousand coefficients is told; above the second
+  // the leading terms of a shear are wrong by a third and more.
+  if (negentropy < 1e-12) return "0";
+  return fmt::format("{}{:.3g}", is_exact || negentropy < 0.05 ? "" : "~", negentropy);
 }
 
 std::vector<std::string> uncertainty_notes(const UncertaintyResult& result) {
@@ -262,6 +288,11 @@ std::vector<std::string> uncertainty_notes(const UncertaintyResult& result) {
     if (compared.refusal.empty()) continue;
     notes.push_back(fmt::format("No moments in {} coordinates: {}.", name_of(compared.coordinates),
                                 compared.refusal));
+  }
+  if (has_uncertain_negentropy(result)) {
+    notes.push_back(
+        "A negentropy after ~ is the leading terms, of a distribution whose entropy is not known; "
+        "above some tenths they tell no more than that it is far from Gaussian.");
   }
   if (settings.samples < 2) notes.push_back("No samples were flown (uncertainty.samples).");
   return notes;

@@ -33,11 +33,16 @@ std::vector<MomentsFamily> moments_families(const UncertaintyResult& result,
 struct GaussianityInCoordinates {
   std::string coordinates;
   double negentropy = 0;       ///< of the highest order
+  bool is_exact = true;        ///< or its leading terms alone
   double error_of_linear = 0;  ///< of a probability, at most
   std::string refusal;         ///< not empty: why there are none
 };
 std::vector<GaussianityInCoordinates> gaussianity_in_coordinates(const UncertaintyResult& result,
                                                                  const UncertainState& state);
+
+/// A negentropy in a table, after a tilde where only its leading terms are known and they are so
+/// large that they say little.
+std::string negentropy_text(double negentropy, bool is_exact);
 
 /// The time of a point, for people.
 std::string time_text(const UncertaintyResult& result, const UncertaintyAt& at);

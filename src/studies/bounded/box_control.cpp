@@ -22,6 +22,10 @@ namespace {
 constexpr double seconds_a_day = 86400;
 constexpr std::size_t numbers_of_state = 6;
 constexpr std::size_t drawn_places = 4001;
+/// Beyond this part of the box the deputy is looked at so many times as often: it may leave and
+/// come back between two looks.
+constexpr double near_face = 0.9;
+constexpr double more_looks = 10;
 
 /// The chief, the deputy and the reference, flown side by side.
 class Company {
@@ -112,7 +116,7 @@ class Keeper {
     note(looked(company_, time_));
     while (time_ < end) {
       if (progress_) progress_("box", time_ / end);
-      const double step = std::min(step_, end - time_);
+      const double step = std::min(pace(company_), end - time_);
       Company next = company_;
       next.advance(flow_, step);
       if (next.part() <= 1) {
@@ -156,6 +160,11 @@ class Keeper {
     result_.most_m = result_.most_m.cwiseMax(look.from_chief_m);
     result_.farthest = std::max(result_.farthest, look.part);
     places_.add(look.place);
+  }
+
+  /// The time to the next look.
+  double pace(const Company& company) const {
+    return company.part() > near_face ? step_ / more_looks : step_;
   }
 
   /// Coasts to the last moment inside of a step that ends outside.
@@ -207,8 +216,8 @@ class Keeper {
   }
 
   static bool is_better(const BoxReturn& one, const BoxReturn& other) {
-    const bool is_inside = one.farthest <= 1 + rounding;
-    const bool other_is_inside = other.farthest <= 1 + rounding;
+    const bool is_inside = one.farthest <= 1 + BoxControl::rounding;
+    const bool other_is_inside = other.farthest <= 1 + BoxControl::rounding;
     if (is_inside != other_is_inside) return is_inside;
     return is_inside ? one.change_m_s() < other.change_m_s() : one.farthest < other.farthest;
   }
@@ -243,12 +252,11 @@ class Keeper {
       if (error.kind() != ErrorKind::numerical) throw;
       return std::nullopt;
     }
-    const int steps = static_cast<int>(std::ceil(duration / step_));
-    double time = time_;
-    for (int k = 0; k < steps; ++k) {
-      flown.end.advance(flow_, duration / steps);
-      time += duration / steps;
-      flown.looks.push_back(looked(flown.end, time));
+    for (double left = duration; left > 0;) {
+      const double step = std::min(pace(flown.end), left);
+      flown.end.advance(flow_, step);
+      left -= step;
+      flown.looks.push_back(looked(flown.end, time_ + duration - left));
       told.farthest = std::max(told.farthest, flown.looks.back().part);
     }
     // At its end the deputy takes the reference's velocity; its place is what the flight missed.
@@ -266,9 +274,6 @@ class Keeper {
     flown.end.set_deputy(told.deputy_after);
     return flown;
   }
-
-  /// Faces are found to the rounding of flights.
-  static constexpr double rounding = 1e-6;
 
   const Scene& scene_;
   const BoxSettings& settings_;

@@ -32,8 +32,8 @@ struct BoxControl {
   double days = 0;
   std::vector<double> start;  ///< the deputy's state, canonical
   std::vector<BoxReturn> returns;
-  /// The farthest from the reference over all, looked at `places_a_revolution` times a revolution,
-  /// in parts of the box: 1 is a face.
+  /// The farthest from the reference over all, looked at `places_a_revolution` times a revolution
+  /// and ten times as often near a face, in parts of the box: 1 is a face.
   double farthest = 0;
   /// Between which places along R, T and N it was, metres.
   Eigen::Vector3d least_m = Eigen::Vector3d::Zero();
@@ -46,6 +46,10 @@ struct BoxControl {
   std::vector<Place> places;
 
   static constexpr int places_a_revolution = 96;
+  /// Faces are found to the rounding of flights.
+  static constexpr double rounding = 1e-6;
+  /// Whether the deputy was never outside, on its ways back too.
+  bool is_held() const { return farthest <= 1 + rounding; }
   double change_m_s() const;
   double change_a_day_m_s() const { return change_m_s() / days; }
 };
@@ -55,6 +59,8 @@ struct BoxControl {
 /// flown. The momenta of a return are those of the generating function F1 of the flow's jet, of the
 /// scene's order, about the chief from where it is (PositionBoundaryValues); the flights are by the
 /// full equations, with Taylor's method.
+///
+/// Where a return goes outside the deputy was not kept, as BoxControl::is_held tells.
 ///
 /// `member` is the state of the deputy that the box is about, where it is about one, and
 /// `revolution` the chief's nodal period, canonical. A return that has begun is

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "../integration.hpp"
@@ -18,8 +20,13 @@ std::vector<Cumulants> moments_by_order(const std::vector<Series<double>>& map,
 /// Of coordinates at the end, with the noise of canonical states there, whose jet is given, to
 /// first order.
 std::vector<Cumulants> charted_moments(const std::vector<Series<double>>& coordinates,
+                                       const std::array<std::string, 6>& names,
                                        const InitialState& start, const FlowJet<double>& jet,
                                        const std::optional<Covariance>& noise);
+
+/// Tells each distribution that it is what a flow has made of a start; of one whose covariance is
+/// singular nothing.
+void told_of_start(std::vector<Cumulants>& all, const InitialState& start);
 
 /// Adds an independent vector, noise or a known one, to all.
 void add_noise(std::vector<Cumulants>& all, const Cumulants& noise);

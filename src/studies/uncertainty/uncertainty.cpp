@@ -158,20 +158,22 @@ void add_noise(Matrix<double>& deviations, const Covariance& noise, StandardNorm
 }
 
 /// The moments at one time, of canonical deviations from the chief, whose jet is `jet`; `own` is
-/// that about the spacecraft's own mean, which is `between` from the chief. `flow` and
-/// `coordinates` are those of the scene's other coordinates, if it has such.
+/// that about the spacecraft's own mean, which is `between` from the chief. `flow`, `coordinates`
+/// and their `names` are those of the scene's other coordinates, if it has such.
 UncertainState moments_of(const InitialState& start, const FlowJet<double>& jet,
                           const FlowJet<double>& own, const Vector<double>& between,
                           const DeputyFlow* flow, const std::vector<Series<double>>& coordinates,
+                          const std::array<std::string, 6>& names,
                           const std::optional<Covariance>& noise) {
   const int order = jet[0].order();
   UncertainState state;
   state.name = start.name;
   state.cartesian = moments_by_order(without_constants(own),
                                      {start.name, Vector<double>::Zero(6), start.covariance});
+  told_of_start(state.cartesian, start);
   if (between.norm() > 0) add_noise(state.cartesian, Cumulants(between, {}));
   if (flow) {
-    state.charted = charted_moments(coordinates, start, jet, noise);
+    state.charted = charted_moments(coordinates, names, start, jet, noise);
     const Matrix<double> factor = stretched_factor(start.covariance, linear_part(jet));
     for (int n = 1; n <= order && factor.cols() > 0; ++n) {
       const auto fine = moments_through(*flow, n, start, factor, finer_nodes);
@@ -183,6 +185,7 @@ UncertainState moments_of(const InitialState& start, const FlowJet<double>& jet,
       state.through.push_back(*fine);
       state.through_doubt = std::max(state.through_doubt, difference_of(*fine, *coarse));
     }
+    told_of_start(state.through, start);
   }
   if (noise) {
     const Cumulants added(Vector<double>::Zero(6), *noise);
@@ -297,7 +300,7 @@ UncertaintyResult study_uncertainty(const Scene& scene, const ProgressCallback& 
             flow && !is_distant(starts[s], scene) &&
             miss_of_mean(*flow, scene.order, starts[s], means[s]) <= largest_miss;
         state = moments_of(starts[s], jet, own, means[s].deviation,
-                           has_charts ? flow.get() : nullptr, coordinates, added);
+                           has_charts ? flow.get() : nullptr, coordinates, at.charted_names, added);
         map_all(state.cartesian, to_frame);
         map_all(state.through, to_frame);
       }
@@ -314,6 +317,8 @@ UncertaintyResult study_uncertainty(const Scene& scene, const ProgressCallback& 
                                   state.name, time * units.time_s));
         }
         state.flown = flown_moments(state.flown_states);
+        const std::optional<double>& volume = state.cartesian.front().gaussian_log_volume();
+        if (volume) state.flown->cumulants.carried_without_compression(*volume);
       }
       at.states.push_back(std::move(state));
     }

@@ -108,7 +108,8 @@ struct BoxSettings {
   BoxReference reference = BoxReference::member;
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  ///< of `rest`
   /// Times that a return may take, in the chief's nodal periods at its start.
-  std::vector<double> return_orbits = {0.1, 0.2, 0.3, 0.4, 0.6, 0.7, 0.8, 0.9};
+  std::vector<double> return_orbits = {0.02, 0.04, 0.06, 0.08, 0.1, 0.12, 0.15,
+                                       0.2,  0.3,  0.4,  0.6,  0.7, 0.8,  0.9};
   double days = 10;
 };
 
