@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "../integrators/concurrent_tasks.hpp"
 #include "../studies/formation/deputy_flows.hpp"
 #include "../studies/formation/formation_problem.hpp"
 #include "../studies/formation/single_transfer.hpp"
@@ -84,6 +85,16 @@ EvaluatedScene evaluated_jet(const io::StoredJet& stored) {
   return result;
 }
 
+double DeputyEvaluation::chart_seconds() const {
+  double all = 0;
+  double polynomials = 0;
+  for (const Worker& worker : workers_) {
+    all += worker.seconds;
+    polynomials += worker.predictor.polynomial_seconds();
+  }
+  return all > 0 ? seconds_ * (1 - polynomials / all) : 0;
+}
+
 void DeputyEvaluation::add(const std::vector<double>& deviation) {
   pending_.push_back(six_numbers(deviation));
 }
@@ -102,20 +113,36 @@ void DeputyEvaluation::run(
     const std::function<void(const std::vector<double>&, const MissEstimate&)>& take) {
   const bool is_curved = scene_.coordinates != JetCoordinates::cartesian;
   const std::vector<int> degrees = this->degrees();
-  const std::size_t count = pending_.size();
-  predictions_.resize(count * degrees.size());
+  // Fewer take no longer than a thread takes to start.
+  constexpr std::size_t fewest_points = 256;
+  const std::size_t tasks = std::clamp<std::size_t>(pending_.size() / fewest_points, 1, threads_);
+  while (workers_.size() < tasks) workers_.push_back({DeputyPredictor(*scene_.flow), {}, 0});
+  const auto first_of = [&](std::size_t task) { return pending_.size() * task / tasks; };
+  const auto predict = [&](std::size_t task, TaskControl&) {
+    Worker& worker = workers_[task];
+    const Stopwatch watch(worker.seconds);
+    const auto points =
+        std::span(pending_).subspan(first_of(task), first_of(task + 1) - first_of(task));
+    worker.predictions.resize(points.size() * degrees.size());
+    worker.predictor.predict(points, degrees, worker.predictions);
+  };
   {
     const Stopwatch watch(seconds_);
-    predictor_.predict(pending_, degrees, predictions_);
+    run_concurrently(tasks, tasks, predict, [](long) {});
   }
-  for (std::size_t k = 0; k < count; ++k) {
-    const SixNumbers<double>& found = predictions_[k].deviation;
-    const auto deviation = [&](std::size_t below) {
-      return below < degrees.size() ? &predictions_[below * count + k].deviation : nullptr;
-    };
-    take({found.begin(), found.end()},
-         is_curved ? curved_estimate(pending_[k], found, deviation(1), deviation(2))
-                   : estimate(predictions_[k]));
+  for (std::size_t task = 0; task < tasks; ++task) {
+    const std::vector<DeputyPrediction>& predictions = workers_[task].predictions;
+    const std::size_t count = first_of(task + 1) - first_of(task);
+    for (std::size_t k = 0; k < count; ++k) {
+      const SixNumbers<double>& found = predictions[k].deviation;
+      const auto deviation = [&](std::size_t below) {
+        return below < degrees.size() ? &predictions[below * count + k].deviation : nullptr;
+      };
+      take({found.begin(), found.end()},
+           is_curved
+               ? curved_estimate(pending_[first_of(task) + k], found, deviation(1), deviation(2))
+               : estimate(predictions[k]));
+    }
   }
   pending_.clear();
 }

@@ -8,6 +8,7 @@
 #include "hamjet/charts/jet_coordinates.hpp"
 #include "hamjet/formats/stored_jet.hpp"
 #include "jet_evaluation.hpp"
+#include "processors.hpp"
 
 namespace hamjet::cli {
 
@@ -31,11 +32,13 @@ EvaluatedScene evaluated_jet(const io::StoredJet& stored);
 /// What JetEvaluation does, for polynomials in any coordinates.
 class DeputyEvaluation {
  public:
-  /// Points that are evaluated at once.
-  static constexpr std::size_t most_points = JetEvaluation::most_points;
+  /// Points that are evaluated at once, on all threads together.
+  static constexpr std::size_t most_points = 16384;
 
-  DeputyEvaluation(const EvaluatedScene& scene, int degree)
-      : scene_(scene), degree_(degree), predictor_(*scene.flow) {}
+  /// No digit depends on the number of threads.
+  DeputyEvaluation(const EvaluatedScene& scene, int degree,
+                   std::size_t threads = usable_processors())
+      : scene_(scene), degree_(degree), threads_(threads) {}
 
   /// Adds a canonical deviation of six numbers.
   void add(const std::vector<double>& deviation);
@@ -47,8 +50,9 @@ class DeputyEvaluation {
   /// Seconds of all predictions so far, the coordinates at both ends included, and the lower
   /// degrees that the estimate needs.
   double seconds() const { return seconds_; }
-  /// Of these, the seconds of the polynomials, the lower degrees included.
-  double polynomial_seconds() const { return predictor_.polynomial_seconds(); }
+  /// Of these, what the coordinates at both ends take: the share that they have in the threads'
+  /// own time.
+  double chart_seconds() const;
   /// The degrees that are evaluated: that asked for and, in other coordinates than Cartesian, up to
   /// two below it, which go through the curved ends too.
   std::vector<int> degrees() const;
@@ -67,8 +71,14 @@ class DeputyEvaluation {
 
   const EvaluatedScene& scene_;
   int degree_;
-  DeputyPredictor predictor_;
-  std::vector<DeputyPrediction> predictions_;
+  std::size_t threads_;
+  /// A thread's own: what it predicts with, where it writes, and the time it has worked.
+  struct Worker {
+    DeputyPredictor predictor;
+    std::vector<DeputyPrediction> predictions;
+    double seconds = 0;
+  };
+  std::vector<Worker> workers_;
   std::vector<SixNumbers<double>> pending_;
   double seconds_ = 0;
 };

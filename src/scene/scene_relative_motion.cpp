@@ -164,8 +164,10 @@ std::vector<double> read_transfer_times(const TableReader& table, const Scene& s
     return equal_parts(table, *default_count, scene.duration);
   }
   return read_times(table, scene, nominal,
-                    "zero transfer time, got 0, must not be 0: in no time only a jump leads from "
-                    "one position to another");
+                    default_count
+                        ? "the start itself, got 0, must not be 0: there all is as it was given"
+                        : "zero transfer time, got 0, must not be 0: in no time only a jump leads "
+                          "from one position to another");
 }
 
 std::vector<double> read_jet_times(const TableReader& jet, const Scene& scene,

@@ -337,7 +337,7 @@ TEST(SceneValidity, Errors) {
       "[validity]\ntolerance_m = 1\nsemi_axes = [1, 1, 1]\nsamples = 40\n",
       {{"tolerance_m = 1", "tolerance_m = 0", {"validity.tolerance_m: not positive"}},
        {"tolerance_m = 1", "tol = 1", {"validity.tol: unknown key"}},
-       {"tolerance_m = 1", "times_s = 0", {"validity.times_s: zero transfer time"}},
+       {"tolerance_m = 1", "times_s = 0", {"validity.times_s: the start itself, got 0, must not be 0"}},
        {"tolerance_m = 1", "times_s = 1\ncount = 1", {"more than one key"}},
        {"[1, 1, 1]", "[1, 0, 1]", {"validity.semi_axes.1: not positive, got 0"}},
        {"[1, 1, 1]", "[1, 1]", {"semi_axes: wrong length"}},

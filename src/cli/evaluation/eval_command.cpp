@@ -324,7 +324,7 @@ void evaluate(const EvalOptions& options, const EvalSource& jet, const io::Numbe
   const double time_s = jet.stored.duration * jet.stored.units.time_s;
   if (jet.scene) {
     const int degree = options.degree.value_or(jet.order());
-    DeputyEvaluation evaluation(*jet.scene, degree);
+    DeputyEvaluation evaluation(*jet.scene, degree, options.threads.value_or(usable_processors()));
     carry(options, coordinates, time_s, deviations, evaluation, output);
     const auto& polynomials = jet.scene->flow->polynomials();
     work.add(evaluation.seconds(), MapEvaluator(polynomials, degree));
@@ -332,7 +332,7 @@ void evaluate(const EvalOptions& options, const EvalSource& jet, const io::Numbe
       if (one == degree) continue;  // has been added
       work.all_multiply_adds_per_point += MapEvaluator(polynomials, one).multiply_adds_per_point();
     }
-    work.chart_seconds += evaluation.seconds() - evaluation.polynomial_seconds();
+    work.chart_seconds += evaluation.chart_seconds();
     return;
   }
   JetEvaluation evaluation(jet.stored, options.degree);

@@ -62,6 +62,11 @@ CLI::App* add_eval_command(CLI::App& app, EvalOptions& options) {
                    "scene asked for, and a column time_s (default: the end alone, without it)")
       ->type_name("SECONDS,...|all");
   eval->add_option("--degree", options.degree, "leave out terms above this degree")->type_name("K");
+  eval->add_option("--threads", options.threads,
+                   "threads for coordinates other than Cartesian (default: all cores); the results "
+                   "do not depend on it")
+      ->check(CLI::Range(1, 1024))
+      ->type_name("N");
   add_override_option(*eval, options.overrides);
   add_output_option(
       *eval, options.output,

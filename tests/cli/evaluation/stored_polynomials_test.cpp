@@ -1,3 +1,7 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
 #include "../command_test.hpp"
 #include "formats/hdf5/hdf5_jets.hpp"
 
@@ -98,6 +102,27 @@ TEST_F(StoredPolynomials, OfChartsPredictAsIntegratedOnes) {
     EXPECT_NEAR(stored["rows"][0][name].get<double>(), integrated["rows"][0][name].get<double>(),
                 1e-6);
   }
+}
+
+// Threads share the deputies, which may be odd to the last one, in whole blocks or not; a deputy's
+// digits are its own.
+TEST_F(StoredPolynomials, PredictTheSameOnAnyNumberOfThreads) {
+  std::string deviations = "R_m,T_m,N_m,vR_m_s,vT_m_s,vN_m_s\n";
+  for (int k = 0; k < 1003; ++k) {
+    deviations += fmt::format("{},{},{},0.5,{},1\n", 40 * k - 20000, 17 * k, 300 - k, 0.01 * k);
+  }
+  write("many.csv", deviations);
+  for (const std::string coordinates : {"flow-box", "poincare"}) {
+    const auto with = [&](const std::string& threads) {
+      succeed({"eval", "far.toml", "--set", "jet.coordinates=" + coordinates, "--deviations",
+               "many.csv", "--threads", threads, "-o", threads + ".csv", "-q"});
+      return content(directory_ / (threads + ".csv"));
+    };
+    const std::string alone = with("1");
+    EXPECT_EQ(std::count(alone.begin(), alone.end(), '\n'), 1004);
+    for (const char* const threads : {"2", "3", "16"}) EXPECT_EQ(with(threads), alone) << threads;
+  }
+  expect_error({"eval", "far.toml", "--deviation=1,0,0,0,0,0", "--threads", "0"}, 2, {"--threads"});
 }
 
 // What a run cannot write is said, and what a method cannot integrate fails that part alone.
