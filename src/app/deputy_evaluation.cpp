@@ -189,8 +189,9 @@ MissEstimate DeputyEvaluation::curved_estimate(const SixNumbers<double>& initial
       result.support = Support::outside;
       return result;
     }
-    ratio = std::max(change / std::max(change_below, change), least_ratio);
-    ratio = std::min(ratio, 1.0);
+    // Two degrees that change nothing have no ratio, and need none.
+    const double larger = std::max(change_below, change);
+    ratio = larger > 0 ? std::max(change / larger, least_ratio) : least_ratio;
   }
   result.support = change <= largest_share * size ? Support::inside : Support::outside;
   result.truncation_m = change * ratio * scene_.chief.units.length_km * 1000;

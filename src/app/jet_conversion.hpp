@@ -23,9 +23,9 @@ struct ConvertedJet {
 /// Converts a jet of an orbit in all six variables, in extended precision, and rounds it to its own
 /// precision. Errors of the coefficients, which are known in one kind of coordinates alone, are
 /// left out. A flow box is made by composition, in the gravity field of `scene`, which must be of
-/// the jet's chief and keep its energy. Throws Error(usage) for other jets and scenes, for a flow
-/// box without a scene and for coordinates that cannot be converted to, and Error(numerical) where
-/// the orbit has not such coordinates. `name` is the file's.
+/// the jet's chief and fly it to the jet's end. Throws Error(usage) for other jets and scenes, for
+/// a flow box without a scene and for coordinates that cannot be converted to, and Error(numerical)
+/// where the orbit has not such coordinates. `name` is the file's.
 ConvertedJet converted_jet(const io::StoredJet& stored, const CoordinatesAtEnds& coordinates,
                            const std::string& name, const Scene* scene = nullptr,
                            Caller caller = Caller::command);

@@ -1,17 +1,20 @@
 #include "encounter_trajectories.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
 #include "hamjet/algebra/composition.hpp"
+#include "hamjet/error.hpp"
 
 namespace hamjet {
 namespace {
 
 constexpr double fewest_looks = 64;
-constexpr double most_looks = 2e4;
+constexpr std::size_t most_looks = 200000;
 
 /// The jets of one spacecraft in the window.
 JetTrajectory<double> window_trajectory(const EncounterProblem& problem, std::size_t craft) {
@@ -106,9 +109,15 @@ std::vector<double> EncounterTrajectories::times_of_looks(double looks_per_perio
   std::vector<double> times = {from_};
   while (times.back() < to_) {
     const double now = times.back();
-    const double step =
-        std::clamp(std::min(local_period(0, now), local_period(1, now)) / looks_per_period,
-                   span / most_looks, span / fewest_looks);
+    const double period = std::min(local_period(0, now), local_period(1, now));
+    const double step = std::min(period / looks_per_period, span / fewest_looks);
+    if (times.size() > most_looks) {
+      throw Error(
+          ErrorKind::too_large,
+          fmt::format("encounter: the distance would be looked at more than {} times in the "
+                      "window; a shorter window is needed",
+                      most_looks));
+    }
     // The last step is not a sliver.
     const bool is_last = now + 1.5 * step > to_;
     times.push_back(is_last ? to_ : now + step);

@@ -35,7 +35,7 @@ class EncounterTrajectories {
   /// The window in steps of the shorter of the two local periods, those of the small circles
   /// through where the spacecraft are, by `looks_per_period`: equal steps would see too little of a
   /// perigee, where an eccentric orbit turns many times as fast as on average. There are at least
-  /// 64 steps, and none is shorter than 2e4 of them would be.
+  /// 64 steps; throws Error(too_large) where more than 200000 are needed.
   std::vector<double> times_of_looks(double looks_per_period) const;
 
  private:

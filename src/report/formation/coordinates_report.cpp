@@ -14,6 +14,7 @@
 #include "transfer_json.hpp"
 #include "transfer_view.hpp"
 #include "validity_json.hpp"
+#include "validity_view.hpp"
 
 // How far the polynomials reach in each of the coordinates, on the same deputies.
 
@@ -47,6 +48,11 @@ std::string verdict(const ValidityInCoordinates& all) {
   }
   text += fmt::format(", proved by flying the same deputies, with velocities {}.",
                       velocities_text(cartesian.scene.validity->frame));
+  for (const ValidityResult& result : all.results) {
+    const std::string unproved = unproved_text(result);
+    text += unproved;
+    if (!unproved.empty()) break;  // what it says holds for all
+  }
   for (const ValidityInCoordinates::Refused& refused : all.refused) {
     text += fmt::format(" Refused: {}.", refused.reason);
   }

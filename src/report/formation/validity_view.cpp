@@ -10,6 +10,19 @@
 
 namespace hamjet::io {
 
+std::string unproved_text(const ValidityResult& result) {
+  const std::vector<ValidityEntry>& entries = result.points.back().entries;
+  const bool is_one_unproved =
+      std::any_of(entries.begin(), entries.end(),
+                  [](const ValidityEntry& entry) { return entry.proved_m == 0; });
+  if (!is_one_unproved) return "";
+  return fmt::format(
+      " 0 m: no separation could be proved, because those deputies missed by more than the "
+      "tolerance however near they were. The flights themselves are right to {}; a finer "
+      "integrator, or a larger tolerance, may prove some.",
+      length_text(result.flight_floor_m));
+}
+
 std::string validity_verdict(const ValidityResult& result) {
   if (result.points.empty()) return "No time was examined.";
   const ValidityPoint& last = result.points.back();
@@ -29,18 +42,7 @@ std::string validity_verdict(const ValidityResult& result) {
       std::any_of(last.entries.begin(), last.entries.end(),
                   [](const ValidityEntry& entry) { return entry.is_at_limit; });
   if (is_one_at_limit) text += " At least: nothing further away was tried.";
-  const bool is_one_unproved =
-      std::any_of(last.entries.begin(), last.entries.end(),
-                  [](const ValidityEntry& entry) { return entry.proved_m == 0; });
-  if (is_one_unproved) {
-    text += fmt::format(
-        " 0 m: no separation could be proved, because those deputies missed by more than the "
-        "tolerance however near they were. The flights themselves are right to {}; a finer "
-        "integrator, or a larger tolerance, may "
-        "prove some.",
-        length_text(result.flight_floor_m));
-  }
-  return text;
+  return text + unproved_text(result);
 }
 
 }  // namespace hamjet::io

@@ -230,8 +230,9 @@ bool has_uncertain_negentropy(const UncertaintyResult& result) {
   for (const UncertainState& state : last.states) {
     for (const MomentsFamily& family : moments_families(result, last, state)) {
       const Cumulants& moments = family.by_order->back();
-      if (negentropy_text(moments.negentropy(), moments.is_negentropy_exact())[0] == '~')
+      if (negentropy_text(moments.negentropy(), moments.is_negentropy_exact())[0] == '~') {
         return true;
+      }
     }
   }
   return false;

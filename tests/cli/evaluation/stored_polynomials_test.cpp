@@ -125,6 +125,35 @@ TEST_F(StoredPolynomials, PredictTheSameOnAnyNumberOfThreads) {
   expect_error({"eval", "far.toml", "--deviation=1,0,0,0,0,0", "--threads", "0"}, 2, {"--threads"});
 }
 
+// The changes of two degrees vanish there, whose ratio is none; the floor of a flight stays.
+TEST_F(StoredPolynomials, TellAMissOfSmallDeviations) {
+  for (const char* const coordinates : {"flow-box", "poincare", "cylindrical"}) {
+    for (const char* const order : {"2", "3", "6"}) {
+      const Json row = Json::parse(
+          succeed({"eval", "far.toml", "--set", std::string("jet.coordinates=") + coordinates,
+                   "--set", std::string("jet.order=") + order, "--deviation=1,0,0,0,0.001,0",
+                   "--json", "-q", "--strict"})
+              .out)["rows"][0];
+      SCOPED_TRACE(row.dump());
+      ASSERT_TRUE(row["miss_estimate_m"].is_number());
+      EXPECT_GT(row["miss_estimate_m"].get<double>(), 0);
+      EXPECT_LT(row["miss_estimate_m"].get<double>(), 1e-3);
+    }
+  }
+}
+
+// A field with one more harmonic keeps the chief's energy all but, and flies it elsewhere.
+TEST_F(StoredPolynomials, OfAnotherGravityFieldAreNotMade) {
+  if (!io::hdf5_available()) GTEST_SKIP();
+  succeed({"run", "far.toml", "-o", "plain", "-q"});
+  std::string other = content(directory_ / "far.toml");
+  other.replace(other.find("J3 ="), 4, "J6 = 5e-7\nJ3 =");
+  write("other.toml", other);
+  expect_error({"convert", "plain", "box.h5", "--coordinates", "flow-box", "--scene", "other.toml"},
+               2, {"--scene: in its gravity field the jet's chief flies to another place"});
+  succeed({"convert", "plain", "box.h5", "--coordinates", "flow-box", "--scene", "far.toml"});
+}
+
 // What a run cannot write is said, and what a method cannot integrate fails that part alone.
 TEST_F(StoredPolynomials, AreRefusedWithTheReason) {
   const CommandResult automatic =
