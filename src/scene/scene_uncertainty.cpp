@@ -293,6 +293,15 @@ UncertaintySettings read_uncertainty(const TableReader& uncertainty, const Scene
     settings.coordinates = read_compared_coordinates(uncertainty);
   }
   uncertainty.read_if_any("acceleration_density_m2_s3", settings.acceleration_density_m2_s3);
+  if (settings.acceleration_density_m2_s3 > 0 && (settings.collision || settings.safety)) {
+    uncertainty.fail(
+        "acceleration_density_m2_s3",
+        fmt::format("not beside [uncertainty.{}], got {}, must be 0 or left out: noise "
+                    "along the way is in the moments alone, and without it a "
+                    "probability would be too low",
+                    settings.collision ? "collision" : "safety",
+                    settings.acceleration_density_m2_s3));
+  }
   uncertainty.read_if_any("samples", settings.samples);
   uncertainty.read_if_any("seed", settings.seed);
   return settings;

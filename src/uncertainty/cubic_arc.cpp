@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <boost/math/tools/toms748_solve.hpp>
+#include <cmath>
 #include <cstdint>
 
 namespace hamjet {
@@ -9,6 +10,8 @@ namespace {
 
 /// Parts of an interval are told apart to this: a millionth of a second in half an hour.
 constexpr double shortest_part = 1e-9;
+/// Halvings until a part is as short.
+constexpr int deepest = 30;
 
 double dot(const std::array<double, 3>& a, const std::array<double, 3>& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -101,15 +104,23 @@ void SquaredDistance::entries(double square, double from, double to,
   right.entries(square, middle, to, parts);
 }
 
-double SquaredDistance::least(double best) const {
+double SquaredDistance::least(double best) const { return least(best, 0); }
+
+double SquaredDistance::least(double best, int depth) const {
   best = std::min({best, c_[0], c_[6]});
   const double bound = lower_bound();
-  const double rounding = 1e-15 * *std::max_element(c_.begin(), c_.end());
-  if (best - bound <= 1e-12 * best + rounding) return best;
+  // Where the arc passes the origin itself, squares are rounding to both sides of zero.
+  const double rounding = 1e-15 * *std::max_element(c_.begin(), c_.end(), [](double a, double b) {
+                            return std::abs(a) < std::abs(b);
+                          });
+  if (best - bound <= 1e-12 * std::abs(best) + std::abs(rounding) || depth == deepest) {
+    return std::max(best, 0.0);
+  }
   const auto [left, right] = halves();
   // The half that promises less goes first.
-  return left.lower_bound() < right.lower_bound() ? right.least(left.least(best))
-                                                  : left.least(right.least(best));
+  return left.lower_bound() < right.lower_bound()
+             ? right.least(left.least(best, depth + 1), depth + 1)
+             : left.least(right.least(best, depth + 1), depth + 1);
 }
 
 }  // namespace hamjet

@@ -43,8 +43,8 @@ class SquaredDistance {
   /// Puts the parts of the interval at which it falls below a square, which it passes there, behind
   /// the list.
   void entries(double square, std::vector<double>& parts) const;
-  /// The least value in the interval; where nothing is below `best`, that. To a part of 1e-12 of
-  /// it.
+  /// The least value in the interval, not below 0; where nothing is below `best`, that. To a part
+  /// of 1e-12 of it, or 1e-15 of the largest.
   double least(double best) const;
 
   double at(double part) const;
@@ -53,6 +53,7 @@ class SquaredDistance {
   explicit SquaredDistance(const std::array<double, 7>& c) : c_(c) {}
   std::array<SquaredDistance, 2> halves() const;
   void entries(double square, double from, double to, std::vector<double>& parts) const;
+  double least(double best, int depth) const;
 
   std::array<double, 7> c_;
 };

@@ -102,6 +102,7 @@ TEST_F(LongMotion, BoundedWritesDeputiesThatStay) {
   const Json& map = summary["deputies"][0];
   EXPECT_NEAR(map["size_m"].get<double>(), 2000, 1);
   EXPECT_LT(std::abs(map["drifts"][1]["along"].get<double>()), 1e-6);
+  EXPECT_GT(map["drifts"][1]["along_doubt"].get<double>(), 0);
   // The start as a scene's deputy: `hamjet motion` has it at the size.
   const Json& start = map["start"]["RTN-rotating"];
   const auto listed = [&](const std::vector<std::string>& names) {
@@ -185,6 +186,28 @@ TEST_F(LongMotion, RefusesWithTheReason) {
                   "within 0.57 deg of the equatorial plane"});
   }
   EXPECT_FALSE(std::filesystem::exists(directory_ / "out"));
+}
+
+// In such a field states come back after no time at all, or two revolutions.
+TEST_F(LongMotion, PoincareRefusesReturnsThatAreNoRevolution) {
+  const std::string follower = HAMJET_SOURCE_DIR "/data/scenes/bounded-follower.toml";
+  for (const char* const J2 : {"0.25", "0.3"}) {
+    const CommandResult result =
+        hamjet({"poincare", follower, "--set", std::string("system.J2=") + J2});
+    EXPECT_EQ(result.exit_code, 4) << result.out;
+    EXPECT_NE(result.err.find("frozen orbit: none was found"), std::string::npos) << result.err;
+  }
+}
+
+TEST_F(LongMotion, BoundedSaysWhichDeputiesPassInsideTheBody) {
+  std::string low =
+      scene("50", "[bounded]\nsizes_km = [1, 1000]\nphase_deg = 0\nrevolutions = 10\n");
+  low.replace(low.find("7100"), 4, "6450");
+  write("low.toml", low);
+  const std::string out = in_one_line(succeed({"bounded", "low.toml"}).out);
+  EXPECT_NE(out.find("4 of the 8 orbits cannot be flown"), std::string::npos) << out;
+  EXPECT_NE(out.find("1000 km by refined: no orbit that can be flown"), std::string::npos) << out;
+  EXPECT_EQ(out.find("1 km by refined: no orbit"), std::string::npos) << out;
 }
 
 // Frozen eccentricities of a thousandth take an orbit a kilometre above the equator's radius below

@@ -32,6 +32,7 @@ def test_bounded_deputies_are_those_of_the_command(tmp_path):
     assert list(bounded.rules) == expected["rule"]
     assert (bounded.size_m == numbers(expected["size_m"])).all()
     assert (bounded.along_drifts[:, 1] == numbers(expected["window_along_drift"])).all()
+    assert (bounded.along_doubts[:, 1] == numbers(expected["window_along_doubt"])).all()
     for i, axis in enumerate("rtn"):
         assert (bounded.half_widths_m[:, i] == numbers(expected[f"half_width_{axis}_m"])).all()
     assert bounded.starts.shape == (8, 6) and np.isfinite(bounded.starts).all()

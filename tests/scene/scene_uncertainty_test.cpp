@@ -155,6 +155,20 @@ TEST(SceneUncertainty, ACovarianceComesFromAConjunctionDataMessage) {
   EXPECT_NEAR(other.uncertainty->chief->covariance.matrix()(1, 1), 2.492e6, 1e-6);
 }
 
+// Without the noise a probability of collision would be too low.
+TEST(SceneUncertainty, NoiseIsRefusedBesideWhatLeavesItOut) {
+  const std::string noisy =
+      about_earth +
+      "[deputy]\nposition_m = [0, 1000, 0]\n[uncertainty]\nposition_m = [1, 1, 1]\n"
+      "acceleration_density_m2_s3 = 1e-6\n";
+  EXPECT_NO_THROW(scene_with(noisy.substr(about_earth.size())));
+  expect_scene_error(
+      noisy + "[uncertainty.collision]\nradius_m = 10\n",
+      {"uncertainty.acceleration_density_m2_s3", "not beside [uncertainty.collision]"});
+  expect_scene_error(noisy + "[uncertainty.safety]\nkeep_apart_m = 10\n",
+                     {"uncertainty.acceleration_density_m2_s3", "not beside [uncertainty.safety]"});
+}
+
 TEST(SceneUncertainty, ACovarianceComesFromAnEphemerisInItsAxes) {
   // km^2 become m^2.
   const std::string file =

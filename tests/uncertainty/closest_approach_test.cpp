@@ -12,6 +12,7 @@
 #include "hamjet/integrators/explicit_runge_kutta.hpp"
 #include "hamjet/maps/map_evaluator.hpp"
 #include "support/flow.hpp"
+#include "uncertainty/cubic_arc.hpp"
 #include "uncertainty/published_encounters.hpp"
 
 namespace hamjet {
@@ -116,20 +117,20 @@ struct Ellipse {
   }
 };
 
-Eigen::Matrix3d random_rotation(std::mt19937_64& generator) {
-  std::normal_distribution<double> normal;
-  return Eigen::Quaterniond(normal(generator), normal(generator), normal(generator),
-                            normal(generator))
-      .normalized()
-      .toRotationMatrix();
-}
-
 // Near a perigee distances have minima that follow each other far faster than orbits turn on
 // average. All of them, and no other, by Kepler's equation at 20000 times a unit of time.
 TEST(ClosestApproach, FindsEveryMinimumOfEccentricPairs) {
-  std::mt19937_64 generator(8);
-  std::uniform_real_distribution<double> uniform;
-  for (int pair = 0; pair < 12; ++pair) {
+  // Pairs of which equal steps, 64 in a small circle's period at the start, miss one or two minima:
+  // semi-major axis, eccentricity, mean anomaly, node, inclination, pericentre.
+  const std::array<std::array<std::array<double, 6>, 2>, 6> pairs = {{
+      {{{1.06, 0.69, 3.7, 3.1, 0.0, 1.8}, {1.05, 0.85, 4.3, 1.9, 0.1, 0.1}}},
+      {{{1.27, 0.64, 4.8, 4.8, 1.6, 3.6}, {1.02, 0.91, 0.8, 0.9, 0.2, 4.9}}},
+      {{{1.17, 0.93, 2.3, 4.5, 0.1, 2.3}, {1.11, 0.64, 1.9, 1.8, 0.4, 0.0}}},
+      {{{1.01, 0.70, 3.3, 4.4, 0.1, 4.5}, {1.01, 0.75, 4.1, 5.3, 0.3, 4.4}}},
+      {{{1.29, 0.91, 3.4, 1.3, 0.1, 1.4}, {1.15, 0.62, 0.8, 4.9, 0.3, 3.1}}},
+      {{{1.27, 0.66, 5.0, 6.1, 1.6, 5.2}, {1.18, 0.87, 2.0, 3.9, 3.0, 4.3}}},
+  }};
+  for (std::size_t pair = 0; pair < pairs.size(); ++pair) {
     SCOPED_TRACE(pair);
     std::array<Ellipse, 2> orbits;
     EncounterProblem problem;
@@ -139,8 +140,13 @@ TEST(ClosestApproach, FindsEveryMinimumOfEccentricPairs) {
     problem.order = 1;
     problem.settings.tolerance = 1e-12;
     for (std::size_t craft = 0; craft < 2; ++craft) {
-      orbits[craft] = {1 + 0.3 * uniform(generator), 0.6 + 0.28 * uniform(generator),
-                       2 * std::numbers::pi * uniform(generator), random_rotation(generator)};
+      const auto& [a, e, anomaly, node, inclination, pericentre] = pairs[pair][craft];
+      using Turn = Eigen::AngleAxisd;
+      orbits[craft] = {
+          a, e, anomaly,
+          (Turn(node, Eigen::Vector3d::UnitZ()) * Turn(inclination, Eigen::Vector3d::UnitX()) *
+           Turn(pericentre, Eigen::Vector3d::UnitZ()))
+              .toRotationMatrix()};
       const Eigen::Matrix<double, 6, 1> start = orbits[craft].state(0);
       problem.spacecraft[craft].state.assign(start.begin(), start.end());
     }
@@ -160,8 +166,8 @@ TEST(ClosestApproach, FindsEveryMinimumOfEccentricPairs) {
     ASSERT_EQ(approaches.size(), expected.size());
     for (std::size_t k = 0; k < expected.size(); ++k) {
       // The straight line through both looks is right to the square of their distance, in units of
-      // the time at a perigee, r^1.5 with r of at least 0.12.
-      EXPECT_NEAR(approaches[k].time, expected[k], step * step / std::pow(0.12, 1.5) + 1e-9);
+      // the time at a perigee, r^1.5 with r of at least 0.08.
+      EXPECT_NEAR(approaches[k].time, expected[k], step * step / std::pow(0.08, 1.5) + 1e-9);
     }
   }
 }
@@ -192,6 +198,54 @@ TEST(ShortEncounter, GivesThePublishedIntegrals) {
     EXPECT_NEAR(s.foster / s.alfano, 1, 1e-8) << e.number;
     // The one encounter of 16 m/s is short; those of a few cm/s last for hours.
     EXPECT_EQ(s.holds(), e.number == 3) << e.number << ": " << s.departure;
+  }
+}
+
+// A disc about the mean of a round density: 1 - exp(-R^2 / (2 s^2)), and 1 where the mean is many
+// standard deviations inside of it, however narrow the density is.
+TEST(ShortEncounter, FindsNarrowDensities) {
+  constexpr double radius = 1e-3;
+  for (const double part : {3.0, 1.0, 0.2, 1e-3, 1e-6}) {
+    EncounterProblem problem;
+    problem.system = kepler();
+    problem.spacecraft[0].state = {1, 0, 0, 0, 1, 0};
+    problem.spacecraft[1].state = {1, 0, 0, 0, 0.6, 0.8};
+    problem.spacecraft[1].factor.topLeftCorner<3, 3>() =
+        Eigen::Matrix3d::Identity() * part * radius;
+    problem.to = 1;
+    problem.radius = radius;
+    problem.settings.tolerance = 1e-12;
+    const double exact = -std::expm1(-1 / (2 * part * part));
+    const ShortEncounter centred = short_encounter(problem, 0);
+    EXPECT_NEAR(centred.foster / exact, 1, 1e-9) << part;
+    EXPECT_NEAR(centred.alfano / exact, 1, 1e-9) << part;
+    EXPECT_NEAR(centred.chan / exact, 1, 1e-9) << part;
+    problem.spacecraft[1].state[0] = 1 + 0.9 * radius;
+    const ShortEncounter beside = short_encounter(problem, 0);
+    EXPECT_NEAR(beside.foster / beside.alfano, 1, 1e-8) << part;
+    EXPECT_NEAR(beside.chan / beside.alfano, 1, 1e-6) << part;
+    if (part < 0.01) {
+      EXPECT_NEAR(beside.foster, 1, 1e-9) << part;
+    }
+  }
+}
+
+// Cubics through the origin: squares near it are rounding to both sides of zero.
+TEST(ClosestApproach, LeastDistanceOfArcsThroughTheOtherIsZero) {
+  std::mt19937_64 generator(3);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (int arc = 0; arc < 2000; ++arc) {
+    const double part = (uniform(generator) + 1) / 2;
+    std::array<double, 6> start{}, end{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double speed = uniform(generator);
+      start[i] = -part * speed;
+      end[i] = (1 - part) * speed;
+      start[i + 3] = end[i + 3] = speed;
+    }
+    const double least = SquaredDistance(start, end, 1).least(1e9);
+    EXPECT_GE(least, 0);
+    EXPECT_LT(least, 1e-15);
   }
 }
 

@@ -118,6 +118,7 @@ class Bounded(Study):
     size_m: Floats  #: (K,): the largest distance over the first revolution
     half_widths_m: Floats  #: (K, 3): along R, T, N
     along_drifts: Floats  #: (K, 2)
+    along_doubts: Floats  #: (K, 2): by how much these change where the window ends a look earlier
     cross_drifts: Floats  #: (K, 2)
     starts: Floats  #: (K, 6): position in m and velocity in m/s along R, T, N, rotating derivatives
     revolutions: int  #: over which all were flown

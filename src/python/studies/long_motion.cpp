@@ -99,7 +99,7 @@ py::dict poincare_arrays(const FrozenOrbitStudy& study) {
 }
 
 py::dict bounded_arrays(const BoundedFormation& formation) {
-  Table wanted, size, widths, along, cross, start;
+  Table wanted, size, widths, along, doubts, cross, start;
   py::list rules, failures;
   const Eigen::Vector3d nothing = Eigen::Vector3d::Constant(none);
   for (const BoundedDeputy& deputy : formation.deputies) {
@@ -109,6 +109,7 @@ py::dict bounded_arrays(const BoundedFormation& formation) {
     widths.add(is_there ? half_widths_m(deputy.first) : nothing);
     for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
       along.add(is_there ? deputy.drifts[k].along : none);
+      doubts.add(is_there ? deputy.drifts[k].along_doubt : none);
       cross.add(is_there ? deputy.drifts[k].cross : none);
     }
     const auto& rtn = deputy.forms[static_cast<std::size_t>(DeputyForm::rtn_rotating)];
@@ -123,6 +124,7 @@ py::dict bounded_arrays(const BoundedFormation& formation) {
   arrays["size_m"] = size.array();
   arrays["half_widths_m"] = widths.array({count, 3});
   arrays["along_drifts"] = along.array({count, 2});
+  arrays["along_doubts"] = doubts.array({count, 2});
   arrays["cross_drifts"] = cross.array({count, 2});
   arrays["starts"] = start.array({count, 6});
   arrays["revolutions"] = formation.revolutions;

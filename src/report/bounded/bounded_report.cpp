@@ -40,7 +40,9 @@ std::vector<std::string> row_of(const BoundedDeputy& deputy) {
   }
   const Eigen::Vector3d extent = half_widths_m(deputy.first);
   for (const double width : extent) row.push_back(length_text(width));
-  for (const BoundedDrift& drift : deputy.drifts) row.push_back(short_number(drift.along));
+  for (const BoundedDrift& drift : deputy.drifts) {
+    row.push_back(fmt::format("{}+-{:.0e}", short_number(drift.along), drift.along_doubt));
+  }
   row.push_back(short_number(deputy.drifts.back().cross));
   row.push_back(short_number(deputy.drifts.back().range));
   return row;
@@ -57,12 +59,24 @@ std::vector<std::string> headings(const BoundedFormation& formation) {
           "range"};
 }
 
+/// Whether a deputy passes below the radius of the body in its first revolution.
+bool is_inside(const BoundedFormation& formation, const BoundedDeputy& deputy) {
+  return deputy.failure.empty() && deputy.lowest_m < formation.scene.canonical_radius *
+                                                         formation.scene.units.length_km * 1000;
+}
+
 std::string failures_text(const BoundedFormation& formation) {
   std::string text;
   for (const BoundedDeputy& deputy : formation.deputies) {
-    if (deputy.failure.empty()) continue;
-    text += fmt::format("none of {} by {}: {}\n", length_text(deputy.wanted_m),
-                        name_of(deputy.rule), deputy.failure);
+    if (!deputy.failure.empty()) {
+      text += fmt::format("none of {} by {}: {}\n", length_text(deputy.wanted_m),
+                          name_of(deputy.rule), deputy.failure);
+    } else if (is_inside(formation, deputy)) {
+      text += fmt::format(
+          "{} by {}: no orbit that can be flown, its lowest point is {} from the "
+          "centre, inside the body\n",
+          length_text(deputy.wanted_m), name_of(deputy.rule), length_text(deputy.lowest_m));
+    }
   }
   return text;
 }
@@ -75,8 +89,10 @@ std::vector<std::vector<std::string>> table_rows(const BoundedFormation& formati
 
 std::string terminal_table(const BoundedFormation& formation) {
   return fmt::format(
-      "{}\n{}\norder {}; drifts are mean ones along the track, a revolution, in parts of the size; "
-      "across: the same of the node; range: of the along-track difference over the window\n\n{}{}",
+      "{}\n{}\norder {}; drifts are mean ones along the track, a revolution, in parts of the size, "
+      "+- what "
+      "the last fiftieth of the window changes; across: the same of the node; range: of the "
+      "along-track difference over the window\n\n{}{}",
       formation.scene.title, bounded_verdict(formation), formation.scene.order,
       aligned_table(table_rows(formation)), failures_text(formation));
 }
@@ -115,7 +131,8 @@ std::string page(const BoundedFormation& formation, const ReportOrigin& origin,
       "<section>\n<h2>Deputies</h2>\n" +
       table_html(
           "Half widths along R, T and N; mean drifts along the track over a tenth of the "
-          "window and over it, and across it, a revolution, in parts of the size; the range "
+          "window and over it, each with what its last fiftieth changes, and across it, a "
+          "revolution, in parts of the size; the range "
           "of the along-track difference over the window. Their initial conditions, in "
           "every form in which a scene takes a deputy, are in <code>bounded.csv</code>.",
           table_rows(formation)) +
@@ -136,7 +153,7 @@ std::string bounded_verdict(const BoundedFormation& formation) {
   std::size_t found = 0;
   for (const BoundedDeputy& deputy : formation.deputies) {
     if (!deputy.failure.empty()) continue;
-    const double drift = std::abs(deputy.drifts.back().along);
+    const double drift = std::abs(deputy.drifts.back().along) + deputy.drifts.back().along_doubt;
     if (deputy.rule == BoundedRule::poincare_map) {
       worst = std::max(worst, drift);
       ++found;
@@ -146,6 +163,9 @@ std::string bounded_verdict(const BoundedFormation& formation) {
     }
   }
   if (found == 0) return "No deputy of these sizes has the chief's mean period and drift.";
+  const auto inside = std::ranges::count_if(formation.deputies, [&](const BoundedDeputy& deputy) {
+    return is_inside(formation, deputy);
+  });
   std::string text = fmt::format(
       "{} with the chief's mean nodal period and drift of the node; flown over {} with the whole "
       "field, {} by at most {:.2g} of the relative orbit's size a revolution in the mean",
@@ -155,6 +175,10 @@ std::string bounded_verdict(const BoundedFormation& formation) {
     text += fmt::format("; those of first-order J2 invariance by up to {:.2g}", worst_invariant);
   }
   text += ".";
+  if (inside > 0) {
+    text += fmt::format(" {} of the {} orbits cannot be flown: they pass inside the body.", inside,
+                        formation.deputies.size());
+  }
   return formation.box ? text + " " + box_verdict(formation) : text;
 }
 
@@ -182,6 +206,8 @@ std::string bounded_csv(const BoundedFormation& formation) {
                    [=](const BoundedDeputy& deputy) { return drift(deputy).revolutions; });
     columns.add_if(is_there, when + "_along_drift",
                    [=](const BoundedDeputy& deputy) { return drift(deputy).along; });
+    columns.add_if(is_there, when + "_along_doubt",
+                   [=](const BoundedDeputy& deputy) { return drift(deputy).along_doubt; });
     columns.add_if(is_there, when + "_cross_drift",
                    [=](const BoundedDeputy& deputy) { return drift(deputy).cross; });
     columns.add_if(is_there, when + "_along_range",
@@ -236,6 +262,7 @@ Json bounded_json(const BoundedFormation& formation) {
       for (const BoundedDrift& drift : deputy.drifts) {
         entry["drifts"].push_back({{"revolutions", drift.revolutions},
                                    {"along", json_number(drift.along)},
+                                   {"along_doubt", json_number(drift.along_doubt)},
                                    {"cross", json_number(drift.cross)},
                                    {"along_range", json_number(drift.range)}});
       }

@@ -33,8 +33,7 @@ Json moments_json(const Cumulants& moments) {
           {"rank", moments.rank()},
           {"mardia_skewness", json_number(moments.mardia_skewness())},
           {"mardia_excess_kurtosis", json_number(moments.mardia_excess_kurtosis())},
-          {"negentropy", json_number(moments.negentropy())},
-          {"negentropy_is_exact", moments.is_negentropy_exact()}};
+          {"negentropy", json_number(moments.negentropy())}};
 }
 
 Json family_json(const MomentsFamily& family) {
@@ -46,6 +45,7 @@ Json family_json(const MomentsFamily& family) {
   for (std::size_t n = 0; n < family.by_order->size(); ++n) {
     Json order = {{"order", n + 1}};
     order.update(moments_json((*family.by_order)[n]));
+    order["negentropy_is_sure"] = is_negentropy_sure(*family.by_order, n);
     const double divergence = divergence_from_gaussian((*family.by_order)[n], *family.linear);
     order["divergence_from_linear"] = json_number(divergence);
     order["probability_error_of_linear"] = json_number(largest_error_of_probability(divergence));

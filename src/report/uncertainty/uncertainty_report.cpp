@@ -71,7 +71,8 @@ std::vector<std::vector<std::string>> gaussian_rows(const UncertaintyResult& res
     rows.push_back({std::to_string(n + 1)});
     for (const MomentsFamily& family : families) {
       const Cumulants& moments = (*family.by_order)[n];
-      rows.back().push_back(negentropy_text(moments.negentropy(), moments.is_negentropy_exact()));
+      rows.back().push_back(
+          negentropy_text(moments.negentropy(), is_negentropy_sure(*family.by_order, n)));
       const double error =
           largest_error_of_probability(divergence_from_gaussian(moments, *family.linear));
       rows.back().push_back(error < 1e-6 ? "0" : fmt::format("{:.3g}", error));
@@ -88,7 +89,7 @@ std::vector<std::vector<std::string>> coordinates_rows(const UncertaintyResult& 
        "linear wrong by"}};
   for (const GaussianityInCoordinates& one : gaussianity_in_coordinates(result, state)) {
     if (one.refusal.empty()) {
-      rows.push_back({one.coordinates, negentropy_text(one.negentropy, one.is_exact),
+      rows.push_back({one.coordinates, negentropy_text(one.negentropy, one.is_sure),
                       fmt::format("{:.3g}", one.error_of_linear)});
     } else {
       rows.push_back({one.coordinates, "-", "-"});

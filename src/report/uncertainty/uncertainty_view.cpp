@@ -130,7 +130,8 @@ std::vector<GaussianityInCoordinates> gaussianity_in_coordinates(const Uncertain
     for (std::size_t s = 0; s < compared.states.size(); ++s) {
       if (compared.states[s] != state.name) continue;
       all.back().negentropy = compared.by_order[s].back().negentropy();
-      all.back().is_exact = compared.by_order[s].back().is_negentropy_exact();
+      all.back().is_sure =
+          is_negentropy_sure(compared.by_order[s], compared.by_order[s].size() - 1);
       all.back().error_of_linear = linear_error_of_probability(compared.by_order[s]);
     }
   }
@@ -217,21 +218,43 @@ std::string uncertainty_verdict(const UncertaintyResult& result) {
         " Of the coordinates that are compared the distribution is nearest to Gaussian in {} ones "
         "(negentropy {} nats).",
         compared.front().coordinates,
-        negentropy_text(compared.front().negentropy, compared.front().is_exact));
+        negentropy_text(compared.front().negentropy, compared.front().is_sure));
   }
   return text;
 }
 
 namespace {
 
+/// By how much the last order changes moments: a standard deviation, relative, and a skewness.
+struct LastChange {
+  double deviation = 0;
+  double skewness = 0;
+};
+LastChange last_change(const std::vector<Cumulants>& by_order) {
+  LastChange change;
+  // Order 1 has no order to be compared with, and order 2 changes what is told of it.
+  if (by_order.size() < 3) return change;
+  const Cumulants& last = by_order.back();
+  const Cumulants& before = by_order[by_order.size() - 2];
+  const Vector<double> s = last.standard_deviations();
+  for (Eigen::Index i = 0; i < s.size(); ++i) {
+    if (!(s[i] > 0)) continue;
+    change.deviation =
+        std::max(change.deviation, std::abs(before.standard_deviations()[i] / s[i] - 1));
+    change.skewness =
+        std::max(change.skewness, std::abs(last.skewness()[i] - before.skewness()[i]));
+  }
+  return change;
+}
+
 /// Whether a table has one after a tilde.
 bool has_uncertain_negentropy(const UncertaintyResult& result) {
   const UncertaintyAt& last = result.points.back();
   for (const UncertainState& state : last.states) {
     for (const MomentsFamily& family : moments_families(result, last, state)) {
-      const Cumulants& moments = family.by_order->back();
-      if (negentropy_text(moments.negentropy(), moments.is_negentropy_exact())[0] == '~') {
-        return true;
+      for (std::size_t n = 0; n < family.by_order->size(); ++n) {
+        const bool is_sure = is_negentropy_sure(*family.by_order, n);
+        if (negentropy_text((*family.by_order)[n].negentropy(), is_sure)[0] == '~') return true;
       }
     }
   }
@@ -240,11 +263,20 @@ bool has_uncertain_negentropy(const UncertaintyResult& result) {
 
 }  // namespace
 
-std::string negentropy_text(double negentropy, bool is_exact) {
+bool is_negentropy_sure(const std::vector<Cumulants>& by_order, std::size_t n) {
+  constexpr double alike = 0.02;
+  if (!by_order[n].is_negentropy_exact()) return false;
+  if (n == 0) return true;
+  const std::size_t beside = n + 1 < by_order.size() ? n + 1 : n - 1;
+  const double own = by_order[n].negentropy();
+  return std::abs(by_order[beside].negentropy() - own) <= alike * own;
+}
+
+std::string negentropy_text(double negentropy, bool is_sure) {
   // Below the first the rounding of sums over some thousand coefficients is told; above the second
   // the leading terms of a shear are wrong by a third and more.
   if (negentropy < 1e-12) return "0";
-  return fmt::format("{}{:.3g}", is_exact || negentropy < 0.05 ? "" : "~", negentropy);
+  return fmt::format("{}{:.3g}", is_sure || negentropy < 0.05 ? "" : "~", negentropy);
 }
 
 std::vector<std::string> uncertainty_notes(const UncertaintyResult& result) {
@@ -292,8 +324,18 @@ std::vector<std::string> uncertainty_notes(const UncertaintyResult& result) {
   }
   if (has_uncertain_negentropy(result)) {
     notes.push_back(
-        "A negentropy after ~ is the leading terms, of a distribution whose entropy is not known; "
-        "above some tenths they tell no more than that it is far from Gaussian.");
+        "A negentropy after ~ is the leading terms, of a distribution whose entropy is not known, "
+        "or of polynomials that the next order changes; it tells no more than that the "
+        "distribution is far from Gaussian.");
+  }
+  for (const UncertainState& state : result.points.back().states) {
+    const LastChange change = last_change(state.through.empty() ? state.cartesian : state.through);
+    constexpr double much = 0.01;
+    if (change.deviation <= much && change.skewness <= 10 * much) continue;
+    notes.push_back(fmt::format(
+        "Order {} changes a standard deviation of the {} by {:.2g} and a skewness by {:.2g} at the "
+        "last time: a higher jet.order or other jet.coordinates are needed for moments that hold.",
+        result.scene.order, state.name, change.deviation, change.skewness));
   }
   if (settings.samples < 2) notes.push_back("No samples were flown (uncertainty.samples).");
   return notes;

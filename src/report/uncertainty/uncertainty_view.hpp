@@ -33,16 +33,19 @@ std::vector<MomentsFamily> moments_families(const UncertaintyResult& result,
 struct GaussianityInCoordinates {
   std::string coordinates;
   double negentropy = 0;       ///< of the highest order
-  bool is_exact = true;        ///< or its leading terms alone
+  bool is_sure = true;         ///< see is_negentropy_sure
   double error_of_linear = 0;  ///< of a probability, at most
   std::string refusal;         ///< not empty: why there are none
 };
 std::vector<GaussianityInCoordinates> gaussianity_in_coordinates(const UncertaintyResult& result,
                                                                  const UncertainState& state);
 
-/// A negentropy in a table, after a tilde where only its leading terms are known and they are so
-/// large that they say little.
-std::string negentropy_text(double negentropy, bool is_exact);
+/// Whether the negentropy of the order n + 1 is more than its leading terms, and the order beside
+/// it says nearly the same: polynomials that have not converged keep no volumes.
+bool is_negentropy_sure(const std::vector<Cumulants>& by_order, std::size_t n);
+
+/// A negentropy in a table, after a tilde where it is not sure and so large that it says little.
+std::string negentropy_text(double negentropy, bool is_sure);
 
 /// The time of a point, for people.
 std::string time_text(const UncertaintyResult& result, const UncertaintyAt& at);

@@ -35,6 +35,9 @@ std::string_view name_of(BoundedRule rule);
 struct BoundedDrift {
   int revolutions = 0;
   double along = 0;  ///< a (-n d time + cos i d node), n the mean nodal motion
+  /// By how much `along` changes where the window ends one look earlier: where terms of long period
+  /// are larger than the drift, the slope is that of these looks and no finer.
+  double along_doubt = 0;
   double cross = 0;  ///< a sin i d node
   double range = 0;  ///< of the along-track difference over the span, relative to the size
 };

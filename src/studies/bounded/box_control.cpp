@@ -108,10 +108,11 @@ class Keeper {
     result_.start = company_.deputy();
     result_.least_m = result_.most_m = company_.place_m();
     if (company_.part() > 1) {
-      throw Error(ErrorKind::numerical,
-                  fmt::format("bounded.box: the deputy starts outside of it, at {:.4g} of its half "
-                              "widths from its middle",
-                              company_.part()));
+      throw Error(
+          ErrorKind::numerical,
+          fmt::format("bounded.box: the deputy starts outside of it, at {:.10g} of its half "
+                      "widths from its middle",
+                      company_.part()));
     }
     note(looked(company_, time_));
     while (time_ < end) {

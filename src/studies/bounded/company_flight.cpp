@@ -163,13 +163,14 @@ void CompanyFlight::fly(BoundedDeputy& deputy) const {
   for (BoundedDrift& drift : deputy.drifts) {
     const double size = deputy.size_m / units_.length_m;
     drift.along /= size;
+    drift.along_doubt /= size;
     drift.cross /= size;
     drift.range /= size;
   }
 }
 
 /// The slopes of least squares through the values at some of the times.
-BoundedDrift CompanyFlight::drift_of(const std::vector<std::size_t>& places,
+BoundedDrift CompanyFlight::drift_of(std::span<const std::size_t> places,
                                      const std::vector<double>& along,
                                      const std::vector<double>& cross) const {
   const auto count = static_cast<double>(places.size());
@@ -187,6 +188,20 @@ BoundedDrift CompanyFlight::drift_of(const std::vector<std::size_t>& places,
   drift.along /= squares;
   drift.cross /= squares;
   drift.range = most - least;
+  constexpr std::size_t fewest = 4;
+  if (places.size() > fewest) {
+    double shorter = 0;
+    double its_squares = 0;
+    double its_middle = 0;
+    const auto but_last = places.first(places.size() - 1);
+    for (const std::size_t k : but_last) its_middle += times_[k] / nodal_period_ / (count - 1);
+    for (const std::size_t k : but_last) {
+      const double place = times_[k] / nodal_period_ - its_middle;
+      shorter += place * along[k];
+      its_squares += place * place;
+    }
+    drift.along_doubt = std::abs(shorter / its_squares - drift.along);
+  }
   drift.revolutions = static_cast<int>(std::lround(times_[places.back()] / nodal_period_));
   return drift;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "bounded_formation.hpp"
@@ -44,7 +45,7 @@ class CompanyFlight {
   std::vector<std::vector<double>> orbit_from(const std::vector<double>& start) const;
   std::vector<RelativeState> relative_orbit(const std::vector<std::vector<double>>& chief,
                                             const std::vector<std::vector<double>>& deputy) const;
-  BoundedDrift drift_of(const std::vector<std::size_t>& places, const std::vector<double>& along,
+  BoundedDrift drift_of(std::span<const std::size_t> places, const std::vector<double>& along,
                         const std::vector<double>& cross) const;
 
   const FlowSection<double>& section_;

@@ -42,6 +42,22 @@ SixNumbers<To> converted(const SixNumbers<From>& z) {
   return result;
 }
 
+/// Refuses a point to which Newton's method has not come, and one whose return is not a revolution,
+/// as a field far from a sphere's may have.
+void require_frozen(const FrozenOrbit<Extended>& frozen, const ZonalGravity& field) {
+  const double L = static_cast<double>(frozen.coordinates[3]);
+  const double revolution = 2 * std::numbers::pi * L * L * L / (field.mu * field.mu);
+  const double return_time = static_cast<double>(frozen.period) / revolution;
+  const double residual = static_cast<double>(frozen.residual) / std::sqrt(L);
+  constexpr double rounding = 1e-13;
+  if (residual <= rounding && return_time > 0.5 && return_time < 1.5) return;
+  throw Error(ErrorKind::numerical,
+              fmt::format("frozen orbit: none was found; the nearest state moves the pair of the "
+                          "pericentre by {:.2g} and returns after {:.4g} revolutions of Kepler's "
+                          "ellipse",
+                          residual, return_time));
+}
+
 /// Where an orbit of a circle is after the returns, (q, p) less the frozen orbit's, and how far
 /// that is from its place in the normal form, relative to the radius.
 struct FlownCircle {
@@ -191,6 +207,7 @@ FrozenOrbitStudy study_frozen_orbit(const Scene& scene, const ProgressCallback& 
   if (progress) progress("frozen orbit", 0.3);
   const auto frozen = find_frozen_orbit<Extended>(field, converted<Extended>(coarse.state), false,
                                                   refining_tolerance);
+  require_frozen(frozen, field);
   const SixNumbers<double> state = converted<double>(frozen.state);
   study.state.assign(state.begin(), state.end());
   const SixNumbers<double> at = converted<double>(frozen.coordinates);

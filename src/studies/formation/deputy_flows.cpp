@@ -55,7 +55,7 @@ SixNumbers<double> six_numbers(std::span<const double> state) {
 }
 
 std::optional<std::string> escape_note(const Scene& scene) {
-  constexpr double nearly_escaping = 0.99;
+  constexpr double nearly_escaping = 0.95;
   if (scene.coordinates != JetCoordinates::flow_box) return std::nullopt;
   const Eigen::Map<const Eigen::Vector3d> position(scene.nominal.data());
   const Eigen::Map<const Eigen::Vector3d> velocity(scene.nominal.data() + 3);
