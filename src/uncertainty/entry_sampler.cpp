@@ -1,5 +1,6 @@
 #include "entry_sampler.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
