@@ -77,6 +77,14 @@ SixNumbers<double> BoundedFamily::state_of(double q, double p, double energy,
   z[q_place] += q;
   z[p_place] += p;
   z[momentum_place] += momentum;
+  // G of Kepler's ellipse, which the harmonics move by their own size, a thousandth.
+  const double L = z[3] * std::sqrt(section_.energy() / section_.energy_of(energy));
+  const double G = L - (z[q_place] * z[q_place] + z[p_place] * z[p_place]) / 2;
+  if (!(std::abs(z[momentum_place]) < G)) {
+    throw Error(ErrorKind::numerical,
+                "bounded: to drift as the chief does with this difference in eccentricity, its "
+                "inclination would have to be below 0");
+  }
   return section_.state(section_.energy_of(energy), z);
 }
 

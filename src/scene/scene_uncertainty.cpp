@@ -246,7 +246,8 @@ const TableDescription& uncertainty_table() {
             {"acceleration_density_m2_s3", form::between(0, 1e6),
              absent::value(preset.acceleration_density_m2_s3),
              "power spectral density of white noise of the acceleration along each axis; its part "
-             "of the covariance is linear"}},
+             "of the covariance is linear; not beside a collision or safety study, which leave it "
+             "out"}},
            transfer_time_keys(absent::other("the end")),
            {{"coordinates", form::array(form::choice(names_of_measurable())),
              absent::other("those of `[jet]` alone"),

@@ -199,6 +199,19 @@ TEST_F(LongMotion, PoincareRefusesReturnsThatAreNoRevolution) {
   }
 }
 
+// Near the equator a smaller eccentricity asks for an inclination below 0.
+TEST_F(LongMotion, BoundedFailsWhereNoSizeHasADeputy) {
+  const CommandResult result =
+      hamjet({"bounded", HAMJET_SOURCE_DIR "/data/scenes/bounded-sun-synchronous.toml", "--set",
+              "nominal.i_deg=0.7", "--set", "bounded.revolutions=20", "--set",
+              "bounded.sizes_km=[1000]", "-o", "flat"});
+  EXPECT_EQ(result.exit_code, 4) << result.out;
+  EXPECT_NE(result.err.find("none of the sizes has a deputy"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("inclination would have to be below 0"), std::string::npos)
+      << result.err;
+  EXPECT_EQ(read_json(directory_ / "flat/summary.json")["exit_code"], 4);
+}
+
 TEST_F(LongMotion, BoundedSaysWhichDeputiesPassInsideTheBody) {
   std::string low =
       scene("50", "[bounded]\nsizes_km = [1, 1000]\nphase_deg = 0\nrevolutions = 10\n");

@@ -151,7 +151,7 @@ TEST_F(ConvertTest, AJetToAFlowBox) {
   write("other.toml", changed(orbit, "J2 = 1.0826e-3", "J2 = 1.0e-3"));
   expect_error(
       {"convert", "jets", "wrong.h5", "--coordinates", "flow-box", "--scene", "other.toml"}, 2,
-      {"--scene", "energy", "another field"});
+      {"--scene", "flies to another place", "another field"});
   EXPECT_FALSE(std::filesystem::exists(directory_ / "wrong.h5"));
 }
 

@@ -177,6 +177,10 @@ def test_collision_probability_of_arrays_is_the_published_one():
         states[0], covariances[0], cases[0]["hard_body_radius_m"], windows[0],
         system={"mu_km3_s2": 398600.4418}, event="entry", samples=20000)
     assert one.probability.shape == () and one.probability == result.probability[0]
+    kepler = hamjet.collision_probability(
+        states[0], covariances[0], cases[0]["hard_body_radius_m"], windows[0],
+        system={"model": "kepler", "mu_km3_s2": 398600.4418}, event="entry", samples=20000)
+    np.testing.assert_allclose(kepler.probability, one.probability, rtol=0.02)
 
 
 @pytest.mark.parametrize("change, words", [

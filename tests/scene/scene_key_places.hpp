@@ -217,6 +217,8 @@ inline const std::map<std::string, Place>& special_places() {
       {"validity.times_s", {"", {no_validity_count}, "[100, 200]"}},
       {"validity.times_orbits", {"", {no_validity_count}}},
       {"validity.times_canonical", {"", {no_validity_count}}},
+      {"uncertainty.acceleration_density_m2_s3",
+       {"", {{"uncertainty.collision", "null"}, {"uncertainty.safety", "null"}}}},
       {"uncertainty.times_s", {"", {no_uncertainty_count}, "[100, 200]"}},
       {"uncertainty.times_orbits", {"", {no_uncertainty_count}}},
       {"uncertainty.times_canonical", {"", {no_uncertainty_count}}},

@@ -65,7 +65,8 @@ def _scene(states: Floats, covariances: Floats, radius_m: float, window_s: Float
            frame: str, settings: Mapping[str, Any]) -> dict[str, Any]:
     difference = states[1] - states[0]
     return {
-        "system": {**_hamjet.earth_system(), **settings["system"]},
+        "system": (settings["system"] if "model" in settings["system"]
+                   else {**_hamjet.earth_system(), **settings["system"]}),
         "nominal": {"position_km": (states[0, :3] / 1000).tolist(),
                     "velocity_km_s": (states[0, 3:] / 1000).tolist()},
         "deputy": {"frame": "inertial", "position_m": difference[:3].tolist(),

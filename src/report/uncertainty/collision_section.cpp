@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "../../formats/orbit_messages/encounter_message.hpp"
 #include "../../store/csv_values.hpp"
 #include "../../store/json_values.hpp"
@@ -98,8 +100,16 @@ std::string judgement(const ShortEncounter& plane) {
 std::string plane_text(const UncertainApproach& approach) {
   if (!approach.plane) return fmt::format("    {}\n", approach.refusal);
   const ShortEncounter& plane = *approach.plane;
-  return fmt::format("    as a short encounter {:.3e} (Foster, Alfano), {:.3e} (Chan): {}\n",
-                     plane.alfano, plane.chan, judgement(plane));
+  std::string text =
+      fmt::format("    as a short encounter {:.3e} (Foster, Alfano), {:.3e} (Chan): {}",
+                  plane.alfano, plane.chan, judgement(plane));
+  // Chan's disc is one of the density's standard deviations, of the same area.
+  constexpr double much = 0.01;
+  const double of_disc = plane.alfano > 0 ? plane.chan / plane.alfano - 1 : 0;
+  if (plane.holds() && std::abs(of_disc) > much) {
+    text += fmt::format(", but Chan's disc of the same area is off by {:+.2g} %", of_disc * 100);
+  }
+  return text + "\n";
 }
 
 std::string collision_table_text(const CollisionResult& result) {
@@ -111,11 +121,13 @@ std::string collision_table_text(const CollisionResult& result) {
   if (p.samples == 0) {
     text += "  probability 0: no path within 9 standard deviations comes near\n";
   } else {
-    text += fmt::format(
-        "  probability {:.4e}, {:g} % from {:.4e} to {:.4e}: {} {} samples, as good as {:.2g} "
-        "plain ones\n",
-        p.probability, result.watch.confidence * 100, p.lower, p.upper, p.samples,
-        p.sampling == CollisionSampling::plain ? "plain" : "weighted", p.equivalent_samples);
+    text += fmt::format("  probability {:.4e}, {:g} % from {:.4e} to {:.4e}: {} {} samples",
+                        p.probability, result.watch.confidence * 100, p.lower, p.upper, p.samples,
+                        p.sampling == CollisionSampling::plain ? "plain" : "weighted");
+    if (p.sampling != CollisionSampling::plain) {
+      text += fmt::format(", as good as {:.2g} plain ones", p.equivalent_samples);
+    }
+    text += "\n";
     if (result.order > 1) {
       text += p.standard_error_of_change > 0
                   ? fmt::format("  by order {} it is {:+.1e} +- {:.1e} of it more\n",
@@ -177,8 +189,8 @@ UncertaintySection collision_section(const Scene& scene, const CollisionResult& 
   section.json = collision_json(result);
   const CollisionProbability& p = result.probability;
   section.verdict = fmt::format(
-      "The probability of coming nearer than {:g} m is {:.3g} ({:g} % from {:.3g} to "
-      "{:.3g}).",
+      "The probability of coming nearer than {:g} m is {:.5g} ({:g} % from {:.5g} to "
+      "{:.5g}).",
       result.watch.radius_m, p.probability, result.watch.confidence * 100, p.lower, p.upper);
   section.table = collision_table_text(result);
   section.title = "Collision";
