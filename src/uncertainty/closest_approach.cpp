@@ -17,12 +17,10 @@ namespace {
 
 /// Longer series in twelve variables take seconds to multiply: 18564 terms at order 6.
 constexpr int highest_order = 6;
-/// The distance is looked at so often in a local period, for minima.
-constexpr double distance_looks_per_period = 64;
 
 /// Times in the window at which the distance of the means has a minimum.
 std::vector<double> minima_of(const EncounterTrajectories& means) {
-  const std::vector<double> times = means.times_of_looks(distance_looks_per_period);
+  const std::vector<double> times = means.times_of_looks();
   std::vector<double> minima;
   double before = means.approach_rate(times.front());
   for (std::size_t k = 1; k < times.size(); ++k) {

@@ -107,15 +107,12 @@ void SquaredDistance::entries(double square, double from, double to,
 double SquaredDistance::least(double best) const { return least(best, 0); }
 
 double SquaredDistance::least(double best, int depth) const {
-  best = std::min({best, c_[0], c_[6]});
-  const double bound = lower_bound();
   // Where the arc passes the origin itself, squares are rounding to both sides of zero.
-  const double rounding = 1e-15 * *std::max_element(c_.begin(), c_.end(), [](double a, double b) {
-                            return std::abs(a) < std::abs(b);
-                          });
-  if (best - bound <= 1e-12 * std::abs(best) + std::abs(rounding) || depth == deepest) {
-    return std::max(best, 0.0);
-  }
+  best = std::max(std::min({best, c_[0], c_[6]}), 0.0);
+  const double bound = lower_bound();
+  double largest = 0;
+  for (const double c : c_) largest = std::max(largest, std::abs(c));
+  if (best - bound <= 1e-12 * best + 1e-15 * largest || depth == deepest) return best;
   const auto [left, right] = halves();
   // The half that promises less goes first.
   return left.lower_bound() < right.lower_bound()

@@ -13,6 +13,8 @@
 namespace hamjet {
 namespace {
 
+/// A window is looked at so often in a local period.
+constexpr double looks_per_period = 64;
 constexpr double fewest_looks = 64;
 constexpr std::size_t most_looks = 200000;
 
@@ -104,7 +106,7 @@ double EncounterTrajectories::local_period(std::size_t craft, double time) const
   return small_circle_period(now[0][0], now[1][0], now[2][0]);
 }
 
-std::vector<double> EncounterTrajectories::times_of_looks(double looks_per_period) const {
+std::vector<double> EncounterTrajectories::times_of_looks() const {
   const double span = to_ - from_;
   std::vector<double> times = {from_};
   while (times.back() < to_) {

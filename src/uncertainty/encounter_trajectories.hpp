@@ -32,11 +32,11 @@ class EncounterTrajectories {
   /// The period of the small circle through a spacecraft's start, sqrt(r^3), in units of the
   /// system: a revolution for a central body of unit gravity.
   double period(std::size_t craft) const;
-  /// The window in steps of the shorter of the two local periods, those of the small circles
-  /// through where the spacecraft are, by `looks_per_period`: equal steps would see too little of a
-  /// perigee, where an eccentric orbit turns many times as fast as on average. There are at least
-  /// 64 steps; throws Error(too_large) where more than 200000 are needed.
-  std::vector<double> times_of_looks(double looks_per_period) const;
+  /// The window in steps of a 64th of the shorter of the two local periods, those of the small
+  /// circles through where the spacecraft are: equal steps would see too little of a perigee, where
+  /// an eccentric orbit turns many times as fast as on average. There are at least 64 steps; throws
+  /// Error(too_large) where more than 200000 are needed.
+  std::vector<double> times_of_looks() const;
 
  private:
   double local_period(std::size_t craft, double time) const;

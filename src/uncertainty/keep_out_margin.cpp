@@ -18,10 +18,8 @@ namespace {
 using Position = Eigen::Vector3d;
 using Jacobian = Eigen::Matrix<double, 3, 12>;
 
-/// The linear theory's length is looked at so often in a local period; its minima are sought to
-/// this part of the time between two looks, and so many of the lowest are followed by the
-/// polynomials.
-constexpr double length_looks_per_period = 64;
+/// Minima of the linear theory's length are sought to this part of the time between two looks, and
+/// so many of the lowest are followed by the polynomials.
 constexpr double accuracy_of_minima = 1e-3;
 constexpr std::size_t most_minima = 6;
 constexpr int most_iterations = 60;
@@ -198,7 +196,7 @@ std::vector<Candidate> linear_minima(const EncounterProblem& problem, const Elli
   EncounterProblem first_order = problem;
   first_order.order = 1;
   const EncounterTrajectories linear(first_order);
-  const std::vector<double> times = linear.times_of_looks(length_looks_per_period);
+  const std::vector<double> times = linear.times_of_looks();
   std::vector<double> lengths;
   for (const double time : times) lengths.push_back(ellipsoid.linear_length(linear, time));
   std::vector<Candidate> minima;

@@ -1,11 +1,9 @@
 #include "hamjet/uncertainty/polynomial_moments.hpp"
 
-#include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <utility>
 
 #include "../algebra/singular_values.hpp"
@@ -74,12 +72,6 @@ std::size_t power(Eigen::Index base, int exponent) {
   std::size_t result = 1;
   for (int i = 0; i < exponent; ++i) result *= static_cast<std::size_t>(base);
   return result;
-}
-
-double sum_of_squares(const std::vector<double>& numbers) {
-  double sum = 0;
-  for (const double number : numbers) sum += number * number;
-  return sum;
 }
 
 /// Third and fourth moments of the uncorrelated w from those of products of two.
@@ -304,9 +296,9 @@ Cumulants Cumulants::mapped(const Matrix<double>& map) const {
   Matrix<double> turn;
   Cumulants result = turned(map * mean_, map * axes_, turn);
   result.add_turned(*this, turn);
-  const std::optional<double> before = log_volume(), after = result.log_volume();
-  if (gaussian_log_volume_ && map.rows() == map.cols() && before && after) {
-    result.gaussian_log_volume_ = *gaussian_log_volume_ + *after - *before;
+  if (gaussian_log_volume_ && map.rows() == map.cols()) {
+    const std::optional<double> before = log_volume(), after = result.log_volume();
+    if (before && after) result.gaussian_log_volume_ = *gaussian_log_volume_ + *after - *before;
   }
   return result;
 }
@@ -335,77 +327,6 @@ Vector<double> Cumulants::excess_kurtosis() const {
     result[i] = turned_tensor(fourth_, direction, 4)[0];
   }
   return result;
-}
-
-double Cumulants::mardia_skewness() const { return sum_of_squares(third_); }
-
-double Cumulants::mardia_excess_kurtosis() const {
-  const auto r = static_cast<std::size_t>(rank());
-  double sum = 0;
-  for (std::size_t i = 0; i < r; ++i) {
-    for (std::size_t j = 0; j < r; ++j) sum += fourth_[((i * r + i) * r + j) * r + j];
-  }
-  return sum;
-}
-
-std::optional<double> Cumulants::log_volume() const {
-  if (rank() < size()) return std::nullopt;
-  // The axes are orthogonal in units of the standard deviations.
-  double sum = 0;
-  Matrix<double> scaled = axes_;
-  const Vector<double> deviations = standard_deviations();
-  for (Eigen::Index i = 0; i < size(); ++i) {
-    scaled.row(i) /= deviations[i];
-    sum += std::log(deviations[i]);
-  }
-  for (Eigen::Index j = 0; j < rank(); ++j) sum += std::log(scaled.col(j).norm());
-  return sum;
-}
-
-double Cumulants::negentropy() const {
-  // What follows the leading terms is some times their square: below this they are right to a
-  // thousandth, and lose no digits as the difference of two logarithms does.
-  constexpr double small = 1e-4;
-  const double leading = sum_of_squares(third_) / 12 + sum_of_squares(fourth_) / 48;
-  if (leading < small || !gaussian_log_volume_) return leading;
-  const std::optional<double> volume = log_volume();
-  return volume ? std::max(0.0, *volume - *gaussian_log_volume_) : leading;
-}
-
-double divergence_from_gaussian(const Cumulants& distribution, const Cumulants& gaussian) {
-  if (distribution.size() != gaussian.size()) {
-    throw Error(ErrorKind::usage, "moments: the two vectors are of different sizes");
-  }
-  constexpr double infinite = std::numeric_limits<double>::infinity();
-  if (distribution.rank() != gaussian.rank()) return infinite;
-  if (gaussian.rank() == 0) return distribution.mean() == gaussian.mean() ? 0 : infinite;
-  // In units of the Gaussian's own standard deviations.
-  const Vector<double> deviations = gaussian.standard_deviations();
-  const Vector<double> shift = distribution.mean() - gaussian.mean();
-  Matrix<double> rows(gaussian.size(), gaussian.rank());
-  Matrix<double> others(gaussian.size(), 1 + distribution.rank());
-  for (Eigen::Index i = 0; i < gaussian.size(); ++i) {
-    const bool is_still = deviations[i] == 0;
-    if (is_still && (shift[i] != 0 || distribution.axes().row(i).norm() != 0)) return infinite;
-    rows.row(i) = gaussian.axes().row(i) / (is_still ? 1 : deviations[i]);
-    others.row(i) << shift[i], distribution.axes().row(i);
-    others.row(i) /= is_still ? 1 : deviations[i];
-  }
-  // Columns of `rows` are orthogonal, so that its left inverse needs no solution.
-  const Vector<double> squares = rows.colwise().squaredNorm();
-  const Matrix<double> inside = squares.cwiseInverse().asDiagonal() * (rows.transpose() * others);
-  const double outside = (others - rows * inside).norm();
-  if (outside > 1e-6 * others.norm()) return infinite;
-  const Matrix<double> spread = inside.rightCols(distribution.rank());
-  const double between =
-      0.5 * (spread.squaredNorm() + inside.col(0).squaredNorm() -
-             static_cast<double>(gaussian.rank())) -
-      std::log(std::abs(Eigen::PartialPivLU<Matrix<double>>(spread).determinant()));
-  return std::max(0.0, between) + distribution.negentropy();
-}
-
-double largest_error_of_probability(double divergence) {
-  return std::min(1.0, std::sqrt(divergence / 2));
 }
 
 }  // namespace hamjet

@@ -90,8 +90,7 @@ std::vector<std::vector<std::string>> table_rows(const BoundedFormation& formati
 std::string terminal_table(const BoundedFormation& formation) {
   return fmt::format(
       "{}\n{}\norder {}; drifts are mean ones along the track, a revolution, in parts of the size, "
-      "+- what "
-      "the last fiftieth of the window changes; across: the same of the node; range: of the "
+      "+- what the last of the times changes; across: the same of the node; range: of the "
       "along-track difference over the window\n\n{}{}",
       formation.scene.title, bounded_verdict(formation), formation.scene.order,
       aligned_table(table_rows(formation)), failures_text(formation));
@@ -131,7 +130,7 @@ std::string page(const BoundedFormation& formation, const ReportOrigin& origin,
       "<section>\n<h2>Deputies</h2>\n" +
       table_html(
           "Half widths along R, T and N; mean drifts along the track over a tenth of the "
-          "window and over it, each with what its last fiftieth changes, and across it, a "
+          "window and over it, each with what the last of the times changes, and across it, a "
           "revolution, in parts of the size; the range "
           "of the along-track difference over the window. Their initial conditions, in "
           "every form in which a scene takes a deputy, are in <code>bounded.csv</code>.",

@@ -226,27 +226,9 @@ std::string uncertainty_verdict(const UncertaintyResult& result) {
 
 namespace {
 
-/// By how much the last order changes moments: a standard deviation, relative, and a skewness.
-struct LastChange {
-  double deviation = 0;
-  double skewness = 0;
-};
-LastChange last_change(const std::vector<Cumulants>& by_order) {
-  LastChange change;
-  // Order 1 has no order to be compared with, and order 2 changes what is told of it.
-  if (by_order.size() < 3) return change;
-  const Cumulants& last = by_order.back();
-  const Cumulants& before = by_order[by_order.size() - 2];
-  const Vector<double> s = last.standard_deviations();
-  for (Eigen::Index i = 0; i < s.size(); ++i) {
-    if (!(s[i] > 0)) continue;
-    change.deviation =
-        std::max(change.deviation, std::abs(before.standard_deviations()[i] / s[i] - 1));
-    change.skewness =
-        std::max(change.skewness, std::abs(last.skewness()[i] - before.skewness()[i]));
-  }
-  return change;
-}
+/// Whether a negentropy is so large that its leading terms say little: those of a shear are wrong
+/// by a third from here on.
+bool needs_more_than_leading_terms(double negentropy) { return negentropy >= 0.05; }
 
 /// Whether a table has one after a tilde.
 bool has_uncertain_negentropy(const UncertaintyResult& result) {
@@ -254,8 +236,8 @@ bool has_uncertain_negentropy(const UncertaintyResult& result) {
   for (const UncertainState& state : last.states) {
     for (const MomentsFamily& family : moments_families(result, last, state)) {
       for (std::size_t n = 0; n < family.by_order->size(); ++n) {
-        const bool is_sure = is_negentropy_sure(*family.by_order, n);
-        if (negentropy_text((*family.by_order)[n].negentropy(), is_sure)[0] == '~') return true;
+        const bool is_large = needs_more_than_leading_terms((*family.by_order)[n].negentropy());
+        if (is_large && !is_negentropy_sure(*family.by_order, n)) return true;
       }
     }
   }
@@ -274,10 +256,10 @@ bool is_negentropy_sure(const std::vector<Cumulants>& by_order, std::size_t n) {
 }
 
 std::string negentropy_text(double negentropy, bool is_sure) {
-  // Below the first the rounding of sums over some thousand coefficients is told; above the second
-  // the leading terms of a shear are wrong by a third and more.
+  // Below this the rounding of sums over some thousand coefficients is told.
   if (negentropy < 1e-12) return "0";
-  return fmt::format("{}{:.3g}", is_sure || negentropy < 0.05 ? "" : "~", negentropy);
+  const bool says_little = !is_sure && needs_more_than_leading_terms(negentropy);
+  return fmt::format("{}{:.3g}", says_little ? "~" : "", negentropy);
 }
 
 std::vector<std::string> uncertainty_notes(const UncertaintyResult& result) {
@@ -330,7 +312,10 @@ std::vector<std::string> uncertainty_notes(const UncertaintyResult& result) {
         "distribution is far from Gaussian.");
   }
   for (const UncertainState& state : result.points.back().states) {
-    const LastChange change = last_change(state.through.empty() ? state.cartesian : state.through);
+    const std::vector<Cumulants>& told = state.through.empty() ? state.cartesian : state.through;
+    // Of order 2 nothing is known of convergence: what it changes is what is told of it.
+    if (told.size() < 3) continue;
+    const MomentsDifference change = difference_of(told.back(), told[told.size() - 2]);
     constexpr double much = 0.01;
     if (change.deviation <= much && change.skewness <= 10 * much) continue;
     notes.push_back(fmt::format(

@@ -169,39 +169,33 @@ void CompanyFlight::fly(BoundedDeputy& deputy) const {
   }
 }
 
-/// The slopes of least squares through the values at some of the times.
+/// The slope of least squares, a revolution, through the values at some of the times.
+double CompanyFlight::slope_of(std::span<const std::size_t> places,
+                               const std::vector<double>& values) const {
+  const auto count = static_cast<double>(places.size());
+  double middle = 0, sum = 0, squares = 0;
+  for (const std::size_t k : places) middle += times_[k] / nodal_period_ / count;
+  for (const std::size_t k : places) {
+    const double place = times_[k] / nodal_period_ - middle;
+    sum += place * values[k];
+    squares += place * place;
+  }
+  return sum / squares;
+}
+
 BoundedDrift CompanyFlight::drift_of(std::span<const std::size_t> places,
                                      const std::vector<double>& along,
                                      const std::vector<double>& cross) const {
-  const auto count = static_cast<double>(places.size());
-  double middle = 0, least = 0, most = 0, squares = 0;
-  for (const std::size_t k : places) middle += times_[k] / nodal_period_ / count;
   BoundedDrift drift;
+  drift.along = slope_of(places, along);
+  drift.cross = slope_of(places, cross);
+  drift.along_doubt = std::abs(slope_of(places.first(places.size() - 1), along) - drift.along);
+  double least = 0, most = 0;
   for (const std::size_t k : places) {
-    const double place = times_[k] / nodal_period_ - middle;
-    drift.along += place * along[k];
-    drift.cross += place * cross[k];
-    squares += place * place;
     least = std::min(least, along[k]);
     most = std::max(most, along[k]);
   }
-  drift.along /= squares;
-  drift.cross /= squares;
   drift.range = most - least;
-  constexpr std::size_t fewest = 4;
-  if (places.size() > fewest) {
-    double shorter = 0;
-    double its_squares = 0;
-    double its_middle = 0;
-    const auto but_last = places.first(places.size() - 1);
-    for (const std::size_t k : but_last) its_middle += times_[k] / nodal_period_ / (count - 1);
-    for (const std::size_t k : but_last) {
-      const double place = times_[k] / nodal_period_ - its_middle;
-      shorter += place * along[k];
-      its_squares += place * place;
-    }
-    drift.along_doubt = std::abs(shorter / its_squares - drift.along);
-  }
   drift.revolutions = static_cast<int>(std::lround(times_[places.back()] / nodal_period_));
   return drift;
 }

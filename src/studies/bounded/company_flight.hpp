@@ -47,6 +47,7 @@ class CompanyFlight {
                                             const std::vector<std::vector<double>>& deputy) const;
   BoundedDrift drift_of(std::span<const std::size_t> places, const std::vector<double>& along,
                         const std::vector<double>& cross) const;
+  double slope_of(std::span<const std::size_t> places, const std::vector<double>& values) const;
 
   const FlowSection<double>& section_;
   SharedSystem system_;

@@ -138,6 +138,11 @@ std::array<std::string, 6> DeputyFlowPropagation::end_coordinate_names() const {
                    : coordinate_names(chart_of(coordinates_.end));
 }
 
+std::optional<std::size_t> DeputyFlowPropagation::end_period_place() const {
+  if (!last_box_ || !last_box_->end->is_bound()) return std::nullopt;
+  return 1;
+}
+
 const IntegrationStatistics& DeputyFlowPropagation::statistics() const {
   return boxes_ ? boxes_->statistics() : jets_->statistics();
 }

@@ -42,6 +42,9 @@ class DeputyFlowPropagation {
   std::vector<Series<double>> end_coordinates() const;
   /// Their names.
   std::array<std::string, 6> end_coordinate_names() const;
+  /// The place among them of the period's difference, which flow boxes of bound orbits have for the
+  /// energy.
+  std::optional<std::size_t> end_period_place() const;
 
   const CoordinatesAtEnds& coordinates() const noexcept { return coordinates_; }
   /// Summed over the integrations.

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <Eigen/LU>
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -22,18 +21,20 @@ constexpr double never = std::numeric_limits<double>::infinity();
 /// period's difference u = (E/E_chief)^(-3/2) - 1, whose derivative changes volumes: by that at the
 /// chief, the determinant of the coordinates' linear part, times (1 + u)^(5/3). The distribution's
 /// entropy grows by the mean of its logarithm, here to the fourth moment of u.
-void told_of_period(Cumulants& moments, Eigen::Index place,
+void told_of_period(std::vector<Cumulants>& all, std::size_t period_place,
                     const std::vector<Series<double>>& coordinates) {
-  if (!moments.gaussian_log_volume()) return;
-  const double of_mean = 1 + moments.mean()[place];
-  const double s = moments.standard_deviations()[place] / of_mean;
-  const double logarithm = std::log(of_mean) - s * s / 2 +
-                           std::pow(s, 3) * moments.skewness()[place] / 3 -
-                           std::pow(s, 4) * (3 + moments.excess_kurtosis()[place]) / 4;
+  const auto place = static_cast<Eigen::Index>(period_place);
   const double at_chief = std::log(
       std::abs(Eigen::PartialPivLU<Matrix<double>>(linear_part(coordinates)).determinant()));
-  moments.carried_without_compression(*moments.gaussian_log_volume() + at_chief +
-                                      5.0 / 3 * logarithm);
+  for (Cumulants& one : all) {
+    if (!one.gaussian_log_volume()) continue;
+    const double of_mean = 1 + one.mean()[place];
+    const double s = one.standard_deviations()[place] / of_mean;
+    const double logarithm = std::log(of_mean) - s * s / 2 +
+                             std::pow(s, 3) * one.skewness()[place] / 3 -
+                             std::pow(s, 4) * (3 + one.excess_kurtosis()[place]) / 4;
+    one.carried_without_compression(*one.gaussian_log_volume() + at_chief + 5.0 / 3 * logarithm);
+  }
 }
 
 /// In one kind of coordinates; throws as DeputyFlowPropagation.
@@ -67,7 +68,8 @@ MomentsInCoordinates moments_in(JetCoordinates coordinates, const Scene& scene,
   result.components = propagation.end_coordinate_names();
   for (const InitialState& start : starts) {
     result.states.push_back(start.name);
-    result.by_order.push_back(charted_moments(series, result.components, start, jet, noise));
+    result.by_order.push_back(
+        charted_moments(series, propagation.end_period_place(), start, jet, noise));
   }
   if (starts.size() == 2) {
     result.states.emplace_back("relative");
@@ -131,15 +133,12 @@ void told_of_start(std::vector<Cumulants>& all, const InitialState& start) {
 }
 
 std::vector<Cumulants> charted_moments(const std::vector<Series<double>>& coordinates,
-                                       const std::array<std::string, 6>& names,
+                                       std::optional<std::size_t> period_place,
                                        const InitialState& start, const FlowJet<double>& jet,
                                        const std::optional<Covariance>& noise) {
   std::vector<Cumulants> moments = moments_by_order(coordinates, start);
   told_of_start(moments, start);
-  const auto period = std::find(names.begin(), names.end(), "period");
-  if (period != names.end()) {
-    for (Cumulants& one : moments) told_of_period(one, period - names.begin(), coordinates);
-  }
+  if (period_place) told_of_period(moments, *period_place, coordinates);
   if (noise) {
     // From states at the end to coordinates there: both as linear maps of the start's deviations.
     const Matrix<double> by_state =

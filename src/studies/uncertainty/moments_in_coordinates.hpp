@@ -1,8 +1,6 @@
 #pragma once
 
-#include <array>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "../integration.hpp"
@@ -17,10 +15,10 @@ namespace hamjet {
 std::vector<Cumulants> moments_by_order(const std::vector<Series<double>>& map,
                                         const InitialState& start);
 
-/// Of coordinates at the end, with the noise of canonical states there, whose jet is given, to
-/// first order.
+/// Of coordinates at the end (see DeputyFlowPropagation::end_period_place), with the noise of
+/// canonical states there, whose jet is given, to first order.
 std::vector<Cumulants> charted_moments(const std::vector<Series<double>>& coordinates,
-                                       const std::array<std::string, 6>& names,
+                                       std::optional<std::size_t> period_place,
                                        const InitialState& start, const FlowJet<double>& jet,
                                        const std::optional<Covariance>& noise);
 

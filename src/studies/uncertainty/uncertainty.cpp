@@ -116,17 +116,6 @@ std::optional<Cumulants> moments_through(const DeputyFlow& flow, int degree,
   return Cumulants::of_points(points, rule.weights);
 }
 
-double difference_of(const Cumulants& one, const Cumulants& other) {
-  const Vector<double> s = one.standard_deviations();
-  const auto worst = [](const Vector<double>& v) { return v.size() ? v.cwiseAbs().maxCoeff() : 0; };
-  double result = std::max(worst(one.skewness() - other.skewness()),
-                           worst(one.excess_kurtosis() - other.excess_kurtosis()));
-  for (Eigen::Index i = 0; i < s.size(); ++i) {
-    if (s[i] > 0) result = std::max(result, std::abs(other.standard_deviations()[i] / s[i] - 1));
-  }
-  return result;
-}
-
 /// The jets of one spacecraft about its own mean, from time to time.
 JetPropagation own_jets(ComputedProblem problem, const IntegratorSettings& settings,
                         const InitialState& start) {
@@ -159,11 +148,11 @@ void add_noise(Matrix<double>& deviations, const Covariance& noise, StandardNorm
 
 /// The moments at one time, of canonical deviations from the chief, whose jet is `jet`; `own` is
 /// that about the spacecraft's own mean, which is `between` from the chief. `flow`, `coordinates`
-/// and their `names` are those of the scene's other coordinates, if it has such.
+/// and `period_place` are those of the scene's other coordinates, if it has such.
 UncertainState moments_of(const InitialState& start, const FlowJet<double>& jet,
                           const FlowJet<double>& own, const Vector<double>& between,
                           const DeputyFlow* flow, const std::vector<Series<double>>& coordinates,
-                          const std::array<std::string, 6>& names,
+                          std::optional<std::size_t> period_place,
                           const std::optional<Covariance>& noise) {
   const int order = jet[0].order();
   UncertainState state;
@@ -173,7 +162,7 @@ UncertainState moments_of(const InitialState& start, const FlowJet<double>& jet,
   told_of_start(state.cartesian, start);
   if (between.norm() > 0) add_noise(state.cartesian, Cumulants(between, {}));
   if (flow) {
-    state.charted = charted_moments(coordinates, names, start, jet, noise);
+    state.charted = charted_moments(coordinates, period_place, start, jet, noise);
     const Matrix<double> factor = stretched_factor(start.covariance, linear_part(jet));
     for (int n = 1; n <= order && factor.cols() > 0; ++n) {
       const auto fine = moments_through(*flow, n, start, factor, finer_nodes);
@@ -183,7 +172,9 @@ UncertainState moments_of(const InitialState& start, const FlowJet<double>& jet,
         break;
       }
       state.through.push_back(*fine);
-      state.through_doubt = std::max(state.through_doubt, difference_of(*fine, *coarse));
+      const MomentsDifference doubt = difference_of(*fine, *coarse);
+      state.through_doubt =
+          std::max({state.through_doubt, doubt.deviation, doubt.skewness, doubt.kurtosis});
     }
     told_of_start(state.through, start);
   }
@@ -224,6 +215,19 @@ UncertainState difference(const UncertainState& deputy, const UncertainState& ch
 }
 
 }  // namespace
+
+MomentsDifference difference_of(const Cumulants& one, const Cumulants& other) {
+  const auto worst = [](const Vector<double>& v) { return v.size() ? v.cwiseAbs().maxCoeff() : 0; };
+  MomentsDifference result;
+  result.skewness = worst(one.skewness() - other.skewness());
+  result.kurtosis = worst(one.excess_kurtosis() - other.excess_kurtosis());
+  const Vector<double> s = one.standard_deviations();
+  const Vector<double> others = other.standard_deviations();
+  for (Eigen::Index i = 0; i < s.size(); ++i) {
+    if (s[i] > 0) result.deviation = std::max(result.deviation, std::abs(others[i] / s[i] - 1));
+  }
+  return result;
+}
 
 double divergence_from_linear(const std::vector<Cumulants>& by_order) {
   return divergence_from_gaussian(by_order.back(), by_order.front());
@@ -279,10 +283,12 @@ UncertaintyResult study_uncertainty(const Scene& scene, const ProgressCallback& 
     const FlowJet<double> jet = jets.advance_to(time);
     std::unique_ptr<DeputyFlow> flow;
     std::vector<Series<double>> coordinates;
+    std::optional<std::size_t> period_place;
     if (charts) {
       flow = charts->advance_to(time);
       coordinates = charts->end_coordinates();
       at.charted_names = charts->end_coordinate_names();
+      period_place = charts->end_period_place();
     }
     std::vector<double> chief;
     for (const Series<double>& component : jet) chief.push_back(component[0]);
@@ -300,7 +306,7 @@ UncertaintyResult study_uncertainty(const Scene& scene, const ProgressCallback& 
             flow && !is_distant(starts[s], scene) &&
             miss_of_mean(*flow, scene.order, starts[s], means[s]) <= largest_miss;
         state = moments_of(starts[s], jet, own, means[s].deviation,
-                           has_charts ? flow.get() : nullptr, coordinates, at.charted_names, added);
+                           has_charts ? flow.get() : nullptr, coordinates, period_place, added);
         map_all(state.cartesian, to_frame);
         map_all(state.through, to_frame);
       }

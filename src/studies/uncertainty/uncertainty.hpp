@@ -75,6 +75,14 @@ struct UncertaintyResult {
   double flight_seconds = 0;
 };
 
+/// How far moments are from others, in the worst component.
+struct MomentsDifference {
+  double deviation = 0;  ///< of standard deviations, relative to the first ones
+  double skewness = 0;
+  double kurtosis = 0;
+};
+MomentsDifference difference_of(const Cumulants& one, const Cumulants& other);
+
 /// How far the distribution is from the Gaussian one of the linear theory: the divergence, and by
 /// how much a probability may be wrong.
 double divergence_from_linear(const std::vector<Cumulants>& by_order);
