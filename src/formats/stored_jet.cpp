@@ -267,7 +267,7 @@ DescribedRun with_polynomials(const DescribedRun& run, const JsonReader& json) {
   }
   if (stored.coordinates == JetCoordinates::flow_box) stored.flow_box = read_flow_box(json);
   stored.nominal_final = state(json.at("nominal_final"), {6});
-  stored.error_by_degree.clear();
+  stored.error_by_degree = coefficient_errors(json);
   one.json = json;
   return one;
 }

@@ -1,5 +1,7 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -152,6 +154,47 @@ TEST(CoordinatesAtEnds, MayDiffer) {
   }
   EXPECT_THROW(DeputyFlowPropagation(scene, problem, scene.integrators[0], {flow_box, nodal}),
                Error);
+}
+
+// The estimate beside the error against polynomials of extended precision, of rounding and of
+// coarse integrations.
+TEST(FlowBoxPolynomials, HaveTheErrorThatIsEstimated) {
+  for (const ChiefOrbit& orbit : {sun_synchronous, test::orbit_of(10000, 0.3, 60, 20, 40, 10),
+                                  test::orbit_of(26600, 0.74, 63.4, 0, 270, 11)}) {
+    Scene scene = scene_of(orbit, 1.7 * orbit.period, 4);
+    scene.coordinates = JetCoordinates::flow_box;
+    const ZonalGravity field = orbit_field(scene);
+    SixNumbers<Extended> start;
+    std::copy(scene.nominal.begin(), scene.nominal.end(), start.begin());
+    GaussSettings finest;
+    finest.stages = 16;
+    finest.tolerance = 1e-20;
+    FlowBoxPropagation<Extended> exact(field, section_chart(six_numbers(scene.nominal), field.mu),
+                                       start, scene.order, finest);
+    const FlowBoxMap<Extended> map = exact.advance_to(Extended(scene.duration));
+    FlowJet<Extended> values = {map.time};
+    values.insert(values.end(), map.coordinates.begin(), map.coordinates.end());
+    for (const double tolerance : {1e-7, 1e-10, 1e-14}) {
+      SCOPED_TRACE(fmt::format("period {}, tolerance {}", orbit.period, tolerance));
+      scene.integrators[0].tolerance = tolerance;
+      const PropagationResult result = propagate(scene);
+      const ChartedJet& charted = *result.runs[0].charted;
+      ASSERT_TRUE(charted.error_estimate.by_degree) << charted.error_estimate.failure;
+      const std::vector<double>& estimates = *charted.error_estimate.by_degree;
+      const std::vector<double> errors = relative_error_by_degree(charted.jet, values);
+      ASSERT_EQ(estimates.size(), errors.size());
+      for (std::size_t d = 0; d < errors.size(); ++d) {
+        // Beside it the finer integrations are exact where the error is not rounding.
+        EXPECT_GE(estimates[d], errors[d]) << d;
+        if (errors[d] <= 1e-9) continue;
+        EXPECT_NEAR(estimates[d] / errors[d], 2, 0.02) << d;
+      }
+    }
+    scene.checks[SelfCheckName::error_estimate].is_on = false;
+    const PropagationResult unasked = propagate(scene);
+    EXPECT_FALSE(unasked.runs[0].charted->error_estimate.by_degree);
+    EXPECT_EQ(unasked.runs[0].charted->error_estimate.failure, "the scene has turned it off");
+  }
 }
 
 // A transfer of 10 km on the paper's orbit: order 2 between sections is as good as order 4 of

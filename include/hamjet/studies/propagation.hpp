@@ -70,7 +70,9 @@ struct ChartedJet {
   FlowJet<Extended> jet;
   std::vector<double> nominal_final;  ///< in positions and momenta
   std::vector<SymplecticityDefect> symplecticity;
-  double seconds = 0;   ///< of making it
+  /// Of flow boxes, by further integrations (see charted_jet), where the scene estimates errors.
+  JetErrorEstimate error_estimate;
+  double seconds = 0;   ///< of making it, without the estimate
   std::string failure;  ///< not empty: there is none, and why
 };
 

@@ -131,6 +131,9 @@ Json polynomials_json(const PropagationResult& result, const RunResult& run) {
   json["coefficients_per_component"] = charted.jet.front().size();
   json["nominal_final"] = charted.nominal_final;
   json["symplecticity_by_degree"] = symplecticity_json(charted.symplecticity);
+  json["error_estimate_by_degree"] = by_degree_json(charted.error_estimate.by_degree);
+  json["error_estimate_failure"] = text_or_null(charted.error_estimate.failure);
+  json["error_estimate_seconds"] = charted.error_estimate.seconds;
   if (!description.flow_box) return json;
   const ZonalGravity& field = description.flow_box->field;
   json["section"] = name_of(description.flow_box->section);

@@ -49,10 +49,13 @@ std::string charted_line(const RunResult& run) {
     return fmt::format("NOT COMPUTED: {}: {} coordinates: {}\n", run.settings.label, coordinates,
                        charted.failure);
   }
+  const JetErrorEstimate& estimate = charted.error_estimate;
   return fmt::format(
-      "{}: polynomials in {} coordinates too, in {}, time {}; symplecticity in them {}\n",
+      "{}: polynomials in {} coordinates too, in {}, time {}; symplecticity in them {}, error {}\n",
       run.settings.label, coordinates, counted(charted.jet.front().space().variables(), "variable"),
-      duration_text(charted.seconds), largest_of(charted.symplecticity));
+      duration_text(charted.seconds), largest_of(charted.symplecticity),
+      estimate.by_degree ? "estimate " + size_text(estimate.largest())
+                         : "not estimated: " + estimate.failure);
 }
 
 /// In a word what came of a run; the lines below the table say more.

@@ -1,28 +1,103 @@
 #include "charted_jet.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <span>
+#include <utility>
+
+#include "../../algebra/raise_to.hpp"
 #include "../stopwatch.hpp"
 #include "deputy_flows.hpp"
 #include "hamjet/charts/flow_box.hpp"
 #include "hamjet/error.hpp"
+#include "hamjet/integrators/error_estimate.hpp"
 #include "orbit_charts.hpp"
 
 namespace hamjet {
 namespace {
 
-void integrate_flow_box(const Scene& scene, const RunResult& run, ChartedJet& result) {
+constexpr double rounding = std::numeric_limits<double>::epsilon();
+
+/// A scene's flow box at its duration, from this start.
+FlowBoxMap<double> integrated_flow_box(const Scene& scene, const SixNumbers<double>& start,
+                                       const GaussSettings& settings) {
   const ZonalGravity field = orbit_field(scene);
-  const SixNumbers<double> start = six_numbers(scene.nominal);
-  const ChartName section = section_chart(start, field.mu);
-  FlowBoxPropagation<double> propagation(field, section, start, scene.order,
-                                         gauss_settings_of(run.settings));
-  const FlowBoxMap<double> map = propagation.advance_to(scene.duration);
+  return FlowBoxPropagation<double>(field, section_chart(start, field.mu), start, scene.order,
+                                    settings)
+      .advance_to(scene.duration);
+}
+
+FlowJet<Extended> values_of_flow_box(const FlowBoxMap<double>& map) {
   std::vector<Series<double>> values = {map.time};
   values.insert(values.end(), map.coordinates.begin(), map.coordinates.end());
-  result.section = section;
-  result.jet = convert_map<Extended>(values);
+  return convert_map<Extended>(values);
+}
+
+void integrate_flow_box(const Scene& scene, const RunResult& run, ChartedJet& result) {
+  const FlowBoxMap<double> map =
+      integrated_flow_box(scene, six_numbers(scene.nominal), gauss_settings_of(run.settings));
+  result.section = map.start->chart().name();
+  result.jet = values_of_flow_box(map);
   const SixNumbers<double>& end = map.end->origin();
   result.nominal_final.assign(end.begin(), end.end());
   result.symplecticity = map.symplecticity();
+}
+
+/// The largest difference of two states, relative to the largest number of the second.
+double relative_difference(std::span<const double> state, std::span<const double> other) {
+  double difference = 0;
+  double largest = 0;
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    raise_to(difference, std::abs(state[i] - other[i]));
+    raise_to(largest, std::abs(other[i]));
+  }
+  return difference / largest;
+}
+
+/// A start moved by a unit in the last place of its largest position and momentum, so that all
+/// roundings from there on are others.
+SixNumbers<double> moved_start(const Scene& scene, std::mt19937_64& generator) {
+  SixNumbers<double> start = six_numbers(scene.nominal);
+  for (const std::size_t first : {std::size_t{0}, std::size_t{3}}) {
+    double largest = 0;
+    for (std::size_t i = first; i < first + 3; ++i) raise_to(largest, std::abs(start[i]));
+    for (std::size_t i = first; i < first + 3; ++i) {
+      start[i] += ((generator() & 1) == 0 ? rounding : -rounding) * largest;
+    }
+  }
+  return start;
+}
+
+void estimate_flow_box_error(const Scene& scene, ChartedJet& result) {
+  std::vector<double> errors(static_cast<std::size_t>(scene.order) + 1, rounding);
+  std::mt19937_64 generator(1);
+  for (const int stages : {16, 15}) {
+    GaussSettings settings;
+    settings.stages = stages;
+    settings.tolerance = 4 * rounding;
+    settings.controls_all_degrees = true;
+    const FlowBoxMap<double> map =
+        integrated_flow_box(scene, moved_start(scene, generator), settings);
+    std::vector<double> shown = relative_error_by_degree(result.jet, values_of_flow_box(map));
+    raise_to(shown[0], relative_difference(result.nominal_final, map.end->origin()));
+    for (std::size_t d = 0; d < errors.size(); ++d) {
+      raise_to(errors[d], error_estimate_safety * shown[d]);
+    }
+  }
+  result.error_estimate.by_degree = std::move(errors);
+}
+
+/// Does what an orbit or a method may not be able to; then its failure says why.
+template <class Work>
+void record_failure_of_orbit(std::string& failure, const Work& work) {
+  try {
+    work();
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::numerical && error.kind() != ErrorKind::scene) throw;
+    failure = error.what();
+  }
 }
 
 void change_charts(const Scene& scene, const RunResult& run, ChartedJet& result) {
@@ -53,16 +128,27 @@ std::optional<std::string> reason_without_charted_jet(const Scene& scene) {
 ChartedJet charted_jet(const Scene& scene, const RunResult& run) {
   ChartedJet result;
   result.coordinates = scene.coordinates;
-  const Stopwatch watch(result.seconds);
-  try {
-    if (scene.coordinates == JetCoordinates::flow_box) {
-      integrate_flow_box(scene, run, result);
-    } else {
-      change_charts(scene, run, result);
-    }
-  } catch (const Error& error) {
-    if (error.kind() != ErrorKind::numerical && error.kind() != ErrorKind::scene) throw;
-    result.failure = error.what();
+  const bool is_flow_box = scene.coordinates == JetCoordinates::flow_box;
+  {
+    const Stopwatch watch(result.seconds);
+    record_failure_of_orbit(result.failure, [&] {
+      if (is_flow_box) {
+        integrate_flow_box(scene, run, result);
+      } else {
+        change_charts(scene, run, result);
+      }
+    });
+  }
+  JetErrorEstimate& estimate = result.error_estimate;
+  if (!result.failure.empty()) {
+    estimate.failure = "there are no polynomials";
+  } else if (!is_flow_box) {
+    estimate.failure = "they are composed of the run's jet, whose errors are theirs";
+  } else if (!scene.checks[SelfCheckName::error_estimate].is_on) {
+    estimate.failure = "the scene has turned it off";
+  } else {
+    const Stopwatch watch(estimate.seconds);
+    record_failure_of_orbit(estimate.failure, [&] { estimate_flow_box_error(scene, result); });
   }
   return result;
 }

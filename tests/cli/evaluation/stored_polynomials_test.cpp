@@ -53,6 +53,16 @@ TEST_F(StoredPolynomials, OfFlowBoxesPredictAsIntegratedOnes) {
   for (const Json& defect : summary["symplecticity_by_degree"]) {
     EXPECT_LT(defect["scaled"].get<double>(), 1e-10) << summary;
   }
+  // Errors by degree too, of which the largest is said.
+  double largest = 0;
+  for (const Json& error : summary["error_estimate_by_degree"]) {
+    largest = std::max(largest, error["relative"].get<double>());
+  }
+  EXPECT_EQ(summary["error_estimate_by_degree"].size(), 4U);
+  EXPECT_LT(largest, 1e-9) << summary;
+  EXPECT_NE(in_one_line(said).find(fmt::format("error estimate {:.1e}", largest)),
+            std::string::npos)
+      << said;
   const Json integrated = rows({"eval", "far.toml", "--set", "jet.coordinates=flow-box"});
   const Json stored = rows({"eval", "boxes"});
   EXPECT_EQ(stored["coordinates"], "flow-box");
@@ -69,6 +79,8 @@ TEST_F(StoredPolynomials, OfFlowBoxesPredictAsIntegratedOnes) {
   if (!io::hdf5_available()) return;
   succeed({"convert", "boxes", "box.h5", "--coordinates", "flow-box"});
   expect_same(rows({"eval", "box.h5"}));
+  EXPECT_EQ(io::read_jets_hdf5("box.h5", content(directory_ / "box.h5")).error_by_degree.size(),
+            4U);
   succeed({"convert", "box.h5", "again.h5"});
   EXPECT_EQ(content(directory_ / "again.h5"), content(directory_ / "box.h5"));
   expect_error({"convert", "box.h5", "box.csv"}, 2, {".csv", "flow-box", ".h5"});
@@ -93,7 +105,9 @@ TEST_F(StoredPolynomials, OfFlowBoxesBecomeJets) {
 }
 
 TEST_F(StoredPolynomials, OfChartsPredictAsIntegratedOnes) {
-  run_in("spherical", "boxes");
+  EXPECT_NE(in_one_line(run_in("spherical", "boxes").out)
+                .find("error not estimated: they are composed of the run's jet"),
+            std::string::npos);
   const Json stored = rows({"eval", "boxes"});
   EXPECT_EQ(stored["coordinates"], "spherical");
   const Json integrated = rows({"eval", "far.toml", "--set", "jet.coordinates=spherical"});
