@@ -18,6 +18,7 @@ namespace hamjet::cli {
 EvaluatedScene evaluated_scene(const Scene& scene) {
   require_formation_problem(scene, true, "jet");
   EvaluatedScene result;
+  io::StoredJet& chief = result.chief;
   const ComputedProblem problem = make_problem(scene, available_memory());
   const IntegratorSettings& integrator = symplectic_integrator(scene);
   result.coordinates = measured_coordinates_of(scene);
@@ -25,9 +26,12 @@ EvaluatedScene evaluated_scene(const Scene& scene) {
     const Stopwatch watch(result.seconds);
     DeputyFlowPropagation propagation(scene, problem, integrator, result.coordinates);
     result.flow = propagation.advance_to(scene.duration);
+    if (const auto& box = propagation.flow_box()) {
+      chief.flow_box = {box->start->chart().name(), orbit_field(scene)};
+      result.stored_end.assign(box->end->origin().begin(), box->end->origin().end());
+    }
   }
   result.rounding_m = rounding_of_flights(problem, scene.duration) * metric_units(scene).length_m;
-  io::StoredJet& chief = result.chief;
   chief.scene = scene.name;
   chief.label = integrator.label;
   chief.model = scene.system.model;
@@ -35,6 +39,8 @@ EvaluatedScene evaluated_scene(const Scene& scene) {
   chief.duration = scene.duration;
   chief.nominal_initial = scene.nominal;
   chief.nominal_final.assign(result.flow->chief_end().begin(), result.flow->chief_end().end());
+  if (result.stored_end.empty()) result.stored_end = chief.nominal_final;
+  chief.coordinates = result.coordinates;
   chief.components.resize(scene.nominal.size());
   std::iota(chief.components.begin(), chief.components.end(), std::size_t{0});
   chief.variables = chief.components;
@@ -55,11 +61,11 @@ Matrix<double> linear_part_of(const ZonalGravity& field, FlowBoxMap<double> map)
 }  // namespace
 
 EvaluatedScene evaluated_jet(const io::StoredJet& stored) {
-  constexpr double canonical_mu = 1;
   EvaluatedScene result;
   result.chief = stored;
   result.chief.jet.clear();
   result.coordinates = stored.coordinates;
+  result.stored_end = stored.nominal_final;
   const SixNumbers<double> start = six_numbers(stored.nominal_initial);
   const SixNumbers<double> end = six_numbers(stored.nominal_final);
   const auto set_rounding = [&](const Matrix<double>& linear) {
@@ -75,14 +81,33 @@ EvaluatedScene evaluated_jet(const io::StoredJet& stored) {
     set_rounding(linear_part_of(stored.flow_box->field, map));
     return result;
   }
-  const CanonicalChart<double> first(chart_of(stored.coordinates.start), start, canonical_mu);
-  const CanonicalChart<double> last(chart_of(stored.coordinates.end), end, canonical_mu);
   const FlowMap<double> map(convert_map<double>(stored.jet));
-  result.flow = charted_deputy_flow(first, start, last, end, map);
+  if (stored.coordinates == JetCoordinates::cartesian) {
+    result.flow = cartesian_deputy_flow(map);
+  } else {
+    const CanonicalChart<double> first(chart_of(stored.coordinates.start), start, canonical_mu);
+    const CanonicalChart<double> last(chart_of(stored.coordinates.end), end, canonical_mu);
+    result.flow = charted_deputy_flow(first, start, last, end, map);
+  }
   // The linear part in positions and momenta is that of the jet, whatever it is written in.
   set_rounding(result.flow->exit_derivative() * linear_part(without_constants(map.jet())) *
                result.flow->entry_derivative());
   return result;
+}
+
+io::StoredJet stored_polynomials(const EvaluatedScene& scene) {
+  io::StoredJet stored = scene.chief;
+  stored.nominal_final = scene.stored_end;
+  // They are evaluated in double precision, whatever they were stored in.
+  stored.precision = Precision::double_precision;
+  stored.jet = convert_map<Extended>(scene.flow->polynomials());
+  if (stored.flow_box) return stored;
+  // Of other flows they are deviations from the chief's end.
+  const SixNumbers<double> end = six_numbers(stored.nominal_final);
+  const SixNumbers<double> coordinates =
+      CanonicalChart<double>(chart_of(stored.coordinates.end), end, canonical_mu).coordinates(end);
+  for (std::size_t i = 0; i < coordinates.size(); ++i) stored.jet[i][0] = coordinates[i];
+  return stored;
 }
 
 double DeputyEvaluation::chart_seconds() const {

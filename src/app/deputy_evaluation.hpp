@@ -18,6 +18,9 @@ struct EvaluatedScene {
   io::StoredJet chief;
   CoordinatesAtEnds coordinates;  ///< not automatic
   std::shared_ptr<const DeputyFlow> flow;
+  /// The chief's final state as a jet is stored with it. Of flow boxes the section at the end goes
+  /// through it, and deviations are counted from what it is in the section's chart and back.
+  std::vector<double> stored_end;
   double rounding_m = 0;  ///< of a deputy's final position, at a flight's floor
   double seconds = 0;     ///< of the integration; 0 of a stored jet
 };
@@ -26,8 +29,11 @@ struct EvaluatedScene {
 /// for others, and as the integrator.
 EvaluatedScene evaluated_scene(const Scene& scene);
 
-/// A stored jet in other coordinates than Cartesian as such polynomials.
+/// A stored jet of an orbit in all six variables as such polynomials.
 EvaluatedScene evaluated_jet(const io::StoredJet& stored);
+
+/// The polynomials as a jet is stored, of which evaluated_jet makes the same flow to every digit.
+io::StoredJet stored_polynomials(const EvaluatedScene& scene);
 
 /// What JetEvaluation does, for polynomials in any coordinates.
 class DeputyEvaluation {

@@ -18,8 +18,6 @@
 namespace hamjet::cli {
 namespace {
 
-constexpr double canonical_mu = 1;
-
 void require_charts(const CoordinatesAtEnds& coordinates, Caller caller) {
   for (const JetCoordinates one : {coordinates.start, coordinates.end}) {
     if (chart_of(name_of(one))) continue;

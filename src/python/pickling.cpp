@@ -10,7 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include "../formats/jet_description.hpp"
 #include "../formats/stored_coefficients.hpp"
+#include "../studies/formation/deputy_flows.hpp"
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "refusal.hpp"
@@ -69,19 +71,27 @@ EphemerisSettings ephemeris_of(const Ephemeris& texts) {
           texts[6], texts[7], texts[8], texts[9], texts[10]};
 }
 
+/// A flow box's chart, the radius of its field and the harmonics.
+using FlowBoxState = std::tuple<std::size_t, double, std::vector<double>>;
+
 using JetState =
     std::tuple<std::string, std::string, std::size_t, std::size_t, double, double, double,
                std::vector<double>, std::vector<double>, std::vector<std::size_t>,
-               std::vector<std::size_t>, std::optional<Ephemeris>, std::vector<double>, int>;
+               std::vector<std::size_t>, std::optional<Ephemeris>, std::vector<double>, std::size_t,
+               std::size_t, std::optional<FlowBoxState>, int>;
+
+std::optional<FlowBoxState> state_of(const std::optional<io::StoredFlowBox>& box) {
+  if (!box) return std::nullopt;
+  const auto& J = box->field.J.values();
+  return FlowBoxState{
+      static_cast<std::size_t>(box->section), box->field.radius, {J.begin(), J.end()}};
+}
 
 JetState state_of(const io::StoredJet& stored) {
-  // The notes are of the file that was read, and have been said; a jet in Python is in positions
-  // and momenta.
+  // The notes are of the file that was read, and have been said.
   const auto& [scene, label, model, precision, units, duration, nominal_initial, nominal_final,
                components, variables, ephemeris, error_by_degree, coordinates, flow_box, notes,
                jet] = stored;
-  static_cast<void>(coordinates);
-  static_cast<void>(flow_box);
   return {scene,
           label,
           static_cast<std::size_t>(model),
@@ -95,7 +105,30 @@ JetState state_of(const io::StoredJet& stored) {
           variables,
           ephemeris ? std::optional(texts_of(*ephemeris)) : std::nullopt,
           error_by_degree,
+          static_cast<std::size_t>(coordinates.start),
+          static_cast<std::size_t>(coordinates.end),
+          state_of(flow_box),
           jet.at(0).order()};
+}
+
+std::optional<io::StoredFlowBox> flow_box_of(const std::optional<FlowBoxState>& state) {
+  if (!state) return std::nullopt;
+  const auto& [section, radius, J] = *state;
+  constexpr std::size_t count = ZonalCoefficients::count;
+  if (section > static_cast<std::size_t>(ChartName::nodal) || J.size() != count) refuse_state();
+  return io::StoredFlowBox{static_cast<ChartName>(section),
+                           {canonical_mu, radius, ZonalCoefficients(std::span(J).first<count>())}};
+}
+
+/// Throws unless the coordinates are what such a jet may be in.
+void require_coordinates(const io::StoredJet& jet) {
+  const bool is_in_charts = jet.coordinates != JetCoordinates::cartesian;
+  const bool is_in_flow_box = jet.coordinates == JetCoordinates::flow_box;
+  if (!jet.coordinates.fit_each_other() || jet.coordinates == JetCoordinates::automatic ||
+      is_in_flow_box != jet.flow_box.has_value() ||
+      (is_in_charts && (!is_orbit(jet.model) || jet.variables.size() != 6))) {
+    refuse_state();
+  }
 }
 
 /// The stored jet of a state, without its series.
@@ -104,10 +137,17 @@ io::StoredJet stored_jet_of(const JetState& state) {
   std::size_t model = 0;
   std::size_t precision = 0;
   std::optional<Ephemeris> ephemeris;
+  std::size_t start = 0;
+  std::size_t end = 0;
+  std::optional<FlowBoxState> flow_box;
   std::tie(jet.scene, jet.label, model, precision, jet.units.length_km, jet.units.time_s,
            jet.duration, jet.nominal_initial, jet.nominal_final, jet.components, jet.variables,
-           ephemeris, jet.error_by_degree, std::ignore) = state;
-  if (model >= model_names().size() || precision > 1) refuse_state();
+           ephemeris, jet.error_by_degree, start, end, flow_box, std::ignore) = state;
+  constexpr std::size_t coordinates = jet_coordinates_names.size();
+  if (model >= model_names().size() || precision > 1 || start >= coordinates ||
+      end >= coordinates) {
+    refuse_state();
+  }
   jet.model = static_cast<SystemModel>(model);
   jet.precision = static_cast<Precision>(precision);
   if (ephemeris) jet.ephemeris = ephemeris_of(*ephemeris);
@@ -118,6 +158,9 @@ io::StoredJet stored_jet_of(const JetState& state) {
     }
   }
   if (jet.nominal_final.size() != size || jet.variables.empty()) refuse_state();
+  jet.coordinates = {static_cast<JetCoordinates>(start), static_cast<JetCoordinates>(end)};
+  jet.flow_box = flow_box_of(flow_box);
+  require_coordinates(jet);
   return jet;
 }
 
@@ -147,17 +190,42 @@ FlowJet<Extended> jet_of_digits(const std::vector<std::string>& digits, std::siz
   return jet;
 }
 
-std::shared_ptr<Jet> restored_jet(const JetState& state, const py::object& coefficients) {
+/// A jet's coefficients as they are in a pickle.
+py::object coefficients_of(const io::StoredJet& stored) {
+  if (stored.precision == Precision::extended) return py::cast(digits_of(stored.jet));
+  return numbers_of(convert_map<double>(stored.jet));
+}
+
+io::StoredJet restored(const JetState& state, const py::object& coefficients) {
   io::StoredJet stored = stored_jet_of(state);
-  const SpacePointer space = SeriesSpace::create(stored.variables.size(), std::get<int>(state));
+  const std::optional<io::SeriesNames> names =
+      stored.flow_box ? std::optional(io::series_names(stored)) : std::nullopt;
+  const std::size_t components = (names ? names->components : stored.components).size();
+  const SpacePointer space = SeriesSpace::create(
+      (names ? names->variables : stored.variables).size(), std::get<int>(state));
   if (stored.precision == Precision::extended) {
-    stored.jet = jet_of_digits(coefficients.cast<std::vector<std::string>>(),
-                               stored.components.size(), space);
+    stored.jet = jet_of_digits(coefficients.cast<std::vector<std::string>>(), components, space);
   } else {
     stored.jet = convert_map<Extended>(map_of(coefficients.cast<Numbers>(), space));
   }
-  if (stored.jet.size() != stored.components.size()) refuse_state();
+  if (stored.jet.size() != components) refuse_state();
+  return stored;
+}
+
+std::shared_ptr<Jet> restored_jet(const JetState& state, const py::object& coefficients) {
+  io::StoredJet stored = restored(state, coefficients);
+  // A jet in Python is in positions and momenta.
+  if (stored.coordinates != JetCoordinates::cartesian) refuse_state();
   return std::make_shared<Jet>(std::move(stored));
+}
+
+PolynomialsStudy restored_polynomials(const JetState& state, const py::object& coefficients,
+                                      double rounding_m) {
+  const io::StoredJet stored = restored(state, coefficients);
+  if (!is_orbit(stored.model) || stored.variables.size() != 6) refuse_state();
+  cli::EvaluatedScene evaluated = cli::evaluated_jet(stored);
+  evaluated.rounding_m = rounding_m;
+  return PolynomialsStudy(std::move(evaluated));
 }
 
 using ExactnessRow = std::tuple<int, double, double>;
@@ -203,10 +271,13 @@ py::tuple reduced(const CanonicalUnits& units) {
 
 py::tuple reduced(const Jet& jet) {
   const io::StoredJet& stored = jet.stored();
-  const py::object coefficients = stored.precision == Precision::extended
-                                      ? py::cast(digits_of(stored.jet))
-                                      : py::object(numbers_of(convert_map<double>(stored.jet)));
-  return call_of("_restored_jet", py::make_tuple(state_of(stored), coefficients));
+  return call_of("_restored_jet", py::make_tuple(state_of(stored), coefficients_of(stored)));
+}
+
+py::tuple reduced(const PolynomialsStudy& study) {
+  const io::StoredJet stored = cli::stored_polynomials(study.evaluated());
+  return call_of("_restored_polynomials", py::make_tuple(state_of(stored), coefficients_of(stored),
+                                                         study.evaluated().rounding_m));
 }
 
 py::tuple reduced(const InvertedJet& function) {
@@ -235,6 +306,7 @@ void bind_pickling(py::module_& module) {
     return CanonicalUnits{length_km, time_s};
   });
   module.def("_restored_jet", &restored_jet);
+  module.def("_restored_polynomials", &restored_polynomials);
   module.def("_restored_function", &restored_function);
   module.def("_restored_report", &restored_report);
 }

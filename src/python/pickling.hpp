@@ -5,6 +5,7 @@
 #include "hamjet/detail/report/study_report.hpp"
 #include "inverted_jet.hpp"
 #include "jet.hpp"
+#include "polynomials_study.hpp"
 
 namespace hamjet::python {
 
@@ -12,6 +13,7 @@ namespace hamjet::python {
 /// the function makes the same object bit by bit.
 pybind11::tuple reduced(const CanonicalUnits& units);
 pybind11::tuple reduced(const Jet& jet);
+pybind11::tuple reduced(const PolynomialsStudy& study);
 pybind11::tuple reduced(const InvertedJet& function);
 pybind11::tuple reduced(const io::StudyReport& report);
 

@@ -11,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "../app/deputy_evaluation.hpp"
 #include "../app/jet_conversion.hpp"
 #include "../app/required_tables.hpp"
 #include "../store/text_file.hpp"
@@ -23,69 +22,51 @@
 #include "hamjet/formats/jet_file.hpp"
 #include "hamjet/studies/validity.hpp"
 #include "interruptible.hpp"
+#include "pickling.hpp"
+#include "polynomials_study.hpp"
 #include "refusal.hpp"
 #include "relative_rows.hpp"
 
 namespace hamjet::python {
+
+PolynomialsStudy::PolynomialsStudy(Scene scene, std::string file)
+    : scene_(std::move(scene)), file_(std::move(file)) {
+  require_unsplit(*scene_, "hamjet.polynomials");
+  evaluated_ = std::make_shared<const cli::EvaluatedScene>(cli::evaluated_scene(*scene_));
+}
+
+py::object PolynomialsStudy::evaluate_relative(const py::object& states, const std::string& frame,
+                                               const std::optional<std::string>& to,
+                                               const std::optional<std::string>& derivatives,
+                                               std::optional<int> degree, bool is_strict) const {
+  if (degree && (*degree < 1 || *degree > order())) {
+    refuse(fmt::format("degree: got {}, must be 1 to the order, {}", *degree, order()));
+  }
+  return relative_states(evaluated_->chief, *evaluated_, states,
+                         {{frame, to, derivatives, cli::Caller::module}, degree}, is_strict);
+}
+
+py::array_t<double> PolynomialsStudy::reach(double tolerance_m, int samples,
+                                            const py::object& progress) const {
+  if (!scene_) refuse("reach: deputies are flown in a scene, and these polynomials are stored");
+  Scene measured = *scene_;
+  measured.coordinates = evaluated_->coordinates;
+  measured.validity = scene_->validity.value_or(ValiditySettings{});
+  measured.validity->times = {scene_->duration};
+  measured.validity->tolerance_m = tolerance_m;
+  measured.validity->samples = samples;
+  const ValidityResult result =
+      interruptibly(progress, [measured, file = file_](const ProgressCallback& report) {
+        return cli::study_of(file, [&] { return study_validity(measured, report); });
+      });
+  std::vector<double> found;
+  for (const ValidityEntry& entry : result.points.back().entries) {
+    found.push_back(entry.proved_m);
+  }
+  return array_of(std::move(found));
+}
+
 namespace {
-
-/// The polynomials of a scene in its coordinates, or stored ones; the package makes a Polynomials
-/// of it.
-class PolynomialsStudy {
- public:
-  PolynomialsStudy(Scene scene, std::string file)
-      : scene_(std::move(scene)), file_(std::move(file)) {
-    require_unsplit(*scene_, "hamjet.polynomials");
-    evaluated_ = std::make_shared<const cli::EvaluatedScene>(cli::evaluated_scene(*scene_));
-  }
-
-  explicit PolynomialsStudy(const io::StoredJet& stored)
-      : evaluated_(std::make_shared<const cli::EvaluatedScene>(cli::evaluated_jet(stored))) {}
-
-  std::string scene() const { return evaluated_->chief.scene; }
-  std::string run() const { return evaluated_->chief.label; }
-  int order() const { return evaluated_->flow->order(); }
-  std::size_t variables() const { return evaluated_->flow->variables(); }
-  std::string coordinates() const { return std::string(name_of(evaluated_->coordinates.start)); }
-  std::string end_coordinates() const { return std::string(name_of(evaluated_->coordinates.end)); }
-  double duration_s() const { return evaluated_->chief.duration * evaluated_->chief.units.time_s; }
-
-  py::object evaluate_relative(const py::object& states, const std::string& frame,
-                               const std::optional<std::string>& to,
-                               const std::optional<std::string>& derivatives,
-                               std::optional<int> degree, bool is_strict) const {
-    if (degree && (*degree < 1 || *degree > order())) {
-      refuse(fmt::format("degree: got {}, must be 1 to the order, {}", *degree, order()));
-    }
-    return relative_states(evaluated_->chief, *evaluated_, states,
-                           {{frame, to, derivatives, cli::Caller::module}, degree}, is_strict);
-  }
-
-  /// Proved reaches at the end of the duration, by order, in metres.
-  py::array_t<double> reach(double tolerance_m, int samples, const py::object& progress) const {
-    if (!scene_) refuse("reach: deputies are flown in a scene, and these polynomials are stored");
-    Scene measured = *scene_;
-    measured.coordinates = evaluated_->coordinates;
-    measured.validity = scene_->validity.value_or(ValiditySettings{});
-    measured.validity->times = {scene_->duration};
-    measured.validity->tolerance_m = tolerance_m;
-    measured.validity->samples = samples;
-    const ValidityResult result =
-        interruptibly(progress, [measured, file = file_](const ProgressCallback& report) {
-          return cli::study_of(file, [&] { return study_validity(measured, report); });
-        });
-    std::vector<double> found;
-    for (const ValidityEntry& entry : result.points.back().entries) {
-      found.push_back(entry.proved_m);
-    }
-    return array_of(std::move(found));
-  }
-
- private:
-  std::optional<Scene> scene_;  ///< none of stored ones
-  std::string file_;
-  std::shared_ptr<const cli::EvaluatedScene> evaluated_;
-};
 
 /// The coordinates by name in place of the wanted ones, as `hamjet convert` has its options.
 CoordinatesAtEnds named_coordinates(CoordinatesAtEnds wanted,
@@ -127,10 +108,11 @@ PolynomialsStudy load_polynomials(const std::filesystem::path& path,
                          io::printable_path(path)));
     }
     const CoordinatesAtEnds wanted = wanted_of(*stored);
-    if (wanted == stored->coordinates) return PolynomialsStudy(*stored);
-    return PolynomialsStudy(cli::converted_jet(*stored, wanted, io::printable_path(path),
-                                               scene ? &*scene : nullptr, cli::Caller::module)
-                                .stored);
+    if (wanted == stored->coordinates) return PolynomialsStudy(cli::evaluated_jet(*stored));
+    return PolynomialsStudy(
+        cli::evaluated_jet(cli::converted_jet(*stored, wanted, io::printable_path(path),
+                                              scene ? &*scene : nullptr, cli::Caller::module)
+                               .stored));
   });
 }
 
@@ -144,8 +126,9 @@ PolynomialsStudy integrate(const GivenScene& given, const py::object& progress) 
 }  // namespace
 
 void bind_polynomials(py::module_& module) {
-  py::class_<PolynomialsStudy>(module, "PolynomialsStudy")
-      .def_property_readonly("scene", &PolynomialsStudy::scene)
+  py::class_<PolynomialsStudy> study(module, "PolynomialsStudy");
+  bind_copies(study);
+  study.def_property_readonly("scene", &PolynomialsStudy::scene)
       .def_property_readonly("run", &PolynomialsStudy::run)
       .def_property_readonly("order", &PolynomialsStudy::order)
       .def_property_readonly("variables", &PolynomialsStudy::variables)

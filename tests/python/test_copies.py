@@ -1,7 +1,9 @@
 """Pickles and copies: the same object again, bit by bit, and as read-only as before."""
 
+import concurrent.futures
 import copy
 import dataclasses
+import multiprocessing
 import pickle
 import subprocess
 import sys
@@ -69,6 +71,51 @@ def test_a_generating_function_comes_back_bit_by_bit(any_jet):
     w = np.random.default_rng(3).uniform(-1e-3, 1e-3, (40, len(function.variables)))
     for name in ("evaluate", "gradient", "remaining"):
         assert (getattr(again, name)(w) == getattr(function, name)(w)).all()
+
+
+FAR = scene(ORBIT, nominal={**ORBIT["nominal"], "raan_deg": 20, "argp_deg": 40, "ta_deg": 10})
+STATES = np.random.default_rng(4).uniform(-1, 1, (40, 6)) * ([1e3, 2e4, 1e3] + [1] * 3)
+
+
+@pytest.mark.parametrize("start, end", [
+    ("flow-box", "flow-box"), ("nodal", "poincare"), ("spherical", "cartesian"),
+    ("cartesian", "cartesian")])
+def test_polynomials_come_back_bit_by_bit(start, end):
+    polynomials = hamjet.polynomials(FAR, coordinates=start, end_coordinates=end)
+    expected = polynomials.evaluate_relative(STATES)
+    for protocol in PROTOCOLS:
+        again = pickle.loads(pickle.dumps(polynomials, protocol))
+        assert properties(again) == properties(polynomials) and repr(again) == repr(polynomials)
+        for found, wanted in zip(again.evaluate_relative(STATES), expected):
+            assert found.tobytes() == wanted.tobytes()
+        for degree in (1, 2):
+            found = again.evaluate_relative(STATES, degree=degree).states
+            assert (found == polynomials.evaluate_relative(STATES, degree=degree).states).all()
+    assert copy.copy(polynomials) is polynomials and copy.deepcopy(polynomials) is polynomials
+    with pytest.raises(hamjet.UsageError, match="^reach: deputies are flown in a scene"):
+        again.reach()
+
+
+def test_loaded_polynomials_come_back_bit_by_bit(tmp_path):
+    hamjet.run(FAR, overrides={"jet.coordinates": "flow-box", "precision": "double"}).write(
+        tmp_path / "out")
+    loaded = hamjet.Polynomials.load(tmp_path / "out")
+    assert loaded.coordinates == "flow-box"
+    again = pickle.loads(pickle.dumps(loaded))
+    for found, wanted in zip(again.evaluate_relative(STATES), loaded.evaluate_relative(STATES)):
+        assert found.tobytes() == wanted.tobytes()
+
+
+def test_other_processes_evaluate_the_same_digits():
+    polynomials = hamjet.polynomials(FAR, coordinates="flow-box")
+    expected = polynomials.evaluate_relative(STATES)
+    with concurrent.futures.ProcessPoolExecutor(
+            2, mp_context=multiprocessing.get_context("spawn")) as pool:
+        parts = list(pool.map(hamjet.Polynomials.evaluate_relative, [polynomials] * 2,
+                              [STATES[:16], STATES[16:]], timeout=60))
+    assert all(part.columns == expected.columns for part in parts)
+    for found, wanted in zip(zip(*parts), expected):
+        assert np.concatenate(found).tobytes() == wanted.tobytes()
 
 
 def same(a, b):
@@ -146,3 +193,16 @@ def test_what_is_no_state_is_refused(jet):
                   (state[:2] + (99,) + state[3:], coefficients)):
         with pytest.raises(hamjet.UsageError, match="^pickle: this is no state"):
             restore(function, *wrong)
+    polynomials = hamjet.polynomials(FAR, coordinates="flow-box")
+    restore, (function, state, coefficients, rounding) = polynomials._study.__reduce__()
+    # Coordinates that there are not, those of one end alone, measured ones, and no section; and
+    # none of them is a jet in positions and momenta.
+    for wrong in ((99, 5), (5, 0), (6, 6), (3, 3)):
+        with pytest.raises(hamjet.UsageError, match="^pickle: this is no state"):
+            restore(function, state[:13] + wrong + state[15:], coefficients, rounding)
+    for wrong in (state[:15] + (None,) + state[16:], state[:14] + state[14:15] +
+                  ((9,) + state[15][1:],) + state[16:]):
+        with pytest.raises(hamjet.UsageError, match="^pickle: this is no state"):
+            restore(function, wrong, coefficients, rounding)
+    with pytest.raises(hamjet.UsageError, match="^pickle: this is no state"):
+        restore("_restored_jet", state, coefficients)

@@ -8,16 +8,18 @@ import numpy.typing as npt
 
 from . import _hamjet, arguments, scenes, shown
 from .errors import UsageError
+from .immutable import Immutable
 from .relative_states import RelativeStates
 from .results import Floats, Progress
 
 
-class Polynomials:
+class Polynomials(Immutable):
     """What a scene's polynomials say of deputies at the end of its duration; immutable.
 
     In other coordinates than Cartesian a deputy is carried into them at the start and out of them
     at the end, so that polynomials of the same order reach further: in "flow-box" ones tens to
-    hundreds of kilometres.
+    hundreds of kilometres. What comes out of a pickle has the same digits and is as what was
+    loaded: it has no scene in which `reach` could fly deputies.
     """
 
     def __init__(self, study: _hamjet.PolynomialsStudy) -> None:
@@ -94,7 +96,7 @@ class Polynomials:
         """How far from the chief each order is right to a tolerance at the end: (order,), in m.
 
         It is what ``validity`` proves by flying so many random deputies, and the worst. Raises as
-        ``transfer``, and UsageError for polynomials that were loaded.
+        ``transfer``, and UsageError for polynomials that were loaded or pickled.
         """
         tolerance = arguments.number(tolerance_m, "reach: tolerance_m")
         if not tolerance > 0:

@@ -15,9 +15,6 @@
 namespace hamjet {
 namespace {
 
-/// An orbit's gravitational parameter in its canonical units.
-constexpr double canonical_mu = 1;
-
 /// Does what needs coordinates at a time; an orbit that has not such is told with their name.
 template <class Work>
 auto in_coordinates(JetCoordinates coordinates, const std::string& when, const Work& work) {

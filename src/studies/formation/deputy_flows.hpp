@@ -13,6 +13,9 @@
 
 namespace hamjet {
 
+/// An orbit's gravitational parameter in its canonical units.
+inline constexpr double canonical_mu = 1;
+
 /// The gravity field of a scene about an orbit, canonical.
 ZonalGravity orbit_field(const Scene& scene);
 
@@ -45,6 +48,9 @@ class DeputyFlowPropagation {
   /// The place among them of the period's difference, which flow boxes of bound orbits have for the
   /// energy.
   std::optional<std::size_t> end_period_place() const;
+
+  /// The map of the last time, of flow boxes; nothing of others.
+  const std::optional<FlowBoxMap<double>>& flow_box() const noexcept { return last_box_; }
 
   const CoordinatesAtEnds& coordinates() const noexcept { return coordinates_; }
   /// Summed over the integrations.
