@@ -166,6 +166,13 @@ std::string miss_covers(const EvalSource& jet) {
                          : ", and errors of the coefficients as the results state them");
 }
 
+/// The same of jets at several times, of which the last may be in coordinates of its own.
+std::string miss_covers(const std::vector<EvalSource>& jets) {
+  const std::string last = miss_covers(jets.back());
+  const std::string first = miss_covers(jets.front());
+  return first == last ? last : fmt::format("{}; before the end {}", last, first);
+}
+
 /// What has been evaluated, as it is printed.
 class Output {
  public:
@@ -236,8 +243,8 @@ std::string summary(const EvalOptions& options, const std::vector<EvalSource>& j
   const Json json = {{"scene", stored.scene},
                      {"run", stored.label},
                      {"model", model_name(stored.model)},
-                     {"coordinates", name_of(jets.front().coordinates().start)},
-                     {"end_coordinates", name_of(jets.front().coordinates().end)},
+                     {"coordinates", name_of(jets.back().coordinates().start)},
+                     {"end_coordinates", name_of(jets.back().coordinates().end)},
                      {"order", jets.front().order()},
                      {"degree", work.degree},
                      {"frame", options.frames.frame},
@@ -250,7 +257,7 @@ std::string summary(const EvalOptions& options, const std::vector<EvalSource>& j
                      {"outside", output.outside()},
                      {"unknown", output.unknown()},
                      {"undefined", output.undefined()},
-                     {"miss_estimate_covers", miss_covers(jets.front())},
+                     {"miss_estimate_covers", miss_covers(jets)},
                      {"largest_miss_estimate_m",
                       output.largest_miss() ? Json(*output.largest_miss()) : Json(nullptr)},
                      {"evaluation",
@@ -260,20 +267,21 @@ std::string summary(const EvalOptions& options, const std::vector<EvalSource>& j
                        {"chart_nanoseconds_per_point", work.chart_seconds / points * 1e9},
                        {"multiply_adds_per_point", work.multiply_adds_per_point},
                        {"products_per_point", work.products_per_point},
-                       {"multiply_adds_per_second", work.multiply_adds_per_second(points)}}},
+                       {"multiply_adds_per_second", work.multiply_adds_per_second()}}},
                      {"rows", output.json_rows()}};
   return json.dump(2) + "\n";
 }
 
-void report(const EvalCoordinates& coordinates, const EvalSource& jet, const EvaluationWork& work,
-            const Output& output) {
+void report(const EvalCoordinates& coordinates, const std::vector<EvalSource>& jets,
+            const EvaluationWork& work, const Output& output) {
+  const EvalSource& jet = jets.back();
   const bool is_linear = jet.order() < 2;
   const auto points = static_cast<double>(output.rows());
   print_note(fmt::format(
       "points {}, evaluation alone {:.3g} s, {:.3g} ns a point, {} multiply-adds a point, "
       "{:.3g} multiply-adds a second",
       output.rows(), work.seconds, work.seconds / points * 1e9, work.multiply_adds_per_point,
-      work.multiply_adds_per_second(points)));
+      work.multiply_adds_per_second()));
   if (jet.scene) {
     print_note(fmt::format(
         "{} coordinates, {}; of a point's time {:.3g} ns are the polynomials, with the lower "
@@ -282,8 +290,13 @@ void report(const EvalCoordinates& coordinates, const EvalSource& jet, const Eva
         jet.scene->seconds > 0 ? "integrated in " + duration_text(jet.scene->seconds) : "stored",
         (work.seconds - work.chart_seconds) / points * 1e9, work.chart_seconds / points * 1e9));
   }
+  if (jets.front().coordinates() != jet.coordinates()) {
+    print_note(fmt::format(
+        "{} coordinates are of the end alone; before it the jets are in positions and momenta",
+        name_of(jet.coordinates())));
+  }
   print_note(fmt::format("frame {}; the estimates of the miss cover {}", coordinates.text(),
-                         miss_covers(jet)));
+                         miss_covers(jets)));
   if (output.outside() > 0) {
     print_note(fmt::format(
         "{} of {} marked outside, beyond the polynomial's reach: its degrees do not decay at "
@@ -327,17 +340,17 @@ void evaluate(const EvalOptions& options, const EvalSource& jet, const io::Numbe
     DeputyEvaluation evaluation(*jet.scene, degree, options.threads.value_or(usable_processors()));
     carry(options, coordinates, time_s, deviations, evaluation, output);
     const auto& polynomials = jet.scene->flow->polynomials();
-    work.add(evaluation.seconds(), MapEvaluator(polynomials, degree));
+    work.add(evaluation.seconds(), deviations.rows(), MapEvaluator(polynomials, degree));
     for (const int one : evaluation.degrees()) {
       if (one == degree) continue;  // has been added
-      work.all_multiply_adds_per_point += MapEvaluator(polynomials, one).multiply_adds_per_point();
+      work.add_multiply_adds(deviations.rows(), MapEvaluator(polynomials, one));
     }
     work.chart_seconds += evaluation.chart_seconds();
     return;
   }
   JetEvaluation evaluation(jet.stored, options.degree);
   carry(options, coordinates, time_s, deviations, evaluation, output);
-  work.add(evaluation.seconds(), evaluation.evaluator());
+  work.add(evaluation.seconds(), deviations.rows(), evaluation.evaluator());
 }
 
 }  // namespace
@@ -370,7 +383,7 @@ int eval(const EvalOptions& given) {
   } else if (!file) {
     print(output.csv());
   }
-  if (!options.quiet) report(coordinates, jets.front(), work, output);
+  if (!options.quiet) report(coordinates, jets, work, output);
   const std::size_t not_inside = std::max(output.outside() + output.unknown(), output.undefined());
   if (!options.strict || not_inside == 0) return 0;
   print_error(fmt::format("--strict: {} of {} not inside the polynomial's reach", not_inside,

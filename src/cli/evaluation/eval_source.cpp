@@ -38,6 +38,13 @@ io::StoredJet read_polynomials_or_jet(const EvalOptions& options) {
   return polynomials ? std::move(*polynomials) : read_noted_jet(options.directory, options.run);
 }
 
+EvalSource source_of(io::StoredJet stored) {
+  if (stored.coordinates == JetCoordinates::cartesian) return {std::move(stored)};
+  EvaluatedScene polynomials = evaluated_jet(stored);
+  io::StoredJet chief = polynomials.chief;
+  return {std::move(chief), std::move(polynomials)};
+}
+
 }  // namespace
 
 void take_standard_input(EvalOptions& options) {
@@ -69,17 +76,14 @@ RunOptions scene_named(const EvalOptions& options, const std::string& name) {
 
 std::vector<EvalSource> read_eval_sources(const EvalOptions& options) {
   if (is_of_scene(options)) return {integrated_scene(options)};
-  if (!options.time) {
-    io::StoredJet stored = read_polynomials_or_jet(options);
-    if (stored.coordinates == JetCoordinates::cartesian) return {{std::move(stored)}};
-    EvaluatedScene polynomials = evaluated_jet(stored);
-    io::StoredJet chief = polynomials.chief;
-    return {{std::move(chief), std::move(polynomials)}};
-  }
+  if (!options.time) return {source_of(read_polynomials_or_jet(options))};
   std::vector<EvalSource> jets;
+  const auto polynomials = io::read_stored_polynomials(options.directory, options.run);
   for (io::StoredJet& stored :
        read_noted_jets(options.directory, options.run, wanted_times(*options.time))) {
-    jets.push_back({std::move(stored)});
+    // Those of other coordinates are of the duration alone.
+    const bool is_at_duration = polynomials && polynomials->duration == stored.duration;
+    jets.push_back(source_of(is_at_duration ? *polynomials : std::move(stored)));
   }
   return jets;
 }

@@ -13,20 +13,23 @@ struct EvaluationWork {
   int degree = 0;
   std::size_t multiply_adds_per_point = 0;
   std::size_t products_per_point = 0;
-  /// With those of the lower degrees that an estimate needs.
-  std::size_t all_multiply_adds_per_point = 0;
+  /// Of all points, with those of the lower degrees that an estimate needs.
+  double all_multiply_adds = 0;
 
   /// Of the polynomials, without the time of the charts.
-  double multiply_adds_per_second(double points) const {
-    return static_cast<double>(all_multiply_adds_per_point) * points / (seconds - chart_seconds);
-  }
+  double multiply_adds_per_second() const { return all_multiply_adds / (seconds - chart_seconds); }
 
-  void add(double taken, const MapEvaluator& evaluator) {
+  void add(double taken, std::size_t points, const MapEvaluator& evaluator) {
     seconds += taken;
-    all_multiply_adds_per_point = evaluator.multiply_adds_per_point();
+    add_multiply_adds(points, evaluator);
     degree = evaluator.degree();
     multiply_adds_per_point = evaluator.multiply_adds_per_point();
     products_per_point = evaluator.products_per_point();
+  }
+
+  /// Multiply-adds alone, of the time that has been added.
+  void add_multiply_adds(std::size_t points, const MapEvaluator& evaluator) {
+    all_multiply_adds += static_cast<double>(points * evaluator.multiply_adds_per_point());
   }
 };
 

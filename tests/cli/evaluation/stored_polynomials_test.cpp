@@ -118,6 +118,36 @@ TEST_F(StoredPolynomials, OfChartsPredictAsIntegratedOnes) {
   }
 }
 
+// The row of the duration is that of the polynomials, whatever times stand before it.
+TEST_F(StoredPolynomials, AreThoseOfTheLastTime) {
+  for (const char* const coordinates : {"flow-box", "spherical"}) {
+    SCOPED_TRACE(coordinates);
+    const std::string folder = std::string("timed-") + coordinates;
+    succeed({"run", "far.toml", "-o", folder, "-q", "--set",
+             std::string("jet.coordinates=") + coordinates, "--set", "jet.times_orbits=[0.4,0.9]"});
+    const Json alone = rows({"eval", folder})["rows"][0];
+    const Json all = rows({"eval", folder, "--time", "all"});
+    ASSERT_EQ(all["rows"].size(), 3U);
+    EXPECT_EQ(all["coordinates"], coordinates);
+    Json last = all["rows"][2];
+    const std::string duration = last["time_s"].dump();
+    last.erase("time_s");
+    EXPECT_EQ(last, alone);
+    Json named = rows({"eval", folder, "--time", duration})["rows"][0];
+    named.erase("time_s");
+    EXPECT_EQ(named, alone);
+    // Before it there are jets in positions and momenta alone, which is said.
+    const std::string plain = std::string("plain-") + coordinates;
+    succeed({"run", "far.toml", "-o", plain, "-q", "--set", "jet.times_orbits=[0.4,0.9]"});
+    const Json before = rows({"eval", plain, "--time", "all"});
+    EXPECT_EQ(all["rows"][0], before["rows"][0]);
+    EXPECT_NE(before["rows"][2]["T_m"], alone["T_m"]);
+    EXPECT_NE(in_one_line(hamjet({"eval", folder, "--time", "all", "--deviation=1,0,0,0,0,0"}).err)
+                  .find(fmt::format("{} coordinates are of the end alone", coordinates)),
+              std::string::npos);
+  }
+}
+
 // Threads share the deputies, which may be odd to the last one, in whole blocks or not; a deputy's
 // digits are its own.
 TEST_F(StoredPolynomials, PredictTheSameOnAnyNumberOfThreads) {
