@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
+#include <utility>
 
 #include "hamjet/algebra/elementary_functions.hpp"
 
@@ -36,47 +38,61 @@ SineAndCosine<Series<Real>> sine_and_cosine(const Series<Real>& angle) {
   return {std::move(sine), std::move(cosine)};
 }
 
+/// The root of Kepler's equation, with its sine and cosine.
+template <class Real>
+struct EccentricLongitude {
+  Real angle;
+  Real sine;
+  Real cosine;
+};
+
 /// The root F of Kepler's equation in elements that are regular on a circle,
 ///
 ///   F - k sin F + h cos F = lambda ,   k^2 + h^2 < 1 ,
 ///
 /// by Newton's method inside the bracket lambda - e, lambda + e.
 template <class Real>
-Real eccentric_longitude(const Real& lambda, const Real& k, const Real& h) {
-  using std::cos;
-  using std::sin;
+EccentricLongitude<Real> eccentric_longitude(const Real& lambda, const Real& k, const Real& h) {
   using std::sqrt;
   constexpr int most_iterations = 200;
   const Real e = sqrt(Real(k * k + h * h));
   Real low = lambda - e;
   Real high = lambda + e;
-  Real f = lambda + k * sin(lambda) - h * cos(lambda);
+  // The series in e to its third power, of M = lambda - w: e sin M and e cos M times each other.
+  const auto [sine_start, cosine_start] = sine_and_cosine(lambda);
+  const Real across = k * sine_start - h * cosine_start;
+  const Real along = k * cosine_start + h * sine_start;
+  Real f = lambda + across * (Real(1) + along + along * along - across * across / Real(2));
+  if (!(f >= low && f <= high)) f = lambda + across;
   for (int i = 0; i < most_iterations; ++i) {
-    const Real s = sin(f);
-    const Real c = cos(f);
+    const auto [s, c] = sine_and_cosine(f);
     const Real excess = f - k * s + h * c - lambda;
     (excess > 0 ? high : low) = f;
-    const Real change = excess / (Real(1) - k * c - h * s);
-    Real next = f - change;
+    Real next = f - excess / (Real(1) - k * c - h * s);
     if (!(next >= low && next <= high)) next = (low + high) / Real(2);
+    const Real change = next - f;
     f = next;
-    // Newton's method doubles the digits: after a change this small none is left to be found.
-    // Where a number is none, no comparison holds.
-    if (!(change * change > std::numeric_limits<Real>::epsilon() / Real(1024))) break;
+    // Newton's method doubles the digits: after a change this small none is left to be found, nor
+    // does its square change a sine. Where a number is none, no comparison holds.
+    if (!(change * change > std::numeric_limits<Real>::epsilon() / Real(1024))) {
+      return {f, s + c * change, c - s * change};
+    }
   }
-  return f;
+  const auto [s, c] = sine_and_cosine(f);
+  return {f, s, c};
 }
 
 /// Of series: Newton's method from the constant terms doubles the degrees that are right.
 template <class Real>
-Series<Real> eccentric_longitude(const Series<Real>& lambda, const Series<Real>& k,
-                                 const Series<Real>& h) {
-  Series<Real> f(lambda.space_pointer(), eccentric_longitude(lambda[0], k[0], h[0]));
+EccentricLongitude<Series<Real>> eccentric_longitude(const Series<Real>& lambda,
+                                                     const Series<Real>& k, const Series<Real>& h) {
+  Series<Real> f(lambda.space_pointer(), eccentric_longitude(lambda[0], k[0], h[0]).angle);
+  auto [s, c] = sine_and_cosine(f);
   for (int right = 0; right < lambda.order(); right = 2 * right + 1) {
-    const auto [s, c] = sine_and_cosine(f);
     f -= (f - k * s + h * c - lambda) / (Real(1) - k * c - h * s);
+    std::tie(s, c) = sin_cos(f);
   }
-  return f;
+  return {std::move(f), std::move(s), std::move(c)};
 }
 
 /// An ellipse in its plane by elements that are regular on a circle, mu the gravitational
@@ -106,7 +122,7 @@ template <class Real, class T>
 PlaneState<T> plane_state(const PlaneElements<T>& elements, const Real& mu) {
   using std::sqrt;
   const auto& [lambda, L, k, h] = elements;
-  const auto [s, c] = sine_and_cosine(eccentric_longitude(lambda, k, h));
+  const auto [angle, s, c] = eccentric_longitude(lambda, k, h);
   const T beta = Real(1) / (Real(1) + sqrt(T(Real(1) - k * k - h * h)));
   const T hh = Real(1) - h * h * beta;
   const T kk = Real(1) - k * k * beta;
