@@ -110,6 +110,12 @@ io::StoredJet stored_polynomials(const EvaluatedScene& scene) {
   return stored;
 }
 
+double DeputyEvaluation::multiply_adds() const {
+  double sum = 0;
+  for (const Worker& worker : workers_) sum += worker.predictor.multiply_adds();
+  return sum;
+}
+
 double DeputyEvaluation::chart_seconds() const {
   double all = 0;
   double polynomials = 0;
@@ -124,52 +130,77 @@ void DeputyEvaluation::add(const std::vector<double>& deviation) {
   pending_.push_back(six_numbers(deviation));
 }
 
-std::vector<int> DeputyEvaluation::degrees() const {
-  // The curved ends are in no degree of the polynomials, so that lower degrees go through them too.
+void DeputyEvaluation::predict(std::span<const SixNumbers<double>> initial, Worker& worker) const {
   const bool is_curved = scene_.coordinates != JetCoordinates::cartesian;
-  std::vector<int> degrees = {degree_};
-  for (int below = 1; is_curved && below <= 2 && degree_ - below >= 1; ++below) {
-    degrees.push_back(degree_ - below);
+  const std::size_t start = worker.predictions.size();
+  worker.predictions.resize(start + initial.size());
+  const auto predictions = std::span(worker.predictions).subspan(start);
+  worker.predictor.predict(initial, degree_, predictions);
+  std::vector<std::size_t> bent;
+  for (std::size_t k = 0; k < initial.size(); ++k) {
+    const DeputyPrediction& found = predictions[k];
+    SixNumbers<double> below = found.deviation;
+    for (std::size_t i = 0; i < 6; ++i) below[i] -= found.last[i];
+    SixNumbers<double> two_below = below;
+    for (std::size_t i = 0; i < 6; ++i) two_below[i] -= found.last_but_one[i];
+    worker.estimates.push_back(is_curved
+                                   ? curved_estimate(initial[k], found.deviation, below, two_below)
+                                   : estimate(found));
+    if (is_curved && degree_ > 1 && !is_nearly_straight(initial[k], found)) bent.push_back(k);
   }
-  return degrees;
+  std::vector<SixNumbers<double>> below(bent.size());
+  std::vector<SixNumbers<double>> two_below(bent.size());
+  worker.predictor.predict_lower(bent, below, two_below);
+  for (std::size_t j = 0; j < bent.size(); ++j) {
+    const std::size_t k = bent[j];
+    worker.estimates[start + k] =
+        curved_estimate(initial[k], predictions[k].deviation, below[j], two_below[j]);
+  }
 }
 
 void DeputyEvaluation::run(
     const std::function<void(const std::vector<double>&, const MissEstimate&)>& take) {
-  const bool is_curved = scene_.coordinates != JetCoordinates::cartesian;
-  const std::vector<int> degrees = this->degrees();
   // Fewer take no longer than a thread takes to start.
   constexpr std::size_t fewest_points = 256;
   const std::size_t tasks = std::clamp<std::size_t>(pending_.size() / fewest_points, 1, threads_);
-  while (workers_.size() < tasks) workers_.push_back({DeputyPredictor(*scene_.flow), {}, 0});
+  while (workers_.size() < tasks) workers_.push_back({DeputyPredictor(*scene_.flow), {}, {}, 0});
   const auto first_of = [&](std::size_t task) { return pending_.size() * task / tasks; };
-  const auto predict = [&](std::size_t task, TaskControl&) {
-    Worker& worker = workers_[task];
-    const Stopwatch watch(worker.seconds);
-    const auto points =
-        std::span(pending_).subspan(first_of(task), first_of(task + 1) - first_of(task));
-    worker.predictions.resize(points.size() * degrees.size());
-    worker.predictor.predict(points, degrees, worker.predictions);
-  };
   {
     const Stopwatch watch(seconds_);
-    run_concurrently(tasks, tasks, predict, [](long) {});
+    run_concurrently(
+        tasks, tasks,
+        [&](std::size_t task, TaskControl&) {
+          Worker& worker = workers_[task];
+          const Stopwatch own(worker.seconds);
+          worker.predictions.clear();
+          worker.estimates.clear();
+          const std::size_t end = first_of(task + 1);
+          constexpr std::size_t most = DeputyPredictor::most_at_once;
+          for (std::size_t first = first_of(task); first < end; first += most) {
+            predict(std::span(pending_).subspan(first, std::min(most, end - first)), worker);
+          }
+        },
+        [](long) {});
   }
   for (std::size_t task = 0; task < tasks; ++task) {
-    const std::vector<DeputyPrediction>& predictions = workers_[task].predictions;
-    const std::size_t count = first_of(task + 1) - first_of(task);
-    for (std::size_t k = 0; k < count; ++k) {
-      const SixNumbers<double>& found = predictions[k].deviation;
-      const auto deviation = [&](std::size_t below) {
-        return below < degrees.size() ? &predictions[below * count + k].deviation : nullptr;
-      };
-      take({found.begin(), found.end()},
-           is_curved
-               ? curved_estimate(pending_[first_of(task) + k], found, deviation(1), deviation(2))
-               : estimate(predictions[k]));
+    const Worker& worker = workers_[task];
+    for (std::size_t k = 0; k < worker.predictions.size(); ++k) {
+      const SixNumbers<double>& found = worker.predictions[k].deviation;
+      take({found.begin(), found.end()}, worker.estimates[k]);
     }
   }
   pending_.clear();
+}
+
+bool DeputyEvaluation::is_nearly_straight(const SixNumbers<double>& initial,
+                                          const DeputyPrediction& found) const {
+  constexpr double largest_share = 0.1;    // of the deviation that a degree adds
+  constexpr double largest_extent = 0.03;  // of the deviation in the chief's distance
+  const auto length = [](const SixNumbers<double>& z) { return std::hypot(z[0], z[1], z[2]); };
+  const double size = std::max(length(initial), length(found.deviation));
+  return length(found.last) <= largest_share * size &&
+         length(found.last_but_one) <= largest_share * size &&
+         size <= largest_extent * length(scene_.flow->chief_end());
 }
 
 MissEstimate DeputyEvaluation::estimate(const DeputyPrediction& prediction) const {
@@ -190,24 +221,24 @@ MissEstimate DeputyEvaluation::estimate(const DeputyPrediction& prediction) cons
 
 MissEstimate DeputyEvaluation::curved_estimate(const SixNumbers<double>& initial,
                                                const SixNumbers<double>& found,
-                                               const SixNumbers<double>* below,
-                                               const SixNumbers<double>* two_below) const {
+                                               const SixNumbers<double>& below,
+                                               const SixNumbers<double>& two_below) const {
   using Support = TruncationEstimate::Support;
   constexpr double least_ratio = 0.5;  // of the changes of two degrees that is relied upon
   // Of the deviation that a degree may change; without a ratio, less is relied upon.
-  const double largest_share = two_below == nullptr ? 1e-4 : 0.1;
+  const double largest_share = degree_ < 3 ? 1e-4 : 0.1;
   const auto distance = [](const SixNumbers<double>& a, const SixNumbers<double>& b) {
     return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
   };
   const SixNumbers<double> none{};
   MissEstimate result{Support::unknown, 0, scene_.rounding_m};
-  if (below == nullptr) return result;
-  const double change = distance(found, *below);
+  if (degree_ < 2) return result;
+  const double change = distance(found, below);
   if (!std::isfinite(change)) return result;
   const double size = std::max(distance(initial, none), distance(found, none));
   double ratio = 1;
-  if (two_below != nullptr) {
-    const double change_below = distance(*below, *two_below);
+  if (degree_ >= 3) {
+    const double change_below = distance(below, two_below);
     // A change that is rounding says nothing of a decay.
     const double rounding = scene_.rounding_m / (scene_.chief.units.length_km * 1000);
     if (!(change_below > change) && change > rounding) {

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "hamjet/charts/deputy_flow.hpp"
@@ -59,31 +60,38 @@ class DeputyEvaluation {
   /// Of these, what the coordinates at both ends take: the share that they have in the threads'
   /// own time.
   double chart_seconds() const;
-  /// The degrees that are evaluated: that asked for and, in other coordinates than Cartesian, up to
-  /// two below it, which go through the curved ends too.
-  std::vector<int> degrees() const;
+  /// Multiply-adds of all polynomials so far, with those of the lower degrees.
+  double multiply_adds() const;
 
  private:
-  /// In positions and momenta, whose degrees add up: see estimate_truncation.
-  MissEstimate estimate(const DeputyPrediction& prediction) const;
-  /// In other coordinates, of deviations at the start and, by the highest degree and by one and two
-  /// less (null where there is none), at the end: what the highest degree changes, times its ratio
-  /// to what the one below changes, at least a half. Order 2 has no such ratio and states the
-  /// change itself; order 1 is unknown. Outside where changes do not fall, or one is more than a
-  /// tenth of the deviation, of order 2 more than 1e-4 of it.
-  MissEstimate curved_estimate(const SixNumbers<double>& initial, const SixNumbers<double>& found,
-                               const SixNumbers<double>* below,
-                               const SixNumbers<double>* two_below) const;
-
-  const EvaluatedScene& scene_;
-  int degree_;
-  std::size_t threads_;
   /// A thread's own: what it predicts with, where it writes, and the time it has worked.
   struct Worker {
     DeputyPredictor predictor;
     std::vector<DeputyPrediction> predictions;
+    std::vector<MissEstimate> estimates;
     double seconds = 0;
   };
+  /// Adds a worker's predictions of these deputies, no more than DeputyPredictor::most_at_once.
+  void predict(std::span<const SixNumbers<double>> initial, Worker& worker) const;
+
+  /// In positions and momenta, whose degrees add up: see estimate_truncation.
+  MissEstimate estimate(const DeputyPrediction& prediction) const;
+  /// Whether what the two highest degrees add to a deviation is small and near enough for the
+  /// derivatives at the chief to tell, to some percent; else the lower degrees go through the
+  /// curved ends themselves.
+  bool is_nearly_straight(const SixNumbers<double>& initial, const DeputyPrediction& found) const;
+  /// In other coordinates, of deviations at the start and, by the highest degree and by one and two
+  /// less, at the end: what the highest degree changes, times its ratio
+  /// to what the one below changes, at least a half. Order 2 has no such ratio and states the
+  /// change itself; order 1 is unknown. Outside where changes do not fall, or one is more than a
+  /// tenth of the deviation, of order 2 more than 1e-4 of it.
+  MissEstimate curved_estimate(const SixNumbers<double>& initial, const SixNumbers<double>& found,
+                               const SixNumbers<double>& below,
+                               const SixNumbers<double>& two_below) const;
+
+  const EvaluatedScene& scene_;
+  int degree_;
+  std::size_t threads_;
   std::vector<Worker> workers_;
   std::vector<SixNumbers<double>> pending_;
   double seconds_ = 0;

@@ -49,7 +49,6 @@ void DeputyPredictor::predict(std::span<const SixNumbers<double>> initial,
     throw Error(ErrorKind::usage, "deputy: as many predictions as deviations are needed");
   }
   constexpr std::size_t block = DeputyFlow::block;
-  constexpr std::size_t most_at_once = 512 * block;  // few enough to stay in the cache
   const Matrix<double>& exit = flow_.exit_derivative();
   const std::size_t width = flow_.variables();
   const std::size_t values = flow_.polynomials().size();
@@ -58,6 +57,7 @@ void DeputyPredictor::predict(std::span<const SixNumbers<double>> initial,
   carried_.resize(std::min(most_at_once, initial.size()));
   for (std::size_t first = 0; first < initial.size(); first += most_at_once) {
     const std::size_t count = std::min(most_at_once, initial.size() - first);
+    count_ = count;
     points_.resize(count * width);
     for (auto& result : results_) result.resize(count * values);
     for (std::size_t j = 0; j < count; j += block) {
@@ -71,8 +71,10 @@ void DeputyPredictor::predict(std::span<const SixNumbers<double>> initial,
     for (std::size_t d = 0; d < degrees.size(); ++d) {
       const auto degree = static_cast<std::size_t>(degrees[d]);
       const IntegrationClock clock;
-      flow_.evaluators_[degree - 1].evaluate(points_, {results_[0], results_[1], results_[2]});
+      const MapEvaluator& evaluator = flow_.evaluators_[degree - 1];
+      evaluator.evaluate(points_, {results_[0], results_[1], results_[2]});
       polynomial_seconds_ += clock.seconds();
+      multiply_adds_ += static_cast<double>(count * evaluator.multiply_adds_per_point());
       const auto found = predictions.subspan(d * initial.size() + first, count);
       for (std::size_t j = 0; j < count; j += block) {
         const std::size_t some = std::min(block, count - j);
@@ -96,6 +98,37 @@ void DeputyPredictor::predict(std::span<const SixNumbers<double>> initial,
         }
       }
     }
+  }
+}
+
+void DeputyPredictor::predict_lower(std::span<const std::size_t> deputies,
+                                    std::span<SixNumbers<double>> below,
+                                    std::span<SixNumbers<double>> two_below) {
+  constexpr std::size_t block = DeputyFlow::block;
+  const std::size_t values = flow_.polynomials().size();
+  std::array<double, DeputyFlow::widest * block> numbers;
+  std::array<SixNumbers<double>, block> carried;
+  for (std::size_t j = 0; j < deputies.size(); j += block) {
+    const std::size_t some = std::min(block, deputies.size() - j);
+    for (std::size_t k = 0; k < some; ++k) carried[k] = carried_[deputies[j + k]];
+    const auto leave = [&](std::span<SixNumbers<double>> finals) {
+      passage_->leave(std::span(carried).first(some), std::span(numbers).first(some * values),
+                      finals.subspan(j, some));
+    };
+    // What the degrees share is in all of them, so that the highest are taken off.
+    for (std::size_t k = 0; k < some; ++k) {
+      for (std::size_t c = 0; c < values; ++c) {
+        const std::size_t place = c * count_ + deputies[j + k];
+        numbers[k * values + c] = results_[0][place] - results_[1][place];
+      }
+    }
+    leave(below);
+    for (std::size_t k = 0; k < some; ++k) {
+      for (std::size_t c = 0; c < values; ++c) {
+        numbers[k * values + c] -= results_[2][c * count_ + deputies[j + k]];
+      }
+    }
+    leave(two_below);
   }
 }
 

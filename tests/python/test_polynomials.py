@@ -157,3 +157,27 @@ def test_a_jet_that_is_converted_says_what_the_integrated_polynomials_say(tmp_pa
         load(tmp_path / "out", coordinates="flow-box", scene=SCENE.replace("1.08262", "1.1"))
     with pytest.raises(hamjet.UsageError, match="coordinates: got .*polar.*, must be cartesian"):
         load(tmp_path / "out", coordinates="polar")
+
+
+@pytest.mark.filterwarnings("ignore:evaluate_relative")
+@pytest.mark.parametrize("coordinates", ["flow-box", "nodal", "spherical"])
+@pytest.mark.parametrize("size_m, tolerance", [(15e3, 0.06), (400e3, 1e-5)])
+def test_a_miss_is_what_the_last_degrees_add(coordinates, size_m, tolerance):
+    # Each degree goes through the curved ends: near the chief estimates have some percent of that,
+    # by derivatives there, and far from it, or where a degree adds much, all digits.
+    polynomials = hamjet.polynomials(SCENE, coordinates=coordinates)
+    states = np.random.default_rng(5).uniform(-1, 1, (200, 6)) * ([size_m] * 3 + [size_m * 1e-4] * 3)
+    third, second, first = (polynomials.evaluate_relative(states, degree=degree)
+                            for degree in (3, 2, 1))
+    change, below = (np.linalg.norm((a.states - b.states)[:, :3], axis=1)
+                     for a, b in ((third, second), (second, first)))
+    expected = change * np.maximum(change / below, 0.5)
+    inside = (third.support == "inside") & (expected > 1e-4)  # above rounding
+    if size_m > 1e5:
+        distances = np.linalg.norm(third.states[:, :3], axis=1)
+        inside &= distances > 0.04 * 7000e3
+    assert inside.sum() > (30 if coordinates == "flow-box" else 5)
+    ratios = third.miss_m[inside] / expected[inside]
+    assert np.abs(ratios - 1).max() < tolerance
+    # They are not the same numbers by one way as by the other.
+    assert (np.abs(ratios - 1).max() > 1e-4) == (size_m < 1e5)

@@ -111,17 +111,29 @@ class DeputyPredictor {
   void predict(std::span<const SixNumbers<double>> initial, std::span<const int> degrees,
                std::span<DeputyPrediction> predictions);
 
+  /// Deputies that are predicted at once; of more the first so many are done first.
+  static constexpr std::size_t most_at_once = 4096;  // few enough to stay in the cache
+  /// The final deviations by one degree less and by two, out of the coordinates of the end, of some
+  /// deputies of the last call of predict, by their numbers in it. Precondition: it had no more
+  /// than most_at_once and one degree, which is more than 1.
+  void predict_lower(std::span<const std::size_t> deputies, std::span<SixNumbers<double>> below,
+                     std::span<SixNumbers<double>> two_below);
+
   /// Seconds that the polynomials of all predictions took, without the ways into their variables
   /// and out of their values.
   double polynomial_seconds() const { return polynomial_seconds_; }
+  /// Multiply-adds of the same.
+  double multiply_adds() const { return multiply_adds_; }
 
  private:
   const DeputyFlow& flow_;
   std::unique_ptr<DeputyFlow::Passage> passage_;
+  std::size_t count_ = 0;  ///< of the deputies that are at work
   std::vector<SixNumbers<double>> carried_;
   std::vector<double> points_;
   std::vector<double> results_[3];
   double polynomial_seconds_ = 0;
+  double multiply_adds_ = 0;
 };
 
 /// The flow by the jet in positions and momenta themselves. Throws Error(usage) unless it has six

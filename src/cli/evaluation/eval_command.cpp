@@ -285,7 +285,7 @@ void report(const EvalCoordinates& coordinates, const std::vector<EvalSource>& j
   if (jet.scene) {
     print_note(fmt::format(
         "{} coordinates, {}; of a point's time {:.3g} ns are the polynomials, with the lower "
-        "degrees that the estimate needs, and {:.3g} ns the coordinates at both ends",
+        "degrees that estimates need, and {:.3g} ns the coordinates at both ends",
         name_of(jet.coordinates()),
         jet.scene->seconds > 0 ? "integrated in " + duration_text(jet.scene->seconds) : "stored",
         (work.seconds - work.chart_seconds) / points * 1e9, work.chart_seconds / points * 1e9));
@@ -339,18 +339,16 @@ void evaluate(const EvalOptions& options, const EvalSource& jet, const io::Numbe
     const int degree = options.degree.value_or(jet.order());
     DeputyEvaluation evaluation(*jet.scene, degree, options.threads.value_or(usable_processors()));
     carry(options, coordinates, time_s, deviations, evaluation, output);
-    const auto& polynomials = jet.scene->flow->polynomials();
-    work.add(evaluation.seconds(), deviations.rows(), MapEvaluator(polynomials, degree));
-    for (const int one : evaluation.degrees()) {
-      if (one == degree) continue;  // has been added
-      work.add_multiply_adds(deviations.rows(), MapEvaluator(polynomials, one));
-    }
+    work.add(evaluation.seconds(), evaluation.multiply_adds(),
+             MapEvaluator(jet.scene->flow->polynomials(), degree));
     work.chart_seconds += evaluation.chart_seconds();
     return;
   }
   JetEvaluation evaluation(jet.stored, options.degree);
   carry(options, coordinates, time_s, deviations, evaluation, output);
-  work.add(evaluation.seconds(), deviations.rows(), evaluation.evaluator());
+  const MapEvaluator& evaluator = evaluation.evaluator();
+  const std::size_t multiply_adds = deviations.rows() * evaluator.multiply_adds_per_point();
+  work.add(evaluation.seconds(), static_cast<double>(multiply_adds), evaluator);
 }
 
 }  // namespace

@@ -13,23 +13,18 @@ struct EvaluationWork {
   int degree = 0;
   std::size_t multiply_adds_per_point = 0;
   std::size_t products_per_point = 0;
-  /// Of all points, with those of the lower degrees that an estimate needs.
+  /// Of all points, with those of the lower degrees that estimates need.
   double all_multiply_adds = 0;
 
   /// Of the polynomials, without the time of the charts.
   double multiply_adds_per_second() const { return all_multiply_adds / (seconds - chart_seconds); }
 
-  void add(double taken, std::size_t points, const MapEvaluator& evaluator) {
+  void add(double taken, double multiply_adds, const MapEvaluator& evaluator) {
     seconds += taken;
-    add_multiply_adds(points, evaluator);
+    all_multiply_adds += multiply_adds;
     degree = evaluator.degree();
     multiply_adds_per_point = evaluator.multiply_adds_per_point();
     products_per_point = evaluator.products_per_point();
-  }
-
-  /// Multiply-adds alone, of the time that has been added.
-  void add_multiply_adds(std::size_t points, const MapEvaluator& evaluator) {
-    all_multiply_adds += static_cast<double>(points * evaluator.multiply_adds_per_point());
   }
 };
 
