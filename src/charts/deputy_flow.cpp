@@ -49,9 +49,15 @@ void DeputyPredictor::predict(std::span<const SixNumbers<double>> initial,
     throw Error(ErrorKind::usage, "deputy: as many predictions as deviations are needed");
   }
   constexpr std::size_t block = DeputyFlow::block;
-  const Matrix<double>& exit = flow_.exit_derivative();
   const std::size_t width = flow_.variables();
   const std::size_t values = flow_.polynomials().size();
+  std::array<SixNumbers<double>, DeputyFlow::widest> exit{};  // the columns of the derivative
+  for (std::size_t c = 0; c < values; ++c) {
+    for (std::size_t i = 0; i < 6; ++i) {
+      exit[c][i] =
+          flow_.exit_derivative()(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(c));
+    }
+  }
   std::array<double, DeputyFlow::widest * block> numbers;
   std::array<SixNumbers<double>, block> finals;
   carried_.resize(std::min(most_at_once, initial.size()));
@@ -88,11 +94,12 @@ void DeputyPredictor::predict(std::span<const SixNumbers<double>> initial,
         for (std::size_t k = 0; k < some; ++k) {
           DeputyPrediction& prediction = found[j + k];
           prediction = {finals[k], {}, {}};
-          for (std::size_t i = 0; i < 6; ++i) {
-            for (std::size_t c = 0; c < values; ++c) {
-              const double share = exit(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(c));
-              prediction.last[i] += share * results_[1][c * count + j + k];
-              prediction.last_but_one[i] += share * results_[2][c * count + j + k];
+          for (std::size_t c = 0; c < values; ++c) {
+            const double last = results_[1][c * count + j + k];
+            const double last_but_one = results_[2][c * count + j + k];
+            for (std::size_t i = 0; i < 6; ++i) {
+              prediction.last[i] += exit[c][i] * last;
+              prediction.last_but_one[i] += exit[c][i] * last_but_one;
             }
           }
         }
