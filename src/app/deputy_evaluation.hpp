@@ -63,8 +63,8 @@ class DeputyEvaluation {
   /// In other coordinates, of deviations at the start and, by the highest degree and by one and two
   /// less (null where there is none), at the end: what the highest degree changes, times its ratio
   /// to what the one below changes, at least a half. Order 2 has no such ratio and states the
-  /// change itself; order 1 is unknown. Outside where changes do not fall, or one is more than a
-  /// tenth of the deviation, of order 2 more than 1e-4 of it.
+  /// change itself; order 1 is unknown. Outside where a change is more than a tenth of the
+  /// deviation; where changes do not fall, and of order 2, where it is more than 1e-4 of it.
   MissEstimate curved_estimate(const SixNumbers<double>& initial, const SixNumbers<double>& found,
                                const SixNumbers<double>* below,
                                const SixNumbers<double>* two_below) const;
