@@ -89,9 +89,7 @@ TEST(Validity, EveryDeputyInsideTheProvedSeparationMeetsTheTolerance) {
         for (std::size_t i = 0; i < 3; ++i) {
           square += std::pow(values.value(jet[i], entry.order) - flown[i], 2);
         }
-        // The worst deputies are found by ascent to a millionth; some per cent are left for those
-        // that it did not reach.
-        beyond += std::sqrt(square) * units.length_m > 1.05 ? 1 : 0;
+        beyond += std::sqrt(square) * units.length_m > 1 ? 1 : 0;
       }
       EXPECT_EQ(beyond, 0) << "order " << entry.order;
     }

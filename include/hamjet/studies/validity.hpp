@@ -59,12 +59,13 @@ inline constexpr std::array<JetCoordinates, 6> measured_coordinates = {
 /// the furthest is given. Deviations fill an ellipsoid in position along the axes of the
 /// scene's frame, of largest semi-axis the separation, and the same ellipsoid times the mean motion
 /// in the velocity of that frame (as seen from the turning axes, by default); the samples are
-/// random ones and, for each order, those at which its error is largest by the next degree's part
-/// (found by gradient ascent from the largest samples). The miss is the distance between the final
-/// position that the jet's polynomial gives and that of the flown deputy. The prediction takes the
-/// part of degree k + 1, whose largest value over the samples grows as the separation to the power
-/// k + 1, for the error of order k; that of the highest order is extrapolated from the ratio of the
-/// last two. Throws as study_transfer.
+/// random ones and, for each order, those at which its error is largest: first by the next degree's
+/// part (found by gradient ascent from the largest samples), then, where the reach of these ends,
+/// by ascent of the miss itself, flown, until none beyond the tolerance is found. The miss is the
+/// distance between the final position that the jet's polynomial gives and that of the flown
+/// deputy. The prediction takes the part of degree k + 1, whose largest value over the samples
+/// grows as the separation to the power k + 1, for the error of order k; that of the highest order
+/// is extrapolated from the ratio of the last two. Throws as study_transfer.
 ValidityResult study_validity(const Scene& scene, const ProgressCallback& progress = {});
 
 /// The scene's coordinates; where they are automatic, those whose polynomials of the highest order
