@@ -111,6 +111,11 @@ class DeputyPredictor {
   void predict(std::span<const SixNumbers<double>> initial, std::span<const int> degrees,
                std::span<DeputyPrediction> predictions);
 
+  /// The polynomials' variables of one deputy.
+  std::vector<double> variables(const SixNumbers<double>& initial);
+  /// The final deviation of one deputy for which the polynomials have these values.
+  SixNumbers<double> leave(const SixNumbers<double>& initial, std::span<const double> values);
+
   /// Seconds that the polynomials of all predictions took, without the ways into their variables
   /// and out of their values.
   double polynomial_seconds() const { return polynomial_seconds_; }

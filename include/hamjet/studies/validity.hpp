@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,17 @@
 #include "hamjet/studies/propagation.hpp"
 
 namespace hamjet {
+
+/// What limits the reach of an order, told at the worst deputy at its end. Where the first of the
+/// neglected degrees alone misses, a miss is homogeneous in the deviation, and by Euler's theorem
+/// its slopes by the logarithms of the coordinates add up to that degree.
+struct ReachLimit {
+  double degree = 0;             ///< d log(miss) / d log(separation)
+  std::string start_coordinate;  ///< of the deputy's deviation, that has the largest part of it
+  double start_degree = 0;       ///< that part
+  std::string end_coordinate;    ///< in which the polynomials miss most, as it moves the position
+  double end_share = 0;          ///< its part of the miss; those of all add up to 1
+};
 
 /// The largest separation at which one order's polynomial is right to the tolerance at one time.
 struct ValidityEntry {
@@ -17,6 +29,8 @@ struct ValidityEntry {
   double proved_m = 0;
   double miss_m = 0;         ///< the worst sampled miss at `proved_m`
   bool is_at_limit = false;  ///< still right at the largest separation tried: a lower bound
+  /// None where nothing limits, or where the flights' rounding hides what does.
+  std::optional<ReachLimit> limit;
 };
 
 /// The validity of all orders at one time.

@@ -13,6 +13,7 @@
 #include "formation_problem.hpp"
 #include "hamjet/detail/algebra/monomial_values.hpp"
 #include "hamjet/error.hpp"
+#include "reach_limit.hpp"
 #include "single_transfer.hpp"
 
 namespace hamjet {
@@ -51,7 +52,7 @@ class ValidityStudy {
         const Stopwatch watch(result_.propagation_seconds);
         flow = propagation.advance_to(time_);
       }
-      visit(index, *flow);
+      visit(index, propagation, *flow);
     }
     return std::move(result_);
   }
@@ -152,12 +153,13 @@ class ValidityStudy {
     return samples;
   }
 
-  void visit(std::size_t index, const DeputyFlow& flow) {
+  void visit(std::size_t index, const DeputyFlowPropagation& propagation, const DeputyFlow& flow) {
     ValidityPoint point;
     point.time = time_;
     linearise_ends(flow);
     const double rounding = rounding_of_flights(problem_, time_);
     result_.flight_floor_m = rounding * metres_;
+    const LimitCoordinates names = limit_coordinates(propagation, flow, settings_.frame);
     const std::vector<double> sizes = slice_sizes();
     double share = 0;  // of the time's orders that are done
     FlownDeputies deputies(problem_, axes_, time_, flow, [&] {
@@ -180,6 +182,11 @@ class ValidityStudy {
       // last one known.
       flown_samples_ = samples_with_worst(std::min(order + 1, scene_.order));
       prove(deputies, predicted, entry);
+      constexpr double clear = 30;  // of the rounding, for differences of misses
+      if (!entry.is_at_limit && entry.miss_m > clear * result_.flight_floor_m) {
+        entry.limit = reach_limit(deputies, order, entry.proved_m / metres_ * worst_.direction,
+                                  result_.coordinates, names);
+      }
       point.entries.push_back(entry);
     }
     result_.points.push_back(std::move(point));
