@@ -16,7 +16,7 @@ namespace hamjet::cli {
 struct EvaluatedScene {
   /// The chief, as the results of a run have it; without coefficients.
   io::StoredJet chief;
-  CoordinatesAtEnds coordinates;  ///< not automatic
+  ChosenCoordinates coordinates;  ///< not automatic
   std::shared_ptr<const DeputyFlow> flow;
   double rounding_m = 0;  ///< of a deputy's final position, at a flight's floor
   double seconds = 0;     ///< of the integration; 0 of a stored jet

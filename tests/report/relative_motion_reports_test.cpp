@@ -58,6 +58,20 @@ TEST(ValidityReport, SaysWhatLimitsTheHighestOrder) {
       << report.table;
 }
 
+// Whichever were chosen, the Cartesian ones too.
+TEST(ValidityReport, SaysByWhatAutomaticCoordinatesWereChosen) {
+  ValidityResult result = sample_validity();
+  const auto table = [&] { return validity_report(result, sample_transfer_origin()).table; };
+  EXPECT_EQ(table().find("coordinates"), std::string::npos) << table();
+  result.coordinates.reaches = {{JetCoordinates::cartesian, 2500}, {JetCoordinates::nodal, 1250}};
+  EXPECT_NE(table().find("; cartesian coordinates (auto: the furthest, 2.5 km; nodal 1.25 km)\n"),
+            std::string::npos)
+      << table();
+  Json json;
+  const StudyReport report = validity_report(result, sample_transfer_origin());
+  EXPECT_EQ(summary_of(report, json)["validity"]["chosen_by_reach_m"]["nodal"], 1250);
+}
+
 TEST(ValidityReport, SaysWhereNothingIsProved) {
   ValidityResult result = sample_validity();
   const std::string words = "The flights themselves are right to";

@@ -251,7 +251,14 @@ TEST(AutomaticCoordinates, AreTheFurthest) {
   for (const ValidityResult& result : all.results) {
     EXPECT_LE(result.points[0].entries[1].proved_m, all.furthest().points[0].entries[1].proved_m);
   }
-  EXPECT_EQ(study_validity(scene).coordinates, all.furthest().coordinates);
+  const ChosenCoordinates chosen = study_validity(scene).coordinates;
+  EXPECT_EQ(chosen, all.furthest().coordinates);
+  ASSERT_EQ(chosen.reaches.size(), all.results.size());
+  for (std::size_t k = 0; k < chosen.reaches.size(); ++k) {
+    EXPECT_EQ(all.results[k].coordinates, chosen.reaches[k].coordinates);
+    EXPECT_EQ(chosen.reaches[k].metres, all.results[k].points[0].entries[1].proved_m);
+  }
+  EXPECT_TRUE(all.results[0].coordinates.reaches.empty());
   EXPECT_EQ(measured_coordinates_of(scene), JetCoordinates::flow_box);
   // Above the equator no node is defined; what is missing says why.
   const ChiefOrbit equatorial = test::orbit_of(42164, 0.0002, 0.05, 10, 20, 30);

@@ -43,7 +43,7 @@ struct ValidityPoint {
 struct ValidityResult {
   Scene scene;  ///< with `validity`
   std::string integrator;
-  CoordinatesAtEnds coordinates;  ///< of the polynomials; not automatic
+  ChosenCoordinates coordinates;  ///< of the polynomials; not automatic
   std::vector<ValidityPoint> points;
   double flight_floor_m = 0;  ///< see TransferResult
   long flights = 0;
@@ -62,6 +62,8 @@ struct ValidityInCoordinates {
 
   /// The result whose highest order reaches furthest at the last time.
   const ValidityResult& furthest() const;
+  /// The coordinates of that one, and the reaches that they were chosen by.
+  ChosenCoordinates chosen() const;
 };
 
 /// The coordinates that are measured, in the order in which they are told.
@@ -84,7 +86,7 @@ ValidityResult study_validity(const Scene& scene, const ProgressCallback& progre
 
 /// The scene's coordinates; where they are automatic, those whose polynomials of the highest order
 /// reach furthest at the end of the scene's duration, measured by some flights.
-CoordinatesAtEnds measured_coordinates_of(const Scene& scene);
+ChosenCoordinates measured_coordinates_of(const Scene& scene);
 
 /// The same study in every coordinates, on the same deputies. Throws as study_validity; coordinates
 /// that the orbit has not are told.

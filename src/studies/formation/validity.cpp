@@ -318,7 +318,10 @@ ValidityResult study_validity(const Scene& scene, const ProgressCallback& progre
   if (scene.coordinates != JetCoordinates::automatic) {
     return ValidityStudy(scene, progress).run(scene.coordinates);
   }
-  return study_validity_in_all(scene, progress).furthest();
+  const ValidityInCoordinates all = study_validity_in_all(scene, progress);
+  ValidityResult result = all.furthest();
+  result.coordinates = all.chosen();
+  return result;
 }
 
 ValidityInCoordinates study_validity_in_all(const Scene& scene, const ProgressCallback& progress) {
@@ -338,7 +341,7 @@ ValidityInCoordinates study_validity_in_all(const Scene& scene, const ProgressCa
   return all;
 }
 
-CoordinatesAtEnds measured_coordinates_of(const Scene& scene) {
+ChosenCoordinates measured_coordinates_of(const Scene& scene) {
   if (scene.coordinates != JetCoordinates::automatic) return scene.coordinates;
   constexpr int few_samples = 10;
   Scene measured = scene;
@@ -352,6 +355,15 @@ const ValidityResult& ValidityInCoordinates::furthest() const {
   return *std::max_element(results.begin(), results.end(), [](const auto& a, const auto& b) {
     return a.points.back().entries.back().proved_m < b.points.back().entries.back().proved_m;
   });
+}
+
+ChosenCoordinates ValidityInCoordinates::chosen() const {
+  ChosenCoordinates chosen = furthest().coordinates;
+  for (const ValidityResult& result : results) {
+    chosen.reaches.push_back(
+        {result.coordinates.start, result.points.back().entries.back().proved_m});
+  }
+  return chosen;
 }
 
 }  // namespace hamjet
