@@ -132,6 +132,26 @@ TEST(FlowBoxReach, HoldsForDeputiesThatTheStudyHasNotFlown) {
   EXPECT_LT(reach_that_holds(paper_orbit), 128495 * std::pow(0.9535, -0.25));
 }
 
+// Where a tolerance is reached at separations at which misses grow by another law than the first
+// neglected degree's.
+TEST(FlowBoxReach, OfALargerToleranceIsLonger) {
+  Scene scene = scene_of(sun_synchronous, 2 * sun_synchronous.period, 4);
+  scene.coordinates = JetCoordinates::flow_box;
+  scene.validity = ValiditySettings{};
+  scene.validity->times = {scene.duration};
+  std::vector<double> last(4, 0.0);
+  for (const double tolerance_m : {1.0, 100.0, 1e4}) {
+    scene.validity->tolerance_m = tolerance_m;
+    const ValidityResult result = study_validity(scene);
+    for (std::size_t k = 0; k < last.size(); ++k) {
+      const ValidityEntry& entry = result.points[0].entries[k];
+      EXPECT_GT(entry.proved_m, last[k]) << entry.order << ' ' << tolerance_m;
+      EXPECT_LE(entry.miss_m, tolerance_m);
+      last[k] = entry.proved_m;
+    }
+  }
+}
+
 /// By how much order 2 misses a deputy of other elements after a day.
 double miss_m(const ChiefOrbit& chief, const ChiefOrbit& other, JetCoordinates coordinates) {
   Scene scene = scene_of(chief, 0, 2);

@@ -282,7 +282,12 @@ class ValidityStudy {
       factor = std::clamp(factor, 0.1, 2.0);
       // The next trial is a little to the other side, so that the two bounds come together.
       trial *= factor * (trial == good ? 1.01 : 0.99);
-      if (good > 0 && bad > 0 && !(trial > good && trial < bad)) trial = std::sqrt(good * bad);
+      // Where the miss grows by another law, halving brings them together in its place.
+      constexpr int few_trials = 4;
+      const bool is_slow = k >= few_trials && k % 2 == 0;
+      if (good > 0 && bad > 0 && (is_slow || !(trial > good && trial < bad))) {
+        trial = std::sqrt(good * bad);
+      }
       trial = std::min(trial, largest_separation_);
       if (trial < smallest_separation * distance_) return;
     }
