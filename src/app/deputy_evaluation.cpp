@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "../integrators/concurrent_tasks.hpp"
@@ -225,8 +226,7 @@ MissEstimate DeputyEvaluation::curved_estimate(const SixNumbers<double>& initial
                                                const SixNumbers<double>& two_below) const {
   using Support = TruncationEstimate::Support;
   constexpr double least_ratio = 0.5;  // of the changes of two degrees that is relied upon
-  // Of the deviation that a degree may change; without a ratio, less is relied upon.
-  const double largest_share = degree_ < 3 ? 1e-4 : 0.1;
+  constexpr double largest_ratio = 2;
   const auto distance = [](const SixNumbers<double>& a, const SixNumbers<double>& b) {
     return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
   };
@@ -237,18 +237,20 @@ MissEstimate DeputyEvaluation::curved_estimate(const SixNumbers<double>& initial
   if (!std::isfinite(change)) return result;
   const double size = std::max(distance(initial, none), distance(found, none));
   double ratio = 1;
+  bool is_decaying = false;
   if (degree_ >= 3) {
     const double change_below = distance(below, two_below);
-    // A change that is rounding says nothing of a decay.
+    // A change that is rounding says nothing of a decay; two degrees that change nothing have no
+    // ratio, and need none.
     const double rounding = scene_.rounding_m / (scene_.chief.units.length_km * 1000);
-    if (!(change_below > change) && change > rounding) {
-      result.support = Support::outside;
-      return result;
-    }
-    // Two degrees that change nothing have no ratio, and need none.
-    const double larger = std::max(change_below, change);
-    ratio = larger > 0 ? std::max(change / larger, least_ratio) : least_ratio;
+    is_decaying = change < change_below || change <= rounding;
+    constexpr double least_change = std::numeric_limits<double>::min();
+    ratio = std::clamp(change / std::max(change_below, least_change), least_ratio,
+                       is_decaying ? 1.0 : largest_ratio);
   }
+  // Of the deviation that a degree may change. Degrees that are small already need not decay one by
+  // one, for the lower may vanish by chance; less is relied upon then.
+  const double largest_share = is_decaying ? 0.1 : 1e-4;
   result.support = change <= largest_share * size ? Support::inside : Support::outside;
   result.truncation_m = change * ratio * scene_.chief.units.length_km * 1000;
   return result;

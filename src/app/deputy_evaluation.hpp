@@ -17,7 +17,7 @@ namespace hamjet::cli {
 struct EvaluatedScene {
   /// The chief, as the results of a run have it; without coefficients.
   io::StoredJet chief;
-  CoordinatesAtEnds coordinates;  ///< not automatic
+  ChosenCoordinates coordinates;  ///< not automatic
   std::shared_ptr<const DeputyFlow> flow;
   /// The chief's final state as a jet is stored with it. Of flow boxes the section at the end goes
   /// through it, and deviations are counted from what it is in the section's chart and back.
@@ -81,10 +81,10 @@ class DeputyEvaluation {
   /// curved ends themselves.
   bool is_nearly_straight(const SixNumbers<double>& initial, const DeputyPrediction& found) const;
   /// In other coordinates, of deviations at the start and, by the highest degree and by one and two
-  /// less, at the end: what the highest degree changes, times its ratio
-  /// to what the one below changes, at least a half. Order 2 has no such ratio and states the
-  /// change itself; order 1 is unknown. Outside where changes do not fall, or one is more than a
-  /// tenth of the deviation, of order 2 more than 1e-4 of it.
+  /// less, at the end: what the highest degree changes, times its ratio to what the one below
+  /// changes, at least a half. Order 2 has no such ratio and states the change itself; order 1 is
+  /// unknown. Outside where a change is more than a tenth of the deviation; where changes do not
+  /// fall, and of order 2, where it is more than 1e-4 of it.
   MissEstimate curved_estimate(const SixNumbers<double>& initial, const SixNumbers<double>& found,
                                const SixNumbers<double>& below,
                                const SixNumbers<double>& two_below) const;

@@ -37,6 +37,26 @@ DeputyPrediction DeputyPredictor::predict(const SixNumbers<double>& initial, int
   return prediction;
 }
 
+std::vector<double> DeputyPredictor::variables(const SixNumbers<double>& initial) {
+  std::vector<double> result(flow_.variables());
+  SixNumbers<double> carried;
+  passage_->enter(std::span(&initial, 1), result, std::span(&carried, 1));
+  return result;
+}
+
+SixNumbers<double> DeputyPredictor::leave(const SixNumbers<double>& initial,
+                                          std::span<const double> values) {
+  if (values.size() != flow_.polynomials().size()) {
+    throw Error(ErrorKind::usage, "deputy: as many values as polynomials are needed");
+  }
+  std::vector<double> entered(flow_.variables());
+  SixNumbers<double> carried;
+  SixNumbers<double> final;
+  passage_->enter(std::span(&initial, 1), entered, std::span(&carried, 1));
+  passage_->leave(std::span(&carried, 1), values, std::span(&final, 1));
+  return final;
+}
+
 void DeputyPredictor::predict(std::span<const SixNumbers<double>> initial,
                               std::span<const int> degrees,
                               std::span<DeputyPrediction> predictions) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "../text/quantity_text.hpp"
 #include "hamjet/detail/studies/transfer_settings.hpp"
 
 namespace hamjet::io {
@@ -51,9 +52,26 @@ std::array<std::string_view, 3> axis_columns(RelativeFrame frame) {
   return {"r", "t", "n"};
 }
 
-std::string coordinates_text(const CoordinatesAtEnds& coordinates) {
-  if (coordinates == JetCoordinates::cartesian) return "";
-  return fmt::format("; {} coordinates", name_of(coordinates));
+std::string choice_text(const ChosenCoordinates& coordinates) {
+  std::string chosen;
+  std::string others;
+  for (const ChosenCoordinates::Reach& reach : coordinates.reaches) {
+    const std::string length = length_text(reach.metres);
+    if (coordinates == reach.coordinates) {
+      chosen = "auto: the furthest, " + length;
+    } else {
+      others +=
+          fmt::format("{} {} {}", others.empty() ? ";" : ",", name_of(reach.coordinates), length);
+    }
+  }
+  return chosen + others;
+}
+
+std::string coordinates_text(const ChosenCoordinates& coordinates) {
+  const std::string choice = choice_text(coordinates);
+  if (choice.empty() && coordinates == JetCoordinates::cartesian) return "";
+  return fmt::format("; {} coordinates{}", name_of(coordinates),
+                     choice.empty() ? "" : " (" + choice + ")");
 }
 
 std::string transfer_kind_text(const std::string& kind, const CoordinatesAtEnds& coordinates) {

@@ -25,9 +25,13 @@ std::array<std::string_view, 3> axis_letters(RelativeFrame frame);
 /// Letters of the three axes in names of columns: r, t, n or x, y, z.
 std::array<std::string_view, 3> axis_columns(RelativeFrame frame);
 
-/// What stands behind the frame where polynomials are in other coordinates than Cartesian ones;
-/// else nothing.
-std::string coordinates_text(const CoordinatesAtEnds& coordinates);
+/// Why automatic coordinates are what they are: "auto: furthest, 162 km; cartesian 6.04 km, ..." of
+/// the others; empty for coordinates that were named.
+std::string choice_text(const ChosenCoordinates& coordinates);
+
+/// What stands behind the frame where polynomials are in other coordinates than Cartesian ones, or
+/// where the coordinates were chosen, which is then said; else nothing.
+std::string coordinates_text(const ChosenCoordinates& coordinates);
 
 /// A scene's kind of generating function for transfers, or that there is none: polynomials in other
 /// coordinates are solved for momenta by Newton's method, and a kind that is asked for is not used.

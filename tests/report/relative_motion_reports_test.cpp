@@ -39,6 +39,39 @@ TEST(ValidityReport, HoldsTheNumbersOfTheResult) {
   EXPECT_NE(report.table.find(">500 km"), std::string::npos) << report.table;
 }
 
+TEST(ValidityReport, SaysWhatLimitsTheHighestOrder) {
+  const ValidityResult result = sample_validity();
+  const Table table = parse(validity_csv(result));
+  EXPECT_EQ(table.number(3, "limit_degree"), 2.96875);
+  EXPECT_EQ(table.at(3, "limit_start_coordinate"), "period");
+  EXPECT_EQ(table.number(3, "limit_end_share"), 0.90625);
+  EXPECT_EQ(table.at(0, "limit_end_coordinate"), "");
+  const StudyReport report = validity_report(result, sample_transfer_origin());
+  Json json;
+  const Json& orders = summary_of(report, json)["validity"]["times"][1]["orders"];
+  EXPECT_EQ(orders[1]["limit_start_degree"], 2.1875);
+  EXPECT_EQ(orders[1]["limit_end_coordinate"], "tau");
+  EXPECT_TRUE(orders[0]["limit_degree"].is_null());
+  EXPECT_NE(report.table.find("order 2 is limited at 500 km, where the miss grows as degree 3.0 of "
+                              "the deviation, 2.2 by period, and 91 % in tau at the end\n"),
+            std::string::npos)
+      << report.table;
+}
+
+// Whichever were chosen, the Cartesian ones too.
+TEST(ValidityReport, SaysByWhatAutomaticCoordinatesWereChosen) {
+  ValidityResult result = sample_validity();
+  const auto table = [&] { return validity_report(result, sample_transfer_origin()).table; };
+  EXPECT_EQ(table().find("coordinates"), std::string::npos) << table();
+  result.coordinates.reaches = {{JetCoordinates::cartesian, 2500}, {JetCoordinates::nodal, 1250}};
+  EXPECT_NE(table().find("; cartesian coordinates (auto: the furthest, 2.5 km; nodal 1.25 km)\n"),
+            std::string::npos)
+      << table();
+  Json json;
+  const StudyReport report = validity_report(result, sample_transfer_origin());
+  EXPECT_EQ(summary_of(report, json)["validity"]["chosen_by_reach_m"]["nodal"], 1250);
+}
+
 TEST(ValidityReport, SaysWhereNothingIsProved) {
   ValidityResult result = sample_validity();
   const std::string words = "The flights themselves are right to";

@@ -112,8 +112,9 @@ inline ValidityResult sample_validity() {
   ValidityResult result;
   result.scene = sample_relative_scene();
   result.integrator = "gauss8";
-  result.points = {{1, {{1, 2000.0 / 3, 650, 0.9, false}, {2, 4e4, 3.9e4, 0.99, false}}},
-                   {2, {{1, 100, 0, 0, false}, {2, 2e4, 5e5, 0.2, true}}}};
+  result.points = {{1, {{1, 2000.0 / 3, 650, 0.9, false, {}}, {2, 4e4, 3.9e4, 0.99, false, {}}}},
+                   {2, {{1, 100, 0, 0, false, {}}, {2, 2e4, 5e5, 0.2, true, {}}}}};
+  result.points[1].entries[1].limit = ReachLimit{2.96875, "period", 2.1875, "tau", 0.90625};
   result.flight_floor_m = 1e-6;
   result.flights = 1234;
   result.propagation_seconds = 0.5;

@@ -111,6 +111,10 @@ class DeputyPredictor {
   void predict(std::span<const SixNumbers<double>> initial, std::span<const int> degrees,
                std::span<DeputyPrediction> predictions);
 
+  /// The polynomials' variables of one deputy.
+  std::vector<double> variables(const SixNumbers<double>& initial);
+  /// The final deviation of one deputy for which the polynomials have these values.
+  SixNumbers<double> leave(const SixNumbers<double>& initial, std::span<const double> values);
   /// Deputies that are predicted at once; of more the first so many are done first.
   static constexpr std::size_t most_at_once = 4096;  // few enough to stay in the cache
   /// The final deviations by one degree less and by two, out of the coordinates of the end, of some

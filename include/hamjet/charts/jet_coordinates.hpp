@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace hamjet {
 
@@ -57,5 +58,21 @@ inline std::string name_of(const CoordinatesAtEnds& coordinates) {
   if (coordinates.end != coordinates.start) name.append(" to ").append(name_of(coordinates.end));
   return name;
 }
+
+/// Coordinates, and what they were chosen by.
+struct ChosenCoordinates : CoordinatesAtEnds {
+  struct Reach {
+    JetCoordinates coordinates;
+    double metres;
+  };
+
+  ChosenCoordinates() = default;
+  ChosenCoordinates(const CoordinatesAtEnds& named) : CoordinatesAtEnds(named) {}
+  ChosenCoordinates(JetCoordinates both) : CoordinatesAtEnds(both) {}
+
+  /// Where they were automatic, how far the polynomials of the highest order reach in each that the
+  /// orbit has; else empty.
+  std::vector<Reach> reaches;
+};
 
 }  // namespace hamjet

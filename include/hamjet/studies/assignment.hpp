@@ -34,6 +34,7 @@ struct DeputyPair {
 struct AssignmentResult {
   Scene scene;  ///< with `transfer` and `assignment`
   std::string integrator;
+  ChosenCoordinates coordinates;                   ///< of the polynomials; not automatic
   std::vector<std::vector<AssignmentCost>> costs;  ///< [deputy][slot], each at its best time (or at
                                                    ///< the common one)
   std::optional<std::size_t> common_time;          ///< index, where the scene asks for one

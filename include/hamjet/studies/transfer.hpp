@@ -34,10 +34,10 @@ struct TransferAnswer {
 
 /// The answer for one transfer time.
 struct TransferPoint {
-  double time = 0;                             ///< canonical
+  double time = 0;  ///< canonical
   /// That was used; none where polynomials in other coordinates than Cartesian answer.
   std::optional<GeneratingFunctionKind> kind;
-  double condition = 0;                        ///< of its linear part
+  double condition = 0;  ///< of its linear part
   /// Condition of the linear part of F1, dq/dp0: infinite where positions cannot be commanded.
   double position_condition = 0;
   /// Distance in time to the nearest singularity of F1, canonical; absent: there is none.
@@ -104,7 +104,7 @@ struct TransferSeconds {
 struct TransferResult {
   Scene scene;  ///< with `transfer`
   std::string integrator;
-  CoordinatesAtEnds coordinates;  ///< of the polynomials; not automatic
+  ChosenCoordinates coordinates;  ///< of the polynomials; not automatic
   IntegrationStatistics statistics;
   std::vector<TransferPoint> points;         ///< one a transfer time
   std::vector<SingularTime> singular_times;  ///< of all 64 kinds, in order of kind and time

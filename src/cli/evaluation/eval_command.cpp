@@ -16,6 +16,7 @@
 #include "../../app/required_tables.hpp"
 #include "../../app/stored_chief.hpp"
 #include "../../formats/number_table.hpp"
+#include "../../formats/relative_frame_text.hpp"
 #include "../../store/text_file.hpp"
 #include "../../text/quantity_text.hpp"
 #include "../../text/scene_message.hpp"
@@ -289,6 +290,10 @@ void report(const EvalCoordinates& coordinates, const std::vector<EvalSource>& j
         name_of(jet.coordinates()),
         jet.scene->seconds > 0 ? "integrated in " + duration_text(jet.scene->seconds) : "stored",
         (work.seconds - work.chart_seconds) / points * 1e9, work.chart_seconds / points * 1e9));
+    const std::string choice = io::choice_text(jet.coordinates());
+    if (!choice.empty()) {
+      print_note(fmt::format("{} coordinates, {}", name_of(jet.coordinates()), choice));
+    }
   }
   if (jets.front().coordinates() != jet.coordinates()) {
     print_note(fmt::format(

@@ -16,7 +16,7 @@ struct EvalSource {
   std::optional<EvaluatedScene> scene = {};
 
   int order() const { return scene ? scene->flow->order() : stored.order(); }
-  CoordinatesAtEnds coordinates() const { return scene ? scene->coordinates : CoordinatesAtEnds{}; }
+  ChosenCoordinates coordinates() const { return scene ? scene->coordinates : ChosenCoordinates{}; }
 };
 
 /// Reads standard input where the options name it, in place of a scene; once, also if both the

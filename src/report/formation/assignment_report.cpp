@@ -82,7 +82,8 @@ std::string terminal_table(const AssignmentResult& result) {
       fmt::format("{}\n{} to {}, {} time\nframe {}, order {}\n", result.scene.title,
                   counted(result.scene.assignment->deputies.size(), "deputy"),
                   counted(result.scene.assignment->slots.size(), "slot"), time_choice(result),
-                  frame_text(result.scene.transfer->frame), result.scene.order);
+                  frame_text(result.scene.transfer->frame) + coordinates_text(result.coordinates),
+                  result.scene.order);
   if (!result.failure.empty()) text += fmt::format("NOT ASSIGNED: {}\n", result.failure);
   const double unit = result.scene.units.time_s;
   const TimeAxis axis = time_axis(result.scene.transfer->times.back() * unit);
@@ -127,12 +128,9 @@ std::string terminal_details(const AssignmentResult& result) {
                      length_text(result.flight_floor_m));
 }
 
-/// Whether generating functions answer: in other coordinates than Cartesian no kind is used, and
-/// measured ones may turn out to be Cartesian.
+/// Whether generating functions answer: in other coordinates than Cartesian no kind is used.
 bool uses_kind(const AssignmentResult& result) {
-  const auto has_kind = [](const AssignedTransfer& one) { return one.transfer.kind.has_value(); };
-  return result.scene.coordinates == JetCoordinates::cartesian ||
-         std::any_of(result.transfers.begin(), result.transfers.end(), has_kind);
+  return result.coordinates == JetCoordinates::cartesian;
 }
 
 Json transfers_json(const AssignmentResult& result) {
@@ -149,6 +147,7 @@ std::string summary(const AssignmentResult& result) {
   const TransferSettings& settings = *result.scene.transfer;
   const bool is_assigned = !result.transfers.empty();
   Json json = study_head_json(result.scene, "assignment", result.integrator);
+  add_coordinates(json, result.coordinates);
   json["frame"] = frame_name(settings.frame);
   json["derivatives"] = text_or_null(std::string(derivatives_name(settings.frame)));
   json["axes"] = axis_letters(settings.frame);

@@ -78,6 +78,21 @@ std::vector<std::vector<std::string>> table_rows(const ValidityInCoordinates& al
   return rows;
 }
 
+/// What limits the highest order at the last time, a row for each of the coordinates.
+std::vector<std::vector<std::string>> limit_rows(const ValidityInCoordinates& all) {
+  std::vector<std::vector<std::string>> rows = {
+      {fmt::format("limits, order {}", all.results[0].scene.order), "reach"}};
+  rows[0].insert(rows[0].end(), limit_head.begin(), limit_head.end());
+  for (const ValidityResult& result : all.results) {
+    const ValidityEntry& entry = last_entry(result, result.scene.order);
+    rows.push_back({name_of(result.coordinates), reach_text(entry)});
+    const std::vector<std::string> cells =
+        entry.limit ? limit_cells(*entry.limit) : std::vector<std::string>(limit_head.size(), "-");
+    rows.back().insert(rows.back().end(), cells.begin(), cells.end());
+  }
+  return rows;
+}
+
 Chart reach_chart(std::string name, std::string title) {
   Chart chart;
   chart.name = std::move(name);
@@ -152,6 +167,13 @@ std::string page_of(const ValidityInCoordinates& all, const ReportOrigin& origin
       "there take. Flow-box coordinates are integrated in four or five variables of their own; the "
       "others are made from the Cartesian jet.",
       table_rows(all));
+  page.sections += table_html(
+      "What limits the highest order at the last time: the degree of the separation in which the "
+      "worst deputy's miss grows there, and how much of it is of the coordinate of its deviation "
+      "that has most; how much of the miss is in the coordinate of the end in which the "
+      "polynomials "
+      "are furthest off.",
+      limit_rows(all));
   if (all.results[0].points.size() > 1) {
     Chart along = time_chart(all);
     fit(along);
@@ -184,10 +206,10 @@ StudyReport coordinates_report(const ValidityInCoordinates& all, const ReportOri
   report.files = {{"validity.csv", csv}, {"report.html", page_of(all, origin, drawer)}};
   report.drawing_problem = drawer.problem();
   report.files.push_back({"summary.json", summary.dump(2) + "\n"});
-  report.table = fmt::format("{}\n{}\nframe {}; reach after {}\n\n{}", scene.title, verdict(all),
-                             frame_text(scene.validity->frame),
+  report.table = fmt::format("{}\n{}\nframe {}; reach after {}\n\n{}\n{}", scene.title,
+                             verdict(all), frame_text(scene.validity->frame),
                              time_text(scene.validity->times.back() * scene.units.time_s),
-                             aligned_table(table_rows(all)));
+                             aligned_table(table_rows(all)), aligned_table(limit_rows(all)));
   return report;
 }
 

@@ -124,9 +124,13 @@ Json transfer_point_json(const TransferPoint& point, const CanonicalUnits& units
   return json;
 }
 
-void add_coordinates(Json& json, const CoordinatesAtEnds& coordinates) {
+void add_coordinates(Json& json, const ChosenCoordinates& coordinates) {
   json["coordinates"] = name_of(coordinates.start);
   json["end_coordinates"] = name_of(coordinates.end);
+  json["chosen_by_reach_m"] = nullptr;
+  for (const ChosenCoordinates::Reach& reach : coordinates.reaches) {
+    json["chosen_by_reach_m"][std::string(name_of(reach.coordinates))] = json_number(reach.metres);
+  }
 }
 
 Json transfer_summary_json(const TransferResult& result) {

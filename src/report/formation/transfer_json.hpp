@@ -17,7 +17,7 @@ nlohmann::ordered_json study_head_json(const Scene& scene, const std::string& st
                                        const std::string& integrator);
 
 /// The keys of the polynomials' coordinates: `coordinates` and `end_coordinates`, as in a scene.
-void add_coordinates(nlohmann::ordered_json& json, const CoordinatesAtEnds& coordinates);
+void add_coordinates(nlohmann::ordered_json& json, const ChosenCoordinates& coordinates);
 
 /// A transfer's kind, velocity changes and misses; null where there is no answer.
 nlohmann::ordered_json transfer_point_json(const TransferPoint& point, const CanonicalUnits& units);

@@ -33,17 +33,26 @@ std::string terminal_table(const ValidityResult& result) {
       rows.back().push_back((entry.is_at_limit ? ">" : "") + length_text(entry.proved_m));
     }
   }
+  const std::string limit = reach_limit_text(result);
   return fmt::format(
              "{}\n{}\nframe {}\n\n{}", result.scene.title, validity_verdict(result),
              frame_text(result.scene.validity->frame) + coordinates_text(result.coordinates),
              aligned_table(rows)) +
-         (has_limit ? "> still right at the largest separation tried\n" : "");
+         (has_limit ? "> still right at the largest separation tried\n" : "") +
+         (limit.empty() ? "" : limit + "\n");
 }
 
 std::string terminal_details(const ValidityResult& result) {
   return fmt::format("{}; {} for the jets, {} to fly (floor {})\n",
                      counted(result.flights, "flight"), duration_text(result.propagation_seconds),
                      duration_text(result.proof_seconds), length_text(result.flight_floor_m));
+}
+
+/// A cell's value, null where it has none.
+Json cell_json(const CellValue& cell) {
+  if (const auto* number = std::get_if<double>(&cell)) return json_number(*number);
+  if (const auto* text = std::get_if<std::string>(&cell)) return *text;
+  return nullptr;
 }
 
 }  // namespace
@@ -54,11 +63,13 @@ Json validity_json(const ValidityResult& result) {
   for (const ValidityPoint& point : result.points) {
     Json entries = Json::array();
     for (const ValidityEntry& entry : point.entries) {
-      entries.push_back({{"order", entry.order},
-                         {"predicted_m", json_number(entry.predicted_m)},
-                         {"proved_m", json_number(entry.proved_m)},
-                         {"miss_m", json_number(entry.miss_m)},
-                         {"at_limit", entry.is_at_limit}});
+      Json order = {{"order", entry.order},
+                    {"predicted_m", json_number(entry.predicted_m)},
+                    {"proved_m", json_number(entry.proved_m)},
+                    {"miss_m", json_number(entry.miss_m)},
+                    {"at_limit", entry.is_at_limit}};
+      for (const auto& [name, value] : limit_members(entry.limit)) order[name] = cell_json(value);
+      entries.push_back(std::move(order));
     }
     points.push_back({{"time_canonical", point.time},
                       {"time_s", point.time * result.scene.units.time_s},
@@ -91,15 +102,21 @@ std::string validity_csv(const ValidityResult& result) {
   const RelativeFrame frame = result.scene.validity->frame;
   std::string text =
       "time_canonical,time_s,order,predicted_m,proved_m,miss_m,at_limit,frame,derivatives,"
-      "coordinates,end_coordinates\n";
+      "coordinates,end_coordinates";
+  for (const auto& [name, value] : limit_members({})) text += "," + name;
+  text += '\n';
   for (const ValidityPoint& point : result.points) {
     for (const ValidityEntry& entry : point.entries) {
-      text += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", csv_number(point.time),
+      text += fmt::format("{},{},{},{},{},{},{},{},{},{},{}", csv_number(point.time),
                           csv_number(point.time * result.scene.units.time_s), entry.order,
                           csv_number(entry.predicted_m), csv_number(entry.proved_m),
                           csv_number(entry.miss_m), entry.is_at_limit, frame_name(frame),
                           derivatives_name(frame), name_of(result.coordinates.start),
                           name_of(result.coordinates.end));
+      for (const auto& [name, value] : limit_members(entry.limit)) {
+        text += "," + csv_field(csv_text(value));
+      }
+      text += '\n';
     }
   }
   return text;

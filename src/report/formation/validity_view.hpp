@@ -1,7 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "../../store/columns.hpp"
 #include "hamjet/studies/validity.hpp"
 
 namespace hamjet::io {
@@ -12,5 +16,17 @@ std::string validity_verdict(const ValidityResult& result);
 /// Why no separation could be proved in some order, where there is one, as a sentence after a
 /// space.
 std::string unproved_text(const ValidityResult& result);
+
+/// What limits a reach, under the names that files have it by; without values where nothing does.
+std::vector<std::pair<std::string, CellValue>> limit_members(
+    const std::optional<ReachLimit>& limit);
+
+/// The same in cells of a table: the degree in which the miss grows, how much of it is of which
+/// coordinate of the deviation, and how much of the miss is in which coordinate of the end.
+inline const std::vector<std::string> limit_head = {"degree", "at the start", "at the end"};
+std::vector<std::string> limit_cells(const ReachLimit& limit);
+
+/// The same as a line for the highest order at the last time; empty where nothing limits it.
+std::string reach_limit_text(const ValidityResult& result);
 
 }  // namespace hamjet::io

@@ -40,6 +40,7 @@ class AssignmentStudy {
   AssignmentResult run() {
     const IntegratorSettings& integrator = symplectic_integrator(scene_);
     result_.integrator = integrator.label;
+    result_.coordinates = points_.coordinates();
     const std::vector<double>& times = scene_.transfer->times;
     const auto statistics =
         visit_jets(points_.jet_problem(), integrator, times,

@@ -140,6 +140,25 @@ std::optional<std::size_t> DeputyFlowPropagation::end_period_place() const {
   return 1;
 }
 
+std::vector<std::string> DeputyFlowPropagation::variable_names() const {
+  if (!last_box_) {
+    const auto names = coordinate_names(chart_of(coordinates_.start));
+    return {names.begin(), names.end()};
+  }
+  // The time since the section and the ignored coordinate go by beside the polynomials.
+  const auto names = flow_box_coordinate_names(*last_box_->start);
+  return {names.begin() + 1,
+          names.begin() + 1 + static_cast<std::ptrdiff_t>(last_box_->start->variables())};
+}
+
+std::vector<std::string> DeputyFlowPropagation::value_names() const {
+  const std::array<std::string, 6> names = end_coordinate_names();
+  std::vector<std::string> result(names.begin(), names.end());
+  // The period is that of the start.
+  if (last_box_) result.erase(result.begin() + 1);
+  return result;
+}
+
 const IntegrationStatistics& DeputyFlowPropagation::statistics() const {
   return boxes_ ? boxes_->statistics() : jets_->statistics();
 }

@@ -48,6 +48,9 @@ class DeputyFlowPropagation {
   /// The place among them of the period's difference, which flow boxes of bound orbits have for the
   /// energy.
   std::optional<std::size_t> end_period_place() const;
+  /// The names of the polynomials' variables, and of their values at the last time.
+  std::vector<std::string> variable_names() const;
+  std::vector<std::string> value_names() const;
 
   /// The map of the last time, of flow boxes; nothing of others.
   const std::optional<FlowBoxMap<double>>& flow_box() const noexcept { return last_box_; }

@@ -22,7 +22,7 @@ struct DeputyMotionPoint {
 struct DeputyMotion {
   Scene scene;  ///< with `deputy`
   std::string integrator;
-  CoordinatesAtEnds coordinates;          ///< of the polynomials; not automatic
+  ChosenCoordinates coordinates;          ///< of the polynomials; not automatic
   std::vector<DeputyMotionPoint> points;  ///< the first one is the start
   RelativeTrajectory flown;               ///< at these times and at equal ones between them
   ExtremeSeparations extremes;            ///< as it flew, between the times too

@@ -42,7 +42,7 @@ class TransferPoints {
   const std::vector<GeneratingFunctionKind>& kinds() const noexcept { return kinds_; }
   const std::vector<SingularTime>& singular_times() const noexcept { return singular_times_; }
   /// The coordinates of the polynomials that answer; not automatic.
-  const CoordinatesAtEnds& coordinates() const noexcept { return coordinates_; }
+  const ChosenCoordinates& coordinates() const noexcept { return coordinates_; }
 
   /// About the chief, beyond the scene's last transfer time.
   const LinearFlow& linear_flow() const noexcept { return *flow_; }
@@ -102,7 +102,7 @@ class TransferPoints {
   KindChoice choice_;
   double chief_time_ = 0;
   std::vector<double> flown_chief_;  ///< at the time of the last flight
-  CoordinatesAtEnds coordinates_;
+  ChosenCoordinates coordinates_;
   std::optional<DeputyFlowPropagation> propagation_;  ///< of the flows in other coordinates
   double propagated_ = 0;                             ///< its time
   std::unique_ptr<DeputyFlow> charted_flow_;          ///< at that time

@@ -5,15 +5,15 @@
 #include <cmath>
 
 #include "../../integrators/momentum_unit.hpp"
-#include "../exact_flow.hpp"
 #include "../formation_scale.hpp"
 #include "../random_direction.hpp"
 #include "../stopwatch.hpp"
 #include "deputy_flows.hpp"
+#include "flown_deputies.hpp"
 #include "formation_problem.hpp"
 #include "hamjet/detail/algebra/monomial_values.hpp"
 #include "hamjet/error.hpp"
-#include "hamjet/relative_motion/chief_frame.hpp"
+#include "reach_limit.hpp"
 #include "single_transfer.hpp"
 
 namespace hamjet {
@@ -23,9 +23,6 @@ namespace {
 /// orbit is near.
 constexpr double largest_separation = 0.5;
 constexpr double smallest_separation = 1e-12;
-
-using Vector6 = Eigen::Matrix<double, 6, 1>;
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 /// One study at work.
 class ValidityStudy {
@@ -55,7 +52,7 @@ class ValidityStudy {
         const Stopwatch watch(result_.propagation_seconds);
         flow = propagation.advance_to(time_);
       }
-      visit(index, *flow);
+      visit(index, propagation, *flow);
     }
     return std::move(result_);
   }
@@ -64,21 +61,8 @@ class ValidityStudy {
   /// Makes deviations of separation 1: on the surface of the ellipsoid in position, and on that of
   /// the same ellipsoid in velocity.
   void make_samples() {
-    // Columns: the canonical deviations of unit coordinates, three of position and three of
-    // velocity, each triple of length 1 on the surface of the ellipsoid. In a rotating frame the
-    // deviations of position have a velocity too.
-    const ChiefFrame frame(problem_.nominal, MetricUnits{}, settings_.frame);
-    const double velocity = momentum_per_length(scene_);
-    for (std::size_t i = 0; i < 6; ++i) {
-      RelativeState state;
-      const auto axis = static_cast<Eigen::Index>(i % 3);
-      (i < 3 ? state.position_m : state.velocity_m_s)[axis] =
-          settings_.semi_axes[i % 3] * (i < 3 ? 1 : velocity);
-      const std::vector<double> deviation = frame.deviation(state);
-      for (std::size_t k = 0; k < 6; ++k) {
-        axes_(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(i)) = deviation[k];
-      }
-    }
+    axes_ = ellipsoid_axes(problem_.nominal, settings_.frame, settings_.semi_axes,
+                           momentum_per_length(scene_));
     std::mt19937_64 generator(1);
     for (int k = 0; k < settings_.samples; ++k) {
       Vector6 coordinates;
@@ -90,11 +74,6 @@ class ValidityStudy {
       }
       samples_.push_back(coordinates);
     }
-  }
-
-  SixNumbers<double> deviation(const Vector6& coordinates) const {
-    const Vector6 z = axes_ * coordinates;
-    return {z[0], z[1], z[2], z[3], z[4], z[5]};
   }
 
   /// What the degrees of the polynomials add to the final position, to first order in the
@@ -174,32 +153,41 @@ class ValidityStudy {
     return samples;
   }
 
-  void visit(std::size_t index, const DeputyFlow& flow) {
+  void visit(std::size_t index, const DeputyFlowPropagation& propagation, const DeputyFlow& flow) {
     ValidityPoint point;
     point.time = time_;
     linearise_ends(flow);
+    const double rounding = rounding_of_flights(problem_, time_);
+    result_.flight_floor_m = rounding * metres_;
+    const LimitCoordinates names = limit_coordinates(propagation, flow, settings_.frame);
     const std::vector<double> sizes = slice_sizes();
+    double share = 0;  // of the time's orders that are done
+    FlownDeputies deputies(problem_, axes_, time_, flow, [&] {
+      ++result_.flights;
+      if (!progress_) return;
+      progress_("validity",
+                (static_cast<double>(index) + share) / static_cast<double>(settings_.times.size()));
+    });
     for (int order = 1; order <= scene_.order; ++order) {
-      if (progress_) {
-        const double share = static_cast<double>(order - 1) / scene_.order;
-        progress_("validity", (static_cast<double>(index) + share) /
-                                  static_cast<double>(settings_.times.size()));
-      }
+      share = static_cast<double>(order - 1) / scene_.order;
       ValidityEntry entry;
       entry.order = order;
       const double next = sizes[static_cast<std::size_t>(order + 1)];
       const double predicted =
-          next > 0 ? std::pow(tolerance_ / next, 1.0 / (order + 1)) : largest_separation_;
-      entry.predicted_m = std::min(predicted, largest_separation_) * metres_;
+          std::min(next > 0 ? std::pow(tolerance_ / next, 1.0 / (order + 1)) : largest_separation_,
+                   largest_separation_);
+      entry.predicted_m = predicted * metres_;
       const Stopwatch watch(result_.proof_seconds);
-      // The worst deviations for an order's error are those of the next degree, or of the last one
-      // known.
+      // The worst deviations for an order's error are at first those of the next degree, or of the
+      // last one known.
       flown_samples_ = samples_with_worst(std::min(order + 1, scene_.order));
-      prove(flow, std::min(predicted, largest_separation_), entry);
+      prove(deputies, predicted, entry);
+      constexpr double clear = 30;  // of the rounding, for differences of misses
+      if (!entry.is_at_limit && entry.miss_m > clear * result_.flight_floor_m) {
+        entry.limit = reach_limit(deputies, order, entry.proved_m / metres_ * worst_.direction,
+                                  result_.coordinates, names);
+      }
       point.entries.push_back(entry);
-    }
-    if (index + 1 == settings_.times.size()) {
-      result_.flight_floor_m = rounding_of_flights(problem_, time_) * metres_;
     }
     result_.points.push_back(std::move(point));
   }
@@ -222,68 +210,87 @@ class ValidityStudy {
   }
 
   /// The largest miss over the samples at a separation; infinite if a deputy cannot be flown.
-  double miss(const DeputyFlow& flow, int order, double separation) {
+  /// `misses_` has those of all that were flown.
+  double largest_miss(FlownDeputies& deputies, int order, double separation) {
+    misses_.clear();
     double largest = 0;
     for (const Vector6& sample : flown_samples_) {
-      if (progress_) {
-        progress_("validity", static_cast<double>(result_.points.size()) /
-                                  static_cast<double>(settings_.times.size()));
-      }
-      const SixNumbers<double> start = deviation(separation * sample);
-      std::vector<double> deputy = problem_.nominal;
-      for (std::size_t k = 0; k < start.size(); ++k) deputy[k] += start[k];
-      ++result_.flights;
-      std::vector<double> flown;
-      try {
-        flown = exact_flow(problem_.system, deputy, time_);
-      } catch (const Error& error) {
-        if (error.kind() != ErrorKind::numerical) throw;
-        return std::numeric_limits<double>::infinity();
-      }
-      const SixNumbers<double> predicted = flow.predict(start, order).deviation;
-      double square = 0;
-      for (std::size_t i = 0; i < 3; ++i) {
-        const double difference = flow.chief_end()[i] + predicted[i] - flown[i];
-        square += difference * difference;
-      }
-      if (!std::isfinite(square)) return std::numeric_limits<double>::infinity();
-      largest = std::max(largest, std::sqrt(square));
-      if (largest > hopeless * tolerance_) return largest;
+      misses_.push_back({sample, deputies.miss(separation * sample, order)});
+      largest = std::max(largest, misses_.back().miss);
+      if (largest > hopeless * tolerance_) break;
     }
     return largest;
   }
 
+  /// The worst deputy at a separation that ascents find from the worst samples there, as far from
+  /// each other as samples go; what they find is flown from then on.
+  FlownDeputies::Worst worst_at(FlownDeputies& deputies, int order, double separation,
+                                std::vector<FlownDeputies::Worst> samples) {
+    constexpr std::size_t most_starts = 6;
+    constexpr double apart = 0.5;
+    std::sort(samples.begin(), samples.end(),
+              [](const auto& a, const auto& b) { return a.miss > b.miss; });
+    FlownDeputies::Worst worst = samples.front();
+    std::vector<Vector6> starts;
+    for (const FlownDeputies::Worst& sample : samples) {
+      const bool is_near = std::any_of(starts.begin(), starts.end(), [&](const Vector6& start) {
+        return (start - sample.direction).norm() < apart;
+      });
+      if (is_near) continue;
+      const FlownDeputies::Worst found = deputies.worst_from(sample, order, separation);
+      if (found.miss > worst.miss) worst = found;
+      if (found.miss > sample.miss) flown_samples_.insert(flown_samples_.begin(), found.direction);
+      starts.push_back(sample.direction);
+      if (starts.size() == most_starts) break;
+    }
+    return worst;
+  }
+
   /// The miss grows as the separation to the power order + 1: from the prediction on, the next
   /// separation tried is the one at which that law meets the tolerance, until the largest that
-  /// holds is known to a few percent.
-  void prove(const DeputyFlow& flow, double predicted, ValidityEntry& entry) {
-    constexpr int most_trials = 12;
+  /// holds is known to a few percent. Then worse deputies are looked for there; while there are
+  /// such beyond the tolerance, the same begins anew with them.
+  void prove(FlownDeputies& deputies, double predicted, ValidityEntry& entry) {
+    constexpr int most_trials = 40;
     constexpr double close = 1.03;
     double good = 0;
     double bad = 0;
     double trial = predicted;
+    std::vector<FlownDeputies::Worst> good_misses;
     for (int k = 0; k < most_trials; ++k) {
-      const double found = miss(flow, entry.order, trial);
+      const double found = largest_miss(deputies, entry.order, trial);
       if (found <= tolerance_) {
         good = trial;
-        entry.miss_m = found * metres_;
-        if (trial >= largest_separation_) {
-          entry.is_at_limit = true;
-          break;
-        }
+        good_misses = misses_;
       } else {
         bad = trial;
       }
-      if (bad > 0 && good > 0 && bad < close * good) break;
       double factor = found > 0 ? std::pow(tolerance_ / found, 1.0 / (entry.order + 1)) : 2;
+      const bool is_at_limit = good >= largest_separation_;
+      if (good > 0 && (is_at_limit || (bad > 0 && bad < close * good))) {
+        worst_ = worst_at(deputies, entry.order, good, good_misses);
+        if (worst_.miss <= tolerance_) {
+          entry.proved_m = good * metres_;
+          entry.miss_m = worst_.miss * metres_;
+          entry.is_at_limit = is_at_limit;
+          return;
+        }
+        trial = bad = good;
+        good = 0;
+        factor = std::pow(tolerance_ / worst_.miss, 1.0 / (entry.order + 1));
+      }
       factor = std::clamp(factor, 0.1, 2.0);
       // The next trial is a little to the other side, so that the two bounds come together.
-      trial *= factor * (found <= tolerance_ ? 1.01 : 0.99);
-      if (good > 0 && bad > 0 && !(trial > good && trial < bad)) trial = std::sqrt(good * bad);
+      trial *= factor * (trial == good ? 1.01 : 0.99);
+      // Where the miss grows by another law, halving brings them together in its place.
+      constexpr int few_trials = 4;
+      const bool is_slow = k >= few_trials && k % 2 == 0;
+      if (good > 0 && bad > 0 && (is_slow || !(trial > good && trial < bad))) {
+        trial = std::sqrt(good * bad);
+      }
       trial = std::min(trial, largest_separation_);
-      if (trial < smallest_separation * distance_) break;
+      if (trial < smallest_separation * distance_) return;
     }
-    entry.proved_m = good * metres_;
   }
 
   /// A miss this many times the tolerance needs no more samples.
@@ -301,8 +308,10 @@ class ValidityStudy {
   std::vector<Series<double>> positions_;  ///< see linearise_ends
   Matrix<double> variables_;
   std::optional<MonomialValues> values_;
-  std::vector<Vector6> samples_;        ///< of separation 1
-  std::vector<Vector6> flown_samples_;  ///< those that one order is proved on
+  std::vector<Vector6> samples_;              ///< of separation 1
+  std::vector<Vector6> flown_samples_;        ///< those that one order is proved on
+  std::vector<FlownDeputies::Worst> misses_;  ///< see largest_miss
+  FlownDeputies::Worst worst_;                ///< at the separation that is proved
   double time_ = 0;
   ValidityResult result_;
 };
@@ -314,7 +323,10 @@ ValidityResult study_validity(const Scene& scene, const ProgressCallback& progre
   if (scene.coordinates != JetCoordinates::automatic) {
     return ValidityStudy(scene, progress).run(scene.coordinates);
   }
-  return study_validity_in_all(scene, progress).furthest();
+  const ValidityInCoordinates all = study_validity_in_all(scene, progress);
+  ValidityResult result = all.furthest();
+  result.coordinates = all.chosen();
+  return result;
 }
 
 ValidityInCoordinates study_validity_in_all(const Scene& scene, const ProgressCallback& progress) {
@@ -334,7 +346,7 @@ ValidityInCoordinates study_validity_in_all(const Scene& scene, const ProgressCa
   return all;
 }
 
-CoordinatesAtEnds measured_coordinates_of(const Scene& scene) {
+ChosenCoordinates measured_coordinates_of(const Scene& scene) {
   if (scene.coordinates != JetCoordinates::automatic) return scene.coordinates;
   constexpr int few_samples = 10;
   Scene measured = scene;
@@ -348,6 +360,15 @@ const ValidityResult& ValidityInCoordinates::furthest() const {
   return *std::max_element(results.begin(), results.end(), [](const auto& a, const auto& b) {
     return a.points.back().entries.back().proved_m < b.points.back().entries.back().proved_m;
   });
+}
+
+ChosenCoordinates ValidityInCoordinates::chosen() const {
+  ChosenCoordinates chosen = furthest().coordinates;
+  for (const ValidityResult& result : results) {
+    chosen.reaches.push_back(
+        {result.coordinates.start, result.points.back().entries.back().proved_m});
+  }
+  return chosen;
 }
 
 }  // namespace hamjet

@@ -243,8 +243,9 @@ UncertaintyResult study_uncertainty(const Scene& scene, const ProgressCallback& 
   const ComputedProblem problem = make_problem(scene, available_memory());
   const IntegratorSettings& integrator = symplectic_integrator(scene);
   result.integrator = integrator.label;
-  const CoordinatesAtEnds coordinates_at_ends = measured_coordinates_of(scene);
-  result.coordinates = coordinates_at_ends.end;
+  const ChosenCoordinates coordinates_at_ends = measured_coordinates_of(scene);
+  result.coordinates = coordinates_at_ends;
+  result.coordinates.start = coordinates_at_ends.end;
   const bool is_charted = result.coordinates != JetCoordinates::cartesian;
   JetPropagation jets(problem, integrator);
   // The chief's mean is its nominal.

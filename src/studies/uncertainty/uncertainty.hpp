@@ -67,7 +67,7 @@ struct MomentsInCoordinates {
 struct UncertaintyResult {
   Scene scene;  ///< with `uncertainty`
   std::string integrator;
-  JetCoordinates coordinates = JetCoordinates::cartesian;  ///< not automatic
+  ChosenCoordinates coordinates;  ///< those of the end; not automatic
   std::vector<UncertaintyAt> points;
   std::vector<MomentsInCoordinates> in_coordinates;  ///< as `uncertainty.coordinates` asks
   double propagation_seconds = 0;

@@ -1,0 +1,99 @@
+#include "flown_deputies.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "../exact_flow.hpp"
+#include "hamjet/error.hpp"
+
+namespace hamjet {
+
+Matrix6 ellipsoid_axes(std::span<const double> chief, RelativeFrame frame,
+                       std::span<const double> semi_axes, double velocity) {
+  const ChiefFrame at_chief(chief, MetricUnits{}, frame);
+  Matrix6 axes;
+  for (std::size_t i = 0; i < 6; ++i) {
+    RelativeState state;
+    const auto axis = static_cast<Eigen::Index>(i % 3);
+    (i < 3 ? state.position_m : state.velocity_m_s)[axis] =
+        semi_axes[i % 3] * (i < 3 ? 1 : velocity);
+    const std::vector<double> deviation = at_chief.deviation(state);
+    axes.col(static_cast<Eigen::Index>(i)) = Eigen::Map<const Vector6>(deviation.data());
+  }
+  return axes;
+}
+
+SixNumbers<double> FlownDeputies::deviation(const Vector6& coordinates) const {
+  const Vector6 z = axes_ * coordinates;
+  return {z[0], z[1], z[2], z[3], z[4], z[5]};
+}
+
+Vector6 FlownDeputies::error(const Vector6& coordinates, int order) {
+  if (before_flight_) before_flight_();
+  const SixNumbers<double> start = deviation(coordinates);
+  std::vector<double> deputy = problem_.nominal;
+  for (std::size_t i = 0; i < start.size(); ++i) deputy[i] += start[i];
+  std::vector<double> flown;
+  try {
+    flown = exact_flow(problem_.system, deputy, time_);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::numerical) throw;
+    return Vector6::Constant(std::numeric_limits<double>::infinity());
+  }
+  const SixNumbers<double> predicted = predictor_.predict(start, order).deviation;
+  Vector6 error;
+  for (std::size_t i = 0; i < start.size(); ++i) {
+    error[static_cast<Eigen::Index>(i)] =
+        predictor_.flow().chief_end()[i] + predicted[i] - flown[i];
+  }
+  return error;
+}
+
+double FlownDeputies::miss(const Vector6& coordinates, int order) {
+  const double distance = error(coordinates, order).head<3>().norm();
+  return std::isfinite(distance) ? distance : std::numeric_limits<double>::infinity();
+}
+
+Vector6 FlownDeputies::gradient(const Vector6& coordinates, int order, double step) {
+  Vector6 result;
+  for (Eigen::Index i = 0; i < 6; ++i) {
+    const Vector6 change = step * Vector6::Unit(i);
+    result[i] =
+        (miss(coordinates + change, order) - miss(coordinates - change, order)) / (2 * step);
+  }
+  return result;
+}
+
+FlownDeputies::Worst FlownDeputies::worst_from(const Worst& start, int order, double separation) {
+  constexpr int most_iterations = 12;
+  constexpr double step = 1e-3;          // of the separation, for differences
+  constexpr double least_growth = 2e-3;  // of the miss, in an iteration
+  // Lengths of a step along the gradient, in semi-axes; the first goes straight to the ellipsoids'
+  // points in its direction.
+  constexpr double lengths[] = {1e6, 1, 0.25, 0.06};
+  Worst worst = start;
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    Vector6 uphill = gradient(separation * worst.direction, order, step * separation);
+    if (!uphill.allFinite()) break;
+    for (const Eigen::Index first : {0, 3}) {
+      const double length = uphill.segment<3>(first).norm();
+      if (length > 0) uphill.segment<3>(first) /= length;
+    }
+    const double before = worst.miss;
+    for (const double length : lengths) {
+      Vector6 next = worst.direction + length * uphill;
+      for (const Eigen::Index first : {0, 3}) {
+        next.segment<3>(first) /= std::max(1.0, next.segment<3>(first).norm());
+      }
+      const double found = miss(separation * next, order);
+      if (!(found > before)) continue;
+      worst = {next, found};
+      break;
+    }
+    if (!(worst.miss > before * (1 + least_growth))) break;
+  }
+  return worst;
+}
+
+}  // namespace hamjet

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <vector>
+
+#include "hamjet/charts/deputy_flow.hpp"
+#include "hamjet/relative_motion/chief_frame.hpp"
+#include "hamjet/studies/propagation.hpp"
+
+namespace hamjet {
+
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+/// The canonical deviations, a column each, of unit coordinates of an ellipsoid of semi-axes along
+/// a frame's axes, three of position and three of the same ellipsoid times a velocity. In a
+/// rotating frame the deviations of position have a velocity too.
+Matrix6 ellipsoid_axes(std::span<const double> chief, RelativeFrame frame,
+                       std::span<const double> semi_axes, double velocity);
+
+/// Deputies of one chief, flown to one time with the full equations, beside what polynomials say
+/// of them. Deputies are told by coordinates along the columns of `axes`.
+class FlownDeputies {
+ public:
+  /// All must outlive it; `before_flight` is called before each flight.
+  FlownDeputies(const ComputedProblem& problem, const Matrix6& axes, double time,
+                const DeputyFlow& flow, std::function<void()> before_flight)
+      : problem_(problem),
+        axes_(axes),
+        time_(time),
+        predictor_(flow),
+        before_flight_(std::move(before_flight)) {}
+
+  /// The canonical deviation (dq, dp) of a deputy at the start.
+  SixNumbers<double> deviation(const Vector6& coordinates) const;
+  /// By how much the polynomials of an order miss the flown state, canonical; not finite where the
+  /// deputy cannot be flown or has no place in the coordinates.
+  Vector6 error(const Vector6& coordinates, int order);
+  /// The distance in position that they miss it by; infinite where that is not finite.
+  double miss(const Vector6& coordinates, int order);
+  /// The derivative of the miss by the coordinates, by differences over `step` to both sides.
+  Vector6 gradient(const Vector6& coordinates, int order, double step);
+
+  struct Worst {
+    Vector6 direction;  ///< coordinates over the separation
+    double miss = 0;
+  };
+  /// Ascent of the miss from a deputy, in the ellipsoids of position and velocity of a separation:
+  /// by steps along the gradient that are brought back to the ellipsoids.
+  Worst worst_from(const Worst& start, int order, double separation);
+
+  DeputyPredictor& predictor() { return predictor_; }
+
+ private:
+  const ComputedProblem& problem_;
+  const Matrix6& axes_;
+  double time_;
+  DeputyPredictor predictor_;
+  std::function<void()> before_flight_;
+};
+
+}  // namespace hamjet
