@@ -171,8 +171,7 @@ std::string page_of(const ValidityInCoordinates& all, const ReportOrigin& origin
       "What limits the highest order at the last time: the degree of the separation in which the "
       "worst deputy's miss grows there, and how much of it is of the coordinate of its deviation "
       "that has most; how much of the miss is in the coordinate of the end in which the "
-      "polynomials "
-      "are furthest off.",
+      "polynomials are furthest off.",
       limit_rows(all));
   if (all.results[0].points.size() > 1) {
     Chart along = time_chart(all);

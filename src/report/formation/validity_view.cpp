@@ -70,8 +70,7 @@ std::string reach_limit_text(const ValidityResult& result) {
   const std::vector<std::string> cells = limit_cells(*entry.limit);
   return fmt::format(
       "order {} is limited at {}, where the miss grows as degree {} of the deviation, {}, and {} "
-      "at "
-      "the end",
+      "at the end",
       entry.order, length_text(entry.proved_m), cells[0], cells[1], cells[2]);
 }
 

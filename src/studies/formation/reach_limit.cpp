@@ -62,8 +62,9 @@ LimitCoordinates limit_coordinates(const DeputyFlowPropagation& propagation, con
   LimitCoordinates names;
   names.start = propagation.variable_names();
   names.end = propagation.value_names();
-  if (ends.start == JetCoordinates::cartesian)
+  if (ends.start == JetCoordinates::cartesian) {
     names.start.assign(components.begin(), components.end());
+  }
   if (ends.end == JetCoordinates::cartesian) {
     names.end.assign(components.begin(), components.begin() + 3);
     const ChiefFrame at_end(flow.chief_end(), MetricUnits{}, frame);
