@@ -137,17 +137,24 @@ void DeputyEvaluation::predict(std::span<const SixNumbers<double>> initial, Work
   worker.predictions.resize(start + initial.size());
   const auto predictions = std::span(worker.predictions).subspan(start);
   worker.predictor.predict(initial, degree_, predictions);
+  worker.estimates.resize(start + initial.size());
+  const auto without = [](SixNumbers<double> z, const SixNumbers<double>& share) {
+    for (std::size_t i = 0; i < z.size(); ++i) z[i] -= share[i];
+    return z;
+  };
   std::vector<std::size_t> bent;
   for (std::size_t k = 0; k < initial.size(); ++k) {
     const DeputyPrediction& found = predictions[k];
-    SixNumbers<double> below = found.deviation;
-    for (std::size_t i = 0; i < 6; ++i) below[i] -= found.last[i];
-    SixNumbers<double> two_below = below;
-    for (std::size_t i = 0; i < 6; ++i) two_below[i] -= found.last_but_one[i];
-    worker.estimates.push_back(is_curved
-                                   ? curved_estimate(initial[k], found.deviation, below, two_below)
-                                   : estimate(found));
-    if (is_curved && degree_ > 1 && !is_nearly_straight(initial[k], found)) bent.push_back(k);
+    MissEstimate& told = worker.estimates[start + k];
+    if (!is_curved) {
+      told = estimate(found);
+    } else if (degree_ > 1 && !is_nearly_straight(initial[k], found)) {
+      bent.push_back(k);
+    } else {
+      const SixNumbers<double> below = without(found.deviation, found.last);
+      told =
+          curved_estimate(initial[k], found.deviation, below, without(below, found.last_but_one));
+    }
   }
   std::vector<SixNumbers<double>> below(bent.size());
   std::vector<SixNumbers<double>> two_below(bent.size());

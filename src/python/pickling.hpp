@@ -5,7 +5,7 @@
 #include "hamjet/detail/report/study_report.hpp"
 #include "inverted_jet.hpp"
 #include "jet.hpp"
-#include "polynomials_study.hpp"
+#include "studies/polynomials_study.hpp"
 
 namespace hamjet::python {
 

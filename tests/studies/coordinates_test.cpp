@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
-#include <random>
 
 #include "../../src/studies/exact_flow.hpp"
 #include "../../src/studies/formation/deputy_flows.hpp"
@@ -14,6 +14,7 @@
 #include "hamjet/error.hpp"
 #include "hamjet/studies/transfer.hpp"
 #include "hamjet/studies/validity.hpp"
+#include "unseen_deputies.hpp"
 
 // What flow-box coordinates are for: how much further their polynomials reach than Cartesian ones
 // do, on the same flown deputies.
@@ -94,33 +95,17 @@ double reach_that_holds(const ChiefOrbit& orbit) {
   DeputyFlowPropagation propagation(scene, problem, scene.integrators[0], scene.coordinates);
   const auto flow = propagation.advance_to(scene.duration);
   DeputyPredictor predictor(*flow);
-  const MetricUnits units = metric_units(scene);
-  const ChiefFrame frame(scene.nominal, units, scene.validity->frame);
-  const double mean_motion_per_s = 2 * std::numbers::pi / orbit.period / units.time_s;
-  std::mt19937_64 generator(11);
-  std::normal_distribution<double> normal;
-  const auto drawn = [&](double length) {
-    Eigen::Vector3d direction(normal(generator), normal(generator), normal(generator));
-    return Eigen::Vector3d(direction.normalized() * length);
+  test::UnseenDeputies deputies(scene, problem, scene.validity->frame,
+                                2 * std::numbers::pi / orbit.period, 11);
+  const auto predict = [&](const std::vector<double>& start, int order) {
+    const auto deviation = predictor.predict(six_numbers(start), order).deviation;
+    const auto& chief = flow->chief_end();
+    return std::array{chief[0] + deviation[0], chief[1] + deviation[1], chief[2] + deviation[2]};
   };
   for (const ValidityEntry& entry : result.points[0].entries) {
     EXPECT_LE(entry.miss_m, 1);
-    int beyond = 0;
-    for (int k = 0; k < 2000; ++k) {
-      RelativeState state;
-      state.position_m = drawn(entry.proved_m);
-      state.velocity_m_s = drawn(entry.proved_m * mean_motion_per_s);
-      const SixNumbers<double> start = six_numbers(frame.deviation(state));
-      std::vector<double> deputy = scene.nominal;
-      for (std::size_t i = 0; i < 6; ++i) deputy[i] += start[i];
-      const auto flown = exact_flow(problem.system, deputy, scene.duration);
-      const auto predicted = predictor.predict(start, entry.order).deviation;
-      double square = 0;
-      for (std::size_t i = 0; i < 3; ++i) {
-        square += std::pow(flow->chief_end()[i] + predicted[i] - flown[i], 2);
-      }
-      beyond += std::sqrt(square) * units.length_m > 1 ? 1 : 0;
-    }
+    const int beyond = deputies.beyond_a_metre(
+        entry, scene.duration, 2000, [](int) { return 1.0; }, predict);
     EXPECT_EQ(beyond, 0) << "order " << entry.order;
   }
   return result.points[0].entries[3].proved_m;

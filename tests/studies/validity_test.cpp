@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -11,6 +12,7 @@
 #include "../../src/studies/jets_along_time.hpp"
 #include "formation_scenes.hpp"
 #include "hamjet/detail/algebra/monomial_values.hpp"
+#include "unseen_deputies.hpp"
 
 namespace hamjet {
 namespace {
@@ -64,34 +66,18 @@ TEST(Validity, EveryDeputyInsideTheProvedSeparationMeetsTheTolerance) {
     visit_jets(problem, scene.integrators[0], std::span(&time, 1),
                [&](std::size_t, const FlowJet<double>& reached) { jet = reached; });
     MonomialValues values(problem.space);
-    const MetricUnits units = metric_units(scene);
-    const ChiefFrame frame(scene.nominal, units, kind);
     const double semi_major_axis = 1 / 0.3;
-    const double mean_motion_per_s = std::pow(semi_major_axis, -1.5) / units.time_s;
-    std::mt19937_64 generator(7);
-    std::normal_distribution<double> normal;
-    const auto drawn = [&](double length) {
-      Eigen::Vector3d direction(normal(generator), normal(generator), normal(generator));
-      return Eigen::Vector3d(direction.normalized() * length);
+    test::UnseenDeputies deputies(scene, problem, kind, std::pow(semi_major_axis, -1.5), 7);
+    const auto share = [&](int k) {
+      return k % 4 == 0 ? 1 : std::uniform_real_distribution(0.5, 1.0)(deputies.generator());
+    };
+    const auto predict = [&](const std::vector<double>& start, int order) {
+      values.set_point(start);
+      return std::array{values.value(jet[0], order), values.value(jet[1], order),
+                        values.value(jet[2], order)};
     };
     for (const ValidityEntry& entry : result.points[0].entries) {
-      int beyond = 0;
-      for (int k = 0; k < 200; ++k) {
-        const double share = k % 4 == 0 ? 1 : std::uniform_real_distribution(0.5, 1.0)(generator);
-        RelativeState state;
-        state.position_m = drawn(share * entry.proved_m);
-        state.velocity_m_s = drawn(share * entry.proved_m * mean_motion_per_s);
-        const std::vector<double> start = frame.deviation(state);
-        std::vector<double> deputy = scene.nominal;
-        for (std::size_t i = 0; i < 6; ++i) deputy[i] += start[i];
-        const std::vector<double> flown = exact_flow(problem.system, deputy, time);
-        values.set_point(start);
-        double square = 0;
-        for (std::size_t i = 0; i < 3; ++i) {
-          square += std::pow(values.value(jet[i], entry.order) - flown[i], 2);
-        }
-        beyond += std::sqrt(square) * units.length_m > 1 ? 1 : 0;
-      }
+      const int beyond = deputies.beyond_a_metre(entry, time, 200, share, predict);
       EXPECT_EQ(beyond, 0) << "order " << entry.order;
     }
   }

@@ -147,17 +147,17 @@ std::string validity_page(const ValidityResult& result, const ReportOrigin& orig
   Chart first = validity_time_chart(result);
   fit(first);
   page.first_figure = figure_html(first, drawer);
-  page.facts =
-      origin_facts_html(origin) + fact_html("Scene", scene_text(result.scene)) +
-      fact_html("Frame",
-                frame_text(result.scene.validity->frame) + coordinates_text(result.coordinates)) +
-      fact_html("Tolerance", length_text(result.scene.validity->tolerance_m)) +
-      fact_html("Flights", std::to_string(result.flights)) +
-      fact_html("Flight floor", length_text(result.flight_floor_m)) +
-      (reach_limit_text(result).empty() ? "" : fact_html("Limit", reach_limit_text(result))) +
-      fact_html("Time", fmt::format("{} for the jets, {} to fly the deputies",
-                                    duration_text(result.propagation_seconds),
-                                    duration_text(result.proof_seconds)));
+  const std::string limit = reach_limit_text(result);
+  page.facts = origin_facts_html(origin) + fact_html("Scene", scene_text(result.scene)) +
+               fact_html("Frame", frame_text(result.scene.validity->frame) +
+                                      coordinates_text(result.coordinates)) +
+               fact_html("Tolerance", length_text(result.scene.validity->tolerance_m)) +
+               fact_html("Flights", std::to_string(result.flights)) +
+               fact_html("Flight floor", length_text(result.flight_floor_m)) +
+               (limit.empty() ? "" : fact_html("Limit", limit)) +
+               fact_html("Time", fmt::format("{} for the jets, {} to fly the deputies",
+                                             duration_text(result.propagation_seconds),
+                                             duration_text(result.proof_seconds)));
   page.sections = validity_sections_html(result, drawer);
   return page_html(page, drawer);
 }

@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "../app/deputy_evaluation.hpp"
+#include "../../app/deputy_evaluation.hpp"
 
 namespace hamjet::python {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "../exact_flow.hpp"
+#include "../../exact_flow.hpp"
 #include "hamjet/error.hpp"
 
 namespace hamjet {

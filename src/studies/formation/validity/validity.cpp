@@ -4,17 +4,17 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../../integrators/momentum_unit.hpp"
-#include "../formation_scale.hpp"
-#include "../random_direction.hpp"
-#include "../stopwatch.hpp"
-#include "deputy_flows.hpp"
+#include "../../../integrators/momentum_unit.hpp"
+#include "../../formation_scale.hpp"
+#include "../../random_direction.hpp"
+#include "../../stopwatch.hpp"
+#include "../deputy_flows.hpp"
+#include "../formation_problem.hpp"
+#include "../single_transfer.hpp"
 #include "flown_deputies.hpp"
-#include "formation_problem.hpp"
 #include "hamjet/detail/algebra/monomial_values.hpp"
 #include "hamjet/error.hpp"
 #include "reach_limit.hpp"
-#include "single_transfer.hpp"
 
 namespace hamjet {
 namespace {

@@ -11,21 +11,21 @@
 #include <utility>
 #include <vector>
 
-#include "../app/jet_conversion.hpp"
-#include "../app/required_tables.hpp"
-#include "../store/text_file.hpp"
-#include "../studies/arcs.hpp"
-#include "../text/scene_message.hpp"
-#include "arrays.hpp"
-#include "bindings.hpp"
-#include "given_scene.hpp"
+#include "../../app/jet_conversion.hpp"
+#include "../../app/required_tables.hpp"
+#include "../../store/text_file.hpp"
+#include "../../studies/arcs.hpp"
+#include "../../text/scene_message.hpp"
+#include "../arrays.hpp"
+#include "../bindings.hpp"
+#include "../given_scene.hpp"
+#include "../interruptible.hpp"
+#include "../pickling.hpp"
+#include "../refusal.hpp"
+#include "../relative_rows.hpp"
 #include "hamjet/formats/jet_file.hpp"
 #include "hamjet/studies/validity.hpp"
-#include "interruptible.hpp"
-#include "pickling.hpp"
 #include "polynomials_study.hpp"
-#include "refusal.hpp"
-#include "relative_rows.hpp"
 
 namespace hamjet::python {
 
