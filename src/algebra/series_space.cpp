@@ -27,6 +27,7 @@ class SeriesSpace::ScheduleBuilder {
         rest_(outer_) {}
 
   ProductSchedule build(int degree) {
+    if (space_.is_uncoupled()) return build_uncoupled(degree);
     ProductSchedule schedule;
     const int lowest = blocked_ > 0 ? 0 : degree;
     for (int outer_degree = lowest; outer_degree <= degree; ++outer_degree) {
@@ -36,6 +37,29 @@ class SeriesSpace::ScheduleBuilder {
   }
 
  private:
+  /// The powers of each variable are multiplied with each other.
+  ProductSchedule build_uncoupled(int degree) {
+    ProductSchedule schedule;
+    const auto power = [&](int d, std::size_t variable) {
+      return static_cast<std::uint32_t>(space_.first(d) + variable);
+    };
+    for (std::size_t v = 0; v < space_.count(degree); ++v) {
+      const auto first_pair = static_cast<std::uint32_t>(schedule.pairs.size());
+      const auto first_run = static_cast<std::uint32_t>(schedule.run_ends.size());
+      for (int i = 1; 2 * i < degree; ++i) {
+        schedule.pairs.push_back({power(i, v), power(degree - i, v)});
+      }
+      const bool has_diagonal = degree >= 2 && degree % 2 == 0;
+      const std::uint32_t diagonal =
+          has_diagonal ? power(degree / 2, v) : ProductSchedule::no_diagonal;
+      schedule.outputs.push_back({power(degree, v), 0, first_pair, first_run, diagonal});
+      schedule.run_ends.push_back(static_cast<std::uint32_t>(schedule.pairs.size()));
+      if (degree >= 1) schedule.multiply_adds += static_cast<std::size_t>(degree - 1);
+      schedule.square_multiply_adds += static_cast<std::size_t>(degree / 2);
+    }
+    return schedule;
+  }
+
   std::size_t size_of_block(int m) const {
     return blocked_ > 0 ? block_size(static_cast<std::size_t>(m)) : 1;
   }
@@ -124,32 +148,32 @@ double SeriesSpace::monomial_count(std::size_t variables, int order) {
 }
 
 std::shared_ptr<const SeriesSpace> SeriesSpace::create(std::size_t variables, int order) {
+  return make(variables, order, variables == 1);
+}
+
+std::shared_ptr<const SeriesSpace> SeriesSpace::create_uncoupled(std::size_t variables, int order) {
+  return make(variables, order, true);
+}
+
+std::shared_ptr<const SeriesSpace> SeriesSpace::make(std::size_t variables, int order,
+                                                     bool is_uncoupled) {
   if (variables < 1 || variables > 64 || order < 0 || order > 60) {
     throw Error(ErrorKind::usage,
                 fmt::format("series space: {} variables and order {}, allowed are 1..64 variables "
                             "and order 0..60",
                             variables, order));
   }
-  if (monomial_count(variables, order) > most_monomials) {
+  if (!is_uncoupled && monomial_count(variables, order) > most_monomials) {
     throw Error(ErrorKind::too_large,
                 fmt::format("series space: order {} in {} variables has {:.3g} coefficients", order,
                             variables, monomial_count(variables, order)));
   }
-  return std::shared_ptr<const SeriesSpace>(new SeriesSpace(variables, order));
+  return std::shared_ptr<const SeriesSpace>(new SeriesSpace(variables, order, is_uncoupled));
 }
 
-SeriesSpace::SeriesSpace(std::size_t variables, int order)
-    : variables_(variables),
-      order_(order),
-      before_(variables * (static_cast<std::size_t>(order) + 1), 0) {
-  // C(left - 1 + after, after) from C(m, 0) = 1 and C(m + 1, k) = C(m, k) + C(m, k - 1).
-  const std::size_t row = static_cast<std::size_t>(order) + 1;
-  for (std::size_t i = variables; i-- > 0;) {
-    for (std::size_t left = 1; left < row; ++left) {
-      before_[i * row + left] =
-          i + 1 == variables ? 1 : before_[(i + 1) * row + left] + before_[i * row + left - 1];
-    }
-  }
+SeriesSpace::SeriesSpace(std::size_t variables, int order, bool is_uncoupled)
+    : variables_(variables), order_(order), is_uncoupled_(is_uncoupled) {
+  set_before();
   offsets_.push_back(0);
   for (int d = 0; d <= order; ++d) {
     list_monomials(d);
@@ -159,9 +183,31 @@ SeriesSpace::SeriesSpace(std::size_t variables, int order)
   for (int d = 0; d <= order; ++d) schedules_.push_back(builder.build(d));
 }
 
-/// Lists the monomials of a degree: the next one takes one from the last exponent before the last
-/// variable that is not zero, and gives it, with all that the last variable has, to the one after.
+void SeriesSpace::set_before() {
+  // C(left - 1 + after, after) from C(m, 0) = 1 and C(m + 1, k) = C(m, k) + C(m, k - 1).
+  const std::size_t row = static_cast<std::size_t>(order_) + 1;
+  before_.assign(variables_ * row, 0);
+  for (std::size_t i = variables_; i-- > 0;) {
+    for (std::size_t left = 1; left < row; ++left) {
+      const bool is_alone = is_uncoupled_ || i + 1 == variables_;
+      before_[i * row + left] =
+          is_alone ? 1 : before_[(i + 1) * row + left] + before_[i * row + left - 1];
+    }
+  }
+}
+
+/// Lists the monomials of a degree. Where variables are coupled, the next one takes one from the
+/// last exponent before the last variable that is not zero, and gives it, with all that the last
+/// variable has, to the one after.
 void SeriesSpace::list_monomials(int degree) {
+  if (is_uncoupled_ && degree > 0) {
+    for (std::size_t v = 0; v < variables_; ++v) {
+      exponents_.resize(exponents_.size() + variables_, 0);
+      exponents_[exponents_.size() - variables_ + v] = static_cast<std::uint8_t>(degree);
+      degrees_.push_back(static_cast<std::uint8_t>(degree));
+    }
+    return;
+  }
   std::vector<std::uint8_t> exponents(variables_, 0);
   exponents[0] = static_cast<std::uint8_t>(degree);
   while (true) {
@@ -185,6 +231,9 @@ std::size_t SeriesSpace::index(std::span<const std::uint8_t> exponents) const {
                             "variables of order {}",
                             exponents.size(), degree, variables_, order_));
   }
+  if (is_uncoupled_ && *std::max_element(exponents.begin(), exponents.end()) != degree) {
+    throw Error(ErrorKind::usage, "series space: products of uncoupled variables vanish");
+  }
   std::size_t rank = first(degree);
   int left = degree;
   for (std::size_t i = 0; i < variables_; ++i) {
@@ -195,6 +244,10 @@ std::size_t SeriesSpace::index(std::span<const std::uint8_t> exponents) const {
 }
 
 std::span<const std::uint32_t> SeriesSpace::raised(std::size_t variable) const {
+  if (is_uncoupled_ && variables_ > 1) {
+    throw Error(ErrorKind::usage,
+                "series space: uncoupled variables have products that vanish, and no derivatives");
+  }
   const std::size_t count = first(order_);
   std::call_once(is_raised_, [&] {
     raised_.resize(variables_ * count);
@@ -221,7 +274,8 @@ std::span<const std::uint32_t> SeriesSpace::raised(std::size_t variable) const {
 }
 
 const std::shared_ptr<const SeriesSpace>& SeriesSpace::next_order() const {
-  std::call_once(has_next_order_, [&] { next_order_ = create(variables_, order_ + 1); });
+  std::call_once(has_next_order_,
+                 [&] { next_order_ = make(variables_, order_ + 1, is_uncoupled_); });
   return next_order_;
 }
 

@@ -26,7 +26,7 @@ class DirectionalFlow {
  public:
   /// For each line the flow's jet, of order N in one variable.
   using Lines = std::vector<FlowJet<Real>>;
-  /// Integrates a problem in one variable, or in one a line.
+  /// Integrates a problem in one variable a line.
   using Integrate = std::function<FlowJet<Real>(const FlowProblem<Real>&)>;
 
   /// The field may be given, for many flows of one system.
@@ -35,18 +35,14 @@ class DirectionalFlow {
 
   const std::vector<Real>& direction(std::size_t line) const { return directions_[line]; }
 
-  /// All lines, by one integration or one each, whichever costs less: the lines' nominal is one,
-  /// and in one variable a line the pure powers of each variable are that line's series, for
-  /// whatever the products of several are they do not enter them.
+  /// All lines, by one integration, for they have one nominal: lines(integrate(problem())).
   Lines integrate(const Integrate& integrate) const;
 
-  /// The problems of these integrations, and the lines from their jets.
-  std::vector<FlowProblem<Real>> problems() const;
-  Lines lines(std::vector<FlowJet<Real>> jets) const;
-
-  /// The problem in one variable a line, and the lines from its jet.
-  FlowProblem<Real> together() const;
-  Lines apart(const FlowJet<Real>& jet) const;
+  /// The problem in one variable a line, whose products with each other are left out
+  /// (SeriesSpace::create_uncoupled), for they do not enter the lines' series.
+  FlowProblem<Real> problem() const;
+  /// The lines from the jet of that problem.
+  Lines lines(const FlowJet<Real>& jet) const;
 
   /// Restricts a jet of the problem's variables to the lines: sum over |a| = k of c_a d^a for each
   /// degree k.
@@ -58,11 +54,6 @@ class DirectionalFlow {
   std::vector<double> relative_difference(const Lines& lines, const Lines& reference) const;
 
  private:
-  bool is_cheaper_together() const;
-
-  /// Where the powers of a line's variable stand among those of all.
-  std::vector<std::size_t> places_of(std::size_t line, const SeriesSpace& all) const;
-
   FlowProblem<Real> problem_;
   std::shared_ptr<FieldAtStates<Real>> field_;
   SpacePointer line_space_;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "compensated_addition.hpp"
+#include "gauss/end_map.hpp"
 #include "gauss/stage_slopes.hpp"
 #include "hamjet/integrators/flow_problem.hpp"
 
@@ -50,27 +51,41 @@ class SummedJet {
   /// Takes a step: z_(n+1) = z_n + h sum b_j f_j, and with the second-order form
   /// q_(n+1) = q_n + h M^-1 p_n + h^2 sum b_j (1 - c_j) M^-1 F_j, up to a degree.
   void advance(StageSlopes<Real, Lanes>& stages, const Real& h, int highest) {
-    // One choice a step: the loops over the coefficients have none.
+    with_addition([&](const auto& add) { advance_with(stages, h, highest, add); });
+  }
+
+  /// Takes the step of one degree by the stages' end map.
+  void advance_by(const EndMap<Real, Lanes>& map, const SliceEvaluator<P, Real>& evaluator,
+                  int degree, const std::vector<const Real*>& state) {
+    with_addition([&](const auto& add) {
+      map.apply(evaluator, jet_[0].space(), degree, state, [&](std::size_t k, const P& increment) {
+        for (std::size_t c = 0; c < jet_.size(); ++c) {
+          add(jet_[c].coefficients().data(), lost_[c].data(), k,
+              increment.lane(static_cast<int>(c)));
+        }
+      });
+    });
+  }
+
+ private:
+  /// One choice a step: the loops over the coefficients have none.
+  template <class Advance>
+  void with_addition(const Advance& advance) {
     if (is_compensated_) {
-      advance_with(stages, h, highest,
-                   [](Real* value, Real* lost, std::size_t k, const Real& increment) {
-                     add_compensated(value[k], lost[k], increment);
-                   });
+      advance([](Real* value, Real* lost, std::size_t k, const Real& increment) {
+        add_compensated(value[k], lost[k], increment);
+      });
     } else {
-      advance_with(
-          stages, h, highest,
+      advance(
           [](Real* value, Real*, std::size_t k, const Real& increment) { value[k] += increment; });
     }
   }
 
- private:
   template <class Add>
   void advance_with(StageSlopes<Real, Lanes>& stages, const Real& h, int highest, const Add& add) {
     const auto& system = stages.system();
     const std::size_t m = system.components();
-    // Newton's slopes are good to round-off where those evaluated at the stages, the small
-    // difference of large terms in a stiff system, are not.
-    if (system.unit_mass()) stages.store_slopes();
+    stages.store_newton_slopes();
     const std::size_t count = jet_[0].space().first(highest + 1);
     if (!system.second_order()) {
       for (std::size_t c = 0; c < m; ++c) {

@@ -161,8 +161,13 @@ TEST(Gauss, LowOrderIsTheBeginningOfHighOrder) {
   for (const int order : {1, 2, 3}) {
     const auto low = test::paper_jet<double>(10, order, test::adaptive());
     for (std::size_t i = 0; i < 6; ++i) {
-      // The same operations in the same order: no rounding apart.
-      for (std::size_t k = 0; k < low[i].size(); ++k) EXPECT_EQ(low[i][k], high[i][k]);
+      for (std::size_t k = 0; k < low[i].size(); ++k) {
+        const int degree = low[i].space().degree(k);
+        // The same operations in the same order: no rounding apart. The end map of the highest
+        // degree sums the same terms in another order.
+        const double rounding = degree < order ? 0 : 1e-13 * test::largest_of_degree(high, degree);
+        EXPECT_NEAR(low[i][k], high[i][k], rounding);
+      }
     }
   }
 }

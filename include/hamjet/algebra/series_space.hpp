@@ -24,9 +24,15 @@ class SeriesSpace {
   /// `variables` in 1..64, `order` in 0..60. Throws Error(usage) outside, and Error(too_large) for
   /// more than 5e7 monomials.
   static std::shared_ptr<const SeriesSpace> create(std::size_t variables, int order);
+  /// The ring in which products of different variables vanish besides, R[x_1..x_v] / (x_i x_j for i
+  /// != j, monomials of degree > N): functions along v lines through the origin, side by side. Its
+  /// monomials are 1, x_1..x_v, x_1^2..x_v^2 and so on. Throws what `create` throws.
+  static std::shared_ptr<const SeriesSpace> create_uncoupled(std::size_t variables, int order);
 
   std::size_t variables() const noexcept { return variables_; }
   int order() const noexcept { return order_; }
+  /// Whether there are no products of different variables, as also in one variable alone.
+  bool is_uncoupled() const noexcept { return is_uncoupled_; }
   /// Number of monomials of degree 0..N.
   std::size_t size() const noexcept { return offsets_.back(); }
   /// Index of the first monomial of this degree; `first(order() + 1)` is `size()`.
@@ -37,12 +43,14 @@ class SeriesSpace {
   std::span<const std::uint8_t> exponents(std::size_t monomial) const {
     return {exponents_.data() + monomial * variables_, variables_};
   }
-  /// Index of the monomial with these exponents, whose sum must not exceed the order.
+  /// Index of the monomial with these exponents, whose sum must not exceed the order. Throws
+  /// Error(usage) where the space has no such monomial.
   std::size_t index(std::span<const std::uint8_t> exponents) const;
   /// Index of the monomial x_i, i = `variable`.
   std::size_t linear_index(std::size_t variable) const { return 1 + variable; }
   /// For every monomial of a degree below the order, the index of its product with x_i, i =
-  /// `variable`. The table is made at the first call.
+  /// `variable`. The table is made at the first call. Throws Error(usage) where such products
+  /// vanish, in several uncoupled variables.
   std::span<const std::uint32_t> raised(std::size_t variable) const;
 
   /// The space of one order more in as many variables, such as an antiderivative's. It is made at
@@ -58,7 +66,8 @@ class SeriesSpace {
   std::size_t product_cost() const;
 
   bool operator==(const SeriesSpace& other) const noexcept {
-    return variables_ == other.variables_ && order_ == other.order_;
+    return variables_ == other.variables_ && order_ == other.order_ &&
+           is_uncoupled_ == other.is_uncoupled_;
   }
 
   /// Number of monomials in `variables` variables up to `order`, as a real number so that it cannot
@@ -68,7 +77,9 @@ class SeriesSpace {
  private:
   class ScheduleBuilder;
 
-  SeriesSpace(std::size_t variables, int order);
+  SeriesSpace(std::size_t variables, int order, bool is_uncoupled);
+  static std::shared_ptr<const SeriesSpace> make(std::size_t variables, int order,
+                                                 bool is_uncoupled);
 
   /// Number of monomials that agree with x^a up to variable i - 1 and have a larger exponent of
   /// x_i, within a degree: with `left` = a_(i+1) + ... + a_v it is C(left - 1 + v - i, v - i).
@@ -76,9 +87,11 @@ class SeriesSpace {
     return before_[i * (static_cast<std::size_t>(order_) + 1) + static_cast<std::size_t>(left)];
   }
   void list_monomials(int degree);
+  void set_before();
 
   std::size_t variables_;
   int order_;
+  bool is_uncoupled_;
   std::vector<std::size_t> offsets_;
   std::vector<std::uint8_t> exponents_;
   std::vector<std::uint8_t> degrees_;

@@ -25,6 +25,7 @@ struct GaussCheckpoint {
   std::vector<Real> lost;  ///< of the state, to rounding; empty if not compensated
   GaussStepping<Real> at;
   std::vector<Pack<Real, Lanes>> slopes;  ///< of the last step's stages
+  bool is_by_newton = false;              ///< see StageSlopes
   std::vector<Real> end_slope;
 };
 

@@ -12,6 +12,7 @@
 #include "../series_step_control.hpp"
 #include "../step_sequence.hpp"
 #include "../summed_jet.hpp"
+#include "end_map.hpp"
 #include "gauss_checkpoint.hpp"
 #include "gauss_step_control.hpp"
 #include "hamjet/error.hpp"
@@ -44,7 +45,9 @@ class GaussIntegrator {
                 problem.space, order_),
         point_(problem.system->evaluated_list(), problem.space, 0),
         jet_(problem, settings.compensated_summation),
-        control_(settings, stages_, jet_, controlled_order) {
+        control_(settings, stages_, jet_, controlled_order),
+        has_end_map_(EndMap<Real, Lanes>::serves(stages_.system(), *problem.space, order_) &&
+                     !settings.controls_all_degrees) {
     for (const auto& component : jet_.value()) state_.push_back(component.coefficients().data());
   }
 
@@ -80,7 +83,7 @@ class GaussIntegrator {
                          const StepObserver<Real>& observer) {
     jet_.resume(start.state, start.lost);
     at_ = start.at;
-    stages_.slopes() = start.slopes;
+    stages_.restore(start.slopes, start.is_by_newton);
     end_slope_ = start.end_slope;
     guess_ = at_.taken > 0 ? Guess::last_step : Guess::none;
     while (at_.taken < last) {
@@ -104,7 +107,8 @@ class GaussIntegrator {
   }
 
   GaussCheckpoint<Real, Lanes> checkpoint() {
-    return {jet_.constants(), jet_.lost_constants(), at_, stages_.slopes(), end_slope_};
+    return {jet_.constants(), jet_.lost_constants(),  at_,
+            stages_.slopes(), stages_.is_by_newton(), end_slope_};
   }
 
   /// A step is repeated if its error estimate exceeds the tolerance by more than this factor: the
@@ -238,7 +242,7 @@ class GaussIntegrator {
     auto mark = Clock::now();
     step_ = end.at.previous_step;
     stages_.system().set_step(step_);
-    stages_.slopes() = end.slopes;
+    stages_.restore(end.slopes, end.is_by_newton);
     stages_.evaluate_at_slopes(start(), statistics_);
     if (!solve_degrees(mark)) fail_fixed_step(step_);
     advance_jet(step_);
@@ -341,16 +345,22 @@ class GaussIntegrator {
 
   /// Solves the degrees 1..N of the stages; false if their equations cannot be solved.
   bool solve_degrees(Clock::time_point& mark) {
-    // Univariate series, and the first degrees of bivariate ones, are too few for a factorisation.
-    // What decides is the degree, so that the first ones do not depend on the order.
-    const std::size_t variables = problem_.space->variables();
-    const int last_iterated = variables == 1 ? order_ : (variables == 2 ? 3 : 0);
+    // Series along one or two lines, and the first degrees of bivariate ones, are too few for a
+    // factorisation. What decides is the degree, so that all but the highest do not depend on the
+    // order.
+    const SeriesSpace& space = *problem_.space;
+    const int last_iterated = space.variables() > 2 ? 0 : (space.is_uncoupled() ? order_ : 3);
     bool iterates = true;
     bool is_factorised = false;
     auto& evaluator = stages_.evaluator();
     for (int d = 1; d <= order_; ++d) {
       evaluator.evaluate_remainder(d);
       account(&GaussProfile::series, mark);
+      if (d == order_ && has_end_map_) {
+        end_map_.form(stages_);
+        account(&GaussProfile::linear_solves, mark);
+        break;
+      }
       iterates = iterates && d <= last_iterated && stages_.iterate_degree(d, state_);
       if (!iterates) {
         if (!is_factorised && !stages_.factorise(order_ >= 2)) return false;
@@ -367,7 +377,8 @@ class GaussIntegrator {
 
   /// Advances the jet to the new state, from the stages.
   void advance_jet(const Real& h) {
-    jet_.advance(stages_, h, order_);
+    jet_.advance(stages_, h, has_end_map_ ? order_ - 1 : order_);
+    if (has_end_map_) jet_.advance_by(end_map_, stages_.evaluator(), order_, state_);
     evaluate_end_slope(end_slope_);
   }
 
@@ -381,6 +392,8 @@ class GaussIntegrator {
   SliceEvaluator<Real, Real> point_;  ///< the vector field at one point
   SummedJet<Real, Lanes> jet_;
   GaussStepControl<Real, Lanes> control_;
+  bool has_end_map_;
+  EndMap<Real, Lanes> end_map_;
   std::vector<const Real*> state_;
   GaussStepping<Real> at_;
   Real step_ = 0;  ///< the step that is being tried

@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <numbers>
 #include <type_traits>
 #include <utility>
 
 #include "../../algebra/instantiated_real.hpp"
-#include "../arc_integrator.hpp"
 #include "../concurrent_tasks.hpp"
 #include "gauss_lanes.hpp"
 #include "hamjet/algebra/composition.hpp"
@@ -28,6 +26,8 @@ constexpr double least_reduction = 1e-5;
 /// it is the waves of the field that limit them, not yet the tolerance.
 constexpr double next_reduction = 1e-3;
 constexpr int most_trials = 6;
+/// Errors of truncation may cancel in one trial, so that the next has no smaller ones; not in two.
+constexpr int stalls_of_rounding = 2;
 /// Finer steps serve the next trial too if their tolerance is that much below its own: then what
 /// they are wrong by is a thirtieth of what is measured.
 constexpr double fine_enough = 30;
@@ -54,7 +54,7 @@ struct Trial {
   std::vector<FlowJet<Real>> finer_lines;
   std::vector<double> error_by_degree;
   double limit = 0;
-  long steps = 0;  ///< of each line: the nominal chooses them, and both have one
+  long steps = 0;
   double finer_tolerance = 0;
   double periods = 0;  ///< of the finer lines
 
@@ -63,45 +63,6 @@ struct Trial {
     return *std::max_element(error_by_degree.begin(), error_by_degree.end());
   }
   double largest_excess() const { return largest_error() / limit; }
-};
-
-/// Lines in one method's steps.
-template <class Real>
-class LinesInSteps {
- public:
-  LinesInSteps(const std::vector<FlowProblem<Real>>& problems, GaussSettings settings)
-      : problems_(problems), settings_(std::move(settings)), jets_(problems.size()) {
-    settings_.profile = nullptr;
-  }
-
-  /// The nominal of several lines is integrated once; one integration has its own.
-  void follow() {
-    if (problems_.size() == 1) return;
-    nominal_ = make_gauss_arcs<Real>(problems_[0], settings_);
-    nominal_->run_nominal(statistics_, {});
-  }
-
-  void integrate(std::size_t line) {
-    const FlowProblem<Real>& problem = problems_[line];
-    if (nominal_ != nullptr) {
-      IntegrationStatistics own;
-      jets_[line] = nominal_->run_arc(0, statistics_.steps, problem.space, problem.variables,
-                                      *problem.initial_jet, own, [] {});
-      return;
-    }
-    jets_[line] = run_gauss<Real>(problem, settings_, statistics_);
-  }
-
-  /// Of the nominal.
-  const IntegrationStatistics& statistics() const { return statistics_; }
-  std::vector<FlowJet<Real>> take() { return std::move(jets_); }
-
- private:
-  const std::vector<FlowProblem<Real>>& problems_;
-  GaussSettings settings_;
-  std::unique_ptr<ArcIntegrator<Real>> nominal_;  ///< one arc, with its checkpoints
-  IntegrationStatistics statistics_;
-  std::vector<FlowJet<Real>> jets_;
 };
 
 template <class Real>
@@ -116,32 +77,36 @@ template <class Real>
 Trial<Real> try_tolerance(const DirectionalFlow<Real>& flow, const GaussSettings& settings,
                           double tolerance, std::size_t threads, const FirstTrial<Real>* known,
                           const Trial<Real>* before = nullptr) {
-  const std::vector<FlowProblem<Real>> problems = flow.problems();
+  const FlowProblem<Real> problem = flow.problem();
   const bool has_finer = before != nullptr && fine_enough * before->finer_tolerance <= tolerance;
   GaussSettings own = settings;
   own.tolerance = tolerance;
-  LinesInSteps<Real> coarse(problems, own);
+  own.profile = nullptr;
   const GaussSettings finest = finer_gauss<Real>(settings, tolerance);
-  LinesInSteps<Real> finer(problems, finest);
+  struct Run {
+    const GaussSettings& settings;
+    FlowJet<Real> jet;
+    IntegrationStatistics statistics;
+  };
+  Run coarse{own, {}, {}};
+  Run finer{finest, {}, {}};
   // The steps asked for come first: where both fail, theirs is the failure that is told.
-  std::vector<LinesInSteps<Real>*> both;
-  if (known == nullptr) both.push_back(&coarse);
-  if (!has_finer) both.push_back(&finer);
+  std::vector<Run*> runs;
+  if (known == nullptr) runs.push_back(&coarse);
+  if (!has_finer) runs.push_back(&finer);
   run_concurrently(
-      both.size(), threads, [&](std::size_t i, TaskControl&) { both[i]->follow(); }, [](long) {});
-  run_concurrently(
-      both.size() * problems.size(), threads,
+      runs.size(), threads,
       [&](std::size_t i, TaskControl&) {
-        both[i / problems.size()]->integrate(i % problems.size());
+        runs[i]->jet = run_gauss<Real>(problem, runs[i]->settings, runs[i]->statistics);
       },
       [](long) {});
   Trial<Real> trial;
   trial.tolerance = tolerance;
-  trial.lines = known != nullptr ? flow.restrict(known->jet) : flow.lines(coarse.take());
-  trial.steps = known != nullptr ? known->statistics.steps : coarse.statistics().steps;
-  trial.finer_lines = has_finer ? before->finer_lines : flow.lines(finer.take());
+  trial.lines = known != nullptr ? flow.restrict(known->jet) : flow.lines(coarse.jet);
+  trial.steps = known != nullptr ? known->statistics.steps : coarse.statistics.steps;
+  trial.finer_lines = has_finer ? before->finer_lines : flow.lines(finer.jet);
   trial.finer_tolerance = has_finer ? before->finer_tolerance : *finest.tolerance;
-  trial.periods = has_finer ? before->periods : finer.statistics().periods;
+  trial.periods = has_finer ? before->periods : finer.statistics.periods;
   judge(trial, flow, settings);
   return trial;
 }
@@ -185,7 +150,7 @@ StepTolerance<Real> chosen(double tolerance, const DirectionalFlow<Real>& flow, 
 template <class Real>
 GaussSettings finer_gauss(const GaussSettings& settings, double tolerance) {
   GaussSettings fine;
-  fine.stages = settings.stages < 8 ? 8 : (settings.stages == 12 ? 10 : 12);
+  fine.stages = settings.stages < 8 ? 8 : (settings.stages == 14 ? 12 : 14);
   fine.tolerance = std::max(1e-3 * tolerance, smallest_step_tolerance<Real>());
   fine.compensated_summation = true;
   return fine;
@@ -213,29 +178,35 @@ StepTolerance<Real> choose_step_tolerance(const FlowProblem<Real>& problem,
   if (!(before.largest_excess() > 1)) return chosen(asked, flow, std::move(before));
   double power = 1;
   double largest_reduction = 0.1;
+  std::optional<Trial<Real>> before_stalls;
+  int stalls = 0;
   for (int i = 1; i < most_trials; ++i) {
     const double excess = before.largest_excess();
     const double wanted = std::isfinite(excess) ? std::pow(aim / excess, 1 / power) : 0;
     const double next = std::max(
-        std::clamp(wanted, least_reduction, largest_reduction) * before.tolerance, smallest);
+        std::clamp(wanted, stalls > 0 ? largest_reduction : least_reduction, largest_reduction) *
+            before.tolerance,
+        smallest);
     Trial<Real> trial = try_tolerance<Real>(flow, settings, next, threads, nullptr, &before);
     if (!(trial.largest_excess() > 1)) return chosen(next, flow, std::move(trial));
     const bool is_shorter = trial.steps > before.steps;
     // Steps that much shorter would take away far more of a truncation error.
-    const bool is_rounding = is_shorter && trial.largest_excess() > 0.5 * excess &&
-                             trial.largest_error() <= largest_converging_error;
-    if (is_rounding || next == smallest) {
-      const double tolerance = where_rounding_begins(before, trial);
+    const bool stalls_now = is_shorter && trial.largest_excess() > 0.5 * excess &&
+                            trial.largest_error() <= largest_converging_error;
+    stalls = stalls_now ? stalls + 1 : 0;
+    if (stalls == 1) before_stalls = before;
+    const bool is_last = i + 1 == most_trials || before.steps > most_steps_of_more_trials;
+    if (stalls == stalls_of_rounding || next == smallest || (stalls > 0 && is_last)) {
+      const double tolerance = where_rounding_begins(stalls > 0 ? *before_stalls : before, trial);
       std::vector<double> rounding = trial.error_by_degree;
       StepTolerance<Real> choice = chosen(tolerance, flow, std::move(trial));
       choice.rounding_by_degree = std::move(rounding);
       return choice;
     }
-    power = is_shorter ? convergence(before, trial) : 1;
+    power = is_shorter && !stalls_now ? convergence(before, trial) : 1;
     largest_reduction = is_shorter ? 0.1 : next_reduction;
-    const bool is_long = before.steps > most_steps_of_more_trials;
     before = std::move(trial);
-    if (is_long) break;
+    if (is_last) break;
   }
   std::vector<double> unmet = before.error_by_degree;
   StepTolerance<Real> choice = chosen(before.tolerance, flow, std::move(before));

@@ -48,14 +48,15 @@ bool needs_choice(const FlowProblem<Real>& problem, const GaussSettings& setting
 /// The flow is integrated along two lines (DirectionalFlow) with the settings' steps and with finer
 /// ones of another order; their difference is the error of each degree, which falls with the local
 /// tolerance until it meets rounding, which is what a tolerance at least ten times smaller does not
-/// halve. Source of the order: Hairer, Lubich and Wanner, Geometric Numerical Integration, section
-/// II.1; of the restriction to lines, see DirectionalFlow.
+/// halve, twice in a row. Source of the order: Hairer, Lubich and Wanner, Geometric Numerical
+/// Integration, section II.1; of the restriction to lines, see DirectionalFlow.
 ///
 /// Settings of fixed steps, and jets of order 0 in a field without short waves, need none: the
 /// settings' tolerance is returned, or 0. Throws what integrate_gauss throws.
 ///
 /// A jet that was integrated with the settings' own tolerance may be given as the first trial.
-/// Lines are integrated on up to `threads` threads, with the same result on any number.
+/// The two integrations of a trial are done on up to `threads` threads, with the same result on any
+/// number.
 template <class Real>
 StepTolerance<Real> choose_step_tolerance(const FlowProblem<Real>& problem,
                                           const GaussSettings& settings, std::size_t threads = 1,

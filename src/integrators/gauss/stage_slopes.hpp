@@ -6,8 +6,10 @@
 #include <limits>
 #include <vector>
 
+#include "degree_iteration.hpp"
 #include "hamjet/detail/dynamics/slice_evaluator.hpp"
 #include "hamjet/integrators/flow_problem.hpp"
+#include "newton_measures.hpp"
 #include "stage_iteration.hpp"
 #include "stage_system.hpp"
 
@@ -122,9 +124,20 @@ class StageSlopes {
     return sum;
   }
 
+  /// Whether the slopes are Newton's. Those are good to round-off where the ones evaluated at the
+  /// stages, the small difference of large terms in a stiff system, are not; of fixed-point
+  /// iteration the evaluated ones are better.
+  bool is_by_newton() const { return is_by_newton_; }
+  /// Takes the slopes of an earlier solution.
+  void restore(const std::vector<P>& slopes, bool is_by_newton) {
+    slopes_ = slopes;
+    is_by_newton_ = is_by_newton;
+  }
+
   /// Puts Newton's slopes in the place of the evaluated ones, at degree 0. For unit mass only,
   /// where slopes and forces are the same.
-  void store_slopes() {
+  void store_newton_slopes() {
+    if (!is_by_newton_ || !system_.unit_mass()) return;
     for (std::size_t c = 0; c < system_.components(); ++c) {
       P* target = evaluator_.mutable_output(c);
       if (target != nullptr) *target = slopes_[c];
@@ -140,11 +153,10 @@ class StageSlopes {
       ++statistics.nominal_evaluations;
       for (std::size_t c = 0; c < stages.size(); ++c) slopes[c] = slope(c);
     };
-    if (iteration_.solve_constant_terms(state, slopes_, evaluate)) {
-      evaluate_at_slopes(state, statistics);
-      return true;
-    }
-    return solve_by_newton(state, statistics);
+    is_by_newton_ = !iteration_.solve_constant_terms(state, slopes_, evaluate);
+    if (is_by_newton_) return solve_by_newton(state, statistics);
+    evaluate_at_slopes(state, statistics);
+    return true;
   }
 
   /// Solves degree 0 by Newton's method, with rho = g(Y) - G and Y = base + W G:
@@ -167,7 +179,7 @@ class StageSlopes {
       }
       for (std::size_t c = 0; c < m; ++c) residual[c] = slope(c) - slopes_[c];
       apply_response(residual, change);
-      const Real size = relative_size(change);
+      const Real size = largest_relative_change(system_, evaluator_, change);
       if (!is_finite(size)) return false;
       for (std::size_t c = 0; c < m; ++c) {
         slopes_[c] += residual[c];
@@ -176,7 +188,9 @@ class StageSlopes {
       // Once the correction stops shrinking, what is left is round-off if it is no larger than what
       // the rounding of the slopes alone causes: with stiff systems that is far above epsilon.
       const bool is_stalled = size >= previous / 4;
-      if (size <= 2 * epsilon || (is_stalled && size <= 100 * epsilon * amplification(state))) {
+      if (size <= 2 * epsilon ||
+          (is_stalled &&
+           size <= 100 * epsilon * rounding_amplification(system_, evaluator_, slopes_, state))) {
         place_stages(state);
         evaluator_.evaluate_constant_terms();
         ++statistics.nominal_evaluations;
@@ -208,20 +222,13 @@ class StageSlopes {
   /// Does what solve_degree does, by fixed-point iteration without a factorisation. False where it
   /// does not contract.
   bool iterate_degree(int d, const std::vector<const Real*>& state) {
-    const std::size_t m = system_.components();
     if (system_.second_order() && !system_.unit_mass() && d >= 2) apply_inverse_mass(d);
-    known_.resize(m);
-    const auto gradient = [&](std::size_t c, std::size_t k) { return slope_gradient(c, k); };
-    for (std::size_t k = space_->first(d); k < space_->first(d + 1); ++k) {
-      const auto monomial = [&](std::size_t i) -> const Real& { return state[i][k]; };
-      for (std::size_t c = 0; c < m; ++c) {
-        known_[c] = system_.base(c, monomial);
-        if (has_remainder(c, d)) known_[c] += system_.couple(remainder(c)[k]);
-      }
-      if (!iteration_.solve_linear(known_, gradient, solved_)) return false;
-      for (std::size_t c = 0; c < m; ++c) evaluator_.input(c)[k] = solved_[c];
+    const std::size_t last = space_->first(d + 1);
+    std::size_t k = space_->first(d);
+    for (; k + 2 <= last; k += 2) {
+      if (!iterate_monomials<2>(d, k, state)) return false;
     }
-    return true;
+    return k == last || iterate_monomials<1>(d, k, state);
   }
 
   /// Forms the degree-d slices of the stages from those of the outputs' remainders and of the
@@ -244,6 +251,35 @@ class StageSlopes {
   }
 
  private:
+  template <std::size_t Width>
+  bool iterate_monomials(int d, std::size_t first, const std::vector<const Real*>& state) {
+    // The usual number of components is unrolled, and its numbers stay in registers.
+    if (system_.components() == 3) return iterate_monomials<Width, 3>(d, first, state);
+    return iterate_monomials<Width, 0>(d, first, state);
+  }
+
+  template <std::size_t Width, std::size_t Components>
+  bool iterate_monomials(int d, std::size_t first, const std::vector<const Real*>& state) {
+    DegreeIteration<Real, Lanes, Components, Width> iteration(system_);
+    const std::size_t m = system_.components();
+    for (std::size_t c = 0; c < m; ++c) {
+      for (std::size_t k = 0; k < m; ++k) iteration.gradient[c * m + k] = slope_gradient(c, k);
+      for (std::size_t t = 0; t < Width; ++t) {
+        const auto monomial = [&](std::size_t i) -> const Real& { return state[i][first + t]; };
+        P& known = iteration.known[c * Width + t];
+        known = system_.base(c, monomial);
+        if (has_remainder(c, d)) known += system_.couple(remainder(c)[first + t]);
+      }
+    }
+    if (!iteration.solve()) return false;
+    for (std::size_t c = 0; c < m; ++c) {
+      for (std::size_t t = 0; t < Width; ++t) {
+        evaluator_.input(c)[first + t] = iteration.stages[c * Width + t];
+      }
+    }
+    return true;
+  }
+
   static constexpr int largest_iteration_count = 40;
   /// Numbers of monomials of a degree, binomial coefficients, are often multiples of it; and 21
   /// sums of three components fit the registers.
@@ -268,49 +304,6 @@ class StageSlopes {
       }
       change[c] = sum;
     }
-  }
-
-  /// How much rounding is amplified in the stages: that of the slopes through K, and that of
-  /// Y = base + W G where the two nearly cancel (stiff systems): (|base| + sum of |K| |G|) / |Y|,
-  /// at least 1.
-  template <class State>
-  Real amplification(const State& state) {
-    Real result = 1;
-    for (std::size_t c = 0; c < system_.components(); ++c) {
-      const P base = system_.base(c, state);
-      Real scale = 0;
-      Real largest = 0;
-      for (int i = 0; i < static_cast<int>(system_.stages()); ++i) {
-        Real sum = magnitude(base.lane(i));
-        for (std::size_t from = 0; from < system_.components(); ++from) {
-          for (std::size_t j = 0; j < system_.stages(); ++j) {
-            sum += magnitude(Real(system_.response(from, j, c).lane(i) *
-                                  slopes_[from].lane(static_cast<int>(j))));
-          }
-        }
-        largest = std::max(largest, sum);
-        scale = std::max(scale, magnitude(evaluator_.input(c)[0].lane(i)));
-      }
-      if (scale > 0) result = std::max(result, Real(largest / scale));
-    }
-    return result;
-  }
-
-  /// Largest change of a stage relative to the largest stage value of the same component.
-  Real relative_size(const std::vector<P>& change) {
-    Real result = 0;
-    for (std::size_t c = 0; c < change.size(); ++c) {
-      Real largest = 0;
-      Real scale = 0;
-      for (int i = 0; i < static_cast<int>(system_.stages()); ++i) {
-        const Real moved = magnitude(change[c].lane(i));
-        if (!is_finite(moved)) return moved;
-        largest = std::max(largest, moved);
-        scale = std::max(scale, magnitude(evaluator_.input(c)[0].lane(i)));
-      }
-      if (largest > 0) result = std::max(result, Real(largest / std::max(scale, largest)));
-    }
-    return result;
   }
 
   /// Forms the remainders of M^-1 F. An affine force has none: its slice is not yet meaningful.
@@ -379,8 +372,7 @@ class StageSlopes {
   SpacePointer space_;
   StageIteration<Real, Lanes> iteration_;
   std::vector<P> slopes_;
-  std::vector<P> known_;
-  std::vector<P> solved_;
+  bool is_by_newton_ = false;
   std::vector<std::vector<P>> mapped_;
 };
 

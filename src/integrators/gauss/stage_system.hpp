@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "../real_number.hpp"
@@ -94,6 +95,22 @@ class StageSystem {
     }
     for (; j < stages_; ++j) sums[0] += coupling_[j].value * P(slopes.lane(static_cast<int>(j)));
     return ((sums[0] + sums[1]) + (sums[2] + sums[3])) * P(scale_);
+  }
+
+  /// The same for several sums side by side, which so do not wait for one another.
+  template <std::size_t Count>
+  void couple(const std::array<P, Count>& slopes, std::array<P, Count>& sums) const {
+    std::array<P, Count> added = [&]<std::size_t... I>(std::index_sequence<I...>) {
+      return std::array<P, Count>{coupling_[0].value * P(slopes[I].lane(0))...};
+    }
+    (std::make_index_sequence<Count>{});
+    for (std::size_t j = 1; j < stages_; ++j) {
+      const P& column = coupling_[j].value;
+      for (std::size_t i = 0; i < Count; ++i) {
+        added[i] += column * P(slopes[i].lane(static_cast<int>(j)));
+      }
+    }
+    for (std::size_t i = 0; i < Count; ++i) sums[i] = added[i] * P(scale_);
   }
 
   /// What the coefficients' rounding residues add to base + couple. The rounded coefficients alone

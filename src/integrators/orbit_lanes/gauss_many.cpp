@@ -122,7 +122,7 @@ class Task {
     const auto start_of = [&](std::size_t orbit) {
       auto& flow = flows[orbit - first_];
       flow = std::make_unique<DirectionalFlow<double>>(problem_of(orbit), lines, field);
-      return flow->together();
+      return flow->problem();
     };
     const auto skip = [&] {
       while (i < last_ && outcomes_[i].jet.empty()) ++i;
@@ -150,7 +150,7 @@ class Task {
     ManyFlowsOutcome& outcome = outcomes_[end.orbit];
     std::optional<StepTolerance<double>> choice;
     if (end.is_solved) {
-      choice = accept_first_trial(settings_, flow, flow.restrict(outcome.jet), flow.apart(end.jet),
+      choice = accept_first_trial(settings_, flow, flow.restrict(outcome.jet), flow.lines(end.jet),
                                   end.statistics.periods);
     }
     if (choice) {

@@ -5,7 +5,7 @@
 namespace hamjet {
 
 /// Follows the changes of one orbit's iteration, relative to what changes, as
-/// StageIteration::Contraction does.
+/// Contraction does.
 struct LaneJudge {
   bool is_done = false;
   bool has_failed = false;

@@ -6,6 +6,7 @@
 #include <experimental/simd>
 #include <limits>
 #include <type_traits>
+#include <utility>
 
 #include "hamjet/detail/algebra/double_double.hpp"
 #include "hamjet/instruction_set.hpp"
@@ -95,6 +96,7 @@ struct Pack {
   std::array<Vector, parts> part;
 
   Pack() : part{} {}
+  explicit Pack(const std::array<Vector, parts>& parts_of_pack) : part(parts_of_pack) {}
   /// Sets all lanes to `value`.
   Pack(const Real& value) {  // NOLINT(google-explicit-constructor): reals embed in packs
     for (auto& v : part) v = Vector(value);
@@ -147,14 +149,30 @@ struct Pack {
     for (std::size_t i = 0; i < parts; ++i) part[i] /= o.part[i];
     return *this;
   }
-  friend Pack operator+(Pack a, const Pack& b) { return a += b; }
-  friend Pack operator-(Pack a, const Pack& b) { return a -= b; }
-  friend Pack operator*(Pack a, const Pack& b) { return a *= b; }
-  friend Pack operator/(Pack a, const Pack& b) { return a /= b; }
+  // Part by part: a copy to be changed goes through memory where there are several parts.
+  friend Pack operator+(const Pack& a, const Pack& b) {
+    return by_part([&](std::size_t i) { return a.part[i] + b.part[i]; });
+  }
+  friend Pack operator-(const Pack& a, const Pack& b) {
+    return by_part([&](std::size_t i) { return a.part[i] - b.part[i]; });
+  }
+  friend Pack operator*(const Pack& a, const Pack& b) {
+    return by_part([&](std::size_t i) { return a.part[i] * b.part[i]; });
+  }
+  friend Pack operator/(const Pack& a, const Pack& b) {
+    return by_part([&](std::size_t i) { return a.part[i] / b.part[i]; });
+  }
   friend Pack operator-(const Pack& a) {
-    Pack result;
-    for (std::size_t i = 0; i < parts; ++i) result.part[i] = -a.part[i];
-    return result;
+    return by_part([&](std::size_t i) { return -a.part[i]; });
+  }
+
+  /// The pack whose part i is f(i).
+  template <class Function>
+  static Pack by_part(const Function& f) {
+    return [&]<std::size_t... I>(std::index_sequence<I...>) {
+      return Pack(std::array<Vector, parts>{Vector(f(I))...});
+    }
+    (std::make_index_sequence<parts>{});
   }
 };
 

@@ -197,12 +197,16 @@ void form_unrolled_blocks(const ProductSchedule::Output* output, const ProductSc
   }
 }
 
-/// With one variable a slice is one coefficient, and the schedule would take longer than the sum.
+/// Uncoupled variables have one coefficient each in a slice of degree d >= 2, and the schedule
+/// would take longer than its sum. The i-th power of a variable stands at variable + 1 + (i - 1) v.
 template <class T>
-void form_univariate(int d, const T* a, const T* b, T* c) {
-  T sum = a[1] * b[d - 1];
-  for (int i = 2; i < d; ++i) sum += a[i] * b[d - i];
-  c[d] = sum;
+void form_uncoupled(std::size_t variables, int d, const T* a, const T* b, T* c) {
+  const std::size_t last = static_cast<std::size_t>(d - 2) * variables;  // of the power d - 1
+  for (std::size_t k = 1; k <= variables; ++k) {
+    T sum = a[k] * b[k + last];
+    for (std::size_t i = variables; i <= last; i += variables) sum += a[k + i] * b[k + last - i];
+    c[k + last + variables] = sum;
+  }
 }
 
 template <bool Square, class T>
@@ -227,7 +231,9 @@ void form_slice(const ProductSchedule& schedule, const T* a, const T* b, T* c) {
 /// `a` or `b`, whose slices of degree d are not read.
 template <class T>
 void interior_product(const SeriesSpace& space, int d, const T* a, const T* b, T* c) {
-  if (space.variables() == 1 && d >= 2) return detail::form_univariate(d, a, b, c);
+  if (space.is_uncoupled() && d >= 2) {
+    return detail::form_uncoupled(space.variables(), d, a, b, c);
+  }
   detail::form_slice<false>(space.products(d), a, b, c);
 }
 
@@ -235,7 +241,9 @@ void interior_product(const SeriesSpace& space, int d, const T* a, const T* b, T
 /// about half the cost.
 template <class T>
 void interior_square(const SeriesSpace& space, int d, const T* a, T* c) {
-  if (space.variables() == 1 && d >= 2) return detail::form_univariate(d, a, a, c);
+  if (space.is_uncoupled() && d >= 2) {
+    return detail::form_uncoupled(space.variables(), d, a, a, c);
+  }
   detail::form_slice<true>(space.products(d), a, a, c);
 }
 

@@ -1,0 +1,55 @@
+#include "integrators/gauss/contraction.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "hamjet/dynamics/zonal_gravity.hpp"
+#include "hamjet/integrators/gauss_collocation.hpp"
+
+// When a fixed-point iteration is done. Expected outcomes follow from the definition.
+
+namespace hamjet {
+namespace {
+
+TEST(Contraction, NoChangeTwiceIsTheSolution) {
+  for (const bool contracts_once_more : {false, true}) {
+    Contraction<double> contraction(contracts_once_more);
+    EXPECT_EQ(contraction.judge(0), Contraction<double>::goes_on);
+    EXPECT_EQ(contraction.judge(0), Contraction<double>::is_rounding);
+  }
+}
+
+TEST(Contraction, EndsOneChangeEarlierWhereWhatIsLeftContractsOnceMore) {
+  // A hundredth each time: 1e-4, 1e-6 .. 1e-18. What is left after 1e-18 is 1e-20, below 2^-12 of a
+  // rounding, 5.4e-20; contracted once more, what is left after 1e-16 is 1e-20 too.
+  for (const bool contracts_once_more : {false, true}) {
+    Contraction<double> contraction(contracts_once_more);
+    double size = 1e-4;
+    int judged = 1;
+    while (contraction.judge(size) == Contraction<double>::goes_on) {
+      size *= 1e-2;
+      ++judged;
+    }
+    EXPECT_EQ(judged, contracts_once_more ? 7 : 8);
+  }
+}
+
+TEST(Contraction, ShortStepsNeedNoNewton) {
+  // Guesses that are right to the last bit change nothing; a try takes a few evaluations then.
+  const std::vector<double> start = {1, 0, 0, 0, 1, 0};
+  const FlowProblem<double> problem{
+      kepler(), SeriesSpace::create(6, 1), {0, 1, 2, 3, 4, 5}, start, 2.0};
+  for (const int stages : {4, 6, 8}) {
+    GaussSettings settings;
+    settings.stages = stages;
+    settings.step = 0.02;
+    IntegrationStatistics statistics;
+    integrate_gauss<double>(problem, settings, statistics);
+    EXPECT_EQ(statistics.most_newton_iterations, 0);
+    EXPECT_LE(statistics.nominal_evaluations, 15 * statistics.steps) << stages << " stages";
+  }
+}
+
+}  // namespace
+}  // namespace hamjet
