@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <string>
 
 #include "hamjet/error.hpp"
 
@@ -12,6 +13,12 @@ namespace {
 
 /// Beyond this a single series takes half a gigabyte, and the space itself several.
 constexpr double most_monomials = 5e7;
+
+std::string text(const SeriesSpace& space) {
+  const bool is_lines = space.is_uncoupled() && space.variables() > 1;
+  return fmt::format("{}{} variables of order {}", space.variables(), is_lines ? " uncoupled" : "",
+                     space.order());
+}
 
 }  // namespace
 
@@ -287,11 +294,8 @@ std::size_t SeriesSpace::product_cost() const {
 
 void require_same_space(const SeriesSpace& a, const SeriesSpace& b) {
   if (!(a == b)) {
-    throw Error(
-        ErrorKind::usage,
-        fmt::format("series of different spaces are combined: {} variables of order {} with "
-                    "{} variables of order {}",
-                    a.variables(), a.order(), b.variables(), b.order()));
+    throw Error(ErrorKind::usage, fmt::format("series of different spaces are combined: {} with {}",
+                                              text(a), text(b)));
   }
 }
 

@@ -69,8 +69,10 @@ FlowProblem<Real> DirectionalFlow<Real>::problem() const {
   FlowJet<Real> start(starts_[0].size(), Series<Real>(all.space));
   for (std::size_t i = 0; i < start.size(); ++i) {
     start[i][0] = starts_[0][i][0];
-    for (std::size_t k = 1; k < start[i].size(); ++k) {
-      start[i][k] = starts_[(k - 1) % count][i][1 + (k - 1) / count];
+    for (int d = 1; d <= all.space->order(); ++d) {
+      for (std::size_t j = 0; j < count; ++j) {
+        start[i][all.space->first(d) + j] = starts_[j][i][static_cast<std::size_t>(d)];
+      }
     }
   }
   all.initial_jet = std::move(start);
@@ -79,13 +81,12 @@ FlowProblem<Real> DirectionalFlow<Real>::problem() const {
 
 template <class Real>
 typename DirectionalFlow<Real>::Lines DirectionalFlow<Real>::lines(const FlowJet<Real>& jet) const {
-  const std::size_t count = starts_.size();
-  Lines result(count, FlowJet<Real>(jet.size(), Series<Real>(line_space_)));
-  for (std::size_t j = 0; j < count; ++j) {
+  Lines result(starts_.size(), FlowJet<Real>(jet.size(), Series<Real>(line_space_)));
+  for (std::size_t j = 0; j < result.size(); ++j) {
     for (std::size_t i = 0; i < jet.size(); ++i) {
       result[j][i][0] = jet[i][0];
-      for (std::size_t d = 1; d < line_space_->size(); ++d) {
-        result[j][i][d] = jet[i][1 + (d - 1) * count + j];
+      for (int d = 1; d <= line_space_->order(); ++d) {
+        result[j][i][static_cast<std::size_t>(d)] = jet[i][jet[i].space().first(d) + j];
       }
     }
   }

@@ -15,7 +15,8 @@ namespace hamjet {
 /// order, and the schedule by which two of its elements are multiplied.
 ///
 /// Monomials are graded: by degree first, and within a degree lexicographically with the exponent
-/// of x_1 falling first (x^2, xy, y^2). Number of monomials: C(v + N, N).
+/// of x_1 falling first (x^2, xy, y^2). Number of monomials: C(v + N, N), or 1 + v N of uncoupled
+/// variables, whose products with each other vanish.
 ///
 /// A space is an immutable object; several of different order or number of variables live side by
 /// side. Series hold a shared pointer to theirs, and operations on two different spaces throw.
@@ -24,9 +25,10 @@ class SeriesSpace {
   /// `variables` in 1..64, `order` in 0..60. Throws Error(usage) outside, and Error(too_large) for
   /// more than 5e7 monomials.
   static std::shared_ptr<const SeriesSpace> create(std::size_t variables, int order);
-  /// The ring in which products of different variables vanish besides, R[x_1..x_v] / (x_i x_j for i
-  /// != j, monomials of degree > N): functions along v lines through the origin, side by side. Its
-  /// monomials are 1, x_1..x_v, x_1^2..x_v^2 and so on. Throws what `create` throws.
+  /// The ring in which products of different variables also vanish, R[x_1..x_v] / (x_i x_j for i !=
+  /// j, monomials of degree > N): functions along v lines through the origin, side by side. Its
+  /// monomials are 1, x_1..x_v, x_1^2..x_v^2 and so on. Within the same bounds; throws Error(usage)
+  /// outside.
   static std::shared_ptr<const SeriesSpace> create_uncoupled(std::size_t variables, int order);
 
   std::size_t variables() const noexcept { return variables_; }
@@ -105,7 +107,8 @@ class SeriesSpace {
 
 using SpacePointer = std::shared_ptr<const SeriesSpace>;
 
-/// Throws Error(usage) unless both spaces have the same number of variables and order.
+/// Throws Error(usage) unless both spaces are the same: in order, and in number and coupling of the
+/// variables.
 void require_same_space(const SeriesSpace& a, const SeriesSpace& b);
 
 }  // namespace hamjet

@@ -35,22 +35,32 @@ class Contraction {
       // Changes that no longer shrink are rounding, if they are no larger than that.
       if (size <= 2 * epsilon) return is_rounding;
       if (++stalls_ > most_stalls) return fails;
-    } else if (count_ > 0 && size * (contracts_once_more_ ? Real(size / before) : Real(1)) * size <=
-                                 largest_remainder * epsilon * (before - size)) {
-      return converged;
+    } else if (count_ > 0) {
+      // All changes to come add up to size^2 / (before - size), by the contraction of this one.
+      const Real left = contracts_once_more_ ? Real(size * Real(size / before)) : size;
+      if (left * size <= largest_remainder * epsilon * (before - size)) return converged;
     }
     return ++count_ < largest_count ? goes_on : fails;
   }
 
  private:
-  bool contracts_once_more_;
   static constexpr double slowest = 0.5;
   static constexpr int most_stalls = 1;  ///< the first changes may grow
   static constexpr int largest_count = 40;
+  bool contracts_once_more_;
   int count_ = 0;
   int stalls_ = 0;
   Real previous_ = std::numeric_limits<Real>::max();  ///< none yet
 };
+
+/// The inverse of the largest magnitude of the lanes of two packs, which changes count relative to;
+/// zero where both vanish.
+template <class Real, int Lanes>
+Pack<Real, Lanes> inverse_scale(const Pack<Real, Lanes>& a, const Pack<Real, Lanes>& b) {
+  const Real scale =
+      largest_magnitude(larger_magnitude(larger_magnitude(Pack<Real, Lanes>(Real(0)), a), b));
+  return Pack<Real, Lanes>(scale > 0 ? Real(1 / scale) : Real(0));
+}
 
 /// Whether all numbers are finite; the changes of an iteration do not show a NaN, which the
 /// machine's maximum skips.

@@ -50,7 +50,8 @@ class DegreeIteration {
     set_scale();
     Contraction<Real> contraction;
     while (true) {
-      // Judging takes as long as iterating: every second time will do.
+      // Judging takes as long as iterating: every second time will do. The contraction that is seen
+      // is that of two, so that what is left is up to one change more than is told.
       replace();
       const auto outcome = contraction.judge(replace_and_compare());
       if (outcome == Contraction<Real>::goes_on) continue;
@@ -99,9 +100,7 @@ class DegreeIteration {
   /// sums of.
   void set_scale() {
     for (std::size_t i = 0; i < stages.size(); ++i) {
-      const Real scale =
-          largest_magnitude(larger_magnitude(larger_magnitude(P(Real(0)), stages[i]), known[i]));
-      inverse_scale_[i] = P(scale > 0 ? Real(1 / scale) : Real(0));
+      inverse_scale_[i] = inverse_scale(stages[i], known[i]);
     }
   }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -30,7 +29,7 @@ class EndMap {
     return is_possible && order >= 2 && space.count(order) >= least_monomials;
   }
 
-  /// Forms S and T from the factorisation of the stages as they stand.
+  /// Forms S and T from K and B of the stages as they stand (StageSlopes::factorise).
   void form(const StageSlopes<Real, Lanes>& stages) {
     const StageSystem<Real, Lanes>& system = stages.system();
     const std::size_t m = system.components();
@@ -51,9 +50,9 @@ class EndMap {
       }
     }
     of_remainders_.resize(m * s);
-    form_columns(&system.response(0, 0, 0), m, s, of_remainders_);
+    sum_columns(&system.response(0, 0, 0), m, s, of_remainders_);
     of_state_.resize(2 * m);
-    form_columns(&system.base_response(0, 0), m, s, of_state_);
+    sum_columns(&system.base_response(0, 0), m, s, of_state_);
     for (std::size_t c = 0; c < m; ++c) {
       add_to_lane(of_state_[m + c], c, h);
       for (std::size_t j = 0; j < s; ++j) {
@@ -81,8 +80,8 @@ class EndMap {
   /// are iterated for, without a factorisation.
   static constexpr std::size_t least_monomials = 30;
 
-  /// Sums that do not wait for one another; see StageSlopes.
-  static constexpr std::size_t tile = 7;
+  static constexpr std::size_t tile = StageSlopes<Real, Lanes>::tile;
+  /// Of an orbit there are 6 and multiples of 6.
   static constexpr std::size_t columns_at_once = 6;
 
   static void add_to_lane(P& pack, std::size_t lane, const Real& x) {
@@ -92,25 +91,27 @@ class EndMap {
 
   /// result_q = sum over k and i of gradients_(k, i) (columns_q)_(k, i), of columns of m packs over
   /// the stages.
-  void form_columns(const P* columns, std::size_t m, std::size_t s, std::vector<P>& result) const {
-    for (std::size_t first = 0; first < result.size(); first += columns_at_once) {
-      const std::size_t count = std::min(columns_at_once, result.size() - first);
-      std::array<P, columns_at_once> sums;
-      for (std::size_t k = 0; k < m; ++k) {
-        for (std::size_t i = 0; i < s; ++i) {
-          const P& gradient = gradients_[k * s + i];
-          const auto entry = [&](std::size_t q) {
-            return P(columns[(first + q) * m + k].lane(static_cast<int>(i)));
-          };
-          if (count == columns_at_once) {
-            for (std::size_t q = 0; q < columns_at_once; ++q) sums[q] += gradient * entry(q);
-          } else {
-            for (std::size_t q = 0; q < count; ++q) sums[q] += gradient * entry(q);
-          }
+  void sum_columns(const P* columns, std::size_t m, std::size_t s, std::vector<P>& result) const {
+    std::size_t q = 0;
+    for (; q + columns_at_once <= result.size(); q += columns_at_once) {
+      sum_tile<columns_at_once>(columns + q * m, m, s, &result[q]);
+    }
+    for (; q < result.size(); ++q) sum_tile<1>(columns + q * m, m, s, &result[q]);
+  }
+
+  /// Several sums at once do not wait for one another.
+  template <std::size_t Width>
+  void sum_tile(const P* columns, std::size_t m, std::size_t s, P* result) const {
+    std::array<P, Width> sums;
+    for (std::size_t k = 0; k < m; ++k) {
+      for (std::size_t i = 0; i < s; ++i) {
+        const P& gradient = gradients_[k * s + i];
+        for (std::size_t q = 0; q < Width; ++q) {
+          sums[q] += gradient * P(columns[q * m + k].lane(static_cast<int>(i)));
         }
       }
-      std::copy_n(sums.begin(), count, result.begin() + static_cast<std::ptrdiff_t>(first));
     }
+    for (std::size_t q = 0; q < Width; ++q) result[q] = sums[q];
   }
 
   template <std::size_t Width, class Add>

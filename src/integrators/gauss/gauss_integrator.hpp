@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "../compensated_addition.hpp"
@@ -45,19 +46,18 @@ class GaussIntegrator {
                 problem.space, order_),
         point_(problem.system->evaluated_list(), problem.space, 0),
         jet_(problem, settings.compensated_summation),
-        control_(settings, stages_, jet_, controlled_order),
-        has_end_map_(EndMap<Real, Lanes>::serves(stages_.system(), *problem.space, order_) &&
-                     !settings.controls_all_degrees) {
+        control_(settings, stages_, jet_, controlled_order) {
+    if (EndMap<Real, Lanes>::serves(stages_.system(), *problem.space, order_) &&
+        !settings.controls_all_degrees) {
+      end_map_.emplace();
+    }
     for (const auto& component : jet_.value()) state_.push_back(component.coefficients().data());
   }
 
+  /// Runs to the end of the duration, telling the observer after every step.
   FlowJet<Real> run(const StepObserver<Real>& observer) {
-    begin();
-    while (at_.time != problem_.duration) {
-      step();
-      if (observer) clock_.exclude([&] { observer(at_.time, jet_.value()); });
-    }
-    return finish();
+    return run_nominal(
+        observer, [](long) { return false; }, [](const auto&) {});
   }
 
   /// Runs like `run`, telling `keep` where the nominal stands at the start and after every step, if
@@ -166,7 +166,8 @@ class GaussIntegrator {
     Real h = at_.proposed;
     double growth = 1;
     while (true) {
-      if (!settings_.step) h = fit_to_span(sampling_step(h), remaining);
+      if (!settings_.step)
+        h = fit_to_span(control_.sampling_step(h, *problem_.system, start()), remaining);
       if (at_.time + h == at_.time) {
         throw Error(
             ErrorKind::numerical,
@@ -228,13 +229,6 @@ class GaussIntegrator {
                        static_cast<double>(problem_.duration));
     }
     account(&GaussProfile::update, mark);
-  }
-
-  /// The step h, shortened to what samples the field's shortest wave.
-  Real sampling_step(const Real& h) const {
-    const double longest = control_.longest_sampling_step(*problem_.system, start());
-    if (!(static_cast<double>(magnitude(h)) > longest)) return h;
-    return h < 0 ? Real(-longest) : Real(longest);
   }
 
   /// Repeats a step that an earlier run of the same nominal took.
@@ -356,8 +350,8 @@ class GaussIntegrator {
     for (int d = 1; d <= order_; ++d) {
       evaluator.evaluate_remainder(d);
       account(&GaussProfile::series, mark);
-      if (d == order_ && has_end_map_) {
-        end_map_.form(stages_);
+      if (d == order_ && end_map_) {
+        end_map_->form(stages_);
         account(&GaussProfile::linear_solves, mark);
         break;
       }
@@ -377,8 +371,8 @@ class GaussIntegrator {
 
   /// Advances the jet to the new state, from the stages.
   void advance_jet(const Real& h) {
-    jet_.advance(stages_, h, has_end_map_ ? order_ - 1 : order_);
-    if (has_end_map_) jet_.advance_by(end_map_, stages_.evaluator(), order_, state_);
+    jet_.advance(stages_, h, end_map_ ? order_ - 1 : order_);
+    if (end_map_) jet_.advance_by(*end_map_, stages_.evaluator(), order_, state_);
     evaluate_end_slope(end_slope_);
   }
 
@@ -392,8 +386,7 @@ class GaussIntegrator {
   SliceEvaluator<Real, Real> point_;  ///< the vector field at one point
   SummedJet<Real, Lanes> jet_;
   GaussStepControl<Real, Lanes> control_;
-  bool has_end_map_;
-  EndMap<Real, Lanes> end_map_;
+  std::optional<EndMap<Real, Lanes>> end_map_;  ///< where it serves
   std::vector<const Real*> state_;
   GaussStepping<Real> at_;
   Real step_ = 0;  ///< the step that is being tried

@@ -70,19 +70,12 @@ class GaussStepControl {
                                 [this](int degree) { return mode(degree); });
   }
 
-  /// GaussStepRule::longest_sampling_step from a state; infinite where the system has no such
-  /// field.
+  /// The step h from a state, shortened to what samples the field's shortest wave.
   template <class State>
-  double longest_sampling_step(const DynamicalSystem& system, const State& state) const {
-    if (system.waves_on_a_circle == 0) return std::numeric_limits<double>::infinity();
-    const std::size_t n = system.degrees_of_freedom;
-    double distance = 0;
-    double speed = 0;
-    for (std::size_t c = 0; c < n; ++c) {
-      distance = std::hypot(distance, static_cast<double>(state(c)));
-      speed = std::hypot(speed, static_cast<double>(state(n + c)));
-    }
-    return rule_.longest_sampling_step(system.waves_on_a_circle, distance / speed);
+  Real sampling_step(const Real& h, const DynamicalSystem& system, const State& state) const {
+    const double longest = longest_sampling_step(system, state);
+    if (!(static_cast<double>(magnitude(h)) > longest)) return h;
+    return h < 0 ? Real(-longest) : Real(longest);
   }
 
   /// Periods of the linearised motion in a step.
@@ -105,6 +98,21 @@ class GaussStepControl {
   }
 
  private:
+  /// GaussStepRule::longest_sampling_step from a state; infinite where the system has no such
+  /// field.
+  template <class State>
+  double longest_sampling_step(const DynamicalSystem& system, const State& state) const {
+    if (system.waves_on_a_circle == 0) return std::numeric_limits<double>::infinity();
+    const std::size_t n = system.degrees_of_freedom;
+    double distance = 0;
+    double speed = 0;
+    for (std::size_t c = 0; c < n; ++c) {
+      distance = std::hypot(distance, static_cast<double>(state(c)));
+      speed = std::hypot(speed, static_cast<double>(state(n + c)));
+    }
+    return rule_.longest_sampling_step(system.waves_on_a_circle, distance / speed);
+  }
+
   /// The largest component of the Legendre mode of one degree, below s, of the slopes.
   double mode(int degree) {
     double result = 0;

@@ -1,14 +1,9 @@
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <cstddef>
-#include <limits>
 #include <vector>
 
 #include "contraction.hpp"
-#include "hamjet/detail/dynamics/slice_evaluator.hpp"
-#include "hamjet/integrators/flow_problem.hpp"
 #include "stage_system.hpp"
 
 namespace hamjet {
@@ -44,7 +39,8 @@ class StageIteration {
       stages_[c] = base_[c] + (system_.couple(slopes[c]) + lost_[c]);
     }
     set_scale();
-    // The step's end is as far from the solution as one iteration more would be.
+    // The step's end is of the slopes at these stages: it is nearer to the solution than they are,
+    // its positions as one iteration more would be, its momenta by the root of that.
     Contraction<Real> contraction(true);
     bool is_lost_known = false;
     while (true) {
@@ -77,9 +73,7 @@ class StageIteration {
   /// Changes count relative to the largest of a component's stages, or of the base.
   void set_scale() {
     for (std::size_t c = 0; c < stages_.size(); ++c) {
-      const Real scale =
-          largest_magnitude(larger_magnitude(larger_magnitude(P(Real(0)), stages_[c]), base_[c]));
-      inverse_scale_[c] = P(scale > 0 ? Real(1 / scale) : Real(0));
+      inverse_scale_[c] = inverse_scale(stages_[c], base_[c]);
     }
   }
 

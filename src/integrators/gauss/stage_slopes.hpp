@@ -23,6 +23,10 @@ class StageSlopes {
  public:
   using P = Pack<Real, Lanes>;
 
+  /// So many monomials are solved for at once. Numbers of monomials of a degree, binomial
+  /// coefficients, are often multiples of it; and 21 sums of three components fit the registers.
+  static constexpr std::size_t tile = 7;
+
   StageSlopes(const DynamicalSystem& system, const GaussTableau& tableau, SpacePointer space,
               int working_order)
       : system_(system, tableau),
@@ -170,9 +174,7 @@ class StageSlopes {
     const Real epsilon = std::numeric_limits<Real>::epsilon();
     bool is_factorised = false;
     for (int iteration = 0; iteration < largest_iteration_count; ++iteration) {
-      place_stages(state);
-      evaluator_.evaluate_constant_terms();
-      ++statistics.nominal_evaluations;
+      evaluate_at_slopes(state, statistics);
       if (!is_factorised) {
         if (!factorise()) return false;
         is_factorised = true;
@@ -191,9 +193,7 @@ class StageSlopes {
       if (size <= 2 * epsilon ||
           (is_stalled &&
            size <= 100 * epsilon * rounding_amplification(system_, evaluator_, slopes_, state))) {
-        place_stages(state);
-        evaluator_.evaluate_constant_terms();
-        ++statistics.nominal_evaluations;
+        evaluate_at_slopes(state, statistics);
         statistics.most_newton_iterations =
             std::max(statistics.most_newton_iterations, iteration + 1);
         return true;
@@ -281,9 +281,6 @@ class StageSlopes {
   }
 
   static constexpr int largest_iteration_count = 40;
-  /// Numbers of monomials of a degree, binomial coefficients, are often multiples of it; and 21
-  /// sums of three components fit the registers.
-  static constexpr std::size_t tile = 7;
 
   template <class State>
   void place_stages(const State& state) {

@@ -184,8 +184,8 @@ class LaneJets {
   }
 
   /// Solves Y = column + W Dg Y for one column by fixed-point iteration, of each orbit until it has
-  /// converged by itself: the same as DegreeIteration. Returns flags of those orbits
-  /// for which it does not contract, whose column is as it was.
+  /// converged by itself: the same as DegreeIteration. Returns flags of those orbits for which it
+  /// does not contract, whose column is as it was.
   Orbits iterate(const LaneStages& stages, const Orbits& taken, std::size_t t) {
     const std::size_t m = components();
     const std::size_t s = stages.stages();
