@@ -1,5 +1,8 @@
 #include "hamjet/detail/algebra/monomial_values.hpp"
 
+#include <cmath>
+#include <limits>
+
 #include "hamjet/error.hpp"
 
 namespace hamjet {
@@ -47,6 +50,15 @@ double MonomialValues::value(const Series<double>& series, int degree) const {
   double sum = 0;
   for (int d = degree; d >= 0; --d) sum += slice(series, d);
   return sum;
+}
+
+double MonomialValues::rounding(const Series<double>& series, int degree) const {
+  require_same_space(series.space(), *space_);
+  const std::size_t terms = space_->first(degree + 1);
+  double sum = 0;
+  for (std::size_t k = 0; k < terms; ++k) sum += std::abs(series[k] * values_[k]);
+  const double unit = std::numeric_limits<double>::epsilon() / 2;
+  return (static_cast<double>(terms) + degree) * unit * sum;
 }
 
 double MonomialValues::derivative(const Series<double>& series, std::size_t variable,

@@ -19,6 +19,14 @@ void PositionBoundaryValues::find_unknowns(int degree) {
   constexpr int most_iterations = 40;
   constexpr double rest = 4 * std::numeric_limits<double>::epsilon();
   constexpr double nearly_at_rest = 1e-9;  // stagnation below this is round-off
+  // Where terms cancel, so is stagnation below what the rounding of the positions makes of a step.
+  const auto step_of_rounding = [&](const auto& factorised) {
+    Eigen::VectorXd rounding(static_cast<Eigen::Index>(unknowns_.size()));
+    for (Eigen::Index i = 0; i < rounding.size(); ++i) {
+      rounding(i) = values_.rounding(*unknowns_[static_cast<std::size_t>(i)].position, degree);
+    }
+    return (factorised.inverse().cwiseAbs() * rounding).eval().maxCoeff();
+  };
   const auto count = static_cast<Eigen::Index>(unknowns_.size());
   Eigen::MatrixXd jacobian(count, count);
   Eigen::VectorXd residual(count);
@@ -34,7 +42,8 @@ void PositionBoundaryValues::find_unknowns(int degree) {
             *unknown.position, unknowns_[static_cast<std::size_t>(j)].variable, degree);
       }
     }
-    const Eigen::VectorXd step = jacobian.partialPivLu().solve(residual);
+    const Eigen::PartialPivLU<Eigen::MatrixXd> factorised(jacobian);
+    const Eigen::VectorXd step = factorised.solve(residual);
     if (!step.allFinite()) break;
     for (Eigen::Index j = 0; j < count; ++j) {
       double& momentum = point_[unknowns_[static_cast<std::size_t>(j)].variable];
@@ -42,7 +51,11 @@ void PositionBoundaryValues::find_unknowns(int degree) {
       size = std::max(size, std::abs(momentum));
     }
     const double norm = step.lpNorm<Eigen::Infinity>();
-    if (norm <= rest * size || (norm <= nearly_at_rest * size && norm >= last_step)) return;
+    if (norm <= rest * size) return;
+    if (norm >= last_step &&
+        (norm <= nearly_at_rest * size || norm <= step_of_rounding(factorised))) {
+      return;
+    }
     last_step = norm;
   }
   throw Error(ErrorKind::numerical,

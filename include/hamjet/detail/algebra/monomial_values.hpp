@@ -20,6 +20,10 @@ class MonomialValues {
 
   /// The terms of degree 0..degree of a series at the point, summed from the highest degree down.
   double value(const Series<double>& series, int degree) const;
+  /// A bound of the rounding of that value: of n terms of degree d at most, to first order (n + d)
+  /// unit round-offs of the sum of their magnitudes (Higham, Accuracy and Stability of Numerical
+  /// Algorithms, 2nd ed., section 5.1).
+  double rounding(const Series<double>& series, int degree) const;
   /// The homogeneous part of one degree of a series at the point.
   double slice(const Series<double>& series, int degree) const;
   /// The partial derivative by a variable, at the point, of the terms of degree 0..degree of a
