@@ -5,6 +5,7 @@
 #include "hamjet/algebra/extended.hpp"
 #include "hamjet/charts/canonical_chart.hpp"
 #include "hamjet/charts/jet_coordinates.hpp"
+#include "hamjet/integrators/flow_problem.hpp"
 #include "hamjet/maps/flow_map.hpp"
 #include "hamjet/studies/scene.hpp"
 
