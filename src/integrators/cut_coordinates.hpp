@@ -147,7 +147,7 @@ class CutCoordinates {
         return;
       }
       for (std::size_t k = space_->first(d); k < space_->first(d + 1); ++k) {
-        const Real change = -energy.output(0)[k] / slope_;
+        const Real change = -energy.remainder(0)[k] / slope_;
         for (std::size_t i = 0; i < n_; ++i) {
           start_[i][k] = scale(i) * axis(i, 0) * change;
           energy.input(i)[k] = start_[i][k];
@@ -162,7 +162,7 @@ class CutCoordinates {
   bool is_coordinate(const SliceEvaluator<Real, Real>& energy) const {
     double curvature = 0;
     for (std::size_t k = space_->first(2); k < space_->first(3); ++k) {
-      curvature = std::max(curvature, std::abs(static_cast<double>(energy.output(0)[k])));
+      curvature = std::max(curvature, std::abs(static_cast<double>(energy.remainder(0)[k])));
     }
     const double slope = std::abs(static_cast<double>(slope_));
     return std::isfinite(curvature) && slope >= smallest_reach * field_reach() * curvature;

@@ -122,7 +122,7 @@ class NewmarkForce {
       for (std::size_t j = 0; j < n_; ++j) {
         add(force, entry(position_response_, i, j), x(j), first, last);
         if (!evaluator_.has_remainder(j, d)) continue;
-        add(force, entry(response_, i, j), evaluator_.output(j), first, last);
+        add(force, entry(response_, i, j), evaluator_.remainder(j), first, last);
       }
     }
     for (std::size_t i = 0; i < n_; ++i) {

@@ -94,6 +94,29 @@ TYPED_TEST(SeriesProduct, IsARingProduct) {
   }
 }
 
+/// Of packs and numbers, on top of what is there; orders past the largest unrolled block.
+TEST(AddedProduct, EqualsTheProductWithTheNumberInAllLanes) {
+  using P = Pack<double, 8>;
+  RandomNumbers random(4);
+  for (const Shape& shape : {Shape{2, 5}, Shape{3, 9}, Shape{4, 8}, Shape{5, 4}}) {
+    const auto space = SeriesSpace::create(shape.variables, shape.order);
+    const auto a = test::random_integer_series<P>(space, random);
+    const auto before = test::random_integer_series<P>(space, random);
+    const auto numbers = test::random_integer_series<double>(space, random);
+    Series<P> b(space);
+    for (std::size_t k = 0; k < space->size(); ++k) b[k] = P(numbers[k]);
+    for (int d = 1; d <= space->order(); ++d) {
+      auto added = before;
+      add_interior_product(*space, d, a.coefficients().data(), numbers.coefficients().data(),
+                           added.coefficients().data());
+      Series<P> product(space);
+      interior_product(*space, d, a.coefficients().data(), b.coefficients().data(),
+                       product.coefficients().data());
+      expect_equal(added, before + product, "added product");
+    }
+  }
+}
+
 TYPED_TEST(SeriesProduct, InteriorProductLeavesConstantTermsAndOtherSlicesAlone) {
   using T = TypeParam;
   RandomNumbers random(3);

@@ -115,7 +115,7 @@ TEST(SliceEvaluator, SplitsEachSliceIntoRemainderAndLinearPart) {
     split.evaluate_remainder(d);
     for (std::size_t o = 0; o < list.outputs().size(); ++o) {
       for (std::size_t k = space->first(d); k < space->first(d + 1); ++k) {
-        const double remainder = split.has_remainder(o, d) ? split.output(o)[k] : 0;
+        const double remainder = split.has_remainder(o, d) ? split.remainder(o)[k] : 0;
         double linear = 0;
         for (std::size_t j = 0; j < 3; ++j) linear += split.output_gradient(o, j) * inputs[j][k];
         EXPECT_NEAR(remainder + linear, whole.output(o)[k], 1e-12 * (1 + std::abs(linear)))

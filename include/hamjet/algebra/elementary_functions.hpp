@@ -15,15 +15,17 @@ namespace hamjet {
 
 namespace detail {
 
-/// Completes w = f(u) degree by degree, given f(u_0), f'(u_0) and the interior part.
-template <class T, class Interior>
-Series<T> complete_function(const Series<T>& u, const T& value, const T& derivative,
-                            Interior interior) {
+/// Completes w = f(u) degree by degree, given f(u_0), f'(u_0), the scale and the sums.
+template <class T, class Sum>
+Series<T> complete_function(const Series<T>& u, const T& value, const T& derivative, const T& scale,
+                            Sum sum) {
   const SeriesSpace& space = u.space();
   Series<T> w(u.space_pointer(), value);
   for (int d = 1; d <= space.order(); ++d) {
-    interior(d, w.coefficients().data());
-    for (std::size_t k = space.first(d); k < space.first(d + 1); ++k) w[k] += derivative * u[k];
+    sum(d, w.coefficients().data());
+    for (std::size_t k = space.first(d); k < space.first(d + 1); ++k) {
+      w[k] = scale * w[k] + derivative * u[k];
+    }
   }
   return w;
 }
@@ -36,9 +38,9 @@ Series<T> operator/(const Series<T>& u, const Series<T>& v) {
   const SeriesSpace& space = u.space();
   Series<T> w(u.space_pointer(), T(u[0] / v[0]));
   for (int d = 1; d <= space.order(); ++d) {
-    quotient_interior(space, d, v.coefficients().data(), w.coefficients().data());
+    quotient_sum(space, d, v.coefficients().data(), w.coefficients().data());
     for (std::size_t k = space.first(d); k < space.first(d + 1); ++k) {
-      w[k] += (u[k] - w[0] * v[k]) / v[0];
+      w[k] = (u[k] - w[0] * v[k] - w[k]) / v[0];
     }
   }
   return w;
@@ -47,17 +49,17 @@ Series<T> operator/(const Series<T>& u, const Series<T>& v) {
 template <class T>
 Series<T> operator/(const std::type_identity_t<T>& a, const Series<T>& u) {
   const T value = T(1) / u[0];
-  return a * detail::complete_function(u, value, T(-value * value), [&](int d, T* w) {
-           reciprocal_interior(u.space(), d, u.coefficients().data(), w);
-         });
+  return a * detail::complete_function(
+                 u, value, T(-value * value), quotient_scale(value),
+                 [&](int d, T* w) { quotient_sum(u.space(), d, u.coefficients().data(), w); });
 }
 
 template <class T>
 Series<T> sqrt(const Series<T>& u) {
   using std::sqrt;
   const T value(sqrt(u[0]));
-  return detail::complete_function(u, value, T(T(1) / (T(2) * value)),
-                                   [&](int d, T* w) { square_root_interior(u.space(), d, w); });
+  return detail::complete_function(u, value, T(T(1) / (T(2) * value)), square_root_scale(value),
+                                   [&](int d, T* w) { square_root_sum(u.space(), d, w); });
 }
 
 /// u^exponent for any real exponent; the constant term must not be zero (nor negative unless the
@@ -67,9 +69,10 @@ template <class T, class Real>
 Series<T> pow(const Series<T>& u, const Real& exponent) {
   const T value = power(u[0], exponent);
   std::vector<T> scratch(u.size(), T(0));
-  return detail::complete_function(u, value, T(T(exponent) * value / u[0]), [&](int d, T* w) {
-    power_interior(u.space(), d, exponent, u.coefficients().data(), w, scratch.data());
-  });
+  return detail::complete_function(
+      u, value, T(T(exponent) * value / u[0]), power_scale(u[0]), [&](int d, T* w) {
+        power_sum(u.space(), d, exponent, u.coefficients().data(), w, scratch.data());
+      });
 }
 
 template <class T>
@@ -77,8 +80,8 @@ Series<T> exp(const Series<T>& u) {
   using std::exp;
   const T value(exp(u[0]));
   std::vector<T> scratch(u.size(), T(0));
-  return detail::complete_function(u, value, value, [&](int d, T* w) {
-    exponential_interior<T>(u.space(), d, u.coefficients().data(), w, scratch.data());
+  return detail::complete_function(u, value, value, T(1), [&](int d, T* w) {
+    exponential_sum<T>(u.space(), d, u.coefficients().data(), w, scratch.data());
   });
 }
 
@@ -86,9 +89,10 @@ template <class T>
 Series<T> log(const Series<T>& u) {
   using std::log;
   std::vector<T> scratch(u.size(), T(0));
-  return detail::complete_function(u, T(log(u[0])), T(T(1) / u[0]), [&](int d, T* w) {
-    logarithm_interior<T>(u.space(), d, u.coefficients().data(), w, scratch.data());
-  });
+  return detail::complete_function(
+      u, T(log(u[0])), T(T(1) / u[0]), logarithm_scale(u[0]), [&](int d, T* w) {
+        logarithm_sum<T>(u.space(), d, u.coefficients().data(), w, scratch.data());
+      });
 }
 
 /// Sine and cosine together, for each needs the other.
@@ -101,11 +105,11 @@ std::pair<Series<T>, Series<T>> sin_cos(const Series<T>& u) {
   Series<T> c(u.space_pointer(), T(cos(u[0])));
   std::vector<T> scratch(u.size(), T(0));
   for (int d = 1; d <= space.order(); ++d) {
-    sine_cosine_interior<T>(space, d, u.coefficients().data(), s.coefficients().data(),
-                            c.coefficients().data(), scratch.data());
+    sine_cosine_sum<T>(space, d, u.coefficients().data(), s.coefficients().data(),
+                       c.coefficients().data(), scratch.data());
     for (std::size_t k = space.first(d); k < space.first(d + 1); ++k) {
       s[k] += c[0] * u[k];
-      c[k] -= s[0] * u[k];
+      c[k] = -(c[k] + s[0] * u[k]);
     }
   }
   return {std::move(s), std::move(c)};

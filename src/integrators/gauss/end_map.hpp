@@ -126,7 +126,7 @@ class EndMap {
     }
     for (std::size_t from = 0; from < m; ++from) {
       if (!evaluator.has_remainder(from, degree)) continue;
-      const P* r = evaluator.output(from) + monomial;
+      const P* r = evaluator.remainder(from) + monomial;
       for (std::size_t j = 0; j < s; ++j) {
         const P& column = of_remainders_[from * s + j];
         for (std::size_t t = 0; t < Width; ++t) {

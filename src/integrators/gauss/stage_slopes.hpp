@@ -315,7 +315,7 @@ class StageSlopes {
         if (!evaluator_.has_remainder(from, d)) continue;
         const P entry(system_.inverse_mass(c, from));
         for (std::size_t k = space_->first(d); k < space_->first(d + 1); ++k) {
-          mapped_[c][k] += entry * evaluator_.output(from)[k];
+          mapped_[c][k] += entry * evaluator_.remainder(from)[k];
         }
       }
     }
@@ -329,7 +329,7 @@ class StageSlopes {
 
   const P* remainder(std::size_t c) const {
     const bool is_mapped = system_.second_order() && !system_.unit_mass();
-    return is_mapped ? mapped_[c].data() : evaluator_.output(c);
+    return is_mapped ? mapped_[c].data() : evaluator_.remainder(c);
   }
 
   /// Forms Y of `Components` components from c on for `Width` monomials at once: each entry of K is

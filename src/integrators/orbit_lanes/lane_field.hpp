@@ -93,7 +93,7 @@ class LaneField {
         for (std::size_t a = 0; a < inputs_; ++a) {
           for (std::size_t b = a; b < inputs_; ++b, ++monomial) {
             second[((c * inputs_ + a) * inputs_ + b) * stages_ + i] =
-                point_.has_remainder(c, 2) ? point_.output(c)[monomial] : Orbits(0.0);
+                point_.has_remainder(c, 2) ? point_.remainder(c)[monomial] : Orbits(0.0);
           }
         }
       }

@@ -50,37 +50,54 @@ constexpr std::size_t product_position(std::size_t i, std::size_t j) {
   return (ri + rj) * (ri + rj + 1) / 2 + k;
 }
 
-/// sums[i * j] += a[i] * b[j] for all monomials i of degree MA and j of degree MB, fully unrolled.
-template <std::size_t MA, std::size_t MB, class T, class Sums>
-[[gnu::always_inline]] inline void multiply_blocks(Sums& sums, const T* a, const T* b,
-                                                   std::size_t part) {
-  constexpr std::size_t na = block_size(MA);
-  constexpr std::size_t nb = block_size(MB);
+/// One machine vector of a coefficient: a part of a pack, or a number in all lanes.
+template <class Vector, class T>
+[[gnu::always_inline]] inline Vector part_of(const T& x, std::size_t part) {
+  if constexpr (std::is_same_v<Vector, typename Parts<T>::Vector>) {
+    return Parts<T>::get(x, part);
+  } else {
+    return Vector(x);
+  }
+}
+
+/// sums[i * j - First] += a[i] * b[j] for all monomials i of degree MA and j of degree MB whose
+/// product stands at a position from First to before Last, fully unrolled.
+template <std::size_t MA, std::size_t MB, std::size_t First, std::size_t Last, class A, class B,
+          class Vector, std::size_t Count>
+[[gnu::always_inline]] inline void multiply_blocks(std::array<Vector, Count>& sums, const A* a,
+                                                   const B* b, std::size_t part) {
+  const auto add = [&]<std::size_t I, std::size_t J>(
+      const Vector& factor, std::index_sequence<I, J>) __attribute__((always_inline)) {
+    constexpr std::size_t place = product_position(I, J);
+    if constexpr (place >= First && place < Last) {
+      sums[place - First] += factor * part_of<Vector>(b[J], part);
+    }
+  };
   [&]<std::size_t... I>(std::index_sequence<I...>) __attribute__((always_inline)) {
     (
         [&]<std::size_t Row, std::size_t... J>(std::integral_constant<std::size_t, Row>,
                                                std::index_sequence<J...>)
             __attribute__((always_inline)) {
-              const auto factor = Parts<T>::get(a[Row], part);
-              ((sums[product_position(Row, J)] += factor * Parts<T>::get(b[J], part)), ...);
-            }(std::integral_constant<std::size_t, I>{}, std::make_index_sequence<nb>{}),
+              const Vector factor = part_of<Vector>(a[Row], part);
+              (add(factor, std::index_sequence<Row, J>{}), ...);
+            }(std::integral_constant<std::size_t, I>{}, std::make_index_sequence<block_size(MB)>{}),
         ...);
   }
-  (std::make_index_sequence<na>{});
+  (std::make_index_sequence<block_size(MA)>{});
 }
 
-/// sums[i * j] += a[i] * b[j] for block degrees known at run time only, of blocks too large for the
-/// registers.
-template <class T, class Vector>
-void multiply_blocks(Vector* sums, const T* a, const T* b, std::size_t m_a, std::size_t m_b,
+/// sums[i * j] += a[i] * b[j] for block degrees known at run time only.
+template <class Vector, class A, class B>
+void multiply_blocks(Vector* sums, const A* a, const B* b, std::size_t m_a, std::size_t m_b,
                      std::size_t part) {
   for (std::size_t ra = 0; ra <= m_a; ++ra) {
     for (std::size_t ka = 0; ka <= ra; ++ka) {
-      const Vector factor = Parts<T>::get(a[ra * (ra + 1) / 2 + ka], part);
+      const Vector factor = part_of<Vector>(a[ra * (ra + 1) / 2 + ka], part);
       for (std::size_t rb = 0; rb <= m_b; ++rb) {
         Vector* row = sums + (ra + rb) * (ra + rb + 1) / 2 + ka;
-        const T* b_row = b + rb * (rb + 1) / 2;
-        for (std::size_t kb = 0; kb <= rb; ++kb) row[kb] += factor * Parts<T>::get(b_row[kb], part);
+        const B* b_row = b + rb * (rb + 1) / 2;
+        for (std::size_t kb = 0; kb <= rb; ++kb)
+          row[kb] += factor * part_of<Vector>(b_row[kb], part);
       }
     }
   }
@@ -92,16 +109,40 @@ template <class Vector>
 inline constexpr bool is_machine_vector =
     std::is_arithmetic_v<Vector> || std::experimental::is_simd_v<Vector>;
 
-/// Largest block degree whose sums are kept in registers: they take 28 of the 32 of AVX-512.
-inline constexpr std::size_t largest_unrolled_block = 6;
+/// Largest block degree whose products are unrolled.
+inline constexpr std::size_t largest_unrolled_block = 8;
 
-/// Forms one block of a product, or of a square (where a and b are the same).
-template <std::size_t M, bool Square, class T>
+/// So many sums are formed together at most: they stay in registers, of which there are 32 with
+/// AVX-512, with what compilers keep of the factors beside them. Of a block of degree 6, all 28
+/// sums at once take 1.15 times as long as two halves, for a part of them then goes through memory.
+inline constexpr std::size_t most_sums = 15;
+
+/// Where the sums that are formed together from `first` on end: a block is cut into equal parts.
+constexpr std::size_t end_of_sums(std::size_t first, std::size_t block_size) {
+  const std::size_t parts = (block_size + most_sums - 1) / most_sums;
+  return std::min(first + (block_size + parts - 1) / parts, block_size);
+}
+
+/// What is formed: c = a b, c = a^2 (where b is a), or c += a b.
+enum class SliceForm { product, square, added_product };
+
+template <SliceForm Form, class Vector>
+void put_sum(const Vector& sum, Vector& target) {
+  if constexpr (Form == SliceForm::added_product) {
+    target += sum;
+  } else {
+    target = sum;
+  }
+}
+
+/// Forms the sums from First on of one block; b may be of numbers where a is of packs.
+template <std::size_t M, SliceForm Form, std::size_t First = 0, class T, class B>
 void form_block(const ProductSchedule::Output& output, const ProductSchedule::Pair* pairs,
-                const std::uint32_t* run_ends, const T* a, const T* b, T* c) {
+                const std::uint32_t* run_ends, const T* a, const B* b, T* c) {
   using Vector = typename Parts<T>::Vector;
+  constexpr std::size_t last = end_of_sums(First, block_size(M));
   for (std::size_t part = 0; part < Parts<T>::count; ++part) {
-    std::array<Vector, block_size(M)> sums{};
+    std::array<Vector, last - First> sums{};
     std::size_t pair = output.first_pair;
     [&]<std::size_t... MX>(std::index_sequence<MX...>) __attribute__((always_inline)) {
       (
@@ -109,30 +150,37 @@ void form_block(const ProductSchedule::Output& output, const ProductSchedule::Pa
               __attribute__((always_inline)) {
                 for (const std::size_t end = run_ends[output.first_run + Mx]; pair < end; ++pair) {
                   const auto [x, y] = pairs[pair];
-                  multiply_blocks<Mx, M - Mx>(sums, a + x, b + y, part);
-                  if constexpr (!Square) multiply_blocks<Mx, M - Mx>(sums, b + x, a + y, part);
+                  multiply_blocks<Mx, M - Mx, First, last>(sums, a + x, b + y, part);
+                  if constexpr (Form != SliceForm::square) {
+                    multiply_blocks<Mx, M - Mx, First, last>(sums, b + x, a + y, part);
+                  }
                 }
               }(std::integral_constant<std::size_t, MX>{}),
           ...);
     }
     (std::make_index_sequence<M / 2 + 1>{});
-    if constexpr (Square) {
+    if constexpr (Form == SliceForm::square) {
       for (auto& sum : sums) sum += sum;
     }
     if constexpr (M % 2 == 0) {
       if (output.diagonal != ProductSchedule::no_diagonal) {
-        multiply_blocks<M / 2, M / 2>(sums, a + output.diagonal, b + output.diagonal, part);
+        multiply_blocks<M / 2, M / 2, First, last>(sums, a + output.diagonal, b + output.diagonal,
+                                                   part);
       }
     }
-    for (std::size_t i = 0; i < sums.size(); ++i)
-      Parts<T>::get(c[output.offset + i], part) = sums[i];
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+      put_sum<Form>(sums[i], Parts<T>::get(c[output.offset + First + i], part));
+    }
+  }
+  if constexpr (last < block_size(M)) {
+    form_block<M, Form, last>(output, pairs, run_ends, a, b, c);
   }
 }
 
-/// Forms one block of a product or square whose degree is too large for the registers.
-template <bool Square, class T>
+/// Forms one block whose degree is known at run time only.
+template <SliceForm Form, class T, class B>
 void form_large_block(const ProductSchedule::Output& output, const ProductSchedule::Pair* pairs,
-                      const std::uint32_t* run_ends, const T* a, const T* b, T* c) {
+                      const std::uint32_t* run_ends, const T* a, const B* b, T* c) {
   using Vector = typename Parts<T>::Vector;
   const std::size_t m = output.block_degree;
   std::vector<Vector> sums(block_size(m));
@@ -143,29 +191,32 @@ void form_large_block(const ProductSchedule::Output& output, const ProductSchedu
       for (const std::size_t end = run_ends[output.first_run + m_x]; pair < end; ++pair) {
         const auto [x, y] = pairs[pair];
         multiply_blocks(sums.data(), a + x, b + y, m_x, m - m_x, part);
-        if (!Square) multiply_blocks(sums.data(), b + x, a + y, m_x, m - m_x, part);
+        if (Form != SliceForm::square) {
+          multiply_blocks(sums.data(), b + x, a + y, m_x, m - m_x, part);
+        }
       }
     }
-    if constexpr (Square) {
+    if (Form == SliceForm::square) {
       for (auto& sum : sums) sum += sum;
     }
     if (output.diagonal != ProductSchedule::no_diagonal) {
       multiply_blocks(sums.data(), a + output.diagonal, b + output.diagonal, m / 2, m / 2, part);
     }
-    for (std::size_t i = 0; i < sums.size(); ++i)
-      Parts<T>::get(c[output.offset + i], part) = sums[i];
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+      put_sum<Form>(sums[i], Parts<T>::get(c[output.offset + i], part));
+    }
   }
 }
 
-template <bool Square, class T>
+template <SliceForm Form, class T, class B>
 void form_unrolled_blocks(const ProductSchedule::Output* output, const ProductSchedule::Output* end,
                           const ProductSchedule::Pair* pairs, const std::uint32_t* run_ends,
-                          const T* a, const T* b, T* c) {
+                          const T* a, const B* b, T* c) {
   // Outputs of equal block degree stand together: one dispatch for all of them.
   while (output != end) {
     const auto run = [&]<std::size_t M>(std::integral_constant<std::size_t, M>) {
       for (; output != end && output->block_degree == M; ++output) {
-        form_block<M, Square>(*output, pairs, run_ends, a, b, c);
+        form_block<M, Form>(*output, pairs, run_ends, a, b, c);
       }
     };
     switch (output->block_degree) {
@@ -187,11 +238,17 @@ void form_unrolled_blocks(const ProductSchedule::Output* output, const ProductSc
       case 5:
         run(std::integral_constant<std::size_t, 5>{});
         break;
+      case 6:
+        run(std::integral_constant<std::size_t, 6>{});
+        break;
+      case 7:
+        run(std::integral_constant<std::size_t, 7>{});
+        break;
       case largest_unrolled_block:
         run(std::integral_constant<std::size_t, largest_unrolled_block>{});
         break;
       default:
-        form_large_block<Square>(*output, pairs, run_ends, a, b, c);
+        form_large_block<Form>(*output, pairs, run_ends, a, b, c);
         ++output;
     }
   }
@@ -209,18 +266,18 @@ void form_uncoupled(std::size_t variables, int d, const T* a, const T* b, T* c) 
   }
 }
 
-template <bool Square, class T>
-void form_slice(const ProductSchedule& schedule, const T* a, const T* b, T* c) {
+template <SliceForm Form, class T, class B>
+void form_slice(const ProductSchedule& schedule, const T* a, const B* b, T* c) {
   const ProductSchedule::Output* output = schedule.outputs.data();
   const ProductSchedule::Output* const end = output + schedule.outputs.size();
   const ProductSchedule::Pair* const pairs = schedule.pairs.data();
   const std::uint32_t* const run_ends = schedule.run_ends.data();
   if constexpr (!is_machine_vector<typename Parts<T>::Vector>) {
     for (; output != end; ++output) {
-      form_large_block<Square>(*output, pairs, run_ends, a, b, c);
+      form_large_block<Form>(*output, pairs, run_ends, a, b, c);
     }
   } else {
-    form_unrolled_blocks<Square>(output, end, pairs, run_ends, a, b, c);
+    form_unrolled_blocks<Form>(output, end, pairs, run_ends, a, b, c);
   }
 }
 
@@ -234,7 +291,7 @@ void interior_product(const SeriesSpace& space, int d, const T* a, const T* b, T
   if (space.is_uncoupled() && d >= 2) {
     return detail::form_uncoupled(space.variables(), d, a, b, c);
   }
-  detail::form_slice<false>(space.products(d), a, b, c);
+  detail::form_slice<detail::SliceForm::product>(space.products(d), a, b, c);
 }
 
 /// c_d = sum over 1 <= i <= d-1 of a_i a_(d-i): the interior product of a series with itself, at
@@ -244,7 +301,13 @@ void interior_square(const SeriesSpace& space, int d, const T* a, T* c) {
   if (space.is_uncoupled() && d >= 2) {
     return detail::form_uncoupled(space.variables(), d, a, a, c);
   }
-  detail::form_slice<true>(space.products(d), a, a, c);
+  detail::form_slice<detail::SliceForm::square>(space.products(d), a, a, c);
+}
+
+/// c_d += sum over 1 <= i <= d-1 of a_i b_(d-i), of packs and numbers.
+template <class T, class Real>
+void add_interior_product(const SeriesSpace& space, int d, const T* a, const Real* b, T* c) {
+  detail::form_slice<detail::SliceForm::added_product>(space.products(d), a, b, c);
 }
 
 }  // namespace hamjet

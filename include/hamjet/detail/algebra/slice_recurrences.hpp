@@ -11,11 +11,11 @@
 // for its slices (Knuth, The Art of Computer Programming 2, section 4.7; Griewank and Walther,
 // Evaluating Derivatives, chapter 13). Each is split as
 //
-//     w_d = interior_d(u_1..u_(d-1), w_1..w_(d-1)) + f'(u_0) u_d ,
+//     w_d = scale sum_d(u_1..u_(d-1), w_1..w_(d-1)) + f'(u_0) u_d ,
 //
-// because an implicit integrator knows the interior part before it knows u_d. The functions below
-// write interior_d into the degree-d slice of w (or of both results) and leave all else alone.
-// `scratch` holds one series.
+// because an implicit integrator knows the sum before it knows u_d. The functions below write
+// sum_d into the degree-d slice of w (or of both results) and leave all else alone; the scale,
+// which the constant terms alone make, stands beside each. `scratch` holds one series.
 
 namespace hamjet {
 
@@ -28,64 +28,66 @@ void scale_slices(const SeriesSpace& space, int d, const T* u, T* scratch, Weigh
   }
 }
 
+/// Of w = u / v: w v = u, so v_0 w_d = u_d - w_0 v_d - sum_(i=1)^(d-1) w_i v_(d-i). Of w = 1 / v
+/// the same without u_d.
 template <class T>
-void scale_slice(const SeriesSpace& space, int d, T* w, const T& factor) {
-  for (std::size_t k = space.first(d); k < space.first(d + 1); ++k) w[k] *= factor;
-}
-
-/// Interior of w = u / v: w v = u, so v_0 w_d = u_d - w_0 v_d - sum_(i=1)^(d-1) w_i v_(d-i).
-template <class T>
-void quotient_interior(const SeriesSpace& space, int d, const T* v, T* w) {
+void quotient_sum(const SeriesSpace& space, int d, const T* v, T* w) {
   interior_product(space, d, w, v, w);
-  scale_slice(space, d, w, T(-1) / v[0]);
+}
+template <class T>
+T quotient_scale(const T& inverse_v0) {
+  return -inverse_v0;
 }
 
-/// Interior of w = 1 / u, see quotient_interior.
+/// Of w = sqrt(u): w^2 = u, so 2 w_0 w_d = u_d - sum_(i=1)^(d-1) w_i w_(d-i).
 template <class T>
-void reciprocal_interior(const SeriesSpace& space, int d, const T* u, T* w) {
-  quotient_interior(space, d, u, w);
-}
-
-/// Interior of w = sqrt(u): w^2 = u, so 2 w_0 w_d = u_d - sum_(i=1)^(d-1) w_i w_(d-i).
-template <class T>
-void square_root_interior(const SeriesSpace& space, int d, T* w) {
+void square_root_sum(const SeriesSpace& space, int d, T* w) {
   interior_square(space, d, w, w);
-  scale_slice(space, d, w, T(-1) / (T(2) * w[0]));
+}
+template <class T>
+T square_root_scale(const T& w0) {
+  return T(-1) / (w0 + w0);
 }
 
-/// Interior of w = u^a: u E w = a w E u, so
-/// d u_0 w_d = d a w_0 u_d + sum_(i=1)^(d-1) (a i - (d - i)) u_i w_(d-i).
+/// Of w = u^a: u E w = a w E u, so u_0 w_d = a w_0 u_d + sum_(i=1)^(d-1) (a i - (d - i))/d u_i
+/// w_(d-i).
 template <class T, class Real>
-void power_interior(const SeriesSpace& space, int d, const Real& exponent, const T* u, T* w,
-                    T* scratch) {
-  scale_slices(space, d, u, scratch, [&](int i) { return Real(exponent * Real(i) - Real(d - i)); });
+void power_sum(const SeriesSpace& space, int d, const Real& exponent, const T* u, T* w,
+               T* scratch) {
+  scale_slices(space, d, u, scratch,
+               [&](int i) { return Real((exponent * Real(i) - Real(d - i)) / Real(d)); });
   interior_product(space, d, scratch, w, w);
-  scale_slice(space, d, w, T(1) / (T(Real(d)) * u[0]));
+}
+template <class T>
+T power_scale(const T& u0) {
+  return T(1) / u0;
 }
 
-/// Interior of w = exp(u): E w = w E u, so d w_d = d w_0 u_d + sum_(i=1)^(d-1) i u_i w_(d-i).
+/// Of w = exp(u), of scale 1: E w = w E u, so w_d = w_0 u_d + sum_(i=1)^(d-1) i/d u_i w_(d-i).
 template <class Real, class T>
-void exponential_interior(const SeriesSpace& space, int d, const T* u, T* w, T* scratch) {
+void exponential_sum(const SeriesSpace& space, int d, const T* u, T* w, T* scratch) {
   scale_slices(space, d, u, scratch, [&](int i) { return Real(Real(i) / Real(d)); });
   interior_product(space, d, scratch, w, w);
 }
 
-/// Interior of w = log(u): u E w = E u, so d u_0 w_d = d u_d - sum_(i=1)^(d-1) i w_i u_(d-i).
+/// Of w = log(u): u E w = E u, so u_0 w_d = u_d - sum_(i=1)^(d-1) i/d w_i u_(d-i).
 template <class Real, class T>
-void logarithm_interior(const SeriesSpace& space, int d, const T* u, T* w, T* scratch) {
+void logarithm_sum(const SeriesSpace& space, int d, const T* u, T* w, T* scratch) {
   scale_slices(space, d, w, scratch, [&](int i) { return Real(Real(i) / Real(d)); });
   interior_product(space, d, scratch, u, w);
-  scale_slice(space, d, w, T(-1) / u[0]);
+}
+template <class T>
+T logarithm_scale(const T& u0) {
+  return T(-1) / u0;
 }
 
-/// Interiors of s = sin(u), c = cos(u): E s = c E u and E c = -s E u, so
-/// d s_d = d c_0 u_d + sum_(i=1)^(d-1) i u_i c_(d-i),  d c_d = -d s_0 u_d - sum i u_i s_(d-i).
+/// Of s = sin(u), of scale 1, and c = cos(u), of scale -1: E s = c E u and E c = -s E u, so
+/// s_d = c_0 u_d + sum_(i=1)^(d-1) i/d u_i c_(d-i),  c_d = -s_0 u_d - sum i/d u_i s_(d-i).
 template <class Real, class T>
-void sine_cosine_interior(const SeriesSpace& space, int d, const T* u, T* s, T* c, T* scratch) {
+void sine_cosine_sum(const SeriesSpace& space, int d, const T* u, T* s, T* c, T* scratch) {
   scale_slices(space, d, u, scratch, [&](int i) { return Real(Real(i) / Real(d)); });
   interior_product(space, d, scratch, c, s);
   interior_product(space, d, scratch, s, c);
-  scale_slice(space, d, c, T(-1));
 }
 
 /// x^exponent: by multiplications and one square root where twice the exponent is a small integer
