@@ -55,7 +55,7 @@ TEST(ComposeByHorner, AgreesWithComposition) {
   compare<double>(2, 6, 2, 6, 2);
   compare<double>(4, 4, 4, 4, 4);
   compare<double>(6, 4, 6, 4, 6);
-  compare<double>(3, 8, 3, 8, 2);  // blocks too large for the registers
+  compare<double>(3, 9, 3, 9, 2);  // the largest block is not unrolled
 }
 
 TEST(ComposeByHorner, BetweenDifferentSpaces) {

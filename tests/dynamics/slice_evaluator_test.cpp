@@ -127,11 +127,89 @@ TEST(SliceEvaluator, SplitsEachSliceIntoRemainderAndLinearPart) {
     }
     split.complete(d);
   }
+  // The same sums in another order.
   for (std::size_t o = 0; o < list.outputs().size(); ++o) {
     for (std::size_t k = 0; k < space->size(); ++k) {
-      EXPECT_EQ(split.output(o)[k], whole.output(o)[k]) << "output " << o;
+      const double value = whole.output(o)[k];
+      EXPECT_NEAR(split.output(o)[k], value, 1e-12 * (1 + std::abs(value))) << "output " << o;
     }
   }
+}
+
+/// Lists of one to seven outputs, some of them alike, constant, affine, inputs, or operands of
+/// others. In whole numbers, so without rounding, by hand: x = 1 + 2 u + v, y = 3 + u - v.
+TEST(SliceEvaluator, FormsOutputsOfEveryKindAndNumber) {
+  const auto functions = [](auto x, auto y) {
+    const auto product = x * y;
+    const auto square_of_it = product * product;
+    return std::vector{product, square_of_it, product, x + y, y, square_of_it + x, product - y};
+  };
+  const auto space = SeriesSpace::create(2, 4);
+  const auto u = Series<double>::variable(space, 0);
+  const auto v = Series<double>::variable(space, 1);
+  const std::vector<Series<double>> inputs = {1.0 + 2.0 * u + v, 3.0 + u - v};
+  const auto expected = functions(inputs[0], inputs[1]);
+  for (std::size_t count = 1; count <= expected.size(); ++count) {
+    const OperationList list = record(2, [&](std::span<const Expression> x) {
+      auto all = functions(x[0], x[1]);
+      all.resize(count);
+      all.push_back(Expression(7.0));
+      return all;
+    });
+    SliceEvaluator<double, double> whole(list, space, 4);
+    SliceEvaluator<double, double> split(list, space, 4);
+    for (std::size_t i = 0; i < 2; ++i) {
+      std::copy_n(inputs[i].coefficients().data(), space->size(), whole.input(i));
+      *split.input(i) = inputs[i][0];
+    }
+    whole.evaluate_all();
+    split.evaluate_constant_terms();
+    for (int d = 1; d <= 4; ++d) {
+      split.evaluate_remainder(d);
+      for (std::size_t i = 0; i < 2; ++i) {
+        std::copy_n(&inputs[i][space->first(d)], space->count(d), split.input(i) + space->first(d));
+      }
+      split.complete(d);
+    }
+    for (std::size_t o = 0; o < count; ++o) {
+      for (std::size_t k = 0; k < space->size(); ++k) {
+        EXPECT_EQ(whole.output(o)[k], expected[o][k]) << count << " outputs, output " << o;
+        EXPECT_EQ(split.output(o)[k], expected[o][k]) << count << " outputs, output " << o;
+      }
+      // The linear coefficients are those of the gradient along x and y.
+      EXPECT_EQ(2 * split.output_gradient(o, 0) + split.output_gradient(o, 1), expected[o][1]);
+      EXPECT_EQ(split.output_gradient(o, 0) - split.output_gradient(o, 1), expected[o][2]);
+    }
+    for (std::size_t k = 0; k < space->size(); ++k) {
+      EXPECT_EQ(whole.output(count)[k], k == 0 ? 7 : 0);
+      EXPECT_EQ(split.output(count)[k], k == 0 ? 7 : 0);
+    }
+  }
+}
+
+/// The derivative of a root at 0 is not finite; what does not depend on it is as it would be alone.
+TEST(SliceEvaluator, AnOutputThatIsNotFiniteLeavesTheOthersAlone) {
+  const OperationList list = record(2, [](std::span<const Expression> x) {
+    return std::vector{x[0] * x[1], sqrt(x[0]), x[0] + 2 * x[1]};
+  });
+  const auto space = SeriesSpace::create(2, 3);
+  SliceEvaluator<double, double> evaluator(list, space, 3);
+  for (std::size_t i = 0; i < 2; ++i) {
+    *evaluator.input(i) = static_cast<double>(i);
+    evaluator.input(i)[space->linear_index(i)] = 1;
+  }
+  evaluator.evaluate_all();
+  EXPECT_FALSE(std::isfinite(evaluator.output_gradient(1, 0)));
+  for (std::size_t k = 0; k < space->size(); ++k) {
+    const auto exponents = space->exponents(k);
+    const bool is_x = space->degree(k) == 1 && exponents[0] == 1;
+    const bool is_y = space->degree(k) == 1 && exponents[1] == 1;
+    const bool is_product = space->degree(k) == 2 && exponents[0] == 1;
+    EXPECT_EQ(evaluator.output(0)[k], is_x || is_product ? 1 : 0);  // x (1 + y)
+    EXPECT_EQ(evaluator.output(2)[k], k == 0 || is_y ? 2 : (is_x ? 1 : 0));
+  }
+  EXPECT_EQ(evaluator.output_gradient(0, 0), 1);
+  EXPECT_EQ(evaluator.output_gradient(2, 1), 2);
 }
 
 TEST(SliceEvaluator, AffineOutputsHaveNoRemainder) {

@@ -1,7 +1,10 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
+#include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "hamjet/algebra/truncated_power_series.hpp"
 #include "hamjet/detail/algebra/slice_recurrences.hpp"

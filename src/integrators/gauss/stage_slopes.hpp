@@ -303,7 +303,7 @@ class StageSlopes {
     }
   }
 
-  /// Forms the remainders of M^-1 F. An affine force has none: its slice is not yet meaningful.
+  /// Forms the remainders of M^-1 F. An affine force has none and is left out.
   void apply_inverse_mass(int d) {
     mapped_.resize(system_.components());
     for (std::size_t c = 0; c < system_.components(); ++c) {

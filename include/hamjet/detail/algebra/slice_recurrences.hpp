@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <cstddef>
-#include <vector>
 
 #include "hamjet/detail/algebra/slice_product.hpp"
 

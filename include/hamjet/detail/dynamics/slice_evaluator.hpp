@@ -2,7 +2,7 @@
 
 #include <cmath>
 #include <cstddef>
-#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "hamjet/detail/algebra/slice_recurrences.hpp"
@@ -67,7 +67,7 @@ class SliceEvaluator {
     for (std::size_t i = list_->inputs(); i < list_->operations().size(); ++i) {
       set_linear_part(i, list_->operations()[i]);
     }
-    propagation_.differentiate(working_order_ >= 2);
+    propagation_.set_gradients();
   }
   /// Evaluates the constant terms of all values, without gradients.
   void evaluate_constant_values() {
@@ -76,12 +76,11 @@ class SliceEvaluator {
     }
   }
 
-  /// Forms the remainders r_d, d >= 1.
+  /// Forms the remainders r_d, d = 1 to the working order in turn, each once.
   void evaluate_remainder(int d) {
     if (d < 2) return;  // at degree 1 everything is linear in the inputs
-    for (std::size_t i = list_->inputs(); i < list_->operations().size(); ++i) {
-      form_sums(i, list_->operations()[i], d);
-    }
+    if (d == 2) propagation_.set_weights();
+    form_sums(d);
     propagation_.form_remainders(slices_.data(), stride_, space_->first(d), space_->first(d + 1),
                                  remainders_.data());
   }
@@ -90,7 +89,7 @@ class SliceEvaluator {
   bool has_remainder(std::size_t output, int d) const {
     return d >= 2 && !list_->is_affine(list_->outputs()[output]);
   }
-  /// The remainders of the i-th output, where it has them.
+  /// The remainders of the i-th output, where it has them; for working orders of 2 and more.
   const T* remainder(std::size_t i) const { return remainders_.data() + i * stride_; }
 
   /// Forms all values from the remainders and the inputs' slices of degree d, which are known now.
@@ -108,12 +107,14 @@ class SliceEvaluator {
   /// The work of the products of series formed so far.
   const SeriesWork& work() const noexcept { return work_; }
 
-  /// Evaluates all degrees at once, for explicit methods, which know the inputs in full.
+  /// Evaluates all degrees at once, for explicit methods, which know the inputs in full and need no
+  /// remainders.
   void evaluate_all() {
     evaluate_constant_terms();
     for (int d = 1; d <= working_order_; ++d) {
-      evaluate_remainder(d);
-      complete(d);
+      if (d >= 2) form_sums(d);
+      propagation_.complete_values(slices_.data(), stride_, space_->first(d), space_->first(d + 1),
+                                   d >= 2);
     }
   }
 
@@ -209,6 +210,12 @@ class SliceEvaluator {
         propagation_.factor(i, 0) = -*value(o.v);
         propagation_.scale(i) = T(Real(-1));
         break;
+    }
+  }
+
+  void form_sums(int d) {
+    for (std::size_t i = list_->inputs(); i < list_->operations().size(); ++i) {
+      form_sums(i, list_->operations()[i], d);
     }
   }
 

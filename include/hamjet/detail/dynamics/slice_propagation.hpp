@@ -4,9 +4,12 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
+#include "hamjet/algebra/extended.hpp"
 #include "hamjet/detail/dynamics/operation_list.hpp"
 
 namespace hamjet {
@@ -22,9 +25,9 @@ namespace hamjet {
 ///
 ///   y_d = sum weight s + grad y . x_d ,
 ///
-/// so that nothing in between is needed for it; weights and gradients are found backwards through
-/// the list (the reverse mode of Griewank and Walther, Evaluating Derivatives, section 3.2). T and
-/// Real are as in SliceEvaluator.
+/// so that nothing in between is needed for it. Gradients are found forwards through the list, for
+/// they are wanted of constant terms alone too; weights backwards (Griewank and Walther, Evaluating
+/// Derivatives, sections 3.1 and 3.2). T and Real are as in SliceEvaluator.
 template <class T, class Real>
 class SlicePropagation {
  public:
@@ -41,20 +44,17 @@ class SlicePropagation {
       });
     }
     first_factor_.push_back(operands_.size());
-    gradients_.assign(list.outputs().size() * list.inputs(), T(Real(0)));
-    std::vector<bool> is_formed_as_output(scales_.size(), false);
-    for (const std::size_t output : list.outputs()) {
-      is_formed_as_output[output] = !list.is_affine(output);
-    }
-    for (std::size_t o = 0; o < list.outputs().size();) {
-      const bool is_whole = o + whole_group <= list.outputs().size();
-      groups_.push_back(group_of(o, is_whole ? whole_group : 1));
-      o += groups_.back().outputs;
-    }
+    gradients_.assign(scales_.size() * list.inputs(), T(Real(0)));
+    for (std::size_t j = 0; j < list.inputs(); ++j) gradient_of(j, j) = T(Real(1));
     adjoints_.assign(whole_group * scales_.size(), T(Real(0)));
+    set_groups();
+    std::vector<bool> is_output(scales_.size(), false);
+    for (const std::size_t output : list.outputs()) is_output[output] = true;
     for (std::size_t i = list.inputs(); i < scales_.size(); ++i) {
-      const bool has_terms = is_nonlinear(i) || first_factor_[i] != first_factor_[i + 1];
-      if (has_terms && (is_operand[i] || !is_formed_as_output[i])) intermediates_.push_back(i);
+      // A constant has no slices above degree 0.
+      if (!is_nonlinear(i) && first_factor_[i] == first_factor_[i + 1]) continue;
+      values_.push_back(i);
+      if (is_operand[i] || !is_output[i]) intermediates_.push_back(i);
     }
   }
 
@@ -76,93 +76,97 @@ class SlicePropagation {
     return sum + a * b;
   }
 
-  /// Forms gradients, and weights if they are needed, from the factors and scales.
-  void differentiate(bool needs_weights) {
+  /// Forms the gradients of all values, from the factors.
+  void set_gradients() {
+    const std::size_t inputs = list_->inputs();
+    for (std::size_t i = inputs; i < scales_.size(); ++i) {
+      const std::uint64_t mask = list_->dependencies(i);
+      for (std::size_t j = 0; j < inputs; ++j) {
+        if ((mask >> j & 1) == 0) continue;
+        T sum(Real(0));
+        for (std::size_t f = first_factor_[i]; f < first_factor_[i + 1]; ++f) {
+          sum = add_product(sum, factors_[f], gradient_of(operands_[f], j));
+        }
+        gradient_of(i, j) = sum;
+      }
+    }
+  }
+  /// The derivative d output / d input at the inputs' constant terms.
+  const T& gradient(std::size_t output, std::size_t input) const {
+    return gradients_[list_->outputs()[output] * list_->inputs() + input];
+  }
+
+  /// Forms the weights, from the factors and scales.
+  void set_weights() {
     for (const Group& group : groups_) {
-      with_width(group, [&]<std::size_t Outputs>(Width<Outputs>) {
-        differentiate<Outputs>(group, needs_weights);
-      });
+      with_width(group, [&]<std::size_t Outputs>(Width<Outputs>) { set_weights<Outputs>(group); });
     }
   }
 
-  /// The derivative d output / d input at the inputs' constant terms.
-  const T& gradient(std::size_t output, std::size_t input) const {
-    const std::size_t whole = list_->outputs().size() / whole_group * whole_group;
-    const std::size_t width = output < whole ? whole_group : 1;
-    const std::size_t place = output % width;
-    return gradients_[(output - place) * list_->inputs() + input * width + place];
-  }
-
-  /// Forms the outputs' part that the sums make, for monomials from `first` to `last`: the value i
-  /// stands at slices + i stride, that of an output o at remainders + o stride.
+  /// Forms the outputs' part that the sums make (of those that have one), for monomials from
+  /// `first` to `last`: the value i stands at slices + i stride, that of an output o at remainders
+  /// + o stride.
   void form_remainders(const T* slices, std::size_t stride, std::size_t first, std::size_t last,
                        T* remainders) const {
-    for_each_tile(first, last,
-                  [&]<std::size_t Outputs, std::size_t Monomials>(
-                      Width<Outputs>, Width<Monomials>, const Group& group, std::size_t k) {
-                    Sums<Outputs, Monomials> sums{};
-                    const T* weight = weights_.data() + group.first_weight;
-                    for (const std::size_t i : group.sums) {
-                      add<Outputs, Monomials>(weight, slices + i * stride + k, sums);
-                      weight += Outputs;
-                    }
-                    for (std::size_t w = 0; w < Outputs; ++w) {
-                      put(sums[w], remainders + (group.first + w) * stride + k);
-                    }
-                  });
-  }
-
-  /// Puts the values in the place of the sums (if there are any at this degree), for monomials from
-  /// `first` to `last` of known inputs, of all operations but those that are outputs alone.
-  void complete_intermediates(T* slices, std::size_t stride, std::size_t first, std::size_t last,
-                              bool has_sums) const {
     in_tiles(first, last, [&]<std::size_t Monomials>(Width<Monomials>, std::size_t k) {
-      for (const std::size_t i : intermediates_) {
-        T* const w = slices + i * stride + k;
-        std::array<T, Monomials> sums{};
-        if (has_sums && is_nonlinear(i)) {
-          for (std::size_t t = 0; t < Monomials; ++t) sums[t] = scales_[i] * w[t];
-        }
-        for (std::size_t f = first_factor_[i]; f < first_factor_[i + 1]; ++f) {
-          const T& factor = factors_[f];
-          const T* const u = slices + operands_[f] * stride + k;
-          for (std::size_t t = 0; t < Monomials; ++t) sums[t] += factor * u[t];
-        }
-        put(sums, w);
+      for (const Group& group : groups_) {
+        with_width(group, [&]<std::size_t Outputs>(Width<Outputs>) {
+          std::array<std::array<T, Monomials>, Outputs> sums{};
+          const T* weight = weights_.data() + group.first_weight;
+          for (const std::size_t i : group.sums) {
+            const T* const s = slices + i * stride + k;
+            for (std::size_t t = 0; t < Monomials; ++t) {
+              for (std::size_t w = 0; w < Outputs; ++w) sums[w][t] += weight[w] * s[t];
+            }
+            weight += Outputs;
+          }
+          for (std::size_t w = 0; w < Outputs; ++w) {
+            put(sums[w], remainders + group.outputs[w] * stride + k);
+          }
+        });
       }
     });
   }
 
+  /// Puts the values in the place of the sums (if there are any at this degree), for monomials from
+  /// `first` to `last` of known inputs.
+  void complete_values(T* slices, std::size_t stride, std::size_t first, std::size_t last,
+                       bool has_sums) const {
+    complete(values_, slices, stride, first, last, has_sums);
+  }
+  /// The same of the values that are operands of others.
+  void complete_intermediates(T* slices, std::size_t stride, std::size_t first, std::size_t last,
+                              bool has_sums) const {
+    complete(intermediates_, slices, stride, first, last, has_sums);
+  }
+
   /// Forms the outputs but for those that are inputs, for monomials from `first` to `last` of known
-  /// inputs, from their remainders (if there are sums at this degree).
+  /// inputs, from their remainders (where there are sums at this degree).
   void complete_outputs(T* slices, std::size_t stride, std::size_t first, std::size_t last,
                         const T* remainders, bool has_sums) const {
-    const std::size_t inputs = list_->inputs();
-    for_each_tile(first, last,
-                  [&]<std::size_t Outputs, std::size_t Monomials>(
-                      Width<Outputs>, Width<Monomials>, const Group& group, std::size_t k) {
-                    Sums<Outputs, Monomials> sums{};
-                    for (std::size_t w = 0; has_sums && w < Outputs; ++w) {
-                      const T* const remainder = remainders + (group.first + w) * stride + k;
-                      for (std::size_t t = 0; t < Monomials; ++t) sums[w][t] = remainder[t];
-                    }
-                    const T* gradient = gradients_.data() + group.first * inputs;
-                    for (std::size_t j = 0; j < inputs; ++j) {
-                      add<Outputs, Monomials>(gradient, slices + j * stride + k, sums);
-                      gradient += Outputs;
-                    }
-                    for (std::size_t w = 0; w < Outputs; ++w) {
-                      const std::size_t output = list_->outputs()[group.first + w];
-                      if (output >= inputs) put(sums[w], slices + output * stride + k);
-                    }
-                  });
+    in_tiles(first, last, [&]<std::size_t Monomials>(Width<Monomials>, std::size_t k) {
+      for (std::size_t o = 0; o < list_->outputs().size(); ++o) {
+        const std::size_t output = list_->outputs()[o];
+        if (output < list_->inputs()) continue;
+        std::array<T, Monomials> sums{};
+        if (has_sums && !list_->is_affine(output)) {
+          const T* const remainder = remainders + o * stride + k;
+          for (std::size_t t = 0; t < Monomials; ++t) sums[t] = remainder[t];
+        }
+        for (std::size_t j = 0; j < list_->inputs(); ++j) {
+          if ((list_->dependencies(output) >> j & 1) == 0) continue;
+          add(gradient(o, j), slices + j * stride + k, sums);
+        }
+        put(sums, slices + output * stride + k);
+      }
+    });
   }
 
  private:
-  /// Outputs that are formed together, for each step backwards waits for the one before.
+  /// Outputs whose remainders are formed together, for each step backwards waits for the one
+  /// before. Where one is not finite, the others' remainders need not be.
   struct Group {
-    std::size_t first = 0;
-    std::size_t outputs = 0;
+    std::vector<std::size_t> outputs;
     std::vector<std::size_t> values;  ///< that they depend on, but the inputs, the later first
     std::vector<std::size_t> sums;    ///< the nonlinear operations among them
     std::size_t first_weight = 0;     ///< a weight for each sum and output
@@ -171,16 +175,14 @@ class SlicePropagation {
 
   template <std::size_t>
   struct Width {};
-  template <std::size_t Outputs, std::size_t Monomials>
-  using Sums = std::array<std::array<T, Monomials>, Outputs>;
   /// So many monomials go through the list together: their slices stay in the nearest cache, and
-  /// their sums for a group of outputs in registers.
+  /// with 32 vector registers their sums for a group of outputs in these.
   static constexpr std::size_t tile = sizeof(T) >= 512 ? 1 : sizeof(T) > 64 ? 512 / sizeof(T) : 8;
 
   template <class Run>
   static void in_tiles(std::size_t first, std::size_t last, const Run& run) {
     for (; first + tile <= last; first += tile) run(Width<tile>{}, first);
-    // Of two lines a degree has two monomials.
+    // Of two uncoupled variables a degree has two monomials.
     if constexpr (tile > 2) {
       for (; first + 2 <= last; first += 2) run(Width<2>{}, first);
     }
@@ -188,57 +190,57 @@ class SlicePropagation {
   }
   template <class Run>
   static void with_width(const Group& group, const Run& run) {
-    group.outputs == whole_group ? run(Width<whole_group>{}) : run(Width<1>{});
-  }
-  template <class Run>
-  void for_each_tile(std::size_t first, std::size_t last, const Run& run) const {
-    in_tiles(first, last, [&]<std::size_t Monomials>(Width<Monomials> monomials, std::size_t k) {
-      for (const Group& group : groups_) {
-        with_width(group, [&]<std::size_t Outputs>(Width<Outputs> outputs) {
-          run(outputs, monomials, group, k);
-        });
-      }
-    });
+    group.outputs.size() == whole_group ? run(Width<whole_group>{}) : run(Width<1>{});
   }
 
   template <std::size_t Count>
   static void put(const std::array<T, Count>& values, T* target) {
     for (std::size_t t = 0; t < Count; ++t) target[t] = values[t];
   }
-  /// sums_(w, t) += factors_w series_t.
-  template <std::size_t Outputs, std::size_t Monomials>
-  static void add(const T* factors, const T* series, Sums<Outputs, Monomials>& sums) {
-    for (std::size_t t = 0; t < Monomials; ++t) {
-      for (std::size_t w = 0; w < Outputs; ++w) sums[w][t] += factors[w] * series[t];
-    }
+  template <std::size_t Count>
+  static void add(const T& factor, const T* series, std::array<T, Count>& sums) {
+    for (std::size_t t = 0; t < Count; ++t) sums[t] += factor * series[t];
+  }
+
+  void complete(const std::vector<std::size_t>& which, T* slices, std::size_t stride,
+                std::size_t first, std::size_t last, bool has_sums) const {
+    in_tiles(first, last, [&]<std::size_t Monomials>(Width<Monomials>, std::size_t k) {
+      for (const std::size_t i : which) {
+        T* const w = slices + i * stride + k;
+        std::array<T, Monomials> sums{};
+        if (has_sums && is_nonlinear(i)) {
+          for (std::size_t t = 0; t < Monomials; ++t) sums[t] = scales_[i] * w[t];
+        }
+        for (std::size_t f = first_factor_[i]; f < first_factor_[i + 1]; ++f) {
+          add(factors_[f], slices + operands_[f] * stride + k, sums);
+        }
+        put(sums, w);
+      }
+    });
   }
 
   template <std::size_t Outputs>
-  void differentiate(const Group& group, bool needs_weights) {
-    const auto zeros_at = [&](std::size_t i) {
+  void set_weights(const Group& group) {
+    const auto set_zeros = [&](std::size_t i) {
       std::fill_n(&adjoints_[i * Outputs], Outputs, T(Real(0)));
     };
-    for (const std::size_t i : group.values) zeros_at(i);
-    for (std::size_t j = 0; j < list_->inputs(); ++j) zeros_at(j);
+    for (const std::size_t i : group.values) set_zeros(i);
+    for (std::size_t j = 0; j < list_->inputs(); ++j) set_zeros(j);
     for (std::size_t w = 0; w < Outputs; ++w) {
-      adjoints_[list_->outputs()[group.first + w] * Outputs + w] = T(Real(1));
+      adjoints_[list_->outputs()[group.outputs[w]] * Outputs + w] = T(Real(1));
     }
     T* weight = weights_.data() + group.first_weight;
     for (const std::size_t i : group.values) {
-      std::array<T, Outputs> adjoint;
-      std::copy_n(&adjoints_[i * Outputs], Outputs, adjoint.begin());
+      const T* const adjoint = &adjoints_[i * Outputs];
       for (std::size_t f = first_factor_[i]; f < first_factor_[i + 1]; ++f) {
         T* const sums = &adjoints_[operands_[f] * Outputs];
         for (std::size_t w = 0; w < Outputs; ++w) {
           sums[w] = add_product(sums[w], adjoint[w], factors_[f]);
         }
       }
-      if (!needs_weights || !is_nonlinear(i)) continue;
+      if (!is_nonlinear(i)) continue;
       for (std::size_t w = 0; w < Outputs; ++w) *weight++ = adjoint[w] * scales_[i];
     }
-    // Those of the inputs are the gradients; a group's stand as its outputs' beside each other.
-    std::copy_n(adjoints_.data(), list_->inputs() * Outputs,
-                &gradients_[group.first * list_->inputs()]);
   }
 
   bool is_nonlinear(std::size_t i) const {
@@ -263,13 +265,29 @@ class SlicePropagation {
     }
   }
 
-  Group group_of(std::size_t first, std::size_t outputs) {
+  T& gradient_of(std::size_t value, std::size_t input) {
+    return gradients_[value * list_->inputs() + input];
+  }
+
+  void set_groups() {
+    std::vector<std::size_t> left;
+    for (std::size_t o = 0; o < list_->outputs().size(); ++o) {
+      if (!list_->is_affine(list_->outputs()[o])) left.push_back(o);
+    }
+    for (auto o = left.begin(); o != left.end();) {
+      const bool is_whole = left.end() - o >= static_cast<std::ptrdiff_t>(whole_group);
+      const auto end = o + (is_whole ? static_cast<std::ptrdiff_t>(whole_group) : 1);
+      groups_.push_back(group_of({o, end}));
+      o = end;
+    }
+  }
+
+  Group group_of(std::vector<std::size_t> outputs) {
     Group group;
-    group.first = first;
-    group.outputs = outputs;
+    group.outputs = std::move(outputs);
     group.first_weight = weights_.size();
     std::vector<bool> is_reached(scales_.size(), false);
-    for (std::size_t o = first; o < first + outputs; ++o) is_reached[list_->outputs()[o]] = true;
+    for (const std::size_t o : group.outputs) is_reached[list_->outputs()[o]] = true;
     for (std::size_t i = scales_.size(); i-- > list_->inputs();) {
       if (!is_reached[i]) continue;
       group.values.push_back(i);
@@ -278,7 +296,7 @@ class SlicePropagation {
         is_reached[operands_[f]] = true;
       }
     }
-    weights_.resize(weights_.size() + group.sums.size() * outputs);
+    weights_.resize(weights_.size() + group.sums.size() * group.outputs.size());
     return group;
   }
 
@@ -287,11 +305,12 @@ class SlicePropagation {
   std::vector<std::size_t> first_factor_;  ///< by value, and the end
   std::vector<std::size_t> operands_;
   std::vector<T> factors_;
-  std::vector<std::size_t> intermediates_;
-  std::vector<Group> groups_;
+  std::vector<std::size_t> values_;         ///< that have slices, but the inputs
+  std::vector<std::size_t> intermediates_;  ///< of these the operands of others
+  std::vector<Group> groups_;               ///< of the outputs that are not affine
   std::vector<T> weights_;
-  std::vector<T> gradients_;  ///< by group, input and output of the group
-  std::vector<T> adjoints_;   ///< scratch
+  std::vector<T> gradients_;  ///< by value and input
+  std::vector<T> adjoints_;   ///< scratch, by value and output of a group
 };
 
 }  // namespace hamjet
