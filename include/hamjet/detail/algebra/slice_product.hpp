@@ -118,7 +118,8 @@ inline constexpr std::size_t largest_unrolled_block = 8;
 /// sums at once take 1.15 times as long as two halves, for a part of them then goes through memory.
 inline constexpr std::size_t most_sums = 15;
 
-/// Where the sums that are formed together from `first` on end: a block is cut into nearly equal parts.
+/// Where the sums that are formed together from `first` on end: a block is cut into nearly equal
+/// parts.
 constexpr std::size_t end_of_sums(std::size_t first, std::size_t block_size) {
   const std::size_t parts = (block_size + most_sums - 1) / most_sums;
   return std::min(first + (block_size + parts - 1) / parts, block_size);

@@ -134,7 +134,7 @@ class SlicePropagation {
                        bool has_sums) const {
     complete(values_, slices, stride, first, last, has_sums);
   }
-  /// The same of the values that are operands of others.
+  /// Completes, as complete_values does, all values but those that are outputs and nothing else.
   void complete_intermediates(T* slices, std::size_t stride, std::size_t first, std::size_t last,
                               bool has_sums) const {
     complete(intermediates_, slices, stride, first, last, has_sums);
@@ -306,7 +306,7 @@ class SlicePropagation {
   std::vector<std::size_t> operands_;
   std::vector<T> factors_;
   std::vector<std::size_t> values_;         ///< that have slices, but the inputs
-  std::vector<std::size_t> intermediates_;  ///< of these the operands of others
+  std::vector<std::size_t> intermediates_;  ///< of these all but mere outputs
   std::vector<Group> groups_;               ///< of the outputs that are not affine
   std::vector<T> weights_;
   std::vector<T> gradients_;  ///< by value and input
