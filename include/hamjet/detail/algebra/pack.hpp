@@ -117,19 +117,22 @@ struct Pack {
   }
 
   Real lane(int i) const {
+    // Without signs a quotient is a shift.
+    const auto k = static_cast<std::size_t>(i);
+    constexpr std::size_t size = width;
     if constexpr (width == 1) {
-      return part[static_cast<std::size_t>(i)];
+      return part[k];
     } else {
-      return detail::lane_of(part[static_cast<std::size_t>(i / width)],
-                             static_cast<std::size_t>(i % width));
+      return detail::lane_of(part[k / size], k % size);
     }
   }
   void set_lane(int i, const Real& value) {
+    const auto k = static_cast<std::size_t>(i);
+    constexpr std::size_t size = width;
     if constexpr (width == 1) {
-      part[static_cast<std::size_t>(i)] = value;
+      part[k] = value;
     } else {
-      detail::set_lane_of(part[static_cast<std::size_t>(i / width)],
-                          static_cast<std::size_t>(i % width), value);
+      detail::set_lane_of(part[k / size], k % size, value);
     }
   }
 
@@ -201,9 +204,10 @@ Real dot(const Pack<Real, Lanes>& a, const Pack<Real, Lanes>& b) {
   }
 }
 
-/// Lane by lane the larger of a and the magnitude of b.
+/// Lane by lane the larger of a and the magnitude of b. Always inlined, for a call takes as long.
 template <class Real, int Lanes>
-Pack<Real, Lanes> larger_magnitude(const Pack<Real, Lanes>& a, const Pack<Real, Lanes>& b) {
+[[gnu::always_inline]] inline Pack<Real, Lanes> larger_magnitude(const Pack<Real, Lanes>& a,
+                                                                 const Pack<Real, Lanes>& b) {
   Pack<Real, Lanes> result;
   if constexpr (std::experimental::is_simd_v<typename Pack<Real, Lanes>::Vector>) {
     for (std::size_t i = 0; i < a.parts; ++i) {
@@ -221,7 +225,7 @@ Pack<Real, Lanes> larger_magnitude(const Pack<Real, Lanes>& a, const Pack<Real, 
 
 /// The largest magnitude of the lanes; NaN if one of them is NaN.
 template <class Real, int Lanes>
-Real largest_magnitude(const Pack<Real, Lanes>& x) {
+[[gnu::always_inline]] inline Real largest_magnitude(const Pack<Real, Lanes>& x) {
   if constexpr (std::experimental::is_simd_v<typename Pack<Real, Lanes>::Vector>) {
     namespace simd = std::experimental;
     auto largest = simd::abs(x.part[0]);
