@@ -110,8 +110,14 @@ template <class Vector>
 inline constexpr bool is_machine_vector =
     std::is_arithmetic_v<Vector> || std::experimental::is_simd_v<Vector>;
 
-/// Largest block degree whose products are unrolled.
-inline constexpr std::size_t largest_unrolled_block = 8;
+/// Whether blocks of degree 7 and 8 are unrolled too, which takes long to compile: for plain
+/// doubles, and for packs of vectors of the machine's full width, as those of the usual
+/// integrations are.
+template <class T>
+inline constexpr bool unrolls_large_blocks = std::is_same_v<T, double>;
+template <int Lanes>
+inline constexpr bool unrolls_large_blocks<Pack<double, Lanes>> =
+    Pack<double, Lanes>::width == detail::VectorFor<double, 2>::native;
 
 /// So many sums are formed together at most: they stay in registers, of which there are 32 with
 /// AVX-512, with what compilers keep of the factors beside them. Of a block of degree 6, all 28
@@ -243,13 +249,17 @@ void form_unrolled_blocks(const ProductSchedule::Output* output, const ProductSc
       case 6:
         run(std::integral_constant<std::size_t, 6>{});
         break;
-      case 7:
-        run(std::integral_constant<std::size_t, 7>{});
-        break;
-      case largest_unrolled_block:
-        run(std::integral_constant<std::size_t, largest_unrolled_block>{});
-        break;
       default:
+        if constexpr (unrolls_large_blocks<T>) {
+          if (output->block_degree == 7) {
+            run(std::integral_constant<std::size_t, 7>{});
+            break;
+          }
+          if (output->block_degree == 8) {
+            run(std::integral_constant<std::size_t, 8>{});
+            break;
+          }
+        }
         form_large_block<Form>(*output, pairs, run_ends, a, b, c);
         ++output;
     }
