@@ -34,7 +34,7 @@ class SliceEvaluator {
       : list_(&list),
         space_(std::move(space)),
         powers_(list),
-        propagation_(list),
+        propagation_(list, working_order),
         working_order_(working_order) {
     const std::size_t values = list.operations().size();
     stride_ = space_->first(working_order + 1);
@@ -96,12 +96,15 @@ class SliceEvaluator {
   /// At the working order the intermediate values are needed by nothing, and only the outputs are
   /// formed.
   void complete(int d) {
-    const std::size_t first = space_->first(d);
-    const std::size_t last = space_->first(d + 1);
-    if (d < working_order_) {
-      propagation_.complete_intermediates(slices_.data(), stride_, first, last, d >= 2);
-    }
-    propagation_.complete_outputs(slices_.data(), stride_, first, last, remainders_.data(), d >= 2);
+    if (d < working_order_) complete_intermediates(d);
+    propagation_.complete_outputs(slices_.data(), stride_, space_->first(d), space_->first(d + 1),
+                                  remainders_.data(), d >= 2);
+  }
+  /// Forms, as complete does, the values that the next degrees need alone: outputs that are operands
+  /// of nothing stay as they are.
+  void complete_intermediates(int d) {
+    propagation_.complete_intermediates(slices_.data(), stride_, space_->first(d),
+                                        space_->first(d + 1), d >= 2);
   }
 
   /// The work of the products of series formed so far.

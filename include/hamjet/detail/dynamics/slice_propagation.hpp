@@ -31,8 +31,8 @@ namespace hamjet {
 template <class T, class Real>
 class SlicePropagation {
  public:
-  /// The list must outlive this object.
-  explicit SlicePropagation(const OperationList& list)
+  /// The list must outlive this object. What degrees above `working_order` need is left out.
+  SlicePropagation(const OperationList& list, int working_order)
       : list_(&list), scales_(list.operations().size(), T(Real(1))) {
     std::vector<bool> is_operand(scales_.size(), false);
     for (const Operation& o : list.operations()) {
@@ -46,16 +46,8 @@ class SlicePropagation {
     first_factor_.push_back(operands_.size());
     gradients_.assign(scales_.size() * list.inputs(), T(Real(0)));
     for (std::size_t j = 0; j < list.inputs(); ++j) gradient_of(j, j) = T(Real(1));
-    adjoints_.assign(whole_group * scales_.size(), T(Real(0)));
-    set_groups();
-    std::vector<bool> is_output(scales_.size(), false);
-    for (const std::size_t output : list.outputs()) is_output[output] = true;
-    for (std::size_t i = list.inputs(); i < scales_.size(); ++i) {
-      // A constant has no slices above degree 0.
-      if (!is_nonlinear(i) && first_factor_[i] == first_factor_[i + 1]) continue;
-      values_.push_back(i);
-      if (is_operand[i] || !is_output[i]) intermediates_.push_back(i);
-    }
+    if (working_order >= 2) set_groups();
+    if (working_order >= 1) set_values(is_operand);
   }
 
   /// The derivative of a value by one of its operands, to be written by the caller for all but
@@ -175,12 +167,21 @@ class SlicePropagation {
 
   template <std::size_t>
   struct Width {};
+  static constexpr bool is_of_numbers = sizeof(T) <= sizeof(double);
   /// So many monomials go through the list together: their slices stay in the nearest cache, and
   /// with 32 vector registers their sums for a group of outputs in these.
-  static constexpr std::size_t tile = sizeof(T) >= 512 ? 1 : sizeof(T) > 64 ? 512 / sizeof(T) : 8;
+  static constexpr std::size_t tile = sizeof(T) >= 512 ? 1
+                                      : sizeof(T) > 64 ? 512 / sizeof(T)
+                                      : is_of_numbers  ? 4
+                                                       : 8;
+  /// Plain numbers fill vectors by themselves.
+  static constexpr std::size_t long_tile = is_of_numbers ? 16 : tile;
 
   template <class Run>
   static void in_tiles(std::size_t first, std::size_t last, const Run& run) {
+    if constexpr (long_tile > tile) {
+      for (; first + long_tile <= last; first += long_tile) run(Width<long_tile>{}, first);
+    }
     for (; first + tile <= last; first += tile) run(Width<tile>{}, first);
     // Of two uncoupled variables a degree has two monomials.
     if constexpr (tile > 2) {
@@ -269,7 +270,19 @@ class SlicePropagation {
     return gradients_[value * list_->inputs() + input];
   }
 
+  void set_values(const std::vector<bool>& is_operand) {
+    std::vector<bool> is_output(scales_.size(), false);
+    for (const std::size_t output : list_->outputs()) is_output[output] = true;
+    for (std::size_t i = list_->inputs(); i < scales_.size(); ++i) {
+      // A constant has no slices above degree 0.
+      if (!is_nonlinear(i) && first_factor_[i] == first_factor_[i + 1]) continue;
+      values_.push_back(i);
+      if (is_operand[i] || !is_output[i]) intermediates_.push_back(i);
+    }
+  }
+
   void set_groups() {
+    adjoints_.assign(whole_group * scales_.size(), T(Real(0)));
     std::vector<std::size_t> left;
     for (std::size_t o = 0; o < list_->outputs().size(); ++o) {
       if (!list_->is_affine(list_->outputs()[o])) left.push_back(o);
