@@ -53,7 +53,8 @@ class GaussStepRule {
     if (s_ > 1) {
       const double last = std::max(0.0, mode(s_ - 1) - noise) / slope;
       const double s = s_;
-      ratio = std::max(ratio, std::pow(last, s / (s - 1)));
+      // The power of a number below 1 is less than the number.
+      if (last > std::min(ratio, 1.0)) ratio = std::max(ratio, std::pow(last, s / (s - 1)));
     }
     return std::max({error_constant * ratio * ratio, continued_modes(slope, noise, mode),
                      linearised_error(step, h)});
