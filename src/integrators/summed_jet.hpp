@@ -12,7 +12,8 @@
 namespace hamjet {
 
 /// The flow's jet as it advances from step to step, with the round-off that each addition lost
-/// unless it is summed plainly.
+/// unless it is summed plainly. Where an end map advances it, the coefficients above degree 0 stand
+/// in rows, one pack a monomial whose lanes are the components, as the map's steps do.
 template <class Real, int Lanes>
 class SummedJet {
  public:
@@ -24,8 +25,35 @@ class SummedJet {
         lost_(jet_.size(), std::vector<Real>(is_compensated ? problem.space->size() : 0, Real(0))) {
   }
 
-  const FlowJet<Real>& value() const { return jet_; }
-  FlowJet<Real> take() { return std::move(jet_); }
+  /// The jet as it stands.
+  const FlowJet<Real>& value() {
+    for (std::size_t k = 1; k < rows_.size(); ++k) {
+      for (std::size_t c = 0; c < jet_.size(); ++c) {
+        jet_[c][k] = rows_[k].value.lane(static_cast<int>(c));
+      }
+    }
+    return jet_;
+  }
+  FlowJet<Real> take() {
+    value();
+    return std::move(jet_);
+  }
+  const Real& constant(std::size_t component) const { return jet_[component][0]; }
+  /// A coefficient of any degree.
+  Real coefficient(std::size_t component, std::size_t monomial) const {
+    return rows_.empty() ? jet_[component][monomial]
+                         : rows_[monomial].value.lane(static_cast<int>(component));
+  }
+
+  /// Puts the coefficients above degree 0 into rows, for advance_by.
+  void use_rows() {
+    rows_.resize(jet_[0].space().size());
+    for (std::size_t k = 1; k < rows_.size(); ++k) {
+      for (std::size_t c = 0; c < jet_.size(); ++c) {
+        rows_[k].value.set_lane(static_cast<int>(c), jet_[c][k]);
+      }
+    }
+  }
 
   /// The constant terms, and what they lost (empty if not compensated).
   std::vector<Real> constants() const {
@@ -54,17 +82,24 @@ class SummedJet {
     with_addition([&](const auto& add) { advance_with(stages, h, highest, add); });
   }
 
-  /// Takes the step of one degree by the stages' end map.
+  /// Takes the step of the degrees from 1 to `highest` by the stages' end map. Needs use_rows.
   void advance_by(const EndMap<Real, Lanes>& map, const SliceEvaluator<P, Real>& evaluator,
-                  int degree, const std::vector<const Real*>& state) {
-    with_addition([&](const auto& add) {
-      map.apply(evaluator, jet_[0].space(), degree, state, [&](std::size_t k, const P& increment) {
-        for (std::size_t c = 0; c < jet_.size(); ++c) {
-          add(jet_[c].coefficients().data(), lost_[c].data(), k,
-              increment.lane(static_cast<int>(c)));
-        }
-      });
-    });
+                  int highest) {
+    const auto state = [this](std::size_t component, std::size_t monomial) {
+      return rows_[monomial].value.lane(static_cast<int>(component));
+    };
+    const auto advance = [&](const auto& add) {
+      const auto add_to_row = [&](std::size_t k, const P& step) { add(rows_[k], step); };
+      for (int d = 1; d <= highest; ++d) {
+        map.apply(evaluator, jet_[0].space(), d, state, add_to_row);
+      }
+    };
+    // One choice a step: the loops over the coefficients have none.
+    if (is_compensated_) {
+      advance([](Row& row, const P& step) { add_compensated(row.value, row.lost, step); });
+    } else {
+      advance([](Row& row, const P& step) { row.value += step; });
+    }
   }
 
  private:
@@ -128,9 +163,16 @@ class SummedJet {
     add(value, lost, 0, Real(h * dot(system.weights_lost(), slopes[0])));
   }
 
+  /// The coefficients of one monomial and what they lost.
+  struct Row {
+    P value;
+    P lost;
+  };
+
   bool is_compensated_;
   FlowJet<Real> jet_;
   std::vector<std::vector<Real>> lost_;  ///< empty lists if not compensated
+  std::vector<Row> rows_;                ///< by monomial, of which degree 0 is not used; or none
 };
 
 }  // namespace hamjet

@@ -26,7 +26,7 @@ namespace {
 
 using test::Flow;
 
-DynamicalSystem earth() {
+DynamicalSystem oblate_earth() {
   ZonalGravity field{.mu = 1, .radius = 1};
   field.J[2] = 1.0826e-3;
   field.J[3] = -2.53e-6;
@@ -72,10 +72,10 @@ struct Case {
 /// Orbits of several inclinations and places in them, and systems of their own.
 std::vector<Case> cases() {
   const auto both = FlowSymmetry::rotation_and_time;
-  return {{"low", earth(), {1.1, 0.1, -0.2, 0.05, 0.6, 0.75}, both},
-          {"eccentric, from perigee", earth(), {0.3, -1.0, 0.4, 1.05, 0.4, 0.35}, both},
-          {"polar, above the pole", earth(), {0.01, -0.02, 1.2, 0.6, 0.7, 0.03}, both},
-          {"eccentric, in the equator", earth(), {0.8, 0.6, 0, -0.1, 1.05, 0.1}, both},
+  return {{"low", oblate_earth(), {1.1, 0.1, -0.2, 0.05, 0.6, 0.75}, both},
+          {"eccentric, from perigee", oblate_earth(), {0.3, -1.0, 0.4, 1.05, 0.4, 0.35}, both},
+          {"polar, above the pole", oblate_earth(), {0.01, -0.02, 1.2, 0.6, 0.7, 0.03}, both},
+          {"eccentric, in the equator", oblate_earth(), {0.8, 0.6, 0, -0.1, 1.05, 0.1}, both},
           {"pendulum", test::pendulum(), {0.3, 1.2}, FlowSymmetry::time},
           {"coupled", test::coupled_masses(), {0.4, -0.3, 0.5, 0.2}, FlowSymmetry::time}};
 }
@@ -132,9 +132,9 @@ TEST(TimeReduction, RoundsNoMoreThanTheWholeJet) {
 TEST(TimeReduction, IsSymplecticToTheErrorAlone) {
   const std::vector<double> from = {1.1, 0.1, -0.2, 0.05, 0.6, 0.75};
   const auto defect = [&](FlowSymmetry symmetry, double step) {
-    return largest_defect(
-        integrated(problem_from<Extended>(earth(), from, 2, 2, symmetry), test::fixed_step(3, step))
-            .jet);
+    return largest_defect(integrated(problem_from<Extended>(oblate_earth(), from, 2, 2, symmetry),
+                                     test::fixed_step(3, step))
+                              .jet);
   };
   EXPECT_LE(defect(FlowSymmetry::none, 0.2), 1e4 * 0x1p-112);
   const double coarse = defect(FlowSymmetry::rotation_and_time, 0.2);
@@ -147,7 +147,7 @@ TEST(TimeReduction, IsSymplecticToTheErrorAlone) {
 TEST(TimeReduction, TakesTheSameSteps) {
   const std::vector<double> from = {0.3, -1.0, 0.4, 1.05, 0.4, 0.35};
   const auto run = [&](FlowSymmetry symmetry, IntegrationStatistics& statistics) {
-    return integrate_gauss(problem_from<double>(earth(), from, 4, 20, symmetry),
+    return integrate_gauss(problem_from<double>(oblate_earth(), from, 4, 20, symmetry),
                            test::adaptive(8, 1e-12), statistics);
   };
   IntegrationStatistics whole;
@@ -172,16 +172,17 @@ TEST(TimeReduction, StaysWhereThereIsNone) {
   // Where the rotation stops the nominal, a shift in time is a rotation.
   EXPECT_EQ(of(kepler(1), {1, 0, 0, 0, 1, 0}), FlowSymmetry::rotation);
   EXPECT_EQ(of(test::pendulum(), {0, 0}), FlowSymmetry::none);
-  auto problem = problem_from<double>(earth(), {1.1, 0.1, -0.2, 0.05, 0.6, 0.75}, 2, 1, both);
+  auto problem =
+      problem_from<double>(oblate_earth(), {1.1, 0.1, -0.2, 0.05, 0.6, 0.75}, 2, 1, both);
   EXPECT_EQ(left_out_of(problem), both);
   problem.symmetry = FlowSymmetry::rotation;
   EXPECT_EQ(left_out_of(problem), FlowSymmetry::rotation);
   // From a point on an axis the section is along it, and what crosses it is rounding.
-  problem = problem_from<double>(earth(), {1.1, 0, 0.2, 0.3, 0.6, 0.7}, 5, 1, both);
+  problem = problem_from<double>(oblate_earth(), {1.1, 0, 0.2, 0.3, 0.6, 0.7}, 5, 1, both);
   EXPECT_EQ(left_out_of(problem), both);
   // The flow leaves the variables that are expanded in.
   auto partial = test::problem_of(
-      Flow<double>{earth(), {1.1, 0.1, -0.2, 0.05, 0.6, 0.75}, 1, 2, {0, 1, 3, 4}});
+      Flow<double>{oblate_earth(), {1.1, 0.1, -0.2, 0.05, 0.6, 0.75}, 1, 2, {0, 1, 3, 4}});
   partial.symmetry = both;
   EXPECT_EQ(left_out_of(partial), FlowSymmetry::rotation);
 }

@@ -8,35 +8,76 @@
 
 namespace hamjet {
 
-/// What a step adds to the coefficients of the highest degree d, whose stages nothing needs: for a
-/// second-order system of unit mass, with F_d = R_d + Dg Y_d and Y_d = K R_d + B z_d (StageSystem),
+/// What a step adds to the coefficients of a degree, without the slopes: for a second-order system
+/// of unit mass, with F_d = R_d + Dg Y_d and Y_d = K R_d + B z_d (StageSystem),
 ///
 ///   dq_d = h p_d + h^2 sum b_i (1 - c_i) F_(d,i) ,   dp_d = h sum b_i F_(d,i) ,
 ///   dz_d = S z_d + T R_d .
 ///
+/// Where forces are gradients, so that Dg is symmetric, T follows from B alone: a Gauss method
+/// keeps the bilinear invariants of the linearised equations (Sanz-Serna, SIAM Review 58 (2016) 3,
+/// section 2). Of the product with J = [[0, I], [-I, 0]] of the derivatives by the state, B_i =
+/// (A_i, C_i) the rows of the positions at the stage i and Phi = I + S those of the end, and of
+/// what forces R_i at the stages change,
+///
+///   Phi^T J dz = h sum b_i B_i^T R_i ,   and as Phi is symplectic   T_i = h b_i Phi (-C_i, A_i)^T
+///   .
+///
 /// The 2m rows of S and T stand side by side as lanes. A monomial takes 2m + m s multiply-adds of
-/// packs, where its stages take m times as many, its slopes some more, and each row a sum over the
-/// lanes. T costs what m s monomials do, so that it pays for degrees of many.
+/// packs, and no sums over lanes.
 template <class Real, int Lanes>
 class EndMap {
  public:
   using P = Pack<Real, Lanes>;
 
-  /// Whether the highest degree of an integration can be taken so, and is worth it.
+  /// Whether an integration can take its degrees above 0 so: in up to two variables these are
+  /// iterated for, without B. Order 1 gains nothing, but has the bits of all others so.
   static bool serves(const StageSystem<Real, Lanes>& system, const SeriesSpace& space, int order) {
     const bool is_possible =
         system.second_order() && system.unit_mass() && 2 * system.components() <= Lanes;
-    return is_possible && order >= 2 && space.count(order) >= least_monomials;
+    return is_possible && order >= 1 && space.variables() > 2;
   }
 
-  /// Forms S and T from K and B of the stages as they stand (StageSlopes::factorise).
-  void form(const StageSlopes<Real, Lanes>& stages) {
+  /// Forms S, and T where there are remainders, from the stages as they stand, for which
+  /// StageSlopes::factorise has formed B, and K unless the matrix is dominated by its diagonal.
+  void form(const StageSlopes<Real, Lanes>& stages, bool has_remainders = true) {
+    form_gradients(stages);
+    const StageSystem<Real, Lanes>& system = stages.system();
+    const std::size_t m = system.components();
+    of_state_.resize(2 * m);
+    sum_columns(&system.base_response(0, 0), m, system.stages(), of_state_);
+    for (std::size_t c = 0; c < m; ++c) add_to_lane(of_state_[m + c], c, system.step());
+    of_remainders_.resize(has_remainders ? m * system.stages() : 0);
+    if (!has_remainders) return;
+    if (system.end_follows_from_base()) {
+      form_by_symplecticity(system);
+    } else {
+      form_by_response(system);
+    }
+  }
+
+  /// Calls `add(monomial, dz)` for all monomials of a degree; `state(component, monomial)` is the
+  /// state's coefficient, which is not read after that call.
+  template <class State, class Add>
+  void apply(const SliceEvaluator<P, Real>& evaluator, const SeriesSpace& space, int degree,
+             const State& state, const Add& add) const {
+    const std::size_t last = space.first(degree + 1);
+    std::size_t k = space.first(degree);
+    for (; k + tile <= last; k += tile) apply_tile<tile>(evaluator, degree, k, state, add);
+    for (; k < last; ++k) apply_tile<1>(evaluator, degree, k, state, add);
+  }
+
+ private:
+  static constexpr std::size_t tile = StageSlopes<Real, Lanes>::tile;
+  /// Of an orbit there are 6 and multiples of 6.
+  static constexpr std::size_t columns_at_once = 6;
+
+  /// The derivatives of h^2 sum b_i (1 - c_i) F_i and h sum b_i F_i by the stages' components.
+  void form_gradients(const StageSlopes<Real, Lanes>& stages) {
     const StageSystem<Real, Lanes>& system = stages.system();
     const std::size_t m = system.components();
     const std::size_t s = system.stages();
-    const Real& h = system.step();
-    const std::array<P, 2> weights = {P(Real(h * h)) * system.position_weights(),
-                                      P(h) * system.weights()};
+    const std::array<P, 2> weights = slope_weights(system);
     gradients_.assign(m * s, P(Real(0)));
     for (std::size_t half = 0; half < 2; ++half) {
       for (std::size_t c = 0; c < m; ++c) {
@@ -49,12 +90,40 @@ class EndMap {
         }
       }
     }
-    of_remainders_.resize(m * s);
+  }
+
+  static std::array<P, 2> slope_weights(const StageSystem<Real, Lanes>& system) {
+    const Real& h = system.step();
+    return {P(Real(h * h)) * system.position_weights(), P(h) * system.weights()};
+  }
+
+  void form_by_symplecticity(const StageSystem<Real, Lanes>& system) {
+    const std::size_t m = system.components();
+    const std::size_t s = system.stages();
+    const P weights = slope_weights(system)[1];
+    std::vector<P>& end = end_derivative_;
+    end = of_state_;
+    for (std::size_t k = 0; k < 2 * m; ++k) add_to_lane(end[k], k, Real(1));
+    for (std::size_t from = 0; from < m; ++from) {
+      for (std::size_t j = 0; j < s; ++j) of_remainders_[from * s + j] = P(Real(0));
+      for (std::size_t k = 0; k < m; ++k) {
+        const P by_position = weights * system.base_response(k, from);
+        const P by_momentum = weights * system.base_response(m + k, from);
+        for (std::size_t j = 0; j < s; ++j) {
+          const auto lane = static_cast<int>(j);
+          of_remainders_[from * s + j] +=
+              end[m + k] * P(by_position.lane(lane)) - end[k] * P(by_momentum.lane(lane));
+        }
+      }
+    }
+  }
+
+  void form_by_response(const StageSystem<Real, Lanes>& system) {
+    const std::size_t m = system.components();
+    const std::size_t s = system.stages();
+    const std::array<P, 2> weights = slope_weights(system);
     sum_columns(&system.response(0, 0, 0), m, s, of_remainders_);
-    of_state_.resize(2 * m);
-    sum_columns(&system.base_response(0, 0), m, s, of_state_);
     for (std::size_t c = 0; c < m; ++c) {
-      add_to_lane(of_state_[m + c], c, h);
       for (std::size_t j = 0; j < s; ++j) {
         for (std::size_t half = 0; half < 2; ++half) {
           add_to_lane(of_remainders_[c * s + j], half * m + c,
@@ -63,26 +132,6 @@ class EndMap {
       }
     }
   }
-
-  /// Calls `add(monomial, dz)` for all monomials of a degree; `state[k]` points to the coefficients
-  /// of the k-th component, of which those of a monomial are not read after its call.
-  template <class Add>
-  void apply(const SliceEvaluator<P, Real>& evaluator, const SeriesSpace& space, int degree,
-             const std::vector<const Real*>& state, const Add& add) const {
-    const std::size_t last = space.first(degree + 1);
-    std::size_t k = space.first(degree);
-    for (; k + tile <= last; k += tile) apply_tile<tile>(evaluator, degree, k, state, add);
-    for (; k < last; ++k) apply_tile<1>(evaluator, degree, k, state, add);
-  }
-
- private:
-  /// From which on less is computed than for the stages of a degree; in up to two variables these
-  /// are iterated for, without a factorisation.
-  static constexpr std::size_t least_monomials = 30;
-
-  static constexpr std::size_t tile = StageSlopes<Real, Lanes>::tile;
-  /// Of an orbit there are 6 and multiples of 6.
-  static constexpr std::size_t columns_at_once = 6;
 
   static void add_to_lane(P& pack, std::size_t lane, const Real& x) {
     const auto i = static_cast<int>(lane);
@@ -114,15 +163,15 @@ class EndMap {
     for (std::size_t q = 0; q < Width; ++q) result[q] = sums[q];
   }
 
-  template <std::size_t Width, class Add>
+  template <std::size_t Width, class State, class Add>
   void apply_tile(const SliceEvaluator<P, Real>& evaluator, int degree, std::size_t monomial,
-                  const std::vector<const Real*>& state, const Add& add) const {
-    const std::size_t m = state.size() / 2;
-    const std::size_t s = of_remainders_.size() / m;
+                  const State& state, const Add& add) const {
+    const std::size_t m = of_state_.size() / 2;
+    const std::size_t s = of_remainders_.size() / m;  // of a degree that has remainders
     std::array<P, Width> sums;
-    for (std::size_t k = 0; k < state.size(); ++k) {
+    for (std::size_t k = 0; k < of_state_.size(); ++k) {
       const P& column = of_state_[k];
-      for (std::size_t t = 0; t < Width; ++t) sums[t] += column * P(state[k][monomial + t]);
+      for (std::size_t t = 0; t < Width; ++t) sums[t] += column * P(state(k, monomial + t));
     }
     for (std::size_t from = 0; from < m; ++from) {
       if (!evaluator.has_remainder(from, degree)) continue;
@@ -140,6 +189,7 @@ class EndMap {
   std::vector<P> gradients_;  ///< of the rows' sums by the stages' components
   std::vector<P> of_state_;
   std::vector<P> of_remainders_;
+  std::vector<P> end_derivative_;  ///< Phi, by columns
 };
 
 }  // namespace hamjet

@@ -50,8 +50,8 @@ class GaussIntegrator {
     if (EndMap<Real, Lanes>::serves(stages_.system(), *problem.space, order_) &&
         !settings.controls_all_degrees) {
       end_map_.emplace();
+      jet_.use_rows();
     }
-    for (const auto& component : jet_.value()) state_.push_back(component.coefficients().data());
   }
 
   /// Runs to the end of the duration, telling the observer after every step.
@@ -116,6 +116,9 @@ class GaussIntegrator {
   /// degree counts, the tolerance is far below what is wanted.
   double largest_excess() const { return settings_.controls_all_degrees ? 1000 : 10; }
 
+  Clock::time_point profile_mark() const {
+    return settings_.profile == nullptr ? Clock::time_point() : Clock::now();
+  }
   /// Adds the time since `mark` to one entry of the profile and moves the mark.
   void account(double GaussProfile::*entry, Clock::time_point& mark) {
     if (settings_.profile == nullptr) return;
@@ -139,7 +142,7 @@ class GaussIntegrator {
   /// Evaluates the slopes g at the state's constant terms.
   void evaluate_end_slope(std::vector<Real>& slope) {
     const std::size_t m = stages_.system().components();
-    for (std::size_t c = 0; c < m; ++c) *point_.input(c) = jet_.value()[c][0];
+    for (std::size_t c = 0; c < m; ++c) *point_.input(c) = jet_.constant(c);
     point_.evaluate_constant_values();
     slope.assign(m, Real(0));
     for (std::size_t c = 0; c < m; ++c) {
@@ -161,7 +164,7 @@ class GaussIntegrator {
   }
 
   void step() {
-    auto mark = Clock::now();
+    auto mark = profile_mark();
     const Real remaining = (problem_.duration - at_.time) + at_.lost_time;
     Real h = at_.proposed;
     double growth = 1;
@@ -233,7 +236,7 @@ class GaussIntegrator {
 
   /// Repeats a step that an earlier run of the same nominal took.
   void repeat_step(const GaussCheckpoint<Real, Lanes>& end) {
-    auto mark = Clock::now();
+    auto mark = profile_mark();
     step_ = end.at.previous_step;
     stages_.system().set_step(step_);
     stages_.restore(end.slopes, end.is_by_newton);
@@ -280,7 +283,7 @@ class GaussIntegrator {
 
   /// The state at the start of the step, by component.
   auto start() const {
-    return [this](std::size_t k) -> const Real& { return jet_.value()[k][0]; };
+    return [this](std::size_t k) -> const Real& { return jet_.constant(k); };
   }
 
   void set_constant_slopes() {
@@ -347,32 +350,40 @@ class GaussIntegrator {
     bool iterates = true;
     bool is_factorised = false;
     auto& evaluator = stages_.evaluator();
+    const auto state = [this](std::size_t component, std::size_t monomial) {
+      return jet_.coefficient(component, monomial);
+    };
     for (int d = 1; d <= order_; ++d) {
       evaluator.evaluate_remainder(d);
       account(&GaussProfile::series, mark);
-      if (d == order_ && end_map_) {
-        end_map_->form(stages_);
-        account(&GaussProfile::linear_solves, mark);
-        break;
-      }
-      iterates = iterates && d <= last_iterated && stages_.iterate_degree(d, state_);
-      if (!iterates) {
-        if (!is_factorised && !stages_.factorise(order_ >= 2)) return false;
+      iterates = iterates && d <= last_iterated && stages_.iterate_degree(d, state);
+      if (!iterates && !is_factorised) {
+        if (!stages_.factorise(needed_response())) return false;
         is_factorised = true;
         account(&GaussProfile::factorisation, mark);
-        stages_.solve_degree(d, state_);
       }
+      if (d == order_ && end_map_) break;
+      if (!iterates) stages_.solve_degree(d, state);
       account(&GaussProfile::linear_solves, mark);
-      evaluator.complete(d);
+      end_map_ ? evaluator.complete_intermediates(d) : evaluator.complete(d);
       account(&GaussProfile::update, mark);
     }
+    if (end_map_) end_map_->form(stages_, order_ >= 2);
+    account(&GaussProfile::linear_solves, mark);
     return true;
+  }
+
+  /// The stages of degree 1 have no remainders, and those of the highest are not needed for the end
+  /// map.
+  Response needed_response() const {
+    if (order_ == 1) return Response::left_out;
+    return order_ == 2 && end_map_ ? Response::for_end_map : Response::formed;
   }
 
   /// Advances the jet to the new state, from the stages.
   void advance_jet(const Real& h) {
-    jet_.advance(stages_, h, end_map_ ? order_ - 1 : order_);
-    if (end_map_) jet_.advance_by(*end_map_, stages_.evaluator(), order_, state_);
+    jet_.advance(stages_, h, end_map_ ? 0 : order_);
+    if (end_map_) jet_.advance_by(*end_map_, stages_.evaluator(), order_);
     evaluate_end_slope(end_slope_);
   }
 
@@ -387,7 +398,6 @@ class GaussIntegrator {
   SummedJet<Real, Lanes> jet_;
   GaussStepControl<Real, Lanes> control_;
   std::optional<EndMap<Real, Lanes>> end_map_;  ///< where it serves
-  std::vector<const Real*> state_;
   GaussStepping<Real> at_;
   Real step_ = 0;  ///< the step that is being tried
   /// The step whose slopes the next try's are guessed from.

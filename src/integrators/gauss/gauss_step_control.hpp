@@ -63,7 +63,7 @@ class GaussStepControl {
     step.largest_gradient = stages_.largest_gradient();
     const std::size_t m = stages_.system().components();
     for (std::size_t c = 0; c < m; ++c) {
-      step.place = std::max(step.place, std::abs(static_cast<double>(jet_.value()[c][0])));
+      step.place = std::max(step.place, std::abs(static_cast<double>(jet_.constant(c))));
     }
     step.velocity = velocity();
     return rule_.error_estimate(step, static_cast<double>(h),
@@ -128,7 +128,7 @@ class GaussStepControl {
     const std::size_t m = stages_.system().components();
     double result = 0;
     for (std::size_t c = 0; c < m; ++c) {
-      result = std::max(result, std::abs(static_cast<double>(jet_.value()[m + c][0])));
+      result = std::max(result, std::abs(static_cast<double>(jet_.constant(m + c))));
     }
     if (!stages_.system().unit_mass()) {
       result *= std::abs(static_cast<double>(stages_.system().inverse_mass(0, 0)));

@@ -213,15 +213,17 @@ class StageSlopes {
     ++statistics.nominal_evaluations;
   }
 
-  /// Forms K and B, or B alone, at the stages as they stand; false if the matrix is singular.
-  bool factorise(bool has_remainders = true) {
+  /// Forms B, and K where it is asked for, at the stages as they stand; false if the matrix is
+  /// singular.
+  bool factorise(Response response = Response::formed) {
     return system_.factorise(
-        [&](std::size_t c, std::size_t from) { return slope_gradient(c, from); }, has_remainders);
+        [&](std::size_t c, std::size_t from) { return slope_gradient(c, from); }, response);
   }
 
   /// Does what solve_degree does, by fixed-point iteration without a factorisation. False where it
   /// does not contract.
-  bool iterate_degree(int d, const std::vector<const Real*>& state) {
+  template <class State>
+  bool iterate_degree(int d, const State& state) {
     if (system_.second_order() && !system_.unit_mass() && d >= 2) apply_inverse_mass(d);
     const std::size_t last = space_->first(d + 1);
     std::size_t k = space_->first(d);
@@ -232,8 +234,9 @@ class StageSlopes {
   }
 
   /// Forms the degree-d slices of the stages from those of the outputs' remainders and of the
-  /// state: Y_d = K R_d + B z_d. `state[k]` points to the coefficients of the k-th component.
-  void solve_degree(int d, const std::vector<const Real*>& state) {
+  /// state: Y_d = K R_d + B z_d; `state(k, monomial)` is a coefficient of the k-th component.
+  template <class State>
+  void solve_degree(int d, const State& state) {
     const std::size_t first = space_->first(d);
     const std::size_t last = space_->first(d + 1);
     if (system_.second_order() && !system_.unit_mass() && d >= 2) apply_inverse_mass(d);
@@ -251,21 +254,21 @@ class StageSlopes {
   }
 
  private:
-  template <std::size_t Width>
-  bool iterate_monomials(int d, std::size_t first, const std::vector<const Real*>& state) {
+  template <std::size_t Width, class State>
+  bool iterate_monomials(int d, std::size_t first, const State& state) {
     // The usual number of components is unrolled, and its numbers stay in registers.
-    if (system_.components() == 3) return iterate_monomials<Width, 3>(d, first, state);
-    return iterate_monomials<Width, 0>(d, first, state);
+    if (system_.components() == 3) return iterate_tile<Width, 3>(d, first, state);
+    return iterate_tile<Width, 0>(d, first, state);
   }
 
-  template <std::size_t Width, std::size_t Components>
-  bool iterate_monomials(int d, std::size_t first, const std::vector<const Real*>& state) {
+  template <std::size_t Width, std::size_t Components, class State>
+  bool iterate_tile(int d, std::size_t first, const State& state) {
     DegreeIteration<Real, Lanes, Components, Width> iteration(system_);
     const std::size_t m = system_.components();
     for (std::size_t c = 0; c < m; ++c) {
       for (std::size_t k = 0; k < m; ++k) iteration.gradient[c * m + k] = slope_gradient(c, k);
       for (std::size_t t = 0; t < Width; ++t) {
-        const auto monomial = [&](std::size_t i) -> const Real& { return state[i][first + t]; };
+        const auto monomial = [&](std::size_t i) { return state(i, first + t); };
         P& known = iteration.known[c * Width + t];
         known = system_.base(c, monomial);
         if (has_remainder(c, d)) known += system_.couple(remainder(c)[first + t]);
@@ -335,9 +338,8 @@ class StageSlopes {
   /// Forms Y of `Components` components from c on for `Width` monomials at once: each entry of K is
   /// loaded once for all of the monomials, each remainder once for all of the components, which
   /// stand side by side in K and B.
-  template <std::size_t Width, std::size_t Components>
-  void solve_tile(std::size_t c, int d, std::size_t monomial,
-                  const std::vector<const Real*>& state) {
+  template <std::size_t Width, std::size_t Components, class State>
+  void solve_tile(std::size_t c, int d, std::size_t monomial, const State& state) {
     std::array<std::array<P, Width>, Components> sum;
     for (auto& row : sum) row.fill(P(Real(0)));
     const auto add = [&](const P* entries, const auto& value) {
@@ -346,8 +348,8 @@ class StageSlopes {
         for (std::size_t i = 0; i < Components; ++i) sum[i][t] += entries[i] * broadcast;
       }
     };
-    for (std::size_t k = 0; k < state.size(); ++k) {
-      add(&system_.base_response(k, c), [&](std::size_t t) { return state[k][monomial + t]; });
+    for (std::size_t k = 0; k < system_.state_size(); ++k) {
+      add(&system_.base_response(k, c), [&](std::size_t t) { return state(k, monomial + t); });
     }
     for (std::size_t from = 0; from < system_.components(); ++from) {
       if (!has_remainder(from, d)) continue;

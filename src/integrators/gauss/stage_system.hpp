@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -14,6 +15,10 @@
 #include "stage_coefficients.hpp"
 
 namespace hamjet {
+
+/// Whether K, see StageSystem, is formed beside B; for an end map, only where that does not follow
+/// from B.
+enum class Response { left_out, for_end_map, formed };
 
 /// The linear system of the stage equations of one step, and its solution operator.
 ///
@@ -64,6 +69,7 @@ class StageSystem {
 
   std::size_t stages() const { return stages_; }
   std::size_t components() const { return components_; }
+  std::size_t state_size() const { return state_size_; }
   bool second_order() const { return second_order_; }
   bool unit_mass() const { return unit_mass_; }
   const Real& inverse_mass(std::size_t c, std::size_t k) const {
@@ -142,22 +148,31 @@ class StageSystem {
   /// The block B_(c, k), k an index into the state.
   const P& base_response(std::size_t k, std::size_t c) const { return base_[k * components_ + c]; }
 
-  /// Forms B, and K where slices with remainders are to be solved for (`has_remainders`; those of
-  /// degree 1 have none), from the slopes' gradients Dg_(c, from), packs over the stages. False if
-  /// the matrix is singular or not finite.
+  /// Forms B, and K where it is asked for, from the slopes' gradients Dg_(c, from), packs over the
+  /// stages. False if the matrix is singular or not finite.
   template <class Gradient>
-  bool factorise(const Gradient& gradient, bool has_remainders = true) {
-    const std::size_t response_size = has_remainders ? response_.size() : 0;
+  bool factorise(const Gradient& gradient, Response response) {
+    const bool is_dominant = has_dominant_diagonal(gradient);
+    end_follows_from_base_ =
+        response != Response::left_out && is_dominant && is_symmetric(gradient);
+    const bool has_response = response == Response::formed ||
+                              (response == Response::for_end_map && !end_follows_from_base_);
+    const std::size_t response_size = has_response ? response_.size() : 0;
     fill(gradient, response_size);
-    if (is_dominant(gradient)) {
+    if (is_dominant) {
       eliminate_in_order(response_size);
       return true;
     }
     if (!eliminate(response_size)) return false;
-    if (has_remainders) undo_pivoting(response_);
+    if (has_response) undo_pivoting(response_);
     undo_pivoting(base_);
     return true;
   }
+  /// Whether what forces at the stages of the matrix that was factorised last (for remainders) do
+  /// to the end of the step follows from B, see EndMap: where Dg is symmetric, as it is of forces
+  /// that are gradients, and the matrix dominated by its diagonal, so that B has no larger
+  /// roundings than K.
+  bool end_follows_from_base() const { return end_follows_from_base_; }
 
  private:
   /// The velocity (M^-1 p)_c of a second-order system.
@@ -177,7 +192,7 @@ class StageSystem {
   /// and Stability of Numerical Algorithms, 2nd ed., theorem 9.9 and section 14.4). False where a
   /// number is not finite.
   template <class Gradient>
-  bool is_dominant(const Gradient& gradient) const {
+  bool has_dominant_diagonal(const Gradient& gradient) const {
     P largest(Real(0));
     for (std::size_t c = 0; c < components_; ++c) {
       P sum(Real(0));
@@ -192,6 +207,23 @@ class StageSystem {
       largest = larger_magnitude(largest, sum * P(scale_));
     }
     return largest_magnitude(largest) <= Real(0.5);
+  }
+
+  /// Whether Dg is symmetric at all stages but for rounding: what it is not enters the end by the
+  /// same part. A field need not be a gradient: one that is scaled by a variable of its own is not.
+  template <class Gradient>
+  bool is_symmetric(const Gradient& gradient) const {
+    P largest(Real(0));
+    P difference(Real(0));
+    for (std::size_t c = 0; c < components_; ++c) {
+      largest = larger_magnitude(largest, gradient(c, c));
+      for (std::size_t k = 0; k < c; ++k) {
+        largest = larger_magnitude(largest, gradient(c, k));
+        difference = larger_magnitude(difference, gradient(c, k) - gradient(k, c));
+      }
+    }
+    const Real roundings = 64 * std::numeric_limits<Real>::epsilon();
+    return largest_magnitude(difference) <= roundings * largest_magnitude(largest);
   }
 
   template <class Gradient>
@@ -290,30 +322,71 @@ class StageSystem {
     eliminate_in_order<0>(response_size);
   }
 
-  /// Components 0 means as many as there are. With the pivot p and the other entries f of its
-  /// column, x = column_r / p is left in the pivot row and column - f x in the others. As
-  /// column_r - (p - 1) x = x, the one formula does for all of them, with p - 1 in the place of p.
+  /// Components 0 means as many as there are. Pivots are taken four at a time where a component has
+  /// as many stages left, so that a column is read and written once for four.
   template <std::size_t Components>
   void eliminate_in_order(std::size_t response_size) {
+    for (std::size_t c = 0; c < components_; ++c) {
+      std::size_t lane = 0;
+      for (; lane + 4 <= stages_; lane += 4) {
+        eliminate_block<Components, 4>(c, lane, response_size);
+      }
+      for (; lane < stages_; ++lane) eliminate_block<Components, 1>(c, lane, response_size);
+    }
+  }
+
+  /// With the block P of the pivots in their columns F, x = P^-1 v is left in the pivot rows v of a
+  /// column and column - F x in the others. As v - (P - I) x = x, the one formula does for all of
+  /// them, with P - I in the place of P.
+  template <std::size_t Components, std::size_t Count>
+  void eliminate_block(std::size_t component, std::size_t lane, std::size_t response_size) {
     const std::size_t components = Components == 0 ? components_ : Components;
-    for (std::size_t r = 0; r < unknowns_; ++r) {
-      const std::size_t component = r / stages_;
-      const auto lane = static_cast<int>(r % stages_);
-      P* factor = &matrix_[r * components];
-      const Real inverse = 1 / factor[component].lane(lane);
-      factor[component] -= units_[r % stages_];
-      std::array<P, Components> row;
-      std::copy_n(factor, Components, row.begin());
-      for_each_column(r + 1, response_size, [&](P* column) {
-        const Real x = column[component].lane(lane) * inverse;
-        if (x == 0) return;
+    const std::size_t first = component * stages_ + lane;
+    P* const factors = &matrix_[first * components];
+    const auto pivots = [&](const P* column) {
+      std::array<Real, Count> v;
+      for (std::size_t i = 0; i < Count; ++i) {
+        v[i] = column[component].lane(static_cast<int>(lane + i));
+      }
+      return v;
+    };
+    std::array<std::array<Real, Count>, Count> block;  // by columns
+    for (std::size_t j = 0; j < Count; ++j) block[j] = pivots(factors + j * components);
+    invert(block);
+    for (std::size_t j = 0; j < Count; ++j) {
+      factors[j * components + component] -= units_[lane + j];
+    }
+    std::array<P, Components * Count> columns;
+    std::copy_n(factors, columns.size(), columns.begin());
+    for_each_column(first + Count, response_size, [&](P* column) {
+      const std::array<Real, Count> v = pivots(column);
+      bool vanishes = true;
+      for (const Real& entry : v) vanishes = vanishes && entry == 0;
+      if (vanishes) return;
+      for (std::size_t j = 0; j < Count; ++j) {
+        Real x = block[0][j] * v[0];
+        for (std::size_t i = 1; i < Count; ++i) x += block[i][j] * v[i];
         const P broadcast(x);
-        if constexpr (Components == 0) {
-          for (std::size_t c = 0; c < components; ++c) column[c] -= factor[c] * broadcast;
-        } else {
-          for (std::size_t c = 0; c < Components; ++c) column[c] -= row[c] * broadcast;
+        for (std::size_t c = 0; c < components; ++c) {
+          column[c] -= (Components == 0 ? factors : columns.data())[j * components + c] * broadcast;
         }
-      });
+      }
+    });
+  }
+
+  /// By elimination in order, as for the whole matrix.
+  template <std::size_t Count>
+  static void invert(std::array<std::array<Real, Count>, Count>& block) {
+    for (std::size_t r = 0; r < Count; ++r) {
+      const Real inverse = 1 / block[r][r];
+      block[r][r] = Real(1);
+      for (std::size_t j = 0; j < Count; ++j) block[j][r] *= inverse;
+      for (std::size_t i = 0; i < Count; ++i) {
+        if (i == r) continue;
+        const Real factor = block[r][i];
+        block[r][i] = Real(0);
+        for (std::size_t j = 0; j < Count; ++j) block[j][i] -= factor * block[j][r];
+      }
     }
   }
 
@@ -339,6 +412,7 @@ class StageSystem {
   const std::vector<typename StageCoefficients<Real, Lanes>::Rounded>& coupling_;
   std::size_t unknowns_ = 0;
   bool unit_mass_ = true;
+  bool end_follows_from_base_ = false;
   Real step_ = 0;
   Real scale_ = 0;
   std::vector<Real> inverse_mass_;
