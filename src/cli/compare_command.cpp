@@ -98,11 +98,11 @@ int compare(const CompareOptions& options) {
       const UninterruptedWriting guard(Writing::partial_results);
       write_figures(result, origin, output);
     }
-    print_error(
+    return end_interrupted(
+        interrupted,
         fmt::format("interrupted; what was finished is in {}, marked as partial; the same command "
                     "with --resume goes on",
                     directory.string()));
-    return interrupted.exit_code();
   }
   {
     // The figures are safe before the plots are drawn.

@@ -324,8 +324,7 @@ int main(int argc, char** argv) {
     hamjet::cli::reset_arithmetic();
     return dispatch(argc, argv);
   } catch (const hamjet::cli::Interrupted& interrupted) {
-    hamjet::cli::print_error("interrupted; nothing was written");
-    return interrupted.exit_code();
+    return hamjet::cli::end_interrupted(interrupted, "interrupted; nothing was written");
   } catch (const hamjet::Error& error) {
     hamjet::cli::print_error(error.what());
     return error.exit_code();

@@ -75,8 +75,8 @@ int merge(const RunOptions& run, const io::SweepStudy& study, const io::SweepDir
   try {
     return report_study(run, study.name, work);
   } catch (const Interrupted& interrupted) {
-    print_error("interrupted; there is no new table; the rows stay, and --merge makes it");
-    return interrupted.exit_code();
+    return end_interrupted(
+        interrupted, "interrupted; there is no new table; the rows stay, and --merge makes it");
   }
 }
 
@@ -172,11 +172,11 @@ int run_items(const RunOptions& run, const SweepOptions& options, const io::Swee
                               static_cast<double>(std::max<std::size_t>(remaining.size(), 1)));
         });
   } catch (const Interrupted& interrupted) {
-    print_error(fmt::format(
-        "interrupted; {} of {} items are finished and stay in {}; --resume "
-        "goes on",
-        earlier + now.finished, items.size(), io::printable(path.string(), std::string::npos)));
-    return interrupted.exit_code();
+    return end_interrupted(
+        interrupted,
+        fmt::format("interrupted; {} of {} items are finished and stay in {}; --resume goes on",
+                    earlier + now.finished, items.size(),
+                    io::printable(path.string(), std::string::npos)));
   }
   total.finished = items.size();
   total.failed += now.failed;

@@ -12,17 +12,24 @@
 namespace hamjet {
 
 /// The flow's jet as it advances from step to step, with the round-off that each addition lost
-/// unless it is summed plainly. Where an end map advances it, the coefficients above degree 0 stand
-/// in rows, one pack a monomial whose lanes are the components, as the map's steps do.
+/// unless it is summed plainly. By rows, for an end map, the coefficients above degree 0 stand one
+/// pack a monomial whose lanes are the components, as the map's steps do.
 template <class Real, int Lanes>
 class SummedJet {
  public:
   using P = Pack<Real, Lanes>;
 
-  SummedJet(const FlowProblem<Real>& problem, bool is_compensated)
-      : is_compensated_(is_compensated),
-        jet_(starting_jet(problem)),
-        lost_(jet_.size(), std::vector<Real>(is_compensated ? problem.space->size() : 0, Real(0))) {
+  SummedJet(const FlowProblem<Real>& problem, bool is_compensated, bool is_by_rows)
+      : is_compensated_(is_compensated), jet_(starting_jet(problem)) {
+    const std::size_t size = problem.space->size();
+    if (is_compensated) lost_.assign(jet_.size(), std::vector<Real>(is_by_rows ? 1 : size));
+    if (!is_by_rows) return;
+    rows_.resize(size);
+    for (std::size_t k = 1; k < size; ++k) {
+      for (std::size_t c = 0; c < jet_.size(); ++c) {
+        rows_[k].value.set_lane(static_cast<int>(c), jet_[c][k]);
+      }
+    }
   }
 
   /// The jet as it stands.
@@ -39,20 +46,14 @@ class SummedJet {
     return std::move(jet_);
   }
   const Real& constant(std::size_t component) const { return jet_[component][0]; }
+  /// The constant terms by component, as a function.
+  auto start() const {
+    return [this](std::size_t component) -> const Real& { return constant(component); };
+  }
   /// A coefficient of any degree.
   Real coefficient(std::size_t component, std::size_t monomial) const {
     return rows_.empty() ? jet_[component][monomial]
                          : rows_[monomial].value.lane(static_cast<int>(component));
-  }
-
-  /// Puts the coefficients above degree 0 into rows, for advance_by.
-  void use_rows() {
-    rows_.resize(jet_[0].space().size());
-    for (std::size_t k = 1; k < rows_.size(); ++k) {
-      for (std::size_t c = 0; c < jet_.size(); ++c) {
-        rows_[k].value.set_lane(static_cast<int>(c), jet_[c][k]);
-      }
-    }
   }
 
   /// The constant terms, and what they lost (empty if not compensated).
@@ -63,9 +64,7 @@ class SummedJet {
   }
   std::vector<Real> lost_constants() const {
     std::vector<Real> result;
-    for (const auto& component : lost_) {
-      if (is_compensated_) result.push_back(component[0]);
-    }
+    for (const auto& component : lost_) result.push_back(component[0]);
     return result;
   }
   /// Goes on from given constant terms and what they lost.
@@ -82,24 +81,20 @@ class SummedJet {
     with_addition([&](const auto& add) { advance_with(stages, h, highest, add); });
   }
 
-  /// Takes the step of the degrees from 1 to `highest` by the stages' end map. Needs use_rows.
+  /// Takes the step of the degrees from 1 to `highest` by the stages' end map, of a jet by rows.
   void advance_by(const EndMap<Real, Lanes>& map, const SliceEvaluator<P, Real>& evaluator,
                   int highest) {
     const auto state = [this](std::size_t component, std::size_t monomial) {
       return rows_[monomial].value.lane(static_cast<int>(component));
     };
-    const auto advance = [&](const auto& add) {
-      const auto add_to_row = [&](std::size_t k, const P& step) { add(rows_[k], step); };
+    with_addition([&](const auto& add) {
+      const auto add_to_row = [&](std::size_t k, const P& step) {
+        add(&rows_[k].value, &rows_[k].lost, 0, step);
+      };
       for (int d = 1; d <= highest; ++d) {
         map.apply(evaluator, jet_[0].space(), d, state, add_to_row);
       }
-    };
-    // One choice a step: the loops over the coefficients have none.
-    if (is_compensated_) {
-      advance([](Row& row, const P& step) { add_compensated(row.value, row.lost, step); });
-    } else {
-      advance([](Row& row, const P& step) { row.value += step; });
-    }
+    });
   }
 
  private:
@@ -107,12 +102,12 @@ class SummedJet {
   template <class Advance>
   void with_addition(const Advance& advance) {
     if (is_compensated_) {
-      advance([](Real* value, Real* lost, std::size_t k, const Real& increment) {
+      advance([](auto* value, auto* lost, std::size_t k, const auto& increment) {
         add_compensated(value[k], lost[k], increment);
       });
     } else {
       advance(
-          [](Real* value, Real*, std::size_t k, const Real& increment) { value[k] += increment; });
+          [](auto* value, auto*, std::size_t k, const auto& increment) { value[k] += increment; });
     }
   }
 
@@ -131,7 +126,7 @@ class SummedJet {
     // Positions come first: they need the momenta at the start of the step.
     for (std::size_t c = 0; c < m; ++c) {
       Real* value = jet_[c].coefficients().data();
-      Real* lost = lost_[c].data();
+      Real* lost = lost_of(c);
       for (std::size_t k = 0; k < count; ++k) {
         Real velocity = jet_[m + c][k];
         if (!system.unit_mass()) {
@@ -156,12 +151,14 @@ class SummedJet {
   void add_slopes(std::size_t component, std::size_t count, const StageSystem<Real, Lanes>& system,
                   const P* slopes, const Real& h, const Add& add) {
     Real* value = jet_[component].coefficients().data();
-    Real* lost = lost_[component].data();
+    Real* lost = lost_of(component);
     for (std::size_t k = 0; k < count; ++k) {
       add(value, lost, k, Real(h * dot(system.weights(), slopes[k])));
     }
     add(value, lost, 0, Real(h * dot(system.weights_lost(), slopes[0])));
   }
+
+  Real* lost_of(std::size_t c) { return is_compensated_ ? lost_[c].data() : nullptr; }
 
   /// The coefficients of one monomial and what they lost.
   struct Row {
@@ -171,8 +168,8 @@ class SummedJet {
 
   bool is_compensated_;
   FlowJet<Real> jet_;
-  std::vector<std::vector<Real>> lost_;  ///< empty lists if not compensated
-  std::vector<Row> rows_;                ///< by monomial, of which degree 0 is not used; or none
+  std::vector<std::vector<Real>> lost_;  ///< by component; none if not compensated
+  std::vector<Row> rows_;                ///< by monomial (that of degree 0 is not used), or none
 };
 
 }  // namespace hamjet

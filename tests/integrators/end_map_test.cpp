@@ -67,7 +67,7 @@ class OneStep {
     stages_.evaluator().complete(2);
     EXPECT_TRUE(stages_.factorise(response));
     EndMap<double, Lanes> map;
-    map.form(stages_);
+    map.form(stages_, true);
     double largest = 0;
     double difference = 0;
     map.apply(stages_.evaluator(), *space_, 2, state, [&](std::size_t k, const P& step) {

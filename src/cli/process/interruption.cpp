@@ -80,6 +80,12 @@ void catch_signals() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
+int end_interrupted(const Interrupted& interrupted, const std::string& message) {
+  for (const int signal : {SIGALRM, SIGINT, SIGTERM}) std::signal(signal, SIG_IGN);
+  print_error(message);
+  return interrupted.exit_code();
+}
+
 void end_after_unhandled_exception() noexcept {
   try {
     if (const auto cause = std::current_exception()) std::rethrow_exception(cause);
@@ -117,8 +123,9 @@ UninterruptedWriting::UninterruptedWriting(Writing what) : what_(what) {
 }
 
 UninterruptedWriting::~UninterruptedWriting() {
-  if (what_ == Writing::checkpoint) has_checkpoint = 1;
-  phase = what_ == Writing::checkpoint ? computing : written;
+  // After partial results the line that says so is still to come.
+  if (what_ != Writing::results) has_checkpoint = 1;
+  phase = what_ != Writing::results ? computing : written;
 }
 
 }  // namespace hamjet::cli

@@ -2,6 +2,7 @@
 
 #include <exception>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace hamjet::cli {
@@ -22,6 +23,10 @@ class Interrupted : public std::exception {
 /// within a second, for a single step of high order may take longer, or at a second signal, the
 /// program ends at once. SIGPIPE and SIGXFSZ become errors of the write.
 void catch_signals();
+
+/// Prints the one line that an interrupted program ends with, after which no signal adds another,
+/// and returns the exit code.
+[[nodiscard]] int end_interrupted(const Interrupted& interrupted, const std::string& message);
 
 /// The message where memory runs out.
 inline constexpr const char* out_of_memory =

@@ -20,8 +20,11 @@ namespace hamjet {
 /// (A_i, C_i) the rows of the positions at the stage i and Phi = I + S those of the end, and of
 /// what forces R_i at the stages change,
 ///
-///   Phi^T J dz = h sum b_i B_i^T R_i ,   and as Phi is symplectic   T_i = h b_i Phi (-C_i, A_i)^T
-///   .
+///   Phi^T J dz = h sum b_i B_i^T R_i ,
+///
+/// and as Phi is symplectic
+///
+///   T_i = h b_i Phi (-C_i, A_i)^T .
 ///
 /// The 2m rows of S and T stand side by side as lanes. A monomial takes 2m + m s multiply-adds of
 /// packs, and no sums over lanes.
@@ -39,8 +42,9 @@ class EndMap {
   }
 
   /// Forms S, and T where there are remainders, from the stages as they stand, for which
-  /// StageSlopes::factorise has formed B, and K unless the matrix is dominated by its diagonal.
-  void form(const StageSlopes<Real, Lanes>& stages, bool has_remainders = true) {
+  /// StageSlopes::factorise has formed what Response::for_end_map asks for (B alone without
+  /// remainders).
+  void form(const StageSlopes<Real, Lanes>& stages, bool has_remainders) {
     form_gradients(stages);
     const StageSystem<Real, Lanes>& system = stages.system();
     const std::size_t m = system.components();
@@ -101,9 +105,8 @@ class EndMap {
     const std::size_t m = system.components();
     const std::size_t s = system.stages();
     const P weights = slope_weights(system)[1];
-    std::vector<P>& end = end_derivative_;
-    end = of_state_;
-    for (std::size_t k = 0; k < 2 * m; ++k) add_to_lane(end[k], k, Real(1));
+    end_ = of_state_;
+    for (std::size_t k = 0; k < 2 * m; ++k) add_to_lane(end_[k], k, Real(1));
     for (std::size_t from = 0; from < m; ++from) {
       for (std::size_t j = 0; j < s; ++j) of_remainders_[from * s + j] = P(Real(0));
       for (std::size_t k = 0; k < m; ++k) {
@@ -112,7 +115,7 @@ class EndMap {
         for (std::size_t j = 0; j < s; ++j) {
           const auto lane = static_cast<int>(j);
           of_remainders_[from * s + j] +=
-              end[m + k] * P(by_position.lane(lane)) - end[k] * P(by_momentum.lane(lane));
+              end_[m + k] * P(by_position.lane(lane)) - end_[k] * P(by_momentum.lane(lane));
         }
       }
     }
@@ -189,7 +192,7 @@ class EndMap {
   std::vector<P> gradients_;  ///< of the rows' sums by the stages' components
   std::vector<P> of_state_;
   std::vector<P> of_remainders_;
-  std::vector<P> end_derivative_;  ///< Phi, by columns
+  std::vector<P> end_;  ///< Phi, by columns
 };
 
 }  // namespace hamjet

@@ -18,8 +18,8 @@
 #include "gauss_step_control.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
+#include "nominal_stages.hpp"
 #include "stage_slopes.hpp"
-#include "step_reach.hpp"
 
 namespace hamjet {
 
@@ -41,18 +41,13 @@ class GaussIntegrator {
         settings_(settings),
         statistics_(statistics),
         order_(working_order(problem)),
-        is_linear_(problem.system->vector_field.is_linear_system()),
         stages_(*problem.system, gauss_tableau(static_cast<std::size_t>(settings.stages)),
                 problem.space, order_),
         point_(problem.system->evaluated_list(), problem.space, 0),
-        jet_(problem, settings.compensated_summation),
-        control_(settings, stages_, jet_, controlled_order) {
-    if (EndMap<Real, Lanes>::serves(stages_.system(), *problem.space, order_) &&
-        !settings.controls_all_degrees) {
-      end_map_.emplace();
-      jet_.use_rows();
-    }
-  }
+        end_map_(make_end_map()),
+        jet_(problem, settings.compensated_summation, end_map_.has_value()),
+        control_(settings, stages_, jet_, controlled_order),
+        nominal_(*problem.system, settings, stages_, jet_, control_, end_slope_, statistics) {}
 
   /// Runs to the end of the duration, telling the observer after every step.
   FlowJet<Real> run(const StepObserver<Real>& observer) {
@@ -85,7 +80,7 @@ class GaussIntegrator {
     at_ = start.at;
     stages_.restore(start.slopes, start.is_by_newton);
     end_slope_ = start.end_slope;
-    guess_ = at_.taken > 0 ? Guess::last_step : Guess::none;
+    if (at_.taken > 0) guess_ = {Real(1), at_.previous_step};
     while (at_.taken < last) {
       const GaussCheckpoint<Real, Lanes>* const end = after(at_.taken + 1);
       if (end != nullptr) {
@@ -170,7 +165,7 @@ class GaussIntegrator {
     double growth = 1;
     while (true) {
       if (!settings_.step)
-        h = fit_to_span(control_.sampling_step(h, *problem_.system, start()), remaining);
+        h = fit_to_span(control_.sampling_step(h, *problem_.system, jet_.start()), remaining);
       if (at_.time + h == at_.time) {
         throw Error(
             ErrorKind::numerical,
@@ -179,7 +174,7 @@ class GaussIntegrator {
                         static_cast<double>(h), static_cast<double>(at_.time)));
       }
       step_ = h;
-      const bool is_solved = solve_nominal(h);
+      const bool is_solved = nominal_.solve(h, guess_);
       account(&GaussProfile::nominal, mark);
       if (settings_.step) {
         if (!is_solved) fail_fixed_step(h);
@@ -207,13 +202,16 @@ class GaussIntegrator {
         break;
       }
       ++statistics_.rejected_steps;
-      guess_ = is_solved ? Guess::repeated_step : Guess::none;
-      repeated_step_ = h;
+      if (is_solved) {
+        guess_ = {Real(0), h};
+      } else {
+        guess_.reset();
+      }
       h *= Real(std::min(growth, 0.9));
     }
     advance_jet(h);
     at_.previous_step = h;
-    guess_ = Guess::last_step;
+    guess_ = {Real(1), h};
     ++at_.taken;
     ++statistics_.steps;
     statistics_.periods += control_.periods(h);
@@ -240,12 +238,12 @@ class GaussIntegrator {
     step_ = end.at.previous_step;
     stages_.system().set_step(step_);
     stages_.restore(end.slopes, end.is_by_newton);
-    stages_.evaluate_at_slopes(start(), statistics_);
+    stages_.evaluate_at_slopes(jet_.start(), statistics_);
     if (!solve_degrees(mark)) fail_fixed_step(step_);
     advance_jet(step_);
     account(&GaussProfile::update, mark);
     at_ = end.at;
-    guess_ = Guess::last_step;
+    guess_ = {Real(1), step_};
     ++statistics_.steps;
     statistics_.vector_field_evaluations += settings_.stages;
   }
@@ -257,87 +255,6 @@ class GaussIntegrator {
                     "t = {:.10g} have no solution connected to its start; a smaller step is "
                     "needed",
                     settings_.stages, static_cast<double>(h), static_cast<double>(at_.time)));
-  }
-
-  /// Solves degree 0 of a step by Newton's method: from the extrapolated slopes, from constant
-  /// slopes if that fails, and along growing step sizes where the solution found might not be the
-  /// one connected to the start.
-  bool solve_nominal(const Real& h) {
-    if (guess_ != Guess::none) {
-      if (guess_ == Guess::last_step) {
-        stages_.reposition(Real(1), Real(h / at_.previous_step));
-      } else {
-        stages_.reposition(Real(0), Real(h / repeated_step_));
-      }
-      if (try_step(h) && !is_suspicious(h)) return true;
-    }
-    set_constant_slopes();
-    if (try_step(h) && !is_suspicious(h)) return true;
-    return settings_.step && continue_from_start(h);
-  }
-
-  bool try_step(const Real& h) {
-    stages_.system().set_step(h);
-    return stages_.solve_constant_terms(start(), statistics_);
-  }
-
-  /// The state at the start of the step, by component.
-  auto start() const {
-    return [this](std::size_t k) -> const Real& { return jet_.constant(k); };
-  }
-
-  void set_constant_slopes() {
-    for (std::size_t c = 0; c < end_slope_.size(); ++c) stages_.slopes()[c] = P(end_slope_[c]);
-  }
-
-  /// Newton can converge to a detached root of the stage equations, whose map is symplectic and
-  /// wrong. The slopes then have nothing to do with the slope at the start of the step.
-  /// The equations of a linear system have one solution only.
-  bool is_suspicious(const Real& h) {
-    if (is_linear_) return false;
-    if (control_.start_defect(end_slope_) > 0.5 * stages_.largest_slope() + 2 * expected_change()) {
-      return true;
-    }
-    // Controlled steps are short, and what they miss their error estimate sees.
-    return settings_.step && stages_.displacement(start()) > 4 * reach(h);
-  }
-
-  /// By how much the slopes may differ between the start and the stages: |Dg| times the
-  /// displacement. In a stiff system that is almost anything; see reach.
-  double expected_change() { return stages_.largest_gradient() * stages_.displacement(start()); }
-
-  double reach(const Real& h) { return step_reach(stages_.system(), end_slope_, start(), h); }
-
-  /// Follows the solution from a tiny step to the full one. Where neighbouring solutions differ
-  /// much the path is refined; a path that ends (a fold) has no continuation, however far it is
-  /// refined.
-  bool continue_from_start(const Real& h) {
-    constexpr double first = 0x1p-10;
-    constexpr double smallest = 0x1p-16;
-    set_constant_slopes();
-    const Real first_step = h * Real(first);
-    if (!try_step(first_step) || is_suspicious(first_step)) return false;
-    double reached = first;
-    double part = first;
-    double distance = stages_.displacement(start());
-    while (reached < 1) {
-      const double next = std::min(1.0, reached + part);
-      const std::vector<P> before = stages_.slopes();
-      const Real next_step = h * Real(next);
-      if (try_step(next_step) &&
-          largest_change(before, stages_.slopes(), settings_.stages) <=
-              0.25 * stages_.largest_slope() + expected_change() &&
-          stages_.displacement(start()) <= 4 * std::max(distance, reach(next_step))) {
-        distance = stages_.displacement(start());
-        reached = next;
-        part *= 2;
-        continue;
-      }
-      stages_.slopes() = before;
-      part /= 2;
-      if (part < smallest) return false;
-    }
-    return true;
   }
 
   /// Solves the degrees 1..N of the stages; false if their equations cannot be solved.
@@ -365,7 +282,11 @@ class GaussIntegrator {
       if (d == order_ && end_map_) break;
       if (!iterates) stages_.solve_degree(d, state);
       account(&GaussProfile::linear_solves, mark);
-      end_map_ ? evaluator.complete_intermediates(d) : evaluator.complete(d);
+      if (end_map_) {
+        evaluator.complete_intermediates(d);
+      } else {
+        evaluator.complete(d);
+      }
       account(&GaussProfile::update, mark);
     }
     if (end_map_) end_map_->form(stages_, order_ >= 2);
@@ -380,6 +301,15 @@ class GaussIntegrator {
     return order_ == 2 && end_map_ ? Response::for_end_map : Response::formed;
   }
 
+  /// The end map where it serves; the control of all degrees needs their slopes.
+  std::optional<EndMap<Real, Lanes>> make_end_map() const {
+    if (settings_.controls_all_degrees ||
+        !EndMap<Real, Lanes>::serves(stages_.system(), *problem_.space, order_)) {
+      return std::nullopt;
+    }
+    return EndMap<Real, Lanes>();
+  }
+
   /// Advances the jet to the new state, from the stages.
   void advance_jet(const Real& h) {
     jet_.advance(stages_, h, end_map_ ? 0 : order_);
@@ -392,18 +322,15 @@ class GaussIntegrator {
   IntegrationStatistics& statistics_;
   IntegrationClock clock_;
   int order_;
-  bool is_linear_;
   StageSlopes<Real, Lanes> stages_;
   SliceEvaluator<Real, Real> point_;  ///< the vector field at one point
+  std::optional<EndMap<Real, Lanes>> end_map_;
   SummedJet<Real, Lanes> jet_;
   GaussStepControl<Real, Lanes> control_;
-  std::optional<EndMap<Real, Lanes>> end_map_;  ///< where it serves
+  NominalStages<Real, Lanes> nominal_;
   GaussStepping<Real> at_;
-  Real step_ = 0;  ///< the step that is being tried
-  /// The step whose slopes the next try's are guessed from.
-  enum class Guess { none, last_step, repeated_step };
-  Guess guess_ = Guess::none;
-  Real repeated_step_ = 0;       ///< the size that was refused
+  Real step_ = 0;                           ///< the step that is being tried
+  std::optional<KnownSlopes<Real>> guess_;  ///< what the next try's slopes are guessed from
   std::vector<Real> end_slope_;  ///< at the end of the last step, where the next one starts
 };
 

@@ -46,7 +46,7 @@ class GaussStepControl {
   }
 
   /// Distance, at the start of the step, between the slope there and the collocation polynomial.
-  double start_defect(const std::vector<Real>& end_slope) {
+  double start_defect(const std::vector<Real>& end_slope) const {
     double result = 0;
     for (std::size_t c = 0; c < end_slope.size(); ++c) {
       const Real difference = stages_.slope_at_start(c) - end_slope[c];

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -13,6 +13,7 @@
 #include "hamjet/detail/algebra/pack.hpp"
 #include "hamjet/dynamics/dynamical_system.hpp"
 #include "stage_coefficients.hpp"
+#include "stage_elimination.hpp"
 
 namespace hamjet {
 
@@ -45,7 +46,8 @@ class StageSystem {
         components_(second_order_ ? system.degrees_of_freedom : system.dimension()),
         state_size_(system.dimension()),
         coefficients_(StageCoefficients<Real, Lanes>::of(tableau)),
-        coupling_(second_order_ ? coefficients_.squared : coefficients_.matrix) {
+        coupling_(second_order_ ? coefficients_.squared : coefficients_.matrix),
+        elimination_(components_, stages_) {
     if (second_order_) {
       for (const Extended& x : system.second_order->inverse_mass) {
         inverse_mass_.push_back(convert<Real>(x));
@@ -56,15 +58,8 @@ class StageSystem {
         }
       }
     }
-    unknowns_ = components_ * stages_;
-    matrix_.resize(unknowns_ * components_);
-    response_.resize(unknowns_ * components_);
+    response_.resize(components_ * stages_ * components_);
     base_.resize(state_size_ * components_);
-    for (std::size_t i = 0; i < stages_; ++i) {
-      units_.push_back(P::of_lanes([&](std::size_t lane) { return Real(lane == i ? 1 : 0); }));
-    }
-    pivot_row_.resize(unknowns_);
-    used_.resize(unknowns_);
   }
 
   std::size_t stages() const { return stages_; }
@@ -157,16 +152,9 @@ class StageSystem {
         response != Response::left_out && is_dominant && is_symmetric(gradient);
     const bool has_response = response == Response::formed ||
                               (response == Response::for_end_map && !end_follows_from_base_);
-    const std::size_t response_size = has_response ? response_.size() : 0;
-    fill(gradient, response_size);
-    if (is_dominant) {
-      eliminate_in_order(response_size);
-      return true;
-    }
-    if (!eliminate(response_size)) return false;
-    if (has_response) undo_pivoting(response_);
-    undo_pivoting(base_);
-    return true;
+    fill(gradient, has_response);
+    const std::span<P> response_columns(response_.data(), has_response ? response_.size() : 0);
+    return elimination_.solve({response_columns, base_}, is_dominant);
   }
   /// Whether what forces at the stages of the matrix that was factorised last (for remainders) do
   /// to the end of the step follows from B, see EndMap: where Dg is symmetric, as it is of forces
@@ -227,16 +215,16 @@ class StageSystem {
   }
 
   template <class Gradient>
-  void fill(const Gradient& gradient, std::size_t response_size) {
+  void fill(const Gradient& gradient, bool has_response) {
     const P zero(Real(0));
     for (std::size_t from = 0; from < components_; ++from) {
       for (std::size_t j = 0; j < stages_; ++j) {
         const P column = coupling_[j].value * P(scale_);
-        P* m = &matrix_[(from * stages_ + j) * components_];
+        P* m = elimination_.column(from, j);
         P* r = &response_[(from * stages_ + j) * components_];
         for (std::size_t c = 0; c < components_; ++c) {
           m[c] = column * P(Real(-gradient(c, from).lane(static_cast<int>(j))));
-          if (response_size > 0) r[c] = c == from ? column : zero;
+          if (has_response) r[c] = c == from ? column : zero;
         }
         m[from].set_lane(static_cast<int>(j), m[from].lane(static_cast<int>(j)) + Real(1));
       }
@@ -253,156 +241,6 @@ class StageSystem {
     }
   }
 
-  Real row_of(const P* column, std::size_t row) const {
-    return column[row / stages_].lane(static_cast<int>(row % stages_));
-  }
-  void set_row(P* column, std::size_t row, const Real& value) const {
-    column[row / stages_].set_lane(static_cast<int>(row % stages_), value);
-  }
-
-  /// The row to eliminate with: the diagonal unless another one is ten times larger (threshold
-  /// pivoting: the order of rows then rarely changes).
-  std::optional<std::size_t> choose_pivot(std::size_t column) const {
-    const P* m = &matrix_[column * components_];
-    std::size_t best = unknowns_;
-    Real largest = 0;
-    std::size_t row = 0;
-    for (std::size_t c = 0; c < components_; ++c) {
-      for (std::size_t i = 0; i < stages_; ++i, ++row) {
-        const Real value = magnitude(m[c].lane(static_cast<int>(i)));
-        if (!(value <= largest) && !used_[row]) {
-          largest = value;
-          best = row;
-        }
-      }
-    }
-    if (best == unknowns_ || !is_finite(largest)) return std::nullopt;
-    if (!used_[column] && 10 * magnitude(row_of(m, column)) >= largest) best = column;
-    return best;
-  }
-
-  /// Gauss-Jordan elimination by columns: rows are lanes, so every update is a run of packs.
-  bool eliminate(std::size_t response_size) {
-    std::fill(used_.begin(), used_.end(), false);
-    for (std::size_t r = 0; r < unknowns_; ++r) {
-      const auto pivot = choose_pivot(r);
-      if (!pivot) return false;
-      pivot_row_[r] = *pivot;
-      used_[*pivot] = true;
-      P* factor = &matrix_[r * components_];
-      const Real inverse = 1 / row_of(factor, *pivot);
-      set_row(factor, *pivot, Real(0));
-      for_each_column(r + 1, response_size, [&](P* column) {
-        const Real x = row_of(column, *pivot) * inverse;
-        if (x == 0) return;  // the right-hand sides start with blocks of zeros
-        const P broadcast(x);
-        for (std::size_t c = 0; c < components_; ++c) column[c] -= factor[c] * broadcast;
-        set_row(column, *pivot, x);
-      });
-    }
-    return true;
-  }
-
-  /// Calls for all columns that an elimination has still to do with.
-  template <class Reduce>
-  void for_each_column(std::size_t first, std::size_t response_size, const Reduce& reduce) {
-    const auto of = [&](std::vector<P>& columns, std::size_t from, std::size_t to) {
-      for (std::size_t q = from; q < to; q += components_) reduce(&columns[q]);
-    };
-    of(matrix_, first * components_, matrix_.size());
-    of(response_, 0, response_size);
-    of(base_, 0, base_.size());
-  }
-
-  /// The same without pivoting.
-  void eliminate_in_order(std::size_t response_size) {
-    // The usual numbers of components are unrolled: this is a good part of a step of order 1.
-    if (components_ == 3) return eliminate_in_order<3>(response_size);
-    if (components_ == 2) return eliminate_in_order<2>(response_size);
-    eliminate_in_order<0>(response_size);
-  }
-
-  /// Components 0 means as many as there are. Pivots are taken four at a time where a component has
-  /// as many stages left, so that a column is read and written once for four.
-  template <std::size_t Components>
-  void eliminate_in_order(std::size_t response_size) {
-    for (std::size_t c = 0; c < components_; ++c) {
-      std::size_t lane = 0;
-      for (; lane + 4 <= stages_; lane += 4) {
-        eliminate_block<Components, 4>(c, lane, response_size);
-      }
-      for (; lane < stages_; ++lane) eliminate_block<Components, 1>(c, lane, response_size);
-    }
-  }
-
-  /// With the block P of the pivots in their columns F, x = P^-1 v is left in the pivot rows v of a
-  /// column and column - F x in the others. As v - (P - I) x = x, the one formula does for all of
-  /// them, with P - I in the place of P.
-  template <std::size_t Components, std::size_t Count>
-  void eliminate_block(std::size_t component, std::size_t lane, std::size_t response_size) {
-    const std::size_t components = Components == 0 ? components_ : Components;
-    const std::size_t first = component * stages_ + lane;
-    P* const factors = &matrix_[first * components];
-    const auto pivots = [&](const P* column) {
-      std::array<Real, Count> v;
-      for (std::size_t i = 0; i < Count; ++i) {
-        v[i] = column[component].lane(static_cast<int>(lane + i));
-      }
-      return v;
-    };
-    std::array<std::array<Real, Count>, Count> block;  // by columns
-    for (std::size_t j = 0; j < Count; ++j) block[j] = pivots(factors + j * components);
-    invert(block);
-    for (std::size_t j = 0; j < Count; ++j) {
-      factors[j * components + component] -= units_[lane + j];
-    }
-    std::array<P, Components * Count> columns;
-    std::copy_n(factors, columns.size(), columns.begin());
-    for_each_column(first + Count, response_size, [&](P* column) {
-      const std::array<Real, Count> v = pivots(column);
-      bool vanishes = true;
-      for (const Real& entry : v) vanishes = vanishes && entry == 0;
-      if (vanishes) return;
-      for (std::size_t j = 0; j < Count; ++j) {
-        Real x = block[0][j] * v[0];
-        for (std::size_t i = 1; i < Count; ++i) x += block[i][j] * v[i];
-        const P broadcast(x);
-        for (std::size_t c = 0; c < components; ++c) {
-          column[c] -= (Components == 0 ? factors : columns.data())[j * components + c] * broadcast;
-        }
-      }
-    });
-  }
-
-  /// By elimination in order, as for the whole matrix.
-  template <std::size_t Count>
-  static void invert(std::array<std::array<Real, Count>, Count>& block) {
-    for (std::size_t r = 0; r < Count; ++r) {
-      const Real inverse = 1 / block[r][r];
-      block[r][r] = Real(1);
-      for (std::size_t j = 0; j < Count; ++j) block[j][r] *= inverse;
-      for (std::size_t i = 0; i < Count; ++i) {
-        if (i == r) continue;
-        const Real factor = block[r][i];
-        block[r][i] = Real(0);
-        for (std::size_t j = 0; j < Count; ++j) block[j][i] -= factor * block[j][r];
-      }
-    }
-  }
-
-  void undo_pivoting(std::vector<P>& columns) const {
-    bool in_order = true;
-    for (std::size_t r = 0; r < unknowns_; ++r) in_order = in_order && pivot_row_[r] == r;
-    if (in_order) return;
-    std::vector<P> copy(components_);
-    for (std::size_t q = 0; q < columns.size(); q += components_) {
-      std::copy_n(&columns[q], components_, copy.begin());
-      for (std::size_t r = 0; r < unknowns_; ++r) {
-        set_row(&columns[q], r, row_of(copy.data(), pivot_row_[r]));
-      }
-    }
-  }
-
   std::size_t stages_;
   bool second_order_;
   std::size_t components_;
@@ -410,18 +248,14 @@ class StageSystem {
   const StageCoefficients<Real, Lanes>& coefficients_;
   /// Columns of A, or of A^2 for a second-order system.
   const std::vector<typename StageCoefficients<Real, Lanes>::Rounded>& coupling_;
-  std::size_t unknowns_ = 0;
   bool unit_mass_ = true;
   bool end_follows_from_base_ = false;
   Real step_ = 0;
   Real scale_ = 0;
   std::vector<Real> inverse_mass_;
-  std::vector<P> matrix_;
+  StageElimination<Real, Lanes> elimination_;  ///< of I - W (x) Dg
   std::vector<P> response_;
   std::vector<P> base_;
-  std::vector<P> units_;  ///< by stage, 1 in its lane
-  std::vector<std::size_t> pivot_row_;
-  std::vector<char> used_;
 };
 
 }  // namespace hamjet

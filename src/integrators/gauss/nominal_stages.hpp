@@ -1,0 +1,129 @@
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "../summed_jet.hpp"
+#include "gauss_step_control.hpp"
+#include "hamjet/integrators/gauss_collocation.hpp"
+#include "stage_slopes.hpp"
+#include "step_reach.hpp"
+
+namespace hamjet {
+
+/// Slopes that were solved for on an earlier step: its size, and where on it the step begins for
+/// which they are a guess, 0 (its start) to 1 (its end).
+template <class Real>
+struct KnownSlopes {
+  Real start;
+  Real step;
+};
+
+/// Degree 0 of a step's stages: the solution of their equations that is connected to the start.
+template <class Real, int Lanes>
+class NominalStages {
+ public:
+  using P = Pack<Real, Lanes>;
+
+  /// `start_slope` is to hold the slopes at the start of the step that is solved.
+  NominalStages(const DynamicalSystem& system, const GaussSettings& settings,
+                StageSlopes<Real, Lanes>& stages, const SummedJet<Real, Lanes>& jet,
+                const GaussStepControl<Real, Lanes>& control, const std::vector<Real>& start_slope,
+                IntegrationStatistics& statistics)
+      : is_linear_(system.vector_field.is_linear_system()),
+        settings_(settings),
+        stages_(stages),
+        jet_(jet),
+        control_(control),
+        start_slope_(start_slope),
+        statistics_(statistics) {}
+
+  /// Solves for a step: from the slopes in the stages as a guess, from constant slopes if that
+  /// fails, and along growing step sizes where the solution found might not be the one connected to
+  /// the start. False where there is none.
+  bool solve(const Real& h, const std::optional<KnownSlopes<Real>>& guess) {
+    if (guess) {
+      stages_.reposition(guess->start, Real(h / guess->step));
+      if (try_step(h) && !is_suspicious(h)) return true;
+    }
+    set_constant_slopes();
+    if (try_step(h) && !is_suspicious(h)) return true;
+    return settings_.step && continue_from_start(h);
+  }
+
+ private:
+  bool try_step(const Real& h) {
+    stages_.system().set_step(h);
+    return stages_.solve_constant_terms(jet_.start(), statistics_);
+  }
+
+  void set_constant_slopes() {
+    for (std::size_t c = 0; c < start_slope_.size(); ++c) stages_.slopes()[c] = P(start_slope_[c]);
+  }
+
+  /// Newton can converge to a detached root of the stage equations, whose map is symplectic and
+  /// wrong. The slopes then have nothing to do with the slope at the start of the step.
+  /// The equations of a linear system have one solution only.
+  bool is_suspicious(const Real& h) {
+    if (is_linear_) return false;
+    if (control_.start_defect(start_slope_) >
+        0.5 * stages_.largest_slope() + 2 * expected_change()) {
+      return true;
+    }
+    // Controlled steps are short, and what they miss their error estimate sees.
+    return settings_.step && stages_.displacement(jet_.start()) > 4 * reach(h);
+  }
+
+  /// By how much the slopes may differ between the start and the stages: |Dg| times the
+  /// displacement. In a stiff system that is almost anything; see reach.
+  double expected_change() {
+    return stages_.largest_gradient() * stages_.displacement(jet_.start());
+  }
+
+  double reach(const Real& h) {
+    return step_reach(stages_.system(), start_slope_, jet_.start(), h);
+  }
+
+  /// Follows the solution from a tiny step to the full one. Where neighbouring solutions differ
+  /// much the path is refined; a path that ends (a fold) has no continuation, however far it is
+  /// refined.
+  bool continue_from_start(const Real& h) {
+    constexpr double first = 0x1p-10;
+    constexpr double smallest = 0x1p-16;
+    set_constant_slopes();
+    const Real first_step = h * Real(first);
+    if (!try_step(first_step) || is_suspicious(first_step)) return false;
+    double reached = first;
+    double part = first;
+    double distance = stages_.displacement(jet_.start());
+    while (reached < 1) {
+      const double next = std::min(1.0, reached + part);
+      const std::vector<P> before = stages_.slopes();
+      const Real next_step = h * Real(next);
+      if (try_step(next_step) &&
+          largest_change(before, stages_.slopes(), settings_.stages) <=
+              0.25 * stages_.largest_slope() + expected_change() &&
+          stages_.displacement(jet_.start()) <= 4 * std::max(distance, reach(next_step))) {
+        distance = stages_.displacement(jet_.start());
+        reached = next;
+        part *= 2;
+        continue;
+      }
+      stages_.slopes() = before;
+      part /= 2;
+      if (part < smallest) return false;
+    }
+    return true;
+  }
+
+  bool is_linear_;
+  const GaussSettings& settings_;
+  StageSlopes<Real, Lanes>& stages_;
+  const SummedJet<Real, Lanes>& jet_;
+  const GaussStepControl<Real, Lanes>& control_;
+  const std::vector<Real>& start_slope_;
+  IntegrationStatistics& statistics_;
+};
+
+}  // namespace hamjet
