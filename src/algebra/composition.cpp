@@ -34,29 +34,36 @@ class HornerScheme {
 
   HornerScheme(std::span<const Series<T>> outer, std::span<const Series<T>> inner, int degree,
                int highest)
-      : inner_(inner), space_(inner[0].space()), degree_(degree), highest_(highest) {
-    for (const Series<T>& y : inner) is_linear_.push_back(is_linear(y));
+      : space_(inner[0].space()), degree_(degree), highest_(highest) {
     for (std::size_t i = 0; i < space_.variables(); ++i) {
       raised_.push_back(space_.raised(i).data());
     }
+    const SeriesSpace& of_outer = outer[0].space();
+    for (std::size_t v = 0; v < inner.size(); ++v) {
+      factors_.push_back({inner[v].coefficients().data(),
+                          degree > 0 ? of_outer.raised(v).data() : nullptr, is_linear(inner[v])});
+    }
+    // The last factors are those of most nodes.
+    std::stable_partition(factors_.begin(), factors_.end(),
+                          [](const Factor& y) { return !y.is_linear; });
     std::array<const T*, Lanes> components;
     for (std::size_t i = 0; i < Lanes; ++i) {
       components[i] = outer[std::min(i, outer.size() - 1)].coefficients().data();
     }
-    coefficients_.reserve(outer[0].space().first(degree + 1));
-    for (std::size_t k = 0; k < outer[0].space().first(degree + 1); ++k) {
+    coefficients_.reserve(of_outer.first(degree + 1));
+    for (std::size_t k = 0; k < of_outer.first(degree + 1); ++k) {
       coefficients_.push_back(P::of_lanes([&](std::size_t i) { return components[i][k]; }));
     }
     std::size_t size = 0;
     for (int k = 0; k <= degree; ++k) {
-      places_.push_back({size, outer[0].space().first(k)});
+      places_.push_back(size);
       size += space_.first(highest - k + 1);
     }
     nodes_.resize(size);
   }
 
   void run(std::span<Series<T>> result) {
-    form_node(0, 0);
+    form_node(0, 0, 0);
     for (std::size_t i = 0; i < result.size(); ++i) {
       for (std::size_t k = 0; k < space_.first(highest_ + 1); ++k) {
         result[i][k] = nodes_[k].lane(static_cast<int>(i));
@@ -65,29 +72,34 @@ class HornerScheme {
   }
 
  private:
-  /// Forms the node of the next monomial of degree `depth`, and returns it. A node's children are
-  /// the monomials times a variable not before its last one. So the words of variables grow at
-  /// their ends, and a walk depth first meets each degree's monomials in the order of the space.
-  const P* form_node(int depth, std::size_t last_variable) {
-    Place& place = places_[static_cast<std::size_t>(depth)];
-    P* const node = nodes_.data() + place.node;
-    node[0] = coefficients_[place.next_monomial++];
+  /// One of the inner series.
+  struct Factor {
+    const T* series;
+    const std::uint32_t* raised;  ///< see SeriesSpace, of the outer map's variable
+    bool is_linear;
+  };
+
+  /// Forms the node of a monomial of degree `depth`, and returns it. A node's children are the
+  /// monomials times a variable, in the order of the factors not before its last one.
+  const P* form_node(int depth, std::size_t monomial, std::size_t last_factor) {
+    P* const node = nodes_.data() + places_[static_cast<std::size_t>(depth)];
+    node[0] = coefficients_[monomial];
     if (depth == degree_) return node;
     const int highest = highest_ - depth;  // degree that the node needs
     const std::size_t size = space_.first(highest + 1);
     std::fill(node + 1, node + size, P(T(0)));
-    for (std::size_t v = last_variable; v < inner_.size(); ++v) {
-      const P* const child = form_node(depth + 1, v);
+    for (std::size_t f = last_factor; f < factors_.size(); ++f) {
+      const Factor& y = factors_[f];
+      const P* const child = form_node(depth + 1, y.raised[monomial], f);
       const bool is_constant = depth + 1 == degree_;
-      const T* const y = inner_[v].coefficients().data();
-      if (is_linear_[v] != 0) {
-        add_linear_product(is_constant ? 1 : space_.first(highest), child, y, node);
+      if (y.is_linear) {
+        add_linear_product(is_constant ? 1 : space_.first(highest), child, y.series, node);
         continue;
       }
       const P constant = child[0];
-      for (std::size_t k = 1; k < size; ++k) node[k] += constant * P(y[k]);
+      for (std::size_t k = 1; k < size; ++k) node[k] += constant * P(y.series[k]);
       if (is_constant) continue;
-      for (int d = 2; d <= highest; ++d) add_interior_product(space_, d, child, y, node);
+      for (int d = 2; d <= highest; ++d) add_interior_product(space_, d, child, y.series, node);
     }
     return node;
   }
@@ -108,19 +120,13 @@ class HornerScheme {
     return std::all_of(nonlinear.begin(), nonlinear.end(), [](const T& x) { return x == T(0); });
   }
 
-  struct Place {
-    std::size_t node;           ///< in nodes_, of the node that is being formed
-    std::size_t next_monomial;  ///< in coefficients_
-  };
-
-  std::span<const Series<T>> inner_;
   const SeriesSpace& space_;
-  int degree_;                                ///< of the outer map
-  int highest_;                               ///< degree of the result that is formed
-  std::vector<char> is_linear_;               ///< by inner series
-  std::vector<const std::uint32_t*> raised_;  ///< by variable, see SeriesSpace
-  std::vector<P> coefficients_;
-  std::vector<Place> places_;  ///< by depth
+  int degree_;   ///< of the outer map
+  int highest_;  ///< degree of the result that is formed
+  std::vector<Factor> factors_;
+  std::vector<const std::uint32_t*> raised_;  ///< by inner variable, see SeriesSpace
+  std::vector<P> coefficients_;               ///< of the outer map, by monomial
+  std::vector<std::size_t> places_;           ///< in nodes_, by depth
   std::vector<P> nodes_;
 };
 

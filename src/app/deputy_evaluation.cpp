@@ -20,7 +20,7 @@ EvaluatedScene evaluated_scene(const Scene& scene) {
   require_formation_problem(scene, true, "jet");
   EvaluatedScene result;
   io::StoredJet& chief = result.chief;
-  const ComputedProblem problem = make_problem(scene, available_memory());
+  const ComputedProblem problem = make_problem(scene);
   const IntegratorSettings& integrator = symplectic_integrator(scene);
   result.coordinates = measured_coordinates_of(scene);
   {

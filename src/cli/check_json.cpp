@@ -48,7 +48,7 @@ Json facts(const RunOptions& options, const Scene& scene) {
   const std::size_t threads = thread_count(options);
   PropagationResult nothing_run;
   nothing_run.scene = scene;
-  nothing_run.problem = make_problem(scene, available_memory(), threads);
+  nothing_run.problem = make_problem(scene, threads);
   Json json = Json::parse(io::summary_json(nothing_run));
   for (const char* of_runs : {"reference_error", "relative_hamiltonian_error", "exit_code", "runs",
                               "operations", "skipped"}) {

@@ -14,6 +14,7 @@
 #include "../store/result_set.hpp"
 #include "../store/text_file.hpp"
 #include "hamjet/error.hpp"
+#include "process/guarded_output.hpp"
 #include "process/interruption.hpp"
 #include "process/standard_streams.hpp"
 #include "progress.hpp"
@@ -68,8 +69,8 @@ int compare(const CompareOptions& options) {
   io::ReportOrigin origin = report_origin(options.scene.command);
   origin.determinants = comparison_key(scene);
   ComparisonResult result;
-  io::OutputDirectory output(directory);
-  const RemovedAtSuddenEnd leftovers(output.leftovers());
+  GuardedOutput guarded(directory);
+  io::OutputDirectory& output = guarded.directory();
   note_unused(options.scene, uncompared_coordinates(scene));
   if (options.resume) take_up(directory, origin.determinants, result);
   io::ReferenceCache cache(io::ReferenceCache::user_directory());

@@ -24,6 +24,7 @@
 #include "hamjet/report/results.hpp"
 #include "hamjet/store/output_directory.hpp"
 #include "hamjet/studies/propagation.hpp"
+#include "process/guarded_output.hpp"
 #include "process/interruption.hpp"
 #include "process/standard_streams.hpp"
 #include "progress.hpp"
@@ -34,8 +35,8 @@ namespace {
 
 int run_flow_jet(const RunOptions& options, const Scene& scene) {
   const std::filesystem::path directory = output_path(options, scene.name);
-  io::OutputDirectory output(directory);
-  const RemovedAtSuddenEnd leftovers(output.leftovers());
+  GuardedOutput guarded(directory);
+  io::OutputDirectory& output = guarded.directory();
   note_unused(options, unwritten_coordinates(scene));
   PropagationResult result;
   {
@@ -130,7 +131,7 @@ std::string field_text(const SystemSettings& system) {
 
 void check_flow_jet(const RunOptions& options, const std::string& file, const Scene& scene) {
   const std::size_t threads = thread_count(options);
-  const ComputedProblem problem = make_problem(scene, available_memory(), threads);
+  const ComputedProblem problem = make_problem(scene, threads);
   const auto names = variable_names(scene.system);
   std::string components;
   for (const std::size_t c : problem.components) components += fmt::format(" {}", names[c]);

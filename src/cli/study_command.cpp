@@ -8,6 +8,7 @@
 
 #include "../text/terminal_text.hpp"
 #include "hamjet/store/output_directory.hpp"
+#include "process/guarded_output.hpp"
 #include "process/interruption.hpp"
 #include "process/standard_streams.hpp"
 #include "progress.hpp"
@@ -22,8 +23,8 @@ void print_table(const RunOptions& options, const std::string& table, const std:
 int report_study(const RunOptions& options, const std::string& scene_name,
                  const std::function<io::StudyReport(const ProgressCallback&)>& work) {
   const std::filesystem::path directory = output_path(options, scene_name);
-  io::OutputDirectory output(directory);
-  const RemovedAtSuddenEnd leftovers(output.leftovers());
+  GuardedOutput guarded(directory);
+  io::OutputDirectory& output = guarded.directory();
   io::StudyReport report;
   {
     Progress progress(!options.quiet);

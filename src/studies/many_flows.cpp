@@ -48,7 +48,7 @@ ComputedProblem problem_of(const Scene& scene, const std::vector<std::vector<dou
       }
     }
   }
-  return make_problem(of_all, available_memory());
+  return make_problem(of_all);
 }
 
 }  // namespace
@@ -83,7 +83,7 @@ ManyFlows study_many_flows(const Scene& scene, std::string_view label,
   require_states(scene, states, is_in_km);
   flows.states = std::move(states);
   if (flows.states.empty()) {
-    flows.problem = make_problem(scene, available_memory());
+    flows.problem = make_problem(scene);
     return flows;
   }
   flows.problem = problem_of(scene, flows.states);

@@ -18,6 +18,10 @@ namespace {
 
 constexpr double megabyte = 1e6;
 
+/// To ask what memory is free takes as long as the integration of a small scene. What needs hardly
+/// more than the program itself is not asked for.
+constexpr double always_there = 32 * megabyte;
+
 /// Bytes of the product schedules: pairs of blocks, see ProductSchedule.
 double schedule_bytes(std::size_t variables, int order) {
   const std::size_t outer = variables >= 3 ? variables - 3 : variables;
@@ -135,7 +139,7 @@ void require_good_integrators(const Scene& scene) {
 
 }  // namespace
 
-ComputedProblem make_problem(const Scene& scene, double memory_limit, std::size_t threads) {
+ComputedProblem make_problem(const Scene& scene, std::size_t threads) {
   require_good_integrators(scene);
   if (!scene.jet_times.empty()) require_unsplit(scene, "a list of times");
   const DynamicalSystem full = make_system(scene);
@@ -156,6 +160,7 @@ ComputedProblem make_problem(const Scene& scene, double memory_limit, std::size_
   problem.momentum_exponent =
       natural_momentum_exponent(is_orbit(scene.system.model), scene.nominal);
   const double needed = estimate_memory(scene, *problem.system, scene.variables.size(), threads);
+  const double memory_limit = needed > always_there ? available_memory() : needed;
   if (needed > memory_limit) {
     throw Error(
         ErrorKind::too_large,

@@ -137,7 +137,7 @@ PropagationResult propagate(const Scene& scene, const ProgressCallback& progress
                             std::size_t threads) {
   PropagationResult result;
   result.scene = scene;
-  result.problem = make_problem(scene, available_memory(), threads);
+  result.problem = make_problem(scene, threads);
   const auto report = [&](const std::string& task, double fraction) {
     if (progress) progress(task, fraction);
   };

@@ -66,7 +66,7 @@ const IntegratorSettings& gauss_run_of(const Scene& scene, std::string_view labe
 
 SceneTrajectory::SceneTrajectory(const Scene& scene, std::string_view label,
                                  const ProgressCallback& progress)
-    : scene_(scene), problem_(make_problem(scene_, available_memory())) {
+    : scene_(scene), problem_(make_problem(scene_)) {
   require_unsplit(scene_, "a trajectory");
   settings_ = &gauss_run_of(scene_, label, "trajectory", "jets between its steps");
   if (scene_.precision == Precision::extended) {

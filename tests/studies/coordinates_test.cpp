@@ -91,7 +91,7 @@ double reach_that_holds(const ChiefOrbit& orbit) {
   scene.validity->times = {scene.duration};
   scene.validity->samples = 10;
   const ValidityResult result = study_validity(scene);
-  const ComputedProblem problem = make_problem(scene, 1e10);
+  const ComputedProblem problem = make_problem(scene);
   DeputyFlowPropagation propagation(scene, problem, scene.integrators[0], scene.coordinates);
   const auto flow = propagation.advance_to(scene.duration);
   DeputyPredictor predictor(*flow);
@@ -151,7 +151,7 @@ double miss_m(const ChiefOrbit& chief, const ChiefOrbit& other, JetCoordinates c
     deviation[i] = other.start[i] * unit - chief.start[i];
     deputy[i] += deviation[i];
   }
-  const ComputedProblem problem = make_problem(scene, 1e10);
+  const ComputedProblem problem = make_problem(scene);
   const auto flown = exact_flow(problem.system, deputy, scene.duration);
   DeputyFlowPropagation propagation(scene, problem, scene.integrators[0], coordinates);
   const auto flow = propagation.advance_to(scene.duration);
@@ -190,7 +190,7 @@ TEST(FlowBoxReach, PredictsDeputiesOfOtherElements) {
 TEST(CoordinatesAtEnds, MayDiffer) {
   using enum JetCoordinates;
   const Scene scene = scene_of(sun_synchronous, 0.7 * sun_synchronous.period, 4);
-  const ComputedProblem problem = make_problem(scene, 1e10);
+  const ComputedProblem problem = make_problem(scene);
   const SixNumbers<double> deviation = {2e-5, -3e-5, 1e-5, 1e-5, 2e-5, -2e-5};  // some 250 m
   std::vector<double> deputy = scene.nominal;
   for (std::size_t i = 0; i < 6; ++i) deputy[i] += deviation[i];

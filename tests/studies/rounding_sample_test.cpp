@@ -43,7 +43,7 @@ Scene scene_of(const std::string& text, const std::vector<io::Override>& changes
 
 RoundingFloor floor_of(const Scene& scene) {
   RoundingSample sample;
-  sample.follow(scene, make_problem(scene, available_memory()));
+  sample.follow(scene, make_problem(scene));
   return sample.floor();
 }
 
@@ -94,7 +94,7 @@ TEST(RoundingSample, FollowsThePrecision) {
 // thousand times of the largest.
 TEST(RoundingSample, HoldsWhatHalfUlpStartsDo) {
   const Scene scene = scene_of(eccentric_orbit, {{"jet.order", "2"}});
-  const ComputedProblem problem = make_problem(scene, available_memory());
+  const ComputedProblem problem = make_problem(scene);
   const RoundingFloor floor = floor_of(scene);
   const auto flow_from = [&](const std::vector<Extended>& start) {
     FlowProblem<Extended> flow{problem.system, problem.space, problem.variables, start,

@@ -22,7 +22,7 @@ std::vector<double> times_of(const std::vector<SingularTime>& found) {
 /// The times of a kind over a span.
 std::vector<SingularTime> search(const Scene& scene, const char* kind, double span,
                                  double per_revolution = 240) {
-  const ComputedProblem problem = make_problem(scene, 1e10);
+  const ComputedProblem problem = make_problem(scene);
   const LinearFlow flow(problem, span, per_revolution);
   return find_singular_times(flow, parse_kind(kind, 3));
 }
@@ -123,7 +123,7 @@ TEST(SingularTimes, OfAPairOfOscillators) {
   scene.order = 1;
   scene.variables = {0, 1, 2, 3};
   scene.integrators = {precise_gauss()};
-  const ComputedProblem problem = make_problem(scene, 1e10);
+  const ComputedProblem problem = make_problem(scene);
   const double pi = std::numbers::pi;
   const LinearFlow flow(problem, 4, 240);
   const auto found = find_singular_times(flow, parse_kind("F1", 2));
@@ -131,7 +131,7 @@ TEST(SingularTimes, OfAPairOfOscillators) {
   EXPECT_EQ(found[0].directions_lost, 1);
   EXPECT_EQ(found[3].directions_lost, 2);
   scene.system.second_stiffness_N_per_m = 4;
-  const ComputedProblem alike = make_problem(scene, 1e10);
+  const ComputedProblem alike = make_problem(scene);
   expect_times(times_without_kind(alike, 4, parse_kind("F1", 2)).times, {pi / 2, pi}, 1e-12, "2");
 }
 

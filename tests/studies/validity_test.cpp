@@ -60,7 +60,7 @@ TEST(Validity, EveryDeputyInsideTheProvedSeparationMeetsTheTolerance) {
     scene.validity->times = {6.0};
     scene.validity->frame = kind;
     const ValidityResult result = study_validity(scene);
-    const ComputedProblem problem = make_problem(scene, 1e10);
+    const ComputedProblem problem = make_problem(scene);
     FlowJet<double> jet;
     const double time = 6.0;
     visit_jets(problem, scene.integrators[0], std::span(&time, 1),

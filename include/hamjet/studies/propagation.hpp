@@ -167,9 +167,10 @@ DynamicalSystem make_system(const Scene& scene);
 
 /// What has to be computed for a scene: degrees of freedom that stay exactly zero and that the
 /// scene does not expand in are left out. Throws Error(too_large), naming the estimate, if the
-/// series would not fit `memory_limit` bytes, Error(usage) if an integrator is not in this build.
+/// series would not fit available_memory() (32 MB or less are not asked for), Error(usage) if an
+/// integrator is not in this build.
 /// Arcs are integrated on `threads` threads.
-ComputedProblem make_problem(const Scene& scene, double memory_limit, std::size_t threads = 1);
+ComputedProblem make_problem(const Scene& scene, std::size_t threads = 1);
 
 /// Bytes that the scene's runs need at most, from the counts of series and coefficients.
 double estimate_memory(const Scene& scene, const DynamicalSystem& system, std::size_t variables,

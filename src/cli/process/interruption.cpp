@@ -16,7 +16,8 @@
 namespace hamjet::cli {
 namespace {
 
-enum Phase : std::sig_atomic_t { computing, writing, written };
+/// `finished`: the results, or the line that says why there are none, are there.
+enum Phase : std::sig_atomic_t { computing, writing, finished };
 
 volatile std::sig_atomic_t pending_signal = 0;
 volatile std::sig_atomic_t phase = computing;
@@ -48,7 +49,7 @@ void remove_leftovers() {
 /// whole, the old ones or the new.
 [[noreturn]] void end_at_once() {
   remove_leftovers();
-  if (phase != written) {
+  if (phase != finished) {
     const std::string_view message =
         phase == writing
             ? "hamjet: interrupted while the results were written; the old ones or the new ones "
@@ -64,7 +65,7 @@ void remove_leftovers() {
 extern "C" void remember_signal(int signal) {
   const bool is_repeated = pending_signal != 0;
   pending_signal = signal;
-  if (phase == written || is_repeated) end_at_once();
+  if (phase == finished || is_repeated) end_at_once();
   set_alarm();
 }
 
@@ -80,9 +81,19 @@ void catch_signals() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
+HeldSignals::HeldSignals() {
+  sigset_t held;
+  sigemptyset(&held);
+  for (const int signal : {SIGALRM, SIGINT, SIGTERM}) sigaddset(&held, signal);
+  ::pthread_sigmask(SIG_BLOCK, &held, &before_);
+}
+
+HeldSignals::~HeldSignals() { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+
 int end_interrupted(const Interrupted& interrupted, const std::string& message) {
-  for (const int signal : {SIGALRM, SIGINT, SIGTERM}) std::signal(signal, SIG_IGN);
+  const HeldSignals held;
   print_error(message);
+  phase = finished;
   return interrupted.exit_code();
 }
 
@@ -103,8 +114,8 @@ void stop_if_interrupted() {
   if (pending_signal != 0) throw Interrupted(pending_signal);
 }
 
-RemovedAtSuddenEnd::RemovedAtSuddenEnd(std::vector<std::filesystem::path> paths)
-    : paths_(std::move(paths)) {
+void RemovedAtSuddenEnd::watch(std::vector<std::filesystem::path> paths) {
+  paths_ = std::move(paths);
   for (const auto& path : paths_) names_.push_back(path.c_str());
   names_.push_back(nullptr);
   names_at_sudden_end = names_.data();
@@ -125,7 +136,7 @@ UninterruptedWriting::UninterruptedWriting(Writing what) : what_(what) {
 UninterruptedWriting::~UninterruptedWriting() {
   // After partial results the line that says so is still to come.
   if (what_ != Writing::results) has_checkpoint = 1;
-  phase = what_ != Writing::results ? computing : written;
+  phase = what_ != Writing::results ? computing : finished;
 }
 
 }  // namespace hamjet::cli

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <csignal>
 #include <exception>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace hamjet::cli {
@@ -24,6 +26,18 @@ class Interrupted : public std::exception {
 /// program ends at once. SIGPIPE and SIGXFSZ become errors of the write.
 void catch_signals();
 
+/// While it lives, signals to this thread wait.
+class HeldSignals {
+ public:
+  HeldSignals();
+  ~HeldSignals();
+  HeldSignals(const HeldSignals&) = delete;
+  HeldSignals& operator=(const HeldSignals&) = delete;
+
+ private:
+  sigset_t before_;
+};
+
 /// Prints the one line that an interrupted program ends with, after which no signal adds another,
 /// and returns the exit code.
 [[nodiscard]] int end_interrupted(const Interrupted& interrupted, const std::string& message);
@@ -43,7 +57,9 @@ void stop_if_interrupted();
 /// folders as far as they are empty, in this order.
 class RemovedAtSuddenEnd {
  public:
-  explicit RemovedAtSuddenEnd(std::vector<std::filesystem::path> paths);
+  RemovedAtSuddenEnd() = default;
+  explicit RemovedAtSuddenEnd(std::vector<std::filesystem::path> paths) { watch(std::move(paths)); }
+  void watch(std::vector<std::filesystem::path> paths);
   ~RemovedAtSuddenEnd();
   RemovedAtSuddenEnd(const RemovedAtSuddenEnd&) = delete;
   RemovedAtSuddenEnd& operator=(const RemovedAtSuddenEnd&) = delete;

@@ -97,7 +97,7 @@ class Keeper {
         progress_(progress),
         flow_(make_system(scene)),
         company_(scene, scene.nominal, start_of(member), member_of(member)),
-        problem_(make_problem(scene, available_memory())) {
+        problem_(make_problem(scene)) {
     problem_.symmetry = FlowSymmetry::none;
     integrator_.tolerance = 1e-12;
   }

@@ -37,7 +37,7 @@ std::vector<Extended> state_of(const FlowJet<double>& jet) {
 ComparedOrder::ComparedOrder(Scene scene, int order, const ReferenceResult& reference,
                              const std::optional<GeneratingFunctionKind>& kind)
     : scene_(at_order(std::move(scene), order, kind)),
-      problem_(make_problem(scene_, available_memory())),
+      problem_(make_problem(scene_)),
       reference_(truncated_reference(reference, problem_.space)),
       points_(scene_, problem_),
       analysis_(scene_, problem_, reference_),

@@ -120,7 +120,7 @@ class Comparison {
   void find_reference() {
     Scene scene = scene_;
     scene.order = std::max(scene_.order, cost_orders().back());
-    const ComputedProblem problem = make_problem(scene, available_memory());
+    const ComputedProblem problem = make_problem(scene);
     const std::string key = reference_key(scene, scene.order);
     std::optional<ReferenceResult> found;
     if (options_.references != nullptr) found = options_.references->load(key, problem.space);

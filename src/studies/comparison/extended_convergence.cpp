@@ -61,7 +61,7 @@ std::optional<ConvergenceFit> fit_over_arc(const ComparisonResult& result,
   scene.kinds.reset();
   scene.duration *= arc;
   finest.error *= arc;
-  const ComputedProblem problem = make_problem(scene, available_memory());
+  const ComputedProblem problem = make_problem(scene);
   const auto flow = flow_problem<Extended>(problem, scene.duration);
   const bool is_whole = arc == 1;
   const ReferenceResult reference =

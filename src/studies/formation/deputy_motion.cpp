@@ -50,7 +50,7 @@ DeputyMotion study_deputy_motion(const Scene& scene, const ProgressCallback& pro
   const auto orders = static_cast<std::size_t>(scene.order);
   result.points.push_back({0, scene.deputy->start, std::vector<double>(orders, 0.0), 0});
 
-  const ComputedProblem problem = make_problem(scene, available_memory());
+  const ComputedProblem problem = make_problem(scene);
   const IntegratorSettings& integrator = symplectic_integrator(scene);
   result.integrator = integrator.label;
   result.coordinates = measured_coordinates_of(scene);

@@ -54,7 +54,7 @@ TransferPoints::TransferPoints(const Scene& scene, const ProgressCallback& progr
     : scene_(scene),
       settings_(*scene.transfer),
       seconds_(seconds),
-      problem_(make_problem(scene, available_memory())),
+      problem_(make_problem(scene)),
       kinds_(all_kinds(3)),
       coordinates_(measured_coordinates_of(scene)) {
   if (coordinates_ != JetCoordinates::cartesian) {

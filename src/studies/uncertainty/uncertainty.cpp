@@ -240,7 +240,7 @@ UncertaintyResult study_uncertainty(const Scene& scene, const ProgressCallback& 
   result.scene = scene;
   const MetricUnits units = metric_units(scene);
   const std::vector<InitialState> starts = initial_states(scene);
-  const ComputedProblem problem = make_problem(scene, available_memory());
+  const ComputedProblem problem = make_problem(scene);
   const IntegratorSettings& integrator = symplectic_integrator(scene);
   result.integrator = integrator.label;
   const ChosenCoordinates coordinates_at_ends = measured_coordinates_of(scene);

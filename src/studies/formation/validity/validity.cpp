@@ -31,7 +31,7 @@ class ValidityStudy {
       : scene_(scene),
         settings_(*scene.validity),
         progress_(progress),
-        problem_(make_problem(scene, available_memory())),
+        problem_(make_problem(scene)),
         metres_(metric_units(scene).length_m),
         distance_(initial_distance(problem_.nominal)),
         largest_separation_(largest_separation * distance_),
