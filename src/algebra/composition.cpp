@@ -39,13 +39,15 @@ class HornerScheme {
       raised_.push_back(space_.raised(i).data());
     }
     const SeriesSpace& of_outer = outer[0].space();
-    for (std::size_t v = 0; v < inner.size(); ++v) {
-      factors_.push_back({inner[v].coefficients().data(),
-                          degree > 0 ? of_outer.raised(v).data() : nullptr, is_linear(inner[v])});
+    factors_.reserve(inner.size());
+    // Linear factors come last, for the last ones are those of most nodes.
+    for (const bool takes_linear : {false, true}) {
+      for (std::size_t v = 0; v < inner.size(); ++v) {
+        if (is_linear(inner[v]) != takes_linear) continue;
+        factors_.push_back({inner[v].coefficients().data(),
+                            degree > 0 ? of_outer.raised(v).data() : nullptr, takes_linear});
+      }
     }
-    // The last factors are those of most nodes.
-    std::stable_partition(factors_.begin(), factors_.end(),
-                          [](const Factor& y) { return !y.is_linear; });
     std::array<const T*, Lanes> components;
     for (std::size_t i = 0; i < Lanes; ++i) {
       components[i] = outer[std::min(i, outer.size() - 1)].coefficients().data();
