@@ -62,8 +62,8 @@ class DegreeIteration {
  private:
   std::size_t components() const { return Components == 0 ? system_.components() : Components; }
 
-  /// Sets moved_ = W Dg Y.
-  void move() {
+  /// Sets moved_ = W Dg Y. Always inlined, so that the numbers stay in registers.
+  [[gnu::always_inline]] void move() {
     const std::size_t m = components();
     for (std::size_t c = 0; c < m; ++c) {
       for (std::size_t t = 0; t < Width; ++t) {

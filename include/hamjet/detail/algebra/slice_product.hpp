@@ -266,6 +266,33 @@ void form_unrolled_blocks(const ProductSchedule::Output* output, const ProductSc
   }
 }
 
+/// The type of form_unrolled_blocks.
+template <class T, class B = T>
+using FormBlocks = void(const ProductSchedule::Output*, const ProductSchedule::Output*,
+                        const ProductSchedule::Pair*, const std::uint32_t*, const T*, const B*, T*);
+template <int Lanes>
+using DoublePack = Pack<double, Lanes>;
+
+// What the library's integrations use is compiled once, in slice_product.cpp: for one T it takes
+// ten seconds, and optimised less elsewhere it would be slower wherever the linker chose that copy.
+#define HAMJET_BLOCKS_OF(Prefix, T)                                       \
+  Prefix template FormBlocks<T> form_unrolled_blocks<SliceForm::product>; \
+  Prefix template FormBlocks<T> form_unrolled_blocks<SliceForm::square>;
+#define HAMJET_COMPILED_BLOCKS(Prefix)                \
+  HAMJET_BLOCKS_OF(Prefix, double)                    \
+  HAMJET_BLOCKS_OF(Prefix, DoublePack<1>)             \
+  HAMJET_BLOCKS_OF(Prefix, DoublePack<2>)             \
+  HAMJET_BLOCKS_OF(Prefix, DoublePack<4>)             \
+  HAMJET_BLOCKS_OF(Prefix, DoublePack<8>)             \
+  HAMJET_BLOCKS_OF(Prefix, DoublePack<16>)            \
+  Prefix template FormBlocks<DoublePack<2>, double>   \
+      form_unrolled_blocks<SliceForm::added_product>; \
+  Prefix template FormBlocks<DoublePack<4>, double>   \
+      form_unrolled_blocks<SliceForm::added_product>; \
+  Prefix template FormBlocks<DoublePack<8>, double> form_unrolled_blocks<SliceForm::added_product>;
+
+HAMJET_COMPILED_BLOCKS(extern)
+
 /// Uncoupled variables have one coefficient each in a slice of degree d >= 2, and the schedule
 /// would take longer than its sum. The i-th power of a variable stands at variable + 1 + (i - 1) v.
 template <class T>
