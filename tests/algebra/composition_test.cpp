@@ -73,12 +73,13 @@ TEST(Compose, TakesLinearInnerSeriesForWhatTheyAre) {
   const auto space = SeriesSpace::create(3, 5);
   const Map<double> u = random_integer_map(space, 1, random);
   const Map<double> v = random_integer_map(space, 1, random);
-  const Map<double> linear = random_integer_map(SeriesSpace::create(3, 1), 3, random);
+  const auto of_inner = SeriesSpace::create(4, 5);
+  const Map<double> linear = random_integer_map(SeriesSpace::create(4, 1), 3, random);
   for (std::size_t count = 1; count <= 3; ++count) {
-    Map<double> inner = random_integer_map(space, 3, random);
-    inner[0] = Series<double>::variable(space, 2);
+    Map<double> inner = random_integer_map(of_inner, 3, random);
+    inner[0] = Series<double>::variable(of_inner, 2);
     for (std::size_t i = 1; i < count; ++i) {
-      inner[i] = Series<double>(space);
+      inner[i] = Series<double>(of_inner);
       std::copy_n(linear[i].coefficients().begin(), linear[i].size(),
                   inner[i].coefficients().begin());
     }
