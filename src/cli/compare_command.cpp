@@ -76,25 +76,46 @@ int compare(const CompareOptions& options) {
   io::ReferenceCache cache(io::ReferenceCache::user_directory());
   auto saved = std::chrono::steady_clock::now();
   auto interval = first_checkpoint;
+  bool has_all_figures = false;
+  io::ComparisonReport report;
+  std::string summary;
   try {
-    Progress progress(!options.scene.quiet);
-    ComparisonOptions work;
-    work.references = &cache;
-    work.progress = [&](const std::string& task, double fraction) {
-      stop_if_interrupted();
-      progress.update(task, fraction);
-    };
-    work.checkpoint = [&] {
-      const auto now = std::chrono::steady_clock::now();
-      if (now - saved < interval) return;
-      saved = now;
-      interval = std::min(2 * interval, longest_interval);
+    {
+      Progress progress(!options.scene.quiet);
+      ComparisonOptions work;
+      work.references = &cache;
+      work.progress = [&](const std::string& task, double fraction) {
+        stop_if_interrupted();
+        progress.update(task, fraction);
+      };
+      work.checkpoint = [&] {
+        const auto now = std::chrono::steady_clock::now();
+        if (now - saved < interval) return;
+        saved = now;
+        interval = std::min(2 * interval, longest_interval);
+        const UninterruptedWriting guard(Writing::checkpoint);
+        write_figures(result, origin, output);
+      };
+      compare(scene, work, result);
+    }
+    {
+      // The figures are safe before the plots are drawn.
       const UninterruptedWriting guard(Writing::checkpoint);
       write_figures(result, origin, output);
-    };
-    compare(scene, work, result);
+    }
+    has_all_figures = true;
+    report = io::make_report(result, origin, options.plots);
+    const UninterruptedWriting guard;
+    summary = io::write_report(report, output);
   } catch (const Interrupted& interrupted) {
     if (result.runs.empty()) throw;
+    if (has_all_figures) {
+      return end_interrupted(
+          interrupted,
+          fmt::format("interrupted; all figures are in {}, without the report, which the same "
+                      "command with --resume makes",
+                      directory.string()));
+    }
     {
       const UninterruptedWriting guard(Writing::partial_results);
       write_figures(result, origin, output);
@@ -104,17 +125,6 @@ int compare(const CompareOptions& options) {
         fmt::format("interrupted; what was finished is in {}, marked as partial; the same command "
                     "with --resume goes on",
                     directory.string()));
-  }
-  {
-    // The figures are safe before the plots are drawn.
-    const UninterruptedWriting guard(Writing::checkpoint);
-    write_figures(result, origin, output);
-  }
-  const io::ComparisonReport report = io::make_report(result, origin, options.plots);
-  std::string summary;
-  {
-    const UninterruptedWriting guard;
-    summary = io::write_report(report, output);
   }
   if (report.drawing_problem) print_error(*report.drawing_problem);
   if (options.scene.json) {

@@ -160,17 +160,15 @@ int run_items(const RunOptions& run, const SweepOptions& options, const io::Swee
   try {
     Progress progress(!run.quiet);
     now = io::run_sweep_items(
-        study, directory, remaining, threads_of(options), [&](const io::SweepProgress& so_far) {
-          if (so_far.finished > now.finished) {
-            // From now on a sudden end leaves finished items.
-            const UninterruptedWriting mark(Writing::checkpoint);
-          }
-          now = so_far;
+        study, directory, remaining, threads_of(options),
+        [&](const io::SweepProgress& so_far) {
+          if (so_far.finished > 0) note_finished_part();
           stop_if_interrupted();
           progress.update(fmt::format("{} items", items.size()),
                           static_cast<double>(so_far.finished) /
                               static_cast<double>(std::max<std::size_t>(remaining.size(), 1)));
-        });
+        },
+        &now);
   } catch (const Interrupted& interrupted) {
     return end_interrupted(
         interrupted,

@@ -79,10 +79,11 @@ struct SweepProgress {
 
 /// Computes items on threads and writes their rows. `watch` is called from the calling thread about
 /// ten times a second; if it throws, the items that are being computed are given up, and what it
-/// threw goes on. Throws Error(input_output) if a row cannot be written, Error(scene) as
-/// run_sweep_item does.
+/// threw goes on, with how far they came in `reached`. Throws Error(input_output) if a row cannot
+/// be written, Error(scene) as run_sweep_item does.
 SweepProgress run_sweep_items(const SweepStudy& study, const SweepDirectory& directory,
                               const std::vector<std::size_t>& items, std::size_t threads,
-                              const std::function<void(const SweepProgress&)>& watch);
+                              const std::function<void(const SweepProgress&)>& watch,
+                              SweepProgress* reached = nullptr);
 
 }  // namespace hamjet::io

@@ -2,13 +2,13 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
-#include <csignal>
 #include <exception>
 #include <mutex>
 #include <stop_token>
 #include <system_error>
 #include <thread>
 
+#include "../store/held_signals.hpp"
 #include "hamjet/error.hpp"
 #include "sweep_items.hpp"
 
@@ -18,24 +18,6 @@ namespace {
 /// Thrown through the work of an item that is given up. It is no std::exception, so that nothing on
 /// the way takes it for a failure.
 struct GivenUp {};
-
-/// While it lives, threads that are started have signals of the user blocked: those go to the
-/// calling thread.
-class SignalsBlocked {
- public:
-  SignalsBlocked() {
-    sigset_t signals;
-    sigemptyset(&signals);
-    for (const int signal : {SIGINT, SIGTERM, SIGALRM}) sigaddset(&signals, signal);
-    ::pthread_sigmask(SIG_BLOCK, &signals, &earlier_);
-  }
-  ~SignalsBlocked() { ::pthread_sigmask(SIG_SETMASK, &earlier_, nullptr); }
-  SignalsBlocked(const SignalsBlocked&) = delete;
-  SignalsBlocked& operator=(const SignalsBlocked&) = delete;
-
- private:
-  sigset_t earlier_{};
-};
 
 /// What the threads share.
 struct SharedState {
@@ -57,10 +39,12 @@ void work(const SweepStudy& study, const SweepDirectory& directory,
       // A mistake in a column shows at once, and not after all have been computed.
       if (i == 0 && !row.astray.empty()) throw Error(ErrorKind::scene, row.astray);
       directory.write(row);
+      {
+        const std::lock_guard lock(shared.mutex);
+        ++shared.progress.finished;
+        if (row.exit_code != 0) ++shared.progress.failed;
+      }
       if (stop.stop_requested()) throw GivenUp();
-      const std::lock_guard lock(shared.mutex);
-      ++shared.progress.finished;
-      if (row.exit_code != 0) ++shared.progress.failed;
     }
   } catch (const GivenUp&) {
   } catch (...) {
@@ -76,12 +60,14 @@ void work(const SweepStudy& study, const SweepDirectory& directory,
 
 SweepProgress run_sweep_items(const SweepStudy& study, const SweepDirectory& directory,
                               const std::vector<std::size_t>& items, std::size_t threads,
-                              const std::function<void(const SweepProgress&)>& watch) {
+                              const std::function<void(const SweepProgress&)>& watch,
+                              SweepProgress* reached) {
   constexpr std::chrono::milliseconds interval(100);
   SharedState shared;
   std::vector<std::jthread> workers;  // declared last: joined before what they use goes
   {
-    const SignalsBlocked blocked;
+    // Signals of the user go to the calling thread.
+    const HeldSignals held;
     const std::size_t count = std::min(threads, items.size());
     shared.threads_at_work = count;
     try {
@@ -110,6 +96,8 @@ SweepProgress run_sweep_items(const SweepStudy& study, const SweepDirectory& dir
     }
   } catch (...) {
     stop_all();
+    workers.clear();
+    if (reached != nullptr) *reached = shared.progress;
     throw;
   }
   stop_all();

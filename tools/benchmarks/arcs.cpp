@@ -100,7 +100,7 @@ void benchmark_order(int order, double revolutions) {
 
 void benchmark_arcs() {
   fmt::print(
-      "\n(g) one arc in pieces, on threads: paper's orbit, Gauss with 8 stages, tolerance 1e-12\n");
+      "\none arc in pieces, on threads: paper's orbit, Gauss with 8 stages, tolerance 1e-12\n");
   for (const int order : {4, 6}) benchmark_order(order, 15);
   fmt::print(
       "    error: largest over all degrees, against 12 stages at tolerance 1e-15; estimate: from "

@@ -26,7 +26,7 @@ double median(std::vector<double> values) {
 
 void benchmark_evaluation() {
   fmt::print(
-      "\n(f) a map of 6 components in 6 variables at many points, {} at once; the products that "
+      "\na map of 6 components in 6 variables at many points, {} at once; the products that "
       "form the\n    monomials take time and are not counted as multiply-adds\n",
       points_at_once);
   fmt::print("{:>5} {:>14} {:>9} {:>12} {:>9} {:>18} {:>9}\n", "order", "multiply-adds", "products",

@@ -83,7 +83,7 @@ void benchmark_integrators() {
                                          fehlberg(fehlberg_tolerance, s);
                                        }},
                                       15);
-  fmt::print("\n(a) paper's orbit, order 4, error of all degrees at most {:.0e}\n", wanted_error);
+  fmt::print("\npaper's orbit, order 4, error of all degrees at most {:.0e}\n", wanted_error);
   fmt::print("{:<12} {:>10} {:>7} {:>10} {:>10} {:>8}\n", "method", "tolerance", "steps", "error",
              "time", "ratio");
   fmt::print("{:<12} {:>10.1e} {:>7} {:>10.1e} {:>7.2f} ms {:>8.1f}\n", "gauss 8", gauss_tolerance,
@@ -106,7 +106,7 @@ void benchmark_integrators() {
                                        integrate_gauss<double>(first_problem, settings, s);
                                      }},
                                      51)[0];
-  fmt::print("\n(d) order 1: nominal and 6 x 6 matrix over 10 pi in {:.3f} ms, error {:.1e}\n",
+  fmt::print("\norder 1: nominal and 6 x 6 matrix over 10 pi in {:.3f} ms, error {:.1e}\n",
              time * 1e3, error);
   print_parts(first, gauss_tolerance);
 }

@@ -13,7 +13,7 @@ namespace hamjet::benchmarks {
 
 void benchmark_inversion() {
   fmt::print(
-      "\n(g) the paper's orbit after a quarter of its period: its map inverted, and the\n"
+      "\nthe paper's orbit after a quarter of its period: its map inverted, and the\n"
       "    generating functions of all 64 kinds\n");
   fmt::print("{:>5} {:>12} {:>12} {:>12} {:>14}\n", "order", "inverse", "64 kinds", "a kind",
              "of an inverse");

@@ -12,7 +12,7 @@
 namespace hamjet::benchmarks {
 
 void benchmark_orders() {
-  fmt::print("\n(c) paper's orbit, Gauss with 8 stages, tolerance 1e-12: cost against order\n");
+  fmt::print("\npaper's orbit, Gauss with 8 stages, tolerance 1e-12: cost against order\n");
   fmt::print("{:>5} {:>6} {:>12} {:>12} {:>15} {:>16} {:>12} {:>14}\n", "order", "steps", "time",
              "memory", "multiply-adds", "ns per 1000 m-a", "growth/count", "error estimate");
   double previous_time = 0;

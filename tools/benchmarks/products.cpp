@@ -22,7 +22,7 @@ void benchmark_products() {
   std::nth_element(samples.begin(), samples.begin() + 2, samples.end());
   const double peak = samples[2];
   fmt::print(
-      "\n(b) products of series on packs of {} lanes, 6 variables; peak {:.1f} Gmultiply-adds/s\n",
+      "\nproducts of series on packs of {} lanes, 6 variables; peak {:.1f} Gmultiply-adds/s\n",
       lanes, peak * 1e-9);
   fmt::print("{:>5} {:>14} {:>13} {:>10} {:>13} {:>10}\n", "order", "multiply-adds", "product",
              "of peak", "square", "of peak");

@@ -49,7 +49,7 @@ void benchmark_zonals() {
   for (const auto& entry : cases) works.emplace_back([&entry] { integrate(entry.second); });
   const auto seconds = median_seconds(works, 21);
   fmt::print(
-      "\n(f) what zonal coefficients cost: order 4 in 6 variables, 42 steps of Gauss with 8 "
+      "\nwhat zonal coefficients cost: order 4 in 6 variables, 42 steps of Gauss with 8 "
       "stages\n");
   fmt::print("{:<14} {:>11} {:>15} {:>12} {:>10}\n", "coefficients", "operations", "multiply-adds*",
              "time", "of J2");

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "../../store/held_signals.hpp"
 #include "hamjet/store/output_directory.hpp"
 #include "interruption.hpp"
 
@@ -13,7 +14,7 @@ class GuardedOutput {
  public:
   /// Throws what io::OutputDirectory throws.
   explicit GuardedOutput(const std::filesystem::path& directory) {
-    const HeldSignals held;
+    const io::HeldSignals held;
     directory_.emplace(directory);
     leftovers_.watch(directory_->leftovers());
   }

@@ -3,20 +3,23 @@
 #include <sys/time.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <csignal>
 #include <cstdlib>
+#include <ctime>
 #include <exception>
 #include <new>
 #include <string_view>
 #include <utility>
 
+#include "../../store/held_signals.hpp"
 #include "hamjet/error.hpp"
 #include "standard_streams.hpp"
 
 namespace hamjet::cli {
 namespace {
 
-/// `finished`: the results, or the line that says why there are none, are there.
+/// `finished`: the results are there, or the line that says why not all of them are.
 enum Phase : std::sig_atomic_t { computing, writing, finished };
 
 volatile std::sig_atomic_t pending_signal = 0;
@@ -44,16 +47,26 @@ void remove_leftovers() {
   }
 }
 
+/// Set while one thread tells how the program ends.
+std::atomic_flag is_ending;
+
+/// Waits until no other thread tells how the program ends.
+void take_turn() {
+  constexpr timespec interval{0, 1'000'000};
+  while (is_ending.test_and_set()) ::nanosleep(&interval, nullptr);
+}
+
 /// Ends the program from within a signal handler, where nothing that allocates or locks may be
 /// called. In the midst of writing this is as if it were killed: the results in the directory are
-/// whole, the old ones or the new.
+/// whole, the old ones (or none) or the new, and what is hidden there the next run puts in order.
 [[noreturn]] void end_at_once() {
+  take_turn();
   remove_leftovers();
   if (phase != finished) {
     const std::string_view message =
         phase == writing
-            ? "hamjet: interrupted while the results were written; the old ones or the new ones "
-              "are there, whole\n"
+            ? "hamjet: interrupted while the results were written; they are there, whole, or what "
+              "was there before\n"
         : has_checkpoint != 0
             ? "hamjet: interrupted; the results hold what was finished shortly before\n"
             : "hamjet: interrupted; nothing was written\n";
@@ -74,26 +87,27 @@ extern "C" void lose_patience(int /*signal*/) { end_at_once(); }
 }  // namespace
 
 void catch_signals() {
-  std::signal(SIGALRM, lose_patience);
-  std::signal(SIGINT, remember_signal);
-  std::signal(SIGTERM, remember_signal);
+  // None of them interrupts the handler of another.
+  struct sigaction action {};
+  sigemptyset(&action.sa_mask);
+  for (const int signal : {SIGINT, SIGTERM, SIGALRM}) sigaddset(&action.sa_mask, signal);
+  action.sa_flags = SA_RESTART;
+  for (const int signal : {SIGINT, SIGTERM, SIGALRM}) {
+    action.sa_handler = signal == SIGALRM ? lose_patience : remember_signal;
+    ::sigaction(signal, &action, nullptr);
+  }
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
-HeldSignals::HeldSignals() {
-  sigset_t held;
-  sigemptyset(&held);
-  for (const int signal : {SIGALRM, SIGINT, SIGTERM}) sigaddset(&held, signal);
-  ::pthread_sigmask(SIG_BLOCK, &held, &before_);
-}
-
-HeldSignals::~HeldSignals() { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+void note_finished_part() { has_checkpoint = 1; }
 
 int end_interrupted(const Interrupted& interrupted, const std::string& message) {
-  const HeldSignals held;
+  const io::HeldSignals held;
+  take_turn();
   print_error(message);
   phase = finished;
+  is_ending.clear();
   return interrupted.exit_code();
 }
 
@@ -135,7 +149,7 @@ UninterruptedWriting::UninterruptedWriting(Writing what) : what_(what) {
 
 UninterruptedWriting::~UninterruptedWriting() {
   // After partial results the line that says so is still to come.
-  if (what_ != Writing::results) has_checkpoint = 1;
+  if (what_ != Writing::results) note_finished_part();
   phase = what_ != Writing::results ? computing : finished;
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <csignal>
 #include <exception>
 #include <filesystem>
 #include <string>
@@ -26,17 +25,8 @@ class Interrupted : public std::exception {
 /// program ends at once. SIGPIPE and SIGXFSZ become errors of the write.
 void catch_signals();
 
-/// While it lives, signals to this thread wait.
-class HeldSignals {
- public:
-  HeldSignals();
-  ~HeldSignals();
-  HeldSignals(const HeldSignals&) = delete;
-  HeldSignals& operator=(const HeldSignals&) = delete;
-
- private:
-  sigset_t before_;
-};
+/// From now on a sudden end leaves a finished part of the results.
+void note_finished_part();
 
 /// Prints the one line that an interrupted program ends with, after which no signal adds another,
 /// and returns the exit code.

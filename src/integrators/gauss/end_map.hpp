@@ -73,7 +73,7 @@ class EndMap {
 
  private:
   static constexpr std::size_t tile = StageSlopes<Real, Lanes>::tile;
-  /// Of an orbit there are 6 and multiples of 6.
+  /// Of an orbit S has 6 columns, and T, where it is summed, 3 a stage.
   static constexpr std::size_t columns_at_once = 6;
 
   /// The derivatives of h^2 sum b_i (1 - c_i) F_i and h sum b_i F_i by the stages' components.

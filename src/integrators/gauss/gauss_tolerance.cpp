@@ -31,9 +31,8 @@ constexpr int stalls_of_rounding = 2;
 /// Finer steps serve the next trial too if their tolerance is that much below its own: then what
 /// they are wrong by is a thirtieth of what is measured.
 constexpr double fine_enough = 30;
-/// The factor between a tolerance and that of its finer steps; where a next trial is likely, which
-/// these then serve as well, for a twentieth more of their time.
-constexpr double finer_factor = 1e-3;
+/// The same above highest_order_met_at_once, where a next trial is likely: these finer lines serve
+/// it as well, and take a twentieth longer.
 constexpr double finer_factor_of_high_orders = 1e-5;
 /// Lines of more steps are tried twice only: each trial is a good part of the whole work then.
 constexpr long most_steps_of_more_trials = 10000;

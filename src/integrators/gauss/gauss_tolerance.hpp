@@ -10,6 +10,8 @@ namespace hamjet {
 
 /// Up to this order the tolerance asked for usually suffices.
 inline constexpr int highest_order_met_at_once = 4;
+/// The factor between a tolerance and that of its finer steps.
+inline constexpr double finer_factor = 1e-3;
 
 /// The local tolerance of an adaptive Gauss integration.
 template <class Real>
@@ -87,6 +89,7 @@ FlowJet<Real> integrate_with_step_tolerance(const FlowProblem<Real>& problem,
 /// Settings for an integration that shares neither order nor steps with one of the given settings,
 /// with a local error `factor` times as large.
 template <class Real>
-GaussSettings finer_gauss(const GaussSettings& settings, double tolerance, double factor = 1e-3);
+GaussSettings finer_gauss(const GaussSettings& settings, double tolerance,
+                          double factor = finer_factor);
 
 }  // namespace hamjet

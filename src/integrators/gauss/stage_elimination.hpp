@@ -112,7 +112,7 @@ class StageElimination {
     for (const std::span<P>& run : columns) of(run);
   }
 
-  /// The same without pivoting.
+  /// Elimination without pivoting.
   void eliminate_in_order(const Columns& columns) {
     // The usual numbers of components are unrolled: this is a good part of a step of order 1.
     if (components_ == 3) return eliminate_in_order<3>(columns);

@@ -175,10 +175,11 @@ class StageSystem {
   }
 
   /// Whether every row of W (x) Dg has magnitudes that add up to at most 1/2, as at all steps that
-  /// converge well: the matrix I - W (x) Dg is dominated by its diagonal then, and elimination in
-  /// the order of the rows, without pivoting, multiplies no entry by more than 2 (Higham, Accuracy
-  /// and Stability of Numerical Algorithms, 2nd ed., theorem 9.9 and section 14.4). False where a
-  /// number is not finite.
+  /// converge well: the matrix I - W (x) Dg is dominated by its diagonal then, by at least 1/2 in
+  /// every row, and so is what a few pivots leave of it, whose blocks have inverses of at most 2 in
+  /// the maximum norm (Varah, Linear Algebra Appl. 11 (1975) 3). Elimination needs no pivoting,
+  /// also by blocks (Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed., theorem 9.9
+  /// and sections 13.3 and 14.4). False where a number is not finite.
   template <class Gradient>
   bool has_dominant_diagonal(const Gradient& gradient) const {
     P largest(Real(0));

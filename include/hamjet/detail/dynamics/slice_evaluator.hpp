@@ -100,8 +100,8 @@ class SliceEvaluator {
     propagation_.complete_outputs(slices_.data(), stride_, space_->first(d), space_->first(d + 1),
                                   remainders_.data(), d >= 2);
   }
-  /// Forms, as complete does, the values that the next degrees need alone: outputs that are operands
-  /// of nothing stay as they are.
+  /// Forms, as complete does, the values that the next degrees need alone: outputs that are
+  /// operands of nothing stay as they are.
   void complete_intermediates(int d) {
     propagation_.complete_intermediates(slices_.data(), stride_, space_->first(d),
                                         space_->first(d + 1), d >= 2);
