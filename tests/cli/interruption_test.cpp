@@ -58,6 +58,30 @@ TEST_F(Interruption, KilledItLeavesNothingThatIsSeenOrInTheWay) {
   EXPECT_FALSE(std::filesystem::exists(directory_ / "out/quick/.hamjet-lock"));
 }
 
+TEST_F(Interruption, BetweenFiguresAndReportTheFiguresStay) {
+  const std::filesystem::path summary = directory_ / "out/quick/compare.json";
+  const std::vector<std::string> command = {
+      "compare", "quick.toml", "--set",
+      "compare={methods=[\"gauss\"], stages=[1], tolerances=[1e-3], orders=[1], repeats=1, "
+      "time_budget_s=20}"};
+  options_.environment = {{"XDG_CACHE_HOME", (directory_ / "cache").string()}};
+  options_.signal = Signal{SIGINT, 1, std::chrono::milliseconds(0), summary};
+  const CommandResult result = hamjet(command);
+  EXPECT_EQ(result.exit_code, 130);
+  // On a slow machine the first figures are there before the last.
+  const bool is_complete = read_json(summary)["complete"];
+  EXPECT_EQ(result.err, is_complete
+                            ? "hamjet: interrupted; all figures are in out/quick, without "
+                              "the report, which the same command with --resume makes\n"
+                            : "hamjet: interrupted; what was finished is in out/quick, "
+                              "marked as partial; the same command with --resume goes on\n");
+  options_.signal.reset();
+  std::vector<std::string> resumed = command;
+  resumed.emplace_back("--resume");
+  succeed(resumed);
+  EXPECT_TRUE(std::filesystem::exists(directory_ / "out/quick/report.html"));
+}
+
 // From the very start to the second in which the command is deep at work; each would take minutes.
 TEST_F(Interruption, AtAnyMomentOfAnyCommand) {
   const std::string transfer =

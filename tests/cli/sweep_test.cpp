@@ -308,6 +308,25 @@ TEST_F(Sweep, ASignalEndsItAndWhatIsFinishedStays) {
   EXPECT_FALSE(fs::exists(directory_ / "out/rows"));
 }
 
+TEST_F(Sweep, ASignalTellsHowManyItemsAreFinished) {
+  write("study.toml", changed(study, "count = 10", "count = 5000"));
+  for (const int milliseconds : {50, 150, 300}) {
+    options_.signal = Signal{SIGINT, 1, std::chrono::milliseconds(milliseconds)};
+    const CommandResult result = hamjet({"sweep", "study.toml", "-o", "out"});
+    EXPECT_EQ(result.exit_code, 130);
+    std::size_t rows = 0;
+    if (fs::exists(directory_ / "out/rows")) {
+      for (const auto& entry : fs::recursive_directory_iterator(directory_ / "out/rows")) {
+        rows += entry.path().extension() == ".json" ? 1U : 0U;
+      }
+    }
+    EXPECT_EQ(result.err, fmt::format("hamjet: interrupted; {} of 20000 items are finished and "
+                                      "stay in out; --resume goes on\n",
+                                      rows));
+    fs::remove_all(directory_ / "out");
+  }
+}
+
 using KillSweep = Sweep;
 
 TEST_F(KillSweep, TakenUpItGivesTheSameTable) {
