@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "dynamics/harmonic_oscillator.hpp"
+#include "integrators/gauss/gauss_step_rule.hpp"
 #include "support/errors.hpp"
 #include "support/flow.hpp"
 
@@ -102,6 +103,25 @@ TEST(Gauss, AForceOutsideItsDomainIsAnError) {
   test::expect_error(ErrorKind::numerical, "", [&] { test::run_gauss(flow); });
   test::expect_error(ErrorKind::numerical, "",
                      [&] { test::run_gauss(flow, test::fixed_step(3, 0.01)); });
+}
+
+/// Else the next step would be no number either, and the integration would not end.
+TEST(GaussStepRule, AStepThatShowsNoNumberIsTooLong) {
+  const GaussStepRule rule(8, true, 2, std::numeric_limits<double>::epsilon());
+  const auto decaying = [](int degree) { return std::pow(0.1, degree); };
+  StepMeasures good;
+  good.defect = 1e-3;
+  good.slope = good.first_gradient = good.last_gradient = good.largest_gradient = 1;
+  EXPECT_LT(rule.error_estimate(good, 0.1, decaying), 1);
+  StepMeasures bad = good;
+  bad.largest_gradient = not_a_number;
+  EXPECT_EQ(rule.error_estimate(bad, 0.1, decaying), infinite);
+  bad = good;
+  bad.defect = bad.slope = infinite;
+  EXPECT_EQ(rule.error_estimate(bad, 0.1, decaying), infinite);
+  EXPECT_EQ(rule.step_factor(infinite, 1e-12), 0.1);
+  bad.first_gradient = bad.last_gradient = infinite;
+  EXPECT_EQ(rule.time_scale_ratio(bad), 1);
 }
 
 TEST(Gauss, RefusesSettingsOutOfRange) {

@@ -166,7 +166,7 @@ class GaussIntegrator {
     while (true) {
       if (!settings_.step)
         h = fit_to_span(control_.sampling_step(h, *problem_.system, jet_.start()), remaining);
-      if (at_.time + h == at_.time) {
+      if (!is_finite(h) || at_.time + h == at_.time) {
         throw Error(
             ErrorKind::numerical,
             fmt::format("Gauss: the step size fell to {:.3g} at t = {:.15g}: a collision or "

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -47,17 +48,24 @@ class GaussStepRule {
   template <class Mode>
   double error_estimate(const StepMeasures& step, double h, const Mode& mode) const {
     const double slope = slope_scale(step);
-    if (slope == 0) return linearised_error(step, h);
     const double noise = slope_noise(step);
-    double ratio = std::max(0.0, step.defect - noise) / slope;
-    if (s_ > 1) {
-      const double last = std::max(0.0, mode(s_ - 1) - noise) / slope;
-      const double s = s_;
-      // The power of a number below 1 is less than the number.
-      if (last > std::min(ratio, 1.0)) ratio = std::max(ratio, std::pow(last, s / (s - 1)));
+    std::array<double, 3> errors = {linearised_error(step, h), 0, 0};
+    if (slope != 0) {
+      double ratio = std::max(0.0, step.defect - noise) / slope;
+      if (s_ > 1) {
+        const double last = std::max(0.0, mode(s_ - 1) - noise) / slope;
+        const double s = s_;
+        // The power of a number below 1 is less than the number.
+        if (last > std::min(ratio, 1.0)) ratio = std::max(ratio, std::pow(last, s / (s - 1)));
+      }
+      errors[1] = error_constant * ratio * ratio;
+      errors[2] = continued_modes(slope, noise, mode);
     }
-    return std::max({error_constant * ratio * ratio, continued_modes(slope, noise, mode),
-                     linearised_error(step, h)});
+    // Where a force ends, slopes or gradients are infinite or no numbers: steps must be shorter.
+    if (std::any_of(errors.begin(), errors.end(), [](double x) { return std::isnan(x); })) {
+      return std::numeric_limits<double>::infinity();
+    }
+    return *std::max_element(errors.begin(), errors.end());
   }
 
   double step_factor(double error, double tolerance) const {
@@ -71,6 +79,7 @@ class GaussStepRule {
   double time_scale_ratio(const StepMeasures& step) const {
     if (step.first_gradient == 0 || step.last_gradient == 0) return 1;
     const double ratio = step.first_gradient / step.last_gradient;
+    if (std::isnan(ratio)) return 1;
     return std::clamp(is_second_order_ ? std::sqrt(ratio) : ratio, 0.25, 4.0);
   }
 
