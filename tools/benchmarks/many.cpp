@@ -31,9 +31,8 @@ std::vector<std::vector<double>> orbits(std::size_t count, double most) {
 
 void benchmark_many() {
   constexpr std::size_t count = 256;
-  fmt::print(
-      "\n{} orbits about the oblate Earth, each its own jet over 10 pi, tolerance 1e-12\n",
-      count);
+  fmt::print("\n{} orbits about the oblate Earth, each its own jet over 10 pi, tolerance 1e-12\n",
+             count);
   fmt::print("{:>14} {:>6} {:>15} {:>15} {:>7} {:>7} {:>12}\n", "eccentricities", "order",
              "one at a time", "side by side", "ratio", "alone", "difference");
   for (const double most : {0.0, 0.3, 0.7}) {

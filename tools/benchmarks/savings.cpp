@@ -68,8 +68,7 @@ void benchmark_savings() {
   std::vector<std::function<void()>> works;
   for (const auto& entry : cases) works.emplace_back([&entry] { integrate(entry.second); });
   const auto seconds = median_seconds(works, 21);
-  fmt::print(
-      "\nwhat a scene does not need is not computed: integration, Gauss with 8 stages\n");
+  fmt::print("\nwhat a scene does not need is not computed: integration, Gauss with 8 stages\n");
   fmt::print("{:<28} {:>9} {:>11} {:>15} {:>12} {:>8}\n", "scene", "variables", "operations",
              "multiply-adds*", "time", "of full");
   for (std::size_t i = 0; i < cases.size(); ++i) {
