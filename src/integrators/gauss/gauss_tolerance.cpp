@@ -31,9 +31,6 @@ constexpr int stalls_of_rounding = 2;
 /// Finer steps serve the next trial too if their tolerance is that much below its own: then what
 /// they are wrong by is a thirtieth of what is measured.
 constexpr double fine_enough = 30;
-/// The same above highest_order_met_at_once, where a next trial is likely: these finer lines serve
-/// it as well, and take a twentieth longer.
-constexpr double finer_factor_of_high_orders = 1e-5;
 /// Lines of more steps are tried twice only: each trial is a good part of the whole work then.
 constexpr long most_steps_of_more_trials = 10000;
 /// Steps that leave a degree fewer than two digits are too coarse to converge yet, so that an error
@@ -85,9 +82,7 @@ Trial<Real> try_tolerance(const DirectionalFlow<Real>& flow, const GaussSettings
   GaussSettings own = settings;
   own.tolerance = tolerance;
   own.profile = nullptr;
-  const bool is_high = problem.space->order() > highest_order_met_at_once;
-  const GaussSettings finest =
-      finer_gauss<Real>(settings, tolerance, is_high ? finer_factor_of_high_orders : finer_factor);
+  const GaussSettings finest = finer_gauss<Real>(settings, tolerance);
   struct Run {
     const GaussSettings& settings;
     FlowJet<Real> jet;
@@ -153,10 +148,10 @@ StepTolerance<Real> chosen(double tolerance, const DirectionalFlow<Real>& flow, 
 }  // namespace
 
 template <class Real>
-GaussSettings finer_gauss(const GaussSettings& settings, double tolerance, double factor) {
+GaussSettings finer_gauss(const GaussSettings& settings, double tolerance) {
   GaussSettings fine;
   fine.stages = settings.stages < 8 ? 8 : (settings.stages == 14 ? 12 : 14);
-  fine.tolerance = std::max(factor * tolerance, smallest_step_tolerance<Real>());
+  fine.tolerance = std::max(1e-3 * tolerance, smallest_step_tolerance<Real>());
   fine.compensated_summation = true;
   return fine;
 }
@@ -272,6 +267,6 @@ template std::optional<StepTolerance<InstantiatedReal>> accept_first_trial(
 template void record_choice(StepTolerance<InstantiatedReal>, IntegrationStatistics&);
 template FlowJet<InstantiatedReal> integrate_with_step_tolerance(
     const FlowProblem<InstantiatedReal>&, GaussSettings, double);
-template GaussSettings finer_gauss<InstantiatedReal>(const GaussSettings&, double, double);
+template GaussSettings finer_gauss<InstantiatedReal>(const GaussSettings&, double);
 
 }  // namespace hamjet

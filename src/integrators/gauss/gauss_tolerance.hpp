@@ -8,11 +8,6 @@
 
 namespace hamjet {
 
-/// Up to this order the tolerance asked for usually suffices.
-inline constexpr int highest_order_met_at_once = 4;
-/// The factor between a tolerance and that of its finer steps.
-inline constexpr double finer_factor = 1e-3;
-
 /// The local tolerance of an adaptive Gauss integration.
 template <class Real>
 struct StepTolerance {
@@ -87,9 +82,8 @@ FlowJet<Real> integrate_with_step_tolerance(const FlowProblem<Real>& problem,
                                             GaussSettings settings, double step_tolerance);
 
 /// Settings for an integration that shares neither order nor steps with one of the given settings,
-/// with a local error `factor` times as large.
+/// with a local error a thousand times smaller.
 template <class Real>
-GaussSettings finer_gauss(const GaussSettings& settings, double tolerance,
-                          double factor = finer_factor);
+GaussSettings finer_gauss(const GaussSettings& settings, double tolerance);
 
 }  // namespace hamjet
