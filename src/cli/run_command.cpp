@@ -24,6 +24,7 @@
 #include "hamjet/report/results.hpp"
 #include "hamjet/store/output_directory.hpp"
 #include "hamjet/studies/propagation.hpp"
+#include "measured_time.hpp"
 #include "process/guarded_output.hpp"
 #include "process/interruption.hpp"
 #include "process/standard_streams.hpp"
@@ -67,8 +68,11 @@ int run_flow_jet(const RunOptions& options, const Scene& scene) {
   if (options.json) {
     print(summary);
   } else if (!options.quiet) {
-    print_table(options, io::summary_table(result), io::summary_details(result),
-                fmt::format("results: {}\n", directory.string()));
+    print_table(
+        options, io::summary_table(result), io::summary_details(result),
+        fmt::format("results: {}\n", directory.string()) +
+            (figure.empty() ? ""
+                            : fmt::format("figure: {}\n", (directory / "figure.svg").string())));
   }
   const int code = exit_code(result);
   if (code != 0) {
@@ -208,6 +212,7 @@ void check_flow_jet(const RunOptions& options, const std::string& file, const Sc
   text += fmt::format("  inversions   {}\n  reference    {}\n",
                       scene.kinds ? counted(scene.kinds->size(), "kind") : "none",
                       scene.reference ? "in extended precision" : "none");
+  text += fmt::format("  time         {}; pictures apart\n", measured_times(scene));
   print(io::fitted(text));
 }
 

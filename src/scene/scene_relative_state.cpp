@@ -118,6 +118,12 @@ void require_near(const TableReader& table, const Nominal& nominal,
 /// inertial states, neither of which has been rounded before.
 RelativeState read_own_orbit(const TableReader& table, const Nominal& nominal, RelativeFrame frame,
                              DeputyPlace place) {
+  if (table.has("position_km") && !table.has("velocity_km_s")) {
+    table.fail(
+        "velocity_km_s",
+        "missing beside position_km, a place from the centre of attraction, must be [vx, vy, "
+        "vz]; a place relative to the chief is position_m");
+  }
   const Orbit deputy = read_orbit(table, nominal.centre);
   if (deputy.file) require_same_date(table, nominal, deputy.file->ephemeris);
   const CanonicalScale& scale = nominal.scale;

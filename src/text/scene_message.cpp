@@ -96,6 +96,10 @@ struct ForeignKeys {
 
 const std::vector<ForeignKeys>& foreign_keys() {
   static const std::vector<ForeignKeys> keys = {
+      {"",
+       {"chief", "target", "leader", "reference_orbit", "orbit", "initial_state"},
+       "must be [nominal], the start of the chief"},
+      {"", {"follower", "chaser", "secondary", "relative_state"}, "must be [deputy]"},
       {"nominal",
        {"M_deg", "m_deg", "mean_anomaly_deg", "mean_anomaly"},
        "must be ma_deg, the mean anomaly"},

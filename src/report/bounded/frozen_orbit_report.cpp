@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -94,12 +95,20 @@ std::string frozen_orbit_verdict(const FrozenOrbitStudy& study) {
   }
   text += fmt::format("It is stable: its multipliers are {:.10g} +- {:.6g} i", real, imaginary);
   if (!study.failure.empty()) return text + "; " + study.failure + ".";
-  return text + fmt::format(
-                    ", and neighbours turn about it in {:.6g} revolutions; the normal form "
-                    "of order {} is right to {} of the amplitude up to {} (flown over {}).",
-                    1 / std::abs(study.circles.front().rotation_number), study.scene.order,
-                    FrozenOrbitStudy::largest_miss, length_text(study.length_m(study.reach)),
-                    counted(study.flown_revolutions, "revolution"));
+  text += fmt::format(
+      ", and neighbours turn about it in {:.6g} revolutions; the normal form of order {} is right "
+      "to {} of the amplitude up to {} (flown over {}).",
+      1 / std::abs(study.circles.front().rotation_number), study.scene.order,
+      FrozenOrbitStudy::largest_miss, length_text(study.length_m(study.reach)),
+      counted(study.flown_revolutions, "revolution"));
+  const bool has_chiefs = std::any_of(study.circles.begin(), study.circles.end(),
+                                      [](const LibrationCircle& one) { return one.is_chiefs; });
+  if (!has_chiefs) {
+    text +=
+        " The scene's chief is on none of its circles: it is further away than the normal form "
+        "reaches.";
+  }
+  return text;
 }
 
 std::string frozen_orbit_csv(const FrozenOrbitStudy& study) {

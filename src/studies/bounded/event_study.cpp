@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -11,6 +10,7 @@
 #include <span>
 #include <string>
 
+#include "../../algebra/scalar_search.hpp"
 #include "../exact_flow.hpp"
 #include "../formation/deputy_flows.hpp"
 #include "../formation/formation_problem.hpp"
@@ -106,8 +106,8 @@ class EventSearch {
   Place nearest(double from, double to, int sign) const {
     // Half of the digits: a minimum is flat.
     constexpr int bits = std::numeric_limits<double>::digits / 2;
-    const auto [time, least] = boost::math::tools::brent_find_minima(
-        [&](double t) { return sign * at(t); }, std::min(from, to), std::max(from, to), bits);
+    const auto [time, least] = minimum_between(
+        "event", [&](double t) { return sign * at(t); }, from, to, bits);
     return {time, sign * least};
   }
 
