@@ -37,6 +37,7 @@ EvaluatedScene evaluated_scene(const Scene& scene) {
   chief.label = integrator.label;
   chief.model = scene.system.model;
   chief.units = scene.units;
+  result.told = told_factors(scene);
   chief.duration = scene.duration;
   chief.nominal_initial = scene.nominal;
   chief.nominal_final.assign(result.flow->chief_end().begin(), result.flow->chief_end().end());

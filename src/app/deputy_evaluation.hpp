@@ -17,6 +17,7 @@ namespace hamjet::cli {
 struct EvaluatedScene {
   /// The chief, as the results of a run have it; without coefficients.
   io::StoredJet chief;
+  CanonicalFactors told;          ///< see told_factors
   ChosenCoordinates coordinates;  ///< not automatic
   std::shared_ptr<const DeputyFlow> flow;
   /// The chief's final state as a jet is stored with it. Of flow boxes the section at the end goes

@@ -91,8 +91,9 @@ void EvalFrames::check() const {
   }
 }
 
-EvalCoordinates::EvalCoordinates(const io::StoredJet& stored, const EvalFrames& frames)
-    : stored_(stored) {
+EvalCoordinates::EvalCoordinates(const io::StoredJet& stored, const EvalFrames& frames,
+                                 const CanonicalFactors& told)
+    : stored_(stored), told_(told) {
   frames.check();
   if (frames.frame == canonical_frame) {
     const auto names = stored.variable_names();
@@ -119,18 +120,28 @@ EvalCoordinates::EvalCoordinates(const io::StoredJet& stored, const EvalFrames& 
   final_.emplace(stored.nominal_final, units, 1, final);
 }
 
+double EvalCoordinates::told_factor(std::size_t component) const {
+  return component < stored_.nominal_initial.size() / 2 ? told_.length : told_.momentum;
+}
+
 std::vector<double> EvalCoordinates::initial_row(std::span<const double> canonical) const {
   if (initial_) {
     const auto numbers = initial_->coordinates(canonical);
     return {numbers.begin(), numbers.end()};
   }
   std::vector<double> row;
-  for (const std::size_t v : stored_.variables) row.push_back(canonical[v]);
+  for (const std::size_t v : stored_.variables) row.push_back(canonical[v] * told_factor(v));
   return row;
 }
 
 std::vector<double> EvalCoordinates::variables(std::span<const double> deviation) const {
-  if (!initial_) return std::vector<double>(deviation.begin(), deviation.end());
+  if (!initial_) {
+    std::vector<double> numbers;
+    for (std::size_t i = 0; i < deviation.size(); ++i) {
+      numbers.push_back(deviation[i] / told_factor(stored_.variables[i]));
+    }
+    return numbers;
+  }
   const std::array<double, 6> canonical = [&] {
     try {
       return initial_->deviation(deviation);
@@ -161,7 +172,13 @@ std::vector<double> EvalCoordinates::variables(std::span<const double> deviation
 }
 
 std::vector<double> EvalCoordinates::final_state(std::span<const double> components) const {
-  if (!final_) return {components.begin(), components.end()};
+  if (!final_) {
+    std::vector<double> numbers;
+    for (std::size_t c = 0; c < components.size(); ++c) {
+      numbers.push_back(components[c] * told_factor(stored_.components[c]));
+    }
+    return numbers;
+  }
   std::vector<double> full(stored_.nominal_initial.size(), 0);
   for (std::size_t c = 0; c < components.size(); ++c) full[stored_.components[c]] = components[c];
   try {

@@ -34,9 +34,11 @@ struct EvalFrames {
 /// canonical, or a relative state of an orbit in metres and m/s.
 class EvalCoordinates {
  public:
-  /// Throws Error(usage) if the words are wrong or do not fit the jet's model, and Error(numerical)
-  /// as DeputyCoordinates.
-  EvalCoordinates(const io::StoredJet& stored, const EvalFrames& frames);
+  /// `told` takes the jet's canonical numbers into those that the user gives and wants. Throws
+  /// Error(usage) if the words are wrong or do not fit the jet's model, and Error(numerical) as
+  /// DeputyCoordinates.
+  EvalCoordinates(const io::StoredJet& stored, const EvalFrames& frames,
+                  const CanonicalFactors& told = {});
 
   /// The frame in words, with the derivatives.
   const std::string& text() const { return text_; }
@@ -44,7 +46,7 @@ class EvalCoordinates {
   const std::vector<std::string_view>& initial_columns() const { return initial_columns_; }
   const std::vector<std::string_view>& final_columns() const { return final_columns_; }
 
-  /// A canonical deviation (dq, dp) in the numbers of the initial columns.
+  /// A canonical deviation (dq, dp) of the jet in the numbers of the initial columns.
   std::vector<double> initial_row(std::span<const double> canonical) const;
   /// The jet's variables of a deviation. Throws Error(usage) if the deviation has other components
   /// too, of which the jet says nothing, or is none of a deputy.
@@ -53,7 +55,11 @@ class EvalCoordinates {
   std::vector<double> final_state(std::span<const double> components) const;
 
  private:
+  /// By what a component of the state is multiplied to be told.
+  double told_factor(std::size_t component) const;
+
   const io::StoredJet& stored_;
+  CanonicalFactors told_;
   std::vector<std::string_view> initial_columns_;
   std::vector<std::string_view> final_columns_;
   std::string text_ = "canonical";

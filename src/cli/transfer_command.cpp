@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <system_error>
@@ -69,7 +70,14 @@ EarlierJet earlier_jet(const TransferOptions& transfers, const io::StoredJet& st
       stored.variables.size() != scene.nominal.size()) {
     refuse_jet(transfers, stored, "is not expanded in all six variables, which transfers need");
   }
-  return {stored.label, stored.duration, convert_map<double>(stored.jet)};
+  return {stored.label, duration_in_units_of(scene, stored), jet_in_units_of(scene, stored)};
+}
+
+/// Whether a transfer has one time and it is this, but for the rounding of the units.
+bool has_time_alone(const TransferSettings& transfer, double time) {
+  constexpr double rounding = 1e-14;
+  return transfer.times.size() == 1 &&
+         std::abs(transfer.times[0] - time) <= rounding * std::abs(time);
 }
 
 /// Throws Error(usage) if the results would replace the directory that the stored jet is read from.
@@ -98,7 +106,7 @@ int transfer(const RunOptions& options, const TransferOptions& transfers) {
   if (stored) {
     refuse_to_replace(*transfers.directory, output_path(options, name));
     earlier = earlier_jet(transfers, *stored, scene);
-    if (!options.quiet && scene.transfer->times != std::vector<double>{earlier->time}) {
+    if (!options.quiet && !has_time_alone(*scene.transfer, earlier->time)) {
       print_error(
           fmt::format("note: the stored jet has one time, {:.10g} s, and order {}; they take "
                       "the place of the scene's",

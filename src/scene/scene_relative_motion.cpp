@@ -18,7 +18,7 @@ namespace {
 double canonical_time(const TableReader& table, std::string_view key, double given,
                       const Nominal& nominal) {
   if (key.ends_with("_s")) return nominal.scale.time_of_s(given);
-  if (key.ends_with("_canonical")) return given;
+  if (key.ends_with("_canonical")) return nominal.time_of_canonical(given);
   if (!nominal.period_s) {
     const std::string_view stem = key.substr(0, key.find('_'));
     table.fail(key, fmt::format("no period, got {} of an orbit that is not elliptic, must be "

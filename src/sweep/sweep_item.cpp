@@ -96,8 +96,10 @@ std::string_view table_of(SweepCommand command) {
 ItemOutcome run_command(const SweepStudy& study, std::size_t item,
                         const ProgressCallback& progress) {
   const std::string file = study.scene_path.string();
-  Study subject = parse_study(study.scene_text, file, sweep_overrides(study, item));
-  if (study.command == SweepCommand::run) return run_any(subject, progress);
+  const bool is_run = study.command == SweepCommand::run;
+  Study subject = parse_study(study.scene_text, file, sweep_overrides(study, item),
+                              is_run ? SceneUnits::told : SceneUnits::chiefs);
+  if (is_run) return run_any(subject, progress);
   const Scene scene = scene_with(std::move(subject), file, table_of(study.command));
   switch (study.command) {
     case SweepCommand::transfer:

@@ -243,8 +243,8 @@ KeepOutMargin followed(const Ellipsoid& ellipsoid, const Candidate& candidate) {
   look(candidate.to);
   xi = margin.deviation;
   // The length is flat at its least: half the digits of the time are enough.
-  look_for_minimum(candidate.from, candidate.to, 1e-8 * std::max(1.0, std::abs(candidate.to)),
-                   look);
+  look_for_minimum(candidate.from, candidate.to,
+                   1e-8 * std::max(std::abs(candidate.from), std::abs(candidate.to)), look);
   if (*margin.deviations == never) margin.deviations.reset();
   return margin;
 }

@@ -79,7 +79,8 @@ io::NumberTable read_deputy(const EvalOptions& options, const io::StoredJet& sto
   const std::string& file = *named.scene_file;
   Scene scene;
   try {
-    scene = read_scene(named);
+    // As the jet is: stored, or integrated in the chief's own units.
+    scene = read_scene(named, is_of_scene(options) ? SceneUnits::chiefs : SceneUnits::told);
   } catch (const Error& error) {
     throw Error(error.kind(), fmt::format("--deputy: {}", error.what()));
   }
@@ -338,7 +339,7 @@ void carry(const EvalOptions& options, const EvalCoordinates& coordinates, doubl
 
 void evaluate(const EvalOptions& options, const EvalSource& jet, const io::NumberTable& deviations,
               EvaluationWork& work, Output& output) {
-  const EvalCoordinates coordinates(jet.stored, options.frames);
+  const EvalCoordinates coordinates(jet.stored, options.frames, jet.told());
   const double time_s = jet.stored.duration * jet.stored.units.time_s;
   if (jet.scene) {
     const int degree = options.degree.value_or(jet.order());
@@ -368,7 +369,7 @@ int eval(const EvalOptions& given) {
     refuse(fmt::format("--degree {}: must be 1 to the order of the jet, {}", *options.degree,
                        jets.front().order()));
   }
-  const EvalCoordinates coordinates(stored, options.frames);
+  const EvalCoordinates coordinates(stored, options.frames, jets.front().told());
   std::optional<OutputFile> file;
   if (options.output) file.emplace(*options.output);
   const io::NumberTable deviations = read_deviations(options, stored, coordinates);

@@ -15,6 +15,7 @@ struct EvalSource {
   io::StoredJet stored;
   std::optional<EvaluatedScene> scene = {};
 
+  CanonicalFactors told() const { return scene ? scene->told : CanonicalFactors{}; }
   int order() const { return scene ? scene->flow->order() : stored.order(); }
   ChosenCoordinates coordinates() const { return scene ? scene->coordinates : ChosenCoordinates{}; }
 };

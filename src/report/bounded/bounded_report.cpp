@@ -213,7 +213,10 @@ std::string bounded_csv(const BoundedFormation& formation) {
                    [=](const BoundedDeputy& deputy) { return drift(deputy).range; });
   }
   columns.add_if(has_map, "period_difference", &BoundedDeputy::energy);
-  columns.add_if(has_map, "momentum_difference_canonical", &BoundedDeputy::momentum);
+  const CanonicalFactors told = told_factors(formation.scene);
+  columns.add_if(has_map, "momentum_difference_canonical", [=](const BoundedDeputy& deputy) {
+    return deputy.momentum * told.length * told.momentum;
+  });
   columns.add_if(has_map, "refinements", &BoundedDeputy::refinements);
   columns.add_if(is_there, "lowest_m", &BoundedDeputy::lowest_m);
   for (std::size_t f = 0; f < BoundedDeputy{}.forms.size(); ++f) {

@@ -123,16 +123,20 @@ std::string frozen_orbit_csv(const FrozenOrbitStudy& study) {
               [=](const LibrationCircle& circle) { return circle.mean_period * unit; });
   columns.add("node_deg_per_revolution",
               [](const LibrationCircle& circle) { return circle.mean_node * degrees; });
-  columns.add("action_canonical", &LibrationCircle::action);
+  const CanonicalFactors told = told_factors(study.scene);
+  columns.add("action_canonical", [=](const LibrationCircle& circle) {
+    return circle.action * told.length * told.momentum;
+  });
   columns.add("miss", &LibrationCircle::miss);
   return columns.csv(study.circles);
 }
 
 Json frozen_orbit_json(const FrozenOrbitStudy& study) {
   const auto [real, imaginary] = study.multiplier();
+  const CanonicalFactors told = told_factors(study.scene);
   Json json = study_head_json(study.scene, "poincare", "gauss8");
   json["verdict"] = frozen_orbit_verdict(study);
-  json["frozen_orbit"] = {{"state_canonical", study.state},
+  json["frozen_orbit"] = {{"state_canonical", told_state(study.scene, study.state)},
                           {"a_km", study.semi_major_axis * study.scene.units.length_km},
                           {"e", study.eccentricity},
                           {"i_deg", study.inclination_deg},
@@ -162,7 +166,7 @@ Json frozen_orbit_json(const FrozenOrbitStudy& study) {
          {"rotation_number", circle.rotation_number},
          {"mean_nodal_period_s", circle.mean_period * study.scene.units.time_s},
          {"node_deg_per_revolution", circle.mean_node * degrees},
-         {"action_canonical", circle.action},
+         {"action_canonical", circle.action * told.length * told.momentum},
          {"miss", json_number(circle.miss)}});
   }
   json["exit_code"] = 0;

@@ -138,7 +138,7 @@ Json transfers_json(const AssignmentResult& result) {
   for (const AssignedTransfer& assigned : result.transfers) {
     json.push_back({{"deputy", assigned.deputy},
                     {"slot", assigned.slot},
-                    {"transfer", transfer_point_json(assigned.transfer, result.scene.units)}});
+                    {"transfer", transfer_point_json(assigned.transfer, result.scene)}});
   }
   return json;
 }
@@ -187,7 +187,8 @@ std::string assignment_csv(const AssignmentResult& result) {
   Columns<AssignedTransfer> columns;
   columns.add("deputy", &AssignedTransfer::deputy);
   columns.add("slot", &AssignedTransfer::slot);
-  columns.add("time_canonical", [](Row row) { return row.transfer.time; });
+  columns.add("time_canonical",
+              [&](Row row) { return told_time(result.scene, row.transfer.time); });
   columns.add("time_s", [=](Row row) { return row.transfer.time * unit; });
   columns.add_if(has_kind, "kind", [](Row row) { return row.transfer.kind->name(); });
   columns.add_if(has_kind, "condition", [](Row row) { return row.transfer.condition; });
@@ -210,7 +211,8 @@ std::string costs_csv(const AssignmentResult& result) {
     for (std::size_t j = 0; j < result.costs[i].size(); ++j) {
       const AssignmentCost& cost = result.costs[i][j];
       text += fmt::format("{},{},", i, j);
-      text += cost.time ? fmt::format("{},{},{}\n", csv_number(times[*cost.time]),
+      text += cost.time ? fmt::format("{},{},{}\n",
+                                      csv_number(told_time(result.scene, times[*cost.time])),
                                       csv_number(times[*cost.time] * result.scene.units.time_s),
                                       csv_number(cost.total_change_m_s))
                         : ",,\n";
@@ -224,7 +226,8 @@ std::string pairs_csv(const AssignmentResult& result) {
   Columns<DeputyPair> columns;
   columns.add("deputy", &DeputyPair::first);
   columns.add("other_deputy", &DeputyPair::second);
-  columns.add("time_canonical", &DeputyPair::time);
+  columns.add("time_canonical",
+              [&](const DeputyPair& pair) { return told_time(result.scene, pair.time); });
   columns.add("time_s", [=](const DeputyPair& pair) { return pair.time * unit; });
   columns.add("least_separation_m", &DeputyPair::separation_m);
   return columns.csv(result.pairs);

@@ -172,7 +172,8 @@ Json deputy_motion_json(const DeputyMotion& motion) {
 std::string deputy_motion_csv(const DeputyMotion& motion) {
   const double unit = motion.scene.units.time_s;
   Columns<DeputyMotionPoint> columns;
-  columns.add("time_canonical", &DeputyMotionPoint::time);
+  columns.add("time_canonical",
+              [&](MotionPoint point) { return told_time(motion.scene, point.time); });
   columns.add("time_s", [=](MotionPoint point) { return point.time * unit; });
   const auto letters = axis_letters(motion.scene.deputy->frame);
   for (std::size_t i = 0; i < letters.size(); ++i) {

@@ -235,7 +235,8 @@ std::string impulses_csv(const TransferResult& result) {
 std::string impulses_csv(const TransferResult& result, const std::vector<Impulse>& impulses) {
   const double unit = result.scene.units.time_s;
   Columns<Impulse> columns;
-  columns.add("time_canonical", &Impulse::time);
+  columns.add("time_canonical",
+              [&](const Impulse& impulse) { return told_time(result.scene, impulse.time); });
   columns.add("time_s", [=](const Impulse& impulse) { return impulse.time * unit; });
   Eigen::Index i = 0;
   for (const std::string_view axis : axis_columns(result.scene.transfer->frame)) {

@@ -57,10 +57,10 @@ Json windows_json(const TransferResult& result) {
   return json;
 }
 
-Json singular_time_json(const SingularTime& singular, const CanonicalUnits& units) {
-  return {{"time_canonical", singular.time},
-          {"time_s", singular.time * units.time_s},
-          {"resolution_s", singular.resolution * units.time_s},
+Json singular_time_json(const SingularTime& singular, const Scene& scene) {
+  return {{"time_canonical", told_time(scene, singular.time)},
+          {"time_s", singular.time * scene.units.time_s},
+          {"resolution_s", singular.resolution * scene.units.time_s},
           {"smallest_ratio", json_number(singular.smallest_ratio)},
           {"second_ratio", json_number(singular.second_ratio)},
           {"directions_lost", singular.directions_lost},
@@ -76,22 +76,23 @@ Json vector_json(const Eigen::Vector3d& vector) {
 }
 
 Json study_head_json(const Scene& scene, const std::string& study, const std::string& integrator) {
-  return {{"scene", scene.name},
-          {"title", scene.title},
-          {"version", version},
-          {"study", study},
-          {"model", model_name(scene.system.model)},
-          {"system", system_json(scene.system)},
-          {"units", {{"length_km", scene.units.length_km}, {"time_s", scene.units.time_s}}},
-          {"order", scene.order},
-          {"integrator", integrator}};
+  return {
+      {"scene", scene.name},
+      {"title", scene.title},
+      {"version", version},
+      {"study", study},
+      {"model", model_name(scene.system.model)},
+      {"system", system_json(scene.system)},
+      {"units", {{"length_km", told_units(scene).length_km}, {"time_s", told_units(scene).time_s}}},
+      {"order", scene.order},
+      {"integrator", integrator}};
 }
 
-Json transfer_point_json(const TransferPoint& point, const CanonicalUnits& units) {
+Json transfer_point_json(const TransferPoint& point, const Scene& scene) {
   const TransferAnswer* answer = shown_answer(point);
   const TransferAnswer* linear = answer_of_order(point, 1);
-  Json json = {{"time_canonical", point.time},
-               {"time_s", point.time * units.time_s},
+  Json json = {{"time_canonical", told_time(scene, point.time)},
+               {"time_s", point.time * scene.units.time_s},
                {"kind", point.kind ? Json(point.kind->name()) : Json(nullptr)},
                {"condition", point.kind ? json_number(point.condition) : Json(nullptr)},
                {"near_singular", point.is_near_singular},
@@ -156,12 +157,11 @@ Json transfer_summary_json(const TransferResult& result) {
   json["nominal_file"] = nominal_file_json(scene);
   json["verdict"] = transfer_verdict(result);
   const auto best = result.best_point();
-  json["best"] = best ? transfer_point_json(result.points[*best], scene.units) : Json(nullptr);
+  json["best"] = best ? transfer_point_json(result.points[*best], scene) : Json(nullptr);
   json["is_first_or_last_time"] =
       best && result.points.size() > 1 && (*best == 0 || *best + 1 == result.points.size());
-  json["least_between_listed_times"] = result.least_between
-                                           ? transfer_point_json(*result.least_between, scene.units)
-                                           : Json(nullptr);
+  json["least_between_listed_times"] =
+      result.least_between ? transfer_point_json(*result.least_between, scene) : Json(nullptr);
   json["times_between_listed"] = result.times_between;
   json["budget_windows"] = settings.budget_m_s ? windows_json(result) : Json(nullptr);
   json["primer_vector"] = primer_json(result);
@@ -173,7 +173,7 @@ Json transfer_summary_json(const TransferResult& result) {
   json["misses_away_from_singularities"] = misses_json(result);
   json["position_singular_times"] = Json::array();
   for (const SingularTime& singular : result.position_singularities()) {
-    json["position_singular_times"].push_back(singular_time_json(singular, scene.units));
+    json["position_singular_times"].push_back(singular_time_json(singular, scene));
   }
   json["flight_floor_m"] = json_number(result.flight_floor_m);
   json["chief_error_m"] = json_number(result.chief_error_m);

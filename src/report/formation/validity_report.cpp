@@ -71,7 +71,7 @@ Json validity_json(const ValidityResult& result) {
       for (const auto& [name, value] : limit_members(entry.limit)) order[name] = cell_json(value);
       entries.push_back(std::move(order));
     }
-    points.push_back({{"time_canonical", point.time},
+    points.push_back({{"time_canonical", told_time(result.scene, point.time)},
                       {"time_s", point.time * result.scene.units.time_s},
                       {"orders", entries}});
   }
@@ -107,12 +107,12 @@ std::string validity_csv(const ValidityResult& result) {
   text += '\n';
   for (const ValidityPoint& point : result.points) {
     for (const ValidityEntry& entry : point.entries) {
-      text += fmt::format("{},{},{},{},{},{},{},{},{},{},{}", csv_number(point.time),
-                          csv_number(point.time * result.scene.units.time_s), entry.order,
-                          csv_number(entry.predicted_m), csv_number(entry.proved_m),
-                          csv_number(entry.miss_m), entry.is_at_limit, frame_name(frame),
-                          derivatives_name(frame), name_of(result.coordinates.start),
-                          name_of(result.coordinates.end));
+      text += fmt::format(
+          "{},{},{},{},{},{},{},{},{},{},{}", csv_number(told_time(result.scene, point.time)),
+          csv_number(point.time * result.scene.units.time_s), entry.order,
+          csv_number(entry.predicted_m), csv_number(entry.proved_m), csv_number(entry.miss_m),
+          entry.is_at_limit, frame_name(frame), derivatives_name(frame),
+          name_of(result.coordinates.start), name_of(result.coordinates.end));
       for (const auto& [name, value] : limit_members(entry.limit)) {
         text += "," + csv_field(csv_text(value));
       }

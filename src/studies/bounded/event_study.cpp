@@ -10,7 +10,9 @@
 #include <span>
 #include <string>
 
+#include "../../algebra/other_units.hpp"
 #include "../../algebra/scalar_search.hpp"
+#include "../../integrators/momentum_unit.hpp"
 #include "../exact_flow.hpp"
 #include "../formation/deputy_flows.hpp"
 #include "../formation/formation_problem.hpp"
@@ -253,7 +255,8 @@ double rounding_at(const EventStudy& study) {
           study.map.state[i][1 + j] - motion * study.map.time[1 + j];
     }
   }
-  return rounding_of_flights(linear, study.scene.nominal, end, 0);
+  return rounding_of_flights(linear, study.scene.nominal, end,
+                             natural_momentum_exponent(true, study.scene.nominal));
 }
 
 }  // namespace
@@ -261,6 +264,20 @@ double rounding_at(const EventStudy& study) {
 std::vector<double> EventStudy::state() const {
   std::vector<double> result;
   for (const Series<double>& component : map.state) result.push_back(component[0]);
+  return result;
+}
+
+EventMap<double> EventStudy::told_map() const {
+  const CanonicalFactors told = told_factors(scene);
+  const auto factor_of = [&](std::size_t i) { return i < 3 ? told.length : told.momentum; };
+  std::vector<double> of_variables;
+  for (std::size_t i = 0; i < map.state.size(); ++i) of_variables.push_back(factor_of(i));
+  EventMap<double> result = map;
+  result.time = in_other_units<double>(std::move(result.time), told.time, of_variables);
+  for (std::size_t i = 0; i < map.state.size(); ++i) {
+    Series<double>& component = result.state[i];
+    component = in_other_units<double>(std::move(component), factor_of(i), of_variables);
+  }
   return result;
 }
 

@@ -32,6 +32,7 @@ struct EventStudy {
 
   double time_s() const { return map.time[0] * scene.units.time_s; }
   std::vector<double> state() const;  ///< of the chief at the event, canonical
+  EventMap<double> told_map() const;  ///< in the units that the user is told, see told_units
 };
 
 /// The condition of a scene's event.
