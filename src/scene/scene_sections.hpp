@@ -76,6 +76,8 @@ struct Nominal {
   std::optional<CartesianState> orbit;
   SceneCentre centre;
   std::optional<EphemerisSettings> ephemeris;
+  std::optional<EphemerisSettings>
+      deputy_message;  ///< what the deputy's message says, if it has one
 };
 
 /// Table `[units]`: the canonical unit of length, `length_km`. Throws Error(scene) for a model that
