@@ -36,6 +36,16 @@ std::string_view without_blanks(std::string_view text) {
   throw Error(ErrorKind::input_output, fmt::format("{}:{}: {}", name, line, what));
 }
 
+/// Whether a name is short and ends in a unit that one of the columns has. What is quoted of a
+/// header must look like one: the file may be any other, whose content is nobody's business.
+bool has_unit_of(std::string_view name, const std::vector<std::string_view>& columns) {
+  constexpr std::size_t longest = 24;
+  const std::size_t unit = name.find('_');
+  return unit != std::string_view::npos && name.size() <= longest &&
+         std::any_of(columns.begin(), columns.end(),
+                     [&](std::string_view column) { return column.ends_with(name.substr(unit)); });
+}
+
 /// For each column of the file the place of its name in `columns`.
 std::vector<std::size_t> places(const std::string& name,
                                 const std::vector<std::string_view>& header,
@@ -52,7 +62,10 @@ std::vector<std::size_t> places(const std::string& name,
     const std::string_view column = without_blanks(field);
     const auto found = std::find(columns.begin(), columns.end(), column);
     if (found == columns.end()) {
-      fail(name, 1, fmt::format("unknown column {}; {}", in_quotes(column), right));
+      const bool is_quoted = nearest(column, columns) || has_unit_of(column, columns);
+      fail(name, 1,
+           fmt::format("unknown column {}; {}",
+                       is_quoted ? in_quotes(column) : std::to_string(result.size() + 1), right));
     }
     const auto place = static_cast<std::size_t>(found - columns.begin());
     if (std::find(result.begin(), result.end(), place) != result.end()) {
@@ -73,6 +86,14 @@ std::vector<std::size_t> places(const std::string& name,
 std::optional<double> finite_number(std::string_view text) {
   text = without_blanks(text);
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+  // Fortran writes the exponent of double precision behind a D.
+  std::string with_e;
+  const std::size_t mark = text.find_first_of("Dd");
+  if (mark != std::string_view::npos && text.size() <= longest_number) {
+    with_e = text;
+    with_e[mark] = 'e';
+    text = with_e;
+  }
   double number = 0;
   const char* const end = text.data() + text.size();
   const auto [rest, error] = std::from_chars(text.data(), end, number);

@@ -28,13 +28,14 @@ struct NumberTable {
 /// Reads CSV text whose first line names the columns: exactly `columns`, in any order; the table
 /// has them in the order given. `name` is the file's, for messages; `pause` is called every few
 /// thousand rows. Throws Error(input_output), one line with file, line and column, for a header
-/// with other names, no rows, another number of columns, and what is no finite number. The locale
-/// has no influence.
+/// with other names (which are quoted only where they look like names of columns), no rows,
+/// another number of columns, and what is no finite number. The locale has no influence.
 NumberTable read_number_table(const std::string& name, std::string_view text,
                               const std::vector<std::string_view>& columns,
                               const std::function<void()>& pause = {});
 
-/// A number between blanks, finite and within double precision; no value for any other text.
+/// A number between blanks, finite and within double precision, its exponent behind an E or, as
+/// Fortran writes it, a D; no value for any other text.
 std::optional<double> finite_number(std::string_view text);
 
 /// A decimal number with 113 significant bits: digits with a point among or behind them, a minus

@@ -83,6 +83,8 @@ struct Nominal {
   double time_of_canonical(double given) const;
   /// The other way.
   double told_time(double time) const;
+  std::optional<EphemerisSettings>
+      deputy_message;  ///< what the deputy's message says, if it has one
 };
 
 /// Table `[units]`: the canonical unit of length, `length_km`. Throws Error(scene) for a model that

@@ -196,6 +196,10 @@ Study read_document(const SceneDocument& document, const std::string& file_name,
   Study study = read_tables(root, number, units);
   std::string title = default_title(file_name);
   root.attempt([&] { root.read_if_any("title", title); });
+  if (Scene* const scene = std::get_if<Scene>(&study)) {
+    const std::vector<std::string>& more = errors.warnings();
+    scene->warnings.insert(scene->warnings.end(), more.begin(), more.end());
+  }
   if (!errors.empty()) {
     root.attempt_declared_keys(kind_of_model(document.table));
     const Scene* const scene = std::get_if<Scene>(&study);

@@ -8,6 +8,7 @@
 #include "../../studies/formation/single_transfer.hpp"
 #include "dated_scene.hpp"
 #include "hamjet/error.hpp"
+#include "hamjet/formats/orbit_message.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -23,7 +24,7 @@ ConjunctionObject object_of(const Scene& scene, const ApproachingSpacecraft& cra
   object.object_name = name;
   object.international_designator = identifier;
   object.orbit_center = scene.ephemeris->center_name;
-  object.reference_frame = scene.ephemeris->reference_frame;
+  object.reference_frame = name_of_axes(scene.ephemeris->reference_frame);
   const double length_km = scene.units.length_km;
   for (std::size_t i = 0; i < 3; ++i) {
     object.position_km[i] = craft.state[i] * length_km;
@@ -52,7 +53,8 @@ std::optional<std::string> encounter_message_lack(const Scene& scene,
   if (settings.time_system != "UTC") {
     return fmt::format("its dates are in UTC, got ephemeris.time_system {}", settings.time_system);
   }
-  if (std::find(frames.begin(), frames.end(), settings.reference_frame) == frames.end()) {
+  if (std::find(frames.begin(), frames.end(), name_of_axes(settings.reference_frame)) ==
+      frames.end()) {
     return fmt::format("its axes are GCRF or EME2000, got ephemeris.reference_frame {}",
                        settings.reference_frame);
   }

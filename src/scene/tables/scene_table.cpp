@@ -294,6 +294,10 @@ void TableReader::fail_element(std::string_view key, std::size_t index,
                     problem);
 }
 
+void TableReader::warn(std::string_view key, std::string_view what) const {
+  if (errors_ != nullptr) errors_->warn(fmt::format("{}{}: {}", warning_head, head(key), what));
+}
+
 std::string TableReader::head(std::string_view key) const {
   return message_head(*source_, where(key), key.empty() ? path_ : dotted(key));
 }

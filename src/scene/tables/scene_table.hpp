@@ -134,6 +134,9 @@ class TableReader {
   [[noreturn]] void fail_element(std::string_view key, std::size_t index,
                                  const std::string& problem) const;
 
+  /// Adds `warning: head: what` to what is said of the scene, once.
+  void warn(std::string_view key, std::string_view what) const;
+
   /// `location: dotted key`, at the key's value if there is one, else at the table; for a value
   /// that an override gave see `message_head`. An empty key stands for the table itself.
   std::string head(std::string_view key) const;
