@@ -1,0 +1,112 @@
+"""Flights of the attack: states in SI units, in the long double of the machine."""
+import ctypes
+import os
+
+import numpy as np
+
+REAL = np.longdouble
+TOLERANCE = REAL(2) ** -57  # of a step, near what rounding in extrapolation leaves
+PAIR_TOLERANCE = REAL(1e-13)  # of thousands of pairs, whose separations are wanted to a millionth
+
+
+def _library():
+    library = ctypes.CDLL(os.environ["HAMJET_ATTACK_FLIGHTS"])
+    whole, pointer = ctypes.c_int, ctypes.c_void_p
+    library.fly.argtypes = [whole, pointer, pointer, whole, pointer, whole, pointer, pointer,
+                            pointer]
+    library.least_separations.argtypes = [whole, pointer, pointer, pointer, whole, pointer, pointer,
+                                          whole, pointer, pointer, pointer]
+    return library
+
+
+def _address(numbers):
+    return numbers.ctypes.data
+
+
+_LIBRARY = _library()
+
+
+class FlightFailed(Exception):
+    """A flight that comes too near to the centre."""
+
+
+class Field:
+    """A centre with zonal harmonics: mu in m^3/s^2, the radius in m, J_n at index n."""
+
+    def __init__(self, mu, radius=0, zonals=()):
+        self.mu, self.radius = REAL(mu), REAL(radius)
+        self.zonals = np.array(list(zonals) or [0], dtype=REAL)
+        self._centre = np.array([self.mu, self.radius], dtype=REAL)
+
+    def _arguments(self):
+        return _address(self._centre), len(self.zonals) - 1, _address(self.zonals)
+
+    def fly(self, starts, times, tolerance=TOLERANCE):
+        """States [..., time, 6] of starts [..., 6] at times that move away from 0 (0 may be the
+        first)."""
+        starts = np.ascontiguousarray(starts, dtype=REAL)
+        times = np.ascontiguousarray(np.atleast_1d(times), dtype=REAL)
+        many = starts.reshape(-1, 6)
+        out = np.empty((len(many), len(times), 6), dtype=REAL)
+        tolerance = np.array([tolerance], dtype=REAL)
+        if _LIBRARY.fly(len(many), _address(many), *self._arguments(), len(times),
+                        _address(times), _address(tolerance), _address(out)):
+            raise FlightFailed()
+        return out.reshape(starts.shape[:-1] + (len(times), 6))
+
+    def to(self, starts, time, tolerance=TOLERANCE):
+        """States at one time, 0 included."""
+        return self.fly(starts, [time], tolerance)[..., 0, :]
+
+    def least_separations(self, first, second, start, end, looks=16, tolerance=PAIR_TOLERANCE):
+        """Least separations of pairs within times after their states, and when."""
+        first = np.ascontiguousarray(np.broadcast_to(first, np.shape(second)), dtype=REAL)
+        second = np.ascontiguousarray(second, dtype=REAL)
+        count = second.reshape(-1, 6).shape[0]
+        separations, times = np.empty(count, dtype=REAL), np.empty(count, dtype=REAL)
+        window, tolerance = np.array([start, end], dtype=REAL), np.array([tolerance], dtype=REAL)
+        if _LIBRARY.least_separations(count, _address(first), _address(second), *self._arguments(),
+                                      _address(window), looks, _address(tolerance),
+                                      _address(separations), _address(times)):
+            raise FlightFailed()
+        return separations, times
+
+    def energy(self, state):
+        """Of the point mass alone."""
+        return np.dot(state[3:], state[3:]) / 2 - self.mu / np.sqrt(np.dot(state[:3], state[:3]))
+
+    def period(self, state):
+        """Of the osculating ellipse."""
+        a = -self.mu / (2 * self.energy(state))
+        return 2 * PI * np.sqrt(a * a * a / self.mu)
+
+    def transition(self, start, time, lengths=1.0):
+        """d state(time) / d start by central differences; 1 m and the velocity that belongs to it."""
+        rate = np.sqrt(self.mu / np.dot(start[:3], start[:3]) ** REAL(1.5))
+        h = np.sqrt(np.dot(start[:3], start[:3])) * REAL(1e-6) * lengths
+        steps = np.array([h, h, h, h * rate, h * rate, h * rate], dtype=REAL)
+        changes = np.diag(steps)
+        ends = self.fly(np.concatenate([start + changes, start - changes]), np.atleast_1d(time))
+        matrix = np.moveaxis((ends[:6] - ends[6:]) / (2 * steps[:, None, None]), 0, -1)
+        return matrix if np.ndim(time) else matrix[0]
+
+
+PI = REAL("3.14159265358979323846264338327950288")
+
+
+def coast_times(field, state, duration, parts):
+    """Times from 0 to the duration whose looks are about equal in true anomaly: `parts` a radian of
+    a circle at the place where the orbit then is."""
+    sign = -1 if duration < 0 else 1
+    times, now, state = [REAL(0)], REAL(0), np.array(state, dtype=REAL)
+    while abs(now) < abs(duration):
+        r = np.sqrt(np.dot(state[:3], state[:3]))
+        step = sign * np.sqrt(r ** 3 / field.mu) / parts
+        # A step never grows past what the orbit would have at its lowest on the way.
+        following = now + step
+        if (duration - following) * sign < abs(step) * REAL(0.01):
+            following = REAL(duration)
+        state = field.to(state, following - now, REAL(1e-10))
+        now = following
+        times.append(now)
+    return np.array(times)

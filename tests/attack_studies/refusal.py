@@ -1,0 +1,49 @@
+"""Refusals that are true: what the command says when it has no answer, and of which scenes that may
+be said. A refusal that is not here, or is not of such a scene, is a finding."""
+import re
+
+import numpy as np
+
+
+def is_eccentric(scene):
+    return scene.e > 0.4
+
+
+def is_long(scene):
+    return abs(scene.revolutions) > 4
+
+
+def is_flat(scene):
+    return np.sin(scene.i) < 0.02
+
+
+def always(_):
+    return True
+
+
+TRUE = [
+    # Charts that the orbit has not.
+    (r"no node|equatorial|inclination|no orbital plane", is_flat),
+    (r"out of memory|needs .* of memory|too large|memory", is_long),
+]
+
+
+def judge_refusal(judgement, scene, refused, more=()):
+    """Marks a refusal whose reason is true; else it is wrong."""
+    if refused.code in (1, 3, 4, 6):
+        for pattern, holds in [*more, *TRUE]:
+            if re.search(pattern, refused.text) and holds(scene):
+                judgement.mark(f"refused, exit code {refused.code}: {first_line(refused.text)}")
+                return
+    judgement.wrong(f"refused, exit code {refused.code}: {first_line(refused.text)}")
+
+
+def first_line(text):
+    lines = [line for line in text.splitlines() if "error" in line] or text.splitlines() or [""]
+    return lines[0][:300]
+
+
+def says_below_surface(run, summary):
+    words = run.printed + run.said + str(summary.get("verdict", "")) + str(
+        summary.get("notes", "")) + str(summary.get("warnings", ""))
+    return re.search(r"surface|below the|inside the body|ground", words) is not None
