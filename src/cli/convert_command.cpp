@@ -106,7 +106,7 @@ std::optional<ConvertedJet> in_coordinates(const ConvertOptions& options,
   if (options.scene) {
     RunOptions scene_options;
     scene_options.scene_file = options.scene;
-    scene = read_scene(scene_options, SceneUnits::told);  // as the jet is
+    scene = read_scene(scene_options, io::SceneUnits::told);  // as the jet is
   }
   return converted_jet(stored, coordinates_of(options, stored),
                        io::printable(options.from, std::string::npos), scene ? &*scene : nullptr);

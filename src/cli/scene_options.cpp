@@ -57,7 +57,7 @@ void take_standard_input(RunOptions& options) {
   options.scene_text = read_standard_input(io::largest_scene_bytes);
 }
 
-io::Study read_study(const RunOptions& options, SceneUnits units) {
+io::Study read_study(const RunOptions& options, io::SceneUnits units) {
   refuse_empty(options.scene_file, "scene", "a file");
   refuse_empty(options.output, "--output", "a directory");
   const auto overrides = parse_overrides(options.overrides);
@@ -75,12 +75,13 @@ io::Study read_study(const RunOptions& options, SceneUnits units) {
   return scene;
 }
 
-Scene read_scene(const RunOptions& options, SceneUnits units) {
+Scene read_scene(const RunOptions& options, io::SceneUnits units) {
   // The built-in scene is a flow jet.
   return io::require_flow_jet(read_study(options, units), options.scene_file.value_or(""));
 }
 
-Scene read_unsplit_scene(const RunOptions& options, const std::string& command, SceneUnits units) {
+Scene read_unsplit_scene(const RunOptions& options, const std::string& command,
+                         io::SceneUnits units) {
   Scene scene = read_scene(options, units);
   try {
     require_unsplit(scene, command);

@@ -14,9 +14,9 @@ struct GivenScene {
   /// Reads by a function of the units; in the chief's own too where the scene asks for others.
   template <class Read>
   GivenScene(const Read& read, std::string name)
-      : study(read(SceneUnits::told)), file(std::move(name)) {
+      : study(read(io::SceneUnits::told)), file(std::move(name)) {
     const Scene* const told = std::get_if<Scene>(&study);
-    if (told != nullptr && told->told_units) in_chiefs_units = read(SceneUnits::chiefs);
+    if (told != nullptr && told->told_units) in_chiefs_units = read(io::SceneUnits::chiefs);
   }
 
   io::Study study;
@@ -26,8 +26,8 @@ struct GivenScene {
   bool is_flow_jet() const { return std::holds_alternative<Scene>(study); }
   /// In the chief's own units unless others are said. Throws Error(scene) if it is a study without
   /// a flow jet.
-  Scene flow_jet(SceneUnits units = SceneUnits::chiefs) const {
-    const bool is_chiefs = units == SceneUnits::chiefs && in_chiefs_units;
+  Scene flow_jet(io::SceneUnits units = io::SceneUnits::chiefs) const {
+    const bool is_chiefs = units == io::SceneUnits::chiefs && in_chiefs_units;
     return io::require_flow_jet(is_chiefs ? *in_chiefs_units : study, file);
   }
 };

@@ -36,12 +36,12 @@ struct Propagation {
 Propagation run_flow_jet(const GivenScene& given, std::optional<std::size_t> threads,
                          const py::object& progress) {
   const std::size_t count = threads ? *threads : cli::usable_processors();
-  return interruptibly(
-      progress, [scene = given.flow_jet(SceneUnits::told), count](const ProgressCallback& report) {
-        auto result = std::make_shared<const PropagationResult>(propagate(scene, report, count));
-        std::string summary = io::summary_json(*result);
-        return Propagation{std::move(result), std::move(summary)};
-      });
+  return interruptibly(progress, [scene = given.flow_jet(io::SceneUnits::told),
+                                  count](const ProgressCallback& report) {
+    auto result = std::make_shared<const PropagationResult>(propagate(scene, report, count));
+    std::string summary = io::summary_json(*result);
+    return Propagation{std::move(result), std::move(summary)};
+  });
 }
 
 io::StudyReport run_other_study(const GivenScene& given, const py::object& progress) {

@@ -134,7 +134,7 @@ using Overrides = std::vector<std::pair<std::string, std::string>>;
 
 GivenScene scene_of_text(const std::string& text, const std::string& name,
                          const Overrides& overrides) {
-  const auto read = [&](SceneUnits units) {
+  const auto read = [&](io::SceneUnits units) {
     return io::parse_study(text, name, overrides_of(overrides), units);
   };
   return {read, name};
@@ -149,7 +149,7 @@ GivenScene scene_of_tables(const py::object& mapping, const std::string& name,
                            const Overrides& overrides) {
   const io::SceneDocument document =
       io::make_document(table_of(mapping, {name, ""}, 0), name, overrides_of(overrides));
-  return {[&](SceneUnits units) { return io::read_document(document, name, units); }, name};
+  return {[&](io::SceneUnits units) { return io::read_document(document, name, units); }, name};
 }
 
 }  // namespace

@@ -80,7 +80,7 @@ io::NumberTable read_deputy(const EvalOptions& options, const io::StoredJet& sto
   Scene scene;
   try {
     // As the jet is: stored, or integrated in the chief's own units.
-    scene = read_scene(named, is_of_scene(options) ? SceneUnits::chiefs : SceneUnits::told);
+    scene = read_scene(named, is_of_scene(options) ? io::SceneUnits::chiefs : io::SceneUnits::told);
   } catch (const Error& error) {
     throw Error(error.kind(), fmt::format("--deputy: {}", error.what()));
   }
