@@ -13,6 +13,7 @@
 
 #include "../app/refusal.hpp"
 #include "../dynamics/celestial_bodies.hpp"
+#include "../formats/orbit_messages/known_text.hpp"
 #include "../report/propagation/orbit_summary.hpp"
 #include "../scene/scene_name.hpp"
 #include "../scene/study_reader.hpp"
@@ -102,10 +103,13 @@ MessageStart read_message(const fs::path& file) {
     const io::OrbitParameterMessage message = io::read_opm(name, text);
     return {message.metadata, message.gm_km3_s2, "opm_file", false};
   }
+  const io::KnownText* const other = io::known_text(text);
   throw Error(ErrorKind::input_output,
-              fmt::format("{}: is no orbit message, must begin with CCSDS_OEM_VERS or "
+              fmt::format("{}: is no orbit message{}, must begin with CCSDS_OEM_VERS or "
                           "CCSDS_OPM_VERS",
-                          name));
+                          name,
+                          other != nullptr ? fmt::format(", got {}, {}", other->name, other->use)
+                                           : std::string()));
 }
 
 /// The path of a file as a scene beside `scene` names it.

@@ -158,7 +158,7 @@ class CovarianceFile {
                               "from a message",
                               format_epoch(all[0].epoch), all[0].time_system));
     }
-    for (const std::string& doubt : file.doubts) table_.warn(file_key, doubt);
+    table_.warn(file_key, file.doubts);
     const EphemerisSettings& chief = *nominal_.ephemeris;
     const GivenCovariance first = all[0];
     const std::size_t others = all.size() - 1;
@@ -260,7 +260,7 @@ class CovarianceFile {
                     "m/s from it, must be within {} and {:.3g} m/s ({:g} standard deviations, "
                     "five digits of the state{}){}",
                     owner_.who, names, in_line, length_text(1000 * difference.position_km),
-                    1000 * difference.velocity_km_s,
+                    std::round(1e9 * difference.velocity_km_s) / 1e6,
                     length_text(1000 * difference.most_position_km),
                     1000 * difference.most_velocity_km_s, most_standard_deviations,
                     given.state.reference_frame == owner_.state.reference_frame

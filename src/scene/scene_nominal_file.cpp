@@ -9,6 +9,7 @@
 #include "../dynamics/celestial_bodies.hpp"
 #include "../formats/orbit_messages/message_agreement.hpp"
 #include "../store/text_file.hpp"
+#include "../text/quantity_text.hpp"
 #include "../text/scene_message.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/formats/orbit_message.hpp"
@@ -221,14 +222,17 @@ void warn_of_contradictory_elements(const TableReader& nominal, std::string_view
   }
   // The energies differ by this part of that of a circle through the place.
   const double of_size = std::abs(distance / a - distance / elements.semi_major_axis_km);
-  if (between <= agreement * distance && of_size <= agreement) return;
+  const bool is_other_conic = !other && a > 0;
+  if (!is_other_conic && between <= agreement * distance && of_size <= agreement) return;
   nominal.warn(
       key,
-      fmt::format("Keplerian elements that are not those of the state, got SEMI_MAJOR_AXIS = {} km "
-                  "in {}:{}{} beside a state whose own is {:.8g} km, should agree; the state is "
-                  "used, the elements are not",
-                  elements.semi_major_axis_km, file, elements.line,
-                  other ? fmt::format(" and a place {:.4g} km from the state's", between) : "", a));
+      fmt::format(
+          "Keplerian elements that are not those of the state, got SEMI_MAJOR_AXIS = {} km "
+          "in {}:{}{} beside a state whose own is {:.8g} km, should agree; the state is "
+          "used, the elements are not",
+          elements.semi_major_axis_km, file, elements.line,
+          other ? fmt::format(" and a place {} from the state's", length_text(1000 * between)) : "",
+          a));
 }
 
 EphemerisSettings settings_of(const ChosenState& chosen) {
@@ -313,7 +317,7 @@ NominalFromFile read_nominal_file(const TableReader& nominal, const SceneCentre&
     nominal.fail(key, "at the centre of attraction, got the position 0 0 0, must be any other");
   }
   if (message.parameters) {
-    for (const std::string& doubt : message.parameters->doubts) nominal.warn(key, doubt);
+    nominal.warn(key, message.parameters->doubts);
     warn_of_contradictory_elements(nominal, key, centre.system.mu_km3_s2, *message.parameters,
                                    file);
   }

@@ -157,6 +157,19 @@ TEST(CovarianceFile, OfAnotherObjectIsRefusedUnlessItIsNamed) {
                       "must be A2; object = \"OBJECT1\" says that it is meant"});
 }
 
+// A message may be read all the same; what is wrong with it is said once for a table.
+TEST(CovarianceFile, NumbersThatAreNotUsedAreWarnedOf) {
+  std::string message = changed(conjunction(), "-7.2            [m/s]", "-7.2 [m]");
+  message = changed(message, "14762           [m/s]", "14762 [m]");
+  const auto warnings = scene_beside(message, about_earth() + dated(closest) + of_message).warnings;
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("uncertainty.file: "), std::string::npos) << warnings[0];
+  EXPECT_NE(warnings[0].find(":9: RELATIVE_SPEED: wrong unit, got \"[m]\", must be [m/s]; it is "
+                             "not used, and 1 more such"),
+            std::string::npos)
+      << warnings[0];
+}
+
 // States in other axes are compared as far as their angle lets them be.
 TEST(CovarianceFile, OtherAxesAreNoOtherState) {
   for (const char* frame : {"J2000", "GCRF", "TOD"}) {

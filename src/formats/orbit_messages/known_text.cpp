@@ -15,16 +15,18 @@ constexpr std::string_view of_SGP4 =
     "whose mean elements are right with SGP4 alone: must be a state that SGP4 makes of them, as an "
     "OPM or OEM, or as position_km and velocity_km_s";
 
+constexpr std::string_view as_init_writes = "as hamjet init --from writes it";
+
 constexpr std::array<KnownMessage, 5> known_messages = {
     {{"CCSDS_OPM_VERS",
       {"an orbit parameter message (OPM)", "which the key opm_file of [nominal] or [deputy] reads",
-       "nominal = { opm_file = \"...\" }"}},
+       as_init_writes}},
      {"CCSDS_OEM_VERS",
       {"an orbit ephemeris message (OEM)", "which the key oem_file of [nominal] or [deputy] reads",
-       "nominal = { oem_file = \"...\" }"}},
+       as_init_writes}},
      {"CCSDS_CDM_VERS",
       {"a conjunction data message (CDM)", "whose covariances the key file of [uncertainty] reads",
-       "uncertainty = { file = \"...\" }"}},
+       "with uncertainty = { file = \"...\" }"}},
      {"CCSDS_OMM_VERS", {"an orbit mean-elements message (OMM)", of_SGP4}},
      {"CCSDS_OCM_VERS",
       {"an orbit comprehensive message (OCM)", "which is not read: must be an OPM or OEM"}}}};

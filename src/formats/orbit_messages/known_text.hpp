@@ -10,7 +10,7 @@ struct KnownText {
   /// What becomes of it: "which the key opm_file of [nominal] reads", or why it is not read and
   /// what would be right.
   std::string_view use;
-  std::string_view example = {};  ///< how a scene names it, where one does
+  std::string_view example = {};  ///< "with ..." or "as ...": how a scene names it, where one does
 };
 
 /// What a text is, by its beginning: an orbit message in either notation (CCSDS 502.0-B-3,

@@ -62,7 +62,7 @@ std::string_view check_scene_text(std::string_view text, std::string_view source
         fmt::format("no scene, got {}, {}{}", other->name, other->use,
                     other->example.empty()
                         ? ""
-                        : fmt::format("; must be a scene that names it, with {}", other->example)));
+                        : fmt::format("; must be a scene that names it, {}", other->example)));
   }
   if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
   check_tokens(text, source);

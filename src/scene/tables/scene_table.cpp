@@ -298,6 +298,12 @@ void TableReader::warn(std::string_view key, std::string_view what) const {
   if (errors_ != nullptr) errors_->warn(fmt::format("{}{}: {}", warning_head, head(key), what));
 }
 
+void TableReader::warn(std::string_view key, const std::vector<std::string>& all) const {
+  if (all.empty()) return;
+  const std::size_t others = all.size() - 1;
+  warn(key, others == 0 ? all[0] : fmt::format("{}, and {} more such", all[0], others));
+}
+
 std::string TableReader::head(std::string_view key) const {
   return message_head(*source_, where(key), key.empty() ? path_ : dotted(key));
 }

@@ -137,6 +137,9 @@ class TableReader {
   /// Adds `warning: head: what` to what is said of the scene, once.
   void warn(std::string_view key, std::string_view what) const;
 
+  /// Warns of the first of several, and how many more there are; of none it says nothing.
+  void warn(std::string_view key, const std::vector<std::string>& all) const;
+
   /// `location: dotted key`, at the key's value if there is one, else at the table; for a value
   /// that an override gave see `message_head`. An empty key stands for the table itself.
   std::string head(std::string_view key) const;
