@@ -11,6 +11,7 @@
 #include "../store/json_values.hpp"
 #include "../store/text_file.hpp"
 #include "../studies/arcs.hpp"
+#include "../studies/uncertainty/sample_memory.hpp"
 #include "../text/message_place.hpp"
 #include "../text/scene_message.hpp"
 #include "hamjet/error.hpp"
@@ -61,6 +62,8 @@ Json facts(const RunOptions& options, const Scene& scene) {
   json["kinds"] = scene.kinds ? Json(scene.kinds->size()) : Json(nullptr);
   json["memory_bytes"] = io::json_number(
       estimate_memory(scene, *nothing_run.problem.system, scene.variables.size(), threads));
+  json["uncertainty_memory_bytes"] =
+      scene.uncertainty ? io::json_number(sample_memory(scene)) : Json(nullptr);
   json["integrators"] = Json::array();
   for (const IntegratorSettings& settings : scene.integrators) {
     Json integrator = io::integrator_json(settings);

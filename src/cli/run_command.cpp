@@ -16,6 +16,7 @@
 #include "../studies/descriptions/method_description.hpp"
 #include "../studies/integration.hpp"
 #include "../studies/skipped_work.hpp"
+#include "../studies/uncertainty/sample_memory.hpp"
 #include "../text/quantity_text.hpp"
 #include "../text/scene_message.hpp"
 #include "../text/terminal_text.hpp"
@@ -199,6 +200,10 @@ void check_flow_jet(const RunOptions& options, const std::string& file, const Sc
                         counted(scene.validity->times.size(), "time"),
                         scene.validity->times.back() * scene.units.time_s,
                         counted(scene.validity->samples, "sample"));
+  }
+  if (scene.uncertainty) {
+    text += fmt::format("  uncertainty  {} flown, about {:.0f} MB\n",
+                        counted(scene.uncertainty->samples, "sample"), sample_memory(scene) / 1e6);
   }
   if (scene.bounded) {
     text += fmt::format("  bounded      {}, {}\n", counted(scene.bounded->sizes_m.size(), "size"),

@@ -233,6 +233,10 @@ RelativeFrame read_relative_frame(const TableReader& table, const TableReader& f
   const TableReader& of_derivatives = table.has("derivatives") ? table : fallback;
   if (of_frame.has("frame")) refuse_other_frames(of_frame);
   const bool is_inertial = of_frame.has("frame") && of_frame.choice("frame") == 1;
+  // What the other table says of its own frame is nothing for a frame that takes none.
+  if (is_inertial && table.has("frame") && !table.has("derivatives")) {
+    return RelativeFrame::inertial;
+  }
   if (!of_derivatives.has("derivatives")) {
     return is_inertial ? RelativeFrame::inertial : RelativeFrame::rtn_rotating;
   }

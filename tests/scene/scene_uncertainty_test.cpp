@@ -77,6 +77,18 @@ TEST(SceneUncertainty, FramesAndDerivativesAreThoseOfTheTableOrOfTheOneAbove) {
   EXPECT_EQ(frame("frame = \"inertial\"\n", "frame = \"RTN\"\n"), RelativeFrame::rtn_inertial);
 }
 
+// A table inherits only what its own frame takes: inertial axes have one kind of derivatives.
+TEST(SceneUncertainty, ATableInheritsNothingThatItsFrameDoesNotTake) {
+  const Scene scene = scene_with(
+      "[deputy]\nposition_m = [0, 10, 0]\n[uncertainty]\nframe = \"RTN\"\nderivatives = "
+      "\"rotating\"\nposition_m = [1, 1, 1]\n[uncertainty.deputy]\nframe = \"inertial\"\n"
+      "position_m = [1, 1, 1]\n[uncertainty.burn]\nframe = \"inertial\"\nvelocity_change_m_s = "
+      "[0, 1, 0]\nmagnitude = 0.1\n");
+  EXPECT_EQ(scene.uncertainty->chief->frame, RelativeFrame::rtn_rotating);
+  EXPECT_EQ(scene.uncertainty->deputy->frame, RelativeFrame::inertial);
+  EXPECT_EQ(scene.uncertainty->burn->frame, RelativeFrame::inertial);
+}
+
 TEST(SceneUncertainty, ABurnHasTheCovarianceOfGates) {
   // Along T: the size moves vT, the direction vR and vN.
   const auto burn = scene_with(

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "../../text/scene_message.hpp"
+#include "comment_lines.hpp"
 #include "orbit_message_lines.hpp"
 #include "orbit_message_units.hpp"
 
@@ -235,7 +236,11 @@ std::string cdm_text(const ConjunctionDataMessage& message) {
     add(keyword, fmt::format("{:.15e}", number), unit);
   };
   const auto add_comments = [&](const std::vector<std::string>& comments) {
-    for (const std::string& comment : comments) text += "COMMENT " + comment + "\n";
+    for (const std::string& comment : comments) {
+      for (const std::string_view line : comment_lines(comment)) {
+        text += fmt::format("COMMENT {}\n", line);
+      }
+    }
   };
   const auto add_three = [&](const std::string& keyword, const std::array<double, 3>& numbers,
                              std::string_view unit) {

@@ -98,6 +98,14 @@ std::vector<std::vector<std::string>> coordinates_rows(const UncertaintyResult& 
   return rows;
 }
 
+std::vector<std::string> all_warnings(const std::vector<UncertaintySection>& sections) {
+  std::vector<std::string> warnings;
+  for (const UncertaintySection& section : sections) {
+    warnings.insert(warnings.end(), section.warnings.begin(), section.warnings.end());
+  }
+  return warnings;
+}
+
 std::vector<std::string> all_failed_checks(const std::vector<UncertaintySection>& sections) {
   std::vector<std::string> failed;
   for (const UncertaintySection& section : sections) {
@@ -114,6 +122,7 @@ std::string terminal_table(const UncertaintyResult& result,
   for (const UncertaintySection& section : sections) {
     if (!section.verdict.empty()) text += section.verdict + "\n";
   }
+  for (const std::string& warning : all_warnings(sections)) text += "warning: " + warning + "\n";
   for (const std::string& failed : all_failed_checks(sections)) {
     text += "check failed: " + failed + "\n";
   }
@@ -142,6 +151,9 @@ std::string page(const UncertaintyResult& result, const ReportOrigin& origin,
   page.verdict = uncertainty_verdict(result);
   for (const UncertaintySection& section : sections) {
     if (!section.verdict.empty()) page.verdict += " " + section.verdict;
+  }
+  for (const std::string& warning : all_warnings(sections)) {
+    page.verdict += " Warning: " + warning + ".";
   }
   for (const std::string& failed : all_failed_checks(sections)) {
     page.verdict += " Check failed: " + failed + ".";

@@ -22,6 +22,7 @@
 #include "moments_in_coordinates.hpp"
 #include "process_noise.hpp"
 #include "quadrature.hpp"
+#include "sample_memory.hpp"
 #include "standard_normals.hpp"
 
 namespace hamjet {
@@ -235,6 +236,7 @@ double divergence_from_linear(const std::vector<Cumulants>& by_order) {
 
 UncertaintyResult study_uncertainty(const Scene& scene, const ProgressCallback& progress) {
   require_formation_problem(scene, scene.uncertainty.has_value(), "uncertainty");
+  require_sample_memory(scene);
   const UncertaintySettings& settings = *scene.uncertainty;
   UncertaintyResult result;
   result.scene = scene;
