@@ -205,7 +205,7 @@ namespace {
 
 /// Refuses what is no frame here: the name of other axes, and of a form that has keys of its own.
 void refuse_other_frames(const TableReader& table) {
-  const std::string given = table.text("frame");
+  const std::string given = table.text_if_any("frame").value_or("");
   if (lower_case(given) == "lvlh") {
     table.fail("frame",
                fmt::format("ambiguous, got {}, which means x radial outward and y along the "

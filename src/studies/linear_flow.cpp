@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <span>
@@ -85,9 +86,18 @@ LinearFlow::LinearFlow(const ComputedProblem& problem, double duration, double p
     matrices_.push_back(arc.matrix * matrices_.back());
     states_.push_back(std::move(arc.state));
     times_.push_back(time);
-    if (times_.size() > most_checkpoints) {
+    // After ten revolutions or so it is seen whether the whole span is far too long, and soon after
+    // whether it is too long at all.
+    const double foreseen = static_cast<double>(times_.size()) * (duration / time);
+    const double checkpoints = static_cast<double>(times_.size());
+    const double error = checkpoints >= 40 * per_revolution ? 1.05
+                         : checkpoints >= 10 * per_revolution
+                             ? 1.3
+                             : std::numeric_limits<double>::infinity();
+    if (times_.size() > most_checkpoints ||
+        foreseen > error * static_cast<double>(most_checkpoints)) {
       throw Error(ErrorKind::too_large,
-                  fmt::format("singular times: the span takes more than {} checkpoints, some {} "
+                  fmt::format("linear flow: the span takes more than {} checkpoints, some {} "
                               "revolutions; a shorter one is needed",
                               most_checkpoints,
                               std::lround(static_cast<double>(most_checkpoints) / per_revolution)));

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "formation_scenes.hpp"
+#include "support/errors.hpp"
 #include "support/reference_data.hpp"
 
 namespace hamjet {
@@ -224,6 +225,19 @@ TEST(LinearFlow, BetweenCheckpointsIsTheFlow) {
   const LinearFlow direct(problem, 7.77, 0.5);
   EXPECT_LT((coarse.at(7.77) - direct.checkpoint(1)).norm(), 1e-11 * direct.checkpoint(1).norm());
   EXPECT_EQ(coarse.at(0), LinearFlow::StateTransition::Identity(6, 6));
+}
+
+// The limit is 100 000 checkpoints, 417 revolutions of 240: twice as much is refused in the first
+// twentieth of the work, a tenth more in a fifth.
+TEST(LinearFlow, ASpanThatIsTooLongIsRefusedAtOnce) {
+  const ComputedProblem problem = make_problem(kepler_chief(0.3, 7000, 1000, 1));
+  for (const auto& [times, part] : std::map<double, double>{{2, 0.05}, {1.1, 0.2}}) {
+    double done = 0;
+    test::expect_error(ErrorKind::too_large, "more than 100000 checkpoints", [&, times = times] {
+      LinearFlow(problem, times * 417 * paper_period, 240, [&](double now) { done = now; });
+    });
+    EXPECT_LT(done, part);
+  }
 }
 
 }  // namespace

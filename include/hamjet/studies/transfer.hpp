@@ -160,7 +160,8 @@ TransferResult study_transfer(const Scene& scene, const ProgressCallback& progre
                               const EarlierJet* earlier = nullptr);
 
 /// Exit code: 0; 1 if the scene's limits allow none of the answers, if optimal impulses, a way
-/// through waypoints, a coasting start or other revolutions were asked for and not found, or if the
+/// through waypoints, a coasting start or other revolutions were asked for and not found, if the
+/// solver of optimal impulses failed for a time, so that the least may be missing, or if the
 /// scene is strict and an answer away from singularities is missing, beyond its tolerance or could
 /// not be refined; 4 if no transfer time has an answer.
 int exit_code(const TransferResult& result);

@@ -166,13 +166,25 @@ Chart velocity_change_chart(const TransferResult& result) {
                                }));
   if (result.optimal) {
     ChartCurve optimal;
-    optimal.title = "optimal impulses";
+    optimal.title = "optimal impulses, linear theory";
     optimal.style = 2;
     for (const LeastChange& one : result.optimal->by_time) {
-      optimal.points.emplace_back(one.time * time_unit(result), one.change_m_s);
+      if (!one.change_m_s) continue;
+      optimal.points.emplace_back(one.time * time_unit(result), *one.change_m_s);
     }
     chart.curves.push_back(std::move(optimal));
-    chart.notes.emplace_back("Optimal impulses are those of the linear theory.");
+    if (result.optimal->is_found()) {
+      ChartCurve plan;
+      plan.title = "optimal plan, flown";
+      plan.style = 3;
+      plan.has_line = false;
+      plan.points.emplace_back(result.optimal->plan->duration * time_unit(result),
+                               result.optimal->plan->total_change_m_s());
+      chart.curves.push_back(std::move(plan));
+    }
+    chart.notes.emplace_back(
+        "Optimal impulses along time are those of the linear theory about the "
+        "chief, which may not hold so far from it.");
   }
   if (const auto best = result.best_point()) {
     chart.rules.push_back({true, result.points[*best].time * time_unit(result), "least"});

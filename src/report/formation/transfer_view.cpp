@@ -282,6 +282,9 @@ std::string transfer_failure(const TransferResult& result) {
   if (const std::string failure = optimal_impulses_failure(result); !failure.empty()) {
     return "optimal impulses: " + failure;
   }
+  if (result.optimal && !result.optimal->is_proved()) {
+    return "optimal impulses: the solver failed for a transfer time, and the least may be there";
+  }
   if (const std::string failure = waypoint_failure(result); !failure.empty()) {
     return "waypoints: " + failure;
   }

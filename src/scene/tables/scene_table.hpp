@@ -97,6 +97,8 @@ class TableReader {
   std::optional<bool> boolean_if_any(std::string_view key) const;
   /// Whether the key is there and a number, finite or not.
   bool is_number(std::string_view key) const;
+  /// The key's value, if it is there and a string.
+  std::optional<std::string> text_if_any(std::string_view key) const;
   /// Required: a string.
   std::string text(std::string_view key) const;
   /// Required: the path of a file, relative to the folder of the scene.

@@ -76,20 +76,23 @@ std::vector<Underway> grid_of_starts(const Route& route, double longest, double 
 
 }  // namespace
 
+LinearFlow coasting_flow(const Scene& scene, const ComputedProblem& problem) {
+  const double last = scene.transfer->times.back();
+  try {
+    return LinearFlow(problem, last + std::copysign(*scene.transfer->longest_coast, last),
+                      checkpoints_per_revolution);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::too_large) throw;
+    throw Error(error.kind(), fmt::format("transfer.longest_coast_s: {}", error.what()));
+  }
+}
+
 CoastingTransfer coasting_transfer(const Scene& scene, const ComputedProblem& problem,
-                                   const ProgressCallback& progress) {
+                                   const LinearFlow& flow, const ProgressCallback& progress) {
   constexpr std::size_t most_times = 48;
   constexpr std::size_t most_flown = 12;
   const TransferSettings& settings = *scene.transfer;
   const double longest = std::copysign(*settings.longest_coast, settings.times.back());
-  const LinearFlow flow = [&] {
-    try {
-      return LinearFlow(problem, longest + settings.times.back(), checkpoints_per_revolution);
-    } catch (const Error& error) {
-      if (error.kind() != ErrorKind::too_large) throw;
-      throw Error(error.kind(), fmt::format("transfer.longest_coast_s: {}", error.what()));
-    }
-  }();
   const double circle = 2 * std::numbers::pi * std::pow(initial_distance(scene.nominal), 1.5);
   Route route(scene, problem, flow);
   const std::vector<Underway> starts = grid_of_starts(route, longest, circle);

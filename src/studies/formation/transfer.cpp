@@ -77,6 +77,10 @@ TransferResult study_transfer(const Scene& asked, const ProgressCallback& progre
   TransferResult result;
   result.scene = scene;
   const RelativeTransfer ends{settings.start, settings.end};
+  // A wait that is too long is refused before the work.
+  const ComputedProblem problem = make_problem(scene);
+  std::optional<LinearFlow> waiting;
+  if (settings.longest_coast) waiting = coasting_flow(scene, problem);
   TransferPoints points(scene, progress, result.seconds);
   result.conditions.kinds = points.kinds();
   result.coordinates = points.coordinates();
@@ -115,9 +119,6 @@ TransferResult study_transfer(const Scene& asked, const ProgressCallback& progre
       result.primer =
           primer_history(scene, points.problem(), points.linear_flow(), result.points[*best]);
     }
-    if (settings.impulses == TransferImpulses::optimal) {
-      result.optimal = optimal_impulses(scene, points.problem(), points.linear_flow(), progress);
-    }
   }
   if (!settings.waypoints.empty()) {
     const Stopwatch watch(result.seconds.impulses);
@@ -125,11 +126,16 @@ TransferResult study_transfer(const Scene& asked, const ProgressCallback& progre
   }
   if (settings.longest_coast) {
     const Stopwatch watch(result.seconds.impulses);
-    result.coasting = coasting_transfer(scene, points.problem(), progress);
+    result.coasting = coasting_transfer(scene, problem, *waiting, progress);
   }
   if (!settings.revolutions.empty()) {
     const Stopwatch watch(result.seconds.impulses);
     result.revolutions = other_revolutions(scene, points.problem(), points.linear_flow(), progress);
+  }
+  if (settings.impulses == TransferImpulses::optimal) {
+    const Stopwatch watch(result.seconds.impulses);
+    result.optimal =
+        optimal_impulses(scene, points.problem(), points.linear_flow(), result, progress);
   }
   result.hamilton_jacobi_floor = points.hamilton_jacobi_floor();
   result.singular_times = points.singular_times();
@@ -154,7 +160,7 @@ int exit_code(const TransferResult& result) {
                            (result.coasting && result.coasting->plan) ||
                            (result.revolutions && result.revolutions->best);
   if (is_forbidden && !has_allowed) return static_cast<int>(ErrorKind::check_failed);
-  if (result.optimal && !result.optimal->is_found()) {
+  if (result.optimal && (!result.optimal->is_found() || !result.optimal->is_proved())) {
     return static_cast<int>(ErrorKind::check_failed);
   }
   const bool lacks_way = result.waypoints && !result.waypoints->best_plan;
