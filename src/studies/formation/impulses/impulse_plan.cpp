@@ -236,18 +236,15 @@ class PlannedTransfer {
       plan.forbidden = fmt::format("an impulse is {:.4g} m/s, above largest_impulse_m_s", largest);
       return;
     }
-    if (!settings.keep_out_m) return;
-    double least = std::numeric_limits<double>::infinity();
+    WayLimits limits(scene_);
     fly(impulses.times, impulses.changes,
         [&](double time, double duration, const std::vector<double>& state) {
           const std::vector<double> chief = flow_.nominal(time);
           std::vector<double> deviation = state;
           for (std::size_t i = 0; i < 6; ++i) deviation[i] -= chief[i];
-          least = std::min(least, keep_out_ratio(scene_, chief, deviation, duration));
+          limits.fly(chief, deviation, duration);
         });
-    if (least < 1) {
-      plan.forbidden = fmt::format("its way comes to {:.3g} of the ellipsoid keep_out_m", least);
-    }
+    plan.forbidden = limits.forbidden();
   }
 
   /// Flies the plan and takes the linear flow's word on how to mend what it misses by.
