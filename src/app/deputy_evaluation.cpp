@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "../integrators/concurrent_tasks.hpp"
+#include "../studies/checks/flight_checks.hpp"
 #include "../studies/formation/deputy_flows.hpp"
 #include "../studies/formation/formation_problem.hpp"
 #include "../studies/formation/single_transfer.hpp"
@@ -47,6 +48,7 @@ EvaluatedScene evaluated_scene(const Scene& scene) {
   std::iota(chief.components.begin(), chief.components.end(), std::size_t{0});
   chief.variables = chief.components;
   chief.ephemeris = scene.ephemeris;
+  result.checks = flight_checks(scene, flights_of(scene, scene.duration, false));
   return result;
 }
 

@@ -7,6 +7,7 @@
 
 #include "hamjet/charts/deputy_flow.hpp"
 #include "hamjet/charts/jet_coordinates.hpp"
+#include "hamjet/detail/studies/self_checks.hpp"
 #include "hamjet/formats/stored_jet.hpp"
 #include "jet_evaluation.hpp"
 #include "processors.hpp"
@@ -25,6 +26,8 @@ struct EvaluatedScene {
   std::vector<double> stored_end;
   double rounding_m = 0;  ///< of a deputy's final position, at a flight's floor
   double seconds = 0;     ///< of the integration; 0 of a stored jet
+  std::vector<SelfCheck>
+      checks;  ///< of the chief's flight; none of a stored jet, which has its own
 };
 
 /// Integrates the polynomials of a scene about an orbit in all six variables. Throws Error(scene)

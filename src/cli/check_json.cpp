@@ -6,11 +6,13 @@
 #include <variant>
 
 #include "../formats/relative_frame_text.hpp"
+#include "../report/formation/drift_view.hpp"
 #include "../report/propagation/orbit_summary.hpp"
 #include "../scene/system_json.hpp"
 #include "../store/json_values.hpp"
 #include "../store/text_file.hpp"
 #include "../studies/arcs.hpp"
+#include "../studies/flights/relative_drift.hpp"
 #include "../studies/uncertainty/sample_memory.hpp"
 #include "../text/message_place.hpp"
 #include "../text/scene_message.hpp"
@@ -84,6 +86,7 @@ Json facts(const RunOptions& options, const Scene& scene) {
         {"derivatives", io::text_or_null(std::string(io::derivatives_name(scene.deputy->frame)))},
         {"position_m", array(scene.deputy->start.position_m)},
         {"velocity_m_s", array(scene.deputy->start.velocity_m_s)}};
+    io::add_drift(json["deputy"], deputy_drift(scene), scene.deputy->start);
   }
   json["transfer"] = scene.transfer ? times_json(*scene.transfer, scene) : Json(nullptr);
   json["validity"] = scene.validity ? times_json(*scene.validity, scene) : Json(nullptr);

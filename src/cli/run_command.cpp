@@ -9,11 +9,13 @@
 #include <variant>
 
 #include "../formats/relative_frame_text.hpp"
+#include "../report/formation/drift_view.hpp"
 #include "../report/paper/paper_reports.hpp"
 #include "../report/propagation/orbit_summary.hpp"
 #include "../studies/arcs.hpp"
 #include "../studies/checks/run_warnings.hpp"
 #include "../studies/descriptions/method_description.hpp"
+#include "../studies/flights/relative_drift.hpp"
 #include "../studies/integration.hpp"
 #include "../studies/skipped_work.hpp"
 #include "../studies/uncertainty/sample_memory.hpp"
@@ -189,6 +191,13 @@ void check_flow_jet(const RunOptions& options, const std::string& file, const Sc
     text += fmt::format("  deputy       {} away: {} {:.7g} m, {} {:.7g} m, {} {:.7g} m\n",
                         length_text(place.norm()), letters[0], place[0], letters[1], place[1],
                         letters[2], place[2]);
+    const auto drift = deputy_drift(scene);
+    text += fmt::format("               velocity {} m/s; {}\n",
+                        io::vector_text(scene.deputy->start.velocity_m_s, 4),
+                        io::drift_text(drift, scene.deputy->start, scene.deputy->frame));
+    if (const std::string elements = io::elements_text(drift); !elements.empty()) {
+      text += fmt::format("               relative elements {}\n", elements);
+    }
   }
   if (scene.transfer) {
     text += fmt::format("  transfer     {} to {:.6g} s, kind {}\n",

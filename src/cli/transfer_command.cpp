@@ -17,7 +17,6 @@
 #include "../studies/bounded/bounded_formation.hpp"
 #include "../studies/bounded/frozen_orbit_study.hpp"
 #include "../studies/formation/deputy_motion.hpp"
-#include "../studies/formation/flown_trajectory.hpp"
 #include "../text/scene_message.hpp"
 #include "hamjet/algebra/composition.hpp"
 #include "hamjet/error.hpp"
@@ -118,10 +117,7 @@ int transfer(const RunOptions& options, const TransferOptions& transfers) {
       return study_transfer(scene, progress, earlier ? &*earlier : nullptr);
     });
     std::optional<RelativeTrajectory> trajectory;
-    if (const auto best = result.best_point()) {
-      trajectory =
-          fly_relative(result, *best, interval_count(scene, result.points[*best].time, drawn_path));
-    }
+    if (const auto best = result.best_point()) trajectory = fly_relative(result, *best);
     std::optional<ValidityResult> validity;
     if (scene.validity) validity = study_validity(scene, progress);
     return io::transfer_report(result, trajectory, validity, report_origin(options.command));

@@ -40,6 +40,10 @@ class TaylorFlow {
   void expand(std::span<const double> times = {});
   /// The power that a lane's last expansion went to.
   int powers(std::size_t lane) const { return powers_[lane]; }
+  /// Of a lane's component, the coefficient of a power of the time.
+  double coefficient(std::size_t lane, std::size_t component, int power) const {
+    return field_.input(component)[power].lane(static_cast<int>(lane));
+  }
   /// The time, either way, within which a lane's polynomial leaves out no more than rounding; 0
   /// where the vector field is not finite.
   double reach(std::size_t lane) const;

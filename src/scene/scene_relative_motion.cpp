@@ -275,7 +275,18 @@ std::vector<std::string> likely_slips_of_deputies(const TableReader& root, const
   }
   const double distance_m =
       Eigen::Vector3d(scene.nominal.data()).norm() * scene.units.length_km * 1000;
+  const double chief_m_s = Eigen::Vector3d(scene.nominal.data() + 3).norm() *
+                           scene.units.length_km * 1000 / scene.units.time_s;
   const auto look = [&](const TableReader& table, const RelativeState& state) {
+    const double speed_m_s = state.velocity_m_s.stableNorm();
+    if (speed_m_s >= chief_m_s / 20) {
+      warnings.push_back(fmt::format(
+          "{}{}: fast beside its chief, got {:.4g} m/s, should be well below {:.4g} m/s, a "
+          "twentieth of the chief's own speed: polynomials are right near the chief alone; a "
+          "velocity_m_s is relative to the chief's, in m/s",
+          warning_head, table.head(table.has("velocity_m_s") ? "velocity_m_s" : ""), speed_m_s,
+          chief_m_s / 20));
+    }
     const double separation_m = state.position_m.stableNorm();
     if (separation_m < distance_m / 20) return;
     warnings.push_back(fmt::format(

@@ -11,6 +11,7 @@
 #include "../report/formation/transfer_view.hpp"
 #include "../report/formation/validity_json.hpp"
 #include "../report/paper/paper_reports.hpp"
+#include "../report/study_checks.hpp"
 #include "../scene/study_reader.hpp"
 #include "../store/text_file.hpp"
 #include "../text/scene_message.hpp"
@@ -53,6 +54,17 @@ ItemOutcome outcome_of(const StudyReport& report) {
   return {report.summary(), report.exit_code, report.failure};
 }
 
+/// The outcome of a study whose report is its summary alone, with its self-checks told in it.
+ItemOutcome checked_outcome(const nlohmann::ordered_json& summary, int exit_code,
+                            const std::string& failure, const std::vector<SelfCheck>& checks) {
+  StudyReport report;
+  report.files = {{"summary.json", summary.dump()}};
+  report.exit_code = exit_code;
+  report.failure = failure;
+  add_checks(report, checks);
+  return outcome_of(report);
+}
+
 ItemOutcome run_any(const Study& study, const ProgressCallback& progress) {
   return std::visit(
       [&](const auto& scene) {
@@ -69,8 +81,8 @@ ItemOutcome run_transfer(const Scene& scene, const ProgressCallback& progress) {
   const TransferResult result = study_transfer(scene, progress);
   std::optional<ValidityResult> validity;
   if (scene.validity) validity = study_validity(scene, progress);
-  return {transfer_report_json(result, validity).dump(), exit_code(result),
-          transfer_failure(result)};
+  return checked_outcome(transfer_report_json(result, validity), exit_code(result),
+                         transfer_failure(result), result.checks);
 }
 
 /// The flow jet of an item whose command needs a table of this name.
@@ -104,10 +116,14 @@ ItemOutcome run_command(const SweepStudy& study, std::size_t item,
   switch (study.command) {
     case SweepCommand::transfer:
       return run_transfer(scene, progress);
-    case SweepCommand::validity:
-      return {validity_report_json(study_validity(scene, progress)).dump(), 0, ""};
-    case SweepCommand::motion:
-      return {deputy_motion_json(study_deputy_motion(scene, progress)).dump(), 0, ""};
+    case SweepCommand::validity: {
+      const ValidityResult result = study_validity(scene, progress);
+      return checked_outcome(validity_report_json(result), 0, "", result.checks);
+    }
+    case SweepCommand::motion: {
+      const DeputyMotion motion = study_deputy_motion(scene, progress);
+      return checked_outcome(deputy_motion_json(motion), 0, "", motion.checks);
+    }
     default:
       return outcome_of(assignment_report(study_assignment(scene, progress)));
   }

@@ -17,6 +17,7 @@
 #include "../../app/stored_chief.hpp"
 #include "../../formats/number_table.hpp"
 #include "../../formats/relative_frame_text.hpp"
+#include "../../report/study_checks.hpp"
 #include "../../store/text_file.hpp"
 #include "../../text/quantity_text.hpp"
 #include "../../text/scene_message.hpp"
@@ -237,6 +238,12 @@ class Output {
   std::optional<double> largest_miss_;
 };
 
+/// The self-checks of a scene in place of results.
+std::vector<SelfCheck> checks_of(const std::vector<EvalSource>& jets) {
+  const auto& scene = jets.front().scene;
+  return scene ? scene->checks : std::vector<SelfCheck>{};
+}
+
 std::string summary(const EvalOptions& options, const std::vector<EvalSource>& jets,
                     const EvaluationWork& work, const Output& output) {
   const io::StoredJet& stored = jets.front().stored;
@@ -270,7 +277,8 @@ std::string summary(const EvalOptions& options, const std::vector<EvalSource>& j
                        {"multiply_adds_per_point", work.multiply_adds_per_point},
                        {"products_per_point", work.products_per_point},
                        {"multiply_adds_per_second", work.multiply_adds_per_second()}}},
-                     {"rows", output.json_rows()}};
+                     {"rows", output.json_rows()},
+                     {"checks", io::checks_json(checks_of(jets))}};
   return json.dump(2) + "\n";
 }
 
@@ -388,8 +396,14 @@ int eval(const EvalOptions& given) {
     print(output.csv());
   }
   if (!options.quiet) report(coordinates, jets, work, output);
+  int code = 0;
+  for (const SelfCheck& check : checks_of(jets)) {
+    if (check.state != SelfCheckState::failed) continue;
+    print_error(fmt::format("a check failed: {}: {}", name_of(check.name), check.text));
+    code = static_cast<int>(ErrorKind::check_failed);
+  }
   const std::size_t not_inside = std::max(output.outside() + output.unknown(), output.undefined());
-  if (!options.strict || not_inside == 0) return 0;
+  if (!options.strict || not_inside == 0) return code;
   print_error(fmt::format("--strict: {} of {} not inside the polynomial's reach", not_inside,
                           counted(output.rows(), "row")));
   return static_cast<int>(ErrorKind::check_failed);

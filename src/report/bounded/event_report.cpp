@@ -15,6 +15,7 @@
 #include "../../text/terminal_text.hpp"
 #include "../drawing/report_page.hpp"
 #include "../formation/transfer_json.hpp"
+#include "../study_checks.hpp"
 #include "hamjet/algebra/composition.hpp"
 
 namespace hamjet::io {
@@ -186,6 +187,7 @@ StudyReport event_report(const EventStudy& study, const ReportOrigin& origin) {
   report.drawing_problem = drawer.problem();
   report.table = fmt::format("{}\n{}\n\n", study.scene.title, event_verdict(study)) +
                  aligned_table(miss_rows(study));
+  add_checks(report, study.checks);
   return report;
 }
 

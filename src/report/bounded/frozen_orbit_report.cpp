@@ -12,6 +12,7 @@
 #include "../../text/terminal_text.hpp"
 #include "../drawing/report_page.hpp"
 #include "../formation/transfer_json.hpp"
+#include "../study_checks.hpp"
 #include "frozen_orbit_charts.hpp"
 
 namespace hamjet::io {
@@ -182,6 +183,7 @@ StudyReport frozen_orbit_report(const FrozenOrbitStudy& study, const ReportOrigi
   report.drawing_problem = drawer.problem();
   report.table = fmt::format("{}\n{}\n", study.scene.title, frozen_orbit_verdict(study));
   if (!study.circles.empty()) report.table += "\n" + aligned_table(circles_rows(study));
+  add_checks(report, study.checks);
   return report;
 }
 

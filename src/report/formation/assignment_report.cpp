@@ -7,6 +7,7 @@
 #include "../../store/json_values.hpp"
 #include "../../text/quantity_text.hpp"
 #include "../../text/terminal_text.hpp"
+#include "../study_checks.hpp"
 #include "answer_columns.hpp"
 #include "hamjet/report/relative_motion_report.hpp"
 #include "transfer_json.hpp"
@@ -243,6 +244,7 @@ StudyReport assignment_report(const AssignmentResult& result) {
   report.details = terminal_details(result);
   report.exit_code = exit_code(result);
   report.failure = failure_line(result);
+  add_checks(report, result.checks);
   return report;
 }
 

@@ -9,6 +9,7 @@
 #include "../drawing/along_time_charts.hpp"
 #include "../drawing/chart_drawer.hpp"
 #include "../drawing/report_page.hpp"
+#include "../study_checks.hpp"
 #include "hamjet/report/relative_motion_report.hpp"
 #include "transfer_charts.hpp"
 #include "transfer_json.hpp"
@@ -209,6 +210,7 @@ StudyReport coordinates_report(const ValidityInCoordinates& all, const ReportOri
                              verdict(all), frame_text(scene.validity->frame),
                              time_text(scene.validity->times.back() * scene.units.time_s),
                              aligned_table(table_rows(all)), aligned_table(limit_rows(all)));
+  add_checks(report, all.checks);
   return report;
 }
 

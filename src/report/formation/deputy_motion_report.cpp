@@ -13,6 +13,8 @@
 #include "../../text/time_axis.hpp"
 #include "../drawing/along_time_charts.hpp"
 #include "../drawing/report_page.hpp"
+#include "../study_checks.hpp"
+#include "drift_view.hpp"
 #include "transfer_charts.hpp"
 #include "transfer_json.hpp"
 #include "transfer_view.hpp"
@@ -70,8 +72,11 @@ std::string terminal_table(const DeputyMotion& motion) {
     rows.back().push_back(error(point.errors_m.back()));
     rows.back().push_back(error(point.errors_m.front()));
   }
-  return fmt::format("{}\n{}\nframe {}; order {}\n\n{}", motion.scene.title,
-                     deputy_motion_verdict(motion),
+  const std::string elements = elements_text(motion.drift);
+  return fmt::format("{}\n{}\nat the start: velocity {} m/s{}\nframe {}; order {}\n\n{}",
+                     motion.scene.title, deputy_motion_verdict(motion),
+                     vector_text(motion.points.front().state.velocity_m_s, 4),
+                     elements.empty() ? "" : "; relative elements " + elements,
                      frame_text(motion.scene.deputy->frame) + coordinates_text(motion.coordinates),
                      motion.scene.order, aligned_table(rows));
 }
@@ -90,6 +95,9 @@ std::string page(const DeputyMotion& motion, const ReportOrigin& origin, ChartDr
       fact_html("Scene", fmt::format("{}, order {}", motion.scene.name, motion.scene.order)) +
       fact_html("Frame",
                 frame_text(motion.scene.deputy->frame) + coordinates_text(motion.coordinates)) +
+      fact_html("Relative velocity",
+                vector_text(motion.points.front().state.velocity_m_s, 4) + " m/s at the start") +
+      fact_html("Relative elements (m)", elements_text(motion.drift)) +
       fact_html("Times", std::to_string(motion.points.size())) +
       fact_html("Flight floor", length_text(motion.flight_floor_m)) +
       fact_html("Time", duration_text(motion.propagation_seconds) + " for the jets");
@@ -120,11 +128,15 @@ std::string deputy_motion_verdict(const DeputyMotion& motion) {
   const std::string error = error_text(motion, motion.largest_error_m(order));
   std::string text = fmt::format(
       "Within {} the deputy is nearest to its chief after {}, {} away, and farthest after {}, {} "
-      "away; at the end it is {} away. Polynomials of order {} are never wrong by {}{}",
+      "away; at the end it is {} away. ",
       time(motion.points[last].time), time(nearest.time), place(nearest), time(farthest.time),
-      place(farthest), length_text(separation_m(motion.points[last].state)), order,
-      error.starts_with("less") ? "as much as " : "more than ",
-      error.starts_with("less") ? length_text(motion.flight_floor_m) : error);
+      place(farthest), length_text(separation_m(motion.points[last].state)));
+  const std::string drift =
+      drift_text(motion.drift, motion.points.front().state, motion.scene.deputy->frame);
+  if (!drift.empty()) text += drift + " ";
+  text += fmt::format("Polynomials of order {} are never wrong by {}{}", order,
+                      error.starts_with("less") ? "as much as " : "more than ",
+                      error.starts_with("less") ? length_text(motion.flight_floor_m) : error);
   if (order > 1) {
     text += fmt::format(", the linear theory by up to {}", length_text(motion.largest_error_m(1)));
   }
@@ -154,6 +166,7 @@ Json deputy_motion_json(const DeputyMotion& motion) {
   const DeputyMotionPoint& end = motion.points.back();
   const auto& [nearest, farthest] = motion.extremes;
   json["start"] = state_json(motion, start.time, start.state);
+  add_drift(json["start"], motion.drift, start.state);
   json["end"] = state_json(motion, end.time, end.state);
   json["nearest"] = state_json(motion, nearest.time, nearest.state);
   json["farthest"] = state_json(motion, farthest.time, farthest.state);
@@ -233,6 +246,7 @@ StudyReport deputy_motion_report(const DeputyMotion& motion, const ReportOrigin&
   report.details =
       fmt::format("{}; {} for the jets (flight floor {})\n", counted(motion.points.size(), "time"),
                   duration_text(motion.propagation_seconds), length_text(motion.flight_floor_m));
+  add_checks(report, motion.checks);
   return report;
 }
 

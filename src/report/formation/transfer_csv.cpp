@@ -44,6 +44,7 @@ void add_refinement(TransferColumns& columns) {
 
 std::string transfers_csv(const TransferResult& result) {
   const double unit = result.scene.units.time_s;
+  const double length_km = result.scene.units.length_km;
   const auto has_kind = [](Point point) { return point.kind.has_value(); };
   TransferColumns columns;
   columns.add("time_canonical", [&](Point point) { return told_time(result.scene, point.time); });
@@ -60,11 +61,16 @@ std::string transfers_csv(const TransferResult& result) {
   columns.add("answer", answer_name);
   columns.add("exceeds_impulse", &TransferPoint::exceeds_impulse);
   columns.add("keep_out_ratio", &TransferPoint::keep_out_ratio);
+  columns.add_if([](Point point) { return point.lowest.has_value(); }, "lowest_km",
+                 [=](Point point) { return *point.lowest * length_km; });
+  columns.add("below_surface", &TransferPoint::is_below_surface);
   add_answer_columns<TransferPoint>(columns, result.scene.transfer->frame,
                                     [](Point point) -> Point { return point; });
   add_orders(columns, result.scene.order);
   add_refinement(columns);
   columns.add("hamilton_jacobi_residual", &TransferPoint::hamilton_jacobi_residual);
+  columns.add_if([](Point point) { return point.drift.has_value(); }, "end_drift_m_per_revolution",
+                 [](Point point) { return point.drift->per_revolution_m; });
   columns.add("failure", failure_text);
   return columns.csv(result.points);
 }

@@ -3,6 +3,7 @@
 #include "../../formats/relative_frame_text.hpp"
 #include "../../scene/system_json.hpp"
 #include "../../store/json_values.hpp"
+#include "drift_view.hpp"
 #include "hamjet/version.hpp"
 #include "impulse_view.hpp"
 #include "transfer_view.hpp"
@@ -31,7 +32,8 @@ Json counts_json(const TransferCounts& counts) {
           {"beyond_tolerance_and_refined_away_from_singularities", counts.corrected_away},
           {"refinement_failed", counts.refinement_failed},
           {"impulse_too_large", counts.over_impulse},
-          {"through_keep_out", counts.kept_out}};
+          {"through_keep_out", counts.kept_out},
+          {"below_surface", counts.below_surface}};
 }
 
 Json misses_json(const TransferResult& result) {
@@ -99,6 +101,9 @@ Json transfer_point_json(const TransferPoint& point, const Scene& scene) {
                {"beyond_tolerance", point.is_beyond_tolerance},
                {"exceeds_impulse", point.exceeds_impulse},
                {"keep_out_ratio", json_number(point.keep_out_ratio)},
+               {"lowest_km",
+                point.lowest ? json_number(*point.lowest * scene.units.length_km) : Json(nullptr)},
+               {"below_surface", point.is_below_surface},
                {"answer", text_or_null(answer_name(point))},
                {"start_change_m_s", nullptr},
                {"end_change_m_s", nullptr},
@@ -117,6 +122,12 @@ Json transfer_point_json(const TransferPoint& point, const Scene& scene) {
   if (linear != nullptr) {
     json["linear_total_change_m_s"] = json_number(linear->total_change_m_s());
     json["linear_miss_m"] = json_number(linear->miss_m);
+  }
+  json["after_arrival"] = nullptr;
+  if (answer != nullptr) {
+    json["after_arrival"] = {{"position_m", vector_json(point.arrived.position_m)},
+                             {"velocity_m_s", vector_json(point.arrived.velocity_m_s)}};
+    add_drift(json["after_arrival"], point.drift, point.arrived);
   }
   for (const TransferAnswer& entry : point.answers) {
     json["miss_m_by_order"].push_back(entry.failure.empty() ? json_number(entry.miss_m)

@@ -6,6 +6,7 @@
 #include "../../text/html_text.hpp"
 #include "../drawing/chart_drawer.hpp"
 #include "../drawing/study_figure.hpp"
+#include "../study_checks.hpp"
 #include "hamjet/report/relative_motion_report.hpp"
 #include "impulse_view.hpp"
 #include "transfer_charts.hpp"
@@ -140,6 +141,7 @@ StudyReport transfer_report(const TransferResult& result,
   report.table = terminal_table(result);
   report.details = terminal_details(result);
   if (validity) report.table += "  validity         " + validity_verdict(*validity) + "\n";
+  add_checks(report, result.checks);
   return report;
 }
 

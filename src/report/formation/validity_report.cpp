@@ -6,6 +6,7 @@
 #include "../../text/quantity_text.hpp"
 #include "../../text/terminal_text.hpp"
 #include "../drawing/chart_drawer.hpp"
+#include "../study_checks.hpp"
 #include "hamjet/report/relative_motion_report.hpp"
 #include "transfer_json.hpp"
 #include "transfer_page.hpp"
@@ -131,6 +132,7 @@ StudyReport validity_report(const ValidityResult& result, const ReportOrigin& or
   report.files.push_back({"summary.json", validity_report_json(result).dump(2) + "\n"});
   report.table = terminal_table(result);
   report.details = terminal_details(result);
+  add_checks(report, result.checks);
   return report;
 }
 

@@ -6,6 +6,7 @@
 #include "../../store/json_values.hpp"
 #include "../../studies/checks/run_warnings.hpp"
 #include "../../studies/reference.hpp"
+#include "../study_checks.hpp"
 #include "hamjet/report/results.hpp"
 #include "hamjet/version.hpp"
 #include "results_operations_json.hpp"
@@ -40,19 +41,6 @@ Json exactness_json(const PropagationResult& result, const KindResult& kind) {
           {"condition", kind.condition},
           {"error", text_or_null(kind.failure)},
           {"by_degree", kind.failure.empty() ? by_degree : Json(nullptr)}};
-}
-
-Json checks_json(const std::vector<SelfCheck>& checks) {
-  Json json = Json::array();
-  for (const SelfCheck& check : checks) {
-    json.push_back({{"name", name_of(check.name)},
-                    {"state", name_of(check.state)},
-                    {"value", or_null(check.value)},
-                    {"limit", or_null(check.limit)},
-                    {"seconds", check.seconds},
-                    {"text", check.text}});
-  }
-  return json;
 }
 
 /// Relative errors by degree, or null.

@@ -10,6 +10,7 @@
 #include "../../text/quantity_text.hpp"
 #include "../../text/terminal_text.hpp"
 #include "../drawing/report_page.hpp"
+#include "../study_checks.hpp"
 #include "hamjet/error.hpp"
 #include "uncertainty_view.hpp"
 
@@ -245,6 +246,7 @@ StudyReport uncertainty_report(const UncertaintyResult& result, const ReportOrig
       fmt::format("{}; {} for the jets, {} for the moments, {} to fly\n",
                   counted(result.points.size(), "time"), duration_text(result.propagation_seconds),
                   duration_text(result.moments_seconds), duration_text(result.flight_seconds));
+  add_checks(report, result.checks);
   return report;
 }
 

@@ -13,6 +13,7 @@
 #include "../../algebra/other_units.hpp"
 #include "../../algebra/scalar_search.hpp"
 #include "../../integrators/momentum_unit.hpp"
+#include "../checks/flight_checks.hpp"
 #include "../exact_flow.hpp"
 #include "../formation/deputy_flows.hpp"
 #include "../formation/formation_problem.hpp"
@@ -339,6 +340,7 @@ EventStudy study_event(const Scene& scene, const ProgressCallback& progress) {
     }
     study.misses.push_back(flights.fly(amplitudes[k]));
   }
+  study.checks = flight_checks(scene, flights_of(scene, study.map.time[0], false));
   study.position_rounding_m = rounding_at(study) * scene.units.length_km * 1000;
   return study;
 }

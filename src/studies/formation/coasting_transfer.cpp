@@ -7,11 +7,10 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <numbers>
 #include <utility>
 #include <vector>
 
-#include "../../integrators/momentum_unit.hpp"
+#include "../flights/paced_times.hpp"
 #include "hamjet/error.hpp"
 #include "impulses/impulse_search.hpp"
 #include "route.hpp"
@@ -64,13 +63,12 @@ Candidate least_for(const Route& route, const std::vector<Underway>& starts, dou
   return least;
 }
 
-std::vector<Underway> grid_of_starts(const Route& route, double longest, double circle) {
-  constexpr double in_revolution = 24;
-  constexpr double fewest = 8, most = 480;
-  const auto parts = static_cast<int>(
-      std::clamp(std::ceil(in_revolution * std::abs(longest) / circle), fewest, most));
+std::vector<Underway> grid_of_starts(const Scene& scene, const Route& route, double longest) {
+  constexpr IntervalCount wanted = {24, 8, 480};
   std::vector<Underway> starts;
-  for (int k = 0; k <= parts; ++k) starts.push_back(route.linear_coast_to(longest * k / parts));
+  for (const double time : paced_times(scene, longest, interval_count(scene, longest, wanted))) {
+    starts.push_back(route.linear_coast_to(time));
+  }
   return starts;
 }
 
@@ -93,9 +91,8 @@ CoastingTransfer coasting_transfer(const Scene& scene, const ComputedProblem& pr
   constexpr std::size_t most_flown = 12;
   const TransferSettings& settings = *scene.transfer;
   const double longest = std::copysign(*settings.longest_coast, settings.times.back());
-  const double circle = 2 * std::numbers::pi * std::pow(initial_distance(scene.nominal), 1.5);
   Route route(scene, problem, flow);
-  const std::vector<Underway> starts = grid_of_starts(route, longest, circle);
+  const std::vector<Underway> starts = grid_of_starts(scene, route, longest);
   const std::vector<double> times = some_times(settings.times, most_times);
   std::vector<Candidate> candidates;
   for (std::size_t k = 0; k < times.size(); ++k) {

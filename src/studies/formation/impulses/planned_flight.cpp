@@ -140,21 +140,19 @@ void PlannedTransfer::add_trims(TimedImpulses& impulses, std::vector<double>& we
 
 /// What of flown impulses the scene does not allow.
 std::string PlannedTransfer::forbidden_by_limits(const TimedImpulses& impulses) const {
-  const TransferSettings& settings = *scene_.transfer;
   // At the limit they are there to rounding.
   if (impulses.largest() > most_ * (1 + 1e-12)) {
     return fmt::format("an impulse is {:.4g} m/s, above largest_impulse_m_s",
                        metres_per_second(impulses.largest()));
   }
-  if (!settings.keep_out_m) return "";
-  double least = std::numeric_limits<double>::infinity();
+  WayLimits limits(scene_);
   fly(impulses, [&](double time, double duration, const std::vector<double>& state) {
     const std::vector<double> chief = flow_.nominal(time);
     std::vector<double> deviation = state;
     for (std::size_t i = 0; i < 6; ++i) deviation[i] -= chief[i];
-    least = std::min(least, keep_out_ratio(scene_, chief, deviation, duration));
+    limits.fly(chief, deviation, duration);
   });
-  return least < 1 ? fmt::format("its way comes to {:.3g} of the ellipsoid keep_out_m", least) : "";
+  return limits.forbidden();
 }
 
 }  // namespace hamjet
