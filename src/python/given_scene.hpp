@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "../scene/study_reader.hpp"
 
@@ -12,6 +13,11 @@ struct GivenScene {
   std::string file;
 
   bool is_flow_jet() const { return std::holds_alternative<Scene>(study); }
+  /// What is almost surely a slip, a line each.
+  std::vector<std::string> warnings() const {
+    const Scene* scene = std::get_if<Scene>(&study);
+    return scene != nullptr ? scene->warnings : std::vector<std::string>{};
+  }
   /// Throws Error(scene) if it is a study without a flow jet.
   Scene flow_jet() const { return io::require_flow_jet(study, file); }
 };

@@ -194,6 +194,8 @@ Study read_document(const SceneDocument& document, const std::string& file_name)
   Study study = read_tables(root, number);
   std::string title = default_title(file_name);
   root.attempt([&] { root.read_if_any("title", title); });
+  // It heads tables and pages.
+  title = printable(title, std::string::npos);
   if (!errors.empty()) {
     root.attempt_declared_keys(kind_of_model(document.table));
     const Scene* const scene = std::get_if<Scene>(&study);

@@ -12,6 +12,7 @@
 #include "../report/formation/validity_json.hpp"
 #include "../report/paper/paper_reports.hpp"
 #include "../scene/study_reader.hpp"
+#include "../store/json_text.hpp"
 #include "../store/text_file.hpp"
 #include "../text/scene_message.hpp"
 #include "../text/whole_number.hpp"
@@ -69,7 +70,7 @@ ItemOutcome run_transfer(const Scene& scene, const ProgressCallback& progress) {
   const TransferResult result = study_transfer(scene, progress);
   std::optional<ValidityResult> validity;
   if (scene.validity) validity = study_validity(scene, progress);
-  return {transfer_report_json(result, validity).dump(), exit_code(result),
+  return {json_text(transfer_report_json(result, validity), -1), exit_code(result),
           transfer_failure(result)};
 }
 
@@ -103,9 +104,9 @@ ItemOutcome run_command(const SweepStudy& study, std::size_t item,
     case SweepCommand::transfer:
       return run_transfer(scene, progress);
     case SweepCommand::validity:
-      return {validity_report_json(study_validity(scene, progress)).dump(), 0, ""};
+      return {json_text(validity_report_json(study_validity(scene, progress)), -1), 0, ""};
     case SweepCommand::motion:
-      return {deputy_motion_json(study_deputy_motion(scene, progress)).dump(), 0, ""};
+      return {json_text(deputy_motion_json(study_deputy_motion(scene, progress)), -1), 0, ""};
     default:
       return outcome_of(assignment_report(study_assignment(scene, progress)));
   }
