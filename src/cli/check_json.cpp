@@ -9,6 +9,7 @@
 #include "../report/formation/drift_view.hpp"
 #include "../report/propagation/orbit_summary.hpp"
 #include "../scene/system_json.hpp"
+#include "../store/json_text.hpp"
 #include "../store/json_values.hpp"
 #include "../store/text_file.hpp"
 #include "../studies/arcs.hpp"
@@ -132,10 +133,10 @@ int check_as_json(const RunOptions& options) {
   } catch (const Error& error) {
     json["exit_code"] = error.exit_code();
     json.update(failure_json(file, error.what()));
-    print(json.dump(2) + "\n");
+    print(io::json_text(json) + "\n");
     throw;
   }
-  print(json.dump(2) + "\n");
+  print(io::json_text(json) + "\n");
   return 0;
 }
 

@@ -70,7 +70,7 @@ constexpr const char* examples = R"(Examples:
 
 Exit codes:
   0 all well; 1 a check failed; 2 usage; 3 scene; 4 numerical failure; 5 input or output;
-  6 refused as too large; 130 or 143 interrupted.
+  6 refused as too large; 129, 130, 131 or 143 interrupted.
 
 Taylor maps and generating functions of Hamiltonian flows.
 )";

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -12,6 +13,7 @@
 #include "../report/formation/drift_view.hpp"
 #include "../report/paper/paper_reports.hpp"
 #include "../report/propagation/orbit_summary.hpp"
+#include "../store/text_file.hpp"
 #include "../studies/arcs.hpp"
 #include "../studies/checks/run_warnings.hpp"
 #include "../studies/descriptions/method_description.hpp"
@@ -55,10 +57,14 @@ int run_flow_jet(const RunOptions& options, const Scene& scene) {
   }
   std::optional<std::string> drawing_problem;
   const std::string figure = io::figure_svg(result, drawing_problem);
+  const int code = exit_code(result);
+  const bool has_results = std::any_of(result.runs.begin(), result.runs.end(),
+                                       [](const RunResult& run) { return run.failure.empty(); });
+  const bool is_kept = !has_results && keeps_earlier(directory, code);
   std::string summary;
   {
     const UninterruptedWriting guard;
-    summary = io::write_results(result, figure, output);
+    summary = is_kept ? io::summary_json(result) : io::write_results(result, figure, output);
   }
   if (drawing_problem) print_error(*drawing_problem);
   if (options.json || options.quiet) {
@@ -71,20 +77,22 @@ int run_flow_jet(const RunOptions& options, const Scene& scene) {
   if (options.json) {
     print(summary);
   } else if (!options.quiet) {
-    print_table(
-        options, io::summary_table(result), io::summary_details(result),
-        fmt::format("results: {}\n", directory.string()) +
-            (figure.empty() ? ""
-                            : fmt::format("figure: {}\n", (directory / "figure.svg").string())));
+    const std::string folder = io::printable_path(directory);
+    const std::string drawn =
+        figure.empty() ? ""
+                       : fmt::format("figure: {}\n", io::printable_path(directory / "figure.svg"));
+    print_table(options, io::summary_table(result), io::summary_details(result),
+                is_kept ? "" : fmt::format("results: {}\n{}", folder, drawn));
   }
-  const int code = exit_code(result);
   if (code != 0) {
-    print_error(fmt::format("{}; see {}",
-                            code == static_cast<int>(ErrorKind::check_failed)
-                                ? "a check failed"
-                                : "a numerical failure left part of the results out",
-                            (directory / "summary.json").string()));
+    print_error(
+        fmt::format("{}{}",
+                    code == static_cast<int>(ErrorKind::check_failed)
+                        ? "a check failed"
+                        : "a numerical failure left part of the results out",
+                    is_kept ? "" : "; see " + io::printable_path(directory / "summary.json")));
   }
+  if (is_kept) note_kept(directory);
   return code;
 }
 
@@ -147,7 +155,8 @@ void check_flow_jet(const RunOptions& options, const std::string& file, const Sc
       "  title        {}\n"
       "  units        length {:.10g} km, time {:.10g} s\n"
       "  nominal     ",
-      file, scene.title, scene.units.length_km, scene.units.time_s);
+      io::printable(file, std::string::npos), scene.title, scene.units.length_km,
+      scene.units.time_s);
   for (const double x : scene.nominal) text += fmt::format(" {:.17g}", x);
   text += "\n" + field_text(scene.system);
   if (const auto orbit = io::orbit_summary(scene)) text += io::orbit_text(*orbit);
@@ -239,8 +248,9 @@ int check(const RunOptions& options) {
         if constexpr (std::is_same_v<std::decay_t<decltype(study)>, Scene>) {
           check_flow_jet(options, *options.scene_file, study);
         } else {
-          print(fmt::format("{}: the scene is good\n  title        {}\n", *options.scene_file,
-                            study.title));
+          print(io::fitted(fmt::format("{}: the scene is good\n  title        {}\n",
+                                       io::printable(*options.scene_file, std::string::npos),
+                                       study.title)));
         }
       },
       read_study(options));

@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "../scene/study_reader.hpp"
 
@@ -24,6 +25,11 @@ struct GivenScene {
   std::string file;
 
   bool is_flow_jet() const { return std::holds_alternative<Scene>(study); }
+  /// What is almost surely a slip, a line each.
+  std::vector<std::string> warnings() const {
+    const Scene* scene = std::get_if<Scene>(&study);
+    return scene != nullptr ? scene->warnings : std::vector<std::string>{};
+  }
   /// In the chief's own units unless others are said. Throws Error(scene) if it is a study without
   /// a flow jet.
   Scene flow_jet(io::SceneUnits units = io::SceneUnits::chiefs) const {

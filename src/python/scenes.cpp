@@ -156,7 +156,8 @@ GivenScene scene_of_tables(const py::object& mapping, const std::string& name,
 
 void bind_scenes(py::module_& module) {
   py::class_<GivenScene>(module, "GivenScene", "A scene that was read and checked.")
-      .def_property_readonly("is_flow_jet", &GivenScene::is_flow_jet);
+      .def_property_readonly("is_flow_jet", &GivenScene::is_flow_jet)
+      .def_property_readonly("warnings", &GivenScene::warnings);
   module.def("scene_of_file", &scene_of_file, py::arg("file"), py::arg("overrides"));
   module.def("scene_of_text", &scene_of_text, py::arg("text"), py::arg("name"),
              py::arg("overrides"));

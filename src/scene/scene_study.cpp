@@ -200,6 +200,8 @@ Study read_document(const SceneDocument& document, const std::string& file_name,
     const std::vector<std::string>& more = errors.warnings();
     scene->warnings.insert(scene->warnings.end(), more.begin(), more.end());
   }
+  // It heads tables and pages.
+  title = printable(title, std::string::npos);
   if (!errors.empty()) {
     root.attempt_declared_keys(kind_of_model(document.table));
     const Scene* const scene = std::get_if<Scene>(&study);

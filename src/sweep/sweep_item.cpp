@@ -13,6 +13,7 @@
 #include "../report/paper/paper_reports.hpp"
 #include "../report/study_checks.hpp"
 #include "../scene/study_reader.hpp"
+#include "../store/json_text.hpp"
 #include "../store/text_file.hpp"
 #include "../text/scene_message.hpp"
 #include "../text/whole_number.hpp"
@@ -58,7 +59,7 @@ ItemOutcome outcome_of(const StudyReport& report) {
 ItemOutcome checked_outcome(const nlohmann::ordered_json& summary, int exit_code,
                             const std::string& failure, const std::vector<SelfCheck>& checks) {
   StudyReport report;
-  report.files = {{"summary.json", summary.dump()}};
+  report.files = {{"summary.json", json_text(summary, -1)}};
   report.exit_code = exit_code;
   report.failure = failure;
   add_checks(report, checks);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "../../app/deputy_evaluation.hpp"
@@ -9,6 +10,9 @@
 #include "hamjet/formats/stored_jet.hpp"
 
 namespace hamjet::cli {
+
+/// The name of standard input among files.
+inline constexpr std::string_view standard_input = "-";
 
 /// A jet that is stored, or the polynomials of a scene, which are integrated now.
 struct EvalSource {

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "../../store/columns.hpp"
+#include "../../store/json_text.hpp"
 #include "../../store/json_values.hpp"
 #include "../../studies/bounded/relative_orbit_extent.hpp"
 #include "../../studies/checks/flight_checks.hpp"
@@ -363,7 +364,7 @@ StudyReport bounded_report(const BoundedFormation& formation, const ReportOrigin
                   {"report.html", page(formation, origin, drawer)}};
   if (formation.box) report.files.push_back({"box.csv", box_csv(formation)});
   report.drawing_problem = drawer.problem();
-  report.files.push_back({"summary.json", bounded_json(formation).dump(2) + "\n"});
+  report.files.push_back({"summary.json", json_text(bounded_json(formation)) + "\n"});
   report.exit_code = exit_code_of(formation);
   if (report.exit_code == static_cast<int>(ErrorKind::numerical)) {
     report.failure =

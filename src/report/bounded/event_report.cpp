@@ -10,6 +10,7 @@
 
 #include "../../formats/stored_coefficients.hpp"
 #include "../../store/columns.hpp"
+#include "../../store/json_text.hpp"
 #include "../../store/json_values.hpp"
 #include "../../text/quantity_text.hpp"
 #include "../../text/terminal_text.hpp"
@@ -183,7 +184,7 @@ StudyReport event_report(const EventStudy& study, const ReportOrigin& origin) {
   report.files = {{"event.csv", event_csv(study)},
                   {"event-map.csv", event_map_csv(study)},
                   {"report.html", event_page(study, origin, drawer)},
-                  {"summary.json", event_json(study).dump(2) + "\n"}};
+                  {"summary.json", json_text(event_json(study)) + "\n"}};
   report.drawing_problem = drawer.problem();
   report.table = fmt::format("{}\n{}\n\n", study.scene.title, event_verdict(study)) +
                  aligned_table(miss_rows(study));

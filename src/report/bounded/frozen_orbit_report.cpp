@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "../../store/columns.hpp"
+#include "../../store/json_text.hpp"
 #include "../../store/json_values.hpp"
 #include "../../text/quantity_text.hpp"
 #include "../../text/terminal_text.hpp"
@@ -179,7 +180,7 @@ StudyReport frozen_orbit_report(const FrozenOrbitStudy& study, const ReportOrigi
   ChartDrawer drawer(origin.gnuplot);
   report.files = {{"poincare.csv", frozen_orbit_csv(study)},
                   {"report.html", frozen_orbit_page(study, origin, drawer)},
-                  {"summary.json", frozen_orbit_json(study).dump(2) + "\n"}};
+                  {"summary.json", json_text(frozen_orbit_json(study)) + "\n"}};
   report.drawing_problem = drawer.problem();
   report.table = fmt::format("{}\n{}\n", study.scene.title, frozen_orbit_verdict(study));
   if (!study.circles.empty()) report.table += "\n" + aligned_table(circles_rows(study));

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "../../formats/relative_frame_text.hpp"
+#include "../../store/json_text.hpp"
 #include "../../store/json_values.hpp"
 #include "../../text/quantity_text.hpp"
 #include "../../text/terminal_text.hpp"
@@ -176,7 +177,7 @@ std::string summary(const AssignmentResult& result) {
   json["flight_floor_m"] = json_number(result.flight_floor_m);
   json["seconds"] = {{"study", result.study_seconds}, {"proof", result.proof_seconds}};
   json["exit_code"] = exit_code(result);
-  return json.dump(2) + "\n";
+  return json_text(json) + "\n";
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "../../formats/relative_frame_text.hpp"
 #include "../../store/columns.hpp"
+#include "../../store/json_text.hpp"
 #include "../../store/json_values.hpp"
 #include "../../text/html_text.hpp"
 #include "../../text/quantity_text.hpp"
@@ -241,7 +242,7 @@ StudyReport deputy_motion_report(const DeputyMotion& motion, const ReportOrigin&
   report.files = {{"motion.csv", deputy_motion_csv(motion)},
                   {"report.html", page(motion, origin, drawer)}};
   report.drawing_problem = drawer.problem();
-  report.files.push_back({"summary.json", deputy_motion_json(motion).dump(2) + "\n"});
+  report.files.push_back({"summary.json", json_text(deputy_motion_json(motion)) + "\n"});
   report.table = terminal_table(motion);
   report.details =
       fmt::format("{}; {} for the jets (flight floor {})\n", counted(motion.points.size(), "time"),

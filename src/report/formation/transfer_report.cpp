@@ -3,6 +3,7 @@
 #include "../../formats/orbit_messages/orbit_ephemeris.hpp"
 #include "../../formats/output_formats.hpp"
 #include "../../formats/relative_frame_text.hpp"
+#include "../../store/json_text.hpp"
 #include "../../text/html_text.hpp"
 #include "../drawing/chart_drawer.hpp"
 #include "../drawing/study_figure.hpp"
@@ -137,7 +138,8 @@ StudyReport transfer_report(const TransferResult& result,
   }
   report.exit_code = exit_code(result);
   report.failure = transfer_failure(result);
-  report.files.push_back({"summary.json", transfer_report_json(result, validity).dump(2) + "\n"});
+  report.files.push_back(
+      {"summary.json", json_text(transfer_report_json(result, validity)) + "\n"});
   report.table = terminal_table(result);
   report.details = terminal_details(result);
   if (validity) report.table += "  validity         " + validity_verdict(*validity) + "\n";

@@ -2,6 +2,7 @@
 
 #include "../../formats/relative_frame_text.hpp"
 #include "../../store/csv_values.hpp"
+#include "../../store/json_text.hpp"
 #include "../../store/json_values.hpp"
 #include "../../text/quantity_text.hpp"
 #include "../../text/terminal_text.hpp"
@@ -129,7 +130,7 @@ StudyReport validity_report(const ValidityResult& result, const ReportOrigin& or
   report.files = {{"validity.csv", validity_csv(result)},
                   {"report.html", validity_page(result, origin, drawer)}};
   report.drawing_problem = drawer.problem();
-  report.files.push_back({"summary.json", validity_report_json(result).dump(2) + "\n"});
+  report.files.push_back({"summary.json", json_text(validity_report_json(result)) + "\n"});
   report.table = terminal_table(result);
   report.details = terminal_details(result);
   add_checks(report, result.checks);

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "../../scene/scene_sections.hpp"
+#include "../../store/json_text.hpp"
 #include "../../store/json_values.hpp"
 #include "../drawing/study_figure.hpp"
 #include "canonical_transformation_charts.hpp"
@@ -97,7 +98,7 @@ std::string summary_json(const CanonicalTransformationResult& result) {
                {"exit_code", exit_code(result)}};
   json["runs"] = Json::array();
   for (const CanonicalTransformationRun& run : result.runs) json["runs"].push_back(run_json(run));
-  return json.dump(2) + "\n";
+  return json_text(json) + "\n";
 }
 
 std::string number_or_dash(const std::optional<double>& value) {

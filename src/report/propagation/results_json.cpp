@@ -3,6 +3,7 @@
 #include "../../formats/jet_description.hpp"
 #include "../../formats/results_names.hpp"
 #include "../../scene/system_json.hpp"
+#include "../../store/json_text.hpp"
 #include "../../store/json_values.hpp"
 #include "../../studies/checks/run_warnings.hpp"
 #include "../../studies/reference.hpp"
@@ -221,7 +222,7 @@ std::string summary_json(const PropagationResult& result) {
   json["operations"] = operations_json(result);
   json["skipped"] = skipped_json(result);
   json["warnings"] = scene.warnings;
-  return json.dump(2) + "\n";
+  return json_text(json) + "\n";
 }
 
 }  // namespace hamjet::io

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "../../formats/relative_frame_text.hpp"
+#include "../../store/json_text.hpp"
 #include "../../text/html_text.hpp"
 #include "../../text/quantity_text.hpp"
 #include "../../text/terminal_text.hpp"
@@ -240,7 +241,7 @@ StudyReport uncertainty_report(const UncertaintyResult& result, const ReportOrig
   }
   summary["failed_checks"] = failed;
   summary["exit_code"] = exit_code;
-  report.files.push_back({"summary.json", summary.dump(2) + "\n"});
+  report.files.push_back({"summary.json", json_text(summary) + "\n"});
   report.table = terminal_table(result, sections);
   report.details =
       fmt::format("{}; {} for the jets, {} for the moments, {} to fly\n",
