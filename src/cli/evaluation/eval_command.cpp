@@ -156,9 +156,17 @@ double size_alone(double x) { return std::isfinite(x) ? std::stod(fmt::format("{
 
 /// What an estimate of the miss is made of.
 std::string miss_covers(const EvalSource& jet) {
-  if (jet.scene) {
+  if (jet.scene && !jet.scene->error.is_known()) {
     return fmt::format("missing degrees and the rounding of flights; not errors of the {}",
-                       jet.scene->seconds > 0 ? "integration" : "coefficients");
+                       jet.scene->seconds > 0
+                           ? "integration, which independent ones could not follow"
+                           : "coefficients, of which the results say nothing");
+  }
+  if (jet.scene) {
+    return fmt::format("missing degrees, the rounding of flights, and errors of {}",
+                       jet.scene->seconds > 0
+                           ? "the integration, by two others of the chief and of degree 1"
+                           : "degrees 0 and 1 as the results state them");
   }
   const io::StoredJet& stored = jet.stored;
   return fmt::format("missing degrees, rounding of coefficients and evaluation{}",
@@ -209,6 +217,7 @@ class Output {
     row["miss_estimate_m"] = is_inside ? Json(estimate.miss_m()) : Json(nullptr);
     row["truncation_m"] = is_inside ? Json(estimate.truncation_m) : Json(nullptr);
     row["rounding_m"] = estimate.rounding_m;
+    row["integration_m"] = estimate.integration_m;
     row["support"] = support_name(estimate.support);
     json_rows_.push_back(std::move(row));
   }
@@ -330,7 +339,8 @@ void carry(const EvalOptions& options, const EvalCoordinates& coordinates, doubl
     evaluation.add(variables_of(options, coordinates, deviations, row));
     if (evaluation.pending() < Evaluation::most_points && row + 1 < deviations.rows()) continue;
     stop_if_interrupted();
-    evaluation.run([&](const std::vector<double>& deviation, const MissEstimate& estimate) {
+    evaluation.run([&](const std::vector<double>& deviation, MissEstimate estimate) {
+      estimate.integration_m += coordinates.turned_m(deviation, evaluation.chief_error());
       output.add(time_s, coordinates.final_state(deviation), estimate);
     });
   }
