@@ -112,6 +112,8 @@ EvalCoordinates::EvalCoordinates(const io::StoredJet& stored, const EvalFrames& 
   const DeputyForm final = form_of(frames.final_frame(), frames.derivatives);
   initial_columns_ = columns_of(initial);
   final_columns_ = columns_of(final);
+  has_axes_of_chief_ = final == DeputyForm::rtn_rotating || final == DeputyForm::rtn_inertial ||
+                       final == DeputyForm::curvilinear;
   const MetricUnits units{stored.units.length_km * 1000, stored.units.time_s};
   text_ = text_of(initial);
   if (final != initial) text_ += ", results " + text_of(final);
@@ -169,6 +171,17 @@ std::vector<double> EvalCoordinates::variables(std::span<const double> deviation
     }
   }
   return result;
+}
+
+double EvalCoordinates::turned_m(std::span<const double> components, double chief_error) const {
+  if (!has_axes_of_chief_) return 0;
+  double separation = 0;
+  for (std::size_t c = 0; c < components.size() && stored_.components[c] < 3; ++c) {
+    separation = std::hypot(separation, components[c]);
+  }
+  const auto& chief = stored_.nominal_final;
+  const double distance = std::hypot(chief[0], chief[1], chief[2]);
+  return chief_error / distance * separation * stored_.units.length_km * 1000;
 }
 
 std::vector<double> EvalCoordinates::final_state(std::span<const double> components) const {

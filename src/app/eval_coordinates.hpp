@@ -51,6 +51,9 @@ class EvalCoordinates {
   /// The jet's variables of a deviation. Throws Error(usage) if the deviation has other components
   /// too, of which the jet says nothing, or is none of a deputy.
   std::vector<double> variables(std::span<const double> deviation) const;
+  /// By how much a final position turns with its axes, in metres, where they are the chief's and
+  /// its final position is wrong by so much, canonical.
+  double turned_m(std::span<const double> components, double chief_error) const;
   /// The final state of the jet's components; NaN where that has not what the form needs.
   std::vector<double> final_state(std::span<const double> components) const;
 
@@ -65,6 +68,7 @@ class EvalCoordinates {
   std::string text_ = "canonical";
   std::optional<DeputyCoordinates> initial_;  ///< absent: canonical
   std::optional<DeputyCoordinates> final_;
+  bool has_axes_of_chief_ = false;  ///< the final numbers, of positions
 };
 
 }  // namespace hamjet::cli

@@ -71,9 +71,17 @@ void check_options(const EvalOptions& options) {
 
 /// What an estimate of the miss is made of.
 std::string miss_covers(const EvalSource& jet) {
-  if (jet.scene) {
+  if (jet.scene && !jet.scene->error.is_known()) {
     return fmt::format("missing degrees and the rounding of flights; not errors of the {}",
-                       jet.scene->seconds > 0 ? "integration" : "coefficients");
+                       jet.scene->seconds > 0
+                           ? "integration, which independent ones could not follow"
+                           : "coefficients, of which the results say nothing");
+  }
+  if (jet.scene) {
+    return fmt::format("missing degrees, the rounding of flights, and errors of {}",
+                       jet.scene->seconds > 0
+                           ? "the integration, by two others of the chief and of degree 1"
+                           : "degrees 0 and 1 as the results state them");
   }
   const io::StoredJet& stored = jet.stored;
   return fmt::format("missing degrees, rounding of coefficients and evaluation{}",
@@ -198,7 +206,8 @@ void carry(const EvalCoordinates& coordinates, double time_s, DeviationRows& dev
     for (std::size_t row = 0; row < part.rows(); ++row) {
       evaluation.add(deviations.variables(coordinates, part, row));
     }
-    evaluation.run([&](const std::vector<double>& deviation, const MissEstimate& estimate) {
+    evaluation.run([&](const std::vector<double>& deviation, MissEstimate estimate) {
+      estimate.integration_m += coordinates.turned_m(deviation, evaluation.chief_error());
       output.add(time_s, coordinates.final_state(deviation), estimate);
     });
   }

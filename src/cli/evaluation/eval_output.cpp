@@ -67,6 +67,7 @@ void EvalOutput::add(double time_s, const std::vector<double>& state,
   row["miss_estimate_m"] = is_inside ? Json(estimate.miss_m()) : Json(nullptr);
   row["truncation_m"] = is_inside ? Json(estimate.truncation_m) : Json(nullptr);
   row["rounding_m"] = estimate.rounding_m;
+  row["integration_m"] = estimate.integration_m;
   row["support"] = support_name(estimate.support);
   json_rows_.push_back(std::move(row));
 }

@@ -5,6 +5,7 @@
 #include "../../scene/system_json.hpp"
 #include "../../store/json_text.hpp"
 #include "../../store/json_values.hpp"
+#include "../../studies/checks/kept_tolerance.hpp"
 #include "../../studies/checks/run_warnings.hpp"
 #include "../../studies/reference.hpp"
 #include "../study_checks.hpp"
@@ -50,6 +51,24 @@ Json by_degree_json(const std::optional<std::vector<double>>& errors) {
   Json json = Json::array();
   for (std::size_t d = 0; d < errors->size(); ++d) {
     json.push_back({{"degree", d}, {"relative", (*errors)[d]}});
+  }
+  return json;
+}
+
+/// What each degree keeps of the tolerance, and what keeps it from it; null where none is known.
+Json tolerance_json(const Scene& scene, const RunResult& run) {
+  const std::vector<KeptTolerance> by_degree = kept_tolerance(scene, run);
+  if (by_degree.empty()) return nullptr;
+  Json json = Json::array();
+  for (std::size_t d = 0; d < by_degree.size(); ++d) {
+    const KeptTolerance& one = by_degree[d];
+    const char* const limit = one.is_rounding ? "rounding" : "steps";
+    json.push_back({{"degree", d},
+                    {"allowed", one.asked},
+                    {"error", one.error},
+                    {"rounding", one.rounding},
+                    {"kept", one.is_kept()},
+                    {"kept_from_it_by", one.is_kept() ? Json(nullptr) : Json(limit)}});
   }
   return json;
 }
@@ -139,7 +158,8 @@ Json run_json(const PropagationResult& result, const RunResult& run) {
     for (const char* key :
          {"checks", "steps", "rejected_steps", "vector_field_evaluations", "nominal_evaluations",
           "wall_seconds", "nominal_final", "energy_error", "exactness", "symplecticity_by_degree",
-          "error_by_degree", "error_estimate_by_degree", "position_error_m", "operations"}) {
+          "error_by_degree", "error_estimate_by_degree", "tolerance_by_degree", "position_error_m",
+          "operations"}) {
       json[key] = nullptr;
     }
     return json;
@@ -159,6 +179,7 @@ Json run_json(const PropagationResult& result, const RunResult& run) {
   json["symplecticity_by_degree"] = symplecticity_json(run.symplecticity);
   json["error_by_degree"] = by_degree_json(run.error_by_degree);
   json["error_estimate_by_degree"] = by_degree_json(run.error_estimate.by_degree);
+  json["tolerance_by_degree"] = tolerance_json(result.scene, run);
   if (has_time_shift(run.statistics.left_out)) {
     json["time_shift_difference_by_degree"] = run.time_shift_difference.empty()
                                                   ? Json(nullptr)

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "../../formats/results_names.hpp"
+#include "../../studies/checks/kept_tolerance.hpp"
 #include "../../studies/checks/run_warnings.hpp"
 #include "../../studies/reference.hpp"
 #include "../../text/quantity_text.hpp"
@@ -66,7 +67,11 @@ std::string verdict(const Scene& scene, const RunResult& run) {
   if (!near_singular_warning(scene, run).empty()) return "near singular";
   const bool is_incomplete = std::any_of(run.kinds.begin(), run.kinds.end(),
                                          [](const auto& kind) { return !kind.failure.empty(); });
-  return is_incomplete ? "incomplete" : "ok";
+  if (is_incomplete) return "incomplete";
+  const std::vector<KeptTolerance> tolerance = kept_tolerance(scene, run);
+  const std::size_t kept = degrees_kept(tolerance);
+  if (kept == tolerance.size()) return "ok";
+  return kept == 0 ? "tolerance not kept" : fmt::format("ok to degree {}", kept - 1);
 }
 
 /// The degrees whose exactness the table shows: the first and the last.
