@@ -58,7 +58,7 @@ class Field:
         """States at one time, 0 included."""
         return self.fly(starts, [time], tolerance)[..., 0, :]
 
-    def least_separations(self, first, second, start, end, looks=16, tolerance=PAIR_TOLERANCE):
+    def least_separations(self, first, second, start, end, looks=9, tolerance=PAIR_TOLERANCE):
         """Least separations of pairs within times after their states, and when."""
         first = np.ascontiguousarray(np.broadcast_to(first, np.shape(second)), dtype=REAL)
         second = np.ascontiguousarray(second, dtype=REAL)
