@@ -17,11 +17,12 @@ def draw(source):
     if source.chance(0.5):
         table["phase_deg"] = source.uniform(-180, 180)
     if source.chance(0.5):
-        table["cross_track"] = source.uniform(-0.9, 0.9)
+        table["cross_track"] = source.uniform(-0.6, 0.6)
     if source.chance(0.3):
-        table["along_track"] = source.uniform(-0.5, 0.5)
+        table["along_track"] = source.uniform(-0.3, 0.3)
     table["refine"] = source.chance(0.7)
-    scene.has_box = source.chance(0.4)
+    # At rest beside a chief on an ellipse a deputy is nowhere near an orbit that stays.
+    scene.has_box = scene.e < 0.05 and source.chance(0.7)
     if scene.has_box:
         draw_box(scene, table)
     return scene
@@ -32,19 +33,16 @@ def draw_box(scene, table):
     source = scene.draw
     distance = source.logarithmic(30, 1000)
     side = source.one_of([-1, 1]) * distance
-    table["sizes_km"] = [rounded_size(distance)]
-    table["cross_track"], table["along_track"] = 0, rounded_size(side * 1000) / rounded_size(
-        distance * 1000) * 0.999
+    # On an ellipse a mean place ahead is by so much more away at times.
+    size = float(f"{distance * (1 + float(scene.e)) * 1.02 / 1000:.9g}")
+    table["sizes_km"] = [size]
+    table["cross_track"], table["along_track"] = 0, side / 1000 / size
     scene.tables["deputy"] = {"position_m": [0.0, side, 0.0]}
-    box = table["box"] = {"half_widths_m": [distance * source.logarithmic(0.003, 0.3)
+    box = table["box"] = {"half_widths_m": [distance * source.logarithmic(0.01, 0.5)
                                             for _ in range(3)],
                           "days": max(0.01, source.uniform(1, 6) * float(scene.period) / 86400)}
     if source.chance(0.5):
         box.update(reference="rest", position_m=[0.0, side, 0.0])
-
-
-def rounded_size(metres):
-    return float(f"{metres / 1000:.9g}")
 
 
 def judge(judgement, scene, folder):

@@ -9,7 +9,7 @@ from flight import REAL
 from refusal import judge_refusal
 from uncertain import (draw_known, inertial_covariance, judge_quantile, judge_share, samples_of)
 
-SAMPLES = 3000
+SAMPLES = 1500
 
 
 def draw(source):
@@ -45,7 +45,7 @@ def draw(source):
     covariance, frame = draw_known(scene, own, sigma * source.uniform(0.2, 1), frames=False)
     scene.deputy_covariance = inertial_covariance(scene.deputy_state, covariance, frame)
     collision = table["collision"] = {"radius_m": sigma * source.logarithmic(0.03, 2),
-                                      "samples": 20000}
+                                      "samples": 6000}
     table["seed"] = source.integer(1, 10 ** 6)
     scene.window = [0.0, float(scene.duration)]
     if source.chance(0.5):

@@ -27,8 +27,10 @@ def draw(source):
             0, 1) * 1e-3
     if source.chance(0.6):
         event["direction"] = source.one_of(["either", "rising", "falling"])
-    if source.chance(0.5):
-        event["number"] = source.integer(1, 4)
+    count = len(events(scene)[0])
+    if count and source.chance(0.7):
+        # At times one more than there are.
+        event["number"] = source.integer(1, count + (1 if source.chance(0.1) else 0))
     event["amplitudes_m"] = [source.logarithmic(1, 1e4) for _ in range(2)]
     return scene
 
@@ -39,7 +41,8 @@ def values(scene, states):
     if event["surface"] == "equator":
         return x[..., 2]
     if event["surface"] == "plane":
-        return x @ np.array(event["normal"], dtype=REAL) - REAL(event.get("offset_km", 0)) * 1000
+        normal = np.array(event["normal"], dtype=REAL)
+        return x @ (normal / orbit.norm(normal)) - REAL(event.get("offset_km", 0)) * 1000
     if event["surface"] == "distance":
         return orbit.norm(x) - REAL(event["distance_km"]) * 1000
     return orbit.dot(x, v)
@@ -87,8 +90,8 @@ def events(scene):
         if found[k] * found[k + 1] < 0:
             if is_wanted(scene, found[k], found[k + 1], sign):
                 roots.append(crossing(scene, states[k], REAL(0), times[k + 1] - times[k]) + times[k])
-        elif (0 < k and abs(found[k]) < min(abs(found[k - 1]), abs(found[k + 1]))
-              and abs(found[k]) < 1e-2 * size):
+        elif (0 < k and found[k] * found[k - 1] > 0 and abs(found[k]) < 1e-2 * size
+              and abs(found[k]) < min(abs(found[k - 1]), abs(found[k + 1]))):
             doubtful = True
     return roots, doubtful
 

@@ -58,7 +58,7 @@ class Field:
         """States at one time, 0 included."""
         return self.fly(starts, [time], tolerance)[..., 0, :]
 
-    def least_separations(self, first, second, start, end, looks=16, tolerance=PAIR_TOLERANCE):
+    def least_separations(self, first, second, start, end, looks=9, tolerance=PAIR_TOLERANCE):
         """Least separations of pairs within times after their states, and when."""
         first = np.ascontiguousarray(np.broadcast_to(first, np.shape(second)), dtype=REAL)
         second = np.ascontiguousarray(second, dtype=REAL)
@@ -80,14 +80,15 @@ class Field:
         a = -self.mu / (2 * self.energy(state))
         return 2 * PI * np.sqrt(a * a * a / self.mu)
 
-    def transition(self, start, time, lengths=1.0):
-        """d state(time) / d start by central differences; 1 m and the velocity that belongs to it."""
-        rate = np.sqrt(self.mu / np.dot(start[:3], start[:3]) ** REAL(1.5))
-        h = np.sqrt(np.dot(start[:3], start[:3])) * REAL(1e-6) * lengths
-        steps = np.array([h, h, h, h * rate, h * rate, h * rate], dtype=REAL)
-        changes = np.diag(steps)
-        ends = self.fly(np.concatenate([start + changes, start - changes]), np.atleast_1d(time))
-        matrix = np.moveaxis((ends[:6] - ends[6:]) / (2 * steps[:, None, None]), 0, -1)
+    def transition(self, start, time):
+        """d state(time) / d start by differences of the fourth order, of one time or many."""
+        r = np.sqrt(np.dot(start[:3], start[:3]))
+        h = r * REAL(2e-5)
+        steps = np.array([h] * 3 + [h * np.sqrt(self.mu / r ** 3)] * 3, dtype=REAL)
+        change = np.diag(steps)
+        ends = self.fly(np.array([start + k * change for k in (1, -1, 2, -2)]), np.atleast_1d(time))
+        slopes = (8 * (ends[0] - ends[1]) - (ends[2] - ends[3])) / (12 * steps[:, None, None])
+        matrix = np.moveaxis(slopes, 0, -1)
         return matrix if np.ndim(time) else matrix[0]
 
 

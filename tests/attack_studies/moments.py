@@ -9,7 +9,7 @@ from flight import REAL
 from refusal import judge_refusal, says_below_surface
 from uncertain import (burn_covariance, draw_burn, draw_known, inertial_covariance, samples_of)
 
-SAMPLES = 2500
+SAMPLES = 1200
 SCATTERS = 7
 
 
@@ -84,7 +84,7 @@ def judge(judgement, scene, folder):
 
 def judge_time(judgement, scene, entry, time, starts):
     chief = scene.chief_at(time)
-    ends = {name: scene.field.to(states, time, REAL(1e-15)) for name, states in starts.items()}
+    ends = {name: scene.field.to(states, time, REAL(1e-13)) for name, states in starts.items()}
     told_in = {name: orbit.to_frame(chief, states - chief, *scene.frame_of_results)
                for name, states in ends.items()}
     if "deputy" in told_in:

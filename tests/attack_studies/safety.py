@@ -9,7 +9,7 @@ from refusal import judge_refusal
 from uncertain import (burn_covariance, draw_burn, draw_known, inertial_covariance, judge_quantile,
                        judge_share, samples_of)
 
-SAMPLES = 2000
+SAMPLES = 800
 
 
 def draw(source):

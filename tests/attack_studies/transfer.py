@@ -427,7 +427,7 @@ def judge_revolutions(judgement, flights, one):
     time = REAL(one["time_s"])
 
     def turns(state):
-        times = coast_times(flights.field, state, time, 4)
+        times = coast_times(flights.field, state, time, 40)
         states = flights.field.fly(state, times)[:, :3]
         angle = 0.0
         for a, b in zip(states, states[1:]):
