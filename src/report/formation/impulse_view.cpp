@@ -74,7 +74,7 @@ std::string origin_text(PlanOrigin origin) {
 }
 
 /// The times for which the solver failed, among which the least may be.
-std::string left_out_text(const TransferResult& result) {
+std::string times_left_out_text(const TransferResult& result) {
   const auto& by_time = result.optimal->by_time;
   const auto is_unproved = [](const LeastChange& one) { return one.is_unproved; };
   const auto first = std::find_if(by_time.begin(), by_time.end(), is_unproved);
@@ -149,7 +149,7 @@ std::string optimal_impulses_verdict(const TransferResult& result) {
                             which, velocity_text(*plan.lower_bound_m_s))
               : "whether others cost less is not known, for flights did not confirm the linear "
                 "theory about it.";
-  return text + left_out_text(result);
+  return text + times_left_out_text(result);
 }
 
 std::string impulse_lines(const TransferResult& result) {

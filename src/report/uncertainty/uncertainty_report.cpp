@@ -120,10 +120,11 @@ std::string terminal_table(const UncertaintyResult& result,
                            const std::vector<UncertaintySection>& sections) {
   const UncertaintyAt& at = result.points.back();
   const UncertainState& state = judged_state(at);
-  std::string text = fmt::format("{}\n{}\n", result.scene.title, uncertainty_verdict(result));
+  std::string text = fmt::format("{}\n{}\n", result.scene.title, uncertainty_answer(result));
   for (const UncertaintySection& section : sections) {
     if (!section.verdict.empty()) text += section.verdict + "\n";
   }
+  text += uncertainty_judgement(result) + "\n";
   for (const std::string& warning : all_warnings(sections)) text += "warning: " + warning + "\n";
   for (const std::string& failed : all_failed_checks(sections)) {
     text += "check failed: " + failed + "\n";
@@ -150,10 +151,11 @@ std::string page(const UncertaintyResult& result, const ReportOrigin& origin,
   const UncertainState& judged = judged_state(last);
   ReportPage page;
   page.title = result.scene.title + ": uncertainty";
-  page.verdict = uncertainty_verdict(result);
+  page.verdict = uncertainty_answer(result);
   for (const UncertaintySection& section : sections) {
     if (!section.verdict.empty()) page.verdict += " " + section.verdict;
   }
+  page.verdict += " " + uncertainty_judgement(result);
   for (const std::string& warning : all_warnings(sections)) {
     page.verdict += " Warning: " + warning + ".";
   }

@@ -15,7 +15,7 @@
 namespace hamjet {
 namespace {
 
-constexpr double largest_energy_change = 1e-9;
+constexpr double largest_flown_energy_change = 1e-9;
 
 /// What one flight comes to.
 struct FlightOutcome {
@@ -43,7 +43,7 @@ FlightOutcome outcome_of(const SharedSystem& system, const CheckedFlight& flight
 }
 
 void judge_energy(SelfCheck& check, const CheckedFlight& worst, double change) {
-  const double limit = check.limit.value_or(largest_energy_change);
+  const double limit = check.limit.value_or(largest_flown_energy_change);
   check.limit = limit;
   if (std::isfinite(change)) check.value = change;
   check.state = change <= limit ? SelfCheckState::passed : SelfCheckState::failed;
