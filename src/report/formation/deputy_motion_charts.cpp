@@ -12,10 +12,6 @@
 namespace hamjet::io {
 namespace {
 
-double seconds_at(const DeputyMotion& motion, std::size_t point) {
-  return motion.points[point].time * motion.scene.units.time_s;
-}
-
 /// A chart over the time of the motion, with revolutions at the top.
 Chart chart_of(const DeputyMotion& motion, const TimeAxis& axis) {
   Chart chart;

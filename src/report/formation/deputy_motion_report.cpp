@@ -53,10 +53,6 @@ std::size_t shown_times(const DeputyMotion& motion) {
   return best;
 }
 
-double seconds_at(const DeputyMotion& motion, std::size_t point) {
-  return motion.points[point].time * motion.scene.units.time_s;
-}
-
 std::string error_text(const DeputyMotion& motion, double error_m) {
   return miss_text(error_m, motion.flight_floor_m);
 }
