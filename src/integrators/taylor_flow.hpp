@@ -40,7 +40,9 @@ class TaylorFlow {
   void expand(std::span<const double> times = {});
   /// The power that a lane's last expansion went to.
   int powers(std::size_t lane) const { return powers_[lane]; }
-  /// Of a lane's component, the coefficient of a power of the time.
+  /// A lane's unit of time, a power of two.
+  double unit(std::size_t lane) const { return units_.lane(static_cast<int>(lane)); }
+  /// Of a lane's component, the coefficient of a power of the time in that unit.
   double coefficient(std::size_t lane, std::size_t component, int power) const {
     return field_.input(component)[power].lane(static_cast<int>(lane));
   }

@@ -65,7 +65,7 @@ std::vector<std::vector<double>> fly_arcs(const SharedSystem& system,
         double power = 1;
         for (int k = 0; k <= TaylorFlow::order; ++k) {
           series[static_cast<std::size_t>(k)] = flow.coefficient(craft % lanes, i, k) * power;
-          power *= arc.span;
+          power *= arc.span / flow.unit(craft % lanes);
         }
       }
       states[craft] = arc.state(craft, 1);
