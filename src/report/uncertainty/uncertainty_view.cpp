@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "../../algebra/symmetric_eigenvalues.hpp"
 #include "../../formats/relative_frame_text.hpp"
 #include "../../text/quantity_text.hpp"
 #include "../../text/time_axis.hpp"
@@ -56,7 +56,8 @@ std::optional<Combination> worst_combination(const std::vector<Cumulants>& by_or
   // The columns of the axes are orthogonal.
   const Matrix<double> white =
       axes.colwise().squaredNorm().cwiseInverse().asDiagonal() * (axes.transpose() * full);
-  const Eigen::SelfAdjointEigenSolver<Matrix<double>> solver(white * white.transpose());
+  const auto solver =
+      symmetric_eigenvalues("uncertainty", Matrix<double>(white * white.transpose()));
   // Eigenvalues ascend; what the linear covariance is too wide in changes probabilities less.
   const Eigen::Index worst = linear.rank() - 1;
   const Vector<double> step = linear.axes() * solver.eigenvectors().col(worst);

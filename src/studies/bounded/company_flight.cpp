@@ -1,15 +1,19 @@
 #include "company_flight.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
+#include "../../charts/plane_elements.hpp"
 #include "../../poincare/nodal_flight.hpp"
 #include "../exact_flow.hpp"
 #include "../flights/extreme_distance.hpp"
 #include "../formation/deputy_flows.hpp"
 #include "../formation/single_transfer.hpp"
+#include "hamjet/error.hpp"
 #include "hamjet/studies/propagation.hpp"
 #include "relative_orbit_extent.hpp"
 
@@ -70,12 +74,7 @@ void CompanyFlight::choose_times_of_orbit() {
       1 - (chief[q_place] * chief[q_place] + chief[p_place] * chief[p_place]) / (2 * chief[3]);
   const double e = std::sqrt((1 - ratio) * (1 + ratio));
   const double start = within_half_a_turn(chief[0] - std::atan2(-chief[q_place], chief[p_place]));
-  double anomaly = start + e * std::sin(start);
-  // Its error only moves the places.
-  constexpr int iterations = 20;
-  for (int i = 0; i < iterations; ++i) {
-    anomaly -= (anomaly - e * std::sin(anomaly) - start) / (1 - e * std::cos(anomaly));
-  }
+  const double anomaly = eccentric_longitude<double>(start, e, 0).angle;
   const auto mean = [&](int k) {
     const double E = anomaly + 2 * std::numbers::pi * k / points_of_orbit;
     return E - e * std::sin(E);
@@ -127,6 +126,14 @@ CompanyFlight::Passage CompanyFlight::passage_of(std::vector<double> state,
     const double secant = (angle - left) / step;
     if (secant > 0.3 * rate && secant < 3 * rate) rate = secant;
     angle = left;
+  }
+  // Rounding leaves some 1e-14 of a revolution; a search that has not ended leaves more.
+  constexpr double not_found = 1e-10;
+  if (!(std::abs(angle) <= not_found)) {
+    throw Error(ErrorKind::numerical,
+                fmt::format("bounded: after {} steps of the secant method a deputy is still {:.2g} "
+                            "radians from its chief's mean argument of latitude",
+                            most_iterations, angle));
   }
   passage.node = z[1] - chief[1];
   return passage;

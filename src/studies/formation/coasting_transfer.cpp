@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <utility>
 #include <vector>
 
+#include "../../algebra/scalar_search.hpp"
 #include "../flights/paced_times.hpp"
 #include "hamjet/error.hpp"
 #include "impulses/impulse_search.hpp"
@@ -50,13 +50,14 @@ Candidate least_for(const Route& route, const std::vector<Underway>& starts, dou
   if (!std::isfinite(least.change_m_s)) return least;
   const double first = starts[place > 0 ? place - 1 : 0].time;
   const double last = starts[std::min(place + 1, starts.size() - 1)].time;
-  std::uintmax_t most_steps = 40;
+  constexpr std::uintmax_t most_steps = 40;
   constexpr int bits = 26;  // the square root of rounding
-  const auto [part, change] = boost::math::tools::brent_find_minima(
+  const auto [part, change] = minimum_between(
+      "start times",
       [&](double share) {
         const Underway from = route.linear_coast_to(first + share * (last - first));
         // Finite, for parabolas go through it.
-        return std::min(change_m_s(route, from, time), 1e9 * least.change_m_s);
+        return std::min(1e9 * least.change_m_s, change_m_s(route, from, time));
       },
       0.0, 1.0, bits, most_steps);
   if (change < least.change_m_s) return {change, first + part * (last - first), time};
