@@ -113,7 +113,10 @@ double LinearFlow::checkpoint_distance(const std::vector<double>& state,
     z.push_back(Series<double>::variable(space_, i, state[i]));
   }
   const auto slope = evaluate_on_series(problem_->system->vector_field, z);
-  const double rate = linear_part(slope).eigenvalues().cwiseAbs().maxCoeff();
+  // Positions and momenta that are of a size leave the eigenvalues their digits.
+  const Matrix<double> linear =
+      in_momentum_unit<Matrix<double>>(linear_part(slope), problem_->momentum_exponent);
+  const double rate = linear.eigenvalues().cwiseAbs().maxCoeff();
   return 2 * std::numbers::sqrt2 * std::numbers::pi / (rate * per_revolution);
 }
 

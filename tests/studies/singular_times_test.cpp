@@ -219,6 +219,23 @@ TEST(SingularTimes, BackwardsAsForwards) {
   for (std::size_t i = 0; i < forth.size(); ++i) EXPECT_NEAR(back[i], -forth[i], 1e-9);
 }
 
+// On a circle the rate is sqrt(2) times the mean motion, r^(-3/2), in any unit of length: from an
+// astronomical unit to a metre for the Earth's orbits.
+TEST(LinearFlow, HasTheCheckpointsOfACircleInAnyUnitOfLength) {
+  for (const double r : {4.7e-5, 1.0, 42164.0, 2.6e7, 1e9}) {
+    SCOPED_TRACE(r);
+    Scene scene = kepler_chief(0, 7000, 1000, 1);
+    for (std::size_t i = 0; i < 3; ++i) scene.nominal[i] *= r;
+    for (std::size_t i = 3; i < 6; ++i) scene.nominal[i] /= std::sqrt(r);
+    const double revolution = 2 * std::numbers::pi * r * std::sqrt(r);
+    const ComputedProblem problem = make_problem(scene);
+    const LinearFlow flow(problem, 2 * revolution, 32);
+    ASSERT_GE(flow.times().size(), 64U);
+    EXPECT_LE(flow.times().size(), 66U);
+    EXPECT_NEAR((flow.times()[40] - flow.times()[39]) / revolution, 1.0 / 32, 1e-9);
+  }
+}
+
 TEST(LinearFlow, BetweenCheckpointsIsTheFlow) {
   const ComputedProblem problem = make_problem(paper_chief(1));
   const LinearFlow coarse(problem, 10, 16);
