@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "../../integrators/taylor_flow.hpp"
+#include "../../uncertainty/cut_passage.hpp"
 #include "../../uncertainty/encounter_trajectories.hpp"
 #include "../../uncertainty/entry_sampler.hpp"
 #include "../formation/formation_problem.hpp"
@@ -15,7 +16,6 @@
 #include "hamjet/algebra/composition.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/maps/map_evaluator.hpp"
-#include "hamjet/uncertainty/cut_passage.hpp"
 #include "initial_states.hpp"
 
 namespace hamjet {
