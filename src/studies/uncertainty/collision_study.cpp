@@ -143,6 +143,8 @@ void fly(const EncounterProblem& problem, const ClosestApproach& approach, std::
       rate += flown[k][i] * flown[k][i + 3];
       speed += std::pow(flown[k][i + 3], 2);
     }
+    // A flight that ended in the centre is none that polynomials are right of.
+    if (!std::isfinite(square + rate) || !(speed > 0)) return;
     result.position_error_m = std::max(result.position_error_m, std::sqrt(square) * units.length_m);
     result.time_error_s = std::max(result.time_error_s, std::abs(rate) / speed * units.time_s);
   }
