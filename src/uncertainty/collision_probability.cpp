@@ -8,12 +8,13 @@
 
 #include "../integrators/concurrent_tasks.hpp"
 #include "binomial_interval.hpp"
-#include "cubic_arc.hpp"
+#include "collision_judgement.hpp"
 #include "entry_sampler.hpp"
 #include "flown_separations.hpp"
 #include "hamjet/error.hpp"
 #include "relative_paths.hpp"
 #include "sampled_paths.hpp"
+#include "weighted_hits.hpp"
 
 namespace hamjet {
 namespace {
@@ -44,81 +45,6 @@ constexpr double farthest_told = 2;
 /// terms grow by the square of it.
 constexpr double growth_to_farthest = 6;
 constexpr std::size_t time_count = 200;
-
-void take_linear_path(const RelativePaths& paths, const EncounterDeviation& deviation,
-                      SampledPath& path) {
-  for (std::size_t node = 0; node < path.size(); ++node) {
-    const LinearRelativeState& linear = paths.linear(node);
-    const Eigen::Matrix<double, 6, 1> state = linear.mean + linear.by_deviation * deviation;
-    for (std::size_t c = 0; c < 6; ++c) path[node][c] = state[static_cast<Eigen::Index>(c)];
-  }
-}
-
-/// When a path first has what counts as a collision, if it ever has.
-std::optional<double> first_event(const RelativePaths& paths, const SampledPath& path,
-                                  double radius, CollisionEvent event) {
-  const double square = radius * radius;
-  const std::vector<double>& times = paths.times();
-  std::vector<double> parts;
-  for (const std::size_t node : paths.arcs()) {
-    const double length = times[node + 1] - times[node];
-    const SquaredDistance arc(path[node], path[node + 1], length);
-    if (arc.lower_bound() >= square) continue;
-    const bool begins_inside = node == 0 && paths.has_begin() && arc.first() < square;
-    if (begins_inside && event == CollisionEvent::nearer) return times[0];
-    parts.clear();
-    arc.entries(square, parts);
-    if (!parts.empty()) return times[node] + length * *std::min_element(parts.begin(), parts.end());
-  }
-  return {};
-}
-
-/// What is known of a path whose distances are right to an error.
-struct Judgement {
-  std::optional<double> first;  ///< when it first has the event, as it is told
-  bool is_sure = false;         ///< it has it for a radius that is smaller by the error, too
-  bool is_possible = false;     ///< it has it for one that is larger
-};
-
-Judgement judge_path(const RelativePaths& paths, const SampledPath& path, double radius,
-                     double error, CollisionEvent event) {
-  const auto has_event = [&](double r) {
-    return r > 0 && first_event(paths, path, r, event).has_value();
-  };
-  Judgement result;
-  const bool of_larger = has_event(radius + error);
-  // To be nearer than less is to be nearer than more. An entry of a path that begins inside the
-  // larger sphere alone is none of that.
-  if (!of_larger && event == CollisionEvent::nearer) return result;
-  result.first = first_event(paths, path, radius, event);
-  const bool of_smaller = has_event(radius - error);
-  result.is_sure = of_larger && result.first && of_smaller;
-  result.is_possible = of_larger || result.first || of_smaller;
-  return result;
-}
-
-/// Of samples that have an event: how many, the sum of their weights, and of the weights' squares.
-struct Hits {
-  long count = 0;
-  double x = 0;
-  double x_squared = 0;
-
-  void add(double weight) {
-    ++count;
-    x += weight;
-    x_squared += weight * weight;
-  }
-  void add(const Hits& other) {
-    count += other.count;
-    x += other.x;
-    x_squared += other.x_squared;
-  }
-  /// The mean of weights may come out above 1 by its error.
-  double probability(double samples) const { return std::min(1.0, x / samples); }
-  double variance(double samples) const {
-    return std::max(0.0, x_squared / samples - std::pow(probability(samples), 2));
-  }
-};
 
 /// Sums over samples.
 struct Sums {

@@ -1,4 +1,4 @@
-#include "hamjet/uncertainty/cut_passage.hpp"
+#include "cut_passage.hpp"
 
 #include <algorithm>
 #include <cmath>

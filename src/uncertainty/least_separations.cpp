@@ -17,8 +17,10 @@
 namespace hamjet {
 namespace {
 
-/// Separations are told to a part of the radius.
+/// Separations are told to a part of the radius or, where they are smaller, of that of the means,
+/// of which a hundredth of the radius is the least that counts.
 constexpr double separation_accuracy = 1e-3;
+constexpr double least_counted = 0.01;
 
 /// The deviations of a block, a structure of arrays.
 std::vector<double> deviations_of(std::uint64_t seed, std::size_t number) {
@@ -124,7 +126,9 @@ LeastSeparations least_separations(const EncounterProblem& problem,
     }
   }
   // No path is left out.
-  const RelativePaths paths(problem, separation_accuracy * problem.radius,
+  const double size = std::clamp(flown_separation_of_means(problem), least_counted * problem.radius,
+                                 problem.radius);
+  const RelativePaths paths(problem, separation_accuracy * size,
                             std::numeric_limits<double>::infinity());
   const auto count = static_cast<std::size_t>(std::max(1L, settings.samples));
   const std::size_t tasks = (count + samples_in_block - 1) / samples_in_block;

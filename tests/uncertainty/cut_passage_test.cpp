@@ -1,4 +1,4 @@
-#include "hamjet/uncertainty/cut_passage.hpp"
+#include "uncertainty/cut_passage.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "../../integrators/taylor_flow.hpp"
+#include "../../uncertainty/cut_passage.hpp"
 #include "../../uncertainty/encounter_trajectories.hpp"
 #include "../../uncertainty/entry_sampler.hpp"
 #include "../formation/formation_problem.hpp"
@@ -15,7 +16,6 @@
 #include "hamjet/algebra/composition.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/maps/map_evaluator.hpp"
-#include "hamjet/uncertainty/cut_passage.hpp"
 #include "initial_states.hpp"
 
 namespace hamjet {
@@ -143,6 +143,8 @@ void fly(const EncounterProblem& problem, const ClosestApproach& approach, std::
       rate += flown[k][i] * flown[k][i + 3];
       speed += std::pow(flown[k][i + 3], 2);
     }
+    // A flight that ended in the centre is none that polynomials are right of.
+    if (!std::isfinite(square + rate) || !(speed > 0)) return;
     result.position_error_m = std::max(result.position_error_m, std::sqrt(square) * units.length_m);
     result.time_error_s = std::max(result.time_error_s, std::abs(rate) / speed * units.time_s);
   }
