@@ -127,7 +127,7 @@ TEST(CovarianceFile, OfAnotherStateIsRefused) {
   expect_scene_error(with("4.418769571", "4.419319571"), {"another state", "0.55 m/s from it"});
   // The other object of the conjunction is some 700 m away, but flies the other way.
   expect_scene_error(earth_scene(second_state) + dated(closest) + of_conjunction,
-                     {"another state", "at 716 m and 1.47e+04 m/s from it",
+                     {"another state", "at 716 m and 1.48e+04 m/s from it",
                       "object = \"OBJECT1\" or \"OBJECT2\" chooses"});
   expect_scene_error(earth_scene() + dated(closest) + "[deputy]\nposition_m = [0, 5000, 0]\n" +
                          "[uncertainty.deputy]\n" + conjunction_file,
