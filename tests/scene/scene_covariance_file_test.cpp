@@ -32,7 +32,7 @@ const std::string second_state =
     "position_km = [2569.540800, 2245.093614, 6281.599946]\n"
     "velocity_km_s = [-2.888612500, -6.007247516, 3.328770172]\n";
 
-std::string about_earth(const std::string& state = first_state) {
+std::string earth_scene(const std::string& state = first_state) {
   return "[system]\nmodel = \"kepler\"\nmu_km3_s2 = 398600.4415\n[nominal]\n" + state +
          "[jet]\nduration_s = 6000\n";
 }
@@ -46,7 +46,7 @@ std::string conjunction() {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-Scene scene_of(const std::string& text) { return parse_scene(text, "file.toml"); }
+Scene parsed_scene(const std::string& text) { return parse_scene(text, "file.toml"); }
 
 /// The scene with a message beside it.
 Scene scene_beside(const std::string& message, const std::string& text) {
@@ -63,23 +63,23 @@ void expect_refused_beside(const std::string& message, const std::string& text,
 const std::string of_message = "[uncertainty]\nfile = \"message\"\n";
 
 TEST(CovarianceFile, OfAConjunctionIsReadForBothObjects) {
-  const Scene scene = scene_of(about_earth() + dated(closest) + "[deputy]\n" + second_state +
-                               of_conjunction + "[uncertainty.deputy]\n" + conjunction_file +
-                               "[uncertainty.collision]\nradius_m = 10\n");
+  const Scene scene = parsed_scene(earth_scene() + dated(closest) + "[deputy]\n" + second_state +
+                                   of_conjunction + "[uncertainty.deputy]\n" + conjunction_file +
+                                   "[uncertainty.collision]\nradius_m = 10\n");
   const StateUncertainty& chief = *scene.uncertainty->chief;
   EXPECT_EQ(chief.frame, RelativeFrame::rtn_inertial);
   // m^2 as they stand in the file: CT_T and CRDOT_T of OBJECT1, CT_T of OBJECT2.
   EXPECT_NEAR(chief.covariance.matrix()(1, 1), 2533, 1e-9);
   EXPECT_NEAR(chief.covariance.matrix()(3, 1), -2.476, 1e-12);
   EXPECT_NEAR(scene.uncertainty->deputy->covariance.matrix()(1, 1), 2.492e6, 1e-6);
-  const Scene other = scene_of(about_earth(second_state) + dated(closest) + of_conjunction +
-                               "object = \"FENGYUN 1C DEB\"\n");
+  const Scene other = parsed_scene(earth_scene(second_state) + dated(closest) + of_conjunction +
+                                   "object = \"FENGYUN 1C DEB\"\n");
   EXPECT_NEAR(other.uncertainty->chief->covariance.matrix()(1, 1), 2.492e6, 1e-6);
 }
 
 TEST(CovarianceFile, OfAnEphemerisIsReadInItsAxes) {
   // km^2 become m^2.
-  const Scene scene = scene_of(
+  const Scene scene = parsed_scene(
       "[system]\nmodel = \"kepler\"\nmu_km3_s2 = 42828.37\n[nominal]\n"
       "position_km = [-2432.166, -63.042, 1742.754]\n"
       "velocity_km_s = [7.33702, -3.495867, -1.041945]\n[jet]\nduration_s = 600\n" +
@@ -95,7 +95,7 @@ TEST(CovarianceFile, OfAnEphemerisIsReadInItsAxes) {
 
 TEST(CovarianceFile, OfAnotherMomentObjectOrFormIsRefused) {
   const auto refuse = [](const std::string& tables, const std::vector<std::string>& words) {
-    expect_scene_error(about_earth() + tables, words);
+    expect_scene_error(earth_scene() + tables, words);
   };
   refuse(of_conjunction, {"uncertainty.file", "beside a chief without a date", closest});
   refuse(dated("2010-03-13T22:37:52") + of_conjunction,
@@ -108,7 +108,7 @@ TEST(CovarianceFile, OfAnotherMomentObjectOrFormIsRefused) {
          {"uncertainty.position_m", "beside a file"});
   refuse("[uncertainty]\nobject = \"OBJECT1\"\nposition_m = [1, 1, 1]\n",
          {"uncertainty.object", "of no file"});
-  expect_scene_error(about_earth() + "[uncertainty]\nfile = \"nowhere.cdm\"\n",
+  expect_scene_error(earth_scene() + "[uncertainty]\nfile = \"nowhere.cdm\"\n",
                      {"uncertainty.file", "nowhere.cdm"}, ErrorKind::input_output);
 }
 
@@ -116,19 +116,20 @@ TEST(CovarianceFile, OfAnotherMomentObjectOrFormIsRefused) {
 // the distance 71.4 m; of the velocity 0.457 m/s and 0.0744 m/s.
 TEST(CovarianceFile, OfAnotherStateIsRefused) {
   const auto with = [](const std::string& from, const std::string& to) {
-    return about_earth(changed(first_state, from, to)) + dated(closest) + of_conjunction;
+    return earth_scene(changed(first_state, from, to)) + dated(closest) + of_conjunction;
   };
-  EXPECT_NO_THROW(scene_of(with("2570.097065", "2570.467065")));
-  EXPECT_NO_THROW(scene_of(with("4.418769571", "4.419289571")));
+  EXPECT_NO_THROW(parsed_scene(with("2570.097065", "2570.467065")));
+  EXPECT_NO_THROW(parsed_scene(with("4.418769571", "4.419289571")));
   expect_scene_error(with("2570.097065", "2570.487065"),
                      {"uncertainty.file: a covariance of another state than the chief's",
                       "SATELLITE A, 1997-030E, 12345", "at 390 m and 0 m/s from it",
                       "must be within 380 m and 0.532 m/s (6 standard deviations, five digits"});
   expect_scene_error(with("4.418769571", "4.419319571"), {"another state", "0.55 m/s from it"});
   // The other object of the conjunction is some 700 m away, but flies the other way.
-  expect_scene_error(about_earth(second_state) + dated(closest) + of_conjunction,
-                     {"another state", "object = \"OBJECT1\" or \"OBJECT2\" chooses"});
-  expect_scene_error(about_earth() + dated(closest) + "[deputy]\nposition_m = [0, 5000, 0]\n" +
+  expect_scene_error(earth_scene(second_state) + dated(closest) + of_conjunction,
+                     {"another state", "at 716 m and 1.48e+04 m/s from it",
+                      "object = \"OBJECT1\" or \"OBJECT2\" chooses"});
+  expect_scene_error(earth_scene() + dated(closest) + "[deputy]\nposition_m = [0, 5000, 0]\n" +
                          "[uncertainty.deputy]\n" + conjunction_file,
                      {"uncertainty.deputy.file", "another state than the deputy's"});
 }
@@ -137,7 +138,7 @@ TEST(CovarianceFile, AboutAnotherCentreIsRefused) {
   const std::string about_moon =
       changed(conjunction(), "REF_FRAME     ", "ORBIT_CENTER = MOON\nREF_FRAME     ");
   expect_refused_beside(
-      about_moon, about_earth() + dated(closest) + of_message,
+      about_moon, earth_scene() + dated(closest) + of_message,
       {"uncertainty.file: a covariance about another centre than the chief's, got "
        "MOON in ",
        "must be EARTH"});
@@ -145,12 +146,12 @@ TEST(CovarianceFile, AboutAnotherCentreIsRefused) {
 
 TEST(CovarianceFile, OfAnotherObjectIsRefusedUnlessItIsNamed) {
   const auto with = [](const std::string& name, const std::string& more) {
-    return about_earth() + dated(closest, "UTC", "EME2000", "object_name = \"" + name + "\"\n") +
+    return earth_scene() + dated(closest, "UTC", "EME2000", "object_name = \"" + name + "\"\n") +
            of_conjunction + more;
   };
-  EXPECT_NO_THROW(scene_of(with("Satellite A", "")));
-  EXPECT_NO_THROW(scene_of(with("12345", "")));
-  EXPECT_NO_THROW(scene_of(with("A2", "object = \"OBJECT1\"\n")));
+  EXPECT_NO_THROW(parsed_scene(with("Satellite A", "")));
+  EXPECT_NO_THROW(parsed_scene(with("12345", "")));
+  EXPECT_NO_THROW(parsed_scene(with("A2", "object = \"OBJECT1\"\n")));
   expect_scene_error(with("A2", ""),
                      {"uncertainty.file: a covariance of another object than the chief, got "
                       "SATELLITE A, 1997-030E, 12345 in",
@@ -161,7 +162,7 @@ TEST(CovarianceFile, OfAnotherObjectIsRefusedUnlessItIsNamed) {
 TEST(CovarianceFile, NumbersThatAreNotUsedAreWarnedOf) {
   std::string message = changed(conjunction(), "-7.2            [m/s]", "-7.2 [m]");
   message = changed(message, "14762           [m/s]", "14762 [m]");
-  const auto warnings = scene_beside(message, about_earth() + dated(closest) + of_message).warnings;
+  const auto warnings = scene_beside(message, earth_scene() + dated(closest) + of_message).warnings;
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_NE(warnings[0].find("uncertainty.file: "), std::string::npos) << warnings[0];
   EXPECT_NE(warnings[0].find(":9: RELATIVE_SPEED: wrong unit, got \"[m]\", must be [m/s]; it is "
@@ -173,9 +174,9 @@ TEST(CovarianceFile, NumbersThatAreNotUsedAreWarnedOf) {
 // States in other axes are compared as far as their angle lets them be.
 TEST(CovarianceFile, OtherAxesAreNoOtherState) {
   for (const char* frame : {"J2000", "GCRF", "TOD"}) {
-    EXPECT_NO_THROW(scene_of(about_earth() + dated(closest, "UTC", frame) + of_conjunction));
+    EXPECT_NO_THROW(parsed_scene(earth_scene() + dated(closest, "UTC", frame) + of_conjunction));
   }
-  expect_scene_error(about_earth(second_state) + dated(closest, "UTC", "TOD") + of_conjunction,
+  expect_scene_error(earth_scene(second_state) + dated(closest, "UTC", "TOD") + of_conjunction,
                      {"another state", "EME2000 beside TOD"});
   // Distances tell axes that turn with the Earth, by an angle that is not known, to their digits.
   constexpr double rate = 7.292115e-5, angle = 2.1;
@@ -190,8 +191,8 @@ TEST(CovarianceFile, OtherAxesAreNoOtherState) {
   };
   const std::string itrf =
       turned(2570.097065, 2244.654904, 4.418769571, 4.833547743, conjunction());
-  EXPECT_NO_THROW(scene_beside(itrf, about_earth() + dated(closest) + of_message));
-  expect_refused_beside(itrf, about_earth(second_state) + dated(closest) + of_message,
+  EXPECT_NO_THROW(scene_beside(itrf, earth_scene() + dated(closest) + of_message));
+  expect_refused_beside(itrf, earth_scene(second_state) + dated(closest) + of_message,
                         {"another state", "ITRF beside EME2000"});
 }
 
@@ -217,7 +218,7 @@ std::string opm(const std::string& axes, const std::string& metadata = "EME2000"
 
 TEST(CovarianceFile, AxesHaveSeveralNames) {
   const auto frame_of = [](const std::string& axes, const std::string& of_scene = "EME2000") {
-    return scene_beside(opm(axes), about_earth() + dated(closest, "UTC", of_scene) + of_message)
+    return scene_beside(opm(axes), earth_scene() + dated(closest, "UTC", of_scene) + of_message)
         .uncertainty->chief->frame;
   };
   for (const char* axes : {"RTN", "RSW", "QSW", "RIC", "RSW_INERTIAL", "qsw_inertial"}) {
@@ -227,9 +228,9 @@ TEST(CovarianceFile, AxesHaveSeveralNames) {
   EXPECT_EQ(frame_of("EME2000"), RelativeFrame::inertial);
   EXPECT_EQ(frame_of("J2000"), RelativeFrame::inertial);
   EXPECT_EQ(frame_of("EME2000", "J2000"), RelativeFrame::inertial);
-  expect_refused_beside(opm("TNW"), about_earth() + dated(closest) + of_message,
+  expect_refused_beside(opm("TNW"), earth_scene() + dated(closest) + of_message,
                         {"a covariance in other axes, got TNW in", ":16, must be RTN (or RSW"});
-  expect_refused_beside(opm("GCRF"), about_earth() + dated(closest) + of_message,
+  expect_refused_beside(opm("GCRF"), earth_scene() + dated(closest) + of_message,
                         {"a covariance in other axes, got GCRF", "the chief's EME2000"});
 }
 
@@ -258,7 +259,7 @@ TEST(CovarianceFile, BetweenTheStatesOfAnEphemerisTheStateIsInterpolated) {
   const std::string header =
       "CCSDS_OEM_VERS = 2.0\nCREATION_DATE = 2020-01-01T00:00:00\nORIGINATOR = T\n";
   const auto scene = [&](double seconds, const std::string& more) {
-    return about_earth(
+    return earth_scene(
                circle(seconds, "position_km = [{}, {}, {}]\nvelocity_km_s = [{}, {}, {}]\n")) +
            dated("2020-01-01T00:00:30", "UTC", "EME2000", more) + of_message;
   };

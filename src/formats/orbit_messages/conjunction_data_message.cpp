@@ -135,7 +135,8 @@ ConjunctionObject object_of(const MessageBlock& block) {
   object.covariance_method = block.text("COVARIANCE_METHOD");
   object.maneuverable = block.text("MANEUVERABLE");
   if (block.has("ORBIT_CENTER")) object.orbit_center = block.capitals("ORBIT_CENTER");
-  object.reference_frame = name_of_axes(block.capitals("REF_FRAME"));
+  object.reference_frame = block.capitals("REF_FRAME");
+  if (object.reference_frame == "J2000") object.reference_frame = "EME2000";
   const Keywords frames = {"GCRF", "EME2000", "ITRF"};
   if (std::find(frames.begin(), frames.end(), object.reference_frame) == frames.end()) {
     block.fail("REF_FRAME", fmt::format("unknown reference frame, got {}, must be one of: {}",

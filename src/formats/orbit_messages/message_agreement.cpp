@@ -120,12 +120,12 @@ StateDifference difference_of_states(const KnownState& message, const KnownState
                            double tolerance, double& between, double& most) {
     const double size = other.stableNorm();
     const double of_lengths = std::abs(one.stableNorm() - size);
-    most = tolerance + rounding_of_states * size;
+    const double of_size = tolerance + rounding_of_states * size;
     between = (one - other).stableNorm();
-    if (of_lengths > most) {
+    most = of_size + angle * size;
+    if (between <= most && of_lengths > of_size) {
       between = of_lengths;
-    } else {
-      most += angle * size;
+      most = of_size;
     }
   };
   compare(given.position_km, scene.position_km,
