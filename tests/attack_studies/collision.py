@@ -14,7 +14,8 @@ SAMPLES = 1500
 
 def draw(source):
     scene = Scene(source, revolutions=(0.2, source.one_of([1.5, 3])), orders=(1, 2, 3),
-                  weights=(1, 4, 2), may_go_back=False, coordinates=False)
+                  weights=(1, 4, 2), may_go_back=False, coordinates=False,
+                  whole=source.one_of([None, 1.0, 2.0], [5, 1, 2]))
     time = scene.duration * source.one_of([source.uniform(0.05, 0.98), 0.5, 1.0], [6, 1, 1])
     chief = scene.chief_at(time)
     sigma = source.logarithmic(5, 500)
@@ -36,6 +37,10 @@ def draw(source):
     if orbit.perigee(scene.mu, meeting) < REAL(1.02) * scene.radius:
         # Not through the ground: one that goes the chief's way.
         meeting[3:] = chief[3:]
+    if source.chance(0.4):
+        # Of the chief's period, so that it comes back to where it was.
+        energy = scene.field.energy(scene.chief) + scene.mu / orbit.norm(meeting[:3])
+        meeting[3:] *= np.sqrt(2 * energy) / orbit.norm(meeting[3:])
     deputy = scene.field.to(meeting, -time)
     scene.deputy_state = write_deputy(scene, deputy)
     table = scene.tables["uncertainty"] = {"samples": 0}

@@ -79,14 +79,14 @@ class Scene:
     """Tables of a scene, and what they mean in SI units."""
 
     def __init__(self, draw, revolutions=(0.05, 6), orders=(1, 2, 3, 4), weights=(1, 3, 4, 5),
-                 largest_e=0.95, may_go_back=True, coordinates=True):
+                 largest_e=0.95, may_go_back=True, coordinates=True, whole=None):
         self.draw = draw
         self.tables = {"title": "attack"}
         self._draw_field()
         self._draw_units()
         self._draw_chief(largest_e)
         jet = self.tables["jet"] = {"order": draw.one_of(orders, weights)}
-        self._draw_duration(jet, revolutions, may_go_back)
+        self._draw_duration(jet, revolutions, may_go_back, whole)
         if coordinates and draw.chance(0.45):
             jet["coordinates"] = draw.one_of(["spherical", "cylindrical", "poincare", "nodal",
                                               "flow-box", "auto"], [1, 1, 1, 2, 5, 1])
@@ -175,11 +175,13 @@ class Scene:
             self.length = distance
         self.time_unit = np.sqrt(self.length ** 3 / self.mu)
 
-    def _draw_duration(self, jet, revolutions, may_go_back):
+    def _draw_duration(self, jet, revolutions, may_go_back, whole):
         draw = self.draw
         low, high = revolutions
         kind = draw.one_of(["any", "short", "whole", "half"], [5, 2, 3, 1])
-        if kind == "any":
+        if whole:
+            count = whole
+        elif kind == "any":
             count = draw.uniform(low, high)
         elif kind == "short":
             count = draw.uniform(low, max(low, min(1.0, high)))

@@ -124,6 +124,10 @@ def judge_rows(judgement, scene, folder, line, name, times):
         judge_refusal(judgement, scene, Refused(run.code, (run.said or run.printed).strip()))
         return
     rows = run.table("", name)
+    if len(rows) == (len(times) + 1) * len(scene.rows) and abs(
+            times[-1] / scene.duration - 1) < 1e-9:
+        # A time that differs from the duration by its last digit is another one.
+        times = [*times, scene.duration]
     if not judgement.require(f"{len(rows)} rows of {len(times)} times",
                              len(rows) == len(times) * len(scene.rows)):
         return

@@ -14,14 +14,23 @@ SAMPLES = 800
 
 def draw(source):
     scene = Scene(source, revolutions=(0.2, source.one_of([2, 4])), orders=(1, 2, 3),
-                  weights=(1, 4, 2), may_go_back=False, coordinates=False)
+                  weights=(1, 4, 2), may_go_back=False, coordinates=False,
+                  whole=source.one_of([None, 2.0, 4.0], [5, 2, 1]))
     deputy = scene.tables["deputy"] = {}
     scene.deputy_frame = scene.frame(deputy)
     distance = source.logarithmic(50, 2e4)
     scene.spacecraft = {"chief": scene.chief}
-    scene.spacecraft["deputy"] = scene.deputy(deputy, scene.chief, distance, scene.deputy_frame)
+    if scene.has_node and source.chance(0.4):
+        # Of the chief's period, so that it comes back to where it was.
+        numbers = [0.0] + source.vector(distance) + source.vector(distance)[:2]
+        deputy.update(zip(orbit.RELATIVE_ELEMENTS, numbers))
+        scene.spacecraft["deputy"] = orbit.from_form(scene.mu, scene.chief, "relative-elements",
+                                                     numbers)
+    else:
+        scene.spacecraft["deputy"] = scene.deputy(deputy, scene.chief, distance,
+                                                  scene.deputy_frame)
     table = scene.tables["uncertainty"] = {"samples": 0, "seed": source.integer(1, 10 ** 6)}
-    sigma = distance * source.logarithmic(1e-3, 0.1)
+    sigma = distance * source.logarithmic(1e-4, 0.1)
     scene.covariances = {}
     covariance, frame = draw_known(scene, table, sigma, frames=False)
     scene.covariances["chief"] = inertial_covariance(scene.chief, covariance, frame)

@@ -6,40 +6,40 @@ import orbit
 from command import Refused, Run, number
 from drawing import Scene
 from flight import REAL, coast_times
-from least_impulses import least_limited_sum, least_sum
+from least_impulses import least_sum
 from refusal import judge_refusal, says_below_surface
 
 
+EXTRAS = {"none": 3, "optimal": 4, "limited": 3, "coast": 2, "waypoints": 2, "revolutions": 1,
+          "keep-out": 3, "budget": 1}
+
+
 def draw(source):
-    scene = Scene(source, revolutions=(0.1, source.one_of([1.5, 3, 8])), orders=(2, 3, 4),
+    extra = source.one_of(list(EXTRAS), list(EXTRAS.values()))
+    most = [1.5, 3, 8, 15] if extra in ("optimal", "limited") else [1.5, 3, 8]
+    scene = Scene(source, revolutions=(0.1, source.one_of(most)), orders=(2, 3, 4),
                   weights=(2, 3, 3))
+    scene.extra = extra
     if "coordinates" in scene.tables["jet"] and source.chance(0.5):
         del scene.tables["jet"]["coordinates"]
     table = scene.tables["transfer"] = {}
     scene.transfer_frame = scene.frame(table)
-    extra = scene.extra = source.one_of(
-        ["none", "optimal", "limited", "coast", "waypoints", "revolutions", "keep-out", "budget"],
-        [3, 4, 2, 2, 2, 1, 3, 1])
     keys, scene.times = scene.times(12 if extra in ("optimal", "limited") else 24)
     table.update(keys)
     table["refine"] = source.chance(0.6)
     scene.distance = source.logarithmic(10, 2e4)
-    table["start"], table["end"] = {}, {}
-    scene.start = scene.deputy(table["start"], scene.chief, scene.distance, scene.transfer_frame)
-    table["end"]["position_m"] = source.vector(scene.distance * source.logarithmic(0.01, 1))
-    table["end"]["velocity_m_s"] = source.vector(
-        scene.distance * float(scene.rate) * source.uniform(0, 0.3))
-    if source.chance(0.5):
-        del table["end"]["velocity_m_s"]
-    scene.end = np.array(table["end"]["position_m"] + table["end"].get("velocity_m_s", [0] * 3),
-                         dtype=REAL)
+    if extra == "optimal" and source.chance(0.2):
+        scene.distance = source.logarithmic(2e4, 3e5)
+        if source.chance(0.7):
+            scene.tables["jet"]["coordinates"] = "flow-box"
+    draw_ends(scene, table)
     rate = scene.distance * float(scene.rate)
     if extra in ("optimal", "limited"):
         table["impulses"] = "optimal"
     if extra == "limited":
-        table["largest_impulse_m_s"] = rate * source.logarithmic(0.02, 2)
-        if source.chance(0.5):
-            table["impulse_gap_s"] = float(scene.period) * source.logarithmic(0.01, 0.2)
+        table["largest_impulse_m_s"] = rate * source.logarithmic(0.02, 1)
+        if source.chance(0.7):
+            table["impulse_gap_s"] = float(scene.period) * source.logarithmic(0.02, 0.3)
     elif source.chance(0.15):
         table["largest_impulse_m_s"] = rate * source.logarithmic(0.1, 3)
     if extra == "coast":
@@ -55,11 +55,43 @@ def draw(source):
         table["revolutions"] = source.one_of([[-1, 1], [1], [0, 1], [-1]])
     if extra == "keep-out" or source.chance(0.1):
         # Neither end lies in it.
-        inner = float(min(orbit.norm((scene.start - scene.chief)[:3]), orbit.norm(scene.end[:3])))
+        flights = Flights(scene)
+        ends = [scene.start - scene.chief] + [flights.end(t) - flights.chief(t)
+                                              for t in scene.times]
+        inner = min(float(orbit.norm(end[:3])) for end in ends)
         table["keep_out_m"] = [inner * source.logarithmic(0.01, 0.95) for _ in range(3)]
     if extra == "budget":
         table["budget_m_s"] = rate * source.logarithmic(0.3, 10)
     return scene
+
+
+def draw_ends(scene, table):
+    source, distance = scene.draw, scene.distance
+    table["start"], table["end"] = {}, {}
+    scene.end_form = None
+    if scene.has_node and source.chance(0.35):
+        # From one relative orbit to another.
+        scene.end_form = "relative-elements"
+        first = [0.0, source.uniform(-1, 1) * distance * 0.3] + source.vector(
+            distance)[:2] + source.vector(distance)[:2]
+        change = source.vector(distance * source.logarithmic(0.05, 1)) + source.vector(
+            distance * source.logarithmic(0.05, 1))
+        last = [0.0] + [float(f"{a + b:.9g}") for a, b in zip(first[1:], change[1:])]
+        if distance > 2e4:
+            first, last = [0, first[1], 0, 0, 0, 0], [0, first[1] * source.uniform(0.5, 1), 0, 0, 0,
+                                                      0]
+        for end, numbers in (("start", first), ("end", last)):
+            table[end].update({key: float(x) for key, x in zip(orbit.RELATIVE_ELEMENTS, numbers)})
+        scene.start = orbit.from_form(scene.mu, scene.chief, scene.end_form, first)
+        scene.end = last
+        return
+    scene.start = scene.deputy(table["start"], scene.chief, distance, scene.transfer_frame)
+    table["end"]["position_m"] = source.vector(distance * source.logarithmic(0.01, 1))
+    if source.chance(0.5):
+        table["end"]["velocity_m_s"] = source.vector(
+            distance * float(scene.rate) * source.uniform(0, 0.3))
+    scene.end = np.array(table["end"]["position_m"] + table["end"].get("velocity_m_s", [0] * 3),
+                         dtype=REAL)
 
 
 class Flights:
@@ -73,6 +105,8 @@ class Flights:
 
     def end(self, time):
         chief = self.chief(time)
+        if self.scene.end_form:
+            return orbit.from_form(self.scene.mu, chief, self.scene.end_form, self.scene.end)
         return chief + orbit.from_frame(chief, self.scene.end, *self.frame)
 
     def axes(self, time):
@@ -315,14 +349,15 @@ def judge_optimal(judgement, scene, flights, optimal, points, floor):
                               point["total"] * (1 + 1e-3) + 1e-9)
 
 
-def is_linear(scene):
-    """Whether the linear theory about the chief is right to a part in a thousand or so."""
+def departure(scene):
+    """About how far the linear theory about the chief is off, in parts."""
     growth = (1 + 6 * np.pi * abs(scene.revolutions)) / (1 - float(scene.e)) ** 1.5
-    return scene.distance / float(orbit.norm(scene.chief[:3])) * growth < 1e-3
+    return scene.distance / float(orbit.norm(scene.chief[:3])) * growth
 
 
 def linear_programme(scene, flights, duration, times):
-    """Effects of impulses along inertial axes at times, and the wanted change of the end."""
+    """Effects of impulses along inertial axes at times, and the wanted changes of the end: with the
+    coast in the linear theory, and with it flown."""
     whole = flights.field.transition(scene.chief, duration)
     # Phi(T, t) = Phi(T, 0) Phi(t, 0)^-1, and the inverse of a symplectic matrix is its adjoint.
     effects = []
@@ -337,48 +372,72 @@ def linear_programme(scene, flights, duration, times):
         inverse = np.vstack([np.hstack([F[3:, 3:].T, -F[:3, 3:].T]),
                              np.hstack([-F[3:, :3].T, F[:3, :3].T])])
         effects.append((whole @ inverse)[:, 3:])
-    change = flights.end(duration) - flights.on(scene.start, REAL(0), duration)
-    return np.array(effects, dtype=float), np.array(change, dtype=float)
+    end = flights.end(duration)
+    changes = [end - flights.chief(duration) - whole @ (scene.start - scene.chief),
+               end - flights.on(scene.start, REAL(0), duration)]
+    return np.array(effects, dtype=float), [np.array(c, dtype=float) for c in changes]
 
 
 def judge_by_time(judgement, scene, flights, optimal):
     """Least sums of the linear theory at some of the transfer times."""
-    if not is_linear(scene):
+    if departure(scene) > 0.05:
         return
+    chosen = optimal["least_by_time"]
+    if len(chosen) > 4:
+        chosen = [chosen[k] for k in np.linspace(0, len(chosen) - 1, 4).astype(int)]
+    for one in chosen:
+        if abs(one["time_s"]) > 0.02 * scene.period:
+            judge_least_sum(judgement, scene, flights, REAL(one["time_s"]),
+                            one["linear_change_m_s"])
+
+
+def judge_least_sum(judgement, scene, flights, duration, told):
     table = scene.tables["transfer"]
     limit = table.get("largest_impulse_m_s")
-    for one in optimal["least_by_time"][:3] + optimal["least_by_time"][-1:]:
-        duration = REAL(one["time_s"])
-        if abs(duration) < 0.02 * scene.period:
-            continue
-        told = one["linear_change_m_s"]
-        looks = coast_times(flights.field, scene.chief, duration, 30)
-        effects, change = linear_programme(scene, flights, duration, looks)
-        found = least_sum(effects, change)
-        if found is None or told is None:
-            continue
-        primal, dual = found
-        judgement.note("optimal: gap of the judge", primal / dual - 1 if dual else 0)
-        what = f"optimal: least sum in {float(duration):.6g} s (m/s)"
-        # Looks leave out what lies between them: the primer vector is curved there by (step n)^2.
-        judgement.at_most(what + ", bound of the judge", dual * (1 - 0.01), told + 1e-9)
-        if limit is None:
-            judgement.at_most(what, told, primal * 1.01 + 1e-9)
-            continue
-        gap = table.get("impulse_gap_s", float(scene.period) / 72)
-        gap = max(gap, 1e-3 * float(abs(duration)))
-        count = int(float(abs(duration)) / gap * (1 + 1e-9))
-        if 1 <= count <= 150 and primal > 0:
-            equal = [duration * k / count for k in range(count + 1)]
-            effects, change = linear_programme(scene, flights, duration, equal)
-            least = least_limited_sum(effects, change, limit)
-            if least is not None:
-                judgement.at_most(what + " of limited size, bound of the judge", least * 0.99,
-                                  told + 1e-9)
-                judgement.at_most(what + " of limited size", told, least * 1.02 + 1e-9)
-            else:
-                judgement.wrong(what + f": told {told:.6g} of limited size, the judge's programme "
-                                "has no solution")
+    looks = coast_times(flights.field, scene.chief, duration,
+                        24 if abs(scene.revolutions) < 4 else 10)
+    effects, changes = linear_programme(scene, flights, duration, looks)
+    found = [least_sum(effects, change) for change in changes]
+    if None in found:
+        return
+    judgement.note("optimal: gap of the judge", max(p / d - 1 for p, d in found if d))
+    # Looks, and the command's, leave out what lies between them: the primer vector is curved there
+    # by (step n)^2.
+    low, high = 0.97 * min(dual for _, dual in found), 1.03 * max(primal for primal, _ in found)
+    what = f"optimal: least sum in {float(duration):.6g} s (m/s)"
+    if limit is None:
+        if judgement.require(f"{what}: has none", told is not None):
+            judgement.at_most(what + ", bound of the judge", low, told + 1e-9)
+            judgement.at_most(what, told, high + 1e-9)
+        return
+    gap = max(table.get("impulse_gap_s", float(scene.period) / 72), 1e-3 * float(abs(duration)))
+    count = max(1, int(float(abs(duration)) / gap * (1 + 1e-12)))
+    # Of many times every so manieth is looked at, which only bounds from above.
+    every = -(-count // 120)
+    equal = [duration * k / count for k in sorted({*range(0, count, every), count})]
+    effects, changes = linear_programme(scene, flights, duration, equal)
+    programmes = [least_sum(effects, change, limit) for change in changes]
+    if None in programmes:
+        return
+    limited = [primal for primal, _ in programmes]
+    if told is None:
+        # Where the coast flown and the linear one differ in it, rounding may decide.
+        judgement.require(f"{what}: told that no impulses of limited size do it, the judge's sum is "
+                          f"{limited}", None in limited)
+        return
+    judgement.at_most(what + " of limited size, bound of the judge", low, told + 1e-9)
+    if told <= high:
+        return  # The least of any size are small enough, it may be.
+    if None not in limited:
+        judgement.at_most(what + " of limited size", told, max(limited) * 1.03 + 1e-9)
+    if every > 1:
+        return
+    if limited == [None, None]:
+        judgement.wrong(f"{what}: told {told:.6g} of limited size, the judge's programme has no "
+                        "solution")
+    elif None not in limited:
+        judgement.at_most(what + " of limited size, bound of the judge", 0.97 * min(
+            dual for _, dual in programmes), told + 1e-9)
 
 
 def judge_legs(judgement, scene, flights, name, plan, floor):
@@ -415,7 +474,7 @@ def judge_coasting(judgement, scene, summary, points):
     longest = scene.tables["transfer"]["longest_coast_s"]
     judgement.at_most("coasting: first impulse after (s)", abs(first), longest * (1 + 1e-9))
     for point in points:
-        if is_candidate(scene, point) and is_linear(scene):
+        if is_candidate(scene, point) and departure(scene) < 1e-3:
             judgement.at_most("coasting (m/s), beside an impulse at once",
                               plan["total_change_m_s"], point["total"] * (1 + 1e-2) + 1e-9)
 
