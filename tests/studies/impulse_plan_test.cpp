@@ -210,9 +210,13 @@ TEST(ImpulsePlan, FarAwayIsNotDearerThanOtherWays) {
   EXPECT_LE(plan.miss_m, scene.transfer->refined_miss_m);
   const double total = plan.total_change_m_s() * (1 - 1e-6);
   for (const TransferPoint& point : result.points) {
-    if (point.is_candidate()) EXPECT_LE(total, point.change_m_s());
+    if (point.is_candidate()) {
+      EXPECT_LE(total, point.change_m_s());
+    }
   }
-  if (result.least_between) EXPECT_LE(total, result.least_between->change_m_s());
+  if (result.least_between) {
+    EXPECT_LE(total, result.least_between->change_m_s());
+  }
   ASSERT_TRUE(result.coasting->plan.has_value());
   EXPECT_LE(total, result.coasting->plan->total_change_m_s());
   EXPECT_GT(total_of(result), 0.99 * 2 * 50e3 / (3 * 10.3 * std::numbers::pi));
