@@ -29,19 +29,20 @@ std::string vector_text(const Eigen::Vector3d& vector, int digits) {
 }
 
 std::string drift_text(const std::optional<RelativeDrift>& drift, const RelativeState& state,
-                       RelativeFrame frame) {
+                       RelativeFrame frame, std::string_view where) {
   if (!drift) return "";
   const double per_revolution = std::abs(drift->per_revolution_m);
   const double held = std::max(drift->floor_m, held_share * state.position_m.norm());
   if (per_revolution <= held) {
-    return fmt::format("Left to itself it stays there: it drifts by {} a revolution.",
+    return fmt::format("Left to itself{} it stays there: it drifts by {} a revolution.", where,
                        drift->is_none() ? "less than " + length_text(drift->floor_m)
                                         : length_text(per_revolution));
   }
   std::string text = fmt::format(
-      "Left to itself it drifts {} a revolution {} along the track: its period is {:.3g} s {} than "
+      "Left to itself{} it drifts {} a revolution {} along the track: its period is {:.3g} s {} "
+      "than "
       "its chief's",
-      length_text(per_revolution), drift->per_revolution_m > 0 ? "forwards" : "backwards",
+      where, length_text(per_revolution), drift->per_revolution_m > 0 ? "forwards" : "backwards",
       std::abs(drift->period_difference_s), drift->period_difference_s > 0 ? "longer" : "shorter");
   if (drift->elements_m) {
     text += fmt::format(" (a da is {:.4g} m, and without drift 0)", (*drift->elements_m)[0]);
