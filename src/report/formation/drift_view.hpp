@@ -18,8 +18,9 @@ namespace hamjet::io {
 std::string drift_text(const std::optional<RelativeDrift>& drift, const RelativeState& state,
                        RelativeFrame frame, std::string_view where = "");
 
-/// Three numbers for people, "[0, 0.286157, 0]", as a scene takes them.
-std::string vector_text(const Eigen::Vector3d& vector, int digits);
+/// Three numbers for people, "[0, 0.286157, 0]", as a scene takes them; what is rounding beside the
+/// largest of them, and beside `scale`, is 0.
+std::string vector_text(const Eigen::Vector3d& vector, int digits, double scale = 0);
 
 /// The relative orbital elements by their names in scenes, "da_m -0.5, ..."; empty where there are
 /// none.
