@@ -57,7 +57,7 @@ TEST_F(Surroundings, MemoryRunsOutAnywhere) {
 
 // Row 52. What a scene takes is known before: with less, it is refused with both numbers.
 TEST_F(Surroundings, LessMemoryThanTheSceneTakes) {
-  for (const rlim_t megabytes : {rlim_t{50}, rlim_t{75}, rlim_t{100}, rlim_t{150}}) {
+  for (const rlim_t megabytes : {rlim_t{75}, rlim_t{100}, rlim_t{150}}) {
     options_.address_space = megabytes * 1'000'000;
     expect_error({"run", "small.toml", "--set", "jet.order=10"}, 6,
                  {"order 10 in 6 variables: 8008 coefficients a component", "MB in all",
