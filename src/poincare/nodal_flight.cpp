@@ -36,6 +36,7 @@ template <class Real>
 ReturnMap<Real> return_near(const ZonalGravity& field, const SixNumbers<Real>& chief,
                             const Real& near, int order, double tolerance) {
   using std::abs;
+  using std::sqrt;
   GaussSettings settings;
   settings.tolerance = tolerance;
   FlowBoxPropagation<Real> propagation(field, ChartName::nodal, chief, order, settings);
@@ -49,7 +50,9 @@ ReturnMap<Real> return_near(const ZonalGravity& field, const SixNumbers<Real>& c
     // An ulp of the time turns the chief by as much times its rate.
     const Real rounding =
         Real(100) * std::numeric_limits<Real>::epsilon() * (Real(1) + Real(abs(Real(time * rate))));
-    if (abs(left) <= rounding) {
+    // What the flight itself rounds may be more, and is as good as at rest below this.
+    const Real at_rest = sqrt(std::numeric_limits<Real>::epsilon());
+    if (abs(left) <= rounding || (i == most_iterations && abs(left) <= at_rest)) {
       NodalFlight<Real> flight = nodal_flight(map);
       return {std::move(map), std::move(flight)};
     }
