@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "../algebra/raise_to.hpp"
+#include "../charts/coordinate_units.hpp"
 #include "../integrators/momentum_unit.hpp"
 #include "../studies/formation/deputy_flows.hpp"
 #include "../studies/integration.hpp"
@@ -84,8 +85,16 @@ FlowError FlowError::stated(const io::StoredJet& stored, const DeputyFlow& flow)
   const double relative = stored.error_by_degree[1];
   const Matrix<double> values = linear_values(flow);
   if (stored.flow_box) {
-    const Matrix<double> error = Matrix<double>::Constant(values.rows(), values.cols(),
-                                                          relative * values.cwiseAbs().maxCoeff());
+    const FlowBoxUnits units(stored.flow_box->section, initial_distance(stored.nominal_initial),
+                             stored.flow_box->field.mu);
+    const auto column = [](const std::vector<double>& numbers) {
+      return Eigen::Map<const Eigen::VectorXd>(numbers.data(),
+                                               static_cast<Eigen::Index>(numbers.size()));
+    };
+    // In the chief's own units the error of each coefficient is that part of the largest.
+    const Matrix<double> unit =
+        column(units.values) * column(units.variables).cwiseInverse().transpose();
+    const Matrix<double> error = relative * values.cwiseQuotient(unit).cwiseAbs().maxCoeff() * unit;
     result.bound_ = flow.exit_derivative().topRows(positions).cwiseAbs() * error *
                     flow.entry_derivative().cwiseAbs();
     return result;

@@ -2,9 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <utility>
 
+#include "../algebra/other_units.hpp"
+#include "../charts/coordinate_units.hpp"
+#include "../integrators/momentum_unit.hpp"
 #include "../studies/exact_flow.hpp"
 #include "../studies/formation/deputy_flows.hpp"
 #include "../studies/formation/orbit_charts.hpp"
@@ -26,6 +30,27 @@ void require_charts(const CoordinatesAtEnds& coordinates, Caller caller) {
                            ? "flow boxes are of both ends"
                            : "a stored jet has no scene to measure by, must name coordinates"));
   }
+}
+
+/// By how much a stored jet in these coordinates differs from another by degree, both in the
+/// chief's own units, in which the coefficients of a degree are compared with each other.
+std::vector<double> difference_by_degree(const FlowJet<Extended>& jet, const io::StoredJet& stored,
+                                         const CoordinatesAtEnds& coordinates) {
+  const double distance = initial_distance(stored.nominal_initial);
+  const auto units = [&](JetCoordinates end) {
+    return coordinate_units(chart_of(end), distance, canonical_mu);
+  };
+  std::vector<Extended> of_variables;
+  for (const double unit : units(coordinates.start)) of_variables.push_back(1 / Extended(unit));
+  const std::array<double, 6> of_values = units(coordinates.end);
+  const auto comparable = [&](FlowJet<Extended> one) {
+    for (std::size_t i = 0; i < one.size(); ++i) {
+      one[i] =
+          in_other_units<Extended>(std::move(one[i]), 1 / Extended(of_values[i]), of_variables);
+    }
+    return one;
+  };
+  return relative_error_by_degree(comparable(jet), comparable(stored.jet));
 }
 
 /// The gravity field of the scene, which must be the one that the jet's chief has moved in.
@@ -100,7 +125,7 @@ ConvertedJet converted_jet(const io::StoredJet& stored, const CoordinatesAtEnds&
     make_flow_box(result.stored, before.out_of(FlowMap<Extended>(stored.jet)).jet(), field);
     const FlowBoxMap<double> map = flow_box_map(result.stored);
     const FlowMap<Extended> back(convert_map<Extended>(flow_box_jet(field, map).jet()));
-    result.there_and_back = relative_error_by_degree(before.into(back).jet(), stored.jet);
+    result.there_and_back = difference_by_degree(before.into(back).jet(), stored, from);
     result.symplecticity = map.symplecticity();
     return result;
   }
@@ -116,8 +141,8 @@ ConvertedJet converted_jet(const io::StoredJet& stored, const CoordinatesAtEnds&
     for (std::size_t i = 0; i < jet.size(); ++i) jet[i][0] = stored.nominal_final[i];
   }
   if (!stored.flow_box) {
-    result.there_and_back = relative_error_by_degree(
-        before.into(after.out_of(FlowMap<Extended>(jet))).jet(), stored.jet);
+    result.there_and_back =
+        difference_by_degree(before.into(after.out_of(FlowMap<Extended>(jet))).jet(), stored, from);
   }
   result.symplecticity = symplecticity_by_degree(jet);
   return result;

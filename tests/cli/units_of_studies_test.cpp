@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <ostream>
 #include <regex>
 #include <string_view>
 
@@ -35,6 +36,9 @@ struct StudyCase {
   std::string tables;
   std::vector<std::string> arguments = {};
 };
+
+/// For messages and lists of tests.
+void PrintTo(const StudyCase& study, std::ostream* out) { *out << study.name; }
 
 const std::vector<StudyCase> all_cases = {
     {"Motion", "motion", "[deputy]\nposition_m = [10, -2000, 30]\nvelocity_m_s = [0.1, 0, 0.2]\n"},
@@ -114,14 +118,16 @@ class UnitsOfStudies : public EvalTest, public ::testing::WithParamInterface<Stu
     arguments.insert(arguments.end(), study.arguments.begin(), study.arguments.end());
     std::map<std::string, std::string> texts;
     if (study.command == "eval") {
-      arguments.emplace_back("--json");
+      arguments.insert(arguments.end(), {"--json", "-q"});
       texts["result"] = without_units(Json::parse(succeed(arguments).out)).dump(1);
       return texts;
     }
     arguments.insert(arguments.end(), {"-o", "out", "--verbose"});
-    // Times that the computation took stand in the details.
+    const CommandResult result = hamjet(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    // Times that the computation took stand among those of the study, of which the files have all.
     texts["terminal"] =
-        std::regex_replace(succeed(arguments).out, std::regex("[0-9.e+-]+ (ms|s|us|min)\\b"), "");
+        std::regex_replace(result.out, std::regex("[0-9.e+-]+ (ms|s|us|min|h)\\b"), "");
     for (const auto& entry : std::filesystem::directory_iterator(directory_ / "out")) {
       const std::string name = entry.path().filename().string();
       if (name == "summary.json") texts[name] = without_units(read_json(entry.path())).dump(1);

@@ -25,7 +25,8 @@ TEST(EnergyGuard, NoticesAnotherOrbitInAnyUnitOfLength) {
     for (const double tolerance : {1e-12, 1e-6, 1e-2}) {
       const double speed = 1 / std::sqrt(r);
       const std::vector<double> circle = {r, 0, 0, 0, speed, 0};
-      EnergyGuard<double> guard(constant_problem(kepler(), circle), tolerance, "test");
+      const FlowProblem<double> problem = constant_problem(kepler(), circle);
+      EnergyGuard<double> guard(problem, tolerance, "test");
       EXPECT_NO_THROW(guard.check(circle.data(), 1, 1.0));
       const std::vector<double> later = {0, r, 0, -speed, 0, 0};
       EXPECT_NO_THROW(guard.check(later.data(), 1, 1.0));
@@ -39,7 +40,8 @@ TEST(EnergyGuard, NoticesAnotherOrbitInAnyUnitOfLength) {
 // Next to an equilibrium all terms of the energy vanish, and rounding of what they become is no
 // other motion.
 TEST(EnergyGuard, KnowsTheRoundingOfTermsThatVanishAtTheStart) {
-  EnergyGuard<double> guard(constant_problem(double_well(), {0, 1e-9}), 1e-12, "test");
+  const FlowProblem<double> problem = constant_problem(double_well(), {0, 1e-9});
+  EnergyGuard<double> guard(problem, 1e-12, "test");
   // In the middle of a well, on the way through both: p^2/2 = 1/8.
   std::vector<double> bottom = {1 / std::numbers::sqrt2, 0.5};
   EXPECT_NO_THROW(guard.check(bottom.data(), 1, 1.0));

@@ -7,7 +7,10 @@
 #include <span>
 #include <utility>
 
+#include "../../algebra/other_units.hpp"
 #include "../../algebra/raise_to.hpp"
+#include "../../charts/coordinate_units.hpp"
+#include "../../integrators/momentum_unit.hpp"
 #include "../stopwatch.hpp"
 #include "deputy_flows.hpp"
 #include "hamjet/charts/flow_box.hpp"
@@ -27,6 +30,20 @@ FlowBoxMap<double> integrated_flow_box(const Scene& scene, const SixNumbers<doub
   return FlowBoxPropagation<double>(field, section_chart(start, field.mu), start, scene.order,
                                     settings)
       .advance_to(scene.duration);
+}
+
+/// The polynomials of a flow box in the chief's own units, in which the coefficients of a degree
+/// are compared with each other.
+FlowJet<Extended> comparable_flow_box(const Scene& scene, ChartName section,
+                                      const FlowJet<Extended>& jet) {
+  const FlowBoxUnits units(section, initial_distance(scene.nominal), orbit_field(scene).mu);
+  std::vector<Extended> of_variables;
+  for (const double unit : units.variables) of_variables.push_back(1 / Extended(unit));
+  FlowJet<Extended> result;
+  for (std::size_t i = 0; i < jet.size(); ++i) {
+    result.push_back(in_other_units<Extended>(jet[i], 1 / Extended(units.values[i]), of_variables));
+  }
+  return result;
 }
 
 FlowJet<Extended> values_of_flow_box(const FlowBoxMap<double>& map) {
@@ -86,7 +103,11 @@ void estimate_flow_box_error(const Scene& scene, ChartedJet& result) {
     settings.controls_all_degrees = true;
     const FlowBoxMap<double> map =
         integrated_flow_box(scene, moved_start(scene, generator), settings);
-    std::vector<double> shown = relative_error_by_degree(result.jet, values_of_flow_box(map));
+    const auto comparable = [&](const FlowJet<Extended>& jet) {
+      return comparable_flow_box(scene, *result.section, jet);
+    };
+    std::vector<double> shown =
+        relative_error_by_degree(comparable(result.jet), comparable(values_of_flow_box(map)));
     raise_to(shown[0], relative_difference(result.nominal_final, map.end->origin()));
     for (std::size_t d = 0; d < errors.size(); ++d) {
       raise_to(errors[d], error_estimate_safety * shown[d]);

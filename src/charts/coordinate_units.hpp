@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "hamjet/charts/canonical_chart.hpp"
+
+namespace hamjet {
+
+/// The chief's own units of a chart's coordinates, made of its distance r from the centre and the
+/// angular momentum L = sqrt(mu r) of a circle there: r, L/r, L, sqrt(L) of a pair of elements, and
+/// 1 of an angle. All are 1 in canonical units whose length is that distance.
+inline std::array<double, 6> coordinate_units(ChartName chart, double distance, double mu) {
+  const double action = std::sqrt(mu * distance);
+  const double momentum = action / distance;
+  const double pair = std::sqrt(action);
+  switch (chart) {
+    case ChartName::spherical:
+      return {1, distance, 1, action, momentum, action};
+    case ChartName::cylindrical:
+      return {1, distance, distance, action, momentum, momentum};
+    case ChartName::poincare:
+      return {1, pair, pair, action, pair, pair};
+    case ChartName::nodal:
+      return {1, 1, pair, action, action, pair};
+    case ChartName::cartesian:
+      break;
+  }
+  return {distance, distance, distance, momentum, momentum, momentum};
+}
+
+/// The same of a flow box's polynomials, whose sections are of a chart: the coefficients of one
+/// degree can be compared once variables and values are in these.
+struct FlowBoxUnits {
+  FlowBoxUnits(ChartName section, double distance, double mu) {
+    const std::array<double, 6> units = coordinate_units(section, distance, mu);
+    // The difference of the periods, or of the energies in the chief's own, has no unit.
+    variables.push_back(1);
+    values.push_back(distance * std::sqrt(distance / mu));
+    const bool ignores_node = section == ChartName::nodal;
+    for (const std::size_t place :
+         {std::size_t{1}, std::size_t{2}, std::size_t{4}, std::size_t{5}}) {
+      if (place == 1 && ignores_node) continue;
+      variables.push_back(units[place]);
+      values.push_back(units[place]);
+    }
+    if (ignores_node) values.push_back(1);
+  }
+
+  std::vector<double> variables;
+  std::vector<double> values;
+};
+
+}  // namespace hamjet
