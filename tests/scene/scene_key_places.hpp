@@ -104,7 +104,7 @@ inline const std::map<std::string, Place>& special_places() {
   static const Override of_second = {"nominal",
                                      "{position_km=[2569.540800, 2245.093614, 6281.599946], "
                                      "velocity_km_s=[-2.888612500, -6.007247516, 3.328770172]}"};
-  static const Override at_chief = {"deputy", "{position_m=[0, 1, 0]}"};
+  static const Override at_chief = {"deputy.position_m", "[0, 1, 0]"};
   static const Override no_rotation = {"canonical_transformation.rotation_cosine", "null"};
   static const Override matrix = {"canonical_transformation.matrix", "[[1, 0], [0, 1]]"};
   static const Override no_step = {"integrator.0.step_canonical", "null"};
