@@ -229,7 +229,7 @@ TEST(CovarianceFile, AxesHaveSeveralNames) {
   EXPECT_EQ(frame_of("J2000"), RelativeFrame::inertial);
   EXPECT_EQ(frame_of("EME2000", "J2000"), RelativeFrame::inertial);
   expect_refused_beside(opm("TNW"), earth_scene() + dated(closest) + of_message,
-                        {"a covariance in other axes, got TNW in", ":16, must be RTN (or RSW"});
+                        {"a covariance in other axes, got TNW in", ":17, must be RTN (or RSW"});
   expect_refused_beside(opm("GCRF"), earth_scene() + dated(closest) + of_message,
                         {"a covariance in other axes, got GCRF", "the chief's EME2000"});
 }

@@ -253,7 +253,8 @@ TEST(SceneDeputy, OfAMessageIsOfTheChiefsMomentAxesAndCentre) {
           {"deputy.opm_file: a state of another moment than the chief's, got 2021-06-03T00:00:00",
            "must be 2021-06-03T00:00:01.000000000000 UTC"});
   refused(dated("2021-06-03T00:00:00", "EME2000"),
-          {"deputy.opm_file: a state in other axes than the chief's, got TOD, must be EME2000"});
+          {"deputy.opm_file: a state in other axes than the chief's, got TOD of date, must be "
+           "EME2000"});
   const std::string same = changed(dated("2021-06-03T00:00:00", "TOD"), "[42164, 0, 0]",
                                    "[6655.9942, -40218.5751, -82.9177]");
   EXPECT_NO_THROW(read(changed(same, "[0, 3.07, 0]", "[3.11548208, 0.47042605, -0.00101495]")));

@@ -97,6 +97,14 @@ inline const std::map<std::string, Place>& special_places() {
       "ephemeris",
       "{epoch=\"2010-03-13T22:37:52.618\", time_system=\"UTC\", reference_frame=\"EME2000\", "
       "center_name=\"EARTH\"}"};
+  // The states of its two objects.
+  static const Override of_first = {"nominal",
+                                    "{position_km=[2570.097065, 2244.654904, 6281.497978], "
+                                    "velocity_km_s=[4.418769571, 4.833547743, -3.526774282]}"};
+  static const Override of_second = {"nominal",
+                                     "{position_km=[2569.540800, 2245.093614, 6281.599946], "
+                                     "velocity_km_s=[-2.888612500, -6.007247516, 3.328770172]}"};
+  static const Override at_chief = {"deputy.position_m", "[0, 1, 0]"};
   static const Override no_rotation = {"canonical_transformation.rotation_cosine", "null"};
   static const Override matrix = {"canonical_transformation.matrix", "[[1, 0], [0, 1]]"};
   static const Override no_step = {"integrator.0.step_canonical", "null"};
@@ -223,13 +231,20 @@ inline const std::map<std::string, Place>& special_places() {
       {"uncertainty.times_orbits", {"", {no_uncertainty_count}}},
       {"uncertainty.times_canonical", {"", {no_uncertainty_count}}},
       {"uncertainty.covariance_m_m_s", {"", {{"uncertainty.position_m", "null"}}, covariance_text}},
-      {"uncertainty.file", {"", {{"uncertainty.position_m", "null"}, dated}, cdm}},
+      {"uncertainty.file", {"", {{"uncertainty.position_m", "null"}, dated, of_first}, cdm}},
       {"uncertainty.object",
-       {"", {{"uncertainty.position_m", "null"}, dated, {"uncertainty.file", cdm}}, "\"OBJECT2\""}},
-      {"uncertainty.deputy.file", {"", {{"uncertainty.deputy.position_m", "null"}, dated}, cdm}},
+       {"",
+        {{"uncertainty.position_m", "null"}, dated, of_second, {"uncertainty.file", cdm}},
+        "\"OBJECT2\""}},
+      {"uncertainty.deputy.file",
+       {"", {{"uncertainty.deputy.position_m", "null"}, dated, of_second, at_chief}, cdm}},
       {"uncertainty.deputy.object",
        {"",
-        {{"uncertainty.deputy.position_m", "null"}, dated, {"uncertainty.deputy.file", cdm}},
+        {{"uncertainty.deputy.position_m", "null"},
+         dated,
+         of_first,
+         at_chief,
+         {"uncertainty.deputy.file", cdm}},
         "\"OBJECT1\""}},
       {"uncertainty.deputy.covariance_m_m_s",
        {"", {{"uncertainty.deputy.position_m", "null"}}, covariance_text}},
