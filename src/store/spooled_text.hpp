@@ -15,7 +15,7 @@ namespace hamjet::io {
 class SpooledText {
  public:
   /// Bytes that are kept in memory.
-  static constexpr std::size_t most_in_memory = std::size_t{16} << 20;
+  static constexpr std::size_t most_in_memory = std::size_t{4} << 20;
 
   void add(std::string_view text);
   /// Hands out the whole text, piece by piece.

@@ -59,11 +59,11 @@ TEST_F(Memory, DoesNotGrowWithTheRowsOfATable) {
   // The first megabytes of what is printed are kept in memory.
   for (const std::vector<std::string>& more :
        {std::vector<std::string>{"-o", "end.csv"}, {"--json"}, {}}) {
-    const long growth = peak(350'000, more) - peak(150'000, more);
-    EXPECT_LT(growth, 20'000'000) << ::testing::PrintToString(more);
+    const long growth = peak(160'000, more) - peak(60'000, more);
+    EXPECT_LT(growth, 15'000'000) << ::testing::PrintToString(more);
   }
   const Table table = read_table(directory_ / "end.csv");
-  EXPECT_EQ(table.rows.size(), 150'000U);
+  EXPECT_EQ(table.rows.size(), 60'000U);
   EXPECT_EQ(table.rows.front(), table.rows.back());
 #endif
 }

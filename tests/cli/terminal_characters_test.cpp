@@ -46,7 +46,7 @@ TEST_F(TerminalCharacters, OfTitlesAreShownAsEscapes) {
         {"run", "hostile.toml"},
         {"run", "hostile.toml", "--verbose"},
         {"motion", "hostile.toml", "--set", "deputy={position_m=[0, 100, 0]}"},
-        {"validity", "hostile.toml", "--set", "validity={count=1, samples=2}"}}) {
+        {"validity", "hostile.toml", "--set", "validity={count=1, samples=10}"}}) {
     SCOPED_TRACE(::testing::PrintToString(command));
     const CommandResult result = hamjet(command);
     EXPECT_EQ(result.exit_code, 0) << result.err;
