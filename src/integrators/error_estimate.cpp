@@ -101,11 +101,11 @@ std::vector<double> relative_differences(const FlowJet<Real>& a, const FlowJet<R
   return result;
 }
 
-/// By degree, the larger of `result` and the error that a run along a direction shows.
+/// By degree, the larger of `result` and the error that a known line shows.
 template <class Real>
-void include_run(std::vector<double>& result, const Direction<Real>& direction,
-                 const FlowJet<Real>& run, bool is_known, const std::vector<double>& largest) {
-  const std::vector<double> shown = relative_differences(direction.jet, run, is_known, largest);
+void include_known(std::vector<double>& result, const Direction<Real>& direction,
+                   const FlowJet<Real>& run, const std::vector<double>& largest) {
+  const std::vector<double> shown = relative_differences(direction.jet, run, true, largest);
   const std::vector<double> along = largest_by_degree(run);
   for (std::size_t d = 0; d < result.size(); ++d) {
     if (along[d] == 0 && largest[d] == 0) continue;
@@ -262,12 +262,30 @@ std::span<const Direction<Real>> directions_of_run(const Directions<Real>& drawn
   return std::span(drawn).first(directions_of_runs[number]);
 }
 
-/// By degree, the largest of `result` and the errors that a run shows along its directions.
+/// By degree, the larger of `result` and the error that a run shows along its directions: the root
+/// mean square over them, for one may be blind to it and another sum up much that is small,
+/// relative to the smaller of that of the run and the jet's largest coefficient.
 template <class Real>
 void include_lines(std::vector<double>& result, std::span<const Direction<Real>> directions,
                    const std::vector<FlowJet<Real>>& lines, const std::vector<double>& largest) {
+  std::vector<double> error(result.size(), 0);
+  std::vector<double> along(result.size(), 0);
   for (std::size_t j = 0; j < directions.size(); ++j) {
-    include_run(result, directions[j], lines[j], false, largest);
+    const std::vector<double> difference = differences(directions[j].jet, lines[j]);
+    const std::vector<double> size = largest_by_degree(lines[j]);
+    for (std::size_t d = 0; d < result.size(); ++d) {
+      error[d] = std::hypot(error[d], difference[d]);
+      along[d] = std::hypot(along[d], size[d]);
+    }
+  }
+  const double root = std::sqrt(static_cast<double>(directions.size()));
+  for (std::size_t d = 0; d < result.size(); ++d) {
+    const double mean = along[d] / root;
+    if (mean == 0 && largest[d] == 0) continue;
+    const double scale =
+        mean > 0 && largest[d] > 0 ? std::min(mean, largest[d]) : std::max(mean, largest[d]);
+    raise_to(result[d], rounding<Real>());
+    raise_to(result[d], error_estimate_safety * error[d] / root / scale);
   }
 }
 
@@ -296,7 +314,7 @@ std::vector<double> estimate_error(const FlowProblem<Real>& problem, const FlowJ
     std::vector<double> shown(degrees, 0);
     for (std::size_t k = 0; k < taken.size(); ++k) {
       const FlowJet<Real> run = in_momentum_unit(known[k].jet, variable_of_line, exponent);
-      include_run(shown, taken[k], run, true, largest);
+      include_known(shown, taken[k], run, largest);
       include_nominals(shown, first[0], run, largest[0]);
     }
     if (is_confirmed(result, shown)) {
@@ -342,11 +360,11 @@ std::vector<std::vector<double>> estimate_errors(const FlowProblem<Real>& proble
                                     observer_of_run<Real>(problem.duration, number, settings));
     for (std::size_t i = 0; i < times.size(); ++i) {
       const auto lines = lines_of_run<Real>(along.at(times[i]), settings);
-      for (std::size_t j = 0; j < lines.size(); ++j) {
-        const Direction<Real> direction{directions[j].entries,
-                                        restrict_to_line(jets[i], directions[j].entries, line)};
-        include_run(result[i], direction, lines[j], false, largest[i]);
+      Directions<Real> at_time;
+      for (const Direction<Real>& direction : directions) {
+        at_time.push_back({direction.entries, restrict_to_line(jets[i], direction.entries, line)});
       }
+      include_lines<Real>(result[i], at_time, lines, largest[i]);
       if (number > 0) include_nominals(result[i], first[i], lines[0], largest[i][0]);
       first[i] = lines[0];
     }
