@@ -50,7 +50,7 @@ def draw(source):
     covariance, frame = draw_known(scene, own, sigma * source.uniform(0.2, 1), frames=False)
     scene.deputy_covariance = inertial_covariance(scene.deputy_state, covariance, frame)
     collision = table["collision"] = {"radius_m": sigma * source.logarithmic(0.03, 2),
-                                      "samples": 6000}
+                                      "samples": 3000}
     table["seed"] = source.integer(1, 10 ** 6)
     scene.window = [0.0, float(scene.duration)]
     if source.chance(0.5):
