@@ -6,12 +6,14 @@
 #include <numeric>
 
 #include "../integrators/concurrent_tasks.hpp"
+#include "../studies/checks/flight_checks.hpp"
 #include "../studies/formation/deputy_flows.hpp"
 #include "../studies/formation/formation_problem.hpp"
 #include "../studies/formation/single_transfer.hpp"
 #include "../studies/stopwatch.hpp"
 #include "hamjet/algebra/calculus.hpp"
 #include "hamjet/charts/flow_box_states.hpp"
+#include "hamjet/error.hpp"
 #include "hamjet/studies/validity.hpp"
 
 namespace hamjet::cli {
@@ -27,6 +29,12 @@ EvaluatedScene evaluated_scene(const Scene& scene) {
     const Stopwatch watch(result.seconds);
     DeputyFlowPropagation propagation(scene, problem, integrator, result.coordinates);
     result.flow = propagation.advance_to(scene.duration);
+    try {
+      result.error = FlowError::measured(scene, problem, propagation.coordinates(), *result.flow);
+    } catch (const Error& error) {
+      // The flow is there all the same; nothing is known of its errors then, which is said.
+      if (error.kind() != ErrorKind::numerical) throw;
+    }
     if (const auto& box = propagation.flow_box()) {
       chief.flow_box = {box->start->chart().name(), orbit_field(scene)};
       result.stored_end.assign(box->end->origin().begin(), box->end->origin().end());
@@ -37,6 +45,7 @@ EvaluatedScene evaluated_scene(const Scene& scene) {
   chief.label = integrator.label;
   chief.model = scene.system.model;
   chief.units = scene.units;
+  result.told = told_factors(scene);
   chief.duration = scene.duration;
   chief.nominal_initial = scene.nominal;
   chief.nominal_final.assign(result.flow->chief_end().begin(), result.flow->chief_end().end());
@@ -46,6 +55,7 @@ EvaluatedScene evaluated_scene(const Scene& scene) {
   std::iota(chief.components.begin(), chief.components.end(), std::size_t{0});
   chief.variables = chief.components;
   chief.ephemeris = scene.ephemeris;
+  result.checks = flight_checks(scene, flights_of(scene, scene.duration, false));
   return result;
 }
 
@@ -80,6 +90,7 @@ EvaluatedScene evaluated_jet(const io::StoredJet& stored) {
     result.chief.nominal_final.assign(result.flow->chief_end().begin(),
                                       result.flow->chief_end().end());
     set_rounding(linear_part_of(stored.flow_box->field, map));
+    result.error = FlowError::stated(stored, *result.flow);
     return result;
   }
   const FlowMap<double> map(convert_map<double>(stored.jet));
@@ -93,6 +104,7 @@ EvaluatedScene evaluated_jet(const io::StoredJet& stored) {
   // The linear part in positions and momenta is that of the jet, whatever it is written in.
   set_rounding(result.flow->exit_derivative() * linear_part(without_constants(map.jet())) *
                result.flow->entry_derivative());
+  result.error = FlowError::stated(stored, *result.flow);
   return result;
 }
 
@@ -148,6 +160,7 @@ void DeputyEvaluation::predict(std::span<const SixNumbers<double>> initial, Work
     MissEstimate& told = worker.estimates[start + k];
     if (!is_curved) {
       told = estimate(found);
+      add_errors(initial[k], found.deviation, told);
     } else if (degree_ > 1 && !is_nearly_straight(initial[k], found)) {
       bent.push_back(k);
     } else {
@@ -224,7 +237,29 @@ MissEstimate DeputyEvaluation::estimate(const DeputyPrediction& prediction) cons
   };
   const TruncationEstimate truncation = estimate_truncation(
       degree_, {norms(lower), norms(prediction.last_but_one), norms(prediction.last)});
-  return {truncation.support, truncation.miss, scene_.rounding_m};
+  return {truncation.support, truncation.miss, 0};
+}
+
+double DeputyEvaluation::chief_error() const {
+  const double length_m = scene_.chief.units.length_km * 1000;
+  return std::max(scene_.error.of_chief(), scene_.rounding_m / length_m);
+}
+
+void DeputyEvaluation::add_errors(const SixNumbers<double>& initial,
+                                  const SixNumbers<double>& found, MissEstimate& told) const {
+  const auto speed = [](const SixNumbers<double>& z) { return std::hypot(z[3], z[4], z[5]); };
+  const double length_m = scene_.chief.units.length_km * 1000;
+  told.rounding_m = scene_.rounding_m;
+  told.integration_m = scene_.error.of_deviation(initial) * length_m;
+  if (scene_.coordinates == JetCoordinates::cartesian) return;
+  const SixNumbers<double>& chief = scene_.flow->chief_end();
+  SixNumbers<double> deputy = chief;
+  for (std::size_t i = 0; i < deputy.size(); ++i) deputy[i] += found[i];
+  // What is behind in time is behind by as much more in place as it is faster than the chief.
+  const double faster = std::max(1.0, speed(deputy) / speed(chief));
+  told.rounding_m *= faster;
+  told.integration_m *= faster;
+  told.integration_m += speed(found) / speed(chief) * chief_error() * length_m;
 }
 
 MissEstimate DeputyEvaluation::curved_estimate(const SixNumbers<double>& initial,
@@ -238,7 +273,8 @@ MissEstimate DeputyEvaluation::curved_estimate(const SixNumbers<double>& initial
     return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
   };
   const SixNumbers<double> none{};
-  MissEstimate result{Support::unknown, 0, scene_.rounding_m};
+  MissEstimate result{Support::unknown, 0, 0};
+  add_errors(initial, found, result);
   if (degree_ < 2) return result;
   const double change = distance(found, below);
   if (!std::isfinite(change)) return result;

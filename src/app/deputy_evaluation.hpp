@@ -5,8 +5,10 @@
 #include <span>
 #include <vector>
 
+#include "flow_error.hpp"
 #include "hamjet/charts/deputy_flow.hpp"
 #include "hamjet/charts/jet_coordinates.hpp"
+#include "hamjet/detail/studies/self_checks.hpp"
 #include "hamjet/formats/stored_jet.hpp"
 #include "jet_evaluation.hpp"
 #include "processors.hpp"
@@ -17,13 +19,17 @@ namespace hamjet::cli {
 struct EvaluatedScene {
   /// The chief, as the results of a run have it; without coefficients.
   io::StoredJet chief;
+  CanonicalFactors told;          ///< see told_factors
   ChosenCoordinates coordinates;  ///< not automatic
   std::shared_ptr<const DeputyFlow> flow;
   /// The chief's final state as a jet is stored with it. Of flow boxes the section at the end goes
   /// through it, and deviations are counted from what it is in the section's chart and back.
   std::vector<double> stored_end;
   double rounding_m = 0;  ///< of a deputy's final position, at a flight's floor
+  FlowError error;        ///< of the integration
   double seconds = 0;     ///< of the integration; 0 of a stored jet
+  std::vector<SelfCheck>
+      checks;  ///< of the chief's flight; none of a stored jet, which has its own
 };
 
 /// Integrates the polynomials of a scene about an orbit in all six variables. Throws Error(scene)
@@ -54,6 +60,8 @@ class DeputyEvaluation {
   void run(const std::function<void(const std::vector<double>&, const MissEstimate&)>& take);
 
   std::size_t pending() const { return pending_.size(); }
+  /// By how much the chief's final position may be wrong, canonical.
+  double chief_error() const;
   /// Seconds of all predictions so far, the coordinates at both ends included, and the lower
   /// degrees that the estimate needs.
   double seconds() const { return seconds_; }
@@ -76,6 +84,11 @@ class DeputyEvaluation {
 
   /// In positions and momenta, whose degrees add up: see estimate_truncation.
   MissEstimate estimate(const DeputyPrediction& prediction) const;
+  /// Adds what flights and integrations are wrong by. In curved coordinates a deputy is told about
+  /// the chief's end, so that it comes too late or too early as the chief does, at a speed of its
+  /// own.
+  void add_errors(const SixNumbers<double>& initial, const SixNumbers<double>& found,
+                  MissEstimate& told) const;
   /// Whether what the two highest degrees add to a deviation is small and near enough for the
   /// derivatives at the chief to tell, to some percent; else the lower degrees go through the
   /// curved ends themselves.

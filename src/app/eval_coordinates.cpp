@@ -91,8 +91,9 @@ void EvalFrames::check() const {
   }
 }
 
-EvalCoordinates::EvalCoordinates(const io::StoredJet& stored, const EvalFrames& frames)
-    : stored_(stored) {
+EvalCoordinates::EvalCoordinates(const io::StoredJet& stored, const EvalFrames& frames,
+                                 const CanonicalFactors& told)
+    : stored_(stored), told_(told) {
   frames.check();
   if (frames.frame == canonical_frame) {
     const auto names = stored.variable_names();
@@ -111,6 +112,8 @@ EvalCoordinates::EvalCoordinates(const io::StoredJet& stored, const EvalFrames& 
   const DeputyForm final = form_of(frames.final_frame(), frames.derivatives);
   initial_columns_ = columns_of(initial);
   final_columns_ = columns_of(final);
+  has_axes_of_chief_ = final == DeputyForm::rtn_rotating || final == DeputyForm::rtn_inertial ||
+                       final == DeputyForm::curvilinear;
   const MetricUnits units{stored.units.length_km * 1000, stored.units.time_s};
   text_ = text_of(initial);
   if (final != initial) text_ += ", results " + text_of(final);
@@ -119,18 +122,28 @@ EvalCoordinates::EvalCoordinates(const io::StoredJet& stored, const EvalFrames& 
   final_.emplace(stored.nominal_final, units, 1, final);
 }
 
+double EvalCoordinates::told_factor(std::size_t component) const {
+  return component < stored_.nominal_initial.size() / 2 ? told_.length : told_.momentum;
+}
+
 std::vector<double> EvalCoordinates::initial_row(std::span<const double> canonical) const {
   if (initial_) {
     const auto numbers = initial_->coordinates(canonical);
     return {numbers.begin(), numbers.end()};
   }
   std::vector<double> row;
-  for (const std::size_t v : stored_.variables) row.push_back(canonical[v]);
+  for (const std::size_t v : stored_.variables) row.push_back(canonical[v] * told_factor(v));
   return row;
 }
 
 std::vector<double> EvalCoordinates::variables(std::span<const double> deviation) const {
-  if (!initial_) return std::vector<double>(deviation.begin(), deviation.end());
+  if (!initial_) {
+    std::vector<double> numbers;
+    for (std::size_t i = 0; i < deviation.size(); ++i) {
+      numbers.push_back(deviation[i] / told_factor(stored_.variables[i]));
+    }
+    return numbers;
+  }
   const std::array<double, 6> canonical = [&] {
     try {
       return initial_->deviation(deviation);
@@ -160,8 +173,25 @@ std::vector<double> EvalCoordinates::variables(std::span<const double> deviation
   return result;
 }
 
+double EvalCoordinates::turned_m(std::span<const double> components, double chief_error) const {
+  if (!has_axes_of_chief_) return 0;
+  double separation = 0;
+  for (std::size_t c = 0; c < components.size() && stored_.components[c] < 3; ++c) {
+    separation = std::hypot(separation, components[c]);
+  }
+  const auto& chief = stored_.nominal_final;
+  const double distance = std::hypot(chief[0], chief[1], chief[2]);
+  return chief_error / distance * separation * stored_.units.length_km * 1000;
+}
+
 std::vector<double> EvalCoordinates::final_state(std::span<const double> components) const {
-  if (!final_) return {components.begin(), components.end()};
+  if (!final_) {
+    std::vector<double> numbers;
+    for (std::size_t c = 0; c < components.size(); ++c) {
+      numbers.push_back(components[c] * told_factor(stored_.components[c]));
+    }
+    return numbers;
+  }
   std::vector<double> full(stored_.nominal_initial.size(), 0);
   for (std::size_t c = 0; c < components.size(); ++c) full[stored_.components[c]] = components[c];
   try {

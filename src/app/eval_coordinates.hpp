@@ -34,9 +34,11 @@ struct EvalFrames {
 /// canonical, or a relative state of an orbit in metres and m/s.
 class EvalCoordinates {
  public:
-  /// Throws Error(usage) if the words are wrong or do not fit the jet's model, and Error(numerical)
-  /// as DeputyCoordinates.
-  EvalCoordinates(const io::StoredJet& stored, const EvalFrames& frames);
+  /// `told` takes the jet's canonical numbers into those that the user gives and wants. Throws
+  /// Error(usage) if the words are wrong or do not fit the jet's model, and Error(numerical) as
+  /// DeputyCoordinates.
+  EvalCoordinates(const io::StoredJet& stored, const EvalFrames& frames,
+                  const CanonicalFactors& told = {});
 
   /// The frame in words, with the derivatives.
   const std::string& text() const { return text_; }
@@ -44,21 +46,29 @@ class EvalCoordinates {
   const std::vector<std::string_view>& initial_columns() const { return initial_columns_; }
   const std::vector<std::string_view>& final_columns() const { return final_columns_; }
 
-  /// A canonical deviation (dq, dp) in the numbers of the initial columns.
+  /// A canonical deviation (dq, dp) of the jet in the numbers of the initial columns.
   std::vector<double> initial_row(std::span<const double> canonical) const;
   /// The jet's variables of a deviation. Throws Error(usage) if the deviation has other components
   /// too, of which the jet says nothing, or is none of a deputy.
   std::vector<double> variables(std::span<const double> deviation) const;
+  /// By how much a final position turns with its axes, in metres, where they are the chief's and
+  /// its final position is wrong by so much, canonical.
+  double turned_m(std::span<const double> components, double chief_error) const;
   /// The final state of the jet's components; NaN where that has not what the form needs.
   std::vector<double> final_state(std::span<const double> components) const;
 
  private:
+  /// By what a component of the state is multiplied to be told.
+  double told_factor(std::size_t component) const;
+
   const io::StoredJet& stored_;
+  CanonicalFactors told_;
   std::vector<std::string_view> initial_columns_;
   std::vector<std::string_view> final_columns_;
   std::string text_ = "canonical";
   std::optional<DeputyCoordinates> initial_;  ///< absent: canonical
   std::optional<DeputyCoordinates> final_;
+  bool has_axes_of_chief_ = false;  ///< the final numbers, of positions
 };
 
 }  // namespace hamjet::cli

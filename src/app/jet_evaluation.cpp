@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "flow_error.hpp"
 #include "hamjet/algebra/composition.hpp"
 
 namespace hamjet::cli {
@@ -21,7 +22,8 @@ JetEvaluation::JetEvaluation(const io::StoredJet& stored, const std::vector<Seri
                                                            stored.nominal_initial.size() / 2) -
                                           stored.components.begin())),
       momentum_unit_(std::ldexp(1.0, stored.momentum_exponent())),
-      length_m_(stored.units.length_km * 1000) {
+      length_m_(stored.units.length_km * 1000),
+      chief_error_(stated_chief_error(stored)) {
   if (degree < stored.order()) whole_.emplace(map);
 }
 
@@ -61,7 +63,7 @@ MissEstimate JetEvaluation::estimate(std::size_t point) const {
     error += std::pow(errors_[place], 2);
   }
   return {truncation.support, truncation.miss + std::sqrt(left_out) * length_m_,
-          std::sqrt(error) * length_m_};
+          std::sqrt(error) * length_m_, 0};
 }
 
 void JetEvaluation::run(

@@ -17,9 +17,12 @@ struct MissEstimate {
   /// Rounding of coefficients and evaluation, and the coefficients' errors where the jet states
   /// them: see evaluation_error.
   double rounding_m = 0;
+  /// Errors of the integration of the chief and of the polynomials, as far as they are known and
+  /// not counted above, and what the first turn the axes by.
+  double integration_m = 0;
 
   bool is_inside() const { return support == TruncationEstimate::Support::inside; }
-  double miss_m() const { return truncation_m + rounding_m; }
+  double miss_m() const { return truncation_m + rounding_m + integration_m; }
 };
 
 /// Evaluates the deviations from a stored jet's nominal, a few thousand at a time, and measures the
@@ -40,6 +43,8 @@ class JetEvaluation {
   void run(const std::function<void(const std::vector<double>&, const MissEstimate&)>& take);
 
   std::size_t pending() const { return pending_.size(); }
+  /// By how much the chief's final position may be wrong, canonical; 0 where the jet says nothing.
+  double chief_error() const { return chief_error_; }
   std::size_t points() const { return points_; }
   /// Seconds of all evaluations so far, without conversions, input and output.
   double seconds() const { return seconds_; }
@@ -56,6 +61,7 @@ class JetEvaluation {
   std::size_t positions_;              ///< how many components are positions, the first ones
   double momentum_unit_;               ///< that makes momenta alike to positions, see DegreeShares
   double length_m_;
+  double chief_error_;
   std::vector<std::vector<double>> pending_;
   std::size_t points_ = 0;
   double seconds_ = 0;

@@ -6,9 +6,9 @@
 #include <string>
 #include <system_error>
 
-#include "../store/file_system.hpp"
 #include "../store/sealed_summary.hpp"
 #include "../store/text_file.hpp"
+#include "../store/whole_file.hpp"
 #include "hamjet/error.hpp"
 
 namespace hamjet::cli {
@@ -48,6 +48,7 @@ void require_replaceable(const std::filesystem::path& file) {
     throw Error(ErrorKind::input_output,
                 fmt::format("{}: cannot be written: not a regular file", io::printable_path(file)));
   }
+  io::refuse_replacing_link(file);
   refuse_results(file);
   io::require_writable(file.has_parent_path() ? file.parent_path() : ".");
 }

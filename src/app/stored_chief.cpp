@@ -1,10 +1,64 @@
 #include "stored_chief.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "../algebra/other_units.hpp"
+#include "hamjet/algebra/composition.hpp"
+
 namespace hamjet::cli {
+namespace {
+
+bool are_same(const CanonicalUnits& a, const CanonicalUnits& b) {
+  return a.length_km == b.length_km && a.time_s == b.time_s;
+}
+
+/// Whether positions and momenta are the same but for the roundings of two units.
+bool are_nearly_same(const std::vector<double>& a, const std::vector<double>& b) {
+  if (a.size() != b.size()) return false;
+  constexpr double roundings = 8 * std::numeric_limits<double>::epsilon();
+  const std::size_t n = a.size() / 2;
+  for (const std::size_t first : {std::size_t{0}, n}) {
+    double size = 0;
+    double apart = 0;
+    for (std::size_t i = first; i < first + n; ++i) {
+      size = std::max(size, std::abs(a[i]));
+      apart = std::max(apart, std::abs(a[i] - b[i]));
+    }
+    if (!(apart <= roundings * size)) return false;
+  }
+  return true;
+}
+
+}  // namespace
 
 bool is_about_chief(const io::StoredJet& stored, const Scene& scene) {
-  return stored.model == scene.system.model && stored.units.length_km == scene.units.length_km &&
-         stored.units.time_s == scene.units.time_s && stored.nominal_initial == scene.nominal;
+  if (stored.model != scene.system.model || !are_same(stored.units, told_units(scene))) {
+    return false;
+  }
+  if (are_same(stored.units, scene.units)) return stored.nominal_initial == scene.nominal;
+  return are_nearly_same(told_state(scene, scene.nominal), stored.nominal_initial);
+}
+
+double duration_in_units_of(const Scene& scene, const io::StoredJet& stored) {
+  return convert<double>(Extended(stored.duration) * stored.units.time_s / scene.units.time_s);
+}
+
+FlowJet<double> jet_in_units_of(const Scene& scene, const io::StoredJet& stored) {
+  const Extended length = Extended(stored.units.length_km) / scene.units.length_km;
+  const Extended momentum = length * scene.units.time_s / stored.units.time_s;
+  const std::size_t n = stored.nominal_initial.size() / 2;
+  std::vector<Extended> of_variables;
+  for (const std::size_t v : stored.variables) of_variables.push_back(v < n ? length : momentum);
+  FlowJet<double> jet;
+  for (std::size_t c = 0; c < stored.jet.size(); ++c) {
+    const Extended& of_value = stored.components[c] < n ? length : momentum;
+    jet.push_back(convert_map<double>(
+        FlowJet<Extended>{in_other_units<Extended>(stored.jet[c], of_value, of_variables)})[0]);
+  }
+  return jet;
 }
 
 }  // namespace hamjet::cli

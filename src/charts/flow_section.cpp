@@ -99,8 +99,11 @@ SixNumbers<Real> FlowSection<Real>::state(const Real& energy, SixNumbers<Real> z
   z[3] = chief_[3];
   if (is_bound() && chart_.is_of_elements() && energy < 0) z[3] *= sqrt(Real(energy_ / energy));
   const SpacePointer space = SeriesSpace::create(1, 1);
-  // Quadratic convergence from an error of the order of J2: more iterations only round to and fro.
-  constexpr int most_iterations = 12;
+  // Newton's method doubles the digits from an error of the order of J2: a change below this that
+  // is not halved any more is rounding.
+  const Real largest_rounding = sqrt(std::numeric_limits<Real>::epsilon());
+  constexpr int most_iterations = 20;
+  Real last_change = 0;
   for (int i = 0; i < most_iterations; ++i) {
     SixNumbers<Series<Real>> series = constant_series(space, z);
     series[3][1] = Real(1);
@@ -111,9 +114,15 @@ SixNumbers<Real> FlowSection<Real>::state(const Real& energy, SixNumbers<Real> z
                   "section: no state of this energy and these coordinates lies near the chief's");
     }
     z[3] -= change;
-    if (abs(change) <= std::numeric_limits<Real>::epsilon() * abs(z[3])) break;
+    const bool is_rounding = i > 0 && abs(change) > Real(0.5) * abs(last_change) &&
+                             abs(change) <= largest_rounding * abs(z[3]);
+    if (is_rounding || abs(change) <= std::numeric_limits<Real>::epsilon() * abs(z[3])) {
+      return chart_.state(z);
+    }
+    last_change = change;
   }
-  return chart_.state(z);
+  throw Error(ErrorKind::numerical,
+              "section: Newton's method finds no state of this energy and these coordinates");
 }
 
 template class FlowSection<InstantiatedReal>;

@@ -6,11 +6,15 @@
 #include <variant>
 
 #include "../formats/relative_frame_text.hpp"
+#include "../report/formation/drift_view.hpp"
 #include "../report/propagation/orbit_summary.hpp"
 #include "../scene/system_json.hpp"
+#include "../store/json_text.hpp"
 #include "../store/json_values.hpp"
 #include "../store/text_file.hpp"
 #include "../studies/arcs.hpp"
+#include "../studies/flights/relative_drift.hpp"
+#include "../studies/uncertainty/sample_memory.hpp"
 #include "../text/message_place.hpp"
 #include "../text/scene_message.hpp"
 #include "hamjet/error.hpp"
@@ -61,6 +65,8 @@ Json facts(const RunOptions& options, const Scene& scene) {
   json["kinds"] = scene.kinds ? Json(scene.kinds->size()) : Json(nullptr);
   json["memory_bytes"] = io::json_number(
       estimate_memory(scene, *nothing_run.problem.system, scene.variables.size(), threads));
+  json["uncertainty_memory_bytes"] =
+      scene.uncertainty ? io::json_number(sample_memory(scene)) : Json(nullptr);
   json["integrators"] = Json::array();
   for (const IntegratorSettings& settings : scene.integrators) {
     Json integrator = io::integrator_json(settings);
@@ -81,6 +87,7 @@ Json facts(const RunOptions& options, const Scene& scene) {
         {"derivatives", io::text_or_null(std::string(io::derivatives_name(scene.deputy->frame)))},
         {"position_m", array(scene.deputy->start.position_m)},
         {"velocity_m_s", array(scene.deputy->start.velocity_m_s)}};
+    io::add_drift(json["deputy"], deputy_drift(scene), scene.deputy->start);
   }
   json["transfer"] = scene.transfer ? times_json(*scene.transfer, scene) : Json(nullptr);
   json["validity"] = scene.validity ? times_json(*scene.validity, scene) : Json(nullptr);
@@ -126,10 +133,10 @@ int check_as_json(const RunOptions& options) {
   } catch (const Error& error) {
     json["exit_code"] = error.exit_code();
     json.update(failure_json(file, error.what()));
-    print(json.dump(2) + "\n");
+    print(io::json_text(json) + "\n");
     throw;
   }
-  print(json.dump(2) + "\n");
+  print(io::json_text(json) + "\n");
   return 0;
 }
 

@@ -64,7 +64,7 @@ void write_figures(const ComparisonResult& result, const io::ReportOrigin& origi
 }  // namespace
 
 int compare(const CompareOptions& options) {
-  const Scene scene = read_unsplit_scene(options.scene, "hamjet compare");
+  const Scene scene = read_unsplit_scene(options.scene, "hamjet compare", io::SceneUnits::told);
   const std::filesystem::path directory = output_path(options.scene, scene.name);
   io::ReportOrigin origin = report_origin(options.scene.command);
   origin.determinants = comparison_key(scene);

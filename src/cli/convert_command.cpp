@@ -106,7 +106,7 @@ std::optional<ConvertedJet> in_coordinates(const ConvertOptions& options,
   if (options.scene) {
     RunOptions scene_options;
     scene_options.scene_file = options.scene;
-    scene = read_scene(scene_options);
+    scene = read_scene(scene_options, io::SceneUnits::told);  // as the jet is
   }
   return converted_jet(stored, coordinates_of(options, stored),
                        io::printable(options.from, std::string::npos), scene ? &*scene : nullptr);
@@ -179,12 +179,13 @@ int convert(const ConvertOptions& options) {
   if (std::filesystem::equivalent(options.from, to, none)) {
     throw Error(ErrorKind::usage, "from and to: are the same file");
   }
-  const OutputFile file(to);
+  OutputFile file(to);
   const io::StoredJet stored = read_jet(options);
   const std::optional<ConvertedJet> converted = in_coordinates(options, stored);
   const io::StoredJet& written = converted ? converted->stored : stored;
   if (const auto note = rounding_note(written, format)) print_error("note: " + *note);
-  file.write(io::jet_file_content(written, format));
+  file.add(io::jet_file_content(written, format));
+  file.put_in_place();
   if (converted) print(losses_text(*converted));
   return 0;
 }

@@ -7,12 +7,12 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string_view>
-#include <system_error>
 #include <variant>
 #include <vector>
 
 #include "../app/refusal.hpp"
 #include "../dynamics/celestial_bodies.hpp"
+#include "../formats/orbit_messages/known_text.hpp"
 #include "../report/propagation/orbit_summary.hpp"
 #include "../scene/scene_name.hpp"
 #include "../scene/study_reader.hpp"
@@ -102,10 +102,13 @@ MessageStart read_message(const fs::path& file) {
     const io::OrbitParameterMessage message = io::read_opm(name, text);
     return {message.metadata, message.gm_km3_s2, "opm_file", false};
   }
+  const io::KnownText* const other = io::known_text(text);
   throw Error(ErrorKind::input_output,
-              fmt::format("{}: is no orbit message, must begin with CCSDS_OEM_VERS or "
+              fmt::format("{}: is no orbit message{}, must begin with CCSDS_OEM_VERS or "
                           "CCSDS_OPM_VERS",
-                          name));
+                          name,
+                          other != nullptr ? fmt::format(", got {}, {}", other->name, other->use)
+                                           : std::string()));
 }
 
 /// The path of a file as a scene beside `scene` names it.
@@ -225,13 +228,7 @@ int init(const InitOptions& options) {
   const std::string name = options.kind ? *options.kind : io::scene_name(*options.message);
   const fs::path file = options.output ? fs::path(*options.output) : fs::path(name + ".toml");
   const std::string file_text = io::printable_path(file);
-  std::error_code ignored;
-  if (fs::symlink_status(file, ignored).type() != fs::file_type::not_found) {
-    throw Error(
-        ErrorKind::input_output,
-        fmt::format("{}: is there already and is not replaced; -o names another file", file_text));
-  }
-  const OutputFile output(file);
+  OutputFile output(file, Existing::kept);
   const fs::path results = output_path({}, io::scene_name(file.string()));
   Filling filling = {{"scene", io::in_shell_quotes(file.string())},
                      {"results", io::in_shell_quotes(results.string())}};
@@ -246,7 +243,8 @@ int init(const InitOptions& options) {
     study_of(scene, file, options.message);
   }
   const std::string title = std::visit([](const auto& any) { return any.title; }, study);
-  output.write(scene);
+  output.add(scene);
+  output.put_in_place();
   print(fmt::format("wrote {}: {}\nnext:\n{}", file_text, title,
                     commands_in(scene, options.program)));
   return 0;

@@ -66,10 +66,11 @@ constexpr const char* examples = R"(Examples:
   hamjet check scene.toml                   what would be computed, and the memory it takes
   hamjet list integrators                   the methods of this build
   hamjet help transfer                      what hamjet transfer --help prints
+  hamjet help deputy                        the keys of a scene's table [deputy]
 
 Exit codes:
   0 all well; 1 a check failed; 2 usage; 3 scene; 4 numerical failure; 5 input or output;
-  6 refused as too large; 130 or 143 interrupted.
+  6 refused as too large; 129, 130, 131 or 143 interrupted.
 
 Taylor maps and generating functions of Hamiltonian flows.
 )";
@@ -258,8 +259,12 @@ int dispatch(int argc, char** argv) {
   const CLI::App* completion = hamjet::cli::add_completion_command(app, shell);
 
   std::optional<std::string> topic;
-  CLI::App* help = app.add_subcommand("help", "what --help prints of a command, or of the program");
-  help->add_option("command", topic, "a command (default: the program)")->type_name("COMMAND");
+  CLI::App* help = app.add_subcommand(
+      "help", "what --help prints of a command, or of the program; or the keys of a table");
+  help->add_option("command", topic,
+                   "a command (default: the program), or a table or key of scenes, as deputy, "
+                   "uncertainty.collision or order")
+      ->type_name("COMMAND");
 
   // The command's options come behind its name; a -- before it ends those of the program.
   const int first = argc > 1 && std::string_view(argv[1]) == "--" ? 2 : 1;

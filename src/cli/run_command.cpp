@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -9,13 +10,17 @@
 #include <variant>
 
 #include "../formats/relative_frame_text.hpp"
+#include "../report/formation/drift_view.hpp"
 #include "../report/paper/paper_reports.hpp"
 #include "../report/propagation/orbit_summary.hpp"
+#include "../store/text_file.hpp"
 #include "../studies/arcs.hpp"
 #include "../studies/checks/run_warnings.hpp"
 #include "../studies/descriptions/method_description.hpp"
+#include "../studies/flights/relative_drift.hpp"
 #include "../studies/integration.hpp"
 #include "../studies/skipped_work.hpp"
+#include "../studies/uncertainty/sample_memory.hpp"
 #include "../text/quantity_text.hpp"
 #include "../text/scene_message.hpp"
 #include "../text/terminal_text.hpp"
@@ -24,6 +29,7 @@
 #include "hamjet/report/results.hpp"
 #include "hamjet/store/output_directory.hpp"
 #include "hamjet/studies/propagation.hpp"
+#include "measured_time.hpp"
 #include "process/guarded_output.hpp"
 #include "process/interruption.hpp"
 #include "process/standard_streams.hpp"
@@ -51,10 +57,14 @@ int run_flow_jet(const RunOptions& options, const Scene& scene) {
   }
   std::optional<std::string> drawing_problem;
   const std::string figure = io::figure_svg(result, drawing_problem);
+  const int code = exit_code(result);
+  const bool has_results = std::any_of(result.runs.begin(), result.runs.end(),
+                                       [](const RunResult& run) { return run.failure.empty(); });
+  const bool is_kept = !has_results && keeps_earlier(directory, code);
   std::string summary;
   {
     const UninterruptedWriting guard;
-    summary = io::write_results(result, figure, output);
+    summary = is_kept ? io::summary_json(result) : io::write_results(result, figure, output);
   }
   if (drawing_problem) print_error(*drawing_problem);
   if (options.json || options.quiet) {
@@ -67,17 +77,22 @@ int run_flow_jet(const RunOptions& options, const Scene& scene) {
   if (options.json) {
     print(summary);
   } else if (!options.quiet) {
+    const std::string folder = io::printable_path(directory);
+    const std::string drawn =
+        figure.empty() ? ""
+                       : fmt::format("figure: {}\n", io::printable_path(directory / "figure.svg"));
     print_table(options, io::summary_table(result), io::summary_details(result),
-                fmt::format("results: {}\n", directory.string()));
+                is_kept ? "" : fmt::format("results: {}\n{}", folder, drawn));
   }
-  const int code = exit_code(result);
   if (code != 0) {
-    print_error(fmt::format("{}; see {}",
-                            code == static_cast<int>(ErrorKind::check_failed)
-                                ? "a check failed"
-                                : "a numerical failure left part of the results out",
-                            (directory / "summary.json").string()));
+    print_error(
+        fmt::format("{}{}",
+                    code == static_cast<int>(ErrorKind::check_failed)
+                        ? "a check failed"
+                        : "a numerical failure left part of the results out",
+                    is_kept ? "" : "; see " + io::printable_path(directory / "summary.json")));
   }
+  if (is_kept) note_kept(directory);
   return code;
 }
 
@@ -140,7 +155,8 @@ void check_flow_jet(const RunOptions& options, const std::string& file, const Sc
       "  title        {}\n"
       "  units        length {:.10g} km, time {:.10g} s\n"
       "  nominal     ",
-      file, scene.title, scene.units.length_km, scene.units.time_s);
+      io::printable(file, std::string::npos), scene.title, scene.units.length_km,
+      scene.units.time_s);
   for (const double x : scene.nominal) text += fmt::format(" {:.17g}", x);
   text += "\n" + field_text(scene.system);
   if (const auto orbit = io::orbit_summary(scene)) text += io::orbit_text(*orbit);
@@ -184,6 +200,13 @@ void check_flow_jet(const RunOptions& options, const std::string& file, const Sc
     text += fmt::format("  deputy       {} away: {} {:.7g} m, {} {:.7g} m, {} {:.7g} m\n",
                         length_text(place.norm()), letters[0], place[0], letters[1], place[1],
                         letters[2], place[2]);
+    const auto drift = deputy_drift(scene);
+    text += fmt::format("               velocity {} m/s; {}\n",
+                        io::vector_text(scene.deputy->start.velocity_m_s, 4),
+                        io::drift_text(drift, scene.deputy->start, scene.deputy->frame));
+    if (const std::string elements = io::elements_text(drift); !elements.empty()) {
+      text += fmt::format("               relative elements {}\n", elements);
+    }
   }
   if (scene.transfer) {
     text += fmt::format("  transfer     {} to {:.6g} s, kind {}\n",
@@ -195,6 +218,10 @@ void check_flow_jet(const RunOptions& options, const std::string& file, const Sc
                         counted(scene.validity->times.size(), "time"),
                         scene.validity->times.back() * scene.units.time_s,
                         counted(scene.validity->samples, "sample"));
+  }
+  if (scene.uncertainty) {
+    text += fmt::format("  uncertainty  {} flown, about {:.0f} MB\n",
+                        counted(scene.uncertainty->samples, "sample"), sample_memory(scene) / 1e6);
   }
   if (scene.bounded) {
     text += fmt::format("  bounded      {}, {}\n", counted(scene.bounded->sizes_m.size(), "size"),
@@ -208,6 +235,7 @@ void check_flow_jet(const RunOptions& options, const std::string& file, const Sc
   text += fmt::format("  inversions   {}\n  reference    {}\n",
                       scene.kinds ? counted(scene.kinds->size(), "kind") : "none",
                       scene.reference ? "in extended precision" : "none");
+  text += fmt::format("  time         {}; pictures apart\n", measured_times(scene));
   print(io::fitted(text));
 }
 
@@ -220,8 +248,9 @@ int check(const RunOptions& options) {
         if constexpr (std::is_same_v<std::decay_t<decltype(study)>, Scene>) {
           check_flow_jet(options, *options.scene_file, study);
         } else {
-          print(fmt::format("{}: the scene is good\n  title        {}\n", *options.scene_file,
-                            study.title));
+          print(io::fitted(fmt::format("{}: the scene is good\n  title        {}\n",
+                                       io::printable(*options.scene_file, std::string::npos),
+                                       study.title)));
         }
       },
       read_study(options));

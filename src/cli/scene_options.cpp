@@ -57,31 +57,32 @@ void take_standard_input(RunOptions& options) {
   options.scene_text = read_standard_input(io::largest_scene_bytes);
 }
 
-io::Study read_study(const RunOptions& options) {
+io::Study read_study(const RunOptions& options, io::SceneUnits units) {
   refuse_empty(options.scene_file, "scene", "a file");
   refuse_empty(options.output, "--output", "a directory");
   const auto overrides = parse_overrides(options.overrides);
   if (options.scene_file) {
-    io::Study study = options.scene_text
-                          ? io::parse_study(*options.scene_text, *options.scene_file, overrides)
-                          : io::read_study(*options.scene_file, overrides);
+    io::Study study = options.scene_text ? io::parse_study(*options.scene_text, *options.scene_file,
+                                                           overrides, units)
+                                         : io::read_study(*options.scene_file, overrides, units);
     if (const Scene* scene = std::get_if<Scene>(&study)) {
       for (const std::string& warning : scene->warnings) print_error(warning);
     }
     return study;
   }
-  Scene scene = io::parse_scene(demo_scene, "earth-orbit.toml", overrides);
+  Scene scene = io::parse_scene(demo_scene, "earth-orbit.toml", overrides, units);
   leave_out_what_is_not_built(scene);
   return scene;
 }
 
-Scene read_scene(const RunOptions& options) {
+Scene read_scene(const RunOptions& options, io::SceneUnits units) {
   // The built-in scene is a flow jet.
-  return io::require_flow_jet(read_study(options), options.scene_file.value_or(""));
+  return io::require_flow_jet(read_study(options, units), options.scene_file.value_or(""));
 }
 
-Scene read_unsplit_scene(const RunOptions& options, const std::string& command) {
-  Scene scene = read_scene(options);
+Scene read_unsplit_scene(const RunOptions& options, const std::string& command,
+                         io::SceneUnits units) {
+  Scene scene = read_scene(options, units);
   try {
     require_unsplit(scene, command);
   } catch (const Error& error) {

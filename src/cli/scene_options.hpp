@@ -28,17 +28,18 @@ struct RunOptions {
 /// Throws Error(input_output), and Error(scene) for more than any scene has.
 void take_standard_input(RunOptions& options);
 
-/// The scene that the options name, with their changes, of any study. Throws Error(usage),
-/// Error(scene), Error(input_output).
-io::Study read_study(const RunOptions& options);
+/// The scene that the options name, with their changes, of any study, in the units that it asks
+/// for. Throws Error(usage), Error(scene), Error(input_output).
+io::Study read_study(const RunOptions& options, io::SceneUnits units = io::SceneUnits::told);
 
-/// The scene that the options name, which must be that of a flow jet. Throws Error(usage),
-/// Error(scene), Error(input_output).
-Scene read_scene(const RunOptions& options);
+/// The scene that the options name, which must be that of a flow jet, in the chief's own units
+/// unless others are said. Throws Error(usage), Error(scene), Error(input_output).
+Scene read_scene(const RunOptions& options, io::SceneUnits units = io::SceneUnits::chiefs);
 
 /// read_scene for `command`, which does not split flows into arcs: throws Error(scene) too where
 /// the scene asks for that.
-Scene read_unsplit_scene(const RunOptions& options, const std::string& command);
+Scene read_unsplit_scene(const RunOptions& options, const std::string& command,
+                         io::SceneUnits units = io::SceneUnits::chiefs);
 
 /// Says likewise what is to be said of flow boxes near escape.
 void note_escape(const RunOptions& options, const Scene& scene);

@@ -6,7 +6,11 @@
 #include <filesystem>
 #include <string>
 
+#include "../store/result_set.hpp"
+#include "../store/text_file.hpp"
+#include "../text/scene_message.hpp"
 #include "../text/terminal_text.hpp"
+#include "hamjet/error.hpp"
 #include "hamjet/store/output_directory.hpp"
 #include "process/guarded_output.hpp"
 #include "process/interruption.hpp"
@@ -17,7 +21,20 @@ namespace hamjet::cli {
 
 void print_table(const RunOptions& options, const std::string& table, const std::string& details,
                  const std::string& files) {
-  print(io::fitted(table) + (options.verbose ? io::fitted(details) : "") + files);
+  print(io::fitted(table) + (options.verbose ? io::fitted(details) : "") +
+        io::printable_lines(files));
+}
+
+bool keeps_earlier(const std::filesystem::path& directory, int exit_code) {
+  return exit_code == static_cast<int>(ErrorKind::numerical) &&
+         io::has_whole_results(directory, "summary.json");
+}
+
+void note_kept(const std::filesystem::path& directory) {
+  print_error(
+      fmt::format("{}the earlier results in {} are kept, and these are not written; -o "
+                  "names another directory",
+                  io::note_head, io::printable_path(directory)));
 }
 
 int report_study(const RunOptions& options, const std::string& scene_name,
@@ -33,11 +50,14 @@ int report_study(const RunOptions& options, const std::string& scene_name,
       progress.update(task, fraction);
     });
   }
-  std::string summary;
+  const bool is_kept = keeps_earlier(directory, report.exit_code);
+  std::string summary = report.summary();
   {
     const UninterruptedWriting guard;
-    for (const io::ReportFile& file : report.files) output.write(file.path, file.content);
-    summary = output.commit();
+    if (!is_kept) {
+      for (const io::ReportFile& file : report.files) output.write(file.path, file.content);
+      summary = output.commit();
+    }
   }
   if (report.drawing_problem) print_error(*report.drawing_problem);
   if (options.json) {
@@ -46,13 +66,15 @@ int report_study(const RunOptions& options, const std::string& scene_name,
     const auto page = std::find_if(report.files.begin(), report.files.end(), [](const auto& file) {
       return file.path.extension() == ".html";
     });
-    print_table(options, report.table, report.details,
-                fmt::format("results: {}\n", directory.string()) +
-                    (page != report.files.end()
-                         ? fmt::format("report: {}\n", (directory / page->path).string())
-                         : ""));
+    std::string places;
+    if (!is_kept) places = fmt::format("results: {}\n", io::printable_path(directory));
+    if (!is_kept && page != report.files.end()) {
+      places += fmt::format("report: {}\n", io::printable_path(directory / page->path));
+    }
+    print_table(options, report.table, report.details, places);
   }
   if (report.exit_code != 0) print_error(report.failure);
+  if (is_kept) note_kept(directory);
   return report.exit_code;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <string>
 
@@ -14,8 +15,16 @@ namespace hamjet::cli {
 void print_table(const RunOptions& options, const std::string& table, const std::string& details,
                  const std::string& files);
 
+/// Whether results that end with this exit code must not take the place of those in the directory:
+/// a numerical failure left them out, and the earlier ones are whole.
+bool keeps_earlier(const std::filesystem::path& directory, int exit_code);
+
+/// Says that the earlier results are kept.
+void note_kept(const std::filesystem::path& directory);
+
 /// Does the work, which shows its progress and stops at a signal, and makes its report; writes the
-/// files in place of earlier results, prints what the options ask for, and returns the exit code.
+/// files in place of earlier results, unless keeps_earlier, prints what the options ask for, and
+/// returns the exit code.
 int report_study(const RunOptions& options, const std::string& scene_name,
                  const std::function<io::StudyReport(const ProgressCallback&)>& work);
 

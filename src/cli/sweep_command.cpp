@@ -9,8 +9,8 @@
 
 #include "../app/processors.hpp"
 #include "../app/refusal.hpp"
-#include "../store/file_system.hpp"
 #include "../store/text_file.hpp"
+#include "../store/whole_file.hpp"
 #include "../sweep/sweep_report.hpp"
 #include "../text/scene_message.hpp"
 #include "../text/shell_text.hpp"
@@ -112,8 +112,8 @@ int emit(const RunOptions& run, const SweepOptions& options, const io::SweepStud
   io::write_whole_file(script, is_slurm ? io::slurm_script(study, paths, tasks, threads)
                                         : io::parallel_script(study, paths, tasks, threads));
   if (!run.quiet) {
-    print(
-        fmt::format("{} {}\n", is_slurm ? "sbatch" : "bash", io::in_shell_quotes(script.string())));
+    print(fmt::format("{} {}\n", is_slurm ? "sbatch" : "bash",
+                      io::printable(io::in_shell_quotes(script.string()), std::string::npos)));
   }
   return 0;
 }
@@ -184,7 +184,7 @@ int run_items(const RunOptions& run, const SweepOptions& options, const io::Swee
         fmt::format("{}\n  shard {}/{}: {} of {} items: {} computed now, {} before, {} failed\n"
                     "rows: {}\n",
                     study.title, shard->part, shard->parts, items.size(), study.items.size(),
-                    now.finished, earlier, total.failed, path.string()));
+                    now.finished, earlier, total.failed, io::printable_path(path)));
   }
   if (total.failed > 0) {
     print_error(

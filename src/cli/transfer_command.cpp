@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <system_error>
@@ -16,7 +17,6 @@
 #include "../studies/bounded/bounded_formation.hpp"
 #include "../studies/bounded/frozen_orbit_study.hpp"
 #include "../studies/formation/deputy_motion.hpp"
-#include "../studies/formation/flown_trajectory.hpp"
 #include "../text/scene_message.hpp"
 #include "hamjet/algebra/composition.hpp"
 #include "hamjet/error.hpp"
@@ -69,7 +69,14 @@ EarlierJet earlier_jet(const TransferOptions& transfers, const io::StoredJet& st
       stored.variables.size() != scene.nominal.size()) {
     refuse_jet(transfers, stored, "is not expanded in all six variables, which transfers need");
   }
-  return {stored.label, stored.duration, convert_map<double>(stored.jet)};
+  return {stored.label, duration_in_units_of(scene, stored), jet_in_units_of(scene, stored)};
+}
+
+/// Whether a transfer has one time and it is this, but for the rounding of the units.
+bool has_time_alone(const TransferSettings& transfer, double time) {
+  constexpr double rounding = 1e-14;
+  return transfer.times.size() == 1 &&
+         std::abs(transfer.times[0] - time) <= rounding * std::abs(time);
 }
 
 /// Throws Error(usage) if the results would replace the directory that the stored jet is read from.
@@ -98,7 +105,7 @@ int transfer(const RunOptions& options, const TransferOptions& transfers) {
   if (stored) {
     refuse_to_replace(*transfers.directory, output_path(options, name));
     earlier = earlier_jet(transfers, *stored, scene);
-    if (!options.quiet && scene.transfer->times != std::vector<double>{earlier->time}) {
+    if (!options.quiet && !has_time_alone(*scene.transfer, earlier->time)) {
       print_error(
           fmt::format("note: the stored jet has one time, {:.10g} s, and order {}; they take "
                       "the place of the scene's",
@@ -110,10 +117,7 @@ int transfer(const RunOptions& options, const TransferOptions& transfers) {
       return study_transfer(scene, progress, earlier ? &*earlier : nullptr);
     });
     std::optional<RelativeTrajectory> trajectory;
-    if (const auto best = result.best_point()) {
-      trajectory =
-          fly_relative(result, *best, interval_count(scene, result.points[*best].time, drawn_path));
-    }
+    if (const auto best = result.best_point()) trajectory = fly_relative(result, *best);
     std::optional<ValidityResult> validity;
     if (scene.validity) validity = study_validity(scene, progress);
     return io::transfer_report(result, trajectory, validity, report_origin(options.command));

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "../scene/tables/key_reference.hpp"
 #include "../text/scene_message.hpp"
 #include "hamjet/error.hpp"
 
@@ -27,6 +28,10 @@ std::string option_suggestion(const CLI::App& command, std::string_view word) {
 std::string unknown_command(const CLI::App& app, std::string_view word) {
   std::vector<std::string_view> names;
   for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  if (std::find(names.begin(), names.end(), word) == names.end() && word.ends_with(".toml")) {
+    return fmt::format("{} stands where a command belongs, for example: hamjet run {}",
+                       io::printable(word), io::printable(word));
+  }
   return fmt::format("unknown command {}; {}", io::printable(word), io::suggestion(word, names));
 }
 
@@ -41,7 +46,10 @@ std::string help_text(const CLI::App& app, const std::optional<std::string>& com
   for (const CLI::App* child : app.get_subcommands({})) {
     if (child->get_name() == command) return child->help(app.get_name());
   }
-  if (command) throw Error(ErrorKind::usage, with_reference(unknown_command(app, *command)));
+  if (command) {
+    if (const auto keys = io::section_on_keys(*command)) return *keys;
+    throw Error(ErrorKind::usage, with_reference(unknown_command(app, *command)));
+  }
   // App::help would be that of the command which asks.
   return app.get_formatter()->make_help(&app, app.get_name(), CLI::AppFormatMode::Normal);
 }

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <limits>
 
 #include "hamjet/algebra/extended.hpp"
+#include "hamjet/error.hpp"
 
 namespace hamjet {
 
@@ -13,7 +16,8 @@ struct MissAndSlope {
 };
 
 /// The root of a rising function between `low` and `high`, by Newton's method from `guess`; a step
-/// that would leave the bracket halves it. `miss_at` gives MissAndSlope at a place.
+/// that would leave the bracket halves it. `miss_at` gives MissAndSlope at a place. Throws
+/// Error(numerical) if a value is no number, or if 200 steps do not find the root.
 template <class Function>
 Extended root_in_bracket(const Function& miss_at, Extended low, Extended high, Extended guess) {
   // Halving alone gains a bit a step; Newton's steps need some ten.
@@ -27,9 +31,12 @@ Extended root_in_bracket(const Function& miss_at, Extended low, Extended high, E
         next == guess ||
         abs(next - guess) <= 4 * std::numeric_limits<Extended>::epsilon() * (1 + abs(guess));
     guess = next;
-    if (is_found) break;
+    if (is_found) return guess;
   }
-  return guess;
+  throw Error(ErrorKind::numerical,
+              fmt::format("Kepler's equation: {} steps do not find the root between {:.6g} and "
+                          "{:.6g}",
+                          most_steps, static_cast<double>(low), static_cast<double>(high)));
 }
 
 }  // namespace hamjet

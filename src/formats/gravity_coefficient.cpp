@@ -7,6 +7,7 @@
 #include <cstddef>
 
 #include "../text/scene_message.hpp"
+#include "../text/whole_number.hpp"
 #include "hamjet/error.hpp"
 #include "number_table.hpp"
 
@@ -21,15 +22,21 @@ Extended years_between(const Epoch& from, const Epoch& to) {
   return seconds / seconds_per_julian_year;
 }
 
-/// A date as yyyymmdd or yyyymmdd.hhmm.
+/// A date as yyyymmdd or yyyymmdd.hhmm. The minute may be 60, and the hour 24 where the minute is
+/// 0: EIGEN-6S4v2 has the earthquake of 2004-12-26, 00:58:53, at 20041226.0060, which is 01:00.
 std::optional<Epoch> date_in(std::string_view word) {
   constexpr std::size_t day_digits = 8, digits = 13;
   if (word.size() != day_digits && (word.size() != digits || word[day_digits] != '.')) {
     return std::nullopt;
   }
-  const std::string_view time = word.size() == digits ? word.substr(day_digits + 1) : "0000";
-  return parse_epoch(fmt::format("{}-{}-{}T{}:{}:00", word.substr(0, 4), word.substr(4, 2),
-                                 word.substr(6, 2), time.substr(0, 2), time.substr(2)));
+  const auto day = parse_epoch(
+      fmt::format("{}-{}-{}T00:00:00", word.substr(0, 4), word.substr(4, 2), word.substr(6, 2)));
+  if (!day || word.size() == day_digits) return day;
+  const auto hours = whole_number<unsigned>(word.substr(day_digits + 1, 2));
+  const auto minutes = whole_number<unsigned>(word.substr(day_digits + 3));
+  if (!hours || !minutes || *minutes > 60) return std::nullopt;
+  if (*hours > 23 && (*hours != 24 || *minutes != 0)) return std::nullopt;
+  return later(*day, Extended(60 * *hours + *minutes) * 60);
 }
 
 /// To the minute, as files have it.

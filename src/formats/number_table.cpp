@@ -5,16 +5,17 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstring>
+#include <utility>
 
 #include "../store/text_file.hpp"
+#include "../text/quantity_text.hpp"
 #include "../text/scene_message.hpp"
 #include "../text/whole_number.hpp"
 #include "hamjet/error.hpp"
 
 namespace hamjet::io {
 namespace {
-
-constexpr std::size_t rows_between_pauses = 4096;
 
 /// The decimal exponents of binary128 stay below this; a larger one would keep the parser busy.
 constexpr unsigned largest_exponent = 5000;
@@ -36,6 +37,16 @@ std::string_view without_blanks(std::string_view text) {
   throw Error(ErrorKind::input_output, fmt::format("{}:{}: {}", name, line, what));
 }
 
+/// Whether a name is short and ends in a unit that one of the columns has. What is quoted of a
+/// header must look like one: the file may be any other, whose content is nobody's business.
+bool has_unit_of(std::string_view name, const std::vector<std::string_view>& columns) {
+  constexpr std::size_t longest = 24;
+  const std::size_t unit = name.find('_');
+  return unit != std::string_view::npos && name.size() <= longest &&
+         std::any_of(columns.begin(), columns.end(),
+                     [&](std::string_view column) { return column.ends_with(name.substr(unit)); });
+}
+
 /// For each column of the file the place of its name in `columns`.
 std::vector<std::size_t> places(const std::string& name,
                                 const std::vector<std::string_view>& header,
@@ -52,7 +63,10 @@ std::vector<std::size_t> places(const std::string& name,
     const std::string_view column = without_blanks(field);
     const auto found = std::find(columns.begin(), columns.end(), column);
     if (found == columns.end()) {
-      fail(name, 1, fmt::format("unknown column {}; {}", in_quotes(column), right));
+      const bool is_quoted = nearest(column, columns) || has_unit_of(column, columns);
+      fail(name, 1,
+           fmt::format("unknown column {}; {}",
+                       is_quoted ? in_quotes(column) : std::to_string(result.size() + 1), right));
     }
     const auto place = static_cast<std::size_t>(found - columns.begin());
     if (std::find(result.begin(), result.end(), place) != result.end()) {
@@ -73,6 +87,14 @@ std::vector<std::size_t> places(const std::string& name,
 std::optional<double> finite_number(std::string_view text) {
   text = without_blanks(text);
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+  // Fortran writes the exponent of double precision behind a D.
+  std::string with_e;
+  const std::size_t mark = text.find_first_of("Dd");
+  if (mark != std::string_view::npos && text.size() <= longest_number) {
+    with_e = text;
+    with_e[mark] = 'e';
+    text = with_e;
+  }
   double number = 0;
   const char* const end = text.data() + text.size();
   const auto [rest, error] = std::from_chars(text.data(), end, number);
@@ -106,38 +128,81 @@ std::optional<Extended> finite_extended_number(std::string_view text) {
   return text.starts_with('-') == signbit(number) ? number : -number;  // -0
 }
 
-NumberTable read_number_table(const std::string& name, std::string_view text,
-                              const std::vector<std::string_view>& columns,
-                              const std::function<void()>& pause) {
-  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
-  std::vector<std::string_view> fields;
-  split_line(take_line(text), fields);
-  const std::vector<std::size_t> place = places(name, fields, columns);
-  // Empty lines at the end are no rows.
-  const std::size_t last = text.find_last_not_of("\r\n");
-  text = text.substr(0, last == std::string_view::npos ? 0 : last + 1);
-  NumberTable table{columns.size(), {}};
-  const auto lines = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) + 1;
-  table.numbers.resize(text.empty() ? 0 : lines * columns.size());
-  for (std::size_t row = 0; !text.empty(); ++row) {
-    if (pause && row % rows_between_pauses == 0) pause();
-    split_line(take_line(text), fields);
-    if (fields.size() != columns.size()) {
-      fail(name, NumberTable::line(row),
-           fmt::format("has {} columns, must have {}", fields.size(), columns.size()));
+NumberTableReader::NumberTableReader(std::string name, std::vector<std::string_view> columns,
+                                     Source source)
+    : name_(std::move(name)),
+      columns_(std::move(columns)),
+      source_(std::move(source)),
+      bytes_(longest_line + 2) {}
+
+bool NumberTableReader::next_line() {
+  for (bool is_at_end = false;;) {
+    const std::size_t end = rest_.find('\n');
+    if (end != std::string_view::npos || (is_at_end && !rest_.empty())) {
+      ++line_number_;
+      line_ = take_line(rest_);
+      return true;
     }
-    for (std::size_t i = 0; i < fields.size(); ++i) {
-      const auto number = finite_number(fields[i]);
-      if (!number) {
-        fail(name, NumberTable::line(row),
-             fmt::format("column {}: must be a finite number, got {}", columns[place[i]],
-                         in_quotes(fields[i])));
-      }
-      table.numbers[row * columns.size() + place[i]] = *number;
+    if (is_at_end) return false;
+    if (rest_.size() == bytes_.size()) {
+      throw Error(ErrorKind::too_large,
+                  fmt::format("{}:{}: a line of more than {} bytes, must be a row of {}", name_,
+                              line_number_ + 1, longest_line, counted(columns_.size(), "number")));
     }
+    const std::size_t kept = rest_.size();
+    if (kept > 0) std::memmove(bytes_.data(), rest_.data(), kept);
+    const std::size_t count = source_(std::span(bytes_).subspan(kept));
+    rest_ = {bytes_.data(), kept + count};
+    is_at_end = count == 0;
   }
-  if (table.numbers.empty()) fail(name, 2, "the file has no rows");
-  return table;
+}
+
+void NumberTableReader::read_header() {
+  constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+  if (!next_line()) line_ = {};
+  if (line_.starts_with(byte_order_mark)) line_.remove_prefix(byte_order_mark.size());
+  split_line(line_, fields_);
+  places_ = places(name_, fields_, columns_);
+}
+
+void NumberTableReader::add_row(NumberTable& part) {
+  split_line(line_, fields_);
+  if (fields_.size() != columns_.size()) {
+    fail(name_, line_number_,
+         fmt::format("has {} columns, must have {}", fields_.size(), columns_.size()));
+  }
+  const std::size_t begin = part.numbers.size();
+  part.numbers.resize(begin + columns_.size());
+  for (std::size_t i = 0; i < fields_.size(); ++i) {
+    const auto number = finite_number(fields_[i]);
+    if (!number) {
+      fail(name_, line_number_,
+           fmt::format("column {}: must be a finite number, got {}", columns_[places_[i]],
+                       in_quotes(fields_[i])));
+    }
+    part.numbers[begin + places_[i]] = *number;
+  }
+}
+
+NumberTable NumberTableReader::read(std::size_t most_rows) {
+  if (places_.empty()) read_header();
+  NumberTable part{columns_.size(), {}, rows_};
+  while (part.rows() < most_rows && next_line()) {
+    if (!line_.empty()) {
+      add_row(part);
+      continue;
+    }
+    // Empty lines at the end are no rows; others are, and have too few columns.
+    const std::size_t first_empty = line_number_;
+    bool has_more = true;
+    while (line_.empty() && (has_more = next_line())) {
+    }
+    if (!has_more) break;
+    fail(name_, first_empty, fmt::format("has 1 columns, must have {}", columns_.size()));
+  }
+  rows_ += part.rows();
+  if (rows_ == 0) fail(name_, 2, "the file has no rows");
+  return part;
 }
 
 }  // namespace hamjet::io

@@ -7,8 +7,8 @@
 #include <exception>
 #include <nlohmann/json.hpp>
 
-#include "../store/file_system.hpp"
 #include "../store/text_file.hpp"
+#include "../store/whole_file.hpp"
 #include "hamjet/error.hpp"
 #include "number_table.hpp"
 

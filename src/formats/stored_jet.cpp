@@ -243,11 +243,14 @@ StoredFlowBox read_flow_box(const JsonReader& json) {
   const auto chart = chart_of(json.at("section").text());
   if (!chart || *chart == ChartName::cartesian) json.at("section").fail("must name a chart");
   box.section = *chart;
-  box.field.radius = positive_number(json.at("field").at("radius_canonical"));
+  box.field.radius = finite_number(json.at("field").at("radius_canonical"));
   const std::vector<double> J = json.at("field").at("J").list(finite_number);
   constexpr std::size_t count = ZonalCoefficients::count;
   if (J.size() != count) json.at("field").at("J").fail(fmt::format("must have {} numbers", count));
   box.field.J = ZonalCoefficients(std::span(J).first<count>());
+  if (!box.has_radius_of_field()) {
+    json.at("field").at("radius_canonical").fail(std::string(radius_of_field_rule));
+  }
   return box;
 }
 
@@ -267,7 +270,7 @@ DescribedRun with_polynomials(const DescribedRun& run, const JsonReader& json) {
   }
   if (stored.coordinates == JetCoordinates::flow_box) stored.flow_box = read_flow_box(json);
   stored.nominal_final = state(json.at("nominal_final"), {6});
-  stored.error_by_degree = coefficient_errors(json);
+  if (stored.flow_box) stored.error_by_degree = coefficient_errors(json);
   one.json = json;
   return one;
 }

@@ -56,9 +56,9 @@ StoredJet describe_charted_jet(const PropagationResult& result, const RunResult&
   StoredJet description = describe_jet(result, run);
   description.coordinates = charted.coordinates;
   description.nominal_final = charted.nominal_final;
-  // What is known of the run's errors is of the jet in positions and momenta.
-  description.error_by_degree = charted.error_estimate.by_degree.value_or(std::vector<double>());
+  // The errors of a chart's polynomials are those of the run's jet.
   if (charted.section) {
+    description.error_by_degree = charted.error_estimate.by_degree.value_or(std::vector<double>());
     description.flow_box = {*charted.section,
                             {1, result.scene.canonical_radius, result.scene.system.J}};
   }

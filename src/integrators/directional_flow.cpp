@@ -12,6 +12,7 @@
 #include "../algebra/instantiated_real.hpp"
 #include "hamjet/algebra/extended.hpp"
 #include "line_restriction.hpp"
+#include "lines_side_by_side.hpp"
 
 namespace hamjet {
 namespace {
@@ -60,37 +61,18 @@ typename DirectionalFlow<Real>::Lines DirectionalFlow<Real>::integrate(
 
 template <class Real>
 FlowProblem<Real> DirectionalFlow<Real>::problem() const {
-  const std::size_t count = starts_.size();
   FlowProblem<Real> all = problem_;
-  all.space = SeriesSpace::create_uncoupled(count, problem_.space->order());
+  all.initial_jet = side_by_side(starts_);
+  all.space = (*all.initial_jet)[0].space_pointer();
   // These stand for the lines' s; the initial jet says what they move.
-  all.variables.resize(count);
+  all.variables.resize(starts_.size());
   std::iota(all.variables.begin(), all.variables.end(), std::size_t{0});
-  FlowJet<Real> start(starts_[0].size(), Series<Real>(all.space));
-  for (std::size_t i = 0; i < start.size(); ++i) {
-    start[i][0] = starts_[0][i][0];
-    for (int d = 1; d <= all.space->order(); ++d) {
-      for (std::size_t j = 0; j < count; ++j) {
-        start[i][all.space->first(d) + j] = starts_[j][i][static_cast<std::size_t>(d)];
-      }
-    }
-  }
-  all.initial_jet = std::move(start);
   return all;
 }
 
 template <class Real>
 typename DirectionalFlow<Real>::Lines DirectionalFlow<Real>::lines(const FlowJet<Real>& jet) const {
-  Lines result(starts_.size(), FlowJet<Real>(jet.size(), Series<Real>(line_space_)));
-  for (std::size_t j = 0; j < result.size(); ++j) {
-    for (std::size_t i = 0; i < jet.size(); ++i) {
-      result[j][i][0] = jet[i][0];
-      for (int d = 1; d <= line_space_->order(); ++d) {
-        result[j][i][static_cast<std::size_t>(d)] = jet[i][jet[i].space().first(d) + j];
-      }
-    }
-  }
-  return result;
+  return line_by_line(jet);
 }
 
 template <class Real>

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <limits>
 #include <random>
+#include <span>
 #include <utility>
 
 #include "../algebra/instantiated_real.hpp"
@@ -17,14 +18,18 @@
 #include "hamjet/integrators/jet_trajectory.hpp"
 #include "jet_directions.hpp"
 #include "line_restriction.hpp"
+#include "lines_side_by_side.hpp"
 #include "momentum_unit.hpp"
 
 namespace hamjet {
 namespace {
 
 constexpr std::size_t rounding_samples = 16;  ///< along each direction
-/// Stages of the run along each direction; other stages make other steps.
+/// Stages of the runs along directions; other stages make other steps.
 constexpr std::array<int, 2> stages_of_runs = {16, 15};
+/// Directions of each run. An error of a high degree d is about (g.x)^d, with g what the steps
+/// resolve worst: it is seen along few directions, and two of many steps' errors, none of few.
+constexpr std::array<std::size_t, 2> directions_of_runs = {8, 2};
 /// A known line is of use if no degree is larger or smaller along it by more than this factor.
 constexpr double largest_distortion = 30;
 /// Known lines that show more than this many times the error of a run of their own are not finer
@@ -33,6 +38,9 @@ constexpr double largest_disagreement = 10;
 
 /// A line's variable has no unit of momentum.
 constexpr std::array<std::size_t, 1> variable_of_line = {0};
+
+template <class Real>
+using Directions = std::vector<Direction<Real>>;
 
 template <class Real>
 constexpr double rounding() {
@@ -159,6 +167,22 @@ FlowProblem<Real> problem_along(const FlowProblem<Real>& problem,
           restrict_to_line(starting_jet(problem), entries, line)};
 }
 
+/// The problem along several directions, side by side.
+template <class Real>
+FlowProblem<Real> problem_along(const FlowProblem<Real>& problem,
+                                std::span<const Direction<Real>> directions, int exponent) {
+  std::vector<FlowJet<Real>> starts;
+  FlowProblem<Real> all;
+  for (const Direction<Real>& direction : directions) {
+    all = problem_along(problem, direction.entries, exponent);
+    starts.push_back(*all.initial_jet);
+  }
+  all.initial_jet = side_by_side(starts);
+  all.space = (*all.initial_jet)[0].space_pointer();
+  all.variables.assign(directions.size(), 0);
+  return all;
+}
+
 /// Moves the coefficients of a start by up to half a unit in the last place of the largest
 /// position, or momentum, of their degree.
 template <class Real>
@@ -208,15 +232,43 @@ StepObserver<Real> observer_of_run(const Real& duration, std::size_t number,
   };
 }
 
+/// The jets along the directions that such a run has come to, in the estimate's unit of momentum.
 template <class Real>
-FlowJet<Real> run_along(const FlowProblem<Real>& problem, const std::vector<Real>& direction,
-                        std::size_t number, const ErrorEstimateSettings& settings) {
-  const FlowProblem<Real> along = problem_along(problem, direction, settings.momentum_exponent);
+std::vector<FlowJet<Real>> lines_of_run(const FlowJet<Real>& run,
+                                        const ErrorEstimateSettings& settings) {
+  std::vector<FlowJet<Real>> lines = line_by_line(run);
+  for (FlowJet<Real>& line : lines) {
+    line = in_momentum_unit(std::move(line), variable_of_line, settings.momentum_exponent);
+  }
+  return lines;
+}
+
+template <class Real>
+std::vector<FlowJet<Real>> run_along(const FlowProblem<Real>& problem,
+                                     std::span<const Direction<Real>> directions,
+                                     std::size_t number, const ErrorEstimateSettings& settings) {
   IntegrationStatistics statistics;
-  FlowJet<Real> end =
-      integrate_gauss<Real>(along, settings_of_run<Real>(number, settings), statistics,
-                            observer_of_run<Real>(problem.duration, number, settings));
-  return in_momentum_unit(std::move(end), variable_of_line, settings.momentum_exponent);
+  return lines_of_run<Real>(
+      integrate_gauss<Real>(problem_along(problem, directions, settings.momentum_exponent),
+                            settings_of_run<Real>(number, settings), statistics,
+                            observer_of_run<Real>(problem.duration, number, settings)),
+      settings);
+}
+
+/// The directions of a run, of those that were drawn.
+template <class Real>
+std::span<const Direction<Real>> directions_of_run(const Directions<Real>& drawn,
+                                                   std::size_t number) {
+  return std::span(drawn).first(directions_of_runs[number]);
+}
+
+/// By degree, the largest of `result` and the errors that a run shows along its directions.
+template <class Real>
+void include_lines(std::vector<double>& result, std::span<const Direction<Real>> directions,
+                   const std::vector<FlowJet<Real>>& lines, const std::vector<double>& largest) {
+  for (std::size_t j = 0; j < directions.size(); ++j) {
+    include_run(result, directions[j], lines[j], false, largest);
+  }
 }
 
 }  // namespace
@@ -235,27 +287,27 @@ std::vector<double> estimate_error(const FlowProblem<Real>& problem, const FlowJ
   const SpacePointer line = SeriesSpace::create(1, problem.space->order());
   const FlowJet<Real> jet = in_momentum_unit(delivered, problem.variables, exponent);
   const std::vector<double> largest = largest_by_degree(jet);
-  const std::vector<Direction<Real>> drawn =
-      choose_directions(jet, line, largest, stages_of_runs.size());
-  // Steps that were chosen along the known lines are judged along another one too.
-  const FlowJet<Real> first = run_along(problem, drawn[0].entries, 0, settings);
-  include_run(result, drawn[0], first, false, largest);
+  const Directions<Real> drawn = choose_directions(jet, line, largest, directions_of_runs[0]);
+  // Steps that were chosen along the known lines are judged along others too.
+  const auto first = run_along<Real>(problem, drawn, 0, settings);
+  include_lines<Real>(result, drawn, first, largest);
   const auto taken = known_directions(problem, known, exponent, jet, line, largest);
   if (!taken.empty()) {
     std::vector<double> shown(degrees, 0);
     for (std::size_t k = 0; k < taken.size(); ++k) {
       const FlowJet<Real> run = in_momentum_unit(known[k].jet, variable_of_line, exponent);
       include_run(shown, taken[k], run, true, largest);
-      include_nominals(shown, first, run, largest[0]);
+      include_nominals(shown, first[0], run, largest[0]);
     }
     if (is_confirmed(result, shown)) {
       for (std::size_t d = 0; d < degrees; ++d) result[d] = std::max(result[d], shown[d]);
       return result;
     }
   }
-  const FlowJet<Real> second = run_along(problem, drawn[1].entries, 1, settings);
-  include_run(result, drawn[1], second, false, largest);
-  include_nominals(result, first, second, largest[0]);
+  const auto directions = directions_of_run<Real>(drawn, 1);
+  const auto second = run_along<Real>(problem, directions, 1, settings);
+  include_lines<Real>(result, directions, second, largest);
+  include_nominals(result, first[0], second[0], largest[0]);
   return result;
 }
 
@@ -280,20 +332,23 @@ std::vector<std::vector<double>> estimate_errors(const FlowProblem<Real>& proble
     jets.push_back(in_momentum_unit(jet, problem.variables, exponent));
     largest.push_back(largest_by_degree(jets.back()));
   }
-  std::vector<FlowJet<Real>> first(times.size());
-  const std::vector<Direction<Real>> drawn =
-      choose_directions(jets.back(), line, largest.back(), stages_of_runs.size());
-  for (std::size_t number = 0; number < drawn.size(); ++number) {
-    const std::vector<Real>& entries = drawn[number].entries;
-    const JetTrajectory<Real> along(problem_along(problem, entries, exponent),
+  std::vector<FlowJet<Real>> first(times.size());  // of the first run, along its first direction
+  const Directions<Real> drawn =
+      choose_directions(jets.back(), line, largest.back(), directions_of_runs[0]);
+  for (std::size_t number = 0; number < stages_of_runs.size(); ++number) {
+    const auto directions = directions_of_run<Real>(drawn, number);
+    const JetTrajectory<Real> along(problem_along<Real>(problem, directions, exponent),
                                     settings_of_run<Real>(number, settings), 256e6,
                                     observer_of_run<Real>(problem.duration, number, settings));
     for (std::size_t i = 0; i < times.size(); ++i) {
-      FlowJet<Real> run = in_momentum_unit(along.at(times[i]), variable_of_line, exponent);
-      const Direction<Real> direction{entries, restrict_to_line(jets[i], entries, line)};
-      include_run(result[i], direction, run, false, largest[i]);
-      if (number > 0) include_nominals(result[i], first[i], run, largest[i][0]);
-      first[i] = std::move(run);
+      const auto lines = lines_of_run<Real>(along.at(times[i]), settings);
+      for (std::size_t j = 0; j < lines.size(); ++j) {
+        const Direction<Real> direction{directions[j].entries,
+                                        restrict_to_line(jets[i], directions[j].entries, line)};
+        include_run(result[i], direction, lines[j], false, largest[i]);
+      }
+      if (number > 0) include_nominals(result[i], first[i], lines[0], largest[i][0]);
+      first[i] = lines[0];
     }
   }
   return result;

@@ -134,13 +134,14 @@ class SeriesVectorField {
 ///
 /// The change of H since the start may not exceed
 ///
-///   min(1e-2 + 1e3 tolerance, 0.1) max(|H|, S/100, tolerance, 1e-10) ,
+///   min(1e-2 + 1e3 tolerance, 0.1) max(|H|, S/100, max(tolerance, 1e-10) S_now) ,
 ///
 /// where S = sum |z_i dH/dz_i| at the start is the size of the terms that make up H: it stands in
-/// where they cancel, as on a parabola; the last two where all vanish, as at an equilibrium. A
-/// nominal outside is wrong beyond use (1 % in energy is 1.5 % in the period of an orbit), whatever
-/// the reason: a collision, a tolerance too coarse for a close passage, or a drift over very many
-/// periods. The converse does not hold: a kept energy proves nothing.
+/// where they cancel, as on a parabola. The same of the state that is looked at stands in where all
+/// vanish at the start, as at an equilibrium. Nothing of it depends on the units. A nominal outside
+/// is wrong beyond use (1 % in energy is 1.5 % in the period of an orbit), whatever the reason: a
+/// collision, a tolerance too coarse for a close passage, or a drift over very many periods. The
+/// converse does not hold: a kept energy proves nothing.
 template <class Real>
 class EnergyGuard {
  public:
@@ -149,21 +150,17 @@ class EnergyGuard {
         evaluator_(problem.system->hamiltonian, problem.space, 0),
         dimension_(problem.system->dimension()) {
     start_ = energy(problem.initial_state.data(), 1);
-    double size = 0;
-    for (std::size_t i = 0; i < dimension_; ++i) {
-      const double slope = static_cast<double>(evaluator_.output_gradient(0, i));
-      size += std::abs(slope * static_cast<double>(problem.initial_state[i]));
-    }
-    const double scale =
-        std::max({std::abs(static_cast<double>(start_)), size / 100, tolerance, 1e-10});
-    limit_ = std::min(1e-2 + 1e3 * tolerance, 0.1) * scale;
+    start_scale_ = std::max(std::abs(static_cast<double>(start_)), size_of_terms() / 100);
+    least_share_ = std::max(tolerance, 1e-10);
+    allowed_ = std::min(1e-2 + 1e3 * tolerance, 0.1);
   }
 
   /// Throws Error(numerical) if the energy of the constant terms, which stand `stride` apart, is
   /// not finite or too far from that of the start.
   void check(const Real* state, std::size_t stride, const Real& time) {
     const double change = std::abs(static_cast<double>(Real(energy(state, stride) - start_)));
-    if (change <= limit_) return;
+    const double scale = std::max(start_scale_, least_share_ * size_of_terms());
+    if (change <= allowed_ * scale) return;
     throw Error(
         ErrorKind::numerical,
         fmt::format("{}: the integration left the solution before t = {:.10g}: the energy "
@@ -179,11 +176,23 @@ class EnergyGuard {
     return *evaluator_.output(0);
   }
 
+  /// S of the state whose energy was evaluated last.
+  double size_of_terms() {
+    double size = 0;
+    for (std::size_t i = 0; i < dimension_; ++i) {
+      const double slope = static_cast<double>(evaluator_.output_gradient(0, i));
+      size += std::abs(slope * static_cast<double>(*evaluator_.input(i)));
+    }
+    return size;
+  }
+
   std::string method_;
   SliceEvaluator<Real, Real> evaluator_;
   std::size_t dimension_;
   Real start_ = 0;
-  double limit_ = 0;
+  double start_scale_ = 0;
+  double least_share_ = 0;  ///< of the terms now
+  double allowed_ = 0;      ///< change, in parts of the scale
 };
 
 }  // namespace hamjet

@@ -22,28 +22,51 @@ void TaylorFlow::set_state(std::size_t lane, std::span<const double> state) {
 
 TaylorFlow::Lanes TaylorFlow::squares(int power, bool is_of_momenta) const {
   const std::size_t n = system_->degrees_of_freedom;
+  const Lanes& unit = inverse_sizes_[is_of_momenta ? 1 : 0];
   Lanes sum;
   for (std::size_t i = 0; i < n; ++i) {
-    const Lanes& z = field_.input(is_of_momenta ? n + i : i)[power];
+    const Lanes z = field_.input(is_of_momenta ? n + i : i)[power] * unit;
     sum += z * z;
   }
   return sum;
 }
 
-TaylorFlow::Lanes TaylorFlow::last_shares(int k, const Lanes& times) const {
-  const Lanes square = times * times;
-  Lanes before(1);
-  for (int i = 1; i < k; ++i) before *= square;
-  // Positions and momenta have units of their own. Both of the last powers are looked at, for one
-  // may vanish by symmetry.
-  Lanes largest;
-  for (const bool is_of_momenta : {false, true}) {
-    const Lanes unit = before / squares(0, is_of_momenta);
-    const Lanes last = squares(k, is_of_momenta) * square;
-    // A sum, so that what is no number stays.
-    largest += (squares(k - 1, is_of_momenta) + last) * unit;
+void TaylorFlow::choose_units() {
+  const std::size_t n = system_->degrees_of_freedom;
+  // Squares of numbers that are divided by the largest of them neither vanish nor overflow.
+  const auto norm = [&](const auto& number) {
+    Lanes largest(std::numeric_limits<double>::min());
+    for (std::size_t i = 0; i < n; ++i) largest = larger_magnitude(largest, number(i));
+    const Lanes inverse = Lanes(1) / largest;
+    Lanes sum;
+    for (std::size_t i = 0; i < n; ++i) {
+      const Lanes part = number(i) * inverse;
+      sum += part * part;
+    }
+    return largest * sqrt(sum);
+  };
+  std::array<Lanes, 2> times;
+  for (std::size_t g = 0; g < times.size(); ++g) {
+    const Lanes size = norm([&](std::size_t i) { return field_.input(g * n + i)[0]; });
+    inverse_sizes_[g] = Lanes(1) / size;
+    times[g] = size / norm([&](std::size_t i) { return field_.output(g * n + i)[0]; });
   }
-  return largest;
+  // The time in which positions and momenta change by themselves: on a circle 1/(2 pi) of a
+  // revolution. A power of two changes no digit.
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    const double of_positions = times[0].lane(static_cast<int>(lane));
+    const double of_momenta = times[1].lane(static_cast<int>(lane));
+    const auto is_usable = [](double time) { return std::isnormal(time) && time > 0; };
+    int exponent = 0;
+    if (is_usable(of_positions)) {
+      const int longest = std::ilogb(of_positions);
+      const int other = is_usable(of_momenta) ? std::ilogb(of_momenta) : longest;
+      exponent = (longest + std::min(longest, other)) / 2;
+    } else if (is_usable(of_momenta)) {
+      exponent = std::ilogb(of_momenta);
+    }
+    units_.set_lane(static_cast<int>(lane), std::ldexp(1.0, exponent));
+  }
 }
 
 void TaylorFlow::expand(std::span<const double> times) {
@@ -55,12 +78,25 @@ void TaylorFlow::expand(std::span<const double> times) {
   powers_.fill(order);
   proved_ = Lanes();
   std::size_t proved = 0;
+  Lanes square;     // of the spans in the lanes' units of time
+  Lanes before(1);  // its power k
   for (int k = 0; k < order; ++k) {
     field_.expand(k);
-    const double factor = 1.0 / (k + 1);
+    if (k == 0) {
+      choose_units();
+      square = spans / units_;
+      square *= square;
+    }
+    const Lanes factor = units_ * Lanes(1.0 / (k + 1));
     for (std::size_t i = 0; i < size; ++i) field_.input(i)[k + 1] = field_.output(i)[k] * factor;
+    if (k > 0) before *= square;
     if (timed == 0 || k + 1 < fewest) continue;
-    const Lanes shares = last_shares(k + 1, spans);
+    // Positions and momenta have units of their own. Both of the last powers are looked at, for one
+    // may vanish by symmetry; in a sum, so that what is no number stays.
+    Lanes shares;
+    for (const bool is_of_momenta : {false, true}) {
+      shares += (squares(k, is_of_momenta) + squares(k + 1, is_of_momenta) * square) * before;
+    }
     for (std::size_t lane = 0; lane < timed; ++lane) {
       const auto i = static_cast<int>(lane);
       if (powers_[lane] < order || !(shares.lane(i) <= least_share * least_share)) continue;
@@ -73,20 +109,19 @@ void TaylorFlow::expand(std::span<const double> times) {
 }
 
 double TaylorFlow::reach(std::size_t lane) const {
-  const auto of_lane = [&](int power, bool is_of_momenta) {
-    return std::sqrt(squares(power, is_of_momenta).lane(static_cast<int>(lane)));
-  };
   double reach = std::numeric_limits<double>::infinity();
   for (const bool is_of_momenta : {false, true}) {
+    // A size of 0 leaves nothing that powers could be compared with.
+    if (!std::isfinite(inverse_sizes_[is_of_momenta ? 1 : 0].lane(static_cast<int>(lane)))) {
+      return 0;
+    }
     for (const int k : {powers_[lane] - 1, powers_[lane]}) {
-      const double last = of_lane(k, is_of_momenta);
+      const double last = std::sqrt(squares(k, is_of_momenta).lane(static_cast<int>(lane)));
       if (!std::isfinite(last)) return 0;
-      if (last > 0) {
-        reach = std::min(reach, std::pow(least_share * of_lane(0, is_of_momenta) / last, 1.0 / k));
-      }
+      if (last > 0) reach = std::min(reach, std::pow(least_share / last, 1.0 / k));
     }
   }
-  return reach;
+  return reach * units_.lane(static_cast<int>(lane));
 }
 
 double TaylorFlow::within_reach(std::size_t lane, double time) const {
@@ -96,10 +131,13 @@ double TaylorFlow::within_reach(std::size_t lane, double time) const {
 }
 
 void TaylorFlow::evaluate(std::size_t lane, double time, std::span<double> state) const {
+  const double in_units = time / units_.lane(static_cast<int>(lane));
   for (std::size_t i = 0; i < state.size(); ++i) {
     const auto* const z = field_.input(i);
     double sum = 0;
-    for (int k = powers_[lane]; k >= 1; --k) sum = (sum + z[k].lane(static_cast<int>(lane))) * time;
+    for (int k = powers_[lane]; k >= 1; --k) {
+      sum = (sum + z[k].lane(static_cast<int>(lane))) * in_units;
+    }
     state[i] = z[0].lane(static_cast<int>(lane)) + sum;
   }
 }

@@ -40,6 +40,12 @@ class TaylorFlow {
   void expand(std::span<const double> times = {});
   /// The power that a lane's last expansion went to.
   int powers(std::size_t lane) const { return powers_[lane]; }
+  /// A lane's unit of time, a power of two.
+  double unit(std::size_t lane) const { return units_.lane(static_cast<int>(lane)); }
+  /// Of a lane's component, the coefficient of a power of the time in that unit.
+  double coefficient(std::size_t lane, std::size_t component, int power) const {
+    return field_.input(component)[power].lane(static_cast<int>(lane));
+  }
   /// The time, either way, within which a lane's polynomial leaves out no more than rounding; 0
   /// where the vector field is not finite.
   double reach(std::size_t lane) const;
@@ -59,14 +65,18 @@ class TaylorFlow {
 
   using Lanes = Pack<double, static_cast<int>(lanes)>;
 
-  /// Of the positions, or of the momenta, the sum of the squares of a power's coefficients.
+  /// The units of the lanes, of states and rates that are there.
+  void choose_units();
+  /// Of the positions, or of the momenta, the sum of the squares of a power's coefficients, in
+  /// parts of the state.
   Lanes squares(int power, bool is_of_momenta) const;
-  /// By lane, the largest square of what the powers k - 1 and k add at these times, relative to the
-  /// state.
-  Lanes last_shares(int k, const Lanes& times) const;
 
   SharedSystem system_;
   TimeExpansion<Lanes, double> field_;
+  /// Of the lanes' coefficients, which are those of (t / unit)^k: whatever units the system is in,
+  /// they are about as large as the state, and their squares neither vanish nor overflow.
+  Lanes units_ = Lanes(1);
+  std::array<Lanes, 2> inverse_sizes_;  ///< of the positions and of the momenta
   std::array<int, lanes> powers_{};
   Lanes proved_;  ///< times that the last expansion is known to reach, where it ended early
 };

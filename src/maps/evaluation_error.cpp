@@ -45,7 +45,7 @@ std::vector<Series<double>> evaluation_error(const std::vector<Series<double>>& 
   for (const Series<double>& component : map) result.emplace_back(component.space_pointer());
   for (int d = 1; d <= degree; ++d) {
     const double common = error_of(d) * largest_coefficient_of(map, d);
-    const double relative = roundings * half_ulp + error_of(0);
+    const double relative = roundings * half_ulp;
     for (std::size_t c = 0; c < map.size(); ++c) {
       for (std::size_t k = space.first(d); k < space.first(d + 1); ++k) {
         result[c][k] = relative * std::abs(map[c][k]) + common;

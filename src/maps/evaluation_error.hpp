@@ -17,9 +17,8 @@ namespace hamjet {
 /// the magnitudes (Higham and Mary, A New Approach to Probabilistic Rounding Error Analysis, SIAM
 /// J. Sci. Comput. 41 (2019) A2815); and of the deviations, given in other units and axes, there
 /// and back. The second is the error of the coefficients themselves, where `error_by_degree` has
-/// it: e_d of degree d relative to A_d, the largest coefficient of the degree in any component,
-/// 0..N. The error of degree 0 turns the axes in which the result is given, and counts as rounding
-/// does.
+/// it: e_d of degree d relative to A_d, the largest coefficient of the degree in any component.
+/// That of degree 0, which turns axes that are the chief's, is no part of it.
 ///
 /// This is an estimate, not a bound. `map` has no constant terms. Throws Error(usage) for a degree
 /// outside 1 to the map's order.

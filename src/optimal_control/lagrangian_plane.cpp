@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <complex>
 
+#include "hamjet/error.hpp"
+
 // This stands in a file of its own because the decompositions take long to compile.
 
 namespace hamjet {
@@ -25,6 +27,10 @@ std::vector<double> LagrangianPlane::phases() const {
   const Eigen::MatrixXcd w =
       frame_.bottomRows(n).cast<Complex>() + Complex(0, 1) * frame_.topRows(n).cast<Complex>();
   const Eigen::ComplexEigenSolver<Eigen::MatrixXcd> solver(w * w.transpose(), false);
+  if (solver.info() != Eigen::Success) {
+    throw Error(ErrorKind::numerical,
+                "second variation: the eigenvalues of the Lagrangian plane are not found");
+  }
   std::vector<double> result;
   for (const Complex& value : solver.eigenvalues()) result.push_back(std::arg(value));
   std::sort(result.begin(), result.end());

@@ -51,7 +51,7 @@ BoundedFamily::BoundedFamily(const ZonalGravity& field, const SixNumbers<double>
       slope(mean_period_, momentum_variable) * slope(mean_node_, energy_variable);
   // The node moves by the order of J2 a revolution, and so do its differences.
   constexpr double least = 1e-9;
-  if (!(std::abs(determinant) > least * period_)) {
+  if (!(std::abs(determinant) * section_.chief()[3] > least * period_)) {
     throw Error(ErrorKind::numerical,
                 "bounded: the node's drift does not depend on the orbit's inclination here; all "
                 "orbits of one energy stay together, as they do without J2");

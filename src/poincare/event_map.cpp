@@ -18,8 +18,31 @@ SixNumbers<Series<Real>> six_of(const FlowJet<Real>& jet) {
   return {jet[0], jet[1], jet[2], jet[3], jet[4], jet[5]};
 }
 
+/// Distance and speed at a state: positions and momenta have units of their own.
+template <class Real>
+struct StateSizes {
+  explicit StateSizes(const SixNumbers<Series<Real>>& z) {
+    using std::sqrt;
+    const auto norm = [&](std::size_t i) {
+      return Real(
+          sqrt(Real(z[i][0] * z[i][0] + z[i + 1][0] * z[i + 1][0] + z[i + 2][0] * z[i + 2][0])));
+    };
+    distance = norm(0);
+    speed = norm(3);
+    // At rest nothing else is there to measure by.
+    if (!(speed > Real(0))) speed = Real(1);
+  }
+
+  Real of(std::size_t place) const { return place < 3 ? distance : speed; }
+  /// In which the state changes by about itself.
+  Real time() const { return distance / speed; }
+
+  Real distance;
+  Real speed;
+};
+
 /// A condition at one state: its value, its derivative along the flow, and the sine of the angle
-/// between the flow and the surface on which it is constant.
+/// between the flow and the surface on which it is constant, in parts of the state's sizes.
 template <class Real>
 struct Crossing {
   Real value;
@@ -41,11 +64,14 @@ Crossing<Real> crossing_at(const SharedSystem& system, const SixNumbers<Series<R
       Series<Real>::variable(line, 0));
   const Series<Real> value = condition(flown);
   const Series<Real> nearby = condition({one(0), one(1), one(2), one(3), one(4), one(5)});
+  const StateSizes<Real> sizes(z);
   Real gradient = 0;
   Real speed = 0;
   for (std::size_t i = 0; i < 6; ++i) {
-    gradient += nearby[1 + i] * nearby[1 + i];
-    speed += flown[i][1] * flown[i][1];
+    const Real slope = nearby[1 + i] * sizes.of(i);
+    const Real rate = flown[i][1] / sizes.of(i);
+    gradient += slope * slope;
+    speed += rate * rate;
   }
   return {value[0], value[1], Real(abs(value[1])) / sqrt(Real(gradient * speed))};
 }
@@ -93,7 +119,7 @@ EventMap<Real> event_map(const DynamicalSystem& system, const SixNumbers<Real>& 
     const Crossing<Real> at = crossing_at(crossing, six_of(*flow.initial_jet), condition);
     rate = at.slope;
     const Real step = -at.value / at.slope;
-    const Real scale = abs(near) + Real(1);
+    const Real scale = abs(near) + StateSizes<Real>(six_of(*flow.initial_jet)).time();
     // At a smaller angle the time of a neighbour is no series but next to the chief.
     constexpr double least_sine = 1e-6;
     if (!(at.sine > Real(least_sine))) {

@@ -1,5 +1,7 @@
 #include "nodal_flight.hpp"
 
+#include <fmt/format.h>
+
 #include <boost/math/constants/constants.hpp>
 #include <cmath>
 #include <limits>
@@ -37,18 +39,26 @@ ReturnMap<Real> return_near(const ZonalGravity& field, const SixNumbers<Real>& c
   GaussSettings settings;
   settings.tolerance = tolerance;
   FlowBoxPropagation<Real> propagation(field, ChartName::nodal, chief, order, settings);
-  const Real least = Real(100) * std::numeric_limits<Real>::epsilon();
   constexpr int most_iterations = 10;
   Real time = near;
-  for (int i = 0;; ++i) {
+  Real left = 0;
+  for (int i = 0; i <= most_iterations; ++i) {
     FlowBoxMap<Real> map = propagation.advance_to(time);
-    const Real left = within_half_a_turn<Real>(map.start->chief()[0] - map.end->chief()[0]);
-    if (abs(left) <= least || i == most_iterations) {
+    const Real rate = map.end->rate();
+    left = within_half_a_turn<Real>(map.start->chief()[0] - map.end->chief()[0]);
+    // An ulp of the time turns the chief by as much times its rate.
+    const Real rounding =
+        Real(100) * std::numeric_limits<Real>::epsilon() * (Real(1) + Real(abs(Real(time * rate))));
+    if (abs(left) <= rounding) {
       NodalFlight<Real> flight = nodal_flight(map);
       return {std::move(map), std::move(flight)};
     }
-    time += left / map.end->rate();
+    time += left / rate;
   }
+  throw Error(ErrorKind::numerical,
+              fmt::format("return map: after {} steps of Newton's method the chief is still {:.2g} "
+                          "radians from its section",
+                          most_iterations, static_cast<double>(left)));
 }
 
 template <class Real>

@@ -36,7 +36,7 @@ struct ReturnMap {
 /// The return of a chief that goes round a zonal field to its own section that is nearest to a
 /// time, to an order; (q, p) -> (q', p') of one energy and H preserves the area. Throws
 /// Error(numerical) for a chief that is no ellipse or too near to the equatorial plane, where no
-/// node is defined, and as integrate_gauss.
+/// node is defined, if Newton's method does not bring it to its section, and as integrate_gauss.
 template <class Real>
 ReturnMap<Real> return_near(const ZonalGravity& field, const SixNumbers<Real>& chief,
                             const Real& time, int order, double tolerance);

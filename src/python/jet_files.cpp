@@ -11,8 +11,8 @@
 
 #include "../app/replaceable_file.hpp"
 #include "../app/rounding_note.hpp"
-#include "../store/file_system.hpp"
 #include "../store/text_file.hpp"
+#include "../store/whole_file.hpp"
 #include "existing_file.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/formats/jet_file.hpp"
@@ -57,6 +57,11 @@ std::filesystem::path path_of(const py::object& given) {
 }
 
 /// Throws unless the file can be written, and replaced where it is there.
+[[noreturn]] void throw_existing(const std::filesystem::path& file) {
+  throw ExistingFile(file,
+                     io::printable_path(file) + ": is there; overwrite=True would replace it");
+}
+
 void require_new(const std::filesystem::path& file, bool may_replace) {
   std::error_code ignored;
   const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
@@ -65,10 +70,7 @@ void require_new(const std::filesystem::path& file, bool may_replace) {
                                       io::printable_path(folder) + " is not there");
   }
   cli::require_replaceable(file);
-  if (!may_replace && exists(file, ignored)) {
-    throw ExistingFile(file,
-                       io::printable_path(file) + ": is there; overwrite=True would replace it");
-  }
+  if (!may_replace && exists(file, ignored)) throw_existing(file);
 }
 
 void save(const std::shared_ptr<Jet>& jet, const py::object& path, bool overwrite) {
@@ -82,8 +84,14 @@ void save(const std::shared_ptr<Jet>& jet, const py::object& path, bool overwrit
     const std::string text = "save: " + *note;
     if (PyErr_WarnEx(PyExc_RuntimeWarning, text.c_str(), 1) != 0) throw py::error_already_set();
   }
-  interruptibly(py::none(), [jet, file, &format](const ProgressCallback&) {
-    io::write_whole_file(file, io::jet_file_content(jet->stored(), format));
+  interruptibly(py::none(), [jet, file, overwrite, &format](const ProgressCallback&) {
+    io::WholeFile written(file);
+    written.write(io::jet_file_content(jet->stored(), format));
+    if (overwrite) {
+      written.replace(io::Flush::yes);
+    } else if (!written.put_where_nothing_is()) {
+      throw_existing(file);
+    }
     return true;
   });
 }

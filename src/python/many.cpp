@@ -94,7 +94,7 @@ class ManyStudy {
 ManyStudy integrate_many(const GivenScene& given, const std::string& run, const Rows& states,
                          bool is_in_km, std::optional<std::size_t> threads,
                          const py::object& progress) {
-  const Scene scene = given.flow_jet();
+  const Scene scene = given.flow_jet(io::SceneUnits::told);
   const std::size_t count = threads ? *threads : cli::usable_processors();
   std::vector<std::vector<double>> rows;
   const auto width = static_cast<std::size_t>(states.shape(1));

@@ -36,7 +36,8 @@ struct Propagation {
 Propagation run_flow_jet(const GivenScene& given, std::optional<std::size_t> threads,
                          const py::object& progress) {
   const std::size_t count = threads ? *threads : cli::usable_processors();
-  return interruptibly(progress, [scene = given.flow_jet(), count](const ProgressCallback& report) {
+  return interruptibly(progress, [scene = given.flow_jet(io::SceneUnits::told),
+                                  count](const ProgressCallback& report) {
     auto result = std::make_shared<const PropagationResult>(propagate(scene, report, count));
     std::string summary = io::summary_json(*result);
     return Propagation{std::move(result), std::move(summary)};

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "../scene/document/scene_document.hpp"
+#include "../scene/document/scene_text.hpp"
 #include "../text/scene_message.hpp"
 #include "bindings.hpp"
 #include "given_scene.hpp"
@@ -131,28 +132,32 @@ std::vector<io::Override> overrides_of(
 
 using Overrides = std::vector<std::pair<std::string, std::string>>;
 
-GivenScene scene_of_file(const std::filesystem::path& file, const Overrides& overrides) {
-  return {io::read_study(file, overrides_of(overrides)), file.string()};
-}
-
 GivenScene scene_of_text(const std::string& text, const std::string& name,
                          const Overrides& overrides) {
-  return {io::parse_study(text, name, overrides_of(overrides)), name};
+  const auto read = [&](io::SceneUnits units) {
+    return io::parse_study(text, name, overrides_of(overrides), units);
+  };
+  return {read, name};
+}
+
+GivenScene scene_of_file(const std::filesystem::path& file, const Overrides& overrides) {
+  const std::string text = io::read_scene_file(file);
+  return scene_of_text(text, file.string(), overrides);
 }
 
 GivenScene scene_of_tables(const py::object& mapping, const std::string& name,
                            const Overrides& overrides) {
-  toml::table tables = table_of(mapping, {name, ""}, 0);
-  return {
-      io::read_document(io::make_document(std::move(tables), name, overrides_of(overrides)), name),
-      name};
+  const io::SceneDocument document =
+      io::make_document(table_of(mapping, {name, ""}, 0), name, overrides_of(overrides));
+  return {[&](io::SceneUnits units) { return io::read_document(document, name, units); }, name};
 }
 
 }  // namespace
 
 void bind_scenes(py::module_& module) {
   py::class_<GivenScene>(module, "GivenScene", "A scene that was read and checked.")
-      .def_property_readonly("is_flow_jet", &GivenScene::is_flow_jet);
+      .def_property_readonly("is_flow_jet", &GivenScene::is_flow_jet)
+      .def_property_readonly("warnings", &GivenScene::warnings);
   module.def("scene_of_file", &scene_of_file, py::arg("file"), py::arg("overrides"));
   module.def("scene_of_text", &scene_of_text, py::arg("text"), py::arg("name"),
              py::arg("overrides"));

@@ -7,7 +7,9 @@
 namespace hamjet::io {
 namespace {
 
+/// Parts of the chief's distance from the centre: the flows themselves are told to 1e-12 of it.
 constexpr double largest_radius = 0.01;
+constexpr double smallest_radius = 1e-10;
 constexpr int fewest_samples = 1000;
 constexpr int most_samples = 1000000000;
 
@@ -18,11 +20,12 @@ const TableDescription& collision_table() {
   static const TableDescription table = {
       {{"radius_m", form::positive(), absent::refused(),
         "the sum of the radii of both spacecraft: nearer than this is a collision"},
-       window_key(),
+       window_key("from the start to the end, and as far before and beyond as a passage goes that "
+                  "these cut"),
        {"event", form::choice({collision_event_names.begin(), collision_event_names.end()}),
         absent::value(collision_event_names[0]),
         "what counts: to be nearer at any time of the window; or to become nearer, for which those "
-        "that are so when it begins do not count"},
+        "that are so when it begins count only once they come back"},
        {"sampling",
         form::choice({collision_sampling_names.begin(), collision_sampling_names.end()}),
         absent::value(collision_sampling_names[0]),
@@ -64,8 +67,8 @@ std::array<double, 2> read_window(const TableReader& table, const Scene& scene) 
   return {window[0] / scene.units.time_s, window[1] / scene.units.time_s};
 }
 
-SceneKey window_key() {
-  return {"window_s", form::array(form::number(), 2), absent::other("from the start to the end"),
+SceneKey window_key(std::string_view absence) {
+  return {"window_s", form::array(form::number(), 2), absent::other(std::string(absence)),
           "from when to when after the start, of which the first is before the second"};
 }
 
@@ -78,6 +81,11 @@ double read_nearness(const TableReader& table, std::string_view key, const Scene
                                 "of the chief's distance from the centre",
                                 length_m, largest_radius * distance_m));
   }
+  if (length_m < smallest_radius * distance_m) {
+    table.fail(key, fmt::format("too small, got {:.6g}, must be {:.3g} or more, what the motion is "
+                                "told to",
+                                length_m, smallest_radius * distance_m));
+  }
   return length_m;
 }
 
@@ -87,6 +95,7 @@ CollisionWatch read_collision(const TableReader& collision, const Scene& scene) 
   const auto window = read_window(collision, scene);
   watch.from = window[0];
   watch.to = window[1];
+  watch.has_window = collision.has("window_s");
   watch.radius_m = read_nearness(collision, "radius_m", scene);
   collision.read_if_any("event", watch.event);
   collision.read_if_any("sampling", watch.sampling);

@@ -80,21 +80,23 @@ const TableDescription& compare_table() {
   return table;
 }
 
-ComparisonSettings read_compare(const TableReader& table, int order, double duration) {
+ComparisonSettings read_compare(const TableReader& table, const Scene& scene,
+                                const Nominal& nominal) {
   table.check_keys();
   ComparisonSettings settings;
   if (table.has("methods")) settings.methods = read_methods(table);
   if (table.has("stages")) settings.stages = as_int(table.integers("stages"));
-  const double span = std::abs(duration);
   if (table.has("steps_canonical")) {
+    const double span = std::abs(nominal.told_time(scene.duration));
     settings.steps_canonical =
         positive_numbers(table, "steps_canonical", span / largest_step_count, 1e300);
+    for (double& step : settings.steps_canonical) step = nominal.time_of_canonical(step);
   }
   if (table.has("tolerances")) {
     settings.tolerances =
         positive_numbers(table, "tolerances", least_tolerance, greatest_tolerance);
   }
-  if (table.has("orders")) settings.orders = as_int(table.integers("orders", 1, order));
+  if (table.has("orders")) settings.orders = as_int(table.integers("orders", 1, scene.order));
   table.read_if_any("repeats", settings.repeats);
   table.read_if_any("time_budget_s", settings.time_budget_s);
   table.read_if_any("wanted_error_m", settings.wanted_error_m);

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
+#include "../text/quantity_text.hpp"
 #include "../text/scene_message.hpp"
 #include "hamjet/formats/conjunction_data_message.hpp"
 #include "hamjet/formats/orbit_message.hpp"
@@ -15,13 +17,22 @@ namespace {
 
 constexpr std::string_view file_key = "file";
 
-/// A covariance of a message in metres, and where it stands.
+/// A covariance of a message in metres, where it stands, and the state that it is of.
 struct GivenCovariance {
   Epoch epoch;
   std::string time_system;
   std::string reference_frame;
   Matrix<double> matrix;
   std::size_t line = 0;
+  KnownState state;
+  bool has_state = true;   ///< an OEM may have none at that epoch
+  std::string place = {};  ///< OBJECT1 or OBJECT2 of a CDM
+};
+
+/// What is read of a file: the covariances of the wanted object, or of all that may be.
+struct CovariancesOfFile {
+  std::vector<GivenCovariance> found;
+  std::vector<std::string> doubts;
 };
 
 Matrix<double> square(const std::array<std::array<double, 6>, 6>& rows, double unit) {
@@ -34,106 +45,267 @@ Matrix<double> square(const std::array<std::array<double, 6>, 6>& rows, double u
   return matrix;
 }
 
-GivenCovariance of_orbit(const OrbitMetadata& metadata, const OrbitCovariance& covariance) {
-  return {covariance.epoch,
-          std::string(time_system_names()[static_cast<std::size_t>(metadata.time_system)]),
-          covariance.reference_frame, square(covariance.matrix, 1e6), covariance.line};
+GivenCovariance of_orbit(const OrbitMetadata& metadata, const OrbitCovariance& covariance,
+                         std::span<const OrbitState> states, double mu_km3_s2) {
+  GivenCovariance given = {
+      covariance.epoch,
+      std::string(time_system_names()[static_cast<std::size_t>(metadata.time_system)]),
+      covariance.reference_frame,
+      square(covariance.matrix, 1e6),
+      covariance.line,
+      {}};
+  given.state.names = known_names({metadata.object_name, metadata.object_id});
+  given.state.center_name = metadata.center_name;
+  given.state.reference_frame = metadata.reference_frame;
+  if (metadata.reference_frame_epoch) {
+    given.state.reference_frame_epoch = format_epoch(*metadata.reference_frame_epoch);
+  }
+  given.has_state = interpolate_state(states, covariance.epoch, mu_km3_s2, given.state);
+  return given;
 }
 
-bool is_object(const TableReader& table, const std::vector<std::string_view>& names) {
-  if (!table.has("object")) return true;
-  const std::string wanted = table.text("object");
-  return std::find(names.begin(), names.end(), wanted) != names.end();
+GivenCovariance of_conjunction(const ConjunctionDataMessage& message, std::size_t number) {
+  const ConjunctionObject& object = message.objects[number];
+  GivenCovariance given = {
+      message.tca, "UTC", "RTN", square(object.covariance, 1), object.covariance_line, {}};
+  given.state.names =
+      known_names({object.object_name, object.international_designator, object.object_designator});
+  given.state.center_name = object.orbit_center;
+  given.state.reference_frame = object.reference_frame;
+  given.state.position_km = Eigen::Vector3d(object.position_km.data());
+  given.state.velocity_km_s = Eigen::Vector3d(object.velocity_km_s.data());
+  given.place = fmt::format("OBJECT{}", number + 1);
+  return given;
 }
 
-/// All covariances of the object that the table names.
-std::vector<GivenCovariance> covariances_of(const TableReader& table, const std::string& name,
-                                            const std::string& text,
-                                            std::string_view default_object) {
-  std::vector<GivenCovariance> found;
+/// All covariances of a file, of the object that the table names if it does.
+CovariancesOfFile covariances_of(const TableReader& table, const std::string& name,
+                                 const std::string& text, double mu_km3_s2) {
+  CovariancesOfFile file;
   if (text.find("CCSDS_CDM_VERS") != text.npos) {
-    const ConjunctionDataMessage message = read_cdm(name, text);
-    for (std::size_t k = 0; k < 2; ++k) {
-      const ConjunctionObject& object = message.objects[k];
-      const std::string place = fmt::format("OBJECT{}", k + 1);
-      const bool is_wanted =
-          table.has("object")
-              ? is_object(table, {place, object.object_designator, object.object_name,
-                                  object.international_designator})
-              : place == default_object;
-      if (!is_wanted) continue;
-      found.push_back(
-          {message.tca, "UTC", "RTN", square(object.covariance, 1), object.covariance_line});
-    }
+    ConjunctionDataMessage message = read_cdm(name, text);
+    for (std::size_t k = 0; k < 2; ++k) file.found.push_back(of_conjunction(message, k));
+    file.doubts = std::move(message.doubts);
   } else if (text.find("CCSDS_OPM_VERS") != text.npos || text.find("<opm") != text.npos) {
-    const OrbitParameterMessage message = read_opm(name, text);
-    if (message.covariance &&
-        is_object(table, {message.metadata.object_name, message.metadata.object_id})) {
-      found.push_back(of_orbit(message.metadata, *message.covariance));
+    OrbitParameterMessage message = read_opm(name, text);
+    if (message.covariance) {
+      file.found.push_back(
+          of_orbit(message.metadata, *message.covariance, {&message.state, 1}, mu_km3_s2));
     }
+    file.doubts = std::move(message.doubts);
   } else {
     for (const EphemerisSegment& segment : read_oem(name, text).segments) {
-      if (!is_object(table, {segment.metadata.object_name, segment.metadata.object_id})) continue;
       for (const OrbitCovariance& covariance : segment.covariances) {
-        found.push_back(of_orbit(segment.metadata, covariance));
+        file.found.push_back(of_orbit(segment.metadata, covariance, segment.states, mu_km3_s2));
       }
     }
   }
-  return found;
+  if (table.has("object")) {
+    const std::string wanted = table.text("object");
+    std::erase_if(file.found, [&](const GivenCovariance& given) {
+      const auto& names = given.state.names;
+      return given.place != wanted && std::find(names.begin(), names.end(), wanted) == names.end();
+    });
+  }
+  return file;
 }
+
+std::string names_text(const std::vector<std::string>& names) {
+  return printable(names.empty() ? "an object without a name"
+                                 : fmt::format("{}", fmt::join(names, ", ")));
+}
+
+class CovarianceFile {
+ public:
+  CovarianceFile(const TableReader& table, const Nominal& nominal, const CovarianceOwner& owner)
+      : table_(table),
+        nominal_(nominal),
+        owner_(owner),
+        name_(printable(table.path_beside_scene(file_key).string(), std::string::npos)) {}
+
+  StateUncertainty read() const {
+    const GivenCovariance given = chosen();
+    require_same_spacecraft(given);
+    StateUncertainty state;
+    state.frame = frame_of(given);
+    const auto names = component_names(state.frame);
+    if (const auto fault = Covariance::fault_of(given.matrix, names)) {
+      table_.fail(file_key, fmt::format("in line {}: {}", given.line, *fault));
+    }
+    state.covariance = Covariance(given.matrix, names);
+    return state;
+  }
+
+ private:
+  /// The only covariance of the chief's moment that may be meant.
+  GivenCovariance chosen() const {
+    const std::string text = table_.content_beside_scene(file_key, largest_orbit_message_bytes);
+    CovariancesOfFile file = covariances_of(table_, name_, text, nominal_.centre.system.mu_km3_s2);
+    std::vector<GivenCovariance>& all = file.found;
+    if (all.empty()) {
+      table_.fail(
+          table_.has("object") ? "object" : file_key,
+          table_.has("object")
+              ? fmt::format("no covariance of it in the file, got {}, must be an object that "
+                            "has one",
+                            in_quotes(table_.text("object")))
+              : fmt::format("no covariance, got {}, must be an OEM, OPM or CDM with one", name_));
+    }
+    if (!nominal_.ephemeris) {
+      table_.fail(file_key,
+                  fmt::format("a dated covariance beside a chief without a date, got {} {}, must "
+                              "have a table [ephemeris] that says the chief's epoch, or a chief "
+                              "from a message",
+                              format_epoch(all[0].epoch), all[0].time_system));
+    }
+    table_.warn(file_key, file.doubts);
+    const EphemerisSettings& chief = *nominal_.ephemeris;
+    const GivenCovariance first = all[0];
+    const std::size_t others = all.size() - 1;
+    std::erase_if(all, [&](const GivenCovariance& given) {
+      return parse_epoch(chief.epoch) != given.epoch || given.time_system != chief.time_system;
+    });
+    if (all.empty()) {
+      table_.fail(
+          file_key,
+          fmt::format(
+              "no covariance of the chief's moment, got {} {}{}, must be {} {}",
+              format_epoch(first.epoch), first.time_system,
+              others > 0 && first.place.empty() ? fmt::format(" and {} others", others) : "",
+              chief.epoch, chief.time_system));
+    }
+    return only_one(all);
+  }
+
+  GivenCovariance only_one(const std::vector<GivenCovariance>& all) const {
+    if (all.size() == 1) return all[0];
+    if (!all[0].place.empty()) {
+      return *std::find_if(all.begin(), all.end(), [&](const GivenCovariance& given) {
+        return given.place == owner_.object_of_cdm;
+      });
+    }
+    // Of several objects in an ephemeris the owner is meant.
+    std::vector<GivenCovariance> own;
+    for (const GivenCovariance& given : all) {
+      const bool is_known = !given.state.names.empty() && !owner_.state.names.empty();
+      if (is_known && !are_other_objects(given.state.names, owner_.state.names)) {
+        own.push_back(given);
+      }
+    }
+    if (own.empty()) own = all;
+    for (const GivenCovariance& given : own) {
+      if (are_other_objects(given.state.names, own[0].state.names)) {
+        table_.fail("object", fmt::format("missing, got covariances of {} and of {} in {}:{}, must "
+                                          "be one of them",
+                                          names_text(own[0].state.names),
+                                          names_text(given.state.names), name_, given.line));
+      }
+      if (given.matrix != own[0].matrix || given.reference_frame != own[0].reference_frame) {
+        table_.fail(file_key,
+                    fmt::format("two covariances of the chief's moment, got them in lines {} and "
+                                "{} of {}, must be one",
+                                own[0].line, given.line, name_));
+      }
+    }
+    return own[0];
+  }
+
+  /// Refuses a covariance about another centre, of another state or of another object.
+  void require_same_spacecraft(const GivenCovariance& given) const {
+    const KnownState& own = owner_.state;
+    const std::string in_line = fmt::format("in {}:{}", name_, given.line);
+    if (!is_same_centre(given.state.center_name, own.center_name)) {
+      table_.fail(file_key, fmt::format("a covariance about another centre than the {}'s, got {} "
+                                        "{}, must be {}",
+                                        owner_.who, printable(given.state.center_name), in_line,
+                                        printable(own.center_name)));
+    }
+    require_same_state(given, in_line);
+    if (table_.has("object") || !are_other_objects(given.state.names, own.names)) return;
+    table_.fail(
+        file_key,
+        fmt::format("a covariance of another object than the {}, got {} {}, must be {}; "
+                    "object = {} says that it is meant",
+                    owner_.who, names_text(given.state.names), in_line, names_text(own.names),
+                    in_quotes(given.place.empty() ? given.state.names[0] : given.place)));
+  }
+
+  void require_same_state(const GivenCovariance& given, const std::string& in_line) const {
+    if (!given.has_state) {
+      table_.warn(file_key, fmt::format("the covariance {} is of a moment that no states of the "
+                                        "file enclose, so that it was not compared with the {}'s "
+                                        "state",
+                                        in_line, owner_.who));
+      return;
+    }
+    const auto deviation_km = [&](Eigen::Index first) {
+      return std::sqrt(std::max(0.0, given.matrix.diagonal().segment(first, 3).sum())) / 1000;
+    };
+    const double of_position = deviation_km(0);
+    double of_velocity = deviation_km(3);
+    if (frame_of(given) == RelativeFrame::rtn_rotating) {
+      // Inertial velocities have the turn of the axes besides.
+      of_velocity +=
+          of_position * owner_.state.velocity_km_s.norm() / owner_.state.position_km.norm();
+    }
+    const StateDifference difference =
+        difference_of_states(given.state, owner_.state, of_position, of_velocity);
+    if (!difference.is_contradiction()) return;
+    const std::string names = given.state.names.empty()
+                                  ? std::string()
+                                  : fmt::format(" of {}", names_text(given.state.names));
+    table_.fail(
+        file_key,
+        fmt::format("a covariance of another state than the {}'s, got one{} {} at {} and {:.3g} "
+                    "m/s from it, must be within {} and {:.3g} m/s ({:g} standard deviations, "
+                    "five digits of the state{}){}",
+                    owner_.who, names, in_line, length_text(1000 * difference.position_km),
+                    std::round(1e9 * difference.velocity_km_s) / 1e6,
+                    length_text(1000 * difference.most_position_km),
+                    1000 * difference.most_velocity_km_s, most_standard_deviations,
+                    given.state.reference_frame == owner_.state.reference_frame
+                        ? ""
+                        : fmt::format(", {} beside {}", given.state.reference_frame,
+                                      owner_.state.reference_frame),
+                    given.place.empty() ? "" : "; object = \"OBJECT1\" or \"OBJECT2\" chooses"));
+  }
+
+  /// The axes of the covariance. RSW, QSW and RIC are other names of RTN, whose velocities are
+  /// differences of inertial ones unless the name ends with _ROTATING (SANA registry of orbit
+  /// relative reference frames, to which CCSDS 502.0-B-3, annex B5 refers).
+  RelativeFrame frame_of(const GivenCovariance& given) const {
+    std::string_view name = given.reference_frame;
+    constexpr std::string_view inertial = "_INERTIAL", rotating = "_ROTATING";
+    const bool is_rotating = name.ends_with(rotating);
+    if (is_rotating || name.ends_with(inertial)) name.remove_suffix(inertial.size());
+    for (const std::string_view axes : {"RTN", "RSW", "QSW", "RIC"}) {
+      if (name != axes) continue;
+      return is_rotating ? RelativeFrame::rtn_rotating : RelativeFrame::rtn_inertial;
+    }
+    const EphemerisSettings& chief = *nominal_.ephemeris;
+    EphemerisSettings own = chief;
+    own.reference_frame = given.reference_frame;
+    own.reference_frame_epoch = given.state.reference_frame_epoch;
+    if (is_same_axes(own, chief)) return RelativeFrame::inertial;
+    table_.fail(
+        file_key,
+        fmt::format("a covariance in other axes, got {} in {}:{}, must be RTN (or RSW, QSW, RIC, "
+                    "also with _INERTIAL or _ROTATING) or the chief's {}",
+                    printable(axes_text(given.reference_frame, own.reference_frame_epoch)), name_,
+                    given.line, axes_text(chief.reference_frame, chief.reference_frame_epoch)));
+  }
+
+  const TableReader& table_;
+  const Nominal& nominal_;
+  const CovarianceOwner& owner_;
+  std::string name_;
+};
 
 }  // namespace
 
 StateUncertainty read_covariance_file(const TableReader& table, const Nominal& nominal,
-                                      std::string_view default_object) {
-  const std::string text = table.content_beside_scene(file_key, largest_orbit_message_bytes);
-  const std::string name = printable(table.path_beside_scene(file_key).string(), std::string::npos);
-  const std::vector<GivenCovariance> all = covariances_of(table, name, text, default_object);
-  if (all.empty()) {
-    table.fail(
-        table.has("object") ? "object" : file_key,
-        table.has("object")
-            ? fmt::format("no covariance of it in the file, got {}, must be an object that "
-                          "has one",
-                          in_quotes(table.text("object")))
-            : fmt::format("no covariance, got {}, must be an OEM, OPM or CDM with one", name));
-  }
-  if (!nominal.ephemeris) {
-    table.fail(file_key,
-               fmt::format("a dated covariance beside a chief without a date, got {} {}, must "
-                           "have a table [ephemeris] that says the chief's epoch, or a chief "
-                           "from a message",
-                           format_epoch(all[0].epoch), all[0].time_system));
-  }
-  const EphemerisSettings& chief = *nominal.ephemeris;
-  const auto chosen = std::find_if(all.begin(), all.end(), [&](const GivenCovariance& given) {
-    return parse_epoch(chief.epoch) == given.epoch && given.time_system == chief.time_system;
-  });
-  if (chosen == all.end()) {
-    table.fail(file_key,
-               fmt::format("no covariance of the chief's moment, got {} {}{}, must be {} {}",
-                           format_epoch(all[0].epoch), all[0].time_system,
-                           all.size() > 1 ? fmt::format(" and {} others", all.size() - 1) : "",
-                           chief.epoch, chief.time_system));
-  }
-  StateUncertainty state;
-  if (chosen->reference_frame == "RTN" || chosen->reference_frame == "RSW") {
-    state.frame = RelativeFrame::rtn_inertial;
-  } else if (chosen->reference_frame == chief.reference_frame) {
-    state.frame = RelativeFrame::inertial;
-  } else {
-    table.fail(
-        file_key,
-        fmt::format("a covariance in other axes, got {} in line {}, must be RTN, RSW or "
-                    "the chief's {}",
-                    in_quotes(chosen->reference_frame), chosen->line, chief.reference_frame));
-  }
-  const auto names = component_names(state.frame);
-  if (const auto fault = Covariance::fault_of(chosen->matrix, names)) {
-    table.fail(file_key, fmt::format("in line {}: {}", chosen->line, *fault));
-  }
-  state.covariance = Covariance(chosen->matrix, names);
-  return state;
+                                      const CovarianceOwner& owner) {
+  return CovarianceFile(table, nominal, owner).read();
 }
 
 }  // namespace hamjet::io

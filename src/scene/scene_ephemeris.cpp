@@ -127,9 +127,15 @@ EphemerisSettings read_ephemeris(const TableReader& ephemeris,
       "time_system", settings.time_system,
       [&] { return std::string(time_system_names()[ephemeris.choice("time_system")]); },
       of_file.time_system);
-  read(
-      "reference_frame", settings.reference_frame, [&] { return read_frame(ephemeris); },
-      of_file.reference_frame);
+  if (!file) {
+    settings.reference_frame = read_frame(ephemeris);
+  } else if (ephemeris.has("reference_frame")) {
+    const std::string frame = read_frame(ephemeris);
+    // Another name of the same axes is no change.
+    if (name_of_axes(frame) != name_of_axes(of_file.reference_frame)) {
+      require_same(ephemeris, "reference_frame", frame, of_file.reference_frame);
+    }
+  }
   if (ephemeris.has("reference_frame_epoch")) {
     settings.reference_frame_epoch = format_epoch(read_epoch(ephemeris, "reference_frame_epoch"));
     if (file) {

@@ -135,9 +135,10 @@ std::string read_label(const TableReader& integrator) {
 }
 
 double read_step(const TableReader& integrator, std::string_view key, double duration,
-                 const CanonicalScale& scale) {
+                 const Nominal& nominal) {
   const double given = integrator.number(key);
-  const double step = key == "step_s" ? scale.time_of_s(given) : given;
+  const double step =
+      key == "step_s" ? nominal.scale.time_of_s(given) : nominal.time_of_canonical(given);
   if (!std::isfinite(step) || step == 0) {
     integrator.fail(key, fmt::format("out of range, got {}, which is {} in canonical units, must "
                                      "be within binary64 there",
@@ -203,7 +204,7 @@ std::string_view read_size_key(const TableReader& integrator, const MethodDescri
 
 /// Whoever asks for one of these knows it from the paper and deserves to know why it is no choice.
 void refuse_energy_conserving(const TableReader& integrator) {
-  const std::string method = integrator.text("method");
+  const std::string method = integrator.text_if_any("method").value_or("");
   if (method != "energy-conserving-stormer" && method != "energy-conserving-midpoint") return;
   integrator.fail("method",
                   fmt::format("not available for a flow jet, got {}, must be one of: {}; {} (study "
@@ -239,9 +240,9 @@ void add_labels(std::vector<IntegratorSettings>& integrators) {
 }
 
 IntegratorSettings read_integrator(const TableReader& integrator, Precision precision,
-                                   double duration, const CanonicalScale& scale) {
+                                   double duration, const Nominal& nominal) {
   if (!integrator.has("method")) integrator.check_keys();  // a misspelt `method` is named
-  if (integrator.has("method")) refuse_energy_conserving(integrator);
+  refuse_energy_conserving(integrator);
   IntegratorSettings settings;
   settings.method = static_cast<IntegrationMethod>(integrator.choice("method"));
   const MethodDescription& method = description_of(settings.method);
@@ -259,7 +260,7 @@ IntegratorSettings read_integrator(const TableReader& integrator, Precision prec
   if (size_key == "tolerance") {
     settings.tolerance = read_tolerance(integrator, precision);
   } else {
-    settings.step_canonical = read_step(integrator, size_key, duration, scale);
+    settings.step_canonical = read_step(integrator, size_key, duration, nominal);
   }
   integrator.read_if_any("require_relative_error", settings.require_relative_error);
   integrator.read_if_any("require_symplecticity", settings.require_symplecticity);
@@ -302,7 +303,7 @@ const std::string& default_integrator_table() {
 
 std::vector<IntegratorSettings> read_integrators(const std::vector<TableReader>& integrators,
                                                  Precision precision, double duration,
-                                                 const CanonicalScale& scale) {
+                                                 const Nominal& nominal) {
   if (integrators.size() > most_integrators) {
     throw Error(
         ErrorKind::too_large,
@@ -314,7 +315,7 @@ std::vector<IntegratorSettings> read_integrators(const std::vector<TableReader>&
   std::map<std::string, std::string> places;  // of the labels so far
   for (const TableReader& integrator : integrators) {
     integrator.attempt([&] {
-      const IntegratorSettings settings = read_integrator(integrator, precision, duration, scale);
+      const IntegratorSettings settings = read_integrator(integrator, precision, duration, nominal);
       all_settings.push_back(settings);
       if (settings.label.empty()) return;
       const auto [first, is_new] = places.emplace(settings.label, integrator.where("label"));

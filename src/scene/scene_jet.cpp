@@ -147,8 +147,10 @@ double read_duration(const TableReader& table, bool has_orbits, const Nominal& n
   if (!has_orbits) std::erase(keys, "duration_orbits");
   const std::string_view key = table.exactly_one_of(keys);
   const double given = table.number(key);
-  double duration = given;
-  if (key == "duration_s") {
+  double duration = 0;
+  if (key == "duration_canonical") {
+    duration = nominal.time_of_canonical(given);
+  } else if (key == "duration_s") {
     duration = nominal.scale.time_of_s(given);
   } else if (key == "duration_orbits") {
     if (!nominal.period_s) {

@@ -19,36 +19,53 @@ constexpr double greatest_distance = 1e9;
 
 double rounded(const Extended& value) { return convert<double>(value); }
 
+CanonicalScale scale_of(const Extended& length_km, double mu_km3_s2) {
+  return {length_km, sqrt(length_km * length_km * length_km / mu_km3_s2)};
+}
+
+std::vector<double> canonical_state(const CartesianState& orbit, const CanonicalScale& scale) {
+  std::vector<double> state;
+  for (const Extended& q : orbit.position_km) state.push_back(rounded(q / scale.length_km));
+  for (const Extended& v : orbit.velocity_km_s) {
+    state.push_back(rounded(v * scale.time_s / scale.length_km));
+  }
+  return state;
+}
+
+void require_within_binary64(const TableReader& nominal, const CartesianState& orbit,
+                             const CanonicalScale& scale) {
+  const double units[] = {rounded(scale.length_km), rounded(scale.time_s)};
+  const std::vector<double> state = canonical_state(orbit, scale);
+  const auto usable = [](double unit) { return std::isnormal(unit); };
+  const auto finite = [](double value) { return std::isfinite(value); };
+  if (std::all_of(std::begin(units), std::end(units), usable) &&
+      std::all_of(state.begin(), state.end(), finite)) {
+    return;
+  }
+  nominal.fail(
+      "", fmt::format("out of range in canonical units, got a unit of length of {:.3g} km and a "
+                      "unit of time of {:.3g} s, must leave units and state within binary64",
+                      units[0], units[1]));
+}
+
 Nominal canonical_orbit(const TableReader& nominal, const CartesianState& orbit, double mu_km3_s2,
-                        const std::optional<double>& length_km) {
+                        const std::optional<double>& length_km, SceneUnits wanted) {
   const auto& [x, y, z] = orbit.position_km;
   const Extended distance_km = sqrt(x * x + y * y + z * z);
   Nominal result;
-  CanonicalScale& scale = result.scale;
-  scale.length_km = length_km ? Extended(*length_km) : distance_km;
-  scale.time_s = sqrt(scale.length_km * scale.length_km * scale.length_km / mu_km3_s2);
-  for (const Extended& q : orbit.position_km) result.state.push_back(rounded(q / scale.length_km));
-  for (const Extended& v : orbit.velocity_km_s) {
-    result.state.push_back(rounded(v * scale.time_s / scale.length_km));
-  }
-  const double units[] = {rounded(scale.length_km), rounded(scale.time_s)};
-  const double distance = rounded(distance_km / scale.length_km);
-  const auto usable = [](double unit) { return std::isnormal(unit); };
-  const auto finite = [](double value) { return std::isfinite(value); };
-  if (!std::all_of(std::begin(units), std::end(units), usable) ||
-      !std::all_of(result.state.begin(), result.state.end(), finite)) {
-    nominal.fail(
-        "",
-        fmt::format("out of range in canonical units, got a unit of length of {:.3g} km and a unit "
-                    "of time of {:.3g} s, must leave units and state within binary64",
-                    units[0], units[1]));
-  }
+  const CanonicalScale own = scale_of(distance_km, mu_km3_s2);
+  result.told = length_km ? scale_of(Extended(*length_km), mu_km3_s2) : own;
+  require_within_binary64(nominal, orbit, result.told);
+  const double distance = rounded(distance_km / result.told.length_km);
   if (length_km && !(distance >= 1 / greatest_distance && distance <= greatest_distance)) {
     nominal.fail("", fmt::format("out of range in canonical units, got a distance of {:.3g} from "
                                  "the centre with units.length_km = {:g}, must be between {:g} and "
                                  "{:g}, or higher coefficients would underflow",
                                  distance, *length_km, 1 / greatest_distance, greatest_distance));
   }
+  require_within_binary64(nominal, orbit, own);
+  result.scale = wanted == SceneUnits::chiefs ? own : result.told;
+  result.state = canonical_state(orbit, result.scale);
   result.period_s = osculating_period_s(orbit, mu_km3_s2);
   return result;
 }
@@ -61,9 +78,19 @@ double CanonicalScale::time_of_s(double seconds) const {
   return rounded(Extended(seconds) / time_s);
 }
 
+double Nominal::time_of_canonical(double given) const {
+  return rounded(Extended(given) * told.time_s / scale.time_s);
+}
+
+double Nominal::told_time(double time) const {
+  return rounded(Extended(time) * scale.time_s / told.time_s);
+}
+
 const TableDescription& units_table() {
   static const TableDescription table = {
-      {{"length_km", form::positive(), absent::refused(), "canonical unit of length"}}};
+      {{"length_km", form::positive(), absent::refused(), "canonical unit of length"}},
+      "Canonical numbers are read and told in it. `run` and `compare` compute in it, all else in the "
+      "chief's own: its distance at the start."};
   return table;
 }
 
@@ -96,13 +123,13 @@ double read_unit_of_length(const TableReader& units, SystemModel model) {
 }
 
 Nominal read_nominal(const TableReader& nominal, const SystemSettings& system,
-                     const std::optional<double>& length_km,
+                     const std::optional<double>& length_km, SceneUnits units,
                      const std::optional<std::string>& center_name) {
   check_keys_of_model(nominal, system.model);
   if (is_orbit(system.model)) {
     const SceneCentre centre = {system, center_name};
     Orbit orbit = read_orbit(nominal, centre);
-    Nominal result = canonical_orbit(nominal, orbit.state, system.mu_km3_s2, length_km);
+    Nominal result = canonical_orbit(nominal, orbit.state, system.mu_km3_s2, length_km, units);
     result.orbit = orbit.state;
     result.centre = centre;
     if (orbit.file) result.ephemeris = orbit.file->ephemeris;
@@ -110,7 +137,7 @@ Nominal read_nominal(const TableReader& nominal, const SystemSettings& system,
     return result;
   }
   Nominal result;
-  result.scale = {Extended(1) / 1000, Extended(1)};
+  result.scale = result.told = {Extended(1) / 1000, Extended(1)};
   const std::size_t n = degrees_of_freedom_of(system);
   result.state = nominal.numbers("position_m", n);
   const auto is_zero = [](double x) { return x == 0; };

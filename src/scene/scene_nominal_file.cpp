@@ -7,7 +7,9 @@
 #include <cstdlib>
 
 #include "../dynamics/celestial_bodies.hpp"
+#include "../formats/orbit_messages/message_agreement.hpp"
 #include "../store/text_file.hpp"
+#include "../text/quantity_text.hpp"
 #include "../text/scene_message.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/formats/orbit_message.hpp"
@@ -178,6 +180,61 @@ void require_same_mu(const TableReader& nominal, std::string_view key, double mu
                                 *message.gm_km3_s2, file, message.gm_line, mu, gm_tolerance));
 }
 
+/// The place that a message's elements give, from the true anomaly; none where they are no ellipse.
+std::optional<CartesianState> state_of(const OrbitElements& elements, double mu) {
+  if (!(elements.semi_major_axis_km > 0) || !(elements.eccentricity >= 0) ||
+      !(elements.eccentricity < 1)) {
+    return std::nullopt;
+  }
+  Extended true_anomaly_deg = elements.anomaly_deg;
+  if (elements.is_mean_anomaly) {
+    true_anomaly_deg = true_anomaly_of_eccentric_deg(
+        eccentric_anomaly_of_mean_deg(true_anomaly_deg, elements.eccentricity),
+        elements.eccentricity);
+  }
+  return state_from_elements(
+      {elements.semi_major_axis_km, elements.eccentricity, elements.inclination_deg,
+       elements.ascending_node_deg, elements.argument_of_perigee_deg, true_anomaly_deg},
+      mu);
+}
+
+/// Elements that are not those of the state, which is used: one of the two is wrong. They agree
+/// where the places are within a thousandth of the distance, as those of elements with four digits
+/// are.
+void warn_of_contradictory_elements(const TableReader& nominal, std::string_view key, double mu,
+                                    const OrbitParameterMessage& message, const std::string& file) {
+  constexpr double agreement = 1e-3;
+  if (!message.elements) return;
+  const OrbitElements& elements = *message.elements;
+  const Eigen::Vector3d place(message.state.position_km.data());
+  const Eigen::Vector3d velocity(message.state.velocity_km_s.data());
+  const double distance = place.norm();
+  const double of_elements_mu = message.gm_km3_s2.value_or(mu);
+  const double a = 1 / (2 / distance - velocity.squaredNorm() / of_elements_mu);
+  const auto other = state_of(elements, of_elements_mu);
+  double between = 0;
+  if (other) {
+    const auto& x = other->position_km;
+    between =
+        (Eigen::Vector3d(convert<double>(x[0]), convert<double>(x[1]), convert<double>(x[2])) -
+         place)
+            .norm();
+  }
+  // The energies differ by this part of that of a circle through the place.
+  const double of_size = std::abs(distance / a - distance / elements.semi_major_axis_km);
+  const bool is_other_conic = !other && a > 0;
+  if (!is_other_conic && between <= agreement * distance && of_size <= agreement) return;
+  nominal.warn(
+      key,
+      fmt::format(
+          "Keplerian elements that are not those of the state, got SEMI_MAJOR_AXIS = {} km "
+          "in {}:{}{} beside a state whose own is {:.8g} km, should agree; the state is "
+          "used, the elements are not",
+          elements.semi_major_axis_km, file, elements.line,
+          other ? fmt::format(" and a place {} from the state's", length_text(1000 * between)) : "",
+          a));
+}
+
 EphemerisSettings settings_of(const ChosenState& chosen) {
   EphemerisSettings settings;
   settings.epoch = format_epoch(chosen.state.epoch);
@@ -234,11 +291,16 @@ MessageOfFile read_message(const TableReader& nominal, std::string_view key) {
 
 }  // namespace
 
-std::optional<Epoch> epoch_of_nominal_file(const TableReader& nominal) {
+std::optional<EphemerisSettings> settings_of_orbit_file(const TableReader& table) {
   for (const std::string_view key : {"oem_file", "opm_file"}) {
-    if (nominal.has(key)) return read_message(nominal, key).chosen.state.epoch;
+    if (table.has(key)) return settings_of(read_message(table, key).chosen);
   }
   return std::nullopt;
+}
+
+std::optional<Epoch> epoch_of_nominal_file(const TableReader& nominal) {
+  const auto settings = settings_of_orbit_file(nominal);
+  return settings ? parse_epoch(settings->epoch) : std::nullopt;
 }
 
 NominalFromFile read_nominal_file(const TableReader& nominal, const SceneCentre& centre) {
@@ -253,6 +315,11 @@ NominalFromFile read_nominal_file(const TableReader& nominal, const SceneCentre&
   const auto& position = chosen.state.position_km;
   if (std::all_of(position.begin(), position.end(), [](double x) { return x == 0; })) {
     nominal.fail(key, "at the centre of attraction, got the position 0 0 0, must be any other");
+  }
+  if (message.parameters) {
+    nominal.warn(key, message.parameters->doubts);
+    warn_of_contradictory_elements(nominal, key, centre.system.mu_km3_s2, *message.parameters,
+                                   file);
   }
   NominalFromFile result;
   std::copy(position.begin(), position.end(), result.state.position_km.begin());

@@ -32,8 +32,14 @@ inline constexpr double gm_tolerance = 1e-5;
 /// Refused is also a message whose centre is not the scene's: a CENTER_NAME whose mu is another
 /// (see body_mu_tolerance), or is not known where the scene's mu is a known body's and the scene
 /// does not state that name itself; a GM other than the scene's mu; and zonal coefficients about
-/// another body than the Earth, the axis of which all frames that are read have.
+/// another body than the Earth, the axis of which all frames that are read have. Warned of is an
+/// OPM whose Keplerian elements are not those of its state, and what is wrong with other numbers
+/// that are not used.
 NominalFromFile read_nominal_file(const TableReader& nominal, const SceneCentre& centre);
+
+/// What the message of a table says of its state, of a table without a file none. Throws as
+/// read_nominal_file, but for the centre.
+std::optional<EphemerisSettings> settings_of_orbit_file(const TableReader& table);
 
 /// The epoch of the state that read_nominal_file takes, of a table that has no such file none.
 /// Throws as that, but for the centre.

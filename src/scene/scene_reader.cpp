@@ -50,7 +50,7 @@ void require_splittable(const TableReader& jet, const Scene& scene) {
 
 }  // namespace
 
-Scene read_flow_jet(const TableReader& root) {
+Scene read_flow_jet(const TableReader& root, SceneUnits units) {
   Scene scene;
   const bool has_precision = root.attempt([&] { root.read_if_any("precision", scene.precision); });
   // A table that may be left out; an error of it leaves the others to be read.
@@ -62,7 +62,8 @@ Scene read_flow_jet(const TableReader& root) {
 
   Nominal nominal;
   const bool has_start = root.attempt([&] {
-    nominal = read_start(root, scene);
+    nominal = read_start(root, scene, units);
+    if (root.has("units")) scene.told_units = canonical_units(nominal.told);
     scene.nominal_file = nominal.file;
     scene.warnings = likely_slips(root, scene);
   });
@@ -90,20 +91,19 @@ Scene read_flow_jet(const TableReader& root) {
   if (!has_jet || !has_precision) return scene;
 
   root.attempt([&] {
-    scene.integrators = root.has("integrator")
-                            ? read_integrators(root.tables("integrator"), scene.precision,
-                                               scene.duration, nominal.scale)
-                            : std::vector{default_integrator()};
+    scene.integrators =
+        root.has("integrator")
+            ? read_integrators(root.tables("integrator"), scene.precision, scene.duration, nominal)
+            : std::vector{default_integrator()};
   });
   root.attempt([&] { scene.jet_times = read_jet_times(root.table("jet"), scene, nominal); });
   read_table("generating_function",
              [&](const auto& table) { scene.kinds = read_generating_function(table, scene); });
   read_table("relative_hamiltonian", [&](const auto& table) {
-    scene.relative_hamiltonian_times = read_relative_hamiltonian(table, scene.duration);
+    scene.relative_hamiltonian_times = read_relative_hamiltonian(table, scene.duration, nominal);
   });
-  read_table("compare", [&](const auto& table) {
-    scene.comparison = read_compare(table, scene.order, scene.duration);
-  });
+  read_table("compare",
+             [&](const auto& table) { scene.comparison = read_compare(table, scene, nominal); });
   read_table("figure", [&](const auto& table) { scene.figure = read_figure(table, scene); });
   root.attempt([&] { require_splittable(root.table("jet"), scene); });
   read_table("validity",
@@ -112,6 +112,7 @@ Scene read_flow_jet(const TableReader& root) {
   read_table("event", [&](const auto& table) { scene.event = read_event(table, scene); });
   const bool has_deputy = read_table("deputy", [&](const auto& table) {
     scene.deputy = read_deputy(table, scene, nominal, has_collision(root));
+    nominal.deputy_message = settings_of_orbit_file(table);
   });
   if (!has_deputy || root.is_misspelt("deputy")) return scene;
   read_table("uncertainty", [&](const auto& table) {
@@ -191,9 +192,11 @@ ReferenceSettings read_reference(const TableReader& reference) {
   return settings;
 }
 
-std::vector<double> read_relative_hamiltonian(const TableReader& table, double duration) {
+std::vector<double> read_relative_hamiltonian(const TableReader& table, double span,
+                                              const Nominal& nominal) {
   table.check_keys();
-  const std::vector<double> times = table.numbers("times_canonical");
+  std::vector<double> times = table.numbers("times_canonical");
+  const double duration = nominal.told_time(span);
   for (std::size_t i = 0; i < times.size(); ++i) {
     const bool is_inside = times[i] * duration >= 0 && std::abs(times[i]) <= std::abs(duration);
     if (!is_inside || (i > 0 && std::abs(times[i]) <= std::abs(times[i - 1]))) {
@@ -203,6 +206,7 @@ std::vector<double> read_relative_hamiltonian(const TableReader& table, double d
                                      times[i], duration));
     }
   }
+  for (double& time : times) time = nominal.time_of_canonical(time);
   return times;
 }
 

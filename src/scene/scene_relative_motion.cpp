@@ -18,7 +18,7 @@ namespace {
 double canonical_time(const TableReader& table, std::string_view key, double given,
                       const Nominal& nominal) {
   if (key.ends_with("_s")) return nominal.scale.time_of_s(given);
-  if (key.ends_with("_canonical")) return given;
+  if (key.ends_with("_canonical")) return nominal.time_of_canonical(given);
   if (!nominal.period_s) {
     const std::string_view stem = key.substr(0, key.find('_'));
     table.fail(key, fmt::format("no period, got {} of an orbit that is not elliptic, must be "
@@ -205,7 +205,7 @@ namespace {
 
 /// Refuses what is no frame here: the name of other axes, and of a form that has keys of its own.
 void refuse_other_frames(const TableReader& table) {
-  const std::string given = table.text("frame");
+  const std::string given = table.text_if_any("frame").value_or("");
   if (lower_case(given) == "lvlh") {
     table.fail("frame",
                fmt::format("ambiguous, got {}, which means x radial outward and y along the "
@@ -233,6 +233,10 @@ RelativeFrame read_relative_frame(const TableReader& table, const TableReader& f
   const TableReader& of_derivatives = table.has("derivatives") ? table : fallback;
   if (of_frame.has("frame")) refuse_other_frames(of_frame);
   const bool is_inertial = of_frame.has("frame") && of_frame.choice("frame") == 1;
+  // What the other table says of its own frame is nothing for a frame that takes none.
+  if (is_inertial && table.has("frame") && !table.has("derivatives")) {
+    return RelativeFrame::inertial;
+  }
   if (!of_derivatives.has("derivatives")) {
     return is_inertial ? RelativeFrame::inertial : RelativeFrame::rtn_rotating;
   }
@@ -271,7 +275,18 @@ std::vector<std::string> likely_slips_of_deputies(const TableReader& root, const
   }
   const double distance_m =
       Eigen::Vector3d(scene.nominal.data()).norm() * scene.units.length_km * 1000;
+  const double chief_m_s = Eigen::Vector3d(scene.nominal.data() + 3).norm() *
+                           scene.units.length_km * 1000 / scene.units.time_s;
   const auto look = [&](const TableReader& table, const RelativeState& state) {
+    const double speed_m_s = state.velocity_m_s.stableNorm();
+    if (speed_m_s >= chief_m_s / 20) {
+      warnings.push_back(fmt::format(
+          "{}{}: fast beside its chief, got {:.4g} m/s, should be well below {:.4g} m/s, a "
+          "twentieth of the chief's own speed: polynomials are right near the chief alone; a "
+          "velocity_m_s is relative to the chief's, in m/s",
+          warning_head, table.head(table.has("velocity_m_s") ? "velocity_m_s" : ""), speed_m_s,
+          chief_m_s / 20));
+    }
     const double separation_m = state.position_m.stableNorm();
     if (separation_m < distance_m / 20) return;
     warnings.push_back(fmt::format(

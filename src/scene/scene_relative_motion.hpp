@@ -48,7 +48,7 @@ std::vector<double> read_jet_times(const TableReader& jet, const Scene& scene,
                                    const Nominal& nominal);
 
 /// The frame of the keys `frame` and `derivatives`, each from `fallback` where the table does not
-/// have it; RTN with rotating derivatives unless the keys say otherwise.
+/// have it and its own frame takes it; RTN with rotating derivatives unless the keys say otherwise.
 RelativeFrame read_relative_frame(const TableReader& table, const TableReader& fallback);
 RelativeFrame read_relative_frame(const TableReader& table);
 
@@ -79,8 +79,8 @@ bool has_collision(const TableReader& root);
 
 /// What the tables that watch how near spacecraft come have in common: the canonical ends of
 /// `window_s` in a scene with a deputy that goes forwards, and a length that is small beside the
-/// chief's distance from the centre.
-SceneKey window_key();
+/// chief's distance from the centre, and not below what the motion is told to.
+SceneKey window_key(std::string_view absence = "from the start to the end");
 std::array<double, 2> read_window(const TableReader& table, const Scene& scene);
 double read_nearness(const TableReader& table, std::string_view key, const Scene& scene);
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "../dynamics/celestial_bodies.hpp"
+#include "../formats/orbit_messages/message_agreement.hpp"
 #include "../formats/relative_frame_text.hpp"
 #include "../text/quantity_text.hpp"
 #include "../text/scene_message.hpp"
@@ -55,11 +55,6 @@ ChiefFrame frame_at_chief(const TableReader& table, const Nominal& nominal, Rela
   }
 }
 
-/// Whether two messages name one centre: a body by any of its names, or the same name.
-bool is_same_centre(const std::string& one, const std::string& other) {
-  return one == other || (body_named(one) != nullptr && body_named(one) == body_named(other));
-}
-
 /// Refuses a message whose state is not of the chief's moment, is in other axes, or is about
 /// another centre, which a scene with the mu of no known body cannot tell otherwise.
 void require_same_date(const TableReader& table, const Nominal& nominal,
@@ -79,11 +74,10 @@ void require_same_date(const TableReader& table, const Nominal& nominal,
                fmt::format("a state of another moment than the chief's, got {} {}, must be {} {}",
                            message.epoch, message.time_system, chief.epoch, chief.time_system));
   }
-  if (message.reference_frame != chief.reference_frame ||
-      message.reference_frame_epoch != chief.reference_frame_epoch) {
-    table.fail(file, fmt::format("a state in other axes than the chief's, got {}{}, must be {}{}",
-                                 message.reference_frame, message.reference_frame_epoch,
-                                 chief.reference_frame, chief.reference_frame_epoch));
+  if (!is_same_axes(message, chief)) {
+    table.fail(file, fmt::format("a state in other axes than the chief's, got {}, must be {}",
+                                 axes_text(message.reference_frame, message.reference_frame_epoch),
+                                 axes_text(chief.reference_frame, chief.reference_frame_epoch)));
   }
   if (!is_same_centre(message.center_name, chief.center_name)) {
     table.fail(file,
@@ -118,6 +112,12 @@ void require_near(const TableReader& table, const Nominal& nominal,
 /// inertial states, neither of which has been rounded before.
 RelativeState read_own_orbit(const TableReader& table, const Nominal& nominal, RelativeFrame frame,
                              DeputyPlace place) {
+  if (table.has("position_km") && !table.has("velocity_km_s")) {
+    table.fail(
+        "velocity_km_s",
+        "missing beside position_km, a place from the centre of attraction, must be [vx, vy, "
+        "vz]; a place relative to the chief is position_m");
+  }
   const Orbit deputy = read_orbit(table, nominal.centre);
   if (deputy.file) require_same_date(table, nominal, deputy.file->ephemeris);
   const CanonicalScale& scale = nominal.scale;

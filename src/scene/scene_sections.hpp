@@ -37,7 +37,7 @@ inline void check_keys_of_model(const TableReader& table, SystemModel model) {
 }
 
 /// All tables of the study "flow-jet".
-Scene read_flow_jet(const TableReader& root);
+Scene read_flow_jet(const TableReader& root, SceneUnits units);
 
 /// All tables of the study "canonical-transformation". Throws Error(too_large) for too many steps.
 CanonicalTransformationStudy read_canonical_transformation(const TableReader& root);
@@ -67,7 +67,8 @@ struct CanonicalScale {
 
 /// What the table `[nominal]` holds.
 struct Nominal {
-  CanonicalScale scale;
+  CanonicalScale scale;              ///< of all canonical numbers of the scene
+  CanonicalScale told;               ///< of those that the user gives and is told
   std::vector<double> state;         ///< (q, p), canonical, 2n numbers
   std::optional<Extended> period_s;  ///< of the osculating Kepler ellipse, if there is one
   std::optional<NominalFile> file;   ///< the file that it was read from
@@ -76,6 +77,14 @@ struct Nominal {
   std::optional<CartesianState> orbit;
   SceneCentre centre;
   std::optional<EphemerisSettings> ephemeris;
+
+  /// A time of a key `_canonical` in the scene's own canonical units, rounded once; in the same
+  /// units it stays as it is.
+  double time_of_canonical(double given) const;
+  /// The other way.
+  double told_time(double time) const;
+  std::optional<EphemerisSettings>
+      deputy_message;  ///< what the deputy's message says, if it has one
 };
 
 /// Table `[units]`: the canonical unit of length, `length_km`. Throws Error(scene) for a model that
@@ -84,10 +93,11 @@ double read_unit_of_length(const TableReader& units, SystemModel model);
 
 /// Table `[nominal]`. For an orbit the unit of length is `length_km`, or without it the distance
 /// from the centre, and the unit of time sqrt(length^3 / mu), so that mu = 1 and a momentum (per
-/// unit of mass) is a velocity over sqrt(mu / length). For the other models metre, second and
-/// kilogram stay. `center_name` is what the table `[ephemeris]` says, see read_nominal_file.
+/// unit of mass) is a velocity over sqrt(mu / length); with SceneUnits::chiefs it is the distance
+/// in any case. For the other models metre, second and kilogram stay. `center_name` is what the
+/// table `[ephemeris]` says, see read_nominal_file.
 Nominal read_nominal(const TableReader& nominal, const SystemSettings& system,
-                     const std::optional<double>& length_km,
+                     const std::optional<double>& length_km, SceneUnits units,
                      const std::optional<std::string>& center_name);
 
 /// The units as the nearest binary64 numbers.
@@ -100,7 +110,8 @@ double read_canonical_radius(const TableReader& system, const SystemSettings& se
 /// Reads the tables `[system]`, `[units]` and `[nominal]` into the members that every scene of a
 /// model has.
 template <class ModelScene>
-Nominal read_start(const TableReader& root, ModelScene& scene) {
+Nominal read_start(const TableReader& root, ModelScene& scene,
+                   SceneUnits units = SceneUnits::told) {
   const TableReader system = root.table("system");
   scene.system = read_system(root);
   std::optional<double> length_km;
@@ -109,7 +120,8 @@ Nominal read_start(const TableReader& root, ModelScene& scene) {
   if (root.has("ephemeris") && root.table("ephemeris").has("center_name")) {
     center_name = root.table("ephemeris").text("center_name");
   }
-  Nominal nominal = read_nominal(root.table("nominal"), scene.system, length_km, center_name);
+  Nominal nominal =
+      read_nominal(root.table("nominal"), scene.system, length_km, units, center_name);
   scene.nominal = nominal.state;
   scene.units = canonical_units(nominal.scale);
   scene.canonical_radius = read_canonical_radius(system, scene.system, nominal.scale);
@@ -147,7 +159,7 @@ const std::string& default_integrator_table();
 /// Throws Error(too_large) for too many steps.
 std::vector<IntegratorSettings> read_integrators(const std::vector<TableReader>& integrators,
                                                  Precision precision, double duration,
-                                                 const CanonicalScale& scale);
+                                                 const Nominal& nominal);
 
 /// Table `[formation]`: the separation in canonical units.
 double read_formation(const TableReader& formation, SystemModel model, const CanonicalScale& scale);
@@ -169,8 +181,9 @@ std::string explicit_kind(const std::string& kind, std::size_t degrees_of_freedo
 /// Table `[reference]`.
 ReferenceSettings read_reference(const TableReader& reference);
 
-/// Table `[compare]` of a scene with this order and canonical duration.
-ComparisonSettings read_compare(const TableReader& table, int order, double duration);
+/// Table `[compare]`, checked against what `scene` already holds.
+ComparisonSettings read_compare(const TableReader& table, const Scene& scene,
+                                const Nominal& nominal);
 
 /// Table `[checks]`, checked against what `scene` already holds.
 SelfCheckSettings read_checks(const TableReader& checks, const Scene& scene);
@@ -245,6 +258,7 @@ EnergyConservationStudy read_energy_conservation(const TableReader& root);
 std::vector<std::string> likely_slips(const TableReader& root, const Scene& scene);
 
 /// Table `[relative_hamiltonian]`: canonical times from the start to the duration.
-std::vector<double> read_relative_hamiltonian(const TableReader& table, double duration);
+std::vector<double> read_relative_hamiltonian(const TableReader& table, double span,
+                                              const Nominal& nominal);
 
 }  // namespace hamjet::io

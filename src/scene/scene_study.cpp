@@ -115,11 +115,13 @@ void attempt_misspelt_study(const TableReader& root, const toml::table& scene) {
   root.attempt([&] { root.check_keys({.keys = names}); });
 }
 
-/// The tables of a study whose number in all_studies() is known.
-Study read_tables(const TableReader& root, std::size_t study) {
+/// The tables of a study whose number in all_studies() is known. The paper's studies are told, and
+/// done, in the units that they ask for.
+Study read_tables(const TableReader& root, std::size_t study, SceneUnits units) {
   // In the order of all_studies().
-  static const std::function<Study(const TableReader&)> readers[] = {
-      read_flow_jet, read_canonical_transformation, read_energy_conservation, read_optimal_control};
+  const std::function<Study(const TableReader&)> readers[] = {
+      [&](const TableReader& tables) { return read_flow_jet(tables, units); },
+      read_canonical_transformation, read_energy_conservation, read_optimal_control};
   const auto& [name, top] = all_studies()[study];
   root.attempt([&] {
     root.check_keys({.keys = top.names_of(name), .refused_by_caller = top.names_not_of(name)});
@@ -171,14 +173,14 @@ std::string default_title(const std::string& file_name) {
 }
 
 Study parse_study(std::string_view text, const std::string& file_name,
-                  const std::vector<Override>& overrides) {
+                  const std::vector<Override>& overrides, SceneUnits units) {
   SceneDocument document = parse_document(text, printable(file_name, std::string::npos), overrides,
                                           default_integrator_table());
   document.source.folder = std::filesystem::path(file_name).parent_path();
-  return read_document(document, file_name);
+  return read_document(document, file_name, units);
 }
 
-Study read_document(const SceneDocument& document, const std::string& file_name) {
+Study read_document(const SceneDocument& document, const std::string& file_name, SceneUnits units) {
   SceneErrors errors;
   const std::vector<std::string> no_warnings;
   const auto reader_of = [&](std::size_t study) {
@@ -191,9 +193,15 @@ Study read_document(const SceneDocument& document, const std::string& file_name)
   if (root.has("schema")) root.integer("schema");
   attempt_misspelt_study(root, document.table);
   if (!errors.empty()) errors.raise(document.source.name, no_warnings);
-  Study study = read_tables(root, number);
+  Study study = read_tables(root, number, units);
   std::string title = default_title(file_name);
   root.attempt([&] { root.read_if_any("title", title); });
+  if (Scene* const scene = std::get_if<Scene>(&study)) {
+    const std::vector<std::string>& more = errors.warnings();
+    scene->warnings.insert(scene->warnings.end(), more.begin(), more.end());
+  }
+  // It heads tables and pages.
+  title = printable(title, std::string::npos);
   if (!errors.empty()) {
     root.attempt_declared_keys(kind_of_model(document.table));
     const Scene* const scene = std::get_if<Scene>(&study);
@@ -208,8 +216,9 @@ Study read_document(const SceneDocument& document, const std::string& file_name)
   return study;
 }
 
-Study read_study(const std::filesystem::path& file, const std::vector<Override>& overrides) {
-  return parse_study(read_scene_file(file), file.string(), overrides);
+Study read_study(const std::filesystem::path& file, const std::vector<Override>& overrides,
+                 SceneUnits units) {
+  return parse_study(read_scene_file(file), file.string(), overrides, units);
 }
 
 Scene require_flow_jet(Study study, const std::string& file_name) {
@@ -221,12 +230,13 @@ Scene require_flow_jet(Study study, const std::string& file_name) {
 }
 
 Scene parse_scene(std::string_view text, const std::string& file_name,
-                  const std::vector<Override>& overrides) {
-  return require_flow_jet(parse_study(text, file_name, overrides), file_name);
+                  const std::vector<Override>& overrides, SceneUnits units) {
+  return require_flow_jet(parse_study(text, file_name, overrides, units), file_name);
 }
 
-Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides) {
-  return parse_scene(read_scene_file(file), file.string(), overrides);
+Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides,
+                 SceneUnits units) {
+  return parse_scene(read_scene_file(file), file.string(), overrides, units);
 }
 
 }  // namespace hamjet::io

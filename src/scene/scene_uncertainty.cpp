@@ -49,11 +49,12 @@ std::vector<SceneKey> state_uncertainty_keys() {
            "of position and velocity along the axes of the frame: m^2, m^2/s, m^2/s^2"},
           {"file", form::words("path of an OEM, OPM or CDM"),
            absent::other("another form of the covariance"),
-           "whose covariance of the chief's moment is taken, in its own frame: RTN or RSW, or the "
-           "chief's axes; a scene with dates"},
+           "whose covariance of the chief's moment is taken, in its own frame: RTN (also RSW, QSW, "
+           "RIC) or the chief's axes; a scene with dates, and the file's state must be that of the "
+           "spacecraft within 6 standard deviations and five digits"},
           {"object", form::text(),
-           absent::other("the only one; of a CDM `\"OBJECT1\"`, of a deputy `\"OBJECT2\"`"),
-           "name or identifier in the file"}};
+           absent::other("the spacecraft's; of a CDM `\"OBJECT1\"`, of a deputy `\"OBJECT2\"`"),
+           "name or identifier in the file, which may then have another name in the scene"}};
 }
 
 /// All coordinates but `auto`.
@@ -161,8 +162,44 @@ bool has_covariance(const TableReader& table) {
   });
 }
 
+/// The state of the chief, or of the deputy if it is there, with the names that the scene and its
+/// messages have for it.
+KnownState state_of_owner(const Scene& scene, const Nominal& nominal,
+                          const std::optional<DeputySettings>& deputy) {
+  KnownState state;
+  const CanonicalUnits units = canonical_units(nominal.scale);
+  std::vector<double> canonical = nominal.state;
+  if (deputy) {
+    const ChiefFrame frame(nominal.state, {units.length_km * 1000, units.time_s}, deputy->frame);
+    const std::vector<double> deviation = frame.deviation(deputy->start);
+    for (std::size_t i = 0; i < 6; ++i) canonical[i] += deviation[i];
+  }
+  state.position_km = Eigen::Vector3d(canonical.data()) * units.length_km;
+  state.velocity_km_s = Eigen::Vector3d(canonical.data() + 3) * (units.length_km / units.time_s);
+  std::vector<std::string> names;
+  const auto add = [&](const EphemerisSettings& settings) {
+    names.insert(names.end(), {settings.object_name, settings.object_id});
+  };
+  if (deputy && nominal.deputy_message) add(*nominal.deputy_message);
+  if (!deputy && nominal.file) add(nominal.file->ephemeris);
+  if (scene.ephemeris) {
+    if (deputy) {
+      names.insert(names.end(), {scene.ephemeris->deputy_name, scene.ephemeris->deputy_id});
+    } else {
+      add(*scene.ephemeris);
+    }
+    state.center_name = scene.ephemeris->center_name;
+    state.reference_frame = scene.ephemeris->reference_frame;
+    state.reference_frame_epoch = scene.ephemeris->reference_frame_epoch;
+  }
+  state.names = known_names(std::move(names));
+  return state;
+}
+
+/// `deputy` is the one whose uncertainty is read, or none for the chief's.
 StateUncertainty read_state_uncertainty(const TableReader& table, const TableReader& fallback,
-                                        const Nominal& nominal, std::string_view object_of_cdm) {
+                                        const Scene& scene, const Nominal& nominal,
+                                        const std::optional<DeputySettings>& deputy) {
   StateUncertainty state;
   state.frame = read_covariance_frame(table, fallback);
   const Limits limits = limits_of(nominal);
@@ -172,7 +209,9 @@ StateUncertainty read_state_uncertainty(const TableReader& table, const TableRea
         table.fail(key, "numbers beside a file, got both, must be one of them");
       }
     }
-    return read_covariance_file(table, nominal, object_of_cdm);
+    const CovarianceOwner owner = {deputy ? "deputy" : "chief", deputy ? "OBJECT2" : "OBJECT1",
+                                   state_of_owner(scene, nominal, deputy)};
+    return read_covariance_file(table, nominal, owner);
   }
   if (table.has("object")) {
     table.fail("object", "of no file, got an object without the key file, must be left out");
@@ -274,13 +313,13 @@ UncertaintySettings read_uncertainty(const TableReader& uncertainty, const Scene
     if (!scene.deputy) {
       deputy.fail("", "of a scene without a deputy, got no table [deputy], must have one");
     }
-    settings.deputy = read_state_uncertainty(deputy, uncertainty, nominal, "OBJECT2");
+    settings.deputy = read_state_uncertainty(deputy, uncertainty, scene, nominal, scene.deputy);
   }
   if (uncertainty.has("burn")) {
     settings.burn = read_burn(uncertainty.table("burn"), uncertainty, nominal);
   }
   if (has_covariance(uncertainty) || (!settings.deputy && !settings.burn)) {
-    settings.chief = read_state_uncertainty(uncertainty, uncertainty, nominal, "OBJECT1");
+    settings.chief = read_state_uncertainty(uncertainty, uncertainty, scene, nominal, std::nullopt);
   }
   if (uncertainty.has("collision")) {
     settings.collision = read_collision(uncertainty.table("collision"), scene);

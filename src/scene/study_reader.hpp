@@ -20,11 +20,12 @@ using Study =
 
 /// Reads a scene of any study; otherwise as read_scene, which throws Error(scene) for any but
 /// "flow-jet".
-Study read_study(const std::filesystem::path& file, const std::vector<Override>& overrides = {});
+Study read_study(const std::filesystem::path& file, const std::vector<Override>& overrides = {},
+                 SceneUnits units = SceneUnits::told);
 
 /// read_study from text; `file_name` is used in messages and for the study's name.
 Study parse_study(std::string_view text, const std::string& file_name,
-                  const std::vector<Override>& overrides = {});
+                  const std::vector<Override>& overrides = {}, SceneUnits units = SceneUnits::told);
 
 /// The flow jet of a study that must have one. Throws Error(scene) that names the file otherwise.
 Scene require_flow_jet(Study study, const std::string& file_name);

@@ -37,6 +37,11 @@ std::string holder(int descriptor) {
 }
 
 void write_holder(int descriptor) {
+  // Somebody may have given the name to a file that has another name, and content, elsewhere.
+  struct stat status {};
+  const bool is_ours =
+      ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode) && status.st_nlink == 1;
+  if (!is_ours) return;
   // The number serves a message only: a full disk must not matter.
   const std::string text = fmt::format("{}\n", ::getpid());
   [[maybe_unused]] const bool is_written =

@@ -8,6 +8,7 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstdint>
 #include <memory>
 #include <system_error>
 
@@ -19,10 +20,6 @@ namespace hamjet::io {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path folder_of(const fs::path& path) {
-  return path.has_parent_path() ? path.parent_path() : fs::path(".");
-}
 
 std::string host_name() {
   std::array<char, 64> host{};
@@ -47,49 +44,16 @@ void add_entries_below(const fs::path& folder, std::vector<fs::path>& entries) {
   }
 }
 
-/// Whether to wait until the disk has what was written.
-enum class Flush { no, yes };
-
-void write_file(const fs::path& path, std::string_view content, const fs::path& shown,
-                Flush flush) {
-  Descriptor file(path, O_WRONLY | O_CREAT | O_TRUNC);
-  if (!file.is_open()) throw_file_error(shown, "cannot be written", errno_text());
-  while (!content.empty()) {
-    const ssize_t written = ::write(file.value(), content.data(), content.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) {
-      throw_file_error(shown, fmt::format("cannot be written ({} bytes left)", content.size()),
-                       errno_text());
-    }
-    content.remove_prefix(static_cast<std::size_t>(written));
-  }
-  if (flush == Flush::yes && ::fsync(file.value()) != 0 && errno != EINVAL) {
-    throw_file_error(shown, "cannot be flushed", errno_text());
-  }
-  if (!file.close()) throw_file_error(shown, "cannot be closed", errno_text());
-}
-
-/// Writes a file beside `path`, then renames it to `path`.
-void replace_file(const fs::path& path, std::string_view content, Flush flush) {
-  const fs::path folder = folder_of(path);
-  const auto created = create_folders(folder, "the directory cannot be created");
-  const fs::path temporary = temporary_beside(path);
-  try {
-    write_file(temporary, content, path, flush);
-    if (::rename(temporary.c_str(), path.c_str()) != 0) {
-      throw_file_error(path, "cannot be put in its place", errno_text());
-    }
-  } catch (...) {
-    ::unlink(temporary.c_str());
-    remove_empty(created);
-    throw;
-  }
-}
-
 }  // namespace
 
-Descriptor::Descriptor(const fs::path& path, int flags)
-    : value_(::open(path.c_str(), flags | O_CLOEXEC, 0644)) {}
+Descriptor::Descriptor(const fs::path& path, int flags, mode_t mode)
+    : value_(::open(path.c_str(), flags | O_CLOEXEC, mode)) {}
+
+Descriptor Descriptor::duplicate(int of) {
+  Descriptor result;
+  result.value_ = ::fcntl(of, F_DUPFD_CLOEXEC, 0);
+  return result;
+}
 
 bool Descriptor::close() { return !is_open() || ::close(std::exchange(value_, -1)) == 0; }
 
@@ -100,8 +64,31 @@ void throw_file_error(const fs::path& path, std::string_view what, std::string_v
 
 std::string errno_text() { return std::generic_category().message(errno); }
 
+void write_all(const Descriptor& file, std::string_view content, const fs::path& shown) {
+  while (!content.empty()) {
+    const ssize_t written = ::write(file.value(), content.data(), content.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) {
+      throw_file_error(shown, fmt::format("cannot be written ({} bytes left)", content.size()),
+                       errno_text());
+    }
+    content.remove_prefix(static_cast<std::size_t>(written));
+  }
+}
+
+void flush(const Descriptor& file, const fs::path& shown) {
+  // Some file systems cannot, and say so.
+  if (::fsync(file.value()) != 0 && errno != EINVAL) {
+    throw_file_error(shown, "cannot be flushed", errno_text());
+  }
+}
+
 void write_and_flush(const fs::path& path, std::string_view content, const fs::path& shown) {
-  write_file(path, content, shown, Flush::yes);
+  Descriptor file(path, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW);
+  if (!file.is_open()) throw_file_error(shown, "cannot be written", errno_text());
+  write_all(file, content, shown);
+  flush(file, shown);
+  if (!file.close()) throw_file_error(shown, "cannot be closed", errno_text());
 }
 
 void flush_folder(const fs::path& folder) {
@@ -134,24 +121,47 @@ void remove_empty(const std::vector<fs::path>& folders) {
   for (auto p = folders.rbegin(); p != folders.rend(); ++p) ::rmdir(p->c_str());
 }
 
-void require_writable(const fs::path& folder) {
-  const auto created = create_folders(folder, "the directory cannot be created");
-  const fs::path probe = folder / fmt::format(".hamjet-{}.tmp", ::getpid());
-  try {
-    write_and_flush(probe, "", probe);
-  } catch (...) {
-    remove_empty(created);
-    throw;
+fs::path link_on_the_way(const fs::path& directory, const fs::path& relative) {
+  std::error_code ignored;
+  fs::path folder = directory;
+  for (const fs::path& part : relative.parent_path()) {
+    folder /= part;
+    if (fs::is_symlink(fs::symlink_status(folder, ignored))) return folder;
   }
-  ::unlink(probe.c_str());
-  remove_empty(created);
+  return {};
 }
 
-fs::path temporary_beside(const fs::path& path) {
-  fs::path temporary = path;
+void refuse_link_on_the_way(const fs::path& directory, const fs::path& relative) {
+  const fs::path link = link_on_the_way(directory, relative);
+  if (link.empty()) return;
+  throw_file_error(directory / relative, "cannot be written",
+                   fmt::format("{} is a symbolic link, which would be followed; remove it, or "
+                               "choose another directory",
+                               printable_path(link)));
+}
+
+fs::path temporary_in(const fs::path& folder) {
+  std::uint64_t number = 0;
+  if (::getentropy(&number, sizeof number) != 0) {
+    throw_file_error(folder, "no file can be named at random", errno_text());
+  }
   // Machines that share a folder may have the same process numbers.
-  temporary += fmt::format(".{}-{}.tmp", host_name(), ::getpid());
-  return temporary;
+  return folder / fmt::format(".hamjet-{:016x}.{}-{}.tmp", number, host_name(), ::getpid());
+}
+
+Descriptor unnamed_temporary_file(fs::path& folder) {
+  std::error_code error;
+  folder = fs::temp_directory_path(error);
+  if (error) folder = "/tmp";
+  constexpr mode_t owner_alone = 0600;
+  Descriptor file(folder, O_RDWR | O_TMPFILE, owner_alone);
+  if (file.is_open()) return file;
+  // The file system has no files without a name.
+  const fs::path name = temporary_in(folder);
+  file = Descriptor(name, O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW, owner_alone);
+  if (!file.is_open()) throw_file_error(folder, "has no room for temporary files", errno_text());
+  ::unlink(name.c_str());
+  return file;
 }
 
 std::optional<TemporaryWriter> temporary_writer(const fs::path& temporary) {
@@ -164,15 +174,6 @@ std::optional<TemporaryWriter> temporary_writer(const fs::path& temporary) {
       std::string_view(name).substr(0, dash).ends_with("." + host_name());
   const bool is_running = ::kill(*process, 0) == 0 || errno == EPERM;
   return TemporaryWriter{is_of_this_machine, is_of_this_machine && is_running};
-}
-
-void replace_sealed_file(const fs::path& path, std::string_view content) {
-  replace_file(path, content, Flush::no);
-}
-
-void write_whole_file(const fs::path& path, std::string_view content) {
-  replace_file(path, content, Flush::yes);
-  flush_folder(folder_of(path));
 }
 
 }  // namespace hamjet::io

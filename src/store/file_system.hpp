@@ -1,5 +1,7 @@
 #pragma once
 
+#include <sys/types.h>
+
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -17,8 +19,10 @@ class Descriptor {
  public:
   Descriptor() = default;
   /// Opens a file; the descriptor is -1, with errno set, if that fails. New files may be read by
-  /// all, as far as the umask allows. Children do not inherit it.
-  Descriptor(const std::filesystem::path& path, int flags);
+  /// all, as far as the umask allows, unless told otherwise. Children do not inherit it.
+  Descriptor(const std::filesystem::path& path, int flags, mode_t mode = 0644);
+  /// Another descriptor of the same open file; -1, with errno set, if that fails.
+  static Descriptor duplicate(int of);
   ~Descriptor() { close(); }
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
@@ -43,7 +47,15 @@ class Descriptor {
 /// The text of `errno`.
 std::string errno_text();
 
-/// Writes a file and flushes it to the disk. `shown` is the path that errors name.
+/// Writes all of the text to an open file. `shown` is the path that errors name.
+void write_all(const Descriptor& file, std::string_view content,
+               const std::filesystem::path& shown);
+
+/// Waits until the disk has what was written.
+void flush(const Descriptor& file, const std::filesystem::path& shown);
+
+/// Writes a file, of whose name there must be none and no link either, and flushes it to the disk.
+/// `shown` is the path that errors name.
 void write_and_flush(const std::filesystem::path& path, std::string_view content,
                      const std::filesystem::path& shown);
 
@@ -64,11 +76,22 @@ std::vector<std::filesystem::path> entries_below(const std::filesystem::path& fo
 /// Removes the folders that are empty, the last of the list first; one with files in it stays.
 void remove_empty(const std::vector<std::filesystem::path>& folders);
 
-/// Throws if no file can be created in the folder, which need not exist. Leaves nothing behind.
-void require_writable(const std::filesystem::path& folder);
+/// The first folder from the directory down to a file that is a symbolic link; empty if none is.
+/// Files behind it are not the directory's. (The directory itself may be a link.)
+std::filesystem::path link_on_the_way(const std::filesystem::path& directory,
+                                      const std::filesystem::path& relative);
 
-/// The file beside `path` that write_whole_file() writes, and then renames to `path`.
-std::filesystem::path temporary_beside(const std::filesystem::path& path);
+/// Throws for a file with such a link on its way.
+void refuse_link_on_the_way(const std::filesystem::path& directory,
+                            const std::filesystem::path& relative);
+
+/// A name in the folder that nobody can foretell, for a file that is written there and then
+/// renamed.
+std::filesystem::path temporary_in(const std::filesystem::path& folder);
+
+/// A file without a name, to be written and read, which is gone when it is closed; and the folder
+/// that has room for it: TMPDIR, or /tmp. Throws Error(input_output).
+Descriptor unnamed_temporary_file(std::filesystem::path& folder);
 
 /// The process that writes a temporary file.
 struct TemporaryWriter {
@@ -78,13 +101,5 @@ struct TemporaryWriter {
 
 /// The writer of a temporary file, by its name; no value if the name is not one.
 std::optional<TemporaryWriter> temporary_writer(const std::filesystem::path& temporary);
-
-/// Writes one file in full, or leaves what was there untouched; its folder is created. Does not
-/// wait for the disk: after a power failure the file may be cut or missing, so it must have a seal.
-void replace_sealed_file(const std::filesystem::path& path, std::string_view content);
-
-/// Writes one file in full, or leaves what was there untouched, and waits for the disk: after a
-/// power failure it is there, whole.
-void write_whole_file(const std::filesystem::path& path, std::string_view content);
 
 }  // namespace hamjet::io

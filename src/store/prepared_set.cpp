@@ -1,6 +1,7 @@
 #include "prepared_set.hpp"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -13,6 +14,7 @@
 #include "file_system.hpp"
 #include "hamjet/error.hpp"
 #include "text_file.hpp"
+#include "whole_file.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -32,7 +34,8 @@ std::vector<fs::path> files_below(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code error;
   for (const fs::path& entry : entries_below(folder)) {
-    if (fs::is_regular_file(entry, error)) files.push_back(entry.lexically_relative(folder));
+    if (!fs::is_regular_file(fs::symlink_status(entry, error))) continue;
+    files.push_back(entry.lexically_relative(folder));
   }
   return files;
 }
@@ -45,29 +48,12 @@ void flush_folders_below(const fs::path& folder) {
   }
 }
 
-/// The first folder from the directory down to a file that is a symbolic link; empty if none is.
-/// Files behind it are not the directory's. (The directory itself may be a link.)
-fs::path link_on_the_way(const fs::path& directory, const fs::path& relative) {
-  std::error_code ignored;
-  fs::path folder = directory;
-  for (const fs::path& part : relative.parent_path()) {
-    folder /= part;
-    if (fs::is_symlink(fs::symlink_status(folder, ignored))) return folder;
-  }
-  return {};
-}
-
 /// Throws where a rename would fail, over a directory or below a file, after other files were
 /// renamed.
 void require_place(const fs::path& directory, const fs::path& relative) {
   const fs::path target = directory / relative;
-  const fs::path link = link_on_the_way(directory, relative);
-  if (!link.empty()) {
-    throw_file_error(target, "cannot be written",
-                     fmt::format("{} is a symbolic link, which would be followed; remove it, or "
-                                 "choose another directory",
-                                 printable_path(link)));
-  }
+  refuse_link_on_the_way(directory, relative);
+  refuse_replacing_link(target);
   std::error_code ignored;
   if (fs::is_directory(target, ignored)) {
     throw_file_error(target, "cannot be written", "it is a directory");
@@ -98,6 +84,15 @@ std::string text_if_any(const fs::path& file, std::size_t most_bytes) {
   return read_regular_file(file, most_bytes).text;
 }
 
+/// Throws for a decided set that is not of this user: whoever can make folders in the directory
+/// could have files of his put anywhere in the user's name.
+void require_own(const fs::path& folder) {
+  struct stat status {};
+  if (::lstat(folder.c_str(), &status) != 0 || status.st_uid == ::geteuid()) return;
+  throw_file_error(folder, "holds results that another user is putting in place",
+                   fmt::format("user {}; remove it, or choose another directory", status.st_uid));
+}
+
 void remove_earlier(const fs::path& directory, const fs::path& name,
                     const std::vector<FileRecord>& successors) {
   for (const FileRecord& file :
@@ -119,7 +114,14 @@ void remove_earlier(const fs::path& directory, const fs::path& name,
 
 }  // namespace
 
-PreparedSet::PreparedSet(fs::path directory) : directory_(std::move(directory)) {}
+PreparedSet::PreparedSet(fs::path directory) : directory_(std::move(directory)) {
+  const fs::path folder = unfinished(directory_);
+  // What has this name now is a leftover, or somebody's link to another place.
+  remove_folder(folder);
+  if (::mkdir(folder.c_str(), 0777) != 0) {
+    throw_file_error(directory_, "the results cannot be prepared", errno_text());
+  }
+}
 
 PreparedSet::~PreparedSet() {
   remove_folder(unfinished(directory_));
@@ -130,9 +132,11 @@ void PreparedSet::write(const fs::path& relative, std::string_view content) {
   require_place(directory_, relative);
   const fs::path file = unfinished(directory_) / "files" / relative;
   create_folders(file.parent_path(), "the directory cannot be created");
-  write_and_flush(file, content, directory_ / relative);
   FileRecord record = record_of(relative, content);
-  std::erase_if(files_, [&](const FileRecord& other) { return other.path == record.path; });
+  const auto before =
+      std::erase_if(files_, [&](const FileRecord& other) { return other.path == record.path; });
+  if (before > 0) ::unlink(file.c_str());
+  write_and_flush(file, content, directory_ / relative);
   files_.push_back(std::move(record));
 }
 
@@ -162,10 +166,11 @@ void remove_unfinished(const fs::path& directory) { remove_folder(unfinished(dir
 
 bool is_ready(const fs::path& directory) {
   std::error_code ignored;
-  return fs::is_directory(ready(directory), ignored);
+  return fs::is_directory(fs::symlink_status(ready(directory), ignored));
 }
 
 void put_in_place(const fs::path& directory) {
+  require_own(ready(directory));
   const fs::path files = ready(directory) / "files";
   const fs::path summaries = ready(directory) / "summary";
   for (const fs::path& name : files_below(summaries)) {
@@ -173,6 +178,7 @@ void put_in_place(const fs::path& directory) {
     remove_earlier(directory, name, successors);
     std::set<fs::path> folders = {directory};
     for (const fs::path& file : files_below(files)) {
+      refuse_link_on_the_way(directory, file);
       const fs::path target = directory / file;
       create_folders(target.parent_path(), "the directory cannot be created");
       move_file(files / file, target);

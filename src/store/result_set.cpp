@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <system_error>
 #include <utility>
 
@@ -23,6 +24,14 @@ constexpr const char* remedy = "run the scene again";
 constexpr std::uintmax_t small_change = 4096;  ///< of a file's size, in bytes
 
 }  // namespace
+
+bool has_whole_results(const std::filesystem::path& directory, const std::string& name) {
+  const std::string summary = read_regular_file(directory / name, largest_summary_bytes).text;
+  if (!is_sealed(summary)) return false;
+  const auto json = nlohmann::json::parse(summary, nullptr, false);
+  return json.is_object() && !(json.contains("exit_code") &&
+                               json["exit_code"] == static_cast<int>(ErrorKind::numerical));
+}
 
 ResultSet::ResultSet(std::filesystem::path directory, std::string name)
     : directory_(std::move(directory)), name_(std::move(name)) {

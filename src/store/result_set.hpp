@@ -6,6 +6,10 @@
 
 namespace hamjet::io {
 
+/// Whether a directory has a set of results that are all there: its summary is as it was written,
+/// and does not say that a numerical failure left some of them out.
+bool has_whole_results(const std::filesystem::path& directory, const std::string& name);
+
 /// A set of results that an OutputDirectory has put in place, for reading. What is read counts only
 /// once verify() has found it to be what was written.
 class ResultSet {

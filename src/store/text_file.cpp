@@ -8,13 +8,13 @@
 #include <array>
 #include <cerrno>
 #include <cstdint>
-#include <fstream>
 #include <system_error>
 #include <utility>
 
 #include "../text/scene_message.hpp"
 #include "file_system.hpp"
 #include "hamjet/error.hpp"
+#include "input_stream.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -25,19 +25,6 @@ FileContent failed_content() {
   return {{}, errno_text(), false, is_missing};
 }
 
-[[noreturn]] void throw_unreadable(const std::filesystem::path& file) {
-  const FileContent content = failed_content();
-  throw_no_content(file, content, ErrorKind::input_output,
-                   fmt::format("{}: cannot be read: {}", printable_path(file), content.problem));
-}
-
-const char* kind_of_file(mode_t mode) {
-  if (S_ISDIR(mode)) return "a directory, not a regular file";
-  if (S_ISFIFO(mode)) return "a pipe, not a regular file";
-  if (S_ISCHR(mode) || S_ISBLK(mode)) return "a device, not a regular file";
-  return "not a regular file";
-}
-
 FileContent too_large(std::uintmax_t bytes, std::size_t most_bytes) {
   return {{},
           fmt::format("it is too large, got {} bytes, must be at most {}", bytes, most_bytes),
@@ -46,6 +33,19 @@ FileContent too_large(std::uintmax_t bytes, std::size_t most_bytes) {
 
 }  // namespace
 
+void throw_unreadable(const std::filesystem::path& file) {
+  const FileContent content = failed_content();
+  throw_no_content(file, content, ErrorKind::input_output,
+                   fmt::format("{}: cannot be read: {}", printable_path(file), content.problem));
+}
+
+const char* kind_of_file(mode_t mode) {
+  if (S_ISDIR(mode)) return "a directory";
+  if (S_ISFIFO(mode)) return "a pipe";
+  if (S_ISCHR(mode) || S_ISBLK(mode)) return "a device";
+  return S_ISREG(mode) ? "a regular file" : "of a special kind";
+}
+
 FileContent read_regular_file(const std::filesystem::path& file, std::size_t most_bytes) {
   // Without O_NONBLOCK, opening a pipe would wait for its writer for ever.
   const Descriptor descriptor(file, O_RDONLY | O_NONBLOCK);
@@ -53,7 +53,7 @@ FileContent read_regular_file(const std::filesystem::path& file, std::size_t mos
   struct stat status {};
   if (::fstat(descriptor.value(), &status) != 0) return failed_content();
   if (!S_ISREG(status.st_mode)) {
-    return {{}, fmt::format("it is {}", kind_of_file(status.st_mode))};
+    return {{}, fmt::format("it is {}, not a regular file", kind_of_file(status.st_mode))};
   }
   const auto size = static_cast<std::uintmax_t>(status.st_size);
   if (size > most_bytes) return too_large(size, most_bytes);
@@ -103,19 +103,16 @@ std::string require_regular_file(const std::filesystem::path& file, std::size_t 
 std::string read_text_file(const std::filesystem::path& file, std::size_t most_bytes) {
   std::error_code error;
   if (std::filesystem::is_regular_file(file, error)) return require_regular_file(file, most_bytes);
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw_unreadable(file);
+  InputStream stream(file);
   std::string text;
   std::array<char, 65536> buffer;
-  do {
-    stream.read(buffer.data(), buffer.size());
-    text.append(buffer.data(), static_cast<std::size_t>(stream.gcount()));
+  while (const std::size_t count = stream.read(buffer)) {
+    text.append(buffer.data(), count);
     if (text.size() > most_bytes) {
       throw Error(ErrorKind::too_large, fmt::format("{}: cannot be read: {}", printable_path(file),
                                                     too_large(text.size(), most_bytes).problem));
     }
-  } while (stream);
-  if (stream.bad()) throw_unreadable(file);
+  }
   return text;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <sys/types.h>
+
 #include <cstddef>
 #include <filesystem>
 #include <string>
@@ -27,14 +29,13 @@ class MissingFile : public Error {
 // readers.
 inline constexpr std::size_t largest_summary_bytes = std::size_t{256} << 20;
 inline constexpr std::size_t largest_jet_bytes = std::size_t{1} << 30;
-inline constexpr std::size_t largest_table_bytes = std::size_t{1} << 30;  ///< of deviations
 inline constexpr std::size_t largest_manifest_bytes = std::size_t{1} << 30;
 inline constexpr std::size_t largest_sweep_row_bytes = std::size_t{16} << 20;
 inline constexpr std::size_t largest_reference_bytes = std::size_t{1} << 30;
 
-/// All bytes of a file of at most `most_bytes`, which may be a pipe. Throws Error(input_output)
-/// with path and reason, MissingFile where it is not there, Error(too_large) before reading where
-/// the size is known.
+/// All bytes of a file of at most `most_bytes`, which may be a pipe, but no device. Throws
+/// Error(input_output) with path and reason, MissingFile where it is not there, Error(too_large)
+/// before reading where the size is known.
 std::string read_text_file(const std::filesystem::path& file, std::size_t most_bytes);
 
 /// The bytes of a file, or why there are none.
@@ -52,6 +53,12 @@ FileContent read_regular_file(const std::filesystem::path& file, std::size_t mos
 /// The text that read_regular_file gives; without one, throws Error(input_output), MissingFile or
 /// Error(too_large), with path and reason.
 std::string require_regular_file(const std::filesystem::path& file, std::size_t most_bytes);
+
+/// Throws why the last call of the system, on this file, failed.
+[[noreturn]] void throw_unreadable(const std::filesystem::path& file);
+
+/// "a directory", "a device", ..., of the mode that stat gives.
+const char* kind_of_file(mode_t mode);
 
 /// Throws that a file has no content: MissingFile where it is not there, else Error of this kind.
 [[noreturn]] void throw_no_content(const std::filesystem::path& file, const FileContent& content,

@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <span>
@@ -85,9 +86,18 @@ LinearFlow::LinearFlow(const ComputedProblem& problem, double duration, double p
     matrices_.push_back(arc.matrix * matrices_.back());
     states_.push_back(std::move(arc.state));
     times_.push_back(time);
-    if (times_.size() > most_checkpoints) {
+    // After ten revolutions or so it is seen whether the whole span is far too long, and soon after
+    // whether it is too long at all.
+    const double foreseen = static_cast<double>(times_.size()) * (duration / time);
+    const double checkpoints = static_cast<double>(times_.size());
+    const double error = checkpoints >= 40 * per_revolution ? 1.05
+                         : checkpoints >= 10 * per_revolution
+                             ? 1.3
+                             : std::numeric_limits<double>::infinity();
+    if (times_.size() > most_checkpoints ||
+        foreseen > error * static_cast<double>(most_checkpoints)) {
       throw Error(ErrorKind::too_large,
-                  fmt::format("singular times: the span takes more than {} checkpoints, some {} "
+                  fmt::format("linear flow: the span takes more than {} checkpoints, some {} "
                               "revolutions; a shorter one is needed",
                               most_checkpoints,
                               std::lround(static_cast<double>(most_checkpoints) / per_revolution)));
@@ -103,7 +113,10 @@ double LinearFlow::checkpoint_distance(const std::vector<double>& state,
     z.push_back(Series<double>::variable(space_, i, state[i]));
   }
   const auto slope = evaluate_on_series(problem_->system->vector_field, z);
-  const double rate = linear_part(slope).eigenvalues().cwiseAbs().maxCoeff();
+  // Positions and momenta that are of a size leave the eigenvalues their digits.
+  const Matrix<double> linear =
+      in_momentum_unit<Matrix<double>>(linear_part(slope), problem_->momentum_exponent);
+  const double rate = linear.eigenvalues().cwiseAbs().maxCoeff();
   return 2 * std::numbers::sqrt2 * std::numbers::pi / (rate * per_revolution);
 }
 

@@ -1,11 +1,11 @@
 #include "lowest_point.hpp"
 
 #include <algorithm>
-#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <cstdint>
 #include <utility>
 
+#include "../algebra/scalar_search.hpp"
 #include "exact_flow.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
@@ -118,13 +118,8 @@ void LowestPointSearch::refine(const Passage& passage) {
       return inside.radial;
     };
     // The distance is stationary there, so that half the digits of the time are enough.
-    std::uintmax_t iterations = 30;
-    const auto low = std::min(0.0, passage.duration);
-    const auto high = std::max(0.0, passage.duration);
-    const double at_start = passage.start.radial;
-    boost::math::tools::toms748_solve(radial, low, high, low < 0 ? end.radial : at_start,
-                                      low < 0 ? at_start : end.radial,
-                                      boost::math::tools::eps_tolerance<double>(26), iterations);
+    root_between("lowest point", radial, {0, passage.start.radial}, {passage.duration, end.radial},
+                 26);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::numerical) throw;
     result_.failure = error.what();

@@ -20,6 +20,29 @@ double rounding_of(Precision precision) {
              : static_cast<double>(std::numeric_limits<Extended>::epsilon());
 }
 
+const CanonicalUnits& told_units(const Scene& scene) {
+  return scene.told_units ? *scene.told_units : scene.units;
+}
+
+CanonicalFactors told_factors(const Scene& scene) {
+  const CanonicalUnits& told = told_units(scene);
+  CanonicalFactors factors;
+  factors.length = scene.units.length_km / told.length_km;
+  factors.time = scene.units.time_s / told.time_s;
+  factors.momentum = factors.length / factors.time;
+  return factors;
+}
+
+double told_time(const Scene& scene, double time) { return time * told_factors(scene).time; }
+
+std::vector<double> told_state(const Scene& scene, std::vector<double> state) {
+  const CanonicalFactors factors = told_factors(scene);
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    state[i] *= i < state.size() / 2 ? factors.length : factors.momentum;
+  }
+  return state;
+}
+
 Scene make_scene(DynamicalSystem system, std::vector<double> nominal, double duration, int order,
                  const CanonicalUnits& units) {
   constexpr std::size_t most = 8;  // degrees of freedom that variable_names has names for

@@ -102,11 +102,11 @@ enum class KeyOf { reference, comparison };
 /// A member that is added to Scene does not compile here until it is named, and put into the key of
 /// what it determines.
 std::string scene_key(const Scene& scene, int jet_order, KeyOf whose) {
-  const auto& [name, title, precision, system, units, canonical_radius, nominal, duration, order,
-               arcs, symmetry, coordinates, variables, jet_times, integrators, separation, kinds,
-               reference, relative_hamiltonian_times, checks, comparison, figure, deputy, transfer,
-               validity, assignment, uncertainty, bounded, event, output, ephemeris, nominal_file,
-               warnings, own_system] = scene;
+  const auto& [name, title, precision, system, units, told_units, canonical_radius, nominal,
+               duration, order, arcs, symmetry, coordinates, variables, jet_times, integrators,
+               separation, kinds, reference, relative_hamiltonian_times, checks, comparison, figure,
+               deputy, transfer, validity, assignment, uncertainty, bounded, event, output,
+               ephemeris, nominal_file, warnings, own_system] = scene;
   KeyText key;
   key.add("key", 6);  // version of this text, and of what is kept under it
   key.add("reference stages", reference_stages);

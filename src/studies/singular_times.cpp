@@ -5,13 +5,13 @@
 #include <Eigen/LU>
 #include <Eigen/SVD>
 #include <algorithm>
-#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <iterator>
 #include <limits>
 #include <numbers>
 #include <span>
 
+#include "../algebra/scalar_search.hpp"
 #include "hamjet/error.hpp"
 
 namespace hamjet {
@@ -217,14 +217,9 @@ class ZeroSearch {
   void add_zero(double from, double to) {
     const double value_from = ratio_at(from);
     const double value_to = ratio_at(to);
-    if (value_from == 0) return add(from);
-    if (value_to == 0) return add(to);
-    std::uintmax_t most_iterations = 100;
-    const auto bracket = boost::math::tools::toms748_solve(
-        [&](double t) { return ratio_at(t); }, std::min(from, to), std::max(from, to),
-        from < to ? value_from : value_to, from < to ? value_to : value_from,
-        boost::math::tools::eps_tolerance<double>(51), most_iterations);
-    add(0.5 * (bracket.first + bracket.second));
+    add(root_between(
+        "singular times", [&](double t) { return ratio_at(t); }, {from, value_from}, {to, value_to},
+        51));
   }
 
   SingularTime singular_time(double t) const {

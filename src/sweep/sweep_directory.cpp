@@ -8,9 +8,11 @@
 #include <utility>
 
 #include "../store/file_system.hpp"
+#include "../store/json_text.hpp"
 #include "../store/json_values.hpp"
 #include "../store/sealed_summary.hpp"
 #include "../store/text_file.hpp"
+#include "../store/whole_file.hpp"
 #include "hamjet/error.hpp"
 #include "sweep_items.hpp"
 
@@ -117,9 +119,11 @@ void SweepDirectory::write(const SweepRow& row) const {
                                  {"error", text_or_null(row.error)}};
   json["values"] = nlohmann::ordered_json::array();
   for (const SweepValue& value : row.values) json["values"].push_back(value_json(value));
+  const fs::path file = file_of(row.item);
+  refuse_link_on_the_way(path_, file.lexically_relative(path_));
   // A row that a power failure takes away or cuts is computed again: waiting for the disk each time
   // would cost more than quick items do.
-  replace_sealed_file(file_of(row.item), seal(json.dump(2), {}));
+  replace_sealed_file(file, seal(json_text(json), {}));
 }
 
 std::optional<SweepRow> SweepDirectory::read(std::size_t item, RowState* state) const {

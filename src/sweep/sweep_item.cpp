@@ -11,7 +11,9 @@
 #include "../report/formation/transfer_view.hpp"
 #include "../report/formation/validity_json.hpp"
 #include "../report/paper/paper_reports.hpp"
+#include "../report/study_checks.hpp"
 #include "../scene/study_reader.hpp"
+#include "../store/json_text.hpp"
 #include "../store/text_file.hpp"
 #include "../text/scene_message.hpp"
 #include "../text/whole_number.hpp"
@@ -53,6 +55,17 @@ ItemOutcome outcome_of(const StudyReport& report) {
   return {report.summary(), report.exit_code, report.failure};
 }
 
+/// The outcome of a study whose report is its summary alone, with its self-checks told in it.
+ItemOutcome checked_outcome(const nlohmann::ordered_json& summary, int exit_code,
+                            const std::string& failure, const std::vector<SelfCheck>& checks) {
+  StudyReport report;
+  report.files = {{"summary.json", json_text(summary, -1)}};
+  report.exit_code = exit_code;
+  report.failure = failure;
+  add_checks(report, checks);
+  return outcome_of(report);
+}
+
 ItemOutcome run_any(const Study& study, const ProgressCallback& progress) {
   return std::visit(
       [&](const auto& scene) {
@@ -69,8 +82,8 @@ ItemOutcome run_transfer(const Scene& scene, const ProgressCallback& progress) {
   const TransferResult result = study_transfer(scene, progress);
   std::optional<ValidityResult> validity;
   if (scene.validity) validity = study_validity(scene, progress);
-  return {transfer_report_json(result, validity).dump(), exit_code(result),
-          transfer_failure(result)};
+  return checked_outcome(transfer_report_json(result, validity), exit_code(result),
+                         transfer_failure(result), result.checks);
 }
 
 /// The flow jet of an item whose command needs a table of this name.
@@ -96,16 +109,22 @@ std::string_view table_of(SweepCommand command) {
 ItemOutcome run_command(const SweepStudy& study, std::size_t item,
                         const ProgressCallback& progress) {
   const std::string file = study.scene_path.string();
-  Study subject = parse_study(study.scene_text, file, sweep_overrides(study, item));
-  if (study.command == SweepCommand::run) return run_any(subject, progress);
+  const bool is_run = study.command == SweepCommand::run;
+  Study subject = parse_study(study.scene_text, file, sweep_overrides(study, item),
+                              is_run ? SceneUnits::told : SceneUnits::chiefs);
+  if (is_run) return run_any(subject, progress);
   const Scene scene = scene_with(std::move(subject), file, table_of(study.command));
   switch (study.command) {
     case SweepCommand::transfer:
       return run_transfer(scene, progress);
-    case SweepCommand::validity:
-      return {validity_report_json(study_validity(scene, progress)).dump(), 0, ""};
-    case SweepCommand::motion:
-      return {deputy_motion_json(study_deputy_motion(scene, progress)).dump(), 0, ""};
+    case SweepCommand::validity: {
+      const ValidityResult result = study_validity(scene, progress);
+      return checked_outcome(validity_report_json(result), 0, "", result.checks);
+    }
+    case SweepCommand::motion: {
+      const DeputyMotion motion = study_deputy_motion(scene, progress);
+      return checked_outcome(deputy_motion_json(motion), 0, "", motion.checks);
+    }
     default:
       return outcome_of(assignment_report(study_assignment(scene, progress)));
   }

@@ -8,6 +8,7 @@
 
 #include "../report/drawing/study_figure.hpp"
 #include "../store/csv_values.hpp"
+#include "../store/json_text.hpp"
 #include "../store/json_values.hpp"
 #include "../store/sealed_summary.hpp"
 #include "../text/quantity_text.hpp"
@@ -109,7 +110,7 @@ std::string summary_of(const SweepStudy& study, const SweepRows& rows, const Cou
                                {"greatest", place_json(study, rows, c, extremes.greatest)}});
   }
   json["exit_code"] = exit_code;
-  return json.dump(2) + "\n";
+  return json_text(json) + "\n";
 }
 
 std::string terminal_table(const SweepStudy& study, const SweepRows& rows, const Counts& counts) {

@@ -233,6 +233,7 @@ SweepStudy parse_sweep_study(
   root.check_keys();
   study.title = default_title(file.string());
   root.read_if_any("title", study.title);
+  study.title = printable(study.title, std::string::npos);
   read_sweep_table(sweep, *document.table.get_as<toml::table>("sweep"), file, study);
   if (root.has("axis") == root.has("item")) {
     root.fail(

@@ -16,14 +16,15 @@ double rounded_to(double value, int digits) {
   return std::round(value / unit) * unit;
 }
 
-/// A value as three digits and the prefix that leaves one to three of them before the point.
+/// A value as three digits and the prefix that leaves one to three of them before the point. Below
+/// the smallest prefix, where a length says that it is zero but for rounding, it has an exponent.
 std::string prefixed(double value, std::string_view unit) {
-  static constexpr const char* prefixes[] = {"f", "p", "n", "μ", "m", "", "k", "M", "G", "T"};
+  static constexpr const char* prefixes[] = {"p", "n", "μ", "m", "", "k", "M", "G", "T"};
   if (value == 0 || !std::isfinite(value)) return fmt::format("{:g} {}", value, unit);
   const double shown = std::abs(rounded_to(value, 3));
   const int thousands = static_cast<int>(std::floor(std::log10(shown) / 3 + 1e-12));
-  if (thousands < -5 || thousands > 4) return fmt::format("{:.2e} {}", value, unit);
-  return fmt::format("{:.3g} {}{}", value / std::pow(1000.0, thousands), prefixes[thousands + 5],
+  if (thousands < -4 || thousands > 4) return fmt::format("{:.2e} {}", value, unit);
+  return fmt::format("{:.3g} {}{}", value / std::pow(1000.0, thousands), prefixes[thousands + 4],
                      unit);
 }
 

@@ -15,16 +15,6 @@ constexpr std::string_view override_prefix = "--set ";
 /// Room for the longest label and what stands around it in a key.
 constexpr std::size_t longest_shown_key = 200;
 
-/// C0 and C1 control characters, delete, and the line and paragraph separators: whatever could
-/// break the line or drive a terminal. `sequence` is one well-formed UTF-8 sequence.
-bool breaks_line(std::string_view sequence) {
-  const auto first = static_cast<unsigned char>(sequence[0]);
-  if (sequence.size() == 1) return first < 0x20 || first == 0x7f;
-  const auto second = static_cast<unsigned char>(sequence[1]);
-  if (sequence.size() == 2) return first == 0xc2 && second < 0xa0;
-  return sequence == "\u2028" || sequence == "\u2029";
-}
-
 /// Damerau's distance in its restricted form: insertions, deletions, substitutions and swaps of
 /// neighbours. Source: G. Navarro, A guided tour to approximate string matching, ACM Computing
 /// Surveys 33 (2001).
@@ -96,6 +86,10 @@ struct ForeignKeys {
 
 const std::vector<ForeignKeys>& foreign_keys() {
   static const std::vector<ForeignKeys> keys = {
+      {"",
+       {"chief", "target", "leader", "reference_orbit", "orbit", "initial_state"},
+       "must be [nominal], the start of the chief"},
+      {"", {"follower", "chaser", "secondary", "relative_state"}, "must be [deputy]"},
       {"nominal",
        {"M_deg", "m_deg", "mean_anomaly_deg", "mean_anomaly"},
        "must be ma_deg, the mean anomaly"},
@@ -128,29 +122,6 @@ bool is_path_to(std::string_view outer, std::string_view inner) {
 }
 
 }  // namespace
-
-std::string printable(std::string_view text, std::size_t most_characters) {
-  constexpr std::size_t escape_length = 4;
-  std::string result;
-  for (std::size_t count = 0; !text.empty();) {
-    const std::size_t length = utf8_sequence_length(text);
-    const std::string_view sequence = text.substr(0, std::max<std::size_t>(length, 1));
-    const bool is_escaped = length == 0 || breaks_line(sequence);
-    count += is_escaped ? escape_length * sequence.size() : 1;
-    if (count > most_characters) return result + "...";
-    if (is_escaped) {
-      for (const char c : sequence) {
-        result += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
-      }
-    } else {
-      result += sequence;
-    }
-    text.remove_prefix(sequence.size());
-  }
-  return result;
-}
-
-std::string in_quotes(std::string_view text) { return fmt::format("\"{}\"", printable(text)); }
 
 std::optional<std::string_view> nearest(std::string_view name,
                                         const std::vector<std::string_view>& candidates) {
@@ -216,28 +187,6 @@ std::string message_head(const SceneSource& source, std::string_view where, std:
 
 void throw_scene_error(std::string_view head, std::string_view problem) {
   throw Error(ErrorKind::scene, fmt::format("{}: {}", head, problem));
-}
-
-std::size_t utf8_sequence_length(std::string_view text) {
-  const auto byte = [text](std::size_t i) -> unsigned {
-    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
-  };
-  const auto continues = [&byte](std::size_t i) { return (byte(i) & 0xc0U) == 0x80U; };
-  const unsigned first = byte(0);
-  if (text.empty()) return 0;
-  if (first < 0x80) return 1;
-  if (first >= 0xc2 && first <= 0xdf) return continues(1) ? 2 : 0;
-  if (first >= 0xe0 && first <= 0xef) {
-    const bool overlong = first == 0xe0 && byte(1) < 0xa0;
-    const bool surrogate = first == 0xed && byte(1) > 0x9f;
-    return continues(1) && continues(2) && !overlong && !surrogate ? 3 : 0;
-  }
-  if (first >= 0xf0 && first <= 0xf4) {
-    const bool overlong = first == 0xf0 && byte(1) < 0x90;
-    const bool beyond_unicode = first == 0xf4 && byte(1) > 0x8f;
-    return continues(1) && continues(2) && continues(3) && !overlong && !beyond_unicode ? 4 : 0;
-  }
-  return 0;
 }
 
 }  // namespace hamjet::io

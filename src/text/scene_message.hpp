@@ -8,14 +8,9 @@
 #include <string_view>
 #include <vector>
 
+#include "printable_text.hpp"
+
 namespace hamjet::io {
-
-/// `text` on one line and in valid UTF-8: control characters, line separators and bytes that are
-/// not UTF-8 are escaped, and what goes beyond `most_characters` as shown is cut off with "...".
-std::string printable(std::string_view text, std::size_t most_characters = 80);
-
-/// A text in printable form, in double quotes.
-std::string in_quotes(std::string_view text);
 
 /// The candidate nearest to a misspelt `name` (an edit distance that counts a swap of neighbours as
 /// one, or a name whose unit was left off), or nothing if none is near. What differs in a digit, or
@@ -69,9 +64,5 @@ inline constexpr std::string_view note_head = "note: ";
 
 /// Throws Error(scene) with the message `head: problem`.
 [[noreturn]] void throw_scene_error(std::string_view head, std::string_view problem);
-
-/// Length of the well-formed UTF-8 sequence at the start of `text`, or 0 if there is none. (The
-/// Unicode Standard, table 3-7: no overlong forms, no surrogates, nothing above U+10FFFF.)
-std::size_t utf8_sequence_length(std::string_view text);
 
 }  // namespace hamjet::io

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "printable_text.hpp"
+
 namespace hamjet::io {
 namespace {
 
@@ -119,7 +121,9 @@ std::size_t text_width(std::string_view text) {
   }));
 }
 
-std::string fitted(std::string_view text, std::size_t width) {
+std::string fitted(std::string_view given, std::size_t width) {
+  const std::string shown = printable_lines(given);
+  std::string_view text = shown;
   std::string result;
   while (!text.empty()) {
     const std::size_t end = text.find('\n');

@@ -155,7 +155,7 @@ bool BoxDensity::is_fine() const {
   double missed = 0;
   double whole = 0;
   for (const Node& node : nodes_) {
-    if (node.first_child != 0 || node.log_mean == nothing) continue;
+    if (node.first_child != 0 || node.log_even == nothing) continue;
     missed += std::exp(node.priority - most);
     whole += std::exp(node.log_mass() - most);
   }
@@ -197,7 +197,7 @@ BoxDensity::BoxDensity(const std::vector<Box>& boxes, const Density& density, st
   log_mass_ = nothing;
   double largest = nothing;
   for (std::size_t k = 0; k < nodes_.size(); ++k) {
-    if (nodes_[k].first_child != 0 || nodes_[k].log_mean == nothing) continue;
+    if (nodes_[k].first_child != 0 || nodes_[k].log_even == nothing) continue;
     leaves_.push_back(k);
     largest = std::max(largest, nodes_[k].log_mass());
   }
@@ -236,7 +236,7 @@ std::optional<double> BoxDensity::log_density(const std::array<double, 3>& point
     const auto dimension = static_cast<std::size_t>(node->dimension);
     node = point[dimension] < lower.box.high[dimension] ? &lower : &lower + 1;
   }
-  if (node->log_mean == nothing) return {};
+  if (node->log_even == nothing) return {};
   double tilt = node->log_mean;
   for (std::size_t i = 0; i < 3; ++i) {
     const double length = node->box.high[i] - node->box.low[i];

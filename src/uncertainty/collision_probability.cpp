@@ -5,15 +5,16 @@
 #include <algorithm>
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
-#include <tuple>
 
 #include "../integrators/concurrent_tasks.hpp"
 #include "binomial_interval.hpp"
-#include "cubic_arc.hpp"
+#include "collision_judgement.hpp"
 #include "entry_sampler.hpp"
+#include "flown_separations.hpp"
 #include "hamjet/error.hpp"
 #include "relative_paths.hpp"
 #include "sampled_paths.hpp"
+#include "weighted_hits.hpp"
 
 namespace hamjet {
 namespace {
@@ -36,44 +37,21 @@ constexpr double widest_sphere = 20;
 /// nothing of what they have missed.
 constexpr double few_draws = 0.1;
 constexpr std::size_t pilot_blocks = 32;
+/// Flights of those draws that come nearest to the radius.
+constexpr std::size_t flown_draws = 64;
+/// Draws that nowhere come nearer than so many radii are as good as any further ones.
+constexpr double farthest_told = 2;
+/// Plain draws reach some four standard deviations, what may be left out begins at nine: quadratic
+/// terms grow by the square of it.
+constexpr double growth_to_farthest = 6;
 constexpr std::size_t time_count = 200;
 
-void take_linear_path(const RelativePaths& paths, const EncounterDeviation& deviation,
-                      SampledPath& path) {
-  for (std::size_t node = 0; node < path.size(); ++node) {
-    const LinearRelativeState& linear = paths.linear(node);
-    const Eigen::Matrix<double, 6, 1> state = linear.mean + linear.by_deviation * deviation;
-    for (std::size_t c = 0; c < 6; ++c) path[node][c] = state[static_cast<Eigen::Index>(c)];
-  }
-}
-
-/// When a path first has what counts as a collision, if it ever has.
-std::optional<double> first_event(const RelativePaths& paths, const SampledPath& path,
-                                  double radius, CollisionEvent event) {
-  const double square = radius * radius;
-  const std::vector<double>& times = paths.times();
-  std::vector<double> parts;
-  for (const std::size_t node : paths.arcs()) {
-    const double length = times[node + 1] - times[node];
-    const SquaredDistance arc(path[node], path[node + 1], length);
-    if (arc.lower_bound() >= square) continue;
-    if (node == 0 && paths.has_begin() && arc.first() < square) {
-      if (event == CollisionEvent::entry) return {};
-      return times[0];
-    }
-    parts.clear();
-    arc.entries(square, parts);
-    if (!parts.empty()) return times[node] + length * *std::min_element(parts.begin(), parts.end());
-  }
-  return {};
-}
-
-/// Sums over samples of x, the weight of a collision and 0 of none.
+/// Sums over samples.
 struct Sums {
   long samples = 0;
-  long hits = 0;
-  double x = 0;
-  double x_squared = 0;
+  Hits hits;
+  Hits sure;          ///< of a radius that is smaller by the error of the paths
+  Hits possible;      ///< and larger
   long compared = 0;  ///< with the lower order
   double change = 0;
   double change_squared = 0;
@@ -81,9 +59,9 @@ struct Sums {
 
   void add(const Sums& other) {
     samples += other.samples;
-    hits += other.hits;
-    x += other.x;
-    x_squared += other.x_squared;
+    hits.add(other.hits);
+    sure.add(other.sure);
+    possible.add(other.possible);
     compared += other.compared;
     change += other.change;
     change_squared += other.change_squared;
@@ -105,19 +83,26 @@ class Estimate {
 
   /// Draws entries of a sphere from now on. Returns false where too little is known of it.
   bool sample_entries();
-  CollisionProbability result() const;
+  CollisionProbability result();
 
  private:
   void draw(RandomStream& random, Block& samples) const;
   /// Adds the first `count` of a block.
   void judge(const Block& samples, std::size_t count, bool with_lower_order, Sums& sums) const;
+  /// Of least distances of the pilot's paths, from those of linear paths.
   double largest_difference() const;
+  /// Of least distances, from those of flights, as far as it can matter to the radius.
+  double flight_difference() const;
+  /// A block of random numbers of its own, and the least distances of its paths.
+  void draw_pilot(RandomStream& random, Block& samples, std::vector<double>& least) const;
+  EncounterDeviation deviation_of(const Block& samples, std::size_t sample) const;
 
   const EncounterProblem* problem_;
   const CollisionSettings* settings_;
   const RelativePaths* paths_;
   std::optional<EntrySampler> sampler_;
   double difference_ = 0;
+  double error_ = 0;  ///< of the distances of a path
 };
 
 void Estimate::draw(RandomStream& random, Block& samples) const {
@@ -156,11 +141,12 @@ void Estimate::judge(const Block& samples, std::size_t count, bool with_lower_or
     take_path(states, samples_in_block, j, path);
     const double weight = samples.weights[j];
     ++sums.samples;
-    const auto entry = first_event(*paths_, path, problem_->radius, settings_->event);
+    const Judgement judged = judge_path(*paths_, path, problem_->radius, error_, settings_->event);
+    const std::optional<double>& entry = judged.first;
+    if (judged.is_sure && weight > 0) sums.sure.add(weight);
+    if (judged.is_possible && weight > 0) sums.possible.add(weight);
     if (entry && weight > 0) {
-      ++sums.hits;
-      sums.x += weight;
-      sums.x_squared += weight * weight;
+      sums.hits.add(weight);
       const auto place = static_cast<std::size_t>(std::max(0.0, (*entry - problem_->from) * scale));
       sums.by_time[std::min(place, time_count - 1)] += weight;
     }
@@ -175,25 +161,39 @@ void Estimate::judge(const Block& samples, std::size_t count, bool with_lower_or
   }
 }
 
+EncounterDeviation Estimate::deviation_of(const Block& samples, std::size_t sample) const {
+  EncounterDeviation deviation;
+  for (std::size_t i = 0; i < encounter_variables; ++i) {
+    deviation[static_cast<Eigen::Index>(i)] = samples.points[i * samples_in_block + sample];
+  }
+  return deviation;
+}
+
+void Estimate::draw_pilot(RandomStream& random, Block& samples, std::vector<double>& least) const {
+  SampledPath path(paths_->times().size());
+  std::vector<double> states(6 * path.size() * samples_in_block);
+  draw(random, samples);
+  paths_->evaluate(samples.points, problem_->order, states);
+  least.clear();
+  for (std::size_t j = 0; j < samples_in_block; ++j) {
+    take_path(states, samples_in_block, j, path);
+    least.push_back(least_distance(*paths_, path));
+  }
+}
+
 double Estimate::largest_difference() const {
   RandomStream random(settings_->seed, ~std::uint64_t{0});
   Block samples;
   SampledPath path(paths_->times().size());
-  std::vector<double> states(6 * path.size() * samples_in_block);
+  std::vector<double> least;
   std::vector<std::pair<double, double>> differences;  // and weights
   double sum = 0;
   for (std::size_t k = 0; k < pilot_blocks; ++k) {
-    draw(random, samples);
-    paths_->evaluate(samples.points, problem_->order, states);
+    draw_pilot(random, samples, least);
     for (std::size_t j = 0; j < samples_in_block; ++j) {
-      EncounterDeviation deviation;
-      for (std::size_t i = 0; i < encounter_variables; ++i) {
-        deviation[static_cast<Eigen::Index>(i)] = samples.points[i * samples_in_block + j];
-      }
-      take_path(states, samples_in_block, j, path);
-      const double least = least_distance(*paths_, path);
-      take_linear_path(*paths_, deviation, path);
-      differences.emplace_back(std::abs(least - least_distance(*paths_, path)), samples.weights[j]);
+      take_linear_path(*paths_, deviation_of(samples, j), path);
+      differences.emplace_back(std::abs(least[j] - least_distance(*paths_, path)),
+                               samples.weights[j]);
       sum += samples.weights[j];
     }
   }
@@ -207,26 +207,73 @@ double Estimate::largest_difference() const {
   return largest;
 }
 
+double Estimate::flight_difference() const {
+  struct Candidate {
+    double least;
+    double weight;
+    EncounterDeviation deviation;
+  };
+  RandomStream random(settings_->seed, ~std::uint64_t{1});
+  Block samples;
+  std::vector<double> least;
+  std::vector<Candidate> candidates;
+  double sum = 0;
+  for (std::size_t k = 0; k < pilot_blocks; ++k) {
+    draw_pilot(random, samples, least);
+    for (std::size_t j = 0; j < samples_in_block; ++j) {
+      candidates.push_back({least[j], samples.weights[j], deviation_of(samples, j)});
+      sum += samples.weights[j];
+    }
+  }
+  const double least_weight = negligible_weight * sum / static_cast<double>(candidates.size());
+  std::erase_if(candidates, [&](const Candidate& c) { return !(c.weight > least_weight); });
+  const double radius = problem_->radius;
+  const std::size_t count = std::min(flown_draws, candidates.size());
+  std::partial_sort(candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(count),
+                    candidates.end(), [&](const Candidate& one, const Candidate& other) {
+                      return std::abs(one.least - radius) < std::abs(other.least - radius);
+                    });
+  std::vector<EncounterDeviation> deviations;
+  for (std::size_t k = 0; k < count; ++k) deviations.push_back(candidates[k].deviation);
+  const std::vector<double> flown = flown_separations(*problem_, deviations);
+  double largest = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double farthest = farthest_told * radius;
+    largest = std::max(
+        largest, std::abs(std::min(flown[k], farthest) - std::min(candidates[k].least, farthest)));
+  }
+  return largest;
+}
+
 bool Estimate::sample_entries() {
   // Collisions whose linear path stays outside the sphere are lost: it is made wider until the
-  // differences of its own paths do not bridge the margin.
+  // differences of its own paths do not bridge the margin. Where no linear path enters it, those of
+  // plain samples say how far others are from these.
+  const bool is_of_entries = settings_->event == CollisionEvent::entry;
+  const double difference_of_plain =
+      paths_->arcs().empty() ? 0 : growth_to_farthest * largest_difference();
   double margin = narrowest_margin * problem_->radius;
   while (margin <= (widest_sphere - 1) * problem_->radius) {
-    // An entry may come from between the two spheres too, where the path begins: of those that are
-    // to become nearer, what begins well inside is left out.
-    const double nearest_begin =
-        settings_->event == CollisionEvent::nearer ? 0 : std::max(0.0, problem_->radius - margin);
-    sampler_.emplace(*paths_, problem_->radius + margin, nearest_begin);
-    if (sampler_->is_empty()) return true;
+    sampler_.emplace(*paths_, problem_->radius + margin, is_of_entries);
+    if (sampler_->is_empty()) {
+      if (difference_of_plain <= margin) return true;
+      margin = std::max(2 * margin, difference_of_plain);
+      continue;
+    }
     difference_ = largest_difference();
-    if (difference_ * margin_factor <= margin) return true;
-    margin = std::max(2 * margin, margin_factor * difference_);
+    double needed = margin_factor * difference_;
+    if (needed <= margin) {
+      error_ = paths_->interpolation_error() + flight_difference();
+      needed += error_;
+      if (needed <= margin) return true;
+    }
+    margin = std::max(2 * margin, needed);
   }
   sampler_.reset();
   return false;
 }
 
-CollisionProbability Estimate::result() const {
+CollisionProbability Estimate::result() {
   CollisionProbability result;
   result.sampling = sampler_ ? CollisionSampling::entries : CollisionSampling::plain;
   const double span = problem_->to - problem_->from;
@@ -240,6 +287,8 @@ CollisionProbability Estimate::result() const {
     if (sampler_->is_empty()) return result;
   }
   if (paths_->arcs().empty()) return result;
+  if (!sampler_) error_ = paths_->interpolation_error() + flight_difference();
+  result.path_error = error_;
   const std::size_t in_task = samples_in_block * blocks_in_task;
   const auto wanted = static_cast<std::size_t>(settings_->samples);
   const std::size_t tasks = (wanted + in_task - 1) / in_task;
@@ -267,22 +316,22 @@ CollisionProbability Estimate::result() const {
 
   const auto count = static_cast<double>(all.samples);
   result.samples = all.samples;
-  result.hits = all.hits;
-  // The mean of weights may come out above 1 by its error.
-  result.probability = std::min(1.0, all.x / count);
-  const double variance =
-      std::max(0.0, all.x_squared / count - result.probability * result.probability);
+  result.hits = all.hits.count;
+  result.probability = all.hits.probability(count);
+  const double variance = all.hits.variance(count);
   result.standard_error = std::sqrt(variance / count);
   if (sampler_) {
     const double tail = (1 - settings_->confidence) / 2;
-    const double width = boost::math::quantile(boost::math::complement(
-                             boost::math::normal_distribution<double>(), tail)) *
-                         result.standard_error;
-    result.lower = std::max(0.0, result.probability - width);
-    result.upper = std::min(1.0, result.probability + width);
+    const double quantile = boost::math::quantile(
+        boost::math::complement(boost::math::normal_distribution<double>(), tail));
+    const auto width = [&](const Hits& hits) {
+      return quantile * std::sqrt(hits.variance(count) / count);
+    };
+    result.lower = std::max(0.0, all.sure.probability(count) - width(all.sure));
+    result.upper = std::min(1.0, all.possible.probability(count) + width(all.possible));
   } else {
-    std::tie(result.lower, result.upper) =
-        binomial_interval(all.samples, all.hits, settings_->confidence);
+    result.lower = binomial_interval(all.samples, all.sure.count, settings_->confidence).first;
+    result.upper = binomial_interval(all.samples, all.possible.count, settings_->confidence).second;
   }
   if (variance > 0) {
     result.equivalent_samples = result.probability * (1 - result.probability) /
@@ -310,11 +359,12 @@ CollisionProbability collision_probability(const EncounterProblem& problem,
   if (settings.samples < 1000) {
     throw Error(ErrorKind::usage, "collision: there must be at least 1000 samples");
   }
-  if (!(settings.confidence > 0.5 && settings.confidence < 1)) {
-    throw Error(ErrorKind::usage, "collision: the confidence must be between 0.5 and 1");
+  if (!(settings.confidence >= 0.5 && settings.confidence < 1)) {
+    throw Error(ErrorKind::usage, "collision: the confidence must be from 0.5 to below 1");
   }
   validate(problem);
-  const RelativePaths paths(problem, path_accuracy * problem.radius, problem.radius);
+  const RelativePaths paths(problem, path_accuracy * problem.radius,
+                            farthest_told * problem.radius);
   Estimate estimate(problem, settings, paths);
   if (settings.sampling == CollisionSampling::plain) return estimate.result();
   const bool must_enter = settings.sampling == CollisionSampling::entries;

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "../algebra/symmetric_eigenvalues.hpp"
 #include "hamjet/error.hpp"
 
 namespace hamjet {
@@ -64,7 +64,7 @@ Spectrum spectrum_of(const Matrix<double>& matrix) {
                            2;
     }
   }
-  const Eigen::SelfAdjointEigenSolver<Matrix<double>> solver(correlations);
+  const auto solver = symmetric_eigenvalues("covariance", correlations);
   result.values = solver.eigenvalues();
   result.vectors = solver.eigenvectors();
   result.allowance = 2 * static_cast<double>(n) * rounding_of_digits(matrix);

@@ -1,9 +1,9 @@
 #include "cubic_arc.hpp"
 
 #include <algorithm>
-#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
-#include <cstdint>
+
+#include "../algebra/scalar_search.hpp"
 
 namespace hamjet {
 namespace {
@@ -91,11 +91,10 @@ void SquaredDistance::entries(double square, double from, double to,
   if (changes == 0) return;
   if (changes == 1 || to - from < shortest_part) {
     if (c_[0] < square || c_[6] >= square) return;
-    std::uintmax_t iterations = 100;
-    const auto [low, high] = boost::math::tools::toms748_solve(
-        [&](double part) { return at(part) - square; }, 0.0, 1.0, c_[0] - square, c_[6] - square,
-        boost::math::tools::eps_tolerance<double>(40), iterations);
-    parts.push_back(from + (to - from) * (low + high) / 2);
+    const double part = root_between(
+        "entries of a path", [&](double x) { return at(x) - square; }, {0, c_[0] - square},
+        {1, c_[6] - square}, 40);
+    parts.push_back(from + (to - from) * part);
     return;
   }
   const auto [left, right] = halves();

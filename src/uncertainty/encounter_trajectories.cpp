@@ -13,9 +13,6 @@
 namespace hamjet {
 namespace {
 
-/// A window is looked at so often in a local period.
-constexpr double looks_per_period = 64;
-constexpr double fewest_looks = 64;
 constexpr std::size_t most_looks = 200000;
 
 /// The jets of one spacecraft in the window.
@@ -35,8 +32,8 @@ JetTrajectory<double> window_trajectory(const EncounterProblem& problem, std::si
   return {flow, problem.settings};
 }
 
-double small_circle_period(double x, double y, double z) {
-  return 2 * std::numbers::pi * std::pow(std::hypot(x, y, z), 1.5);
+double small_circle_period(double distance) {
+  return 2 * std::numbers::pi * std::pow(distance, 1.5);
 }
 
 }  // namespace
@@ -98,21 +95,51 @@ double EncounterTrajectories::approach_rate_slope(double time) const {
 
 double EncounterTrajectories::period(std::size_t craft) const {
   const std::vector<double>& r = starts_[craft];
-  return small_circle_period(r[0], r[1], r[2]);
+  return small_circle_period(std::hypot(r[0], r[1], r[2]));
+}
+
+double EncounterTrajectories::distance_from_centre(std::size_t craft, double time) const {
+  const FlowJet<double> now = jet(craft, time);
+  return std::hypot(now[0][0], now[1][0], now[2][0]);
 }
 
 double EncounterTrajectories::local_period(std::size_t craft, double time) const {
-  const FlowJet<double> now = jet(craft, time);
-  return small_circle_period(now[0][0], now[1][0], now[2][0]);
+  return small_circle_period(distance_from_centre(craft, time));
 }
 
-std::vector<double> EncounterTrajectories::times_of_looks() const {
+double EncounterTrajectories::second_order(const std::array<FlowJet<double>, 2>& jets,
+                                           double deviations) const {
+  double sum = 0;
+  for (std::size_t craft = 0; craft < 2; ++craft) {
+    double square = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Series<double>& component = jets[craft][c];
+      const SeriesSpace& space = component.space();
+      if (space.order() < 2) return 0;
+      Eigen::Matrix<double, 6, 6> form = Eigen::Matrix<double, 6, 6>::Zero();
+      for (std::size_t m = space.first(2); m < space.first(3); ++m) {
+        const auto exponents = space.exponents(m);
+        Eigen::Index i = 0;
+        while (exponents[static_cast<std::size_t>(i)] == 0) ++i;
+        Eigen::Index j = 5;
+        while (exponents[static_cast<std::size_t>(j)] == 0) --j;
+        form(i, j) += component[m] / 2;
+        form(j, i) += component[m] / 2;
+      }
+      square += (factors_[craft].transpose() * form * factors_[craft]).squaredNorm();
+    }
+    sum += std::sqrt(square);
+  }
+  return sum * deviations * deviations;
+}
+
+std::vector<double> EncounterTrajectories::times_of_looks(double per_period, double fewest) const {
   const double span = to_ - from_;
   std::vector<double> times = {from_};
   while (times.back() < to_) {
     const double now = times.back();
     const double period = std::min(local_period(0, now), local_period(1, now));
-    const double step = std::min(period / looks_per_period, span / fewest_looks);
+    const double step = std::min(period / per_period, span / fewest);
     if (times.size() > most_looks) {
       throw Error(
           ErrorKind::too_large,

@@ -32,14 +32,19 @@ class EncounterTrajectories {
   /// The period of the small circle through a spacecraft's start, sqrt(r^3), in units of the
   /// system: a revolution for a central body of unit gravity.
   double period(std::size_t craft) const;
-  /// The window in steps of a 64th of the shorter of the two local periods, those of the small
+  /// The same of the circle through where it is at a time.
+  double local_period(std::size_t craft, double time) const;
+  double distance_from_centre(std::size_t craft, double time) const;
+  /// A bound on what the second order adds to the relative position for deviations of so many
+  /// standard deviations, from jets of order 2 at least: the norms of its coefficients.
+  double second_order(const std::array<FlowJet<double>, 2>& jets, double deviations) const;
+  /// The window in steps of a part of the shorter of the two local periods, those of the small
   /// circles through where the spacecraft are: equal steps would see too little of a perigee, where
-  /// an eccentric orbit turns many times as fast as on average. There are at least 64 steps; throws
-  /// Error(too_large) where more than 200000 are needed.
-  std::vector<double> times_of_looks() const;
+  /// an eccentric orbit turns many times as fast as on average. There are at least `fewest` steps;
+  /// throws Error(too_large) where more than 200000 are needed.
+  std::vector<double> times_of_looks(double per_period = 64, double fewest = 64) const;
 
  private:
-  double local_period(std::size_t craft, double time) const;
   Eigen::Matrix<double, 6, 1> relative_mean(double time) const;
 
   SharedSystem system_;

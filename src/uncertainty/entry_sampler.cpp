@@ -155,14 +155,13 @@ std::vector<Box> EntrySampler::boxes() const {
   return boxes;
 }
 
-EntrySampler::EntrySampler(const RelativePaths& paths, double radius, double nearest_begin)
+EntrySampler::EntrySampler(const RelativePaths& paths, double radius, bool begin_counts_late)
     : paths_(&paths),
       radius_(radius),
       entering_(boxes(), entering(), box_count),
       inside_(
-          nearest_begin < radius && paths.has_begin()
-              ? std::vector<Box>{{{nearest_begin / radius, -whole_turn / 4, 0},
-                                  {1, whole_turn / 4, whole_turn}}}
+          paths.has_begin()
+              ? std::vector<Box>{{{0, -whole_turn / 4, 0}, {1, whole_turn / 4, whole_turn}}}
               : std::vector<Box>{},
           [this](const std::array<double, 3>& point) { return inside(point); }, box_count) {
   for (std::size_t node = 0; node < paths.times().size(); ++node) {
@@ -180,6 +179,10 @@ EntrySampler::EntrySampler(const RelativePaths& paths, double radius, double nea
   if (!is_empty()) {
     const double entering = std::exp(entering_.log_mass() - largest);
     share_entering_ = entering / (entering + std::exp(inside_.log_mass() - largest));
+    constexpr double half = 0.5;
+    if (begin_counts_late && !entering_.is_empty()) {
+      share_entering_ = std::max(share_entering_, half);
+    }
   }
 }
 

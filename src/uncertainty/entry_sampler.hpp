@@ -47,10 +47,11 @@ class RandomStream {
 /// AAS 12-247 (2012), going back to S. O. Rice (1944).
 class EntrySampler {
  public:
-  /// `paths` must outlive it; those that begin inside, but not nearer than `nearest_begin`, are
-  /// drawn too. Throws Error(numerical) where the position is nearly certain in a direction: by the
-  /// hundredth part of the radius.
-  EntrySampler(const RelativePaths& paths, double radius, double nearest_begin);
+  /// `paths` must outlive it. Those that begin inside are drawn too: by their share of all or,
+  /// where they count only once they come back (`begin_counts_late`), by a half at most. Throws
+  /// Error(numerical) where the position is nearly certain in a direction: by the hundredth part of
+  /// the radius.
+  EntrySampler(const RelativePaths& paths, double radius, bool begin_counts_late);
 
   /// No path enters within the standard deviations that double precision can tell.
   bool is_empty() const { return entering_.is_empty() && inside_.is_empty(); }

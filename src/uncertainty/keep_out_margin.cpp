@@ -23,6 +23,8 @@ using Jacobian = Eigen::Matrix<double, 3, 12>;
 constexpr double accuracy_of_minima = 1e-3;
 constexpr std::size_t most_minima = 6;
 constexpr int most_iterations = 60;
+/// An expansion in time reaches a part of a revolution; it is looked at so often.
+constexpr std::size_t looks_in_expansion = 16;
 constexpr double never = std::numeric_limits<double>::infinity();
 
 /// The shortest xi with |a + M xi| <= 1; none where none is. With M = U S V^T and b = U^T a, of the
@@ -55,6 +57,32 @@ std::optional<EncounterDeviation> shortest(const Position& a, const Jacobian& m)
   Eigen::VectorXd eta(3);
   for (Eigen::Index i = 0; i < 3; ++i) eta[i] = -high * s[i] * b[i] / (1 + high * s[i] * s[i]);
   return EncounterDeviation(parts.matrixV() * eta);
+}
+
+/// Looks at a function at times that close in on a minimum between `from` and `to`, by golden
+/// sections, until these are `accuracy` apart.
+template <class Function>
+void look_for_minimum(double from, double to, double accuracy, Function&& look) {
+  const double section = (std::sqrt(5.0) - 1) / 2;
+  double left = to - section * (to - from);
+  double right = from + section * (to - from);
+  double of_left = look(left);
+  double of_right = look(right);
+  while (to - from > accuracy) {
+    if (of_left < of_right) {
+      to = right;
+      right = left;
+      of_right = of_left;
+      left = to - section * (to - from);
+      of_left = look(left);
+    } else {
+      from = left;
+      left = right;
+      of_left = of_right;
+      right = from + section * (to - from);
+      of_right = look(right);
+    }
+  }
 }
 
 /// The relative position in the ellipsoid's own measure, and its derivatives by the twelve numbers.
@@ -108,7 +136,8 @@ class Ellipsoid {
     return xi ? xi->norm() : never;
   }
 
-  double flown_ratio(double time, const EncounterDeviation& xi) const {
+  /// The least of a flight with the full equations, looked at along its own expansions in time.
+  double least_flown_ratio(const EncounterDeviation& xi) const {
     TaylorFlow flow(problem_->system);
     std::vector<double> states;
     for (std::size_t craft = 0; craft < 2; ++craft) {
@@ -118,11 +147,49 @@ class Ellipsoid {
     }
     const std::vector<double>& mean = problem_->spacecraft[0].state;
     states.insert(states.end(), mean.begin(), mean.end());
-    flow.advance(states, std::vector<double>(3, time));
-    const Eigen::Map<const Eigen::Matrix<double, 6, 3>> flown(states.data());
-    return (measure(std::span<const double>(states).last(6)) *
-            (flown.col(1) - flown.col(0)).head<3>())
-        .norm();
+    if (problem_->from != 0) flow.advance(states, std::vector<double>(3, problem_->from));
+    double least = never;
+    double left = problem_->to - problem_->from;
+    while (left > 0) {
+      for (std::size_t lane = 0; lane < TaylorFlow::lanes; ++lane) {
+        flow.set_state(lane, std::span<const double>(states).subspan(6 * (lane % 3), 6));
+      }
+      flow.expand();
+      const double step = std::min({flow.reach(0), flow.reach(1), flow.reach(2), left});
+      if (!(step > 1e-9 * (problem_->to - problem_->from))) {
+        throw Error(ErrorKind::numerical,
+                    "keep-out: the flight with the told deviation ended in the centre");
+      }
+      const auto evaluate_at = [&](double time) {
+        for (std::size_t lane = 0; lane < 3; ++lane) {
+          flow.evaluate(lane, time, std::span(states).subspan(6 * lane, 6));
+        }
+      };
+      const auto ratio_at = [&](double time) {
+        evaluate_at(time);
+        const Eigen::Map<const Eigen::Matrix<double, 6, 3>> flown(states.data());
+        const double ratio = (measure(std::span<const double>(states).last(6)) *
+                              (flown.col(1) - flown.col(0)).head<3>())
+                                 .norm();
+        least = std::min(least, ratio);
+        return ratio;
+      };
+      std::array<double, looks_in_expansion + 1> ratios{};
+      const auto time_of = [&](std::size_t look) {
+        return step * static_cast<double>(look) / static_cast<double>(looks_in_expansion);
+      };
+      for (std::size_t k = 0; k < ratios.size(); ++k) ratios[k] = ratio_at(time_of(k));
+      for (std::size_t k = 0; k < ratios.size(); ++k) {
+        const std::size_t before = k == 0 ? 0 : k - 1;
+        const std::size_t after = std::min(k + 1, ratios.size() - 1);
+        if (ratios[k] > ratios[before] || ratios[k] > ratios[after]) continue;
+        // The ratio is flat at its least.
+        look_for_minimum(time_of(before), time_of(after), 1e-6 * step, ratio_at);
+      }
+      evaluate_at(step);
+      left = step == left ? 0 : left - step;
+    }
+    return least;
   }
 
  private:
@@ -164,32 +231,6 @@ struct Candidate {
   double time;
   double to;
 };
-
-/// Looks at a function at times that close in on a minimum between `from` and `to`, by golden
-/// sections, until these are `accuracy` apart.
-template <class Function>
-void look_for_minimum(double from, double to, double accuracy, Function&& look) {
-  const double section = (std::sqrt(5.0) - 1) / 2;
-  double left = to - section * (to - from);
-  double right = from + section * (to - from);
-  double of_left = look(left);
-  double of_right = look(right);
-  while (to - from > accuracy) {
-    if (of_left < of_right) {
-      to = right;
-      right = left;
-      of_right = of_left;
-      left = to - section * (to - from);
-      of_left = look(left);
-    } else {
-      from = left;
-      left = right;
-      of_left = of_right;
-      right = from + section * (to - from);
-      of_right = look(right);
-    }
-  }
-}
 
 /// Local minima of the linear theory's length, the lowest first.
 std::vector<Candidate> linear_minima(const EncounterProblem& problem, const Ellipsoid& ellipsoid) {
@@ -243,8 +284,8 @@ KeepOutMargin followed(const Ellipsoid& ellipsoid, const Candidate& candidate) {
   look(candidate.to);
   xi = margin.deviation;
   // The length is flat at its least: half the digits of the time are enough.
-  look_for_minimum(candidate.from, candidate.to, 1e-8 * std::max(1.0, std::abs(candidate.to)),
-                   look);
+  look_for_minimum(candidate.from, candidate.to,
+                   1e-8 * std::max(std::abs(candidate.from), std::abs(candidate.to)), look);
   if (*margin.deviations == never) margin.deviations.reset();
   return margin;
 }
@@ -266,7 +307,7 @@ KeepOutMargin keep_out_margin(const EncounterProblem& problem, const Eigen::Vect
     // Nothing is less, and where others bend does not matter then.
     if (best.deviations == 0.0) break;
   }
-  if (best.deviations) best.flown_ratio = ellipsoid.flown_ratio(best.time, best.deviation);
+  if (best.deviations) best.flown_ratio = ellipsoid.least_flown_ratio(best.deviation);
   return best;
 }
 

@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tuple>
+#include <numeric>
+#include <set>
 
 #include "../integrators/concurrent_tasks.hpp"
-#include "../integrators/taylor_flow.hpp"
 #include "binomial_interval.hpp"
 #include "entry_sampler.hpp"
+#include "flown_separations.hpp"
 #include "hamjet/error.hpp"
 #include "relative_paths.hpp"
 #include "sampled_paths.hpp"
@@ -16,8 +17,10 @@
 namespace hamjet {
 namespace {
 
-/// Separations are told to a part of the radius.
-constexpr double separation_accuracy = 0.01;
+/// Separations are told to a part of the radius or, where they are smaller, of that of the means,
+/// of which a hundredth of the radius is the least that counts.
+constexpr double separation_accuracy = 1e-3;
+constexpr double least_counted = 0.01;
 
 /// The deviations of a block, a structure of arrays.
 std::vector<double> deviations_of(std::uint64_t seed, std::size_t number) {
@@ -30,55 +33,75 @@ std::vector<double> deviations_of(std::uint64_t seed, std::size_t number) {
   return points;
 }
 
-/// Least separations of a block's first samples, flown with the full equations through the nodes.
-std::vector<double> flown_block(const EncounterProblem& problem, const RelativePaths& paths,
-                                const std::vector<double>& points, std::size_t count) {
-  std::vector<SampledPath> flown(count, SampledPath(paths.times().size()));
-  TaylorFlow flow(problem.system);
-  for (std::size_t craft = 0; craft < 2; ++craft) {
-    std::vector<double> states;
-    for (std::size_t j = 0; j < count; ++j) {
-      Eigen::Matrix<double, 6, 1> xi;
-      for (std::size_t i = 0; i < 6; ++i) {
-        xi[static_cast<Eigen::Index>(i)] = points[(6 * craft + i) * samples_in_block + j];
-      }
-      const auto start = problem.spacecraft[craft].deviated(xi);
-      states.insert(states.end(), start.begin(), start.end());
-    }
-    double time = 0;
-    for (std::size_t node = 0; node < paths.times().size(); ++node) {
-      const std::vector<double> ahead(count, paths.times()[node] - time);
-      flow.advance(states, ahead);
-      time = paths.times()[node];
-      for (std::size_t j = 0; j < count; ++j) {
-        for (std::size_t c = 0; c < 6; ++c) {
-          flown[j][node][c] += (craft == 0 ? -1 : 1) * states[6 * j + c];
-        }
-      }
-    }
+/// The deviations of one sample.
+EncounterDeviation deviation_of(std::uint64_t seed, std::size_t sample) {
+  const std::vector<double> points = deviations_of(seed, sample / samples_in_block);
+  EncounterDeviation xi;
+  for (std::size_t i = 0; i < encounter_variables; ++i) {
+    xi[static_cast<Eigen::Index>(i)] = points[i * samples_in_block + sample % samples_in_block];
   }
-  std::vector<double> least;
-  for (const SampledPath& path : flown) least.push_back(least_distance(paths, path));
-  return least;
+  return xi;
+}
+
+/// The samples that are flown: the first ones, and those nearest to what is told first.
+std::vector<std::size_t> flown_samples(const std::vector<double>& least, double told,
+                                       long flights) {
+  const auto count = std::min(static_cast<std::size_t>(flights), least.size());
+  std::vector<std::size_t> nearest(least.size());
+  std::iota(nearest.begin(), nearest.end(), std::size_t{0});
+  std::partial_sort(nearest.begin(), nearest.begin() + static_cast<std::ptrdiff_t>(count),
+                    nearest.end(), [&](std::size_t one, std::size_t other) {
+                      return std::abs(least[one] - told) < std::abs(least[other] - told);
+                    });
+  std::set<std::size_t> samples(nearest.begin(),
+                                nearest.begin() + static_cast<std::ptrdiff_t>(count));
+  for (std::size_t k = 0; k < count; ++k) samples.insert(k);
+  return {samples.begin(), samples.end()};
+}
+
+/// The sample below which a share of them lies.
+double quantile_of(const std::vector<double>& sorted, double share) {
+  const auto place = static_cast<std::size_t>(share * static_cast<double>(sorted.size()));
+  return sorted[std::min(place, sorted.size() - 1)];
+}
+
+/// A sample's least separation as the polynomials and as a flight have it.
+struct Flown {
+  double told;
+  double flown;
+};
+
+/// By how much flights differ from what was told of them, at most, as far as it can move a quantile
+/// of this size: what is twice as far away by both does not.
+double difference_at(const std::vector<Flown>& flights, double quantile) {
+  double largest = 0;
+  for (const Flown& flight : flights) {
+    const double farthest = 2 * quantile;
+    largest = std::max(
+        largest, std::abs(std::min(flight.flown, farthest) - std::min(flight.told, farthest)));
+  }
+  return largest;
 }
 
 /// Quantiles of sorted samples, with intervals.
-void tell_quantiles(const std::vector<double>& sorted, double confidence,
-                    LeastSeparations& result) {
+void tell_quantiles(const std::vector<double>& sorted, const std::vector<Flown>& flights,
+                    double confidence, LeastSeparations& result) {
   const auto count = static_cast<double>(sorted.size());
   const double tail = (1 - confidence) / 2;
   for (const double share : result.shares) {
-    const auto place = static_cast<std::size_t>(share * count);
-    result.separations.push_back(sorted[std::min(place, sorted.size() - 1)]);
+    const double told = quantile_of(sorted, share);
+    const double error = result.interpolation_error + difference_at(flights, told);
+    result.separations.push_back(told);
+    result.errors.push_back(error);
     // Quantiles of the number of samples below; Boost rounds them away from the middle, but not
     // below 0.
     const boost::math::binomial_distribution<double> below(count, share);
     const auto low = static_cast<std::size_t>(boost::math::quantile(below, tail));
     const auto high =
         static_cast<std::size_t>(boost::math::quantile(boost::math::complement(below, tail)));
-    result.lower.push_back(boost::math::cdf(below, static_cast<double>(low)) <= tail ? sorted[low]
-                                                                                     : 0.0);
-    result.upper.push_back(high < sorted.size() ? sorted[high]
+    const bool is_enclosed = boost::math::cdf(below, static_cast<double>(low)) <= tail;
+    result.lower.push_back(is_enclosed ? std::max(0.0, sorted[low] - error) : 0.0);
+    result.upper.push_back(high < sorted.size() ? sorted[high] + error
                                                 : std::numeric_limits<double>::infinity());
   }
 }
@@ -86,9 +109,10 @@ void tell_quantiles(const std::vector<double>& sorted, double confidence,
 }  // namespace
 
 void LeastSeparations::scale(double unit) {
-  for (auto* lengths : {&separations, &lower, &upper}) {
+  for (auto* lengths : {&separations, &errors, &lower, &upper}) {
     for (double& length : *lengths) length *= unit;
   }
+  interpolation_error *= unit;
   flight_difference *= unit;
 }
 
@@ -102,7 +126,9 @@ LeastSeparations least_separations(const EncounterProblem& problem,
     }
   }
   // No path is left out.
-  const RelativePaths paths(problem, separation_accuracy * problem.radius,
+  const double size = std::clamp(flown_separation_of_means(problem), least_counted * problem.radius,
+                                 problem.radius);
+  const RelativePaths paths(problem, separation_accuracy * size,
                             std::numeric_limits<double>::infinity());
   const auto count = static_cast<std::size_t>(std::max(1L, settings.samples));
   const std::size_t tasks = (count + samples_in_block - 1) / samples_in_block;
@@ -127,24 +153,34 @@ LeastSeparations least_separations(const EncounterProblem& problem,
   LeastSeparations result;
   result.shares = shares;
   result.samples = static_cast<long>(least.size());
-  result.flights = std::min(flights, result.samples);
-  const auto flown_blocks =
-      (static_cast<std::size_t>(result.flights) + samples_in_block - 1) / samples_in_block;
-  for (std::size_t k = 0; k < flown_blocks; ++k) {
-    const std::size_t number =
-        in_block(static_cast<std::size_t>(result.flights), k * samples_in_block);
-    const std::vector<double> flown =
-        flown_block(problem, paths, deviations_of(settings.seed, k), number);
-    for (std::size_t j = 0; j < number; ++j) {
+  result.interpolation_error = paths.interpolation_error();
+  std::vector<double> sorted = least;
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<Flown> all_flown;
+  if (flights > 0 && !shares.empty()) {
+    const std::vector<std::size_t> samples =
+        flown_samples(least, quantile_of(sorted, shares.front()), flights);
+    std::vector<EncounterDeviation> deviations;
+    for (const std::size_t k : samples) deviations.push_back(deviation_of(settings.seed, k));
+    const std::vector<double> flown = flown_separations(problem, deviations);
+    for (std::size_t k = 0; k < flown.size(); ++k) {
+      all_flown.push_back({least[samples[k]], flown[k]});
       result.flight_difference =
-          std::max(result.flight_difference, std::abs(flown[j] - least[k * samples_in_block + j]));
+          std::max(result.flight_difference, std::abs(flown[k] - least[samples[k]]));
     }
+    result.flights = static_cast<long>(samples.size());
   }
-  std::sort(least.begin(), least.end());
-  result.nearer = std::lower_bound(least.begin(), least.end(), problem.radius) - least.begin();
-  std::tie(result.lower_nearer, result.upper_nearer) =
-      binomial_interval(result.samples, result.nearer, settings.confidence);
-  tell_quantiles(least, settings.confidence, result);
+  const double error = result.interpolation_error + difference_at(all_flown, problem.radius);
+  const auto nearer_than = [&](double radius) {
+    return std::lower_bound(sorted.begin(), sorted.end(), radius) - sorted.begin();
+  };
+  const auto interval_of = [&](long hits) {
+    return binomial_interval(result.samples, hits, settings.confidence);
+  };
+  result.nearer = nearer_than(problem.radius);
+  result.lower_nearer = interval_of(nearer_than(problem.radius - error)).first;
+  result.upper_nearer = interval_of(nearer_than(problem.radius + error)).second;
+  tell_quantiles(sorted, all_flown, settings.confidence, result);
   return result;
 }
 

@@ -17,25 +17,12 @@ constexpr double sigmas = 4;
 /// More nodes than this would take gigabytes, and a sample a millisecond.
 constexpr std::size_t most_nodes = 20000;
 
-/// By how much the cubic misses a relative position at the middle of an interval.
-double midpoint_miss(const LinearRelativeState& start, const LinearRelativeState& end,
-                     const LinearRelativeState& middle, double length) {
-  const LinearRelativeState cubic = between(start, end, length, 0.5);
-  const auto spread = (cubic.by_deviation - middle.by_deviation).topRows(3).norm();
-  return (cubic.mean - middle.mean).head(3).norm() + sigmas * spread;
-}
-
-/// Whether no path between two nodes comes near a sphere.
-bool is_far(const LinearRelativeState& start, const LinearRelativeState& end, double length,
-            double radius) {
-  const auto nearest = [&](const LinearRelativeState& state) {
-    const double speed =
-        state.mean.tail(3).norm() + farthest_deviation * state.by_deviation.bottomRows(3).norm();
-    return state.mean.head(3).norm() - farthest_deviation * state.by_deviation.topRows(3).norm() -
-           speed * length;
-  };
-  return std::min(nearest(start), nearest(end)) > radius;
-}
+/// The first nodes: a sixteenth of a turn, in which nothing comes back to where it was.
+constexpr double first_looks_per_period = 16;
+/// The parts of an interval at which cubics are checked; the first is where it would be halved.
+constexpr std::array<double, 3> checked_parts = {0.5, 0.21, 0.77};
+/// Relative to the distance from the centre, flows of a tolerance of 1e-12 are not told apart.
+constexpr double rounding_of_flow = 1e-12;
 
 }  // namespace
 
@@ -62,73 +49,111 @@ void validate(const EncounterProblem& problem) {
                          [](double x) { return std::isfinite(x); });
   }
   if (!finite) throw Error(ErrorKind::numerical, "encounter: a number is not finite");
-  if (!(problem.to > problem.from) || problem.from < 0) {
-    throw Error(ErrorKind::usage,
-                "encounter: the window must end after it begins, and not begin "
-                "before the epoch");
+  if (!(problem.to > problem.from)) {
+    throw Error(ErrorKind::usage, "encounter: the window must end after it begins");
   }
   if (!(problem.radius > 0)) {
     throw Error(ErrorKind::usage, "encounter: the radius must be positive");
   }
 }
 
+/// The motion at a time, as far as nodes are chosen by it.
+struct RelativePaths::Look {
+  double time = 0;
+  LinearRelativeState linear;
+  double second_order = 0;  ///< of deviations of farthest_deviation
+
+  /// How near a path may come that is seen here, within a time.
+  double nearest(double length) const {
+    const double speed =
+        linear.mean.tail(3).norm() + farthest_deviation * linear.by_deviation.bottomRows(3).norm();
+    return linear.mean.head(3).norm() - farthest_deviation * linear.by_deviation.topRows(3).norm() -
+           second_order - speed * length;
+  }
+  /// By how much the cubic from this to another look misses a third between them, at the part of
+  /// the interval where a cubic misses most.
+  double miss(const Look& end, const Look& between_both) const {
+    const double length = end.time - time;
+    const double s = (between_both.time - time) / length;
+    const LinearRelativeState cubic = between(linear, end.linear, length, s);
+    const LinearRelativeState& right = between_both.linear;
+    const double spread = (cubic.by_deviation - right.by_deviation).topRows(3).norm();
+    const double share = 16 * s * s * (1 - s) * (1 - s);
+    return ((cubic.mean - right.mean).head(3).norm() + sigmas * spread) / share;
+  }
+};
+
 RelativePaths::RelativePaths(const EncounterProblem& problem, double accuracy, double sphere) {
   validate(problem);
   for (std::size_t i = 0; i < 2; ++i) factors_[i] = problem.spacecraft[i].factor;
   const EncounterTrajectories trajectories(problem);
-  // Intervals are halved where the cubic is not good enough: near a perigee more than elsewhere.
-  struct Node {
-    double time;
-    std::array<FlowJet<double>, 2> jets;
-    LinearRelativeState linear;
+  // Nodes are chosen by what low orders tell, which is quicker.
+  EncounterProblem of_low_order = problem;
+  of_low_order.order = std::min(problem.order, 2);
+  std::optional<EncounterTrajectories> of_its_own;
+  if (of_low_order.order < problem.order) of_its_own.emplace(of_low_order);
+  const EncounterTrajectories& low = of_its_own ? *of_its_own : trajectories;
+  const auto look_at = [&](double time) {
+    const std::array<FlowJet<double>, 2> jets = {low.jet(0, time), low.jet(1, time)};
+    return Look{time, low.linear(jets), low.second_order(jets, farthest_deviation)};
   };
-  const auto node_at = [&](double time) {
-    std::array<FlowJet<double>, 2> jets = {trajectories.jet(0, time), trajectories.jet(1, time)};
-    const LinearRelativeState linear = trajectories.linear(jets);
-    return Node{time, std::move(jets), linear};
-  };
-  std::vector<Node> nodes;
-  nodes.push_back(node_at(problem.from));
-  std::vector<Node> ahead;  // the nearest last
-  ahead.push_back(node_at(problem.to));
-  std::vector<bool> is_arc;  // before each node but the first
-  while (!ahead.empty()) {
-    const Node& start = nodes.back();
-    const Node& end = ahead.back();
-    const double length = end.time - start.time;
-    const bool far = is_far(start.linear, end.linear, length, sphere);
-    std::optional<Node> middle;
-    if (!far) middle = node_at((start.time + end.time) / 2);
-    if (far || midpoint_miss(start.linear, end.linear, middle->linear, length) <= accuracy) {
-      nodes.push_back(std::move(ahead.back()));
-      ahead.pop_back();
-      is_arc.push_back(!far);
-      continue;
-    }
-    if (nodes.size() + ahead.size() >= most_nodes) {
-      throw Error(ErrorKind::too_large,
-                  fmt::format("encounter: the relative motion would be told at more than {} times; "
-                              "a shorter window would do",
-                              most_nodes));
-    }
-    ahead.push_back(*std::move(middle));
-  }
-  is_arc.push_back(false);
-  has_begin_ = is_arc.front();
   std::array<std::vector<Series<double>>, 2> maps;
-  for (std::size_t k = 0; k < nodes.size(); ++k) {
-    if (!is_arc[k] && (k == 0 || !is_arc[k - 1])) continue;
-    Node& node = nodes[k];
-    if (is_arc[k]) arcs_.push_back(times_.size());
-    times_.push_back(node.time);
-    linear_.push_back(node.linear);
+  const auto add_node = [&](double time) {
+    std::array<FlowJet<double>, 2> jets = {trajectories.jet(0, time), trajectories.jet(1, time)};
+    times_.push_back(time);
+    linear_.push_back(trajectories.linear(jets));
     for (std::size_t i = 0; i < 2; ++i) {
-      for (Series<double>& component : node.jets[i]) {
+      for (Series<double>& component : jets[i]) {
         component[0] = 0;
         maps[i].push_back(std::move(component));
       }
     }
+  };
+  for (const UncertainSpacecraft& craft : problem.spacecraft) {
+    const Eigen::Map<const Eigen::Vector3d> position(craft.state.data());
+    accuracy = std::max(accuracy, rounding_of_flow * position.norm());
   }
+  const std::vector<double> first_times = low.times_of_looks(first_looks_per_period, 1);
+  Look start = look_at(first_times.front());
+  std::vector<Look> ahead;  // the nearest last
+  for (std::size_t k = 1; k < first_times.size(); ++k) {
+    ahead.push_back(look_at(first_times[k]));
+    while (!ahead.empty()) {
+      const Look& end = ahead.back();
+      const double length = end.time - start.time;
+      const bool is_far = std::min(start.nearest(length), end.nearest(length)) > sphere;
+      double miss = 0;
+      std::optional<Look> middle;
+      for (const double part : checked_parts) {
+        if (is_far || miss > accuracy) break;
+        const Look between_both = look_at(start.time + part * length);
+        miss = std::max(miss, start.miss(end, between_both));
+        if (!middle) middle = between_both;
+      }
+      if (miss > accuracy) {
+        // Intervals are halved where the cubic is not good enough: near a perigee more than
+        // elsewhere.
+        if (times_.size() + ahead.size() >= most_nodes) {
+          throw Error(
+              ErrorKind::too_large,
+              fmt::format("encounter: the relative motion would be told at more than {} times; "
+                          "a shorter window would do",
+                          most_nodes));
+        }
+        ahead.push_back(*std::move(middle));
+        continue;
+      }
+      if (!is_far) {
+        if (times_.empty() || times_.back() != start.time) add_node(start.time);
+        arcs_.push_back(times_.size() - 1);
+        add_node(end.time);
+        interpolation_error_ = std::max(interpolation_error_, miss);
+      }
+      start = std::move(ahead.back());
+      ahead.pop_back();
+    }
+  }
+  has_begin_ = !times_.empty() && times_.front() == problem.from;
   for (std::size_t i = 0; i < 2 && !times_.empty(); ++i) {
     for (int degree = 1; degree <= problem.order; ++degree) {
       evaluators_[i].emplace_back(maps[i], degree);

@@ -33,9 +33,16 @@ struct LinearRelativeState {
 /// Immutable: threads may share one.
 class RelativePaths {
  public:
-  /// Nodes are added until the cubics of the mean motion, and of the linear motion of deviations of
-  /// `sigmas` standard deviations, are right to `accuracy` (a length) in the middle between nodes.
-  /// `sphere` is the radius of the one that paths must come near to count; infinite for all.
+  /// The first nodes are a sixteenth of a local period apart at most, so that no interval holds a
+  /// revolution. Nodes are added between them until the cubics of the mean motion, and of the
+  /// linear motion of deviations of four standard deviations, are right to `accuracy` (a length, or
+  /// the accuracy of the flow itself where that is coarser). A cubic misses what it interpolates by
+  ///
+  ///   s^2 (1 - s)^2 h^4 / 24 |d^4 x / dt^4| ,
+  ///
+  /// s the part of the interval: of the misses at three parts that are not symmetric to each other,
+  /// each relative to this factor, the largest is taken, at the factor's largest. `sphere` is the
+  /// radius of the one that paths must come near to count; infinite for all.
   /// Throws as validate and integrate_gauss, and Error(too_large) for a window that would take too
   /// many nodes.
   RelativePaths(const EncounterProblem& problem, double accuracy, double sphere);
@@ -45,6 +52,8 @@ class RelativePaths {
   const std::vector<std::size_t>& arcs() const noexcept { return arcs_; }
   /// Whether the window's begin is not left out: node 0.
   bool has_begin() const noexcept { return has_begin_; }
+  /// The largest error of the cubics, as it was found; at most the accuracy.
+  double interpolation_error() const noexcept { return interpolation_error_; }
   /// At a node, to first order.
   const LinearRelativeState& linear(std::size_t node) const { return linear_[node]; }
   /// At a time of an arc: the cubic between its nodes.
@@ -56,6 +65,8 @@ class RelativePaths {
   void evaluate(std::span<const double> points, int degree, std::span<double> states) const;
 
  private:
+  struct Look;
+
   /// For each spacecraft and degree, from 1.
   std::array<std::vector<MapEvaluator>, 2> evaluators_;
   std::array<Eigen::Matrix<double, 6, 6>, 2> factors_;
@@ -63,6 +74,7 @@ class RelativePaths {
   std::vector<LinearRelativeState> linear_;
   std::vector<std::size_t> arcs_;
   bool has_begin_ = false;
+  double interpolation_error_ = 0;
 };
 
 }  // namespace hamjet

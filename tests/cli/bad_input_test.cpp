@@ -318,6 +318,21 @@ TEST_F(BadOutput, StandardOutputIsFull) {
   EXPECT_EQ(hamjet({"run", "quick.toml", "--json"}).exit_code, 5);
 }
 
+TEST_F(BadOutput, StandardOutputIsClosed) {
+  options_.out = Stream::closed;
+  const std::vector<std::string> reason = {"standard output cannot be written: it is closed"};
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"list", "kinds"}, {"--help"}, {"check", "small.toml"}}) {
+    expect_error(arguments, 5, reason);
+  }
+  EXPECT_EQ(hamjet({"run", "quick.toml", "--json"}).exit_code, 5);
+  EXPECT_EQ(hamjet({"run", "quick.toml"}).exit_code, 5);
+  // The results themselves are there, and without anything to print all is well.
+  EXPECT_EQ(hamjet({"eval", "out/quick", "--deviation", "1,2,3,0,0,0"}).exit_code, 5);
+  EXPECT_EQ(hamjet({"eval", "out/quick", "--deviation", "1,2,3,0,0,0", "-o", "x.csv"}).exit_code,
+            0);
+}
+
 TEST_F(BadOutput, StandardOutputHasNoReader) {
   options_.out = Stream::reader_gone;
   for (const std::vector<std::string>& arguments :
@@ -353,7 +368,7 @@ TEST_F(BadOutput, WithNoStreamsAtAllTheResultsAreWhole) {
   options_.has_input = false;
   options_.out = options_.err = Stream::closed;
   // Not -q: what would be printed has no place to go, and must not end in a file of the results.
-  EXPECT_EQ(hamjet({"run", "quick.toml", "-o", "closed"}).exit_code, 0);
+  EXPECT_EQ(hamjet({"run", "quick.toml", "-o", "closed"}).exit_code, 5);
   EXPECT_EQ(hamjet({"run", "missing.toml"}).exit_code, 5);
   options_ = {};
   options_.directory = directory_;

@@ -217,7 +217,9 @@ TEST_F(LongMotion, BoundedSaysWhichDeputiesPassInsideTheBody) {
       scene("50", "[bounded]\nsizes_km = [1, 1000]\nphase_deg = 0\nrevolutions = 10\n");
   low.replace(low.find("7100"), 4, "6450");
   write("low.toml", low);
-  const std::string out = in_one_line(succeed({"bounded", "low.toml"}).out);
+  const CommandResult result = hamjet({"bounded", "low.toml"});
+  EXPECT_EQ(result.exit_code, 1) << result.err;
+  const std::string out = in_one_line(result.out);
   EXPECT_NE(out.find("4 of the 8 orbits cannot be flown"), std::string::npos) << out;
   EXPECT_NE(out.find("1000 km by refined: no orbit that can be flown"), std::string::npos) << out;
   EXPECT_EQ(out.find("1 km by refined: no orbit"), std::string::npos) << out;
@@ -230,7 +232,9 @@ TEST_F(LongMotion, PoincareSaysThatTheOrbitIsInsideTheBody) {
   low.replace(low.find("7100"), 4, "6379");
   write("inside.toml", low);
   write("outside.toml", scene("50", ""));
-  const std::string out = in_one_line(succeed({"poincare", "inside.toml"}).out);
+  const CommandResult inside = hamjet({"poincare", "inside.toml"});
+  EXPECT_EQ(inside.exit_code, 1) << inside.err;
+  const std::string out = in_one_line(inside.out);
   EXPECT_NE(out.find("no orbit that can be flown: its perigee lies"), std::string::npos) << out;
   EXPECT_EQ(in_one_line(succeed({"poincare", "outside.toml"}).out).find("can be flown"),
             std::string::npos);

@@ -78,9 +78,8 @@ void limit(decltype(RLIMIT_AS) resource, const std::optional<rlim_t>& most) {
                                  const CommandOptions& options, const Pipe& out, const Pipe& err) {
   constexpr uid_t nobody = 65534;
   // A shell that runs tests in the background passes SIGINT on as ignored.
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
-  std::signal(SIGPIPE, SIG_DFL);
+  for (const int signal : {SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGPIPE}) std::signal(signal, SIG_DFL);
+  if (options.signal && options.signal->is_ignored) std::signal(options.signal->number, SIG_IGN);
   if (::chdir(options.directory.c_str()) != 0) ::_exit(cannot_start);
   for (const auto& [name, value] : options.environment) {
     if (value) {
@@ -99,6 +98,10 @@ void limit(decltype(RLIMIT_AS) resource, const std::optional<rlim_t>& most) {
   for (std::string& argument : copies) pointers.push_back(argument.data());
   pointers.push_back(nullptr);
   if (!options.has_input) ::close(STDIN_FILENO);
+  if (!options.input.empty()) {
+    const int input = ::open(options.input.c_str(), O_RDONLY | O_CLOEXEC);
+    if (input < 0 || ::dup2(input, STDIN_FILENO) < 0) ::_exit(cannot_start);
+  }
   connect(options.out, out, STDOUT_FILENO);
   connect(options.err, err, STDERR_FILENO);
   limit(RLIMIT_FSIZE, options.largest_file);
@@ -137,7 +140,8 @@ void wait_for_file(pid_t process, const std::filesystem::path& path) {
 }
 
 void send(pid_t process, const Signal& signal, Clock::time_point deadline) {
-  while (!catches(process, signal.number) && !has_ended(process) && Clock::now() < deadline) {
+  while (!signal.is_ignored && !catches(process, signal.number) && !has_ended(process) &&
+         Clock::now() < deadline) {
     std::this_thread::sleep_for(milliseconds(5));
   }
   wait_for_file(process, signal.path);

@@ -28,6 +28,8 @@ struct Signal {
   /// The command's start, or the moment at which `path` is there, and between two.
   std::chrono::milliseconds after{200};
   std::filesystem::path path = {};
+  /// Whether the command is started with the signal ignored, as by nohup.
+  bool is_ignored = false;
 };
 
 /// SIGKILL, which no program can catch.
@@ -40,7 +42,8 @@ struct CommandOptions {
   std::filesystem::path directory;  ///< the working directory
   /// Variables to set, or to remove where the value is absent.
   std::vector<std::pair<std::string, std::optional<std::string>>> environment;
-  bool has_input = true;  ///< false: standard input is closed
+  bool has_input = true;             ///< false: standard input is closed
+  std::filesystem::path input = {};  ///< a file that is standard input
   Stream out = Stream::captured;
   Stream err = Stream::captured;
   std::optional<rlim_t> largest_file;   ///< bytes

@@ -2,7 +2,8 @@
 
 #include "command_test.hpp"
 
-// Signals. 128 + the signal's number is what shells report: 130 for SIGINT, 143 for SIGTERM.
+// Signals. 128 + the signal's number is what shells report: 129 for SIGHUP, 130 for SIGINT, 131 for
+// SIGQUIT, 143 for SIGTERM.
 
 namespace hamjet::test {
 namespace {
@@ -30,8 +31,21 @@ const std::vector<std::string> many_steps = {"run", "quick.toml", "--set",
 const std::vector<std::string> long_steps = {"run", "small.toml", "--set", "jet.order=11"};
 
 TEST_F(Interruption, BetweenSteps) {
-  expect_interrupted(many_steps, {SIGINT});
-  expect_interrupted(many_steps, {SIGTERM});
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) {
+    expect_interrupted(many_steps, {signal});
+  }
+}
+
+// Started by nohup it outlives its terminal.
+TEST_F(Interruption, AHangUpThatIsIgnoredStaysSo) {
+  for (const int signal : {SIGHUP, SIGQUIT}) {
+    options_.signal = Signal{.number = signal,
+                             .times = 20,
+                             .after = std::chrono::milliseconds(10),
+                             .path = {},
+                             .is_ignored = true};
+    succeed({"run", "quick.toml", "-q"});
+  }
 }
 
 TEST_F(Interruption, WithinAStep) {

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
+#include <sys/stat.h>
 
 #include <cmath>
+#include <thread>
 
 #include "evaluation/eval_command_test.hpp"
 #include "formats/hdf5/hdf5_jets.hpp"
@@ -120,6 +122,28 @@ TEST_F(JetTimes, OfAScene) {
          {"jet.times_s", "fehlberg78", "must be gauss"});
   const std::string told = succeed({"check", "circular.toml"}).out;
   EXPECT_NE(told.find("3 times to 4000 s too"), std::string::npos) << told;
+}
+
+// Every jet takes the rows from the first on, which a pipe gives once.
+TEST_F(JetTimes, OfRowsFromAPipeOrStandardInput) {
+  store("circular", timed_scene);
+  std::string text = rtn_header + "\n";
+  // More than is evaluated at once.
+  for (int i = 0; i < 5000; ++i) text += fmt::format("{},0,0,0,0,0\n", i % 100);
+  write("start.csv", text);
+  std::vector<std::string> command = {"eval", "circular",     "--time",   "600,4000",
+                                      "-q",   "--deviations", "start.csv"};
+  const std::string right = succeed(command).out;
+  EXPECT_EQ(parse_table(right).rows.size(), 10000U);
+  command.back() = "-";
+  options_.input = directory_ / "start.csv";
+  EXPECT_TRUE(succeed(command).out == right);
+  options_.input.clear();
+  ASSERT_EQ(::mkfifo((directory_ / "pipe").c_str(), 0600), 0);
+  command.back() = "pipe";
+  std::thread writer([&] { std::ofstream(directory_ / "pipe") << text; });
+  EXPECT_TRUE(succeed(command).out == right);
+  writer.join();
 }
 
 }  // namespace

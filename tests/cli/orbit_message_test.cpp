@@ -396,5 +396,48 @@ TEST_F(OrbitMessages, TheTablesOutputAndEphemeris) {
                 "\"ICRF\" or left out"});
 }
 
+// What is no scene is named, with the way to use it, and not taken for damaged TOML.
+TEST_F(OrbitMessages, AMessageGivenAsASceneIsNamed) {
+  const std::string elements =
+      "1 00005U 58002B   00179.78495062  .00000023  00000-0  28098-4 0  4753\n"
+      "2 00005  34.2682 348.7242 1859667 331.7664  19.3264 10.82419157413667\n";
+  write("vanguard.tle", elements);
+  for (const char* command : {"check", "run", "motion"}) {
+    expect_error({command, "standard.opm"}, 3,
+                 {"standard.opm: no scene, got an orbit parameter message (OPM)",
+                  "must be a scene that names it, as hamjet init --from writes it"});
+    expect_error({command, "standard.oem"}, 3, {"no scene, got an orbit ephemeris message (OEM)"});
+    expect_error({command, "vanguard.tle"}, 3,
+                 {"no scene, got two-line elements (TLE), whose mean elements are right with SGP4 "
+                  "alone: must be a state"});
+  }
+  write("tle.toml", from_message("opm_file = \"vanguard.tle\"\n"));
+  expect_error({"check", "tle.toml"}, 5, {"vanguard.tle:1: CCSDS_OPM_VERS: missing, got two-line"});
+  write("oem.toml", from_message("oem_file = \"standard.opm\"\n"));
+  expect_error({"check", "oem.toml"}, 5, {"got an orbit parameter message (OPM)", "opm_file"});
+}
+
+TEST_F(OrbitMessages, ADeputyOfTheSameAxesByAnotherNameOrEpoch) {
+  const auto scene = [&](const std::string& chief, const std::string& deputy) {
+    write("chief.opm", changed(io::standard_opm, "=   TOD", "= " + chief));
+    write("deputy.opm",
+          changed(changed(io::standard_opm, "=   TOD", "= " + deputy), "6655.9942", "6656.9942"));
+    write("pair.toml",
+          from_message("opm_file = \"chief.opm\"\n") + "[deputy]\nopm_file = \"deputy.opm\"\n");
+  };
+  const std::string of_then = "TOD\nREF_FRAME_EPOCH = 2021-06-03T00:00:00";
+  scene("EME2000", "J2000");
+  succeed({"check", "pair.toml"});
+  scene("TOD", of_then);
+  succeed({"check", "pair.toml"});
+  scene("TOD\nREF_FRAME_EPOCH = 2020-06-03T00:00:00", "TOD");
+  expect_error({"check", "pair.toml"}, 3,
+               {"a state in other axes than the chief's, got TOD of date, must be TOD of "
+                "2020-06-03T00:00:00.000000000000"});
+  write("named.toml", from_message("opm_file = \"deputy.opm\"\n"));
+  scene("TOD", "J2000");
+  succeed({"check", "named.toml", "--set", "ephemeris.reference_frame=EME2000"});
+}
+
 }  // namespace
 }  // namespace hamjet::test

@@ -18,8 +18,8 @@
 namespace hamjet::io {
 namespace {
 
-std::string conjunction() {
-  std::ifstream file(HAMJET_SOURCE_DIR "/tests/fuzz/corpus/orbit_message/conjunction.cdm");
+std::string conjunction(const std::string& name = "conjunction.cdm") {
+  std::ifstream file(HAMJET_SOURCE_DIR "/tests/fuzz/corpus/orbit_message/" + name);
   std::ostringstream text;
   text << file.rdbuf();
   return text.str();
@@ -73,7 +73,6 @@ TEST(ConjunctionDataMessage, IsRefusedWithLineAndKeyword) {
       {"4.142E+01", "nan", {"CR_R"}},
       {"OBJECT2\n", "OBJECT3\n", {"OBJECT: missing, got \"OBJECT3\", must be OBJECT2 here"}},
       {"= EME2000", "= TEME", {"REF_FRAME: unknown reference frame, got \"TEME\""}},
-      {"4.835E-05", "1.5", {"COLLISION_PROBABILITY: no probability"}},
       {"TCA  ", "TCB  ", {"TCB: unknown keyword here"}}};
   for (const Damage& damage : damages) {
     test::expect_error([&] { read(test::changed(conjunction(), damage.from, damage.to)); },
@@ -85,8 +84,57 @@ TEST(ConjunctionDataMessage, IsRefusedWithLineAndKeyword) {
   test::expect_error([&] { read(one); }, ErrorKind::input_output, {"the end of the file"}, "one");
   test::expect_error([&] { read(whole + one.substr(one.find("OBJECT    "))); },
                      ErrorKind::input_output, {"a third object"}, "three");
+  if (!is_xml_built()) return;
   test::expect_error([&] { read("<?xml version=\"1.0\"?><cdm/>"); }, ErrorKind::input_output,
-                     {"in XML notation"}, "XML");
+                     {"a.cdm:1: cdm: incomplete"}, "XML");
+}
+
+// The same example in both notations of the standard.
+TEST(ConjunctionDataMessage, IsTheSameInXml) {
+  if (!is_xml_built()) GTEST_SKIP();
+  const std::string xml = conjunction("conjunction-xml.cdm");
+  const ConjunctionDataMessage message = read_cdm("a.xml", xml);
+  EXPECT_EQ(cdm_text(message), cdm_text(read_cdm("a.cdm", conjunction())));
+  EXPECT_TRUE(message.doubts.empty());
+  const auto refuse = [&](const std::string& from, const std::string& to, const char* words) {
+    test::expect_error([&] { read_cdm("a.xml", test::changed(xml, from, to)); },
+                       ErrorKind::input_output, {words}, from);
+  };
+  refuse("<CR_R units=\"m**2\">", "<CR_R units=\"km**2\">", "CR_R: wrong unit, got \"km**2\"");
+  refuse("<odParameters>", "<odParameter>", "no XML, got an error of syntax");
+  refuse("<additionalParameters>\n", "<additionalParameters/><extra/><additionalParameters>\n",
+         "extra: unknown element in data");
+  refuse("</segment>\n<segment>", "</segment>\n<segment/>\n<segment>", "body: incomplete");
+  refuse("<OBJECT>OBJECT2", "<OBJECT>OBJECT3", "must be OBJECT2 here");
+  // Within a combined message, where one conjunction alone can be meant.
+  const std::string body = xml.substr(xml.find("<cdm"));
+  EXPECT_EQ(cdm_text(read_cdm("a.xml", "<ndm>" + body + "</ndm>")), cdm_text(message));
+  test::expect_error([&] { read_cdm("a.xml", "<ndm>" + body + body + "</ndm>"); },
+                     ErrorKind::input_output, {"cdm: got a second cdm"}, "two");
+}
+
+// What is optional and not used does not keep the covariance from being read.
+TEST(ConjunctionDataMessage, WhatIsWrongWithUnusedNumbersIsADoubt) {
+  std::string text = test::changed(conjunction(), "-14692.0        [m/s]", "-14692.0        [m]");
+  text = test::changed(text, "4.835E-05", "1.5");
+  text = test::changed(text, "TIME_LASTOB_START                  = 2010-03-12T02:14:12.746",
+                       "TIME_LASTOB_START                  =");
+  text = test::changed(text, "4.142E+01", "4.142D+01");
+  text = test::changed(text, "= EME2000", "= J2000");
+  const ConjunctionDataMessage message = read_cdm("a.cdm", text);
+  EXPECT_EQ(message.objects[0].covariance[0][0], 41.42);
+  EXPECT_EQ(message.objects[0].reference_frame, "EME2000");
+  EXPECT_FALSE(message.relative_velocity_m_s);
+  EXPECT_FALSE(message.collision_probability);
+  EXPECT_EQ(message.doubts,
+            (std::vector<std::string>{
+                "a.cdm:14: RELATIVE_VELOCITY_T: wrong unit, got \"[m]\", must be [m/s]; it is not "
+                "used",
+                "a.cdm:23: COLLISION_PROBABILITY: no probability, got 1.5, must be from 0 to 1; it "
+                "is not used"}));
+  // What is wanted may not be empty.
+  test::expect_error([&] { read_cdm("a.cdm", test::changed(text, "4.142D+01 [m**2]", "")); },
+                     ErrorKind::input_output, {"CR_R: empty"}, "CR_R");
 }
 
 // The covariance of the standard's example, figure G-8: numbers of its lower triangle.

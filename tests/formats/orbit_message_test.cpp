@@ -167,8 +167,12 @@ TEST(OrbitMessage, ADamagedEphemerisIsRefusedWithItsLine) {
       {"CCSDS_OEM_VERS = 3.0",
        "CCSDS_OEM_VERS = 4.0",
        {"a.oem:1: CCSDS_OEM_VERS: unknown version, got \"4.0\", must be 1.0 or 2.0 or 3.0"}},
-      {"CCSDS_OEM_VERS = 3.0\n", "", {"a.oem:1: CCSDS_OEM_VERS: missing, got the first line"}},
-      {"CCSDS_OEM_VERS", "CCSDS_OPM_VERS", {"a.oem:1: CCSDS_OEM_VERS: missing", "CCSDS_OPM_VERS"}},
+      {"CCSDS_OEM_VERS = 3.0\n",
+       "",
+       {"a.oem:1: CCSDS_OEM_VERS: missing, got another first line, must be"}},
+      {"CCSDS_OEM_VERS",
+       "CCSDS_OPM_VERS",
+       {"a.oem:1: CCSDS_OEM_VERS: missing, got an orbit parameter message (OPM)", "opm_file"}},
       {"CREATION_DATE = 1996-11-04T17:22:31",
        "CREATION_DATE = 1996-11-31T17:22:31",
        {"a.oem:2: CREATION_DATE: no moment of the calendar, got \"1996-11-31T17:22:31\""}},
@@ -246,7 +250,6 @@ TEST(OrbitMessage, DamagedParametersAreRefusedWithTheirLine) {
        "6655994.2 [m]",
        {"a.opm:17: X: wrong unit, got \"[m]\", must be [km]"}},
       {"0.47042605    [km/s]", "0.47042605 [km]", {"Y_DOT: wrong unit, got \"[km]\""}},
-      {"0.020842611", "0.020842611 [n/a]", {"ECCENTRICITY: wrong unit", "must be without a unit"}},
       {"6655.9942        [km]", "[km]", {"a.opm:17: X: no number, got \"\""}},
       {"6655.9942 ", "inf ", {"a.opm:17: X: no number, got \"inf\""}},
       {"Z_DOT              =     -0.00101495    [km/s]\n",
@@ -256,14 +259,102 @@ TEST(OrbitMessage, DamagedParametersAreRefusedWithTheirLine) {
       {"Y_DOT ", "X_DOT ", {"a.opm:21: X_DOT: there twice, got it in line 20 too"}},
       {"Y_DOT ", "Y-DOT ", {"a.opm:21: Y-DOT: unknown keyword here, did you mean Y_DOT?"}},
       {"TOD", "itrf2000", {"REF_FRAME: a frame that rotates, got \"ITRF2000\""}},
-      {"ORIGINATOR         =   GSOC\n", "META_START\n", {"no assignment, got \"META_START\""}},
+      {"ORIGINATOR         =   GSOC\n", "DATA_START\n", {"no assignment, got \"DATA_START\""}},
   };
   for (const Damage& damage : damages) {
     expect_refused(read, changed(standard_opm, damage.from, damage.to), damage.words);
   }
-  expect_refused(read, std::string(standard_opm) + standard_maneuver,
-                 {"a.opm:42: MAN_EPOCH_IGNITION: a manoeuvre", "not flown"});
+  expect_refused(
+      read, std::string(standard_opm) + standard_maneuver,
+      {"a.opm:42: MAN_EPOCH_IGNITION: a manoeuvre, got one behind the state, must be left "
+       "out: the orbit coasts from EPOCH"});
   expect_refused(read, standard_rotating_opm, {"a.opm:8: REF_FRAME: a frame that rotates"});
+}
+
+TEST(OrbitMessage, ParametersOfVersion1AreRead) {
+  // CCSDS 502.0-B-1 (2004) has the keywords of version 2.0.
+  const std::string old = changed(standard_opm, "=   3.0", "= 1.0");
+  EXPECT_EQ(read_opm("a.opm", old).version, "1.0");
+  EXPECT_EQ(read_opm("a.opm", old).state.position_km,
+            read_opm("a.opm", standard_opm).state.position_km);
+}
+
+TEST(OrbitMessage, MetadataOfParametersMayBeMarkedAsThoseOfAnEphemeris) {
+  std::string marked = changed(standard_opm, "OBJECT_NAME ", "META_START\nOBJECT_NAME ");
+  marked = changed(marked, "COMMENT   State Vector", "META_STOP");
+  EXPECT_EQ(opm_text(read_opm("a.opm", marked)), opm_text(read_opm("a.opm", standard_opm)));
+}
+
+TEST(OrbitMessage, ExponentsOfFortranAreNumbers) {
+  const std::string parameters = changed(standard_opm, "6655.9942  ", "0.66559942D+04");
+  EXPECT_EQ(read_opm("a.opm", parameters).state.position_km[0], 6655.9942);
+  std::string ephemeris = changed(standard_oem, "2783.419", "2.783419d3");
+  ephemeris = changed(ephemeris, "3.3313494e-04", "3.3313494D-04");
+  const OrbitEphemerisMessage message = read_oem("a.oem", ephemeris);
+  EXPECT_EQ(message.segments[0].states[1].position_km[0], 2783.419);
+  EXPECT_EQ(message.segments[1].covariances[0].matrix[0][0], 3.3313494e-04);
+  expect_refused([](const std::string& text) { read_opm("a.opm", text); },
+                 changed(standard_opm, "6655.9942  ", "1D2D3"), {"X: no number, got \"1D2D3\""});
+}
+
+// What is not used does not keep the state from being read.
+TEST(OrbitMessage, WhatIsWrongWithNumbersThatAreNotUsedIsADoubt) {
+  std::string text = changed(standard_opm, "1913.000             [kg]", "1913 [g]");
+  text = changed(text, "0.020842611", "0.020842611 [n/a]");
+  text = changed(text, "DRAG_COEFF       =       2.300", "DRAG_COEFF =");
+  const OrbitParameterMessage message = read_opm("a.opm", text);
+  EXPECT_EQ(message.state.position_km, read_opm("a.opm", standard_opm).state.position_km);
+  EXPECT_FALSE(message.elements);
+  EXPECT_EQ(message.doubts,
+            (std::vector<std::string>{
+                "a.opm:34: MASS: wrong unit, got \"[g]\", must be [kg]; it is not used",
+                "a.opm:26: ECCENTRICITY: wrong unit, got \"[n/a]\", must be without a unit; it is "
+                "not used"}));
+  // Nor does the degree of an interpolation that is not done, or a text in another language.
+  std::string ephemeris =
+      changed(standard_oem, "INTERPOLATION_DEGREE = 7", "INTERPOLATION_DEGREE = seven");
+  ephemeris = changed(ephemeris, "INTERPOLATION = HERMITE", "INTERPOLATION = H\xc3\xa9rmite");
+  EXPECT_EQ(read_oem("a.oem", ephemeris).segments.size(), 2U);
+}
+
+TEST(OrbitMessage, ElementsAreReadBesideTheState) {
+  const auto elements = read_opm("a.opm", standard_opm).elements;
+  ASSERT_TRUE(elements);
+  EXPECT_EQ(elements->semi_major_axis_km, 41399.5123);
+  EXPECT_EQ(elements->argument_of_perigee_deg, 218.242943);
+  EXPECT_EQ(elements->anomaly_deg, 41.922339);
+  EXPECT_FALSE(elements->is_mean_anomaly);
+  EXPECT_EQ(elements->line, 25U);
+}
+
+// A file that is named by mistake, or by somebody else, tells nothing of itself.
+TEST(OrbitMessage, AFileOfAnotherKindIsNamedAndNotQuoted) {
+  const auto problem = [](const std::string& text) {
+    try {
+      read_oem("a.oem", text);
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string("no error");
+  };
+  const std::string right = "must be CCSDS_OEM_VERS = 1.0 or 2.0 or 3.0";
+  for (const char* secret : {"hunter2:x:0:0\n", "hunter2 = 1\n", "hunter2\n\x1b[31m"}) {
+    EXPECT_EQ(problem(secret),
+              "a.oem:1: CCSDS_OEM_VERS: missing, got another first line, " + right);
+  }
+  // The published elements of Vanguard 1, with and without a name.
+  const std::string elements =
+      "1 00005U 58002B   00179.78495062  .00000023  00000-0  28098-4 0  4753\n"
+      "2 00005  34.2682 348.7242 1859667 331.7664  19.3264 10.82419157413667\n";
+  for (const std::string& tle : {elements, "VANGUARD 1\n" + elements}) {
+    EXPECT_EQ(
+        problem(tle).rfind("a.oem:1: CCSDS_OEM_VERS: missing, got two-line elements (TLE)", 0), 0U)
+        << problem(tle);
+  }
+  EXPECT_NE(problem("CCSDS_OMM_VERS = 2.0\n").find("mean-elements message (OMM)"),
+            std::string::npos);
+  EXPECT_NE(problem("CCSDS_CDM_VERS = 1.0\n").find("the key file of [uncertainty] reads"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -29,7 +29,25 @@ void check(const io::OrbitEphemerisMessage& message) {
   require(io::oem_text(io::read_oem("again.oem", text)) == text, "written again it is another");
 }
 
+/// What is wrong with numbers that are not used is said as errors are.
+void check_doubts(const std::vector<std::string>& doubts) {
+  for (const std::string& doubt : doubts) {
+    require(doubt.starts_with("orbit:") || doubt.starts_with("again."), "a doubt without a place");
+    require(doubt.find_first_of("\n\r\x1b") == std::string::npos, "a doubt of several lines");
+  }
+}
+
+void check(const io::OrbitParameterMessage& message) {
+  check(message.state);
+  check_doubts(message.doubts);
+  if (!message.elements) return;
+  require_finite({message.elements->semi_major_axis_km, message.elements->eccentricity,
+                  message.elements->anomaly_deg},
+                 "elements");
+}
+
 void check(const io::ConjunctionDataMessage& message) {
+  check_doubts(message.doubts);
   for (const io::ConjunctionObject& object : message.objects) {
     check(io::OrbitState{message.tca, object.position_km, object.velocity_km_s});
     for (const auto& row : object.covariance)
@@ -47,7 +65,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   const fuzz::Refusal refusal = {{ErrorKind::input_output}, {"orbit:"}};
   fuzz::is_read([&] { fuzz::check(io::read_oem("orbit", text)); }, refusal);
-  fuzz::is_read([&] { fuzz::check(io::read_opm("orbit", text).state); }, refusal);
+  fuzz::is_read([&] { fuzz::check(io::read_opm("orbit", text)); }, refusal);
   fuzz::is_read([&] { fuzz::check(io::read_cdm("orbit", text)); }, refusal);
   return 0;
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <span>
 #include <vector>
 
@@ -97,6 +98,39 @@ TEST(TaylorFlow, TakesAsManyPowersAsATimeNeeds) {
     // Much further it does not reach, and knows it.
     EXPECT_LT(std::abs(flow.within_reach(1, 20 * time)), 20 * std::abs(time));
   }
+}
+
+// Half a revolution from pericentre to apocentre, whose place and speed are closed forms, with
+// lengths from that of the Earth's orbits in astronomical units to that in millimetres, and where
+// squares of coefficients leave binary64. Lanes of other units go by its side.
+TEST(TaylorFlow, IsAsRightInAnyUnitOfLength) {
+  constexpr double e = 0.74;
+  for (const double a : {1e-60, 1e-12, 5e-5, 1e-3, 1.0, 42164.0, 4.2e7, 4.2e10, 1e20, 1e60}) {
+    SCOPED_TRACE(a);
+    const double speed = std::sqrt((1 + e) / (1 - e) / a);
+    const std::vector<double> pericentre = {a * (1 - e), 0, 0, 0, speed, 0};
+    const double half = std::numbers::pi * a * std::sqrt(a);
+    std::vector<double> states = pericentre;
+    states.insert(states.end(), start.begin(), start.end());
+    TaylorFlow flow{SharedSystem(kepler())};
+    flow.advance(states, std::vector<double>{half, 0.5});
+    EXPECT_NEAR(states[0], -a * (1 + e), 1e-14 * a);
+    EXPECT_NEAR(states[1], 0, 1e-13 * a);
+    EXPECT_NEAR(states[3], 0, 1e-13 * speed);
+    EXPECT_NEAR(states[4], -speed * (1 - e) / (1 + e), 1e-14 * speed);
+    // What one polynomial reaches goes as the times of the orbit do.
+    flow.set_state(0, pericentre);
+    flow.expand();
+    EXPECT_NEAR(flow.reach(0) / half, 0.016, 0.01);
+    EXPECT_EQ(flow.within_reach(0, half), flow.reach(0));
+  }
+}
+
+// Where the square of a distance is below binary64, and the force is not finite, nothing is told.
+TEST(TaylorFlow, MarksAForceThatIsNotFinite) {
+  std::vector<double> states = {1e-200, 0, 0, 0, 1e100, 0};
+  TaylorFlow{SharedSystem(kepler())}.advance(states, std::vector<double>{1e-300});
+  EXPECT_TRUE(std::isnan(states[0]));
 }
 
 TEST(TaylorFlow, MarksCollisionsAndLeavesTheOthers) {

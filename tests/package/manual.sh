@@ -23,7 +23,7 @@ expect() {
   done
 }
 expect hamjet 'Exit codes' '0 all well' '1 a check failed' '2 usage' '3 scene' \
-  '4 numerical failure' '5 input or output' '6 refused' '130 or 143 interrupted'
+  '4 numerical failure' '5 input or output' '6 refused' '129, 130, 131 or 143 interrupted'
 commands=$("$program" completion bash | sed -n "s/^    '') commands='\([^']*\)'.*/\1/p")
 [ "$(wc -w <<<"$commands")" -ge 11 ] || { echo "only these commands: $commands"; status=1; }
 for command in $commands; do

@@ -141,6 +141,28 @@ TEST(BoundedFamily, DriftsFallWithTheDegree) {
   EXPECT_LT(drifts[2], 0.1 * drifts[1]);
 }
 
+// In a weak field too it is the same family in any unit of length: energies, told by periods, stay,
+// and momenta go as the root of the length.
+TEST(BoundedFamily, IsTheSameInAnyUnitOfLength) {
+  const ChiefOrbit orbit = orbit_of(10000, 0.2, 50, 0, 20, 0, 1e-6, 0);
+  const BoundedFamily family(orbit.field, orbit.start, 1, 4, integration_tolerance);
+  const double pair = 1e-3;
+  const auto member = family.member(0.6 * pair, 0.8 * pair, 1);
+  for (const double unit : {1e-5, 1e7}) {
+    const double root = std::sqrt(unit);
+    ZonalGravity field = orbit.field;
+    field.radius *= unit;
+    SixNumbers<double> start = orbit.start;
+    for (std::size_t i = 0; i < 3; ++i) start[i] *= unit;
+    for (std::size_t i = 3; i < 6; ++i) start[i] /= root;
+    const BoundedFamily scaled(field, start, 1, 4, integration_tolerance);
+    const double size = pair * std::sqrt(root);
+    const auto found = scaled.member(0.6 * size, 0.8 * size, 1);
+    EXPECT_NEAR(found.energy, member.energy, 1e-3 * std::abs(member.energy)) << unit;
+    EXPECT_NEAR(found.momentum / root, member.momentum, 1e-3 * std::abs(member.momentum)) << unit;
+  }
+}
+
 // In a weak field the family's first degree is that of Brouwer's secular rates: with the pair of an
 // eccentric chief moved outwards by little, L - G grows, and the energy and H at which l' + g' and
 // h'/(l' + g') are the chief's follow from their closed formulas, solved here by Newton's method.

@@ -91,6 +91,20 @@ TEST(EventMap, HasTheTimesOfKeplersCircles) {
   }
 }
 
+// The time between the nodes of a circle is half its period in any unit of length, from an
+// astronomical unit to a metre for orbits about the Earth; of mu = 1 it goes as r^(3/2).
+TEST(EventMap, FindsTheNodeInAnyUnitOfLength) {
+  const double c = std::cos(0.7), s = std::sin(0.7);
+  for (const double r : {4.7e-5, 1e-3, 1.0, 7e6, 1e9}) {
+    const double speed = 1 / std::sqrt(r), time = r * std::sqrt(r);
+    const SixNumbers<double> chief = {-r, 0, 0, 0, -c * speed, -s * speed};
+    const auto map = event_map<double>(kepler(), chief, 3.0 * time, 2, event_tolerance,
+                                       EventCondition<double>(height));
+    EXPECT_NEAR(map.time[0] / time, std::numbers::pi, 1e-13) << r;
+    EXPECT_NEAR(map.state[0][0] / r, 1, 1e-13) << r;
+  }
+}
+
 // Where the flow only touches the surface of the condition, its time is no series.
 TEST(EventMap, RefusesASurfaceThatTheFlowTouches) {
   const SixNumbers<double> circle = {1, 0, 0, 0, 1, 0};

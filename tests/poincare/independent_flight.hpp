@@ -18,13 +18,14 @@ class IndependentFlight {
  public:
   using State = std::array<long double, 6>;
 
-  explicit IndependentFlight(const ZonalGravity& field) : field_(field) {}
+  explicit IndependentFlight(const ZonalGravity& field, long double tolerance = 1e-17L)
+      : field_(field), tolerance_(tolerance) {}
 
   State operator()(State state, long double time) const {
     namespace odeint = boost::numeric::odeint;
     const auto slope = [&](const State& z, State& dz, long double) { derivative(z, dz); };
     const auto stepper = odeint::make_controlled(
-        1e-17L, 1e-17L, odeint::runge_kutta_fehlberg78<State, long double, State, long double>());
+        tolerance_, tolerance_, odeint::runge_kutta_fehlberg78<State, long double, State, long double>());
     odeint::integrate_adaptive(stepper, slope, state, 0.0L, time, time / 100);
     return state;
   }
@@ -58,6 +59,7 @@ class IndependentFlight {
   }
 
   ZonalGravity field_;
+  long double tolerance_;
 };
 
 inline IndependentFlight::State long_state(const SixNumbers<double>& z) {

@@ -130,3 +130,15 @@ def test_scenes_without_a_motion_are_refused_as_by_the_command(tmp_path, file, o
     assert str(raised.value) == message_of_module(printed)
     with pytest.raises(hamjet.SceneError, match="^scene: deputy: missing, must be a table"):
         hamjet.motion(ORBIT)
+
+
+# A run's jets are in the unit that a scene asks for; what is told in metres does not depend on it.
+@pytest.mark.parametrize("length_km", [0.001, 149597870.7])
+def test_motion_is_the_same_in_any_unit_of_length(circles, length_km):
+    other = hamjet.motion({**CIRCLES, "units": {"length_km": length_km}})
+    assert (other.times_s == circles.times_s).all()
+    assert (other.position_m == circles.position_m).all()
+    assert (other.error_by_order_m == circles.error_by_order_m).all()
+    jet = hamjet.run({**CIRCLES, "units": {"length_km": length_km}}).runs["gauss8"].jet
+    assert jet.units.length_km == length_km
+    assert np.linalg.norm(jet.nominal_initial[:3]) * length_km == pytest.approx(RADIUS_KM)

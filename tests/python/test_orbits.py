@@ -129,3 +129,12 @@ def test_keywords_are_the_keys_that_the_command_lists():
     assert all(p.default is None for p in parameters.values())
     assert "    a_km: semi-major axis ([nominal])\n" in hamjet.orbit.__doc__
     assert "    J2 to J20: not normalised: J_n = -C_n0 ([system])\n" in hamjet.orbit.__doc__
+
+
+def test_likely_slips_are_warned_of_where_they_are_written():
+    for call in (lambda: hamjet.orbit(**{**LOW, "a_km": 7e6}),
+                 lambda: hamjet.run({**hamjet.orbit(**LOW)}, overrides={"nominal.a_km": 7e6})):
+        with pytest.warns(UserWarning, match=r"nominal\.a_km: ") as caught:
+            call()
+        assert caught[0].filename == __file__
+        assert not str(caught[0].message).startswith("warning")

@@ -30,6 +30,18 @@ def test_jets_are_those_of_runs_to_their_times(followed):
         assert np.allclose(jet.nominal_final, expected.nominal_final, rtol=0, atol=1e-12)
 
 
+def test_of_several_times_there_is_a_jet_each(followed):
+    times = np.linspace(0, followed.duration_s, 4)
+    for given in (times, list(times), tuple(times)):
+        jets = followed.at(given)
+        assert [jet.duration_s for jet in jets] == [followed.at(t).duration_s for t in times]
+    assert followed.at([]) == []
+    with pytest.raises(hamjet.UsageError, match="^time_s: out of range, got -1"):
+        followed.at([0, -1])
+    with pytest.raises(hamjet.UsageError, match="^time_s: "):
+        followed.at([[0.0]])
+
+
 def test_a_deputy_along_the_time_is_that_of_each_jet(followed):
     times = np.linspace(0, followed.duration_s, 5)
     state = np.array([100.0, -500, 50, 0, 0.1, 0])

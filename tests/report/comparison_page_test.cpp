@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -18,21 +17,12 @@
 #include "support/temporary_directory.hpp"
 #include "support/text.hpp"
 
-// report.html, and the child process that draws its plots.
+// report.html, and the files of its plots.
 
 namespace hamjet::io {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A program in a directory.
-std::string write_program(const test::TemporaryDirectory& directory, const std::string& name,
-                          const std::string& text) {
-  const fs::path file = directory.path() / name;
-  std::ofstream(file) << "#!/bin/sh\n" << text << "\n";
-  fs::permissions(file, fs::perms::owner_all);
-  return file.string();
-}
 
 /// All values that stand behind `before` up to the next `end`.
 std::vector<std::string> values(const std::string& text, const std::string& before, char end) {
@@ -241,39 +231,6 @@ TEST(ComparisonCharts, AccountForEveryPoint) {
       EXPECT_DOUBLE_EQ(chart.rules[0].place, 0.7 * 927.6 / 3600);
     }
   }
-}
-
-TEST(Gnuplot, IsEndedAfterItsTimeLimit) {
-  const test::TemporaryDirectory folder;
-  const std::string program = write_program(folder, "slow", "sleep 100");
-  const auto start = std::chrono::steady_clock::now();
-  const GnuplotOutcome outcome = run_gnuplot(program, "", std::chrono::milliseconds(200));
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
-  EXPECT_NE(outcome.problem.find("took longer than 0.2 s"), std::string::npos) << outcome.problem;
-}
-
-TEST(Gnuplot, WhatItComplainsOfIsHandedOn) {
-  const test::TemporaryDirectory folder;
-  const std::string program =
-      write_program(folder, "failing", "echo drawn; echo 'bad axis' >&2; exit 1");
-  // More than a socket holds, which the child does not read: writing must neither block nor raise.
-  const GnuplotOutcome outcome = run_gnuplot(program, std::string(4 << 20, '#'));
-  EXPECT_TRUE(outcome.is_installed);
-  EXPECT_TRUE(outcome.output.empty());
-  EXPECT_NE(outcome.problem.find("bad axis"), std::string::npos) << outcome.problem;
-}
-
-TEST(Gnuplot, LongOutputArrivesWhole) {
-  const test::TemporaryDirectory folder;
-  const std::string program = write_program(folder, "echoing", "exec cat");
-  const std::string script(3 << 20, 'x');
-  EXPECT_EQ(run_gnuplot(program, script).output, script);
-}
-
-TEST(Gnuplot, ALiteralCannotEndEarly) {
-  EXPECT_EQ(gnuplot_literal("it's `x`\nplot"), "'it''s `x` plot'");
-  EXPECT_EQ(gnuplot_literal("''x'"), "\"''\".'x'''");
-  EXPECT_EQ(gnuplot_literal("'"), "\"'\".''");
 }
 
 }  // namespace

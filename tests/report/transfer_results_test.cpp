@@ -285,6 +285,33 @@ TEST(TransferTable, HoldsBestWorstAndSingularTimes) {
   EXPECT_NE(table.find("greatest"), std::string::npos) << table;
 }
 
+// A change of a tenth of a micrometre per second is not six zeros.
+TEST(TransferTable, ImpulsesHaveDigitsOfAnySize) {
+  TransferResult result = sample_transfer();
+  result.optimal = OptimalImpulses{};
+  result.optimal->plan = ImpulsePlan{};
+  ImpulsePlan& plan = *result.optimal->plan;
+  plan.duration = 6;
+  plan.impulses = {{0, {0.3, -1e-9, 0}}, {6, {0, 1.25e-7, -2.5e-10}}};
+  const auto table = [&] {
+    return transfer_report(result, {}, {}, sample_transfer_origin()).table;
+  };
+  EXPECT_NE(table().find("0.300000  0.000000"), std::string::npos) << table();
+  EXPECT_NE(table().find("1.2500e-07  -2.5000e-10"), std::string::npos) << table();
+  // Without a bound none is told, and a time at which the solver failed is.
+  EXPECT_EQ(table().find("no impulses cost less"), std::string::npos) << table();
+  EXPECT_NE(table().find("is not known"), std::string::npos) << table();
+  EXPECT_EQ(table().find("the solver failed"), std::string::npos) << table();
+  LeastChange failed;
+  failed.time = 3;
+  failed.failure = "the simplex method found no optimum";
+  failed.is_unproved = true;
+  result.optimal->by_time = {failed};
+  EXPECT_NE(table().find("For 1 transfer time the solver failed"), std::string::npos) << table();
+  EXPECT_EQ(exit_code(result), 1);
+  EXPECT_NE(transfer_failure(result), "");
+}
+
 TEST(TransferTable, TellsTheResidualFromWhatAnUlpMakesOfIt) {
   TransferResult result = sample_transfer();
   const std::string line =

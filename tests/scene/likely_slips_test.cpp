@@ -1,9 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <string>
 #include <vector>
 
+#include "formats/orbit_message_samples.hpp"
 #include "scene_samples.hpp"
+#include "support/temporary_directory.hpp"
 
 // What can be computed, and is almost surely not what was meant, is said. Expected: the bodies'
 // numbers in other units, from their published values.
@@ -112,6 +115,67 @@ TEST(LikelySlips, ANegativeJ2OfABodysSize) {
                  {"file.toml:7:6: system.J2: -0.00108", "J2 = -C20", "positive: 0.00108"});
   EXPECT_TRUE(warnings(changed(orbit, "J2 = 1e-3", "J3 = -2.5e-6")).empty());
   EXPECT_TRUE(warnings(changed(orbit, "J2 = 1e-3", "J2 = -1e-9")).empty());
+}
+
+/// The warnings of a scene about the Earth that starts from this message.
+std::vector<std::string> warnings_of_message(const std::string& message) {
+  const test::TemporaryDirectory directory;
+  std::ofstream(directory.path() / "start.opm") << message;
+  const std::string scene =
+      changed(orbit, "position_km = [7000, 0, 0]\nvelocity_km_s = [0, 7.5, 1]\n",
+              "opm_file = \"start.opm\"\n");
+  return parse_scene(scene, (directory.path() / "file.toml").string()).warnings;
+}
+
+// The standard's own example has the size of its orbit right, a = 41399.5116 km by the vis-viva
+// integral, and its place by the elements is 1157 km from the state's (computed in another language
+// from r = p/(1 + e cos nu) and the three rotations).
+TEST(LikelySlips, ElementsThatAreNotThoseOfTheStateAreTold) {
+  const std::string without(io::standard_opm,
+                            std::string(io::standard_opm).find("COMMENT Keplerian"));
+  EXPECT_TRUE(warnings_of_message(without).empty());
+  const auto found = warnings_of_message(io::standard_opm);
+  ASSERT_EQ(found.size(), 1U);
+  for (const char* words :
+       {"warning: ",
+        "nominal.opm_file: Keplerian elements that are not those of the state, got "
+        "SEMI_MAJOR_AXIS = 41399.5123 km in ",
+        "start.opm:25 and a place 1,160 km from the state's", "whose own is 41399.512 km",
+        "the state is used"}) {
+    EXPECT_NE(found[0].find(words), std::string::npos) << found[0];
+  }
+  // A polar circle, told with its mean anomaly.
+  const std::string right =
+      without +
+      "SEMI_MAJOR_AXIS = 7000\nECCENTRICITY = 0\nINCLINATION = 90\nRA_OF_ASC_NODE = 0\n"
+      "ARG_OF_PERICENTER = 0\nMEAN_ANOMALY = 0\nGM = 398600.4415\n";
+  std::string polar = changed(right, "6655.9942        [km]", "7000");
+  polar = changed(polar, "-40218.5751        [km]", "0");
+  polar = changed(polar, "-82.9177        [km]", "0");
+  polar = changed(polar, "3.11548208    [km/s]", "0");
+  polar = changed(polar, "0.47042605    [km/s]", "0");
+  // sqrt(mu/a) of the circle.
+  polar = changed(polar, "-0.00101495    [km/s]", "7.5460533");
+  EXPECT_TRUE(warnings_of_message(polar).empty());
+  EXPECT_EQ(warnings_of_message(changed(polar, "AXIS = 7000", "AXIS = 7010")).size(), 1U);
+  EXPECT_EQ(warnings_of_message(changed(polar, "ANOMALY = 0", "ANOMALY = 0.1")).size(), 1U);
+  EXPECT_EQ(warnings_of_message(changed(polar, "ECCENTRICITY = 0", "ECCENTRICITY = 1.5")).size(),
+            1U);
+  EXPECT_EQ(
+      warnings_of_message(changed(polar, "= 7000\nECCENTRICITY = 0", "= -7000\nECCENTRICITY = 1.5"))
+          .size(),
+      1U);
+}
+
+TEST(LikelySlips, NumbersOfAMessageThatAreNotUsedAreTold) {
+  const std::string without(io::standard_opm,
+                            std::string(io::standard_opm).find("COMMENT Keplerian"));
+  const auto found = warnings_of_message(without + "MASS = 1913 [g]\n");
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_NE(
+      found[0].find("start.opm:24: MASS: wrong unit, got \"[g]\", must be [kg]; it is not used"),
+      std::string::npos)
+      << found[0];
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ times_s = [16, 32]
 position_m = [0, 0, 4]
 )";
 
-Scene scene_of(const std::string& tables) {
+Scene deputy_scene(const std::string& tables) {
   return parse_scene(std::string(circle) + tables, "file.toml");
 }
 
@@ -46,7 +46,8 @@ void expect_near(const Eigen::Vector3d& found, const Eigen::Vector3d& expected, 
 }
 
 TEST(SceneDeputy, RelativeStatesAreInItsFrame) {
-  const Scene scene = scene_of("[deputy]\nposition_m = [1, 2, 3]\nvelocity_m_s = [0.5, 0, -1]\n");
+  const Scene scene =
+      deputy_scene("[deputy]\nposition_m = [1, 2, 3]\nvelocity_m_s = [0.5, 0, -1]\n");
   ASSERT_TRUE(scene.deputy);
   EXPECT_EQ(scene.deputy->frame, RelativeFrame::rtn_rotating);
   EXPECT_EQ(scene.deputy->start.position_m, Eigen::Vector3d(1, 2, 3));
@@ -56,7 +57,7 @@ TEST(SceneDeputy, RelativeStatesAreInItsFrame) {
 // Expected: v' = v - omega x rho, with omega x rho = (-y, x, 0) / 8.
 TEST(SceneDeputy, TheDifferenceOfTwoStatesIsWrittenInTheFrame) {
   const auto start = [](const std::string& frame) {
-    return scene_of("[deputy]\n" + frame + beside).deputy->start;
+    return deputy_scene("[deputy]\n" + frame + beside).deputy->start;
   };
   const Eigen::Vector3d place(4, 3, -2);
   const Eigen::Vector3d difference(1, 2, 0.5);
@@ -139,13 +140,13 @@ TEST(SceneDeputy, TheChiefsOwnOrbitIsNoDistanceAway) {
 }
 
 TEST(SceneDeputy, ATransferStartsFromIt) {
-  const Scene scene = scene_of("[deputy]\n" + std::string(beside) + to_the_end);
+  const Scene scene = deputy_scene("[deputy]\n" + std::string(beside) + to_the_end);
   EXPECT_EQ(scene.transfer->frame, RelativeFrame::rtn_rotating);
   EXPECT_EQ(scene.transfer->start.position_m, scene.deputy->start.position_m);
   EXPECT_EQ(scene.transfer->start.velocity_m_s, scene.deputy->start.velocity_m_s);
   const Scene inertial =
-      scene_of("[deputy]\n" + std::string(beside) +
-               changed(to_the_end, "[transfer]", "[transfer]\nframe = \"inertial\""));
+      deputy_scene("[deputy]\n" + std::string(beside) +
+                   changed(to_the_end, "[transfer]", "[transfer]\nframe = \"inertial\""));
   EXPECT_EQ(inertial.transfer->frame, RelativeFrame::inertial);
   expect_near(inertial.transfer->start.velocity_m_s, {1, 2, 0.5}, 1e-10);
 }
@@ -157,7 +158,7 @@ TEST(SceneDeputy, StartsAndEndsHaveOrbitsToo) {
     return transfer + "[transfer.start]\n" + beside + "[transfer.end]\n" + end +
            "[[assignment.deputy]]\n" + beside + "[[assignment.slot]]\n" + slot;
   };
-  const Scene scene = scene_of(tables(relative, beside));
+  const Scene scene = deputy_scene(tables(relative, beside));
   expect_near(scene.transfer->start.velocity_m_s, {1.375, 1.5, 0.5}, 1e-10);
   expect_near(scene.assignment->deputies[0].velocity_m_s, {1.375, 1.5, 0.5}, 1e-10);
   EXPECT_TRUE(scene.transfer->end.is_along_axes());
@@ -165,7 +166,7 @@ TEST(SceneDeputy, StartsAndEndsHaveOrbitsToo) {
   const ArrivalState& slot = scene.assignment->slots[0];
   ASSERT_TRUE(slot.own_state.has_value());
   EXPECT_EQ((*slot.own_state)[0] * 4, 4.004);
-  const Scene in_form = scene_of(tables("arc_m = 4\ncross_rate_m_s = 2\n", relative));
+  const Scene in_form = deputy_scene(tables("arc_m = 4\ncross_rate_m_s = 2\n", relative));
   ASSERT_TRUE(in_form.transfer->end.in_form.has_value());
   EXPECT_EQ(in_form.transfer->end.in_form->form, DeputyForm::curvilinear);
   EXPECT_EQ(in_form.transfer->end.in_form->numbers, (std::array<double, 6>{0, 4, 0, 0, 0, 2}));
@@ -268,7 +269,7 @@ TEST(SceneDeputy, OfACollisionMayBeAnywhere) {
   const std::string collision =
       "[uncertainty]\nposition_m = [1, 1, 1]\n[uncertainty.collision]\nradius_m = 2\n";
   const auto start = [&](const std::string& deputy, const std::string& tables) {
-    return scene_of("[deputy]\nframe = \"inertial\"\n" + deputy + tables);
+    return deputy_scene("[deputy]\nframe = \"inertial\"\n" + deputy + tables);
   };
   // From the other side, against the chief's motion.
   const std::string opposite = "position_km = [-4, 0, 0]\nvelocity_km_s = [0, 0.5, 0]\n";
@@ -284,8 +285,8 @@ TEST(SceneDeputy, OfACollisionMayBeAnywhere) {
 }
 
 TEST(SceneDeputy, FarFromItsChiefIsWarnedOf) {
-  EXPECT_TRUE(scene_of("[deputy]\nposition_m = [0, 199, 0]\n").warnings.empty());
-  const Scene far = scene_of("[deputy]\nposition_m = [0, 201, 0]\n");
+  EXPECT_TRUE(deputy_scene("[deputy]\nposition_m = [0, 199, 0]\n").warnings.empty());
+  const Scene far = deputy_scene("[deputy]\nposition_m = [0, 201, 0]\n");
   ASSERT_EQ(far.warnings.size(), 1U);
   EXPECT_NE(far.warnings[0].find("deputy: far from its chief, got 201 m, should be well below "
                                  "200 m"),

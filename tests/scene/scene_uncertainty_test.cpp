@@ -77,6 +77,18 @@ TEST(SceneUncertainty, FramesAndDerivativesAreThoseOfTheTableOrOfTheOneAbove) {
   EXPECT_EQ(frame("frame = \"inertial\"\n", "frame = \"RTN\"\n"), RelativeFrame::rtn_inertial);
 }
 
+// A table inherits only what its own frame takes: inertial axes have one kind of derivatives.
+TEST(SceneUncertainty, ATableInheritsNothingThatItsFrameDoesNotTake) {
+  const Scene scene = scene_with(
+      "[deputy]\nposition_m = [0, 10, 0]\n[uncertainty]\nframe = \"RTN\"\nderivatives = "
+      "\"rotating\"\nposition_m = [1, 1, 1]\n[uncertainty.deputy]\nframe = \"inertial\"\n"
+      "position_m = [1, 1, 1]\n[uncertainty.burn]\nframe = \"inertial\"\nvelocity_change_m_s = "
+      "[0, 1, 0]\nmagnitude = 0.1\n");
+  EXPECT_EQ(scene.uncertainty->chief->frame, RelativeFrame::rtn_rotating);
+  EXPECT_EQ(scene.uncertainty->deputy->frame, RelativeFrame::inertial);
+  EXPECT_EQ(scene.uncertainty->burn->frame, RelativeFrame::inertial);
+}
+
 TEST(SceneUncertainty, ABurnHasTheCovarianceOfGates) {
   // Along T: the size moves vT, the direction vR and vN.
   const auto burn = scene_with(
@@ -127,34 +139,6 @@ TEST(SceneUncertainty, BadCovariancesAreRefusedByName) {
          {"uncertainty.burn", "no error of the burn"});
 }
 
-const std::string conjunction_file =
-    "file = \"" HAMJET_SOURCE_DIR "/tests/fuzz/corpus/orbit_message/conjunction.cdm\"\n";
-
-std::string dated(const std::string& epoch, const std::string& time_system = "UTC",
-                  const std::string& frame = "EME2000") {
-  return fmt::format(
-      "[ephemeris]\nepoch = \"{}\"\ntime_system = \"{}\"\nreference_frame = \"{}\"\n"
-      "center_name = \"EARTH\"\n",
-      epoch, time_system, frame);
-}
-
-const std::string closest = "2010-03-13T22:37:52.618";
-
-TEST(SceneUncertainty, ACovarianceComesFromAConjunctionDataMessage) {
-  const std::string deputy = "[deputy]\nposition_m = [0, 100, 0]\n";
-  const Scene scene = scene_with(dated(closest) + deputy + "[uncertainty]\n" + conjunction_file +
-                                 "[uncertainty.deputy]\n" + conjunction_file);
-  const StateUncertainty& chief = *scene.uncertainty->chief;
-  EXPECT_EQ(chief.frame, RelativeFrame::rtn_inertial);
-  // m^2 as they stand in the file: CT_T and CRDOT_T of OBJECT1, CT_T of OBJECT2.
-  EXPECT_NEAR(chief.covariance.matrix()(1, 1), 2533, 1e-9);
-  EXPECT_NEAR(chief.covariance.matrix()(3, 1), -2.476, 1e-12);
-  EXPECT_NEAR(scene.uncertainty->deputy->covariance.matrix()(1, 1), 2.492e6, 1e-6);
-  const Scene other = scene_with(dated(closest) + "[uncertainty]\n" + conjunction_file +
-                                 "object = \"FENGYUN 1C DEB\"\n");
-  EXPECT_NEAR(other.uncertainty->chief->covariance.matrix()(1, 1), 2.492e6, 1e-6);
-}
-
 // Without the noise a probability of collision would be too low.
 TEST(SceneUncertainty, NoiseIsRefusedBesideWhatLeavesItOut) {
   const std::string noisy =
@@ -167,38 +151,6 @@ TEST(SceneUncertainty, NoiseIsRefusedBesideWhatLeavesItOut) {
       {"uncertainty.acceleration_density_m2_s3", "not beside [uncertainty.collision]"});
   expect_scene_error(noisy + "[uncertainty.safety]\nkeep_apart_m = 10\n",
                      {"uncertainty.acceleration_density_m2_s3", "not beside [uncertainty.safety]"});
-}
-
-TEST(SceneUncertainty, ACovarianceComesFromAnEphemerisInItsAxes) {
-  // km^2 become m^2.
-  const std::string file =
-      "file = \"" HAMJET_SOURCE_DIR "/tests/fuzz/corpus/orbit_message/ephemeris.oem\"\n";
-  const Scene scene = scene_with(dated("2019-12-28T21:29:07.267") + "[uncertainty]\n" + file);
-  EXPECT_EQ(scene.uncertainty->chief->frame, RelativeFrame::inertial);
-  const Matrix<double> matrix = scene.uncertainty->chief->covariance.matrix();
-  EXPECT_NEAR(matrix(0, 0), 333.13494, 1e-8);
-  EXPECT_NEAR(matrix(2, 1), -422.12341, 1e-8);
-  EXPECT_NEAR(matrix(5, 5), 6.2244443e-4, 1e-13);
-}
-
-TEST(SceneUncertainty, AMessageOfAnotherMomentObjectOrFrameIsRefused) {
-  const auto refuse = [](const std::string& tables, const std::vector<std::string>& words) {
-    expect_scene_error(about_earth + tables, words);
-  };
-  refuse("[uncertainty]\n" + conjunction_file,
-         {"uncertainty.file", "beside a chief without a date", closest});
-  refuse(dated("2010-03-13T22:37:52") + "[uncertainty]\n" + conjunction_file,
-         {"uncertainty.file", "no covariance of the chief's moment", closest});
-  refuse(dated(closest, "TAI") + "[uncertainty]\n" + conjunction_file,
-         {"uncertainty.file", "no covariance of the chief's moment", "TAI"});
-  refuse(dated(closest) + "[uncertainty]\nobject = \"SATELLITE B\"\n" + conjunction_file,
-         {"uncertainty.object", "SATELLITE B"});
-  refuse(dated(closest) + "[uncertainty]\nposition_m = [1, 1, 1]\n" + conjunction_file,
-         {"uncertainty.position_m", "beside a file"});
-  refuse("[uncertainty]\nobject = \"OBJECT1\"\nposition_m = [1, 1, 1]\n",
-         {"uncertainty.object", "of no file"});
-  expect_scene_error(about_earth + "[uncertainty]\nfile = \"nowhere.cdm\"\n",
-                     {"uncertainty.file", "nowhere.cdm"}, ErrorKind::input_output);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "scene_samples.hpp"
+#include "study_text.hpp"
 
 // The table [units], compensated_summation and the table [case].
 
@@ -55,6 +56,115 @@ TEST(SceneUnits, AreTheChosenLengthAndMuOfOne) {
   const Scene own = parse_scene(changed(text, "[units]\nlength_km = 4\n", ""), "x");
   EXPECT_EQ(own.units.length_km, 8);
   EXPECT_EQ(own.nominal[0], 1);
+}
+
+/// An orbit with every table that has times or lengths, none of them canonical.
+constexpr const char* of_all_tables = R"(schema = 1
+title = "all"
+[system]
+model = "zonal-gravity"
+mu_km3_s2 = 398600.4415
+radius_km = 6378.1363
+J2 = 1e-3
+[nominal]
+a_km = 26600
+e = 0.3
+i_deg = 63.4
+raan_deg = 20
+argp_deg = 270
+ta_deg = 30
+[jet]
+order = 2
+duration_orbits = 0.7
+[[integrator]]
+label = "a"
+method = "gauss"
+step_s = 60
+[formation]
+separation_km = 1
+[deputy]
+a_km = 26600.5
+e = 0.3
+i_deg = 63.4
+raan_deg = 20
+argp_deg = 270
+ta_deg = 30
+[transfer]
+impulse_gap_s = 100
+times_orbits = [0.3, 0.6]
+[transfer.end]
+position_m = [0, 10, 0]
+[validity]
+tolerance_m = 1
+count = 3
+[uncertainty]
+times_s = [600, 1200]
+position_m = [1, 1, 1]
+velocity_m_s = [1e-3, 1e-3, 1e-3]
+[uncertainty.collision]
+radius_m = 10
+window_s = [100, 2000]
+[event]
+surface = "distance"
+distance_km = 26000
+[bounded]
+sizes_km = [1]
+)";
+
+// To every digit: what is written of a number brings it back.
+TEST(SceneUnits, OfTheChiefLeaveNothingOfTheTable) {
+  const auto text_of = [](const std::string& text, SceneUnits units) {
+    Scene scene = parse_scene(text, "x", {}, units);
+    EXPECT_EQ(scene.told_units.has_value(), text != of_all_tables);
+    StudyText result;
+    result.add(scene);
+    return result.text();
+  };
+  const std::string own = text_of(of_all_tables, SceneUnits::chiefs);
+  EXPECT_EQ(text_of(of_all_tables, SceneUnits::told), own);
+  for (const char* length_km : {"0.001", "1", "6378.1363", "149597870.7"}) {
+    const std::string text =
+        std::string(of_all_tables) + "[units]\nlength_km = " + length_km + "\n";
+    EXPECT_EQ(text_of(text, SceneUnits::chiefs), own) << length_km;
+    EXPECT_NE(text_of(text, SceneUnits::told), own) << length_km;
+  }
+}
+
+// The chief's own unit is 8 km, of time 8^(3/2) / 2 s with mu = 4; that which is asked for is 2 km,
+// of time 2^(3/2) / 2 s: a time is an eighth of what is given, a length a quarter.
+TEST(SceneUnits, OfTheChiefTakeCanonicalTimesFromThoseThatAreTold) {
+  std::string text =
+      changed(changed(state, "mu_km3_s2 = 1", "mu_km3_s2 = 4"), "[0.1, -0.0, 5e-324]", "[8, 0, 0]");
+  text = changed(changed(text, "length_km = 1", "length_km = 2"), "duration_s = 0.3",
+                 "duration_canonical = 8");
+  text = changed(text, "step_s = 0.1", "step_canonical = 4") +
+         "[relative_hamiltonian]\ntimes_canonical = [2, 8]\n[compare]\nsteps_canonical = [4]\n" +
+         "[validity]\ntimes_canonical = [4, 8]\ntolerance_m = 1\n";
+  const Scene scene = parse_scene(text, "x", {}, SceneUnits::chiefs);
+  EXPECT_EQ(scene.units.length_km, 8);
+  EXPECT_EQ(scene.nominal[0], 1);
+  EXPECT_EQ(scene.canonical_radius, 0.7 / 8);
+  EXPECT_EQ(scene.duration, 1);
+  EXPECT_EQ(scene.integrators[0].step_canonical, 0.5);
+  EXPECT_EQ(scene.relative_hamiltonian_times, (std::vector<double>{0.25, 1}));
+  EXPECT_EQ(scene.comparison.steps_canonical, std::vector<double>{0.5});
+  EXPECT_EQ(scene.validity->times, (std::vector<double>{0.5, 1}));
+  ASSERT_TRUE(scene.told_units);
+  EXPECT_EQ(scene.told_units->length_km, 2);
+  const CanonicalFactors told = told_factors(scene);
+  EXPECT_EQ(told.length, 4);
+  EXPECT_NEAR(told.time, 8, 1e-14);
+  EXPECT_NEAR(told.momentum, 0.5, 1e-15);
+  EXPECT_NEAR(told_time(scene, scene.duration), 8, 1e-14);
+  EXPECT_EQ(told_state(scene, {1, 0, 0, 0, 0, 0})[0], 4);
+  // Errors tell them as they were given.
+  try {
+    parse_scene(changed(text, "[2, 8]", "[2, 9]"), "x", {}, SceneUnits::chiefs);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("the duration of 8"), std::string::npos)
+        << error.what();
+  }
 }
 
 TEST(SceneUnits, BadInput) {

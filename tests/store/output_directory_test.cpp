@@ -9,6 +9,7 @@
 #include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "../../src/store/sealed_summary.hpp"
 #include "hamjet/error.hpp"
@@ -143,6 +144,77 @@ TEST_F(ResultSets, ALinkInPlaceOfAFolderIsNotFollowed) {
   output.write("b/x.csv", "x");
   output.write("summary.json", "{}");
   EXPECT_NO_THROW(output.commit());
+}
+
+TEST_F(ResultSets, ALinkInPlaceOfAFileIsNotReplaced) {
+  commit(old_);
+  test::put(temporary_.path() / "elsewhere", "mine");
+  fs::remove(directory_ / "a/x.csv");
+  fs::create_symlink(temporary_.path() / "elsewhere", directory_ / "a/x.csv");
+  test::expect_error([&] { commit(new_); }, ErrorKind::input_output,
+                     {"a/x.csv: cannot be written", "it is a symbolic link to "}, "link");
+  EXPECT_EQ(test::content(temporary_.path() / "elsewhere"), "mine");
+  EXPECT_EQ(test::content(directory_ / "b/z.csv"), "old z");
+}
+
+// Where others may write, they may put something in the place of the hidden folders.
+TEST_F(ResultSets, WhatIsPlantedWhereTheyArePreparedIsNotFollowed) {
+  const fs::path elsewhere = temporary_.path() / "elsewhere";
+  test::put(elsewhere / "files/a/x.csv", "mine");
+  {
+    OutputDirectory output(directory_);
+    fs::create_directory_symlink(elsewhere, directory_ / ".hamjet-new");
+    for (const auto& [path, text] : new_) output.write(path, text);
+    output.write("summary.json", "{}");
+    output.commit();
+  }
+  EXPECT_EQ(test::content(elsewhere / "files/a/x.csv"), "mine");
+  EXPECT_EQ(found(), new_);
+  verify(new_);
+}
+
+TEST_F(ResultSets, WhatIsReadyIsNotPutBehindALink) {
+  const std::string summary = commit(new_);
+  fs::remove_all(directory_);
+  const fs::path elsewhere = temporary_.path() / "elsewhere";
+  test::put(elsewhere / "x.csv", "mine");
+  test::put(directory_ / ".hamjet-ready/files/a/x.csv", "new x");
+  test::put(directory_ / ".hamjet-ready/summary/summary.json", summary);
+  fs::create_directory_symlink(elsewhere, directory_ / "a");
+  expect_refused(new_, {"a/x.csv: cannot be written", "/a is a symbolic link"});
+  EXPECT_EQ(test::content(elsewhere / "x.csv"), "mine");
+}
+
+TEST_F(ResultSets, WhatAnotherUserHasReadyIsLeftAlone) {
+  if (::geteuid() != 0) GTEST_SKIP() << "the superuser alone can make files of others";
+  const std::string summary = commit(new_);
+  fs::remove_all(directory_);
+  const fs::path ready = directory_ / ".hamjet-ready";
+  test::put(ready / "files/a/x.csv", "new x");
+  test::put(ready / "summary/summary.json", summary);
+  ASSERT_EQ(::chown(ready.c_str(), 65534, 65534), 0);
+  expect_refused(new_, {"holds results that another user is putting in place", "user 65534"});
+  EXPECT_FALSE(fs::exists(directory_ / "a"));
+}
+
+TEST_F(ResultSets, ALockWritesIntoNoFileThatHasAnotherName) {
+  test::put(temporary_.path() / "precious", "mine");
+  fs::create_directories(directory_);
+  fs::create_hard_link(temporary_.path() / "precious", directory_ / ".hamjet-lock");
+  commit(new_);
+  EXPECT_EQ(test::content(temporary_.path() / "precious"), "mine");
+}
+
+TEST_F(ResultSets, AreWholeUnlessTheySayThatANumericalFailureLeftThemOut) {
+  EXPECT_FALSE(has_whole_results(directory_, "summary.json"));
+  for (const auto& [code, is_whole] : {std::pair(0, true), {1, true}, {4, false}}) {
+    commit(new_, "{\n  \"exit_code\": " + std::to_string(code) + "\n}\n");
+    EXPECT_EQ(has_whole_results(directory_, "summary.json"), is_whole) << code;
+  }
+  commit(new_);
+  EXPECT_TRUE(has_whole_results(directory_, "summary.json"));
+  test::put(directory_ / "summary.json", "{}");
+  EXPECT_FALSE(has_whole_results(directory_, "summary.json"));
 }
 
 TEST_F(ResultSets, LeaveNothingWhereTheyAreNotCommitted) {

@@ -195,7 +195,7 @@ TEST(NearestPairs, IsWhereTwoWaysComeNearest) {
     scene.assignment->deputies.push_back(scene.transfer->start);
     const TransferResult result = study_transfer(scene);
     transfers.push_back({transfers.size(), transfers.size(), result.points[0]});
-    flown.push_back(fly_relative(result, 0, 1000));
+    flown.push_back(fly_relative(result, 0, equal_times_from_0(result.points[0].time, 1000)));
   }
   const std::vector<DeputyPair> pairs = nearest_of_pairs(scene, transfers);
   ASSERT_EQ(pairs.size(), 1U);

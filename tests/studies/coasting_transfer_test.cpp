@@ -110,10 +110,11 @@ TEST(CoastingTransfer, ThatIsForbiddenIsSaid) {
   EXPECT_EQ(exit_code(result), 1);
 }
 
-TEST(CoastingTransfer, AWaitThatIsTooLongNamesItsKey) {
+TEST(CoastingTransfer, AWaitThatIsTooLongNamesItsKeyBeforeTheWork) {
   test::expect_error(
       [] {
-        study_transfer(waiting({{0, 0, 3}, {0, 0, 4}}, 1, 1e6));
+        study_transfer(waiting({{0, 0, 3}, {0, 0, 4}}, 1, 1e6),
+                       [](const std::string& work, double) { ADD_FAILURE() << work; });
       },
       ErrorKind::too_large, {"transfer.longest_coast_s", "a shorter one is needed"},
       "a wait of 160 thousand revolutions");

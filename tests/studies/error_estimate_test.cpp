@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "studies/estimated_jets.hpp"
 #include "studies/estimated_scenes.hpp"
 #include "studies/formation_scenes.hpp"
 
@@ -24,6 +25,34 @@ TEST(ErrorEstimate, IsNotFarBelowTheErrorOnRandomScenes) {
     }
   }
   EXPECT_GT(judged, 20);
+}
+
+TEST(ErrorEstimate, IsNotFarBelowTheErrorOnRandomJets) {
+  int judged = 0;
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    Scene scene = estimated_jet(seed);
+    if (scene.order > 6) continue;  // their closed form takes long
+    for (const JudgedDegree& one : judged_degrees_of_jet(scene)) {
+      ++judged;
+      EXPECT_LT(one.ratio(), 30) << description(scene) << ", degree " << one.degree << ", error "
+                                 << one.error << ", estimate " << one.estimate;
+    }
+  }
+  EXPECT_GT(judged, 20);
+}
+
+// Two of a dozen directions, those along which the jet itself is largest, show no more than a
+// hundredth of these errors.
+TEST(ErrorEstimate, SeesWhatAFewStepsMissAtHighDegrees) {
+  for (const std::uint64_t seed : {377, 282}) {
+    const Scene scene = jet_of_few_steps(seed);
+    const std::vector<JudgedDegree> degrees = judged_degrees_of_jet(scene);
+    ASSERT_EQ(degrees.size(), 7U);
+    for (const JudgedDegree& one : degrees) {
+      EXPECT_LT(one.ratio(), 10) << description(scene) << ", degree " << one.degree << ", error "
+                                 << one.error << ", estimate " << one.estimate;
+    }
+  }
 }
 
 const SelfCheck& estimate_check(const RunResult& run) {

@@ -25,6 +25,13 @@ inline std::vector<double> equal_times(double span, int count) {
   return times;
 }
 
+/// The same behind 0.
+inline std::vector<double> equal_times_from_0(double span, int count) {
+  std::vector<double> times = equal_times(span, count);
+  times.insert(times.begin(), 0);
+  return times;
+}
+
 /// Kepler's problem from perigee at distance 1 in the orbit's plane z = 0; eccentricity 0 is the
 /// circular orbit.
 inline Scene kepler_chief(double eccentricity, double length_km, double time_s, int order) {

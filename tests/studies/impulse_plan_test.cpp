@@ -173,9 +173,105 @@ TEST(ImpulsePlan, IsCorrectedByFlying) {
   }
   // More time never costs more where one may wait beside the end.
   for (std::size_t k = 1; k < result.optimal->by_time.size(); ++k) {
-    EXPECT_LE(result.optimal->by_time[k].change_m_s,
-              result.optimal->by_time[k - 1].change_m_s * (1 + 1e-3));
+    EXPECT_LE(result.optimal->by_time[k].change_m_s.value(),
+              result.optimal->by_time[k - 1].change_m_s.value() * (1 + 1e-3));
   }
+}
+
+/// A deputy 220 km behind on the chief's circle that is to come 50 km nearer in a little more than
+/// five revolutions: the straight axes of the linear theory about the chief do not see that it is
+/// on the same orbit.
+Scene far_behind() {
+  const double radius = 7e6, behind = 220e3, nearer = 170e3;
+  Scene scene = metres_from_circle({{}, {}}, 10.3 * std::numbers::pi);
+  const auto on_circle = [&](double along) {
+    const double angle = along / radius;
+    RelativeState state;
+    state.position_m = {radius * (std::cos(angle) - 1), -radius * std::sin(angle), 0};
+    return state;  // at rest in the rotating axes
+  };
+  scene.order = 3;
+  scene.transfer->refined_miss_m = 1e-3;
+  scene.transfer->start = on_circle(behind);
+  scene.transfer->end = on_circle(nearer);
+  scene.transfer->times = equal_times(10.3 * std::numbers::pi, 3);
+  scene.transfer->longest_coast = 1;
+  return scene;
+}
+
+// Tangential impulses at the ends of T take 2 x / (3 T) by the linear theory along the orbit, at
+// the ends of whole revolutions and at best in all of the time, and no other part of the study
+// finds less than the plan.
+TEST(ImpulsePlan, FarAwayIsNotDearerThanOtherWays) {
+  const Scene scene = far_behind();
+  const TransferResult result = study_transfer(scene);
+  ASSERT_TRUE(result.optimal->is_found()) << result.optimal->failure;
+  const ImpulsePlan& plan = *result.optimal->plan;
+  EXPECT_LE(plan.miss_m, scene.transfer->refined_miss_m);
+  const double total = plan.total_change_m_s() * (1 - 1e-6);
+  for (const TransferPoint& point : result.points) {
+    if (point.is_candidate()) {
+      EXPECT_LE(total, point.change_m_s());
+    }
+  }
+  if (result.least_between) {
+    EXPECT_LE(total, result.least_between->change_m_s());
+  }
+  ASSERT_TRUE(result.coasting->plan.has_value());
+  EXPECT_LE(total, result.coasting->plan->total_change_m_s());
+  EXPECT_GT(total_of(result), 0.99 * 2 * 50e3 / (3 * 10.3 * std::numbers::pi));
+  EXPECT_LT(total_of(result), 1.01 * 2 * 50e3 / (3 * 10 * std::numbers::pi));
+  ASSERT_TRUE(plan.lower_bound_m_s.has_value());
+  EXPECT_NEAR(*plan.lower_bound_m_s, plan.total_change_m_s(), 1e-3 * plan.total_change_m_s());
+  // The theory about the chief is told beside what was flown, and is far from it.
+  for (const LeastChange& one : result.optimal->by_time) {
+    ASSERT_TRUE(one.change_m_s.has_value());
+    EXPECT_GT(*one.change_m_s, 2 * plan.total_change_m_s());
+  }
+}
+
+// Half a revolution apart two impulses reach no change of every kind; those that correct the flight
+// are left out where it does not need them, and no two are seconds apart.
+TEST(ImpulsePlan, HasNoImpulsesOfNoUse) {
+  Scene scene = metres_from_circle({{0, 1000, 0}, {500, 0, 1000}}, 3.4 * std::numbers::pi);
+  scene.transfer->refined_miss_m = 1e-3;
+  const TransferResult result = study_transfer(scene);
+  ASSERT_TRUE(result.optimal->is_found()) << result.optimal->failure;
+  const auto& impulses = result.optimal->plan->impulses;
+  for (std::size_t k = 1; k < impulses.size(); ++k) {
+    EXPECT_GT(impulses[k].time - impulses[k - 1].time, 2 * std::numbers::pi / 144);
+  }
+}
+
+// Who is there already needs none.
+TEST(ImpulsePlan, IsNoneWhereTheDeputyComesByItself) {
+  Scene scene = metres_from_circle({{0, 1, 0}, {0, 0, 0}}, 3);
+  scene.transfer->end = RelativeState{{0, 1, 0}, {0, 0, 0}};
+  scene.transfer->refined_miss_m = 1e-3;
+  const TransferResult result = study_transfer(scene);
+  ASSERT_TRUE(result.optimal->is_found()) << result.optimal->failure;
+  EXPECT_TRUE(result.optimal->plan->impulses.empty());
+  EXPECT_EQ(result.optimal->plan->total_change_m_s(), 0);
+  EXPECT_EQ(exit_code(result), 0);
+}
+
+// In a hundredth of a revolution impulses cannot be told apart, and longer times have answers: the
+// time without one is marked, and is not the least. Where the solver failed, the least may be
+// another, and the exit code says so.
+TEST(ImpulsePlan, TimesWithoutAnAnswerAreMarked) {
+  Scene scene = metres_from_circle({{0, 1, 0}, {0, 0, 0}}, 5);
+  scene.transfer->times = {1e-6, 5};
+  TransferResult result = study_transfer(scene);
+  ASSERT_TRUE(result.optimal->is_found()) << result.optimal->failure;
+  ASSERT_EQ(result.optimal->by_time.size(), 2U);
+  LeastChange& first = result.optimal->by_time[0];
+  EXPECT_FALSE(first.change_m_s.has_value());
+  EXPECT_NE(first.failure.find("a longer transfer time is needed"), std::string::npos);
+  EXPECT_FALSE(first.is_unproved);
+  EXPECT_EQ(result.optimal->plan->duration, 5);
+  EXPECT_EQ(exit_code(result), 0);
+  first.is_unproved = true;
+  EXPECT_EQ(exit_code(result), 1);
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ TEST(LimitedImpulses, FillUpInTheOrderOfTheirEffects) {
   const double most = 0.3;
   Vector6 change;
   change << 0, 1.1, 0, 0.4, 0, -0.3;  // the last three have the size 0.5
-  const auto found = least_impulses(separate_effects(efficiencies), change, most);
+  const auto found = least_impulses(separate_effects(efficiencies), change, most).least;
   ASSERT_TRUE(found.has_value());
   // 1.1 = 0.3 (2 + 1.5) + 0.05 x 1, and 0.5 = 0.25 x 2.
   EXPECT_NEAR(found->cost, 0.6 + 0.05 + 0.25, 1e-9);
@@ -47,9 +47,12 @@ TEST(LimitedImpulses, FillUpInTheOrderOfTheirEffects) {
   EXPECT_NEAR((found->impulses[3].change - Eigen::Vector3d(0.2, 0, -0.15)).norm(), 0, 1e-9);
   // All together reach 0.3 (0.5 + 2 + 1 + 0.25 + 1.5) = 1.575.
   change[1] = 1.57;
-  EXPECT_TRUE(least_impulses(separate_effects(efficiencies), change, most).has_value());
+  EXPECT_TRUE(least_impulses(separate_effects(efficiencies), change, most).least.has_value());
   change[1] = 1.58;
-  EXPECT_FALSE(least_impulses(separate_effects(efficiencies), change, most).has_value());
+  const LimitedImpulses none = least_impulses(separate_effects(efficiencies), change, most);
+  EXPECT_FALSE(none.least.has_value());
+  EXPECT_GT(none.limit_needed, most);
+  EXPECT_LT(none.limit_needed, 1.58 / 5.25 * (1 + 1e-9));
 }
 
 // Whatever makes a change with impulses below the limit costs at least the dual's value, which
@@ -66,7 +69,7 @@ TEST(LimitedImpulses, NothingIsCheaper) {
     double largest = 0;
     for (const ChosenImpulse& one : free.impulses) largest = std::max(largest, one.change.norm());
     const double most = largest * (0.2 + 0.02 * draw);
-    const auto found = least_impulses(effects, change, most);
+    const auto found = least_impulses(effects, change, most).least;
     if (!found) continue;
     Vector6 made = Vector6::Zero();
     double cost = 0;
@@ -83,8 +86,7 @@ TEST(LimitedImpulses, NothingIsCheaper) {
       bound -= most * std::max(0.0, (effect.transpose() * found->costate).norm() - 1);
     }
     EXPECT_NEAR(found->lower_bound, bound, 1e-12 * cost) << draw;
-    // Impulses within 1e-6 of the limit are put at it.
-    EXPECT_LT(cost, bound * (1 + 1e-6)) << draw;
+    EXPECT_LT(cost, bound * (1 + 1e-7)) << draw;
     EXPECT_GE(cost, free.lower_bound * (1 - 1e-12));
     for (std::size_t k = 1; k < found->impulses.size(); ++k) {
       EXPECT_GT(found->impulses[k].time, found->impulses[k - 1].time);
@@ -115,7 +117,8 @@ TEST(LimitedImpulses, AreDividedAmongNodesAndThenTheirNeighbours) {
   EXPECT_EQ(exit_code(result), 0);
   EXPECT_LE(plan.miss_m, scene.transfer->refined_miss_m);
   EXPECT_NEAR(total_of(result), 4.5 + 0.5 / std::cos(std::numbers::pi / 8), 1e-5);
-  EXPECT_NEAR(plan.lower_bound_m_s, plan.total_change_m_s(), 2e-5 * plan.total_change_m_s());
+  EXPECT_NEAR(plan.lower_bound_m_s.value_or(0), plan.total_change_m_s(),
+              2e-5 * plan.total_change_m_s());
   EXPECT_NEAR(*plan.spacing, std::numbers::pi / 8, 1e-12);
   for (const Impulse& impulse : plan.impulses) {
     EXPECT_LE(impulse.change_m_s.norm(), *scene.transfer->largest_impulse_m_s * (1 + 1e-12));
@@ -168,7 +171,7 @@ TEST(LimitedImpulses, AreCorrectedByFlyingBelowTheLimit) {
   EXPECT_LE(plan.miss_m, settings.refined_miss_m);
   EXPECT_GT(plan.flights, 1);
   EXPECT_GT(plan.total_change_m_s(), free.optimal->plan->total_change_m_s() * (1 - 1e-6));
-  EXPECT_LT(plan.total_change_m_s(), plan.lower_bound_m_s * (1 + 1e-3));
+  EXPECT_LT(plan.total_change_m_s(), plan.lower_bound_m_s.value_or(0) * (1 + 1e-3));
   for (const Impulse& one : plan.impulses) {
     EXPECT_LE(one.change_m_s.norm(), 0.4 * largest * (1 + 1e-12));
   }

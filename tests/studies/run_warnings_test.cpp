@@ -10,6 +10,7 @@
 #include "formation_scenes.hpp"
 #include "hamjet/detail/studies/self_checks.hpp"
 #include "hamjet/studies/propagation.hpp"
+#include "studies/checks/kept_tolerance.hpp"
 
 // What is said of a run that no check fails.
 
@@ -39,6 +40,57 @@ TEST(RunWarnings, OfADegreeWithoutADigit) {
   EXPECT_NE(run_warnings(scene, unknown)[0].find("degree 0"), std::string::npos);
   scene.integrators = {precise_gauss()};
   EXPECT_TRUE(run_warnings(scene, propagate(scene).runs[0]).empty());
+}
+
+// Rounding grows with the degree and with close passages, so that the high degrees of such a jet
+// have no digits for a tolerance of 1e-13, whatever the steps: they are said to have lost it, and
+// why.
+TEST(RunWarnings, OfDegreesThatRoundingKeepsFromTheirTolerance) {
+  Scene scene = kepler_chief(0.88, 7200, std::sqrt(7200.0 * 7200 * 7200 / 398600.4415), 4);
+  scene.system.model = SystemModel::zonal_gravity;
+  scene.system.J[2] = 1.082626675e-3;
+  scene.canonical_radius = 0.88;
+  scene.nominal = {1, 0, 0, 0, 0.8 * std::sqrt(1.88), 0.6 * std::sqrt(1.88)};
+  scene.duration = 4.5 * 2 * std::numbers::pi * std::pow(0.12, -1.5);
+  scene.integrators[0].tolerance = 1e-13;
+  const RunResult run = propagate(scene).runs[0];
+  ASSERT_EQ(run.failure, "");
+  const std::vector<KeptTolerance> tolerance = kept_tolerance(scene, run);
+  ASSERT_EQ(tolerance.size(), 5U);
+  const std::size_t kept = degrees_kept(tolerance);
+  ASSERT_GT(kept, 0U);
+  ASSERT_LT(kept, 5U);
+  EXPECT_FALSE(tolerance[4].is_kept());
+  EXPECT_TRUE(tolerance[4].is_rounding);
+  EXPECT_GT(tolerance[4].rounding, 1e-2 * tolerance[4].error);
+  const std::vector<std::string> warnings = run_warnings(scene, run);
+  ASSERT_EQ(warnings.size(), 1U);
+  for (const char* const words : {"degree 4 has", "rounding, which alone makes", "\"extended\""}) {
+    EXPECT_NE(warnings[0].find(words), std::string::npos) << warnings[0];
+  }
+  scene.order = 1;
+  EXPECT_TRUE(run_warnings(scene, propagate(scene).runs[0]).empty());
+}
+
+// Errors beyond what rounding explains are those of the steps.
+TEST(RunWarnings, OfDegreesThatStepsKeepFromTheirTolerance) {
+  Scene scene = paper_chief(2);
+  scene.duration = 12;
+  scene.integrators = {precise_gauss()};
+  scene.integrators[0].tolerance = 1e-9;
+  RunResult run = propagate(scene).runs[0];
+  EXPECT_EQ(degrees_kept(kept_tolerance(scene, run)), 3U);
+  run.error_estimate.by_degree = {1e-9, 1e-3, 1e-9};
+  run.statistics.rounding_by_degree.clear();
+  const std::vector<KeptTolerance> tolerance = kept_tolerance(scene, run);
+  EXPECT_EQ(degrees_kept(tolerance), 1U);
+  EXPECT_FALSE(tolerance[1].is_rounding);
+  EXPECT_NE(tolerance_warning(scene, run).find("degree 0 alone keeps it, degree 1 has 1.0e-03"),
+            std::string::npos)
+      << tolerance_warning(scene, run);
+  // Fixed steps promise nothing.
+  run.settings.tolerance.reset();
+  EXPECT_TRUE(kept_tolerance(scene, run).empty());
 }
 
 }  // namespace

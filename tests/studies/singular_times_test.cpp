@@ -8,6 +8,7 @@
 #include <string>
 
 #include "formation_scenes.hpp"
+#include "support/errors.hpp"
 #include "support/reference_data.hpp"
 
 namespace hamjet {
@@ -218,12 +219,42 @@ TEST(SingularTimes, BackwardsAsForwards) {
   for (std::size_t i = 0; i < forth.size(); ++i) EXPECT_NEAR(back[i], -forth[i], 1e-9);
 }
 
+// On a circle the rate is sqrt(2) times the mean motion, r^(-3/2), in any unit of length: from an
+// astronomical unit to a metre for the Earth's orbits.
+TEST(LinearFlow, HasTheCheckpointsOfACircleInAnyUnitOfLength) {
+  for (const double r : {4.7e-5, 1.0, 42164.0, 2.6e7, 1e9}) {
+    SCOPED_TRACE(r);
+    Scene scene = kepler_chief(0, 7000, 1000, 1);
+    for (std::size_t i = 0; i < 3; ++i) scene.nominal[i] *= r;
+    for (std::size_t i = 3; i < 6; ++i) scene.nominal[i] /= std::sqrt(r);
+    const double revolution = 2 * std::numbers::pi * r * std::sqrt(r);
+    const ComputedProblem problem = make_problem(scene);
+    const LinearFlow flow(problem, 2 * revolution, 32);
+    ASSERT_GE(flow.times().size(), 64U);
+    EXPECT_LE(flow.times().size(), 66U);
+    EXPECT_NEAR((flow.times()[40] - flow.times()[39]) / revolution, 1.0 / 32, 1e-9);
+  }
+}
+
 TEST(LinearFlow, BetweenCheckpointsIsTheFlow) {
   const ComputedProblem problem = make_problem(paper_chief(1));
   const LinearFlow coarse(problem, 10, 16);
   const LinearFlow direct(problem, 7.77, 0.5);
   EXPECT_LT((coarse.at(7.77) - direct.checkpoint(1)).norm(), 1e-11 * direct.checkpoint(1).norm());
   EXPECT_EQ(coarse.at(0), LinearFlow::StateTransition::Identity(6, 6));
+}
+
+// The limit is 100 000 checkpoints, 417 revolutions of 240: twice as much is refused in the first
+// twentieth of the work, a tenth more in a fifth.
+TEST(LinearFlow, ASpanThatIsTooLongIsRefusedAtOnce) {
+  const ComputedProblem problem = make_problem(kepler_chief(0.3, 7000, 1000, 1));
+  for (const auto& [times, part] : std::map<double, double>{{2, 0.05}, {1.1, 0.2}}) {
+    double done = 0;
+    test::expect_error(ErrorKind::too_large, "more than 100000 checkpoints", [&, times = times] {
+      LinearFlow(problem, times * 417 * paper_period, 240, [&](double now) { done = now; });
+    });
+    EXPECT_LT(done, part);
+  }
 }
 
 }  // namespace

@@ -299,7 +299,7 @@ TEST(Transfer, TheFlownTrajectoryJoinsTheTwoEnds) {
   scene.transfer = short_hop(1e3, {3.0});
   scene.transfer->start.velocity_m_s = {1, 2, 3};
   const TransferResult result = study_transfer(scene);
-  const RelativeTrajectory flown = fly_relative(result, 0, 10);
+  const RelativeTrajectory flown = fly_relative(result, 0, equal_times_from_0(3, 10));
   ASSERT_EQ(flown.states.size(), 11U);
   EXPECT_LT((flown.states.front().position_m - scene.transfer->start.position_m).norm(), 1e-9);
   EXPECT_LT((flown.states.back().position_m - scene.transfer->end.position_m).norm(), 1e-3);
@@ -313,7 +313,7 @@ TEST(Transfer, TheFlownTrajectoryIsAlongRtnWhateverTheFrame) {
   Scene scene = paper_chief(2);
   scene.transfer = short_hop(1e3, {3.0});
   scene.transfer->frame = RelativeFrame::inertial;
-  const RelativeTrajectory flown = fly_relative(study_transfer(scene), 0, 4);
+  const RelativeTrajectory flown = fly_relative(study_transfer(scene), 0, equal_times_from_0(3, 4));
   EXPECT_EQ(flown.frame, RelativeFrame::rtn_rotating);
   // At the start R is the x axis, and the orbit's plane goes through it.
   const Eigen::Vector3d start = scene.transfer->start.position_m;

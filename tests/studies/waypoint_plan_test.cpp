@@ -83,7 +83,8 @@ TEST(WaypointPlan, OnTheWayAsksForNothing) {
   settings.refined_miss_m = 1e-5;
   scene.transfer = settings;
   const TransferResult direct = study_transfer(scene);
-  const RelativeTrajectory way = fly_relative(direct, 0, 8);
+  const RelativeTrajectory way =
+      fly_relative(direct, 0, equal_times_from_0(direct.points[0].time, 8));
   ASSERT_EQ(way.frame, settings.frame);
   scene.transfer->waypoints = {{way.times[3], way.states[3].position_m},
                                {way.times[5], way.states[5].position_m}};

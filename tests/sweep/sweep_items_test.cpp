@@ -163,6 +163,21 @@ TEST_F(SweepItems, WhatAnotherProcessIsWritingIsNoLeftover) {
   EXPECT_FALSE(std::filesystem::exists(of_old));
 }
 
+TEST_F(SweepItems, RowsAreNotWrittenBehindALink) {
+  const SweepDirectory directory(rows(), study_);
+  std::filesystem::create_directories(rows() / "elsewhere");
+  std::filesystem::create_directory_symlink("elsewhere", rows() / "rows");
+  try {
+    directory.write(run_sweep_item(study_, 0));
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::input_output);
+    EXPECT_NE(std::string(error.what()).find("rows is a symbolic link"), std::string::npos)
+        << error.what();
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(rows() / "elsewhere"));
+}
+
 TEST_F(SweepItems, ARowIsReadAsItWasWritten) {
   const SweepDirectory directory(rows(), study_);
   const SweepRow row{7, 1, "a check, \"failed\"", {std::nextafter(0.1, 1), std::string("F1, \n")}};

@@ -213,6 +213,15 @@ TEST(CollisionProbability, OfBeginningInsideIsWhatEntriesLeaveOut) {
   EXPECT_GT(shell / 2, 6 * error);
 }
 
+TEST(CollisionProbability, TakesTheLeastConfidenceThatScenesMayHave) {
+  CollisionSettings even = settings(2000);
+  even.confidence = 0.5;
+  const CollisionProbability result =
+      collision_probability(test::published_encounters()[0].problem, even);
+  EXPECT_LT(result.lower, result.probability);
+  EXPECT_GT(result.upper, result.probability);
+}
+
 TEST(CollisionProbability, TakesAsManySamplesAsAreAskedFor) {
   const EncounterProblem problem = test::published_encounters()[0].problem;
   for (const long samples : {1000L, 4095L, 4097L}) {

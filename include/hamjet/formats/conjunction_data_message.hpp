@@ -10,8 +10,9 @@
 #include "hamjet/detail/formats/epoch.hpp"
 
 // Conjunction Data Messages of the Consultative Committee for Space Data Systems, version 1.0, in
-// keyword = value notation (KVN). Source: CCSDS 508.0-B-1, Conjunction Data Message (2013), section
-// 3 (contents), table 3-4 (covariance) and section 6 (syntax).
+// keyword = value notation (KVN), and on reading, in builds with XML, in that notation too. Source:
+// CCSDS 508.0-B-1, Conjunction Data Message (2013), sections 3 (contents, table 3-4 the
+// covariance), 4 (XML) and 6 (syntax).
 
 namespace hamjet::io {
 
@@ -25,7 +26,8 @@ struct ConjunctionObject {
   std::string covariance_method = "CALCULATED";
   std::string maneuverable = "N/A";
   std::string orbit_center = "EARTH";
-  std::string reference_frame;  ///< REF_FRAME, in capitals: GCRF, EME2000 or ITRF
+  /// REF_FRAME, in capitals: GCRF, EME2000 (J2000 is read as this) or ITRF.
+  std::string reference_frame;
   std::array<double, 3> position_km = {};
   std::array<double, 3> velocity_km_s = {};
   /// Of position and velocity along the object's own R, T, N, with inertial velocities; both
@@ -50,10 +52,14 @@ struct ConjunctionDataMessage {
   std::optional<double> collision_probability;
   std::string collision_probability_method;  ///< with the probability
   std::array<ConjunctionObject, 2> objects;  ///< OBJECT1 and OBJECT2
+  /// What is wrong with optional numbers that are not used and left out, as `name:line: keyword:
+  /// what`.
+  std::vector<std::string> doubts = {};
 };
 
-/// Reads a CDM in KVN. What else the standard has (orbit determination, parameters of drag and
-/// radiation with their rows of the covariance, operators) is checked by its keyword and left out.
+/// Reads a CDM. What else the standard has (orbit determination, parameters of drag and radiation
+/// with their rows of the covariance, operators) is checked by its keyword and left out; an empty
+/// optional value is none.
 /// Throws Error(input_output), one line as read_oem, for whatever is not such a message.
 ConjunctionDataMessage read_cdm(const std::string& name, std::string_view text);
 

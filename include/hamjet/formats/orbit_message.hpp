@@ -9,11 +9,11 @@
 
 #include "hamjet/detail/formats/epoch.hpp"
 
-// Orbit messages of the Consultative Committee for Space Data Systems, versions 2.0 and 3.0, and
-// ephemerides of version 1.0, in keyword = value notation (KVN), and on reading, in builds with
-// XML, in that notation too (CCSDS 505.0-B-3 (2023)). Source: CCSDS 502.0-B-3, Orbit Data Messages
-// (2023), sections 3 (OPM), 5 (OEM) and 7 (syntax), CCSDS 502.0-B-2 (2009), and CCSDS 502.0-B-1
-// (2004), whose OEM is that of version 2.0 without accelerations, covariances and REF_FRAME_EPOCH.
+// Orbit messages of the Consultative Committee for Space Data Systems, versions 2.0 and 3.0, on
+// reading also 1.0, in keyword = value notation (KVN), and on reading, in builds with XML, in that
+// notation too (CCSDS 505.0-B-3 (2023)). Source: CCSDS 502.0-B-3, Orbit Data Messages (2023),
+// sections 3 (OPM), 5 (OEM) and 7 (syntax), CCSDS 502.0-B-2 (2009), and CCSDS 502.0-B-1 (2004),
+// whose messages are those of version 2.0 without accelerations, covariances and REF_FRAME_EPOCH.
 
 namespace hamjet::io {
 
@@ -44,6 +44,18 @@ struct OrbitCovariance {
   std::string reference_frame;  ///< COV_REF_FRAME, in capitals, or the states' where there is none
   std::array<std::array<double, 6>, 6> matrix = {};  ///< both halves: km^2, km^2/s, km^2/s^2
   std::size_t line = 0;                              ///< of its first number
+};
+
+/// Osculating elements that an OPM gives beside its state.
+struct OrbitElements {
+  double semi_major_axis_km = 0;
+  double eccentricity = 0;
+  double inclination_deg = 0;
+  double ascending_node_deg = 0;
+  double argument_of_perigee_deg = 0;
+  double anomaly_deg = 0;
+  bool is_mean_anomaly = false;  ///< or the true one
+  std::size_t line = 0;          ///< of SEMI_MAJOR_AXIS
 };
 
 /// One block of metadata with the states that follow it.
@@ -85,10 +97,13 @@ struct OrbitParameterMessage {
   OrbitState state;
   std::optional<double> gm_km3_s2;  ///< GM, which stands with the Keplerian elements
   std::size_t gm_line = 0;          ///< of GM
+  std::optional<OrbitElements> elements = {};
   std::optional<OrbitCovariance> covariance = {};
   /// What else the message holds, and is not used for the state: "Keplerian elements", "spacecraft
   /// parameters", "covariance", "user-defined parameters".
   std::vector<std::string> unused;
+  /// What is wrong with numbers that are not used, as `name:line: keyword: what`.
+  std::vector<std::string> doubts = {};
 };
 
 /// Reads an OEM. `name` is the file's, printable, for messages. Accelerations are
@@ -100,7 +115,9 @@ struct OrbitParameterMessage {
 OrbitEphemerisMessage read_oem(const std::string& name, std::string_view text);
 
 /// Reads an OPM; otherwise as read_oem. Units, where they are written, must be those of the
-/// standard. Throws too for a manoeuvre, which the state says nothing about.
+/// standard; of numbers that are not used (elements, spacecraft parameters) what is wrong is among
+/// `doubts`. META_START and META_STOP, which some programs write as in an OEM, are passed over.
+/// Throws too for a manoeuvre, which the state says nothing about.
 OrbitParameterMessage read_opm(const std::string& name, std::string_view text);
 
 /// An OEM as text. Numbers have 16 digits, as many as the standard allows (7.5.6, 7.5.7): what is
@@ -113,6 +130,10 @@ std::string opm_text(const OrbitParameterMessage& message);
 
 /// Whether a reference frame is one whose axes do not rotate, as far as it is known here.
 bool is_inertial_frame(std::string_view reference_frame);
+
+/// The name of the same axes by which frames are compared: J2000 is EME2000, TEME is TEMEOFDATE;
+/// any other name is its own.
+std::string_view name_of_axes(std::string_view reference_frame);
 
 /// Why a frame that is not inertial is refused, and what would be right: for messages.
 std::string frame_problem(std::string_view reference_frame);

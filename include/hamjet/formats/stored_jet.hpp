@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <filesystem>
 #include <functional>
@@ -25,7 +26,17 @@ namespace hamjet::io {
 struct StoredFlowBox {
   ChartName section = ChartName::nodal;  ///< chart of both sections, which go through the nominal
   ZonalGravity field;                    ///< canonical
+
+  /// Whether the radius is one that a field has: that of a centre without harmonics is 0.
+  bool has_radius_of_field() const {
+    return std::isfinite(field.radius) &&
+           (field.radius > 0 || (field.radius == 0 && !field.J.any()));
+  }
 };
+
+/// What is said of another radius.
+inline constexpr std::string_view radius_of_field_rule =
+    "must be positive, or 0 of a field without harmonics";
 
 /// The jet of one run as `hamjet run` has stored it. Indices are those of the model's state (q, p);
 /// numbers are canonical.
@@ -47,7 +58,8 @@ struct StoredJet {
   std::optional<EphemerisSettings> ephemeris = {};
   /// Errors of the coefficients by degree, relative to the largest of the degree, where the run has
   /// measured or estimated them (see relative_error_by_degree) and the format keeps them; else
-  /// empty.
+  /// empty. Of other coordinates than Cartesian, flow boxes apart, they are those of the run's jet in
+  /// positions and momenta.
   std::vector<double> error_by_degree = {};
   /// In which the deviations are, at the start, and the final ones. In other coordinates than
   /// Cartesian the constant terms are the chief's, in the chart of the end; nominal states are

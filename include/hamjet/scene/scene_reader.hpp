@@ -21,6 +21,12 @@ struct Override {
   std::string value;
 };
 
+/// The canonical units that the numbers of a scene about an orbit are read in.
+enum class SceneUnits {
+  told,   ///< those of its table `[units]`: the coefficients of a run are in them, to every digit
+  chiefs  ///< the chief's own, whatever the table says: nothing that is computed depends on it
+};
+
 /// Reads a scene file and applies the overrides in their order, after which the same rules hold as
 /// if the file had been written so. Throws
 ///  - Error(input_output) with the path and the reason if the file cannot be read, or is a
@@ -36,12 +42,17 @@ struct Override {
 ///    takes away what an earlier one gave.
 ///
 /// A fixed step that is longer than the duration means a single step.
-Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides = {});
+///
+/// `hamjet run` and `compare` read a scene in the units that it asks for. All other commands take
+/// SceneUnits::chiefs, in which two scenes that differ in the table `[units]` alone have the same
+/// numbers bit by bit, but for what they give in canonical units; see Scene::told_units.
+Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides = {},
+                 SceneUnits units = SceneUnits::told);
 
 /// read_scene from text; `file_name` is used in messages and for Scene::name. Every number becomes
 /// the nearest binary64; the conversion to canonical units is done in extended precision and
 /// rounded once.
 Scene parse_scene(std::string_view text, const std::string& file_name,
-                  const std::vector<Override>& overrides = {});
+                  const std::vector<Override>& overrides = {}, SceneUnits units = SceneUnits::told);
 
 }  // namespace hamjet::io

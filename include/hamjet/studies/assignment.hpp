@@ -45,6 +45,7 @@ struct AssignmentResult {
   double flight_floor_m = 0;
   double study_seconds = 0;
   double proof_seconds = 0;
+  std::vector<SelfCheck> checks;  ///< of the chief's flight; transfers have marks of their own
   std::string
       failure;  ///< not empty: there are not as many transfers as deputies or slots, and why
 };
@@ -62,10 +63,10 @@ std::optional<DeputyPair> nearest_pair(const AssignmentResult& result);
 std::vector<std::size_t> left_out(const std::vector<AssignedTransfer>& transfers, std::size_t count,
                                   std::size_t AssignedTransfer::*which);
 
-/// Exit code: 0; 1 if a chosen transfer is not as the scene allows, if two deputies come nearer
-/// than the scene's `keep_apart_m`, or if the scene is strict and a chosen transfer is beyond its
-/// tolerance or could not be refined; 4 if there is no assignment, or a chosen transfer has no
-/// answer.
+/// Exit code: 0; 1 if a self-check failed, if a chosen transfer is not as the scene allows, if two
+/// deputies come nearer than the scene's `keep_apart_m`, or if the scene is strict and a chosen
+/// transfer is beyond its tolerance or could not be refined; 4 if there is no assignment, or a
+/// chosen transfer has no answer.
 int exit_code(const AssignmentResult& result);
 
 }  // namespace hamjet

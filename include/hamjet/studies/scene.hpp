@@ -33,6 +33,13 @@ struct CanonicalUnits {
   double time_s = 1;
 };
 
+/// By what canonical numbers are multiplied to be told in other canonical units.
+struct CanonicalFactors {
+  double length = 1;
+  double time = 1;
+  double momentum = 1;  ///< of a mass of 1: a velocity
+};
+
 /// Table `[reference]`.
 struct ReferenceSettings {
   double tolerance = 1e-24;  ///< local tolerance of the finer of the two extended-precision runs
@@ -99,6 +106,10 @@ struct Scene {
   Precision precision = Precision::double_precision;
   SystemSettings system;
   CanonicalUnits units;
+  /// Those of the table `[units]`, in which the user is told canonical numbers; `units` are the
+  /// same or, see SceneUnits, the chief's own. Absent: there is no such table, and `units` are
+  /// told.
+  std::optional<CanonicalUnits> told_units = {};
   double canonical_radius = 0;  ///< radius_km in canonical units
   std::vector<double> nominal;  ///< initial state (q, p), canonical
   double duration = 0;          ///< canonical; negative is backwards
@@ -140,6 +151,15 @@ struct Scene {
   /// The system of a scene that no file describes, in canonical units; see make_scene.
   std::shared_ptr<const DynamicalSystem> own_system = nullptr;
 };
+
+/// The units in which the user is told canonical numbers of a scene.
+const CanonicalUnits& told_units(const Scene& scene);
+/// What takes the scene's canonical numbers into these; all exactly 1 where they are the same.
+CanonicalFactors told_factors(const Scene& scene);
+/// A canonical time of the scene in these.
+double told_time(const Scene& scene, double time);
+/// A state (q, p) of the scene in these.
+std::vector<double> told_state(const Scene& scene, std::vector<double> state);
 
 /// A scene of a Hamiltonian of one's own: its jet in all variables about the trajectory of
 /// `nominal`, 2n numbers (q, p), n at most 8. The integrators, the reference and what else is

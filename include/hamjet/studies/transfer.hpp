@@ -9,6 +9,7 @@
 #include "hamjet/detail/algebra/eigen.hpp"
 #include "hamjet/detail/studies/impulse_plan.hpp"
 #include "hamjet/detail/studies/progress.hpp"
+#include "hamjet/detail/studies/relative_drift.hpp"
 #include "hamjet/detail/studies/singular_times.hpp"
 #include "hamjet/detail/studies/waypoint_plan.hpp"
 #include "hamjet/studies/propagation.hpp"
@@ -54,6 +55,13 @@ struct TransferPoint {
   /// Where the scene has an ellipsoid to keep out of: the least of |(R/a, T/b, N/c)| along the way
   /// of the best answer, 1 on the ellipsoid.
   std::optional<double> keep_out_ratio;
+  /// The least distance from the centre along that way, canonical; absent where the scene's check
+  /// `surface` is off or the model has no radius.
+  std::optional<double> lowest;
+  bool is_below_surface = false;  ///< that is less than the check allows
+  RelativeState arrived;          ///< after the second velocity change, in the scene's frame
+  /// How the deputy goes on from there if nothing is done; absent where it was not found.
+  std::optional<RelativeDrift> drift;
   std::string failure;  ///< not empty: no kind exists, and why; `answers` is empty
 
   bool has_answer() const { return !answers.empty() && answers.back().failure.empty(); }
@@ -63,7 +71,7 @@ struct TransferPoint {
     return has_answer() && !is_near_singular && (!is_beyond_tolerance || is_refined());
   }
   bool enters_keep_out() const { return keep_out_ratio && *keep_out_ratio < 1; }
-  bool is_allowed() const { return !exceeds_impulse && !enters_keep_out(); }
+  bool is_allowed() const { return !exceeds_impulse && !enters_keep_out() && !is_below_surface; }
   /// Whether it may be the least: proved, and as the scene allows.
   bool is_candidate() const { return is_proved() && is_allowed(); }
   /// The refined answer, where the refinement succeeded, else that of the highest order.
@@ -132,6 +140,7 @@ struct TransferResult {
   std::optional<CoastingTransfer> coasting;     ///< if the scene asks for it
   std::optional<OtherRevolutions> revolutions;  ///< likewise
   TransferSeconds seconds;
+  std::vector<SelfCheck> checks;  ///< of the chief's flight; transfers have marks of their own
 
   /// Index of the point with the least total velocity change among answers that are within the
   /// tolerance, by themselves or refined, and not near a singularity; absent if there is none.
@@ -159,10 +168,11 @@ struct EarlierJet {
 TransferResult study_transfer(const Scene& scene, const ProgressCallback& progress = {},
                               const EarlierJet* earlier = nullptr);
 
-/// Exit code: 0; 1 if the scene's limits allow none of the answers, if optimal impulses, a way
-/// through waypoints, a coasting start or other revolutions were asked for and not found, or if the
-/// scene is strict and an answer away from singularities is missing, beyond its tolerance or could
-/// not be refined; 4 if no transfer time has an answer.
+/// Exit code: 0; 1 if a self-check failed, if the scene's limits allow none of the answers, if
+/// optimal impulses, a way through waypoints, a coasting start or other revolutions were asked for
+/// and not found, if the solver of optimal impulses failed for a time, so that the least may be
+/// missing, or if the scene is strict and an answer away from singularities is missing, beyond its
+/// tolerance or could not be refined; 4 if no transfer time has an answer.
 int exit_code(const TransferResult& result);
 
 /// A flown deputy relative to its chief, along R, T, N whatever the scene's frame (along the
@@ -180,7 +190,10 @@ struct RelativeTrajectory {
   std::vector<std::vector<double>> deputy;
 };
 
-/// The flown relative trajectory of one point's best answer, `count` equal intervals.
-RelativeTrajectory fly_relative(const TransferResult& result, std::size_t point, int count);
+/// The flown relative trajectory of one point's best answer: at canonical times, the first 0, or as
+/// it is drawn, in equal steps of the chief's eccentric anomaly.
+RelativeTrajectory fly_relative(const TransferResult& result, std::size_t point,
+                                const std::vector<double>& times);
+RelativeTrajectory fly_relative(const TransferResult& result, std::size_t point);
 
 }  // namespace hamjet

@@ -49,6 +49,7 @@ struct ValidityResult {
   long flights = 0;
   double propagation_seconds = 0;
   double proof_seconds = 0;
+  std::vector<SelfCheck> checks;  ///< of the chief's flight
 };
 
 /// The study of table `[validity]` in all coordinates.
@@ -59,6 +60,7 @@ struct ValidityInCoordinates {
   };
   std::vector<ValidityResult> results;  ///< the first is Cartesian
   std::vector<Refused> refused;         ///< those that the orbit has not
+  std::vector<SelfCheck> checks;        ///< of the chief's flight
 
   /// The result whose highest order reaches furthest at the last time.
   const ValidityResult& furthest() const;

@@ -18,7 +18,7 @@ inline constexpr std::array<std::string_view, 3> collision_sampling_names = {"au
 /// What counts as a collision in the window.
 enum class CollisionEvent {
   nearer,  ///< that they are nearer than the radius at any time of the window
-  entry,   ///< that they become nearer: those that are so when the window begins do not count
+  entry,   ///< that they become nearer: those that are so when the window begins must come back
 };
 
 inline constexpr std::array<std::string_view, 2> collision_event_names = {"nearer", "entry"};

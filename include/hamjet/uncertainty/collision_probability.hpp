@@ -26,8 +26,14 @@ struct CollisionSettings {
 struct CollisionProbability {
   CollisionSampling sampling = CollisionSampling::plain;  ///< that was done
   double probability = 0;
-  double lower = 0;  ///< interval of the settings' confidence, of the sampling alone
+  /// Interval of the settings' confidence: of the sampling, for a radius that is smaller by the
+  /// error of the paths below, and larger by it above.
+  double lower = 0;
   double upper = 0;
+  /// By how much distances along a path may be wrong: by the cubics between its nodes, and by how
+  /// far the least distances of 64 flights are from those of their polynomials, which are of the
+  /// draws that come nearest to the radius.
+  double path_error = 0;
   double standard_error = 0;
   long samples = 0;
   long hits = 0;  ///< samples that come nearer
@@ -49,9 +55,10 @@ struct CollisionProbability {
 
 /// By random samples of the polynomials, in the window, each path judged between the times too.
 /// Plain samples have the interval of Clopper and Pearson, weighted ones that of the normal
-/// distribution. Throws as validate, integrate_gauss, and Error(usage) for less than 1000 samples
-/// or a confidence outside 0.5 to 1, and where entries are asked for that cannot be drawn: where
-/// EntrySampler has none, or linear paths say too little of true ones.
+/// distribution. Throws as validate, integrate_gauss, Error(numerical) where a flight ends in the
+/// centre, and Error(usage) for less than 1000 samples
+/// or a confidence below 0.5 or not below 1, and where entries are asked for that cannot be drawn:
+/// where EntrySampler has none, or linear paths say too little of true ones.
 CollisionProbability collision_probability(const EncounterProblem& problem,
                                            const CollisionSettings& settings);
 

@@ -25,7 +25,7 @@ struct UncertainSpacecraft {
 struct EncounterProblem {
   SharedSystem system;
   std::array<UncertainSpacecraft, 2> spacecraft;
-  double from = 0;    ///< the window, in time after the epoch
+  double from = 0;    ///< the window, in time after the epoch; before it where negative
   double to = 0;      ///< not before `from`
   double radius = 0;  ///< the sum of the radii of both bodies: nearer than this is a collision
   int order = 3;      ///< of the polynomials in the deviations at the epoch

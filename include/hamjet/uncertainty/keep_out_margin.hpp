@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <optional>
 
 #include "hamjet/detail/algebra/eigen.hpp"
@@ -17,9 +18,11 @@ struct KeepOutMargin {
   std::optional<double> deviations;
   double time = 0;  ///< when it touches
   Eigen::Matrix<double, 12, 1> deviation = Eigen::Matrix<double, 12, 1>::Zero();  ///< that vector
-  /// Both flown with it by the full equations to that time: the ratio |(R/a, T/b, N/c)| then, 1
-  /// where the polynomials are right.
+  /// Both flown with it by the full equations: the least ratio |(R/a, T/b, N/c)| in the window, 1
+  /// where the polynomials are right and no other time is nearer.
   double flown_ratio = 0;
+  /// Whether the flight touches the ellipsoid to a twentieth.
+  bool is_confirmed() const { return std::abs(flown_ratio - 1) < 0.05; }
 };
 
 /// The ellipsoid has these semi-axes (in the units of the system) along R, T, N of the first

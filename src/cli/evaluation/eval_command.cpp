@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
@@ -13,29 +11,25 @@
 #include "../../app/eval_coordinates.hpp"
 #include "../../app/jet_evaluation.hpp"
 #include "../../app/refusal.hpp"
-#include "../../app/required_tables.hpp"
-#include "../../app/stored_chief.hpp"
-#include "../../formats/number_table.hpp"
 #include "../../formats/relative_frame_text.hpp"
-#include "../../store/text_file.hpp"
+#include "../../report/study_checks.hpp"
+#include "../../store/json_text.hpp"
+#include "../../store/spooled_text.hpp"
 #include "../../text/quantity_text.hpp"
 #include "../../text/scene_message.hpp"
 #include "../output_file.hpp"
 #include "../process/interruption.hpp"
 #include "../process/standard_streams.hpp"
+#include "deviation_rows.hpp"
+#include "eval_output.hpp"
 #include "eval_source.hpp"
 #include "evaluation_work.hpp"
 #include "hamjet/error.hpp"
-#include "hamjet/relative_motion/chief_frame.hpp"
 
 namespace hamjet::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Support = TruncationEstimate::Support;
-
-/// More rows than this are not printed as JSON, but counted only.
-constexpr std::size_t most_json_rows = 100;
 
 void check_options(const EvalOptions& options) {
   refuse_empty(options.directory, "directory", "the results of hamjet run");
@@ -65,6 +59,9 @@ void check_options(const EvalOptions& options) {
       refuse("--output: is a file that this command reads; choose another");
     }
   }
+  if (options.deviations == standard_input && options.directory == standard_input) {
+    refuse("--deviations: got -, and the scene is read from standard input already");
+  }
   if (given == 0) {
     refuse(
         "nothing to evaluate; give --deviation with numbers, --deviations with a CSV file or "
@@ -72,93 +69,19 @@ void check_options(const EvalOptions& options) {
   }
 }
 
-/// The one row of the scene's deputy.
-io::NumberTable read_deputy(const EvalOptions& options, const io::StoredJet& stored,
-                            const EvalCoordinates& coordinates) {
-  const RunOptions named = scene_named(options, *options.deputy);
-  const std::string& file = *named.scene_file;
-  Scene scene;
-  try {
-    scene = read_scene(named);
-  } catch (const Error& error) {
-    throw Error(error.kind(), fmt::format("--deputy: {}", error.what()));
-  }
-  require_deputy(scene, file);
-  if (!is_about_chief(stored, scene)) {
-    refuse_scene(file, "nominal",
-                 fmt::format("another orbit than that of the jet {}, must be the scene that it was "
-                             "made from",
-                             io::printable(stored.label)));
-  }
-  const ChiefFrame frame(scene.nominal, {scene.units.length_km * 1000, scene.units.time_s},
-                         scene.deputy->frame);
-  const std::vector<double> row = coordinates.initial_row(frame.deviation(scene.deputy->start));
-  return {row.size(), row};
-}
-
-io::NumberTable read_deviations(const EvalOptions& options, const io::StoredJet& stored,
-                                const EvalCoordinates& coordinates) {
-  if (options.deputy) return read_deputy(options, stored, coordinates);
-  const std::vector<std::string_view>& columns = coordinates.initial_columns();
-  if (options.deviations) {
-    const std::filesystem::path file = *options.deviations;
-    return io::read_number_table(io::printable_path(file),
-                                 io::read_text_file(file, io::largest_table_bytes), columns,
-                                 stop_if_interrupted);
-  }
-  std::vector<std::string_view> fields;
-  io::split_line(*options.deviation, fields);
-  io::NumberTable table{columns.size(), {}};
-  if (fields.size() != columns.size()) {
-    refuse(fmt::format("--deviation: must be {} numbers between commas, {}, got {}", columns.size(),
-                       fmt::join(columns, ","), io::in_quotes(*options.deviation)));
-  }
-  for (std::size_t i = 0; i < fields.size(); ++i) {
-    const auto number = io::finite_number(fields[i]);
-    if (!number) {
-      refuse(fmt::format("--deviation: {} must be a finite number, got {}", columns[i],
-                         io::in_quotes(fields[i])));
-    }
-    table.numbers.push_back(*number);
-  }
-  return table;
-}
-
-/// The jet's variables of a row; says where the row stands if it has none.
-std::vector<double> variables_of(const EvalOptions& options, const EvalCoordinates& coordinates,
-                                 const io::NumberTable& deviations, std::size_t row) {
-  try {
-    return coordinates.variables(deviations.row(row));
-  } catch (const Error& error) {
-    if (error.kind() != ErrorKind::usage) throw;
-    if (options.deviation) refuse(fmt::format("--deviation: {}", error.what()));
-    if (options.deputy) refuse_scene(*options.deputy, "deputy", error.what());
-    throw Error(ErrorKind::input_output,
-                fmt::format("{}:{}: {}", io::printable_path(*options.deviations),
-                            io::NumberTable::line(row), error.what()));
-  }
-}
-
-const char* support_name(Support support) {
-  switch (support) {
-    case Support::inside:
-      return "inside";
-    case Support::outside:
-      return "outside";
-    case Support::unknown:
-      break;
-  }
-  return "unknown";
-}
-
-/// A number's size, one digit of it, for where the series says nothing.
-double size_alone(double x) { return std::isfinite(x) ? std::stod(fmt::format("{:.0e}", x)) : x; }
-
 /// What an estimate of the miss is made of.
 std::string miss_covers(const EvalSource& jet) {
-  if (jet.scene) {
+  if (jet.scene && !jet.scene->error.is_known()) {
     return fmt::format("missing degrees and the rounding of flights; not errors of the {}",
-                       jet.scene->seconds > 0 ? "integration" : "coefficients");
+                       jet.scene->seconds > 0
+                           ? "integration, which independent ones could not follow"
+                           : "coefficients, of which the results say nothing");
+  }
+  if (jet.scene) {
+    return fmt::format("missing degrees, the rounding of flights, and errors of {}",
+                       jet.scene->seconds > 0
+                           ? "the integration, by two others of the chief and of degree 1"
+                           : "degrees 0 and 1 as the results state them");
   }
   const io::StoredJet& stored = jet.stored;
   return fmt::format("missing degrees, rounding of coefficients and evaluation{}",
@@ -174,70 +97,14 @@ std::string miss_covers(const std::vector<EvalSource>& jets) {
   return first == last ? last : fmt::format("{}; before the end {}", last, first);
 }
 
-/// What has been evaluated, as it is printed.
-class Output {
- public:
-  /// With a column of the time if `has_time`.
-  Output(const std::vector<std::string_view>& columns, std::size_t rows, bool has_time)
-      : columns_(columns), has_json_rows_(rows <= most_json_rows), has_time_(has_time) {
-    fmt::format_to(std::back_inserter(csv_), "{}{},miss_estimate_m,support\n",
-                   has_time ? "time_s," : "", fmt::join(columns, ","));
-  }
-
-  void add(double time_s, const std::vector<double>& state, const MissEstimate& estimate) {
-    const bool is_inside = estimate.is_inside();
-    const bool is_outside = estimate.support == Support::outside;
-    const auto write = std::back_inserter(csv_);
-    ++rows_;
-    if (has_time_) fmt::format_to(write, "{},", time_s);
-    for (const double x : state) {
-      if (std::isfinite(x)) fmt::format_to(write, "{}", is_outside ? size_alone(x) : x);
-      fmt::format_to(write, ",");
-    }
-    undefined_ += std::any_of(state.begin(), state.end(), [](double x) { return std::isnan(x); });
-    if (is_inside) fmt::format_to(write, "{:.3g}", estimate.miss_m());
-    fmt::format_to(write, ",{}\n", support_name(estimate.support));
-    if (is_inside) largest_miss_ = std::max(largest_miss_.value_or(0), estimate.miss_m());
-    outside_ += estimate.support == Support::outside ? 1 : 0;
-    unknown_ += estimate.support == Support::unknown ? 1 : 0;
-    if (!has_json_rows_) return;
-    Json row;
-    if (has_time_) row["time_s"] = time_s;
-    for (std::size_t i = 0; i < state.size(); ++i) {
-      row[std::string(columns_[i])] = is_outside ? size_alone(state[i]) : state[i];
-    }
-    row["miss_estimate_m"] = is_inside ? Json(estimate.miss_m()) : Json(nullptr);
-    row["truncation_m"] = is_inside ? Json(estimate.truncation_m) : Json(nullptr);
-    row["rounding_m"] = estimate.rounding_m;
-    row["support"] = support_name(estimate.support);
-    json_rows_.push_back(std::move(row));
-  }
-
-  std::string csv() const { return fmt::to_string(csv_); }
-  Json json_rows() const { return has_json_rows_ ? json_rows_ : Json(nullptr); }
-  std::size_t rows() const { return rows_; }
-  std::size_t outside() const { return outside_; }
-  std::size_t unknown() const { return unknown_; }
-  /// Rows whose final state has no numbers of the form asked for.
-  std::size_t undefined() const { return undefined_; }
-  /// The largest estimate of the miss, in metres, among the rows inside; none without such rows.
-  std::optional<double> largest_miss() const { return largest_miss_; }
-
- private:
-  std::vector<std::string_view> columns_;
-  bool has_json_rows_;
-  bool has_time_;
-  std::size_t rows_ = 0;
-  fmt::memory_buffer csv_;
-  Json json_rows_ = Json::array();
-  std::size_t outside_ = 0;
-  std::size_t unknown_ = 0;
-  std::size_t undefined_ = 0;
-  std::optional<double> largest_miss_;
-};
+/// The self-checks of a scene in place of results.
+std::vector<SelfCheck> checks_of(const std::vector<EvalSource>& jets) {
+  const auto& scene = jets.front().scene;
+  return scene ? scene->checks : std::vector<SelfCheck>{};
+}
 
 std::string summary(const EvalOptions& options, const std::vector<EvalSource>& jets,
-                    const EvaluationWork& work, const Output& output) {
+                    const EvaluationWork& work, const EvalOutput& output) {
   const io::StoredJet& stored = jets.front().stored;
   const bool is_rtn = options.frames.frame == "RTN" || options.frames.final_frame() == "RTN";
   const auto points = static_cast<double>(output.rows());
@@ -269,27 +136,33 @@ std::string summary(const EvalOptions& options, const std::vector<EvalSource>& j
                        {"multiply_adds_per_point", work.multiply_adds_per_point},
                        {"products_per_point", work.products_per_point},
                        {"multiply_adds_per_second", work.multiply_adds_per_second()}}},
-                     {"rows", output.json_rows()}};
-  return json.dump(2) + "\n";
+                     {"rows", output.json_rows()},
+                     {"checks", io::checks_json(checks_of(jets))}};
+  return io::json_text(json) + "\n";
 }
 
 void report(const EvalCoordinates& coordinates, const std::vector<EvalSource>& jets,
-            const EvaluationWork& work, const Output& output) {
+            const EvaluationWork& work, const EvalOutput& output) {
   const EvalSource& jet = jets.back();
   const bool is_linear = jet.order() < 2;
   const auto points = static_cast<double>(output.rows());
-  print_note(fmt::format(
-      "points {}, evaluation alone {:.3g} s, {:.3g} ns a point, {} multiply-adds a point, "
-      "{:.3g} multiply-adds a second",
-      output.rows(), work.seconds, work.seconds / points * 1e9, work.multiply_adds_per_point,
-      work.multiply_adds_per_second()));
-  if (jet.scene) {
+  // What it costs is of interest where there is much of it; --json has it in any case.
+  constexpr std::size_t many = 1000;
+  const bool has_cost = output.rows() >= many;
+  if (has_cost)
     print_note(fmt::format(
-        "{} coordinates, {}; of a point's time {:.3g} ns are the polynomials, with the lower "
-        "degrees that estimates need, and {:.3g} ns the coordinates at both ends",
-        name_of(jet.coordinates()),
-        jet.scene->seconds > 0 ? "integrated in " + duration_text(jet.scene->seconds) : "stored",
-        (work.seconds - work.chart_seconds) / points * 1e9, work.chart_seconds / points * 1e9));
+        "points {}, evaluation alone {:.3g} s, {:.3g} ns a point, {} multiply-adds a point, "
+        "{:.3g} multiply-adds a second",
+        output.rows(), work.seconds, work.seconds / points * 1e9, work.multiply_adds_per_point,
+        work.multiply_adds_per_second()));
+  if (jet.scene) {
+    if (has_cost)
+      print_note(fmt::format(
+          "{} coordinates, {}; of a point's time {:.3g} ns are the polynomials, with the lower "
+          "degrees that estimates need, and {:.3g} ns the coordinates at both ends",
+          name_of(jet.coordinates()),
+          jet.scene->seconds > 0 ? "integrated in " + duration_text(jet.scene->seconds) : "stored",
+          (work.seconds - work.chart_seconds) / points * 1e9, work.chart_seconds / points * 1e9));
     const std::string choice = io::choice_text(jet.coordinates());
     if (!choice.empty()) {
       print_note(fmt::format("{} coordinates, {}", name_of(jet.coordinates()), choice));
@@ -324,35 +197,39 @@ void report(const EvalCoordinates& coordinates, const std::vector<EvalSource>& j
 
 /// Carries all deviations through one jet.
 template <class Evaluation>
-void carry(const EvalOptions& options, const EvalCoordinates& coordinates, double time_s,
-           const io::NumberTable& deviations, Evaluation& evaluation, Output& output) {
-  for (std::size_t row = 0; row < deviations.rows(); ++row) {
-    evaluation.add(variables_of(options, coordinates, deviations, row));
-    if (evaluation.pending() < Evaluation::most_points && row + 1 < deviations.rows()) continue;
+void carry(const EvalCoordinates& coordinates, double time_s, DeviationRows& deviations,
+           Evaluation& evaluation, EvalOutput& output) {
+  while (true) {
     stop_if_interrupted();
-    evaluation.run([&](const std::vector<double>& deviation, const MissEstimate& estimate) {
+    const io::NumberTable part = deviations.read(Evaluation::most_points);
+    if (part.rows() == 0) return;
+    for (std::size_t row = 0; row < part.rows(); ++row) {
+      evaluation.add(deviations.variables(coordinates, part, row));
+    }
+    evaluation.run([&](const std::vector<double>& deviation, MissEstimate estimate) {
+      estimate.integration_m += coordinates.turned_m(deviation, evaluation.chief_error());
       output.add(time_s, coordinates.final_state(deviation), estimate);
     });
   }
 }
 
-void evaluate(const EvalOptions& options, const EvalSource& jet, const io::NumberTable& deviations,
-              EvaluationWork& work, Output& output) {
-  const EvalCoordinates coordinates(jet.stored, options.frames);
+void evaluate(const EvalOptions& options, const EvalSource& jet, DeviationRows& deviations,
+              EvaluationWork& work, EvalOutput& output) {
+  const EvalCoordinates coordinates(jet.stored, options.frames, jet.told());
   const double time_s = jet.stored.duration * jet.stored.units.time_s;
   if (jet.scene) {
     const int degree = options.degree.value_or(jet.order());
     DeputyEvaluation evaluation(*jet.scene, degree, options.threads.value_or(usable_processors()));
-    carry(options, coordinates, time_s, deviations, evaluation, output);
+    carry(coordinates, time_s, deviations, evaluation, output);
     work.add(evaluation.seconds(), evaluation.multiply_adds(),
              MapEvaluator(jet.scene->flow->polynomials(), degree));
     work.chart_seconds += evaluation.chart_seconds();
     return;
   }
   JetEvaluation evaluation(jet.stored, options.degree);
-  carry(options, coordinates, time_s, deviations, evaluation, output);
+  carry(coordinates, time_s, deviations, evaluation, output);
   const MapEvaluator& evaluator = evaluation.evaluator();
-  const std::size_t multiply_adds = deviations.rows() * evaluator.multiply_adds_per_point();
+  const std::size_t multiply_adds = evaluation.points() * evaluator.multiply_adds_per_point();
   work.add(evaluation.seconds(), static_cast<double>(multiply_adds), evaluator);
 }
 
@@ -368,27 +245,46 @@ int eval(const EvalOptions& given) {
     refuse(fmt::format("--degree {}: must be 1 to the order of the jet, {}", *options.degree,
                        jets.front().order()));
   }
-  const EvalCoordinates coordinates(stored, options.frames);
+  const EvalCoordinates coordinates(stored, options.frames, jets.front().told());
   std::optional<OutputFile> file;
   if (options.output) file.emplace(*options.output);
-  const io::NumberTable deviations = read_deviations(options, stored, coordinates);
+  DeviationRows deviations(options, stored, coordinates);
+  if (jets.size() > 1) deviations.keep();
 
+  // Until all rows are there, none is seen.
+  io::SpooledText printed;
   EvaluationWork work;
-  Output output(coordinates.final_columns(), deviations.rows() * jets.size(),
-                options.time.has_value());
-  for (const EvalSource& jet : jets) evaluate(options, jet, deviations, work, output);
+  EvalOutput output(coordinates.final_columns(), options.time.has_value(),
+                    [&](std::string_view csv) {
+                      if (file) {
+                        file->add(csv);
+                      } else if (!options.json) {
+                        printed.add(csv);
+                      }
+                    });
+  for (const EvalSource& jet : jets) {
+    if (&jet != &jets.front()) deviations.rewind();
+    evaluate(options, jet, deviations, work, output);
+  }
+  output.finish();
 
-  if (file) file->write(output.csv());
+  if (file) file->put_in_place();
   // From here on a signal ends the program at once: what is printed cannot be taken back.
   { const UninterruptedWriting results; }
   if (options.json) {
     print(summary(options, jets, work, output));
   } else if (!file) {
-    print(output.csv());
+    printed.hand_out(print);
   }
   if (!options.quiet) report(coordinates, jets, work, output);
+  int code = 0;
+  for (const SelfCheck& check : checks_of(jets)) {
+    if (check.state != SelfCheckState::failed) continue;
+    print_error(fmt::format("a check failed: {}: {}", name_of(check.name), check.text));
+    code = static_cast<int>(ErrorKind::check_failed);
+  }
   const std::size_t not_inside = std::max(output.outside() + output.unknown(), output.undefined());
-  if (!options.strict || not_inside == 0) return 0;
+  if (!options.strict || not_inside == 0) return code;
   print_error(fmt::format("--strict: {} of {} not inside the polynomial's reach", not_inside,
                           counted(output.rows(), "row")));
   return static_cast<int>(ErrorKind::check_failed);

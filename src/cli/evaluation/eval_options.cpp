@@ -36,8 +36,8 @@ CLI::App* add_eval_command(CLI::App& app, EvalOptions& options) {
                    "canonical one number a variable of the jet")
       ->type_name("NUMBERS");
   eval->add_option("--deviations", options.deviations,
-                   "CSV file of many; its first line names the columns: " + columns +
-                       "or the jet's variables (canonical)")
+                   "CSV file of many (- for standard input); its first line names the columns: " +
+                       columns + "or the jet's variables (canonical)")
       ->type_name("FILE");
   eval->add_option("--deputy", options.deputy,
                    "a scene of the same chief (- for standard input): the deputy of its table "

@@ -30,8 +30,6 @@ EvalSource integrated_scene(const EvalOptions& options) {
   return {std::move(chief), std::move(evaluated)};
 }
 
-constexpr std::string_view standard_input = "-";
-
 /// Of results in the coordinates that their scene asks for, the polynomials in these.
 io::StoredJet read_polynomials_or_jet(const EvalOptions& options) {
   auto polynomials = io::read_stored_polynomials(options.directory, options.run);

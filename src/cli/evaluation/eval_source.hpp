@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "../../app/deputy_evaluation.hpp"
@@ -10,11 +11,15 @@
 
 namespace hamjet::cli {
 
+/// The name of standard input among files.
+inline constexpr std::string_view standard_input = "-";
+
 /// A jet that is stored, or the polynomials of a scene, which are integrated now.
 struct EvalSource {
   io::StoredJet stored;
   std::optional<EvaluatedScene> scene = {};
 
+  CanonicalFactors told() const { return scene ? scene->told : CanonicalFactors{}; }
   int order() const { return scene ? scene->flow->order() : stored.order(); }
   ChosenCoordinates coordinates() const { return scene ? scene->coordinates : ChosenCoordinates{}; }
 };

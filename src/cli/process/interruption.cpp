@@ -90,10 +90,18 @@ void catch_signals() {
   // None of them interrupts the handler of another.
   struct sigaction action {};
   sigemptyset(&action.sa_mask);
-  for (const int signal : {SIGINT, SIGTERM, SIGALRM}) sigaddset(&action.sa_mask, signal);
+  for (const int signal : io::ending_signals) sigaddset(&action.sa_mask, signal);
+  sigaddset(&action.sa_mask, SIGALRM);
   action.sa_flags = SA_RESTART;
-  for (const int signal : {SIGINT, SIGTERM, SIGALRM}) {
-    action.sa_handler = signal == SIGALRM ? lose_patience : remember_signal;
+  action.sa_handler = lose_patience;
+  ::sigaction(SIGALRM, &action, nullptr);
+  action.sa_handler = remember_signal;
+  for (const int signal : io::ending_signals) {
+    struct sigaction before {};
+    ::sigaction(signal, nullptr, &before);
+    // Whoever starts the program by nohup, or in the background, wants it to outlive the terminal.
+    const bool is_of_terminal = signal == SIGHUP || signal == SIGQUIT;
+    if (is_of_terminal && before.sa_handler == SIG_IGN) continue;
     ::sigaction(signal, &action, nullptr);
   }
   std::signal(SIGPIPE, SIG_IGN);

@@ -8,21 +8,22 @@
 
 namespace hamjet::cli {
 
-/// Thrown out of the work after SIGINT or SIGTERM.
+/// Thrown out of the work after one of io::ending_signals.
 class Interrupted : public std::exception {
  public:
   explicit Interrupted(int signal) : signal_(signal) {}
   const char* what() const noexcept override { return "interrupted"; }
-  /// The exit code, 128 + the signal: 130 or 143.
+  /// The exit code, 128 + the signal: 129, 130, 131 or 143.
   int exit_code() const noexcept { return 128 + signal_; }
 
  private:
   int signal_;
 };
 
-/// Catches SIGINT and SIGTERM from now on: the first asks the work to stop. If it has not done so
+/// Catches io::ending_signals from now on: the first asks the work to stop. If it has not done so
 /// within a second, for a single step of high order may take longer, or at a second signal, the
-/// program ends at once. SIGPIPE and SIGXFSZ become errors of the write.
+/// program ends at once. SIGHUP and SIGQUIT stay ignored where they are. SIGPIPE and SIGXFSZ become
+/// errors of the write.
 void catch_signals();
 
 /// From now on a sudden end leaves a finished part of the results.

@@ -20,8 +20,9 @@ namespace hamjet::cli {
 void open_standard_streams() {
   for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(descriptor, F_GETFD) != -1 || errno != EBADF) continue;
-    // The system gives the lowest free descriptor, which is this one.
-    ::open("/dev/null", O_RDWR);
+    // The system gives the lowest free descriptor, which is this one. Writing results to it must
+    // fail, as it would without it.
+    ::open("/dev/null", descriptor == STDOUT_FILENO ? O_RDONLY : O_RDWR);
   }
 }
 
@@ -46,8 +47,10 @@ void print(const std::string& text) {
   const bool is_written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
   if (is_written && std::fflush(stdout) == 0) return;
   if (errno == EPIPE) return;
-  throw Error(ErrorKind::input_output, fmt::format("standard output cannot be written: {}",
-                                                   std::generic_category().message(errno)));
+  throw Error(
+      ErrorKind::input_output,
+      fmt::format("standard output cannot be written: {}",
+                  errno == EBADF ? "it is closed" : std::generic_category().message(errno)));
 }
 
 namespace {
@@ -60,9 +63,14 @@ bool is_to_be_fitted(std::string_view line) {
   return line.starts_with(io::warning_head) || line.starts_with(io::note_head);
 }
 
-void print_error_line(std::string_view line) {
+void print_error_line(std::string_view line) noexcept {
   std::fwrite(head.data(), 1, head.size(), stderr);
-  std::fwrite(line.data(), 1, line.size(), stderr);
+  try {
+    const std::string shown = io::printable(line, std::string::npos);
+    std::fwrite(shown.data(), 1, shown.size(), stderr);
+  } catch (const std::exception&) {
+    std::fputs("out of memory", stderr);
+  }
   std::fputs("\n", stderr);
 }
 

@@ -70,10 +70,13 @@ StoredFlowBox read_flow_box(const Reader& root) {
     root.fail("section_chart", "the attribute must name a chart of sections");
   }
   box.section = *section;
-  box.field.radius = positive(root, "field_radius");
+  box.field.radius = root.number("field_radius");
   constexpr std::size_t count = ZonalCoefficients::count;
   const std::vector<double> J = root.numbers("field_J", count);
   box.field.J = ZonalCoefficients(std::span(J).first<count>());
+  if (!box.has_radius_of_field()) {
+    root.fail("field_radius", fmt::format("the attribute {}", radius_of_field_rule));
+  }
   return box;
 }
 

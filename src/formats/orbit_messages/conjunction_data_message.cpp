@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "../../text/scene_message.hpp"
+#include "comment_lines.hpp"
 #include "orbit_message_lines.hpp"
 #include "orbit_message_units.hpp"
 
@@ -135,6 +136,7 @@ ConjunctionObject object_of(const MessageBlock& block) {
   object.maneuverable = block.text("MANEUVERABLE");
   if (block.has("ORBIT_CENTER")) object.orbit_center = block.capitals("ORBIT_CENTER");
   object.reference_frame = block.capitals("REF_FRAME");
+  if (object.reference_frame == "J2000") object.reference_frame = "EME2000";
   const Keywords frames = {"GCRF", "EME2000", "ITRF"};
   if (std::find(frames.begin(), frames.end(), object.reference_frame) == frames.end()) {
     block.fail("REF_FRAME", fmt::format("unknown reference frame, got {}, must be one of: {}",
@@ -158,23 +160,18 @@ ConjunctionObject object_of(const MessageBlock& block) {
 
 std::optional<std::array<double, 3>> three_numbers(const MessageBlock& head,
                                                    const std::string& keyword,
-                                                   std::string_view unit) {
-  const auto has = [&](const char* axis) { return head.has(keyword + axis); };
-  if (!has("_R") && !has("_T") && !has("_N")) return std::nullopt;
-  return std::array<double, 3>{head.number(keyword + "_R", unit), head.number(keyword + "_T", unit),
-                               head.number(keyword + "_N", unit)};
+                                                   std::string_view unit,
+                                                   std::vector<std::string>& doubts) {
+  const auto R = head.unused_number(keyword + "_R", unit, doubts);
+  const auto T = head.unused_number(keyword + "_T", unit, doubts);
+  const auto N = head.unused_number(keyword + "_N", unit, doubts);
+  if (!R || !T || !N) return std::nullopt;
+  return std::array<double, 3>{*R, *T, *N};
 }
 
 }  // namespace
 
 ConjunctionDataMessage read_cdm(const std::string& name, std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t\r\n");
-  if (first != text.npos && text[first] == '<') {
-    // Lines of no text, to say it as they do.
-    MessageLines(name, "", "cdm")
-        .fail(1, cdm_version_keyword,
-              "in XML notation, got <, must be in keyword = value notation (KVN)");
-  }
   MessageLines lines(name, text, "cdm");
   read_version(lines, cdm_version_keyword, {"1.0"});
   MessageBlock head(lines);
@@ -190,15 +187,17 @@ ConjunctionDataMessage read_cdm(const std::string& name, std::string_view text) 
   message.message_id = head.text("MESSAGE_ID");
   message.tca = head.epoch("TCA");
   message.miss_distance_m = head.number("MISS_DISTANCE", "m");
-  if (head.has("RELATIVE_SPEED")) message.relative_speed_m_s = head.number("RELATIVE_SPEED", "m/s");
-  message.relative_position_m = three_numbers(head, "RELATIVE_POSITION", "m");
-  message.relative_velocity_m_s = three_numbers(head, "RELATIVE_VELOCITY", "m/s");
-  if (head.has("COLLISION_PROBABILITY")) {
-    message.collision_probability = head.number("COLLISION_PROBABILITY", "");
-    if (!(*message.collision_probability >= 0 && *message.collision_probability <= 1)) {
-      head.fail("COLLISION_PROBABILITY", fmt::format("no probability, got {}, must be from 0 to 1",
-                                                     *message.collision_probability));
-    }
+  message.relative_speed_m_s = head.unused_number("RELATIVE_SPEED", "m/s", message.doubts);
+  message.relative_position_m = three_numbers(head, "RELATIVE_POSITION", "m", message.doubts);
+  message.relative_velocity_m_s = three_numbers(head, "RELATIVE_VELOCITY", "m/s", message.doubts);
+  message.collision_probability = head.unused_number("COLLISION_PROBABILITY", "", message.doubts);
+  if (message.collision_probability &&
+      !(*message.collision_probability >= 0 && *message.collision_probability <= 1)) {
+    message.doubts.push_back(
+        fmt::format("{}:{}: COLLISION_PROBABILITY: no probability, got {}, must be from 0 to 1; it "
+                    "is not used",
+                    name, head.line_of("COLLISION_PROBABILITY"), *message.collision_probability));
+    message.collision_probability.reset();
   }
   if (head.has("COLLISION_PROBABILITY_METHOD")) {
     message.collision_probability_method = head.text("COLLISION_PROBABILITY_METHOD");
@@ -238,7 +237,11 @@ std::string cdm_text(const ConjunctionDataMessage& message) {
     add(keyword, fmt::format("{:.15e}", number), unit);
   };
   const auto add_comments = [&](const std::vector<std::string>& comments) {
-    for (const std::string& comment : comments) text += "COMMENT " + comment + "\n";
+    for (const std::string& comment : comments) {
+      for (const std::string_view line : comment_lines(comment)) {
+        text += fmt::format("COMMENT {}\n", line);
+      }
+    }
   };
   const auto add_three = [&](const std::string& keyword, const std::array<double, 3>& numbers,
                              std::string_view unit) {

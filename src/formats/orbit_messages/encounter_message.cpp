@@ -8,6 +8,7 @@
 #include "../../studies/formation/single_transfer.hpp"
 #include "dated_scene.hpp"
 #include "hamjet/error.hpp"
+#include "hamjet/formats/orbit_message.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -23,7 +24,7 @@ ConjunctionObject object_of(const Scene& scene, const ApproachingSpacecraft& cra
   object.object_name = name;
   object.international_designator = identifier;
   object.orbit_center = scene.ephemeris->center_name;
-  object.reference_frame = scene.ephemeris->reference_frame;
+  object.reference_frame = name_of_axes(scene.ephemeris->reference_frame);
   const double length_km = scene.units.length_km;
   for (std::size_t i = 0; i < 3; ++i) {
     object.position_km[i] = craft.state[i] * length_km;
@@ -52,7 +53,8 @@ std::optional<std::string> encounter_message_lack(const Scene& scene,
   if (settings.time_system != "UTC") {
     return fmt::format("its dates are in UTC, got ephemeris.time_system {}", settings.time_system);
   }
-  if (std::find(frames.begin(), frames.end(), settings.reference_frame) == frames.end()) {
+  if (std::find(frames.begin(), frames.end(), name_of_axes(settings.reference_frame)) ==
+      frames.end()) {
     return fmt::format("its axes are GCRF or EME2000, got ephemeris.reference_frame {}",
                        settings.reference_frame);
   }
@@ -69,10 +71,14 @@ std::optional<std::string> encounter_message_lack(const Scene& scene,
 ConjunctionDataMessage encounter_message(const Scene& scene, const CollisionResult& result) {
   const UncertainApproach& nearest = *nearest_approach(result);
   const EphemerisSettings& settings = *scene.ephemeris;
+  // A message is of the encounter: where the scene's window cuts the passage, of the whole of it.
+  const std::array<double, 2> window = result.of_whole_passage
+                                           ? std::array{result.whole_from_s, result.whole_to_s}
+                                           : std::array{result.from_s, result.to_s};
   ConjunctionDataMessage message;
   message.comments = origin_comments(
       scene, fmt::format("The nearest of {} closest approaches from {:.6g} s to {:.6g} s after {}",
-                         result.approaches.size(), result.from_s, result.to_s, settings.epoch));
+                         result.approaches.size(), window[0], window[1], settings.epoch));
   message.creation_date = current_epoch();
   message.originator = settings.originator;
   message.tca = moment_of(scene, nearest.time);
@@ -89,12 +95,15 @@ ConjunctionDataMessage encounter_message(const Scene& scene, const CollisionResu
   const auto three = [](const Eigen::Vector3d& v) { return std::array{v[0], v[1], v[2]}; };
   message.relative_position_m = three(relative.position_m);
   message.relative_velocity_m_s = three(relative.velocity_m_s);
-  const CollisionProbability& p = result.probability;
+  const CollisionProbability& p = probability_of_passage(result);
   message.collision_probability = p.probability;
   message.collision_probability_method = "TAYLOR-MAP-SAMPLING";
   message.comments.push_back(fmt::format(
       "Collision: nearer than {:.9g} m in that window; {:g} % from {:.6e} to {:.6e}; order {}",
       result.watch.radius_m, 100 * result.watch.confidence, p.lower, p.upper, result.order));
+  for (const std::string& warning : result.warnings) {
+    message.comments.push_back("Warning: " + warning);
+  }
   message.objects[0] = object_of(scene, chief, settings.object_name, settings.object_id);
   message.objects[1] = object_of(scene, deputy, settings.deputy_name, settings.deputy_id);
   return message;

@@ -27,6 +27,11 @@ bool is_inertial_frame(std::string_view reference_frame) {
          inertial_frames.end();
 }
 
+std::string_view name_of_axes(std::string_view reference_frame) {
+  if (reference_frame == "J2000") return "EME2000";
+  return reference_frame == "TEME" ? "TEMEOFDATE" : reference_frame;
+}
+
 std::string frame_problem(std::string_view reference_frame) {
   const bool is_rotating = std::any_of(
       rotating_beginnings.begin(), rotating_beginnings.end(),

@@ -23,7 +23,7 @@ constexpr std::string_view any_text = "a text";
 }  // namespace
 
 MessageLines::MessageLines(const std::string& name, std::string_view text, std::string_view kind)
-    : name_(name), rest_(text) {
+    : name_(name), whole_(text), rest_(text) {
   if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) {
     fail(1, "", "not ASCII, got a UTF-16 byte order mark, must be ASCII");
   }
@@ -37,18 +37,21 @@ MessageLines::MessageLines(const std::string& name, std::string_view text, std::
 }
 
 /// The next line's text without blanks around it, with its number.
-bool MessageLines::take_statement(std::string_view& text) {
+bool MessageLines::take_statement(MessageLine& line) {
+  line = {};
   if (next_statement_ < statements_.size()) {
-    number_ = statements_[next_statement_].line;
-    text = trimmed(statements_[next_statement_++].text);
+    const XmlStatement& statement = statements_[next_statement_++];
+    number_ = line.number = statement.line;
+    line.text = trimmed(statement.text);
+    line.unit = statement.unit;
     return true;
   }
   if (rest_.empty()) {
     number_ = std::max(number_ + 1, number_of_lines_);
     return false;
   }
-  ++number_;
-  text = trimmed(take());
+  line.number = ++number_;
+  line.text = trimmed(take());
   return true;
 }
 
@@ -62,23 +65,21 @@ std::string_view MessageLines::take() {
   return line;
 }
 
-void MessageLines::check_characters(std::string_view line) const {
-  for (const char c : line) {
+void MessageLines::check_characters(std::size_t line, std::string_view text) const {
+  for (const char c : text) {
     const auto byte = static_cast<unsigned char>(c);
     if ((byte >= 0x20 && byte < 0x7f) || c == '\t') continue;
-    fail(number_, "",
-         fmt::format("not a text, got the byte 0x{:02x}, must be printable ASCII", byte));
+    fail(line, "", fmt::format("not a text, got the byte 0x{:02x}, must be printable ASCII", byte));
   }
 }
 
 bool MessageLines::next(MessageLine& line) {
-  for (std::string_view text; take_statement(text);) {
-    line = {number_, text, {}, {}, false};
+  while (take_statement(line)) {
     // Comments may be in any language; nothing depends on them.
     if (line.text.empty() || line.is_comment()) continue;
-    check_characters(line.text);
     const std::size_t equals = line.text.find('=');
     line.is_assignment = equals != std::string_view::npos;
+    check_characters(line.number, line.text.substr(0, equals));
     line.keyword = trimmed(line.text.substr(0, equals));
     if (line.is_assignment) line.value = trimmed(line.text.substr(equals + 1));
     return true;
@@ -101,9 +102,12 @@ std::string read_version(MessageLines& lines, std::string_view keyword,
     lines.fail(1, keyword, fmt::format("missing, got an empty file, must be {}", right));
   }
   if (!line.is_assignment || line.keyword != keyword) {
+    const KnownText* const other = lines.known();
     lines.fail(line.number, keyword,
-               fmt::format("missing, got the first line {}, must be {} = {}", in_quotes(line.text),
-                           keyword, right));
+               other != nullptr ? fmt::format("missing, got {}, {}; here must be {} = {}",
+                                              other->name, other->use, keyword, right)
+                                : fmt::format("missing, got another first line, must be {} = {}",
+                                              keyword, right));
   }
   if (std::find(versions.begin(), versions.end(), line.value) == versions.end()) {
     lines.fail(line.number, keyword,
@@ -122,10 +126,8 @@ void MessageBlock::add(const MessageLine& line, const std::vector<std::string_vi
     lines_->fail(line.number, line.keyword,
                  "unknown keyword here, " + suggestion(line.keyword, keywords));
   }
-  if (line.value.empty()) {
-    lines_->fail(line.number, line.keyword, "empty, got nothing behind \"=\", must be a value");
-  }
-  const auto [earlier, is_new] = values_.emplace(line.keyword, Value{line.number, line.value});
+  const auto [earlier, is_new] =
+      values_.emplace(line.keyword, Value{line.number, line.value, line.unit});
   if (!is_new) {
     lines_->fail(line.number, line.keyword,
                  fmt::format("there twice, got it in line {} too, must be there once",
@@ -139,7 +141,12 @@ const MessageBlock::Value& MessageBlock::required(std::string_view keyword,
   if (found == values_.end()) {
     lines_->fail(end_, keyword, fmt::format("missing, got nothing up to here, must be {}", right));
   }
-  return found->second;
+  const Value& value = found->second;
+  lines_->check_characters(value.line, value.text);
+  if (value.text.empty()) {
+    fail(keyword, fmt::format("empty, got nothing behind \"=\", must be {}", right));
+  }
+  return value;
 }
 
 void MessageBlock::fail(std::string_view keyword, const std::string& problem) const {
@@ -148,7 +155,12 @@ void MessageBlock::fail(std::string_view keyword, const std::string& problem) co
 }
 
 std::string MessageBlock::text(std::string_view keyword) const {
-  return std::string(required(keyword, any_text).text);
+  const Value& value = required(keyword, any_text);
+  if (!value.unit.empty()) {
+    fail(keyword,
+         fmt::format("a text with a unit, got {}, must be without", in_quotes(value.unit)));
+  }
+  return std::string(value.text);
 }
 
 Epoch MessageBlock::epoch(std::string_view keyword) const {
@@ -164,7 +176,12 @@ Epoch MessageBlock::epoch(std::string_view keyword) const {
 double MessageBlock::number(std::string_view keyword, std::string_view unit) const {
   const std::string right =
       unit.empty() ? "a finite number" : fmt::format("a finite number of {}", unit);
-  std::string_view text = required(keyword, right).text;
+  const Value& value = required(keyword, right);
+  std::string_view text = value.text;
+  if (!value.unit.empty() && value.unit != unit) {
+    fail(keyword, fmt::format("wrong unit, got {}, must be {}", in_quotes(value.unit),
+                              unit.empty() ? "without a unit" : in_quotes(unit)));
+  }
   const std::size_t bracket = text.find('[');
   if (bracket != std::string_view::npos) {
     const std::string_view given = text.substr(bracket);
@@ -180,6 +197,17 @@ double MessageBlock::number(std::string_view keyword, std::string_view unit) con
     fail(keyword, fmt::format("no number, got {}, must be {}", in_quotes(text), right));
   }
   return *number;
+}
+
+std::optional<double> MessageBlock::unused_number(std::string_view keyword, std::string_view unit,
+                                                  std::vector<std::string>& doubts) const {
+  if (!has(keyword)) return std::nullopt;
+  try {
+    return number(keyword, unit);
+  } catch (const Error& error) {
+    doubts.push_back(fmt::format("{}; it is not used", error.what()));
+    return std::nullopt;
+  }
 }
 
 std::string MessageBlock::capitals(std::string_view keyword) const {

@@ -2,12 +2,14 @@
 
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "../xml/orbit_message_xml.hpp"
 #include "hamjet/formats/orbit_message.hpp"
+#include "known_text.hpp"
 
 // The syntax that all orbit messages share (CCSDS 502.0-B-3, 7.3 to 7.5).
 
@@ -20,7 +22,8 @@ struct MessageLine {
   std::size_t number = 0;
   std::string_view text;
   std::string_view keyword;  ///< before the first '=', or the whole text if it has none
-  std::string_view value;    ///< behind it
+  std::string_view value;    ///< behind it; of an assignment in any characters
+  std::string_view unit;     ///< of XML, in an attribute
   bool is_assignment = false;
 
   bool is(std::string_view word) const { return !is_assignment && text == word; }
@@ -33,16 +36,20 @@ struct MessageLine {
 /// XML notation the statements of its elements.
 class MessageLines {
  public:
-  /// Of a message of this kind, "oem" or "opm". Throws for UTF-16, and what statements_of_xml
-  /// throws.
+  /// Of a message of this kind, "oem", "opm" or "cdm". The text must outlive this. Throws for
+  /// UTF-16, and what statements_of_xml throws.
   MessageLines(const std::string& name, std::string_view text, std::string_view kind);
   /// Lines that have been read point into this.
   MessageLines(const MessageLines&) = delete;
   MessageLines& operator=(const MessageLines&) = delete;
 
   /// Reads the next line; false at the end of the text. Throws for a control character, or one that
-  /// is not ASCII.
+  /// is not ASCII, but for values, which are checked when they are used.
   bool next(MessageLine& line);
+  /// Throws for such a character.
+  void check_characters(std::size_t line, std::string_view text) const;
+  /// What the whole text is, if it is known; for messages.
+  const KnownText* known() const { return known_text(whole_); }
   /// The number of the last line read; of the one after it at the end of the text.
   std::size_t number() const { return number_; }
 
@@ -52,10 +59,10 @@ class MessageLines {
 
  private:
   std::string_view take();
-  bool take_statement(std::string_view& text);
-  void check_characters(std::string_view line) const;
+  bool take_statement(MessageLine& line);
 
   std::string name_;
+  std::string_view whole_;
   std::string_view rest_;
   std::size_t number_ = 0;
   std::vector<XmlStatement> statements_;  ///< of XML
@@ -63,7 +70,8 @@ class MessageLines {
   std::size_t number_of_lines_ = 0;  ///< of XML
 };
 
-/// The first line must give the version of this message, one of `versions`.
+/// The first line must give the version of this message, one of `versions`. Another line is not
+/// quoted: the file may be any other, whose content is nobody's business.
 std::string read_version(MessageLines& lines, std::string_view keyword,
                          const std::vector<std::string_view>& versions);
 
@@ -73,13 +81,17 @@ class MessageBlock {
   /// `lines` must outlive the block.
   explicit MessageBlock(const MessageLines& lines) : lines_(&lines) {}
 
-  /// Throws for a keyword that is not among `keywords`, one that is there twice, an empty value, or
-  /// a line that is no assignment.
+  /// Throws for a keyword that is not among `keywords`, one that is there twice, or a line that is
+  /// no assignment.
   void add(const MessageLine& line, const std::vector<std::string_view>& keywords);
   /// Sets the line at which missing keywords are reported.
   void end_at(std::size_t line) { end_ = line; }
 
-  bool has(std::string_view keyword) const { return values_.contains(keyword); }
+  /// Whether a keyword is there with a value; an empty one counts as none.
+  bool has(std::string_view keyword) const {
+    const auto found = values_.find(keyword);
+    return found != values_.end() && !found->second.text.empty();
+  }
   /// The line of a keyword, which must be there.
   std::size_t line_of(std::string_view keyword) const { return values_.find(keyword)->second.line; }
   /// The text of a required keyword.
@@ -90,6 +102,10 @@ class MessageBlock {
   /// The number of a required keyword; the unit may stand behind it, in brackets. If `unit` is
   /// empty, none may.
   double number(std::string_view keyword, std::string_view unit) const;
+  /// The number of an optional keyword on which nothing depends: none if it is not there, and what
+  /// is wrong with it, if anything is, is added to `doubts`.
+  std::optional<double> unused_number(std::string_view keyword, std::string_view unit,
+                                      std::vector<std::string>& doubts) const;
 
   /// The metadata from OBJECT_NAME, OBJECT_ID, CENTER_NAME, REF_FRAME and TIME_SYSTEM.
   OrbitMetadata metadata() const;
@@ -100,6 +116,7 @@ class MessageBlock {
   struct Value {
     std::size_t line;
     std::string_view text;
+    std::string_view unit;  ///< of XML
   };
   const Value& required(std::string_view keyword, std::string_view right) const;
 

@@ -100,7 +100,6 @@ class OemReader {
     }
     if (block.has("USEABLE_START_TIME")) segment.useable_start = block.epoch("USEABLE_START_TIME");
     if (block.has("USEABLE_STOP_TIME")) segment.useable_stop = block.epoch("USEABLE_STOP_TIME");
-    if (block.has("INTERPOLATION_DEGREE")) block.number("INTERPOLATION_DEGREE", "");
     advance();
   }
 

@@ -51,21 +51,47 @@ std::optional<OrbitCovariance> covariance_of(const MessageBlock& block,
   return covariance;
 }
 
+/// Keplerian elements, where all six are there and right; what is wrong with them is no reason to
+/// refuse the state.
+std::optional<OrbitElements> elements_of(const MessageBlock& block,
+                                         std::vector<std::string>& doubts) {
+  OrbitElements elements;
+  bool is_whole = true;
+  const auto read = [&](std::string_view keyword, std::string_view unit, double& value) {
+    const auto number = block.unused_number(keyword, unit, doubts);
+    value = number.value_or(0);
+    is_whole = is_whole && number;
+  };
+  read("SEMI_MAJOR_AXIS", "km", elements.semi_major_axis_km);
+  read("ECCENTRICITY", "", elements.eccentricity);
+  read("INCLINATION", "deg", elements.inclination_deg);
+  read("RA_OF_ASC_NODE", "deg", elements.ascending_node_deg);
+  read("ARG_OF_PERICENTER", "deg", elements.argument_of_perigee_deg);
+  elements.is_mean_anomaly = !block.has("TRUE_ANOMALY");
+  read(elements.is_mean_anomaly ? "MEAN_ANOMALY" : "TRUE_ANOMALY", "deg", elements.anomaly_deg);
+  if (!is_whole) return std::nullopt;
+  elements.line = block.line_of("SEMI_MAJOR_AXIS");
+  return elements;
+}
+
 }  // namespace
 
 OrbitParameterMessage read_opm(const std::string& name, std::string_view text) {
   const std::vector<std::string_view> keywords = all_keywords();
   MessageLines lines(name, text, "opm");
   OrbitParameterMessage message;
-  message.version = read_version(lines, "CCSDS_OPM_VERS", {"2.0", "3.0"});
+  message.version = read_version(lines, "CCSDS_OPM_VERS", {"1.0", "2.0", "3.0"});
   MessageBlock block(lines);
   bool has_user_defined = false;
   for (MessageLine line; lines.next(line);) {
     if (line.keyword.starts_with("MAN_")) {
       lines.fail(line.number, line.keyword,
-                 "a manoeuvre, got one behind the state, must be left out: manoeuvres are not "
-                 "flown, and the motion would not be that of the message");
+                 "a manoeuvre, got one behind the state, must be left out: the orbit coasts from "
+                 "EPOCH, so that manoeuvres are not flown, and the motion would not be that of "
+                 "the message");
     }
+    // The standard knows these of an OEM alone, and yet some programs write them.
+    if (line.is("META_START") || line.is("META_STOP")) continue;
     if (line.is_assignment && line.keyword.starts_with("USER_DEFINED_")) {
       has_user_defined = true;
       continue;
@@ -84,14 +110,16 @@ OrbitParameterMessage read_opm(const std::string& name, std::string_view text) {
         block.number(state_vector[3 + i].keyword, state_vector[3 + i].unit);
   }
   for (const UnusedPart& part : unused_parts()) {
-    bool is_there = false;
-    for (const Quantity& quantity : part.quantities) {
-      if (!block.has(quantity.keyword)) continue;
-      block.number(quantity.keyword, quantity.unit);
-      is_there = true;
-    }
+    const bool is_there =
+        std::any_of(part.quantities.begin(), part.quantities.end(),
+                    [&](const Quantity& quantity) { return block.has(quantity.keyword); });
     if (is_there) message.unused.emplace_back(part.name);
+    if (part.name != "spacecraft parameters") continue;
+    for (const Quantity& quantity : part.quantities) {
+      block.unused_number(quantity.keyword, quantity.unit, message.doubts);
+    }
   }
+  message.elements = elements_of(block, message.doubts);
   message.covariance = covariance_of(block, message);
   if (block.has("GM")) {
     message.gm_km3_s2 = block.number("GM", "km**3/s**2");

@@ -1,30 +1,18 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <iterator>
 
+#include "comment_lines.hpp"
 #include "hamjet/formats/orbit_message.hpp"
 
 namespace hamjet::io {
 namespace {
 
-/// The standard allows 254 characters in a line (7.3.2).
-constexpr std::size_t longest_line = 254;
-
-/// Comments of the message in lines that are short enough, broken at blanks where there are any.
 void write_comments(std::back_insert_iterator<fmt::memory_buffer> out,
                     const std::vector<std::string>& comments) {
-  constexpr std::string_view keyword = "COMMENT ";
-  for (std::string_view rest : comments) {
-    while (!rest.empty()) {
-      std::size_t length = std::min(rest.size(), longest_line - keyword.size());
-      if (length < rest.size()) {
-        const std::size_t blank = rest.rfind(' ', length);
-        if (blank != std::string_view::npos && blank > 0) length = blank;
-      }
-      fmt::format_to(out, "{}{}\n", keyword, rest.substr(0, length));
-      rest.remove_prefix(length);
-      if (rest.starts_with(' ')) rest.remove_prefix(1);
+  for (const std::string& comment : comments) {
+    for (const std::string_view line : comment_lines(comment)) {
+      fmt::format_to(out, "COMMENT {}\n", line);
     }
   }
 }

@@ -25,6 +25,9 @@ const std::vector<std::string_view> parts_of_opm = {
     "stateVector",      "keplerianElements",  "spacecraftParameters",
     "covarianceMatrix", "maneuverParameters", "userDefinedParameters"};
 const std::vector<std::string_view> parts_of_oem = {"stateVector", "covarianceMatrix"};
+/// And of an object of a CDM.
+const std::vector<std::string_view> parts_of_cdm = {"odParameters", "additionalParameters",
+                                                    "stateVector", "covarianceMatrix"};
 
 /// What a combined message consists of (CCSDS 505.0-B-3, section 4.3).
 const std::vector<std::string_view> names_in_ndm = {"MESSAGE_ID", "acm", "aem", "apm", "cdm", "ocm",
@@ -50,13 +53,22 @@ class XmlReader {
   std::vector<XmlStatement> read(std::string_view wanted) {
     const Node root = document_.document_element();
     const std::string_view kind = root.name();
-    if (kind != "oem" && kind != "opm" && kind != "ndm") {
-      fail(root, "unknown message, got this root, must be oem, opm or ndm");
+    const bool is_known = kind == "ndm" || std::find(names_in_ndm.begin() + 1, names_in_ndm.end(),
+                                                     kind) != names_in_ndm.end();
+    // The file may be any other, whose content is nobody's business.
+    if (!is_known) {
+      fail_at(
+          line_of(root.offset_debug()), "",
+          fmt::format("no orbit message, got XML with another root, must be {} or ndm", wanted));
+    }
+    if (kind != wanted && kind != "ndm") {
+      add(root, version_of(root));
+      return std::move(statements_);
     }
     if (root.next_sibling()) fail(root.next_sibling(), "got a second root, must be one message");
+    kind_ = wanted;
     const std::vector<Node> messages =
         kind == "ndm" ? messages_of(root, wanted) : std::vector<Node>{root};
-    is_ephemeris_ = std::string_view(messages[0].name()) == "oem";
     for (const Node message : messages) read_message(message, message == messages[0]);
     return std::move(statements_);
   }
@@ -94,6 +106,7 @@ class XmlReader {
     for (const Node other : found) {
       if (other == found[0]) continue;
       if (wanted == "opm") fail(other, "got a second opm, must be one state");
+      if (wanted == "cdm") fail(other, "got a second cdm, must be one conjunction");
       if (version_of(other) != version_of(found[0])) {
         fail(other, fmt::format("another version than the first one, got {}, must be {}",
                                 version_of(other), version_of(found[0])));
@@ -111,15 +124,36 @@ class XmlReader {
       fail(message, "incomplete, must have one header and one body behind it");
     }
     if (is_first) add_leaves(parts[0]);
+    if (kind_ == "cdm") return read_conjunction(parts[1]);
     const std::vector<Node> segments = children(parts[1], {"segment"});
-    if (!is_ephemeris_ && segments.size() != 1) {
+    if (!is_ephemeris() && segments.size() != 1) {
       fail(parts[1], fmt::format("got {} segments, must have one", segments.size()));
     }
     for (const Node segment : segments) read_segment(segment);
   }
 
-  void add(Node node, std::string text) {
-    statements_.push_back({line_of(node.offset_debug()), std::move(text)});
+  /// What both objects have in common, and a segment for each.
+  void read_conjunction(Node body) {
+    const std::vector<Node> parts = children(body, {"relativeMetadataData", "segment"});
+    const auto is_segment = [](Node part) { return std::string_view(part.name()) == "segment"; };
+    if (parts.size() != 3 || is_segment(parts[0]) || !is_segment(parts[1]) ||
+        !is_segment(parts[2])) {
+      fail(body, "incomplete, must have one relativeMetadataData and two segments behind it");
+    }
+    for (const Node part : children(parts[0], {})) {
+      if (std::string_view(part.name()) == "relativeStateVector") {
+        add_leaves(part);
+      } else {
+        add_leaf(part);
+      }
+    }
+    for (std::size_t i = 1; i < parts.size(); ++i) read_segment(parts[i]);
+  }
+
+  bool is_ephemeris() const { return kind_ == "oem"; }
+
+  void add(Node node, std::string text, std::string unit = {}) {
+    statements_.push_back({line_of(node.offset_debug()), std::move(text), std::move(unit)});
   }
 
   /// The elements within one that holds elements alone, without comments; all names must be among
@@ -142,12 +176,17 @@ class XmlReader {
     return found;
   }
 
-  /// The text of an element that holds no others, with the standard's unit if it says one.
+  /// The text of an element that holds no others.
   std::string leaf_text(Node leaf) const {
     const Node child = leaf.first_child();
     if (child.type() == pugi::node_element || child != leaf.last_child()) {
       fail(leaf, "got elements or comments within, must be a text alone");
     }
+    return leaf.text().get();
+  }
+
+  /// The same of a number in a row, whose unit must be the standard's if it says one.
+  std::string number_text(Node leaf) const {
     if (const pugi::xml_attribute units = leaf.attribute("units")) {
       const std::string_view right = unit_of_keyword(leaf.name());
       if (units.value() != right) {
@@ -155,16 +194,21 @@ class XmlReader {
                                right.empty() ? "without a unit" : in_quotes(right)));
       }
     }
-    return leaf.text().get();
+    return leaf_text(leaf);
+  }
+
+  /// Whoever reads the value judges the unit.
+  void add_leaf(Node leaf) {
+    const std::string_view name = leaf.name();
+    const bool is_own = name == "USER_DEFINED";
+    add(leaf,
+        fmt::format("{}{} = {}", is_own ? "USER_DEFINED_" : name,
+                    is_own ? leaf.attribute("parameter").value() : "", leaf_text(leaf)),
+        leaf.attribute("units").value());
   }
 
   void add_leaves(Node parent) {
-    for (const Node leaf : children(parent, {})) {
-      const std::string_view name = leaf.name();
-      const bool is_own = name == "USER_DEFINED";
-      add(leaf, fmt::format("{}{} = {}", is_own ? "USER_DEFINED_" : name,
-                            is_own ? leaf.attribute("parameter").value() : "", leaf_text(leaf)));
-    }
+    for (const Node leaf : children(parent, {})) add_leaf(leaf);
   }
 
   void read_segment(Node segment) {
@@ -173,12 +217,14 @@ class XmlReader {
         std::string_view(parts[1].name()) != "data") {
       fail(segment, "incomplete, must have one element metadata and one element data behind it");
     }
-    if (is_ephemeris_) add(parts[0], "META_START");
+    if (is_ephemeris()) add(parts[0], "META_START");
     add_leaves(parts[0]);
     const Node last = parts[0].last_child();
-    if (is_ephemeris_) add(last ? last : parts[0], "META_STOP");
-    const std::vector<Node> data = children(parts[1], is_ephemeris_ ? parts_of_oem : parts_of_opm);
-    if (!is_ephemeris_) {
+    if (is_ephemeris()) add(last ? last : parts[0], "META_STOP");
+    const std::vector<Node> data = children(parts[1], is_ephemeris()   ? parts_of_oem
+                                                      : kind_ == "opm" ? parts_of_opm
+                                                                       : parts_of_cdm);
+    if (!is_ephemeris()) {
       for (const Node part : data) add_leaves(part);
       return;
     }
@@ -202,7 +248,7 @@ class XmlReader {
       if (leaves[i].name() != right) {
         fail(leaves[i], fmt::format("out of place in a stateVector, must be {} here", right));
       }
-      const std::string text = leaf_text(leaves[i]);
+      const std::string text = number_text(leaves[i]);
       if (text.empty() || text.find_first_of(" \t\r\n") != text.npos) {
         fail(leaves[i],
              fmt::format("got {}, must be one {}", in_quotes(text), i == 0 ? "epoch" : "number"));
@@ -223,7 +269,7 @@ class XmlReader {
     std::size_t numbers = 0;
     std::size_t ends = 1;  // of the row, among all numbers
     for (const Node leaf : children(matrix, {})) {
-      const std::string text = leaf_text(leaf);
+      const std::string text = number_text(leaf);
       if (unit_of_keyword(leaf.name()).empty()) {
         add(leaf, fmt::format("{} = {}", leaf.name(), text));
         continue;
@@ -249,7 +295,7 @@ class XmlReader {
   std::string name_;
   std::vector<std::size_t> ends_of_lines_;
   pugi::xml_document document_;
-  bool is_ephemeris_ = false;
+  std::string_view kind_;
   std::vector<XmlStatement> statements_;
 };
 

@@ -112,6 +112,8 @@ class GeneratingFunction:
 class GivenScene:
     @property
     def is_flow_jet(self) -> bool: ...
+    @property
+    def warnings(self) -> list[str]: ...
 
 class Propagation:
     @property

@@ -1,40 +1,52 @@
-"""Probabilities of collision of pairs that are given as arrays."""
+""
+    "Probabilities of collision of pairs that are given as arrays."
+    ""
 
-from __future__ import annotations
+    from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import Any
+        from collections
+            .abc import Mapping from dataclasses import dataclass from typing import Any
 
-import numpy as np
-import numpy.typing as npt
+                import numpy as np import numpy
+            .typing as npt
 
-from . import _hamjet, arguments, scenes, shown
-from .errors import UsageError
-from .immutable import Immutable
-from .results import Floats, Progress
+                from.import _hamjet,
+    arguments, scenes,
+    shown from.errors import UsageError from.immutable import Immutable from.results import Floats,
+    Progress
 
-#: The name of the scene that a pair makes, for messages.
-_NAME = "pair"
+# : The name of the scene that a pair makes, for messages.
+        _NAME = "pair"
 
+    @dataclass(frozen = True, eq = False) class Collisions(Immutable)
+    : ""
+      "Of pairs, whose dimensions are ... below; immutable, arrays read-only."
+      ""
 
-@dataclass(frozen=True, eq=False)
-class Collisions(Immutable):
-    """Of pairs, whose dimensions are ... below; immutable, arrays read-only."""
-
-    probability: Floats  #: (...), of coming nearer than the radius in the window
-    interval: Floats  #: (..., 2), of the confidence, what the samples leave
-    standard_error: Floats  #: (...)
-    samples: Floats  #: (...), that were drawn; 0 where no path comes near
-    hits: Floats  #: (...)
-    equivalent_samples: Floats  #: (...): so many plain ones would tell as much
-    change_from_lower_order: Floats  #: (...), by polynomials of one order less
-    times_s: Floats  #: (..., 201), equal parts of the window
-    by_time: Floats  #: (..., 201), the probability of having come nearer by then
-    separation_shares: Floats  #: (..., 4), of all cases
-    separations_m: Floats  #: (..., 4), below which these shares have their least separation
-    separation_intervals_m: Floats  #: (..., 4, 2), of the confidence
-    approach_time_s: Floats  #: (...), of the nearest approach of the means; NaN without one
+      probability : Floats # : (...),
+        of coming nearer than the radius in the window interval : Floats # : (..., 2),
+        of the confidence,
+        what samples and paths leave path_error_m : Floats # : (...),
+        by how much distances along a path may be wrong standard_error : Floats # : (...)samples
+    : Floats # : (...),
+        that were drawn;
+0 where no path comes near hits : Floats # : (...)equivalent_samples : Floats # : (...)
+    : so many plain ones would tell as much change_from_lower_order : Floats #
+    : (...),
+      by polynomials of one order less times_s : Floats # : (..., 201),
+                                                            equal parts of the window by_time
+    : Floats # : (..., 201),
+                 the probability of having come nearer by then separation_shares : Floats #
+    : (..., 4),
+      of all cases separations_m : Floats #
+    : (..., 4),
+      below which these shares have their least separation separation_intervals_m : Floats #
+    : (..., 4, 2),
+      of the confidence
+# : (...), the same as probability but where an edge of the window cuts a passage
+      whole_passage_probability : Floats whole_passage_interval : Floats # : (..., 2)approach_time_s
+    : Floats # : (...),
+                 of the nearest approach of the means; NaN without one
     approach_distance_m: Floats  #: (...)
     approach_speed_m_s: Floats  #: (...)
     foster: Floats  #: (...), by the formula of Foster and Estes for short encounters
@@ -65,20 +77,34 @@ def _scene(states: Floats, covariances: Floats, radius_m: float, window_s: Float
            frame: str, settings: Mapping[str, Any]) -> dict[str, Any]:
     difference = states[1] - states[0]
     return {
-        "system": (settings["system"] if "model" in settings["system"]
-                   else {**_hamjet.earth_system(), **settings["system"]}),
-        "nominal": {"position_km": (states[0, :3] / 1000).tolist(),
-                    "velocity_km_s": (states[0, 3:] / 1000).tolist()},
-        "deputy": {"frame": "inertial", "position_m": difference[:3].tolist(),
-                   "velocity_m_s": difference[3:].tolist()},
-        "jet": {"order": settings["order"], "duration_s": float(window_s[1])},
-        "uncertainty": {
-            "frame": frame, "covariance_m_m_s": covariances[0].tolist(), "seed": settings["seed"],
-            "deputy": {"frame": frame, "covariance_m_m_s": covariances[1].tolist()},
-            "collision": {"radius_m": radius_m, "window_s": window_s.tolist(),
-                          **{key: settings[key]
-                             for key in ("event", "sampling", "samples", "confidence")}}}}
-
+    "system" : (settings["system"] if "model" in settings["system"] else {**_hamjet.earth_system(),
+                                                                          **settings["system"]}),
+               "nominal" : {
+                 "position_km" : (states [0, :3] / 1000).tolist(),
+                 "velocity_km_s" : (states [0, 3:] / 1000).tolist()
+               },
+                           "deputy" : {
+                             "frame" : "inertial",
+                             "position_m" : difference[:3]
+                                 .tolist(),
+                                 "velocity_m_s" : difference [3:]
+                                 .tolist()
+                           },
+                                      "jet"
+        : {"order" : settings["order"], "duration_s" : float(window_s[1])},
+          "uncertainty" : {
+      "frame" : frame,
+                "covariance_m_m_s" : covariances[0].tolist(),
+                "seed" : settings["seed"],
+                         "deputy" : {"frame" : frame, "covariance_m_m_s" : covariances[1].tolist()},
+                                    "collision" : {
+        "radius_m" : radius_m, "window_s" : window_s.tolist(), ** {
+        key: settings[key]
+                             for key in ("event", "sampling", "samples", "confidence")
+        }
+      }
+    }
+  }
 
 def collision_probability(states: npt.ArrayLike, covariances: npt.ArrayLike,
                           radius_m: npt.ArrayLike, window_s: npt.ArrayLike, *,
@@ -130,4 +156,5 @@ def collision_probability(states: npt.ArrayLike, covariances: npt.ArrayLike,
         array.flags.writeable = False
         return array
 
-    return Collisions(**{name: stacked(name) for name in found[0]}, confidence=confidence)
+    return Collisions(**{
+  name: stacked(name) for name in found[0]}, confidence=confidence)

@@ -74,7 +74,10 @@ class Study(Immutable):
 
 @dataclass(frozen=True, eq=False)
 class Motion(Study):
-    """How a deputy moves relative to its chief, at T equal times; immutable, arrays read-only.
+    """How a deputy moves relative to its chief, at T times; immutable, arrays read-only.
+
+    The times are equal steps of the chief's eccentric anomaly, so that perigee has as many of them
+    as apogee.
 
     Places are those of the deputy as it flew with the full equations of motion, and errors the
     distances from there to where the polynomials of the orders 1 to N have it.

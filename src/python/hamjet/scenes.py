@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import os
+import sys
+import types
+import warnings
 from collections.abc import Iterable, Mapping
 from typing import Any, Union
 
@@ -77,14 +80,31 @@ def _of_ends(coordinates: str | None, end_coordinates: str | None) -> list[tuple
     return pairs
 
 
+def _warn(text: str) -> None:
+    """Warns at the line of the caller's that called the package."""
+    package = os.path.dirname(os.path.abspath(__file__))
+    frame: types.FrameType | None = sys._getframe()
+    level = 0
+    while frame is not None and os.path.abspath(frame.f_code.co_filename).startswith(package):
+        frame, level = frame.f_back, level + 1
+    warnings.warn(text, UserWarning, stacklevel=level + 1)
+
+
 def read(scene: Scene, overrides: Overrides | None, name: str = _NAME, *,
          coordinates: str | None = None,
          end_coordinates: str | None = None) -> _hamjet.GivenScene:
     """Reads and checks a scene; raises SceneError, UsageError, InputOutputError, TooLargeError.
 
+    Of what is almost surely a slip it warns (UserWarning), in the command's words.
     name: of tables, for messages. coordinates: of the polynomials, in place of the scene's.
     """
-    pairs = _pairs(overrides) + _of_ends(coordinates, end_coordinates)
+    given = _read(scene, _pairs(overrides) + _of_ends(coordinates, end_coordinates), name)
+    for text in given.warnings:
+        _warn(text.removeprefix("warning: "))
+    return given
+
+
+def _read(scene: Scene, pairs: list[tuple[str, str]], name: str) -> _hamjet.GivenScene:
     if isinstance(scene, Mapping):
         return _hamjet.scene_of_tables(scene, name, pairs)
     if isinstance(scene, str) and "\n" in scene:

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import Any, overload
+
 import numpy as np
 import numpy.typing as npt
 
@@ -40,11 +43,24 @@ class Trajectory:
     def __repr__(self) -> str:
         return shown.of(self, f": run {self.run}, {shown.span(self.step_times_s, 'ends of steps')}")
 
-    def at(self, time_s: float) -> Jet:
+    @overload
+    def at(self, time_s: float) -> Jet: ...
+
+    @overload
+    def at(self, time_s: Sequence[float] | npt.NDArray[np.floating[Any]]) -> list[Jet]: ...
+
+    def at(self, time_s: Any) -> Jet | list[Jet]:
         """The jet at a time, in s since the start, between 0 and the duration.
 
-        At the duration it is that of ``run``, bit by bit. Raises UsageError for other times.
+        time_s: a number, or several, (T,), of which it gives a list of jets. At the duration it is
+        that of ``run``, bit by bit. Raises UsageError for other times.
         """
+        if isinstance(time_s, (Sequence, np.ndarray)) and not isinstance(time_s, str):
+            if np.ndim(time_s) == 1:
+                return [self._at(time) for time in time_s]
+        return self._at(time_s)
+
+    def _at(self, time_s: float) -> Jet:
         time = arguments.number(time_s, "time_s")
         if not min(0.0, self.duration_s) <= time <= max(0.0, self.duration_s):
             raise UsageError(f"time_s: out of range, got {time:g}, must be a number from 0 to "
@@ -71,7 +87,7 @@ class Trajectory:
             raise UsageError(f"state: wrong shape, got {deputy.shape}, must be (6,): of one deputy")
         if times.ndim != 1 or not len(times):
             raise UsageError(f"times_s: wrong shape, got {times.shape}, must be (T,), T at least 1")
-        return joined([self.at(time).evaluate_relative(
+        return joined([self._at(time).evaluate_relative(
             deputy[np.newaxis], frame=frame, to=to, derivatives=derivatives, degree=degree,
             strict=strict) for time in times])
 

@@ -29,13 +29,15 @@ Studied<EventStudy> study_condition(const GivenScene& given, const py::object& p
 }
 
 py::dict event_arrays(const EventStudy& study) {
-  const SeriesSpace& space = study.map.time.space();
+  const EventMap<double> told = study.told_map();
+  const CanonicalUnits& units = told_units(study.scene);
+  const SeriesSpace& space = told.time.space();
   Table state, exponents, coefficients, amplitude, position, time, linear_position, linear_time;
-  for (const double x : study.state()) state.add(x);
+  for (const double x : told_state(study.scene, study.state())) state.add(x);
   for (std::size_t k = 0; k < space.size(); ++k) {
     for (const auto exponent : space.exponents(k)) exponents.add(exponent);
-    coefficients.add(study.map.time[k]);
-    for (const Series<double>& component : study.map.state) coefficients.add(component[k]);
+    coefficients.add(told.time[k]);
+    for (const Series<double>& component : told.state) coefficients.add(component[k]);
   }
   for (const EventMisses& one : study.misses) {
     amplitude.add(one.amplitude_m);
@@ -50,8 +52,8 @@ py::dict event_arrays(const EventStudy& study) {
   arrays["state_canonical"] = state.array();
   arrays["exponents"] = exponents.array({count, 6});
   arrays["coefficients"] = coefficients.array({count, 7});
-  arrays["length_km"] = study.scene.units.length_km;
-  arrays["time_unit_s"] = study.scene.units.time_s;
+  arrays["length_km"] = units.length_km;
+  arrays["time_unit_s"] = units.time_s;
   arrays["amplitudes_m"] = amplitude.array();
   arrays["misses_m"] = position.array();
   arrays["misses_s"] = time.array();
@@ -66,7 +68,7 @@ py::dict poincare_arrays(const FrozenOrbitStudy& study) {
   const double time_s = study.scene.units.time_s;
   constexpr double degrees = 180 / std::numbers::pi;
   Table state, amplitude, rotation, period, node, miss;
-  for (const double x : study.state) state.add(x);
+  for (const double x : told_state(study.scene, study.state)) state.add(x);
   std::vector<bool> chief;
   for (const LibrationCircle& circle : study.circles) {
     amplitude.add(study.length_m(circle.amplitude));

@@ -93,7 +93,7 @@ PolynomialsStudy load_polynomials(const std::filesystem::path& path,
                                   const std::optional<std::string>& end_coordinates,
                                   const GivenScene* given) {
   std::optional<Scene> scene;
-  if (given != nullptr) scene = given->flow_jet();
+  if (given != nullptr) scene = given->flow_jet(io::SceneUnits::told);
   return interruptibly(py::none(), [=](const ProgressCallback&) {
     const auto wanted_of = [&](const io::StoredJet& one) {
       return named_coordinates(one.coordinates, coordinates, end_coordinates);

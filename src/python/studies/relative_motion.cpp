@@ -7,7 +7,6 @@
 #include "../../report/formation/deputy_motion_report.hpp"
 #include "../../report/formation/transfer_view.hpp"
 #include "../../studies/formation/deputy_motion.hpp"
-#include "../../studies/formation/flown_trajectory.hpp"
 #include "../bindings.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/report/relative_motion_report.hpp"
@@ -27,10 +26,7 @@ Studied<TransferResult> study_transfers(const GivenScene& given, const py::objec
     if (scene.validity) validity = study_validity(scene, report);
     return Studied<TransferResult>(std::move(result), [validity](const TransferResult& studied) {
       std::optional<RelativeTrajectory> trajectory;
-      if (const auto best = studied.best_point()) {
-        trajectory = fly_relative(
-            studied, *best, interval_count(studied.scene, studied.points[*best].time, drawn_path));
-      }
+      if (const auto best = studied.best_point()) trajectory = fly_relative(studied, *best);
       return io::transfer_report(studied, trajectory, validity, origin());
     });
   });
@@ -137,7 +133,9 @@ py::tuple fly(const Studied<TransferResult>& studied, std::size_t point, int cou
   if (count < 1) throw Error(ErrorKind::usage, "trajectory: count must be at least 1");
   const RelativeTrajectory trajectory =
       interruptibly(py::none(), [result = studied.result(), point, count](const ProgressCallback&) {
-        return fly_relative(*result, point, count);
+        std::vector<double> times;
+        for (int k = 0; k <= count; ++k) times.push_back(result->points[point].time * k / count);
+        return fly_relative(*result, point, times);
       });
   Table times, states;
   for (std::size_t i = 0; i < trajectory.times.size(); ++i) {

@@ -58,7 +58,7 @@ class TrajectoryStudy {
 
 TrajectoryStudy follow(const GivenScene& given, const std::string& run,
                        const py::object& progress) {
-  const Scene scene = given.flow_jet();
+  const Scene scene = given.flow_jet(io::SceneUnits::told);
   return interruptibly(progress, [scene, file = given.file, run](const ProgressCallback& report) {
     return TrajectoryStudy(cli::study_of(
         file, [&] { return std::make_shared<const SceneTrajectory>(scene, run, report); }));

@@ -3,16 +3,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "../../store/columns.hpp"
+#include "../../store/json_text.hpp"
 #include "../../store/json_values.hpp"
 #include "../../studies/bounded/relative_orbit_extent.hpp"
+#include "../../studies/checks/flight_checks.hpp"
 #include "../../text/html_text.hpp"
 #include "../../text/quantity_text.hpp"
 #include "../../text/terminal_text.hpp"
 #include "../drawing/report_page.hpp"
 #include "../formation/transfer_json.hpp"
+#include "../study_checks.hpp"
 #include "bounded_charts.hpp"
 #include "box_report.hpp"
 #include "hamjet/error.hpp"
@@ -35,9 +39,13 @@ std::vector<std::string> row_of(const BoundedDeputy& deputy) {
   std::vector<std::string> row = {
       fmt::format("{} {}", length_text(deputy.wanted_m), name_of(deputy.rule))};
   if (!deputy.failure.empty()) {
-    row.resize(8);
+    row.resize(10);
     return row;
   }
+  row.push_back(length_text(deputy.size_m));
+  row.push_back(fmt::format("{} to {}{}", length_text(deputy.least_size_m),
+                            length_text(deputy.largest_size_m),
+                            deputy.is_held() ? "" : " NOT HELD"));
   const Eigen::Vector3d extent = half_widths_m(deputy.first);
   for (const double width : extent) row.push_back(length_text(width));
   for (const BoundedDrift& drift : deputy.drifts) {
@@ -50,6 +58,8 @@ std::vector<std::string> row_of(const BoundedDeputy& deputy) {
 
 std::vector<std::string> headings(const BoundedFormation& formation) {
   return {"size and rule",
+          "size",
+          "in the window",
           "R +-",
           "T +-",
           "N +-",
@@ -59,10 +69,17 @@ std::vector<std::string> headings(const BoundedFormation& formation) {
           "range"};
 }
 
-/// Whether a deputy passes below the radius of the body in its first revolution.
+/// Whether a deputy passes below what the scene's check `surface` allows.
 bool is_inside(const BoundedFormation& formation, const BoundedDeputy& deputy) {
-  return deputy.failure.empty() && deputy.lowest_m < formation.scene.canonical_radius *
-                                                         formation.scene.units.length_km * 1000;
+  const std::optional<double> limit = surface_limit(formation.scene);
+  return limit && deputy.failure.empty() &&
+         deputy.lowest_m < *limit * formation.scene.units.length_km * 1000;
+}
+
+/// Whether a deputy that the study offers, not one that it is compared with, is what was asked for.
+bool is_as_asked(const BoundedFormation& formation, const BoundedDeputy& deputy) {
+  if (!is_of_map(deputy.rule) || !deputy.failure.empty()) return true;
+  return deputy.is_held() && !is_inside(formation, deputy);
 }
 
 std::string failures_text(const BoundedFormation& formation) {
@@ -77,6 +94,13 @@ std::string failures_text(const BoundedFormation& formation) {
           "centre, inside the body\n",
           length_text(deputy.wanted_m), name_of(deputy.rule), length_text(deputy.lowest_m));
     }
+    if (deputy.failure.empty() && !deputy.is_held()) {
+      text += fmt::format(
+          "{} by {}: NOT HELD, it is {} in size over the first revolution, and {} to {} within the "
+          "window\n",
+          length_text(deputy.wanted_m), name_of(deputy.rule), length_text(deputy.size_m),
+          length_text(deputy.least_size_m), length_text(deputy.largest_size_m));
+    }
   }
   return text;
 }
@@ -89,7 +113,9 @@ std::vector<std::vector<std::string>> table_rows(const BoundedFormation& formati
 
 std::string terminal_table(const BoundedFormation& formation) {
   return fmt::format(
-      "{}\n{}\norder {}; drifts are mean ones along the track, a revolution, in parts of the size, "
+      "{}\n{}\norder {}; size: the largest distance from the chief over the first revolution, and "
+      "over one from each look of the window on; drifts are mean ones along the track, a "
+      "revolution, in parts of the size, "
       "+- what the last of the times changes; across: the same of the node; range: of the "
       "along-track difference over the window\n\n{}{}",
       formation.scene.title, bounded_verdict(formation), formation.scene.order,
@@ -103,7 +129,10 @@ int exit_code_of(const BoundedFormation& formation) {
   if (std::ranges::none_of(formation.deputies, is_found)) {
     return static_cast<int>(ErrorKind::numerical);
   }
-  const bool is_kept = !formation.box || formation.box->is_held();
+  const bool is_kept = (!formation.box || formation.box->is_held()) &&
+                       std::ranges::all_of(formation.deputies, [&](const BoundedDeputy& deputy) {
+                         return is_as_asked(formation, deputy);
+                       });
   return is_kept ? 0 : static_cast<int>(ErrorKind::check_failed);
 }
 
@@ -129,7 +158,9 @@ std::string page(const BoundedFormation& formation, const ReportOrigin& origin,
       "<section>\n<h2>Relative orbits</h2>\n" + panels_html(orbits, drawer) + "</section>\n" +
       "<section>\n<h2>Deputies</h2>\n" +
       table_html(
-          "Half widths along R, T and N; mean drifts along the track over a tenth of the "
+          "The largest distance from the chief over the first revolution, and the least and the "
+          "greatest such over a revolution from each look of the window on; half widths along R, T "
+          "and N; mean drifts along the track over a tenth of the "
           "window and over it, each with what the last of the times changes, and across it, a "
           "revolution, in parts of the size; the range "
           "of the along-track difference over the window. Their initial conditions, in "
@@ -145,6 +176,34 @@ std::string page(const BoundedFormation& formation, const ReportOrigin& origin,
 }
 
 }  // namespace
+
+/// How the sizes of the deputies that are offered compare with those that were asked for.
+static std::string sizes_text(const BoundedFormation& formation) {
+  const BoundedDeputy* worst = nullptr;
+  std::size_t offered = 0, held = 0;
+  const auto miss = [](const BoundedDeputy& deputy) {
+    return std::max(deputy.largest_size_m / deputy.wanted_m, deputy.wanted_m / deputy.least_size_m);
+  };
+  for (const BoundedDeputy& deputy : formation.deputies) {
+    if (!is_of_map(deputy.rule) || !deputy.failure.empty()) continue;
+    ++offered;
+    held += deputy.is_held() ? 1 : 0;
+    if (worst == nullptr || miss(deputy) > miss(*worst)) worst = &deputy;
+  }
+  if (worst == nullptr) return "";
+  return fmt::format(
+      " {}: of {} that was asked for, {} by {} is {} over the first revolution and {} to {} within "
+      "the window{}.",
+      held == offered
+          ? "Sizes are held to a quarter"
+          : fmt::format("NOT HELD are the sizes of {} of {} deputies", offered - held, offered),
+      length_text(worst->wanted_m), "the one furthest from it", name_of(worst->rule),
+      length_text(worst->size_m), length_text(worst->least_size_m),
+      length_text(worst->largest_size_m),
+      std::abs(worst->last_size_m / worst->size_m - 1) > 0.01
+          ? fmt::format(", at its end {}", length_text(worst->last_size_m))
+          : "");
+}
 
 std::string bounded_verdict(const BoundedFormation& formation) {
   double worst = 0;
@@ -174,6 +233,7 @@ std::string bounded_verdict(const BoundedFormation& formation) {
     text += fmt::format("; those of first-order J2 invariance by up to {:.2g}", worst_invariant);
   }
   text += ".";
+  text += sizes_text(formation);
   if (inside > 0) {
     text += fmt::format(" {} of the {} orbits cannot be flown: they pass inside the body.", inside,
                         formation.deputies.size());
@@ -190,6 +250,10 @@ std::string bounded_csv(const BoundedFormation& formation) {
   columns.add("wanted_m", &BoundedDeputy::wanted_m);
   columns.add("rule", [](const BoundedDeputy& deputy) { return name_of(deputy.rule); });
   columns.add_if(is_there, "size_m", &BoundedDeputy::size_m);
+  columns.add_if(is_there, "least_size_m", &BoundedDeputy::least_size_m);
+  columns.add_if(is_there, "largest_size_m", &BoundedDeputy::largest_size_m);
+  columns.add_if(is_there, "last_size_m", &BoundedDeputy::last_size_m);
+  columns.add_if(is_there, "held", &BoundedDeputy::is_held);
   columns.add_if(is_there, "eccentricity_difference", &BoundedDeputy::amplitude);
   constexpr std::array<std::string_view, 3> axes = {"r", "t", "n"};
   for (std::size_t i = 0; i < axes.size(); ++i) {
@@ -213,7 +277,10 @@ std::string bounded_csv(const BoundedFormation& formation) {
                    [=](const BoundedDeputy& deputy) { return drift(deputy).range; });
   }
   columns.add_if(has_map, "period_difference", &BoundedDeputy::energy);
-  columns.add_if(has_map, "momentum_difference_canonical", &BoundedDeputy::momentum);
+  const CanonicalFactors told = told_factors(formation.scene);
+  columns.add_if(has_map, "momentum_difference_canonical", [=](const BoundedDeputy& deputy) {
+    return deputy.momentum * told.length * told.momentum;
+  });
   columns.add_if(has_map, "refinements", &BoundedDeputy::refinements);
   columns.add_if(is_there, "lowest_m", &BoundedDeputy::lowest_m);
   for (std::size_t f = 0; f < BoundedDeputy{}.forms.size(); ++f) {
@@ -245,6 +312,10 @@ Json bounded_json(const BoundedFormation& formation) {
                   {"rule", name_of(deputy.rule)},
                   {"failure", text_or_null(deputy.failure)},
                   {"size_m", nullptr},
+                  {"least_size_m", nullptr},
+                  {"largest_size_m", nullptr},
+                  {"last_size_m", nullptr},
+                  {"held", nullptr},
                   {"eccentricity_difference", nullptr},
                   {"half_widths_m", nullptr},
                   {"lowest_m", nullptr},
@@ -253,6 +324,10 @@ Json bounded_json(const BoundedFormation& formation) {
                   {"start", nullptr}};
     if (deputy.failure.empty()) {
       entry["size_m"] = json_number(deputy.size_m);
+      entry["least_size_m"] = json_number(deputy.least_size_m);
+      entry["largest_size_m"] = json_number(deputy.largest_size_m);
+      entry["last_size_m"] = json_number(deputy.last_size_m);
+      entry["held"] = deputy.is_held();
       entry["eccentricity_difference"] = json_number(deputy.amplitude);
       entry["half_widths_m"] = vector_json(half_widths_m(deputy.first));
       entry["lowest_m"] = json_number(deputy.lowest_m);
@@ -289,17 +364,21 @@ StudyReport bounded_report(const BoundedFormation& formation, const ReportOrigin
                   {"report.html", page(formation, origin, drawer)}};
   if (formation.box) report.files.push_back({"box.csv", box_csv(formation)});
   report.drawing_problem = drawer.problem();
-  report.files.push_back({"summary.json", bounded_json(formation).dump(2) + "\n"});
+  report.files.push_back({"summary.json", json_text(bounded_json(formation)) + "\n"});
   report.exit_code = exit_code_of(formation);
   if (report.exit_code == static_cast<int>(ErrorKind::numerical)) {
     report.failure =
         "bounded: none of the sizes has a deputy: " + formation.deputies.front().failure;
   } else if (report.exit_code != 0) {
-    report.failure = box_failure(*formation.box);
+    const bool is_of_box = formation.box && !formation.box->is_held();
+    report.failure = is_of_box ? box_failure(*formation.box)
+                               : "bounded: a deputy is not of the size that was asked for, or "
+                                 "passes below the surface; see the table";
   }
   report.table = terminal_table(formation);
   report.details = fmt::format("{} in all, {} for the flights\n", duration_text(formation.seconds),
                                duration_text(formation.flight_seconds));
+  add_checks(report, formation.checks);
   return report;
 }
 

@@ -83,7 +83,7 @@ nlohmann::ordered_json box_json(const BoundedFormation& formation) {
           {"places_a_revolution", BoxControl::places_a_revolution},
           {"least_m", vector_json(box.least_m)},
           {"most_m", vector_json(box.most_m)},
-          {"start_canonical", box.start}};
+          {"start_canonical", told_state(formation.scene, box.start)}};
 }
 
 Chart box_chart(const BoundedFormation& formation) {

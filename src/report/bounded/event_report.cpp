@@ -10,11 +10,13 @@
 
 #include "../../formats/stored_coefficients.hpp"
 #include "../../store/columns.hpp"
+#include "../../store/json_text.hpp"
 #include "../../store/json_values.hpp"
 #include "../../text/quantity_text.hpp"
 #include "../../text/terminal_text.hpp"
 #include "../drawing/report_page.hpp"
 #include "../formation/transfer_json.hpp"
+#include "../study_checks.hpp"
 #include "hamjet/algebra/composition.hpp"
 
 namespace hamjet::io {
@@ -146,8 +148,9 @@ std::string event_map_csv(const EventStudy& study) {
   const std::vector<std::string_view> names = variable_names(study.scene.system);
   std::vector<std::string_view> series = {"time"};
   series.insert(series.end(), names.begin(), names.end());
-  FlowJet<double> map = {study.map.time};
-  map.insert(map.end(), study.map.state.begin(), study.map.state.end());
+  const EventMap<double> told = study.told_map();
+  FlowJet<double> map = {told.time};
+  map.insert(map.end(), told.state.begin(), told.state.end());
   std::vector<std::size_t> places(names.size());
   std::iota(places.begin(), places.end(), std::size_t{0});
   return series_csv(series, names, places, Precision::double_precision, convert_map<Extended>(map));
@@ -159,8 +162,8 @@ Json event_json(const EventStudy& study) {
   json["condition"] = condition_text(*study.scene.event);
   json["number"] = study.scene.event->number;
   json["time_s"] = study.time_s();
-  json["time_canonical"] = study.map.time[0];
-  json["state_canonical"] = study.state();
+  json["time_canonical"] = told_time(study.scene, study.map.time[0]);
+  json["state_canonical"] = told_state(study.scene, study.state());
   json["position_rounding_m"] = study.position_rounding_m;
   json["flown_deputies"] = study.flown;
   json["misses"] = Json::array();
@@ -181,10 +184,11 @@ StudyReport event_report(const EventStudy& study, const ReportOrigin& origin) {
   report.files = {{"event.csv", event_csv(study)},
                   {"event-map.csv", event_map_csv(study)},
                   {"report.html", event_page(study, origin, drawer)},
-                  {"summary.json", event_json(study).dump(2) + "\n"}};
+                  {"summary.json", json_text(event_json(study)) + "\n"}};
   report.drawing_problem = drawer.problem();
   report.table = fmt::format("{}\n{}\n\n", study.scene.title, event_verdict(study)) +
                  aligned_table(miss_rows(study));
+  add_checks(report, study.checks);
   return report;
 }
 

@@ -2,15 +2,18 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "../../store/columns.hpp"
+#include "../../store/json_text.hpp"
 #include "../../store/json_values.hpp"
 #include "../../text/quantity_text.hpp"
 #include "../../text/terminal_text.hpp"
 #include "../drawing/report_page.hpp"
 #include "../formation/transfer_json.hpp"
+#include "../study_checks.hpp"
 #include "frozen_orbit_charts.hpp"
 
 namespace hamjet::io {
@@ -94,12 +97,20 @@ std::string frozen_orbit_verdict(const FrozenOrbitStudy& study) {
   }
   text += fmt::format("It is stable: its multipliers are {:.10g} +- {:.6g} i", real, imaginary);
   if (!study.failure.empty()) return text + "; " + study.failure + ".";
-  return text + fmt::format(
-                    ", and neighbours turn about it in {:.6g} revolutions; the normal form "
-                    "of order {} is right to {} of the amplitude up to {} (flown over {}).",
-                    1 / std::abs(study.circles.front().rotation_number), study.scene.order,
-                    FrozenOrbitStudy::largest_miss, length_text(study.length_m(study.reach)),
-                    counted(study.flown_revolutions, "revolution"));
+  text += fmt::format(
+      ", and neighbours turn about it in {:.6g} revolutions; the normal form of order {} is right "
+      "to {} of the amplitude up to {} (flown over {}).",
+      1 / std::abs(study.circles.front().rotation_number), study.scene.order,
+      FrozenOrbitStudy::largest_miss, length_text(study.length_m(study.reach)),
+      counted(study.flown_revolutions, "revolution"));
+  const bool has_chiefs = std::any_of(study.circles.begin(), study.circles.end(),
+                                      [](const LibrationCircle& one) { return one.is_chiefs; });
+  if (!has_chiefs) {
+    text +=
+        " The scene's chief is on none of its circles: it is further away than the normal form "
+        "reaches.";
+  }
+  return text;
 }
 
 std::string frozen_orbit_csv(const FrozenOrbitStudy& study) {
@@ -114,16 +125,20 @@ std::string frozen_orbit_csv(const FrozenOrbitStudy& study) {
               [=](const LibrationCircle& circle) { return circle.mean_period * unit; });
   columns.add("node_deg_per_revolution",
               [](const LibrationCircle& circle) { return circle.mean_node * degrees; });
-  columns.add("action_canonical", &LibrationCircle::action);
+  const CanonicalFactors told = told_factors(study.scene);
+  columns.add("action_canonical", [=](const LibrationCircle& circle) {
+    return circle.action * told.length * told.momentum;
+  });
   columns.add("miss", &LibrationCircle::miss);
   return columns.csv(study.circles);
 }
 
 Json frozen_orbit_json(const FrozenOrbitStudy& study) {
   const auto [real, imaginary] = study.multiplier();
+  const CanonicalFactors told = told_factors(study.scene);
   Json json = study_head_json(study.scene, "poincare", "gauss8");
   json["verdict"] = frozen_orbit_verdict(study);
-  json["frozen_orbit"] = {{"state_canonical", study.state},
+  json["frozen_orbit"] = {{"state_canonical", told_state(study.scene, study.state)},
                           {"a_km", study.semi_major_axis * study.scene.units.length_km},
                           {"e", study.eccentricity},
                           {"i_deg", study.inclination_deg},
@@ -153,7 +168,7 @@ Json frozen_orbit_json(const FrozenOrbitStudy& study) {
          {"rotation_number", circle.rotation_number},
          {"mean_nodal_period_s", circle.mean_period * study.scene.units.time_s},
          {"node_deg_per_revolution", circle.mean_node * degrees},
-         {"action_canonical", circle.action},
+         {"action_canonical", circle.action * told.length * told.momentum},
          {"miss", json_number(circle.miss)}});
   }
   json["exit_code"] = 0;
@@ -165,10 +180,11 @@ StudyReport frozen_orbit_report(const FrozenOrbitStudy& study, const ReportOrigi
   ChartDrawer drawer(origin.gnuplot);
   report.files = {{"poincare.csv", frozen_orbit_csv(study)},
                   {"report.html", frozen_orbit_page(study, origin, drawer)},
-                  {"summary.json", frozen_orbit_json(study).dump(2) + "\n"}};
+                  {"summary.json", json_text(frozen_orbit_json(study)) + "\n"}};
   report.drawing_problem = drawer.problem();
   report.table = fmt::format("{}\n{}\n", study.scene.title, frozen_orbit_verdict(study));
   if (!study.circles.empty()) report.table += "\n" + aligned_table(circles_rows(study));
+  add_checks(report, study.checks);
   return report;
 }
 

@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "../../scene/system_json.hpp"
+#include "../../store/json_text.hpp"
 #include "../../store/json_values.hpp"
 #include "../../studies/reference.hpp"
 #include "compared_run_members.hpp"
@@ -151,7 +152,7 @@ std::string comparison_json(const ComparisonResult& result, const ReportOrigin& 
                      {"along_time", json_list(result.along_time, along_time_json)},
                      {"fits", json_list(result.fits, fit_json)}};
   // A text that is not UTF-8 (a command line may hold one) must not cost the results.
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(json, 1) + "\n";
 }
 
 }  // namespace hamjet::io

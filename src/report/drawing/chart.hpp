@@ -39,6 +39,7 @@ struct ChartCurve {
   bool has_markers = true;
   bool is_filled = true;
   bool is_background = false;  ///< the line is broad, pale and grey
+  bool is_cloud = false;       ///< the markers are so many that they are small, pale and grey
   int marker_interval = 1;
   std::vector<std::pair<double, double>> points;
   std::vector<std::size_t> gaps;  ///< the line is broken before these points

@@ -34,9 +34,9 @@ std::string ChartDrawer::draw(const Chart& chart, Drawing drawing, std::string& 
     outcome.problem = fmt::format("{} drew something that is no plot", program_);
   }
   if (outcome.problem.empty()) return outcome.output;
-  is_asked_ = outcome.is_installed && !outcome.is_late;
+  is_asked_ = outcome.is_started && !outcome.is_late;
   if (!problem_) problem_ = outcome.problem;
-  if (outcome.is_installed) reason = outcome.problem;
+  if (outcome.is_started) reason = outcome.problem;
   return "";
 }
 

@@ -108,6 +108,19 @@ std::string decades(const char* axis, const ChartAxis& settings, int most) {
   return fmt::format("set logscale {0} 10\nset {0}tics ({1})\n", axis, list);
 }
 
+/// The largest of 1, 2 or 5 times a power of ten that is no larger than the number.
+double round_number_below(double number) {
+  const double power = std::pow(10, std::floor(std::log10(number) + 1e-9));
+  const double digit = number / power * (1 + 1e-9);
+  return power * (digit >= 5 ? 5 : digit >= 2 ? 2 : 1);
+}
+
+/// The least of these numbers that is no smaller than the number.
+double round_number_above(double number) {
+  const double below = round_number_below(number);
+  return below < number * (1 - 1e-9) ? round_number_below(2.5 * below * (1 + 1e-9)) : below;
+}
+
 std::string axis_commands(const char* axis, const ChartAxis& settings, int most_numbers) {
   std::string text =
       fmt::format("set {}label {} noenhanced\n", axis, gnuplot_literal(settings.label));
@@ -116,8 +129,9 @@ std::string axis_commands(const char* axis, const ChartAxis& settings, int most_
                       settings.is_reversed ? settings.lower : settings.upper);
   if (settings.is_logarithmic) return text + decades(axis, settings, most_numbers);
   text += fmt::format("set format {} '%g'\n", axis);
-  if (settings.is_integer) text += fmt::format("set {}tics 1\n", axis);
-  return text;
+  if (settings.is_integer) return text + fmt::format("set {}tics 1\n", axis);
+  return text + fmt::format("set {}tics {:.6g}\n", axis,
+                            round_number_above((settings.upper - settings.lower) / most_numbers));
 }
 
 /// The axis at the top, which counts the same in another unit.
@@ -128,13 +142,6 @@ std::string top_axis(const ChartAxis& x) {
       "set x2label {} noenhanced\n",
       x.is_logarithmic ? "set logscale x2 10\n" : "", x.lower / x.top_unit, x.upper / x.top_unit,
       gnuplot_literal(x.top_label));
-}
-
-/// The largest of 1, 2 or 5 times a power of ten that is no larger than the number.
-double round_number_below(double number) {
-  const double power = std::pow(10, std::floor(std::log10(number) + 1e-9));
-  const double digit = number / power * (1 + 1e-9);
-  return power * (digit >= 5 ? 5 : digit >= 2 ? 2 : 1);
 }
 
 /// The step between ticks: the same along both axes where their numbers find room on the shorter
@@ -153,8 +160,7 @@ std::string isometric_ticks(const Chart& chart) {
   const double most_ticks = chart.is_panel ? 6 : 10;
   const double width =
       std::max(chart.x.upper - chart.x.lower, chart.y.upper - chart.y.lower) / most_ticks;
-  double step = round_number_below(width);
-  if (step < width * (1 - 1e-9)) step = round_number_below(2.5 * step * (1 + 1e-9));
+  const double step = round_number_above(width);
   return fmt::format(
       "set size ratio -1\nset format x '%.10g'\nset format y '%.10g'\nset xtics {:.6g}\nset ytics "
       "{:.6g}\n",
@@ -240,6 +246,10 @@ std::string curve_command(const std::string& block, const ChartCurve& curve, con
   if (curve.is_background) {
     return fmt::format("${} using 1:2 with lines lc rgb '#D8D8D8' lw {} dt 1 {}", block,
                        6 * layout.line_width, title_option(curve.title));
+  }
+  if (curve.is_cloud) {
+    return fmt::format("${} using 1:2 with points lc rgb '#999999' pt 7 ps {} {}", block,
+                       0.3 * layout.marker_size, title_option(curve.title));
   }
   const char* colour = colour_of(curve);
   const int marker =

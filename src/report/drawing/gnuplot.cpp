@@ -13,10 +13,11 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <ctime>
 #include <thread>
 #include <utility>
 
-#include "hamjet/error.hpp"
+#include "../../store/held_signals.hpp"
 
 extern char** environ;  // NOLINT(readability-redundant-declaration): POSIX has it in no header
 
@@ -53,15 +54,14 @@ struct Channel {
   Descriptor ours;
   Descriptor theirs;
 
-  Channel() {
+  /// Returns 0 or the error.
+  int open() {
     std::array<int, 2> ends{};
-    if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
-      throw Error(ErrorKind::input_output,
-                  fmt::format("gnuplot cannot be started: {}", errno_text(errno)));
-    }
+    if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) return errno;
     ours = Descriptor(ends[0]);
     theirs = Descriptor(ends[1]);
     ::fcntl(ours.value(), F_SETFL, O_NONBLOCK);
+    return 0;
   }
 };
 
@@ -78,7 +78,8 @@ int start(const std::string& program, const std::array<int, 3>& streams, pid_t& 
   sigset_t signals;
   sigemptyset(&signals);
   posix_spawnattr_setsigmask(&attributes, &signals);
-  for (const int s : {SIGINT, SIGTERM, SIGPIPE, SIGHUP}) sigaddset(&signals, s);
+  for (const int s : ending_signals) sigaddset(&signals, s);
+  sigaddset(&signals, SIGPIPE);
   posix_spawnattr_setsigdefault(&attributes, &signals);
   posix_spawnattr_setpgroup(&attributes, 0);
   posix_spawnattr_setflags(&attributes,
@@ -108,32 +109,98 @@ void receive_some(Descriptor& from, std::string& text) {
   if (received == 0 || is_broken) from.close();
 }
 
-/// Feeds the script and collects both outputs until they are closed. False at the deadline.
-bool converse(Channel& input, Channel& output, Channel& errors, std::string_view script,
-              GnuplotOutcome& outcome, Clock::time_point deadline) {
-  while (output.ours.is_open() || errors.ours.is_open()) {
-    const auto left =
-        std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now()).count();
-    if (left <= 0) return false;
-    // A closed descriptor is -1, which poll leaves out.
-    std::array<pollfd, 3> events = {{{input.ours.value(), POLLOUT, 0},
-                                     {output.ours.value(), POLLIN, 0},
-                                     {errors.ours.value(), POLLIN, 0}}};
-    const int timeout = static_cast<int>(std::min<long long>(left, 1000));
-    if (::poll(events.data(), events.size(), timeout) <= 0) continue;
-    if (events[0].revents != 0) send_some(input.ours, script);
-    if (events[1].revents != 0) receive_some(output.ours, outcome.output);
-    if (events[2].revents != 0) receive_some(errors.ours, outcome.problem);
+/// The child and the channels to it.
+struct Child {
+  pid_t process = 0;
+  Channel input;
+  Channel output;
+  Channel errors;
+
+  /// Starts the program; returns 0 or the error.
+  int start(const std::string& program) {
+    for (Channel* channel : {&input, &output, &errors}) {
+      if (const int error = channel->open()) return error;
+    }
+    const int error = io::start(
+        program, {input.theirs.value(), output.theirs.value(), errors.theirs.value()}, process);
+    for (Channel* channel : {&input, &output, &errors}) channel->theirs.close();
+    return error;
   }
-  return true;
+
+  /// Starts it once more as long as the system lacks what it may have in a moment.
+  int start_patiently(const std::string& program) {
+    constexpr int attempts = 5;
+    auto pause = std::chrono::milliseconds(20);
+    for (int attempt = 1;; ++attempt, pause *= 2) {
+      *this = {};
+      const int error = start(program);
+      const bool may_pass =
+          error == EAGAIN || error == EMFILE || error == ENFILE || error == ENOMEM;
+      if (!may_pass || attempt == attempts) return error;
+      std::this_thread::sleep_for(pause);
+    }
+  }
+
+  /// The processor time that it has taken so far.
+  std::chrono::nanoseconds processor_time() const {
+    clockid_t clock{};
+    timespec taken{};
+    if (::clock_getcpuclockid(process, &clock) != 0 || ::clock_gettime(clock, &taken) != 0) {
+      return {};  // it has ended
+    }
+    return std::chrono::seconds(taken.tv_sec) + std::chrono::nanoseconds(taken.tv_nsec);
+  }
+};
+
+/// Says when a child has had its time.
+class Patience {
+ public:
+  explicit Patience(const GnuplotLimits& limits) : limits_(limits) {}
+
+  /// What the child has taken too much of; empty as long as it may go on.
+  std::string exceeded(const Child& child) const {
+    const auto seconds = [](std::chrono::milliseconds limit) {
+      return static_cast<double>(limit.count()) / 1000;
+    };
+    if (child.processor_time() > limits_.processor) {
+      return fmt::format("took longer than {} s of processor time", seconds(limits_.processor));
+    }
+    if (Clock::now() - start_ > limits_.whole) {
+      return fmt::format("took longer than {} s", seconds(limits_.whole));
+    }
+    return "";
+  }
+
+ private:
+  GnuplotLimits limits_;
+  Clock::time_point start_ = Clock::now();
+};
+
+/// Feeds the script and collects both outputs until they are closed. Returns what the child took
+/// too much of, or nothing.
+std::string converse(Child& child, std::string_view script, GnuplotOutcome& outcome,
+                     const Patience& patience) {
+  constexpr int interval_ms = 50;
+  while (child.output.ours.is_open() || child.errors.ours.is_open()) {
+    if (std::string exceeded = patience.exceeded(child); !exceeded.empty()) return exceeded;
+    // A closed descriptor is -1, which poll leaves out.
+    std::array<pollfd, 3> events = {{{child.input.ours.value(), POLLOUT, 0},
+                                     {child.output.ours.value(), POLLIN, 0},
+                                     {child.errors.ours.value(), POLLIN, 0}}};
+    if (::poll(events.data(), events.size(), interval_ms) <= 0) continue;
+    if (events[0].revents != 0) send_some(child.input.ours, script);
+    if (events[1].revents != 0) receive_some(child.output.ours, outcome.output);
+    if (events[2].revents != 0) receive_some(child.errors.ours, outcome.problem);
+  }
+  return "";
 }
 
-/// Waits for the child's end; false at the deadline.
-bool wait_for(pid_t child, int& status, Clock::time_point deadline) {
+/// Waits for the child's end. Returns what it took too much of, or nothing.
+std::string wait_for(const Child& child, int& status, const Patience& patience) {
   for (;;) {
-    const pid_t ended = ::waitpid(child, &status, WNOHANG);
-    if (ended == child || (ended < 0 && errno != EINTR)) return true;
-    if (Clock::now() >= deadline) return false;
+    const pid_t ended = ::waitpid(child.process, &status, WNOHANG);
+    if (ended == child.process || (ended < 0 && errno != EINTR)) return "";
+    if (std::string exceeded = patience.exceeded(child); !exceeded.empty()) return exceeded;
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
 }
@@ -151,50 +218,46 @@ std::string last_line(std::string_view text) {
   return line;
 }
 
+/// Why a child that has ended drew nothing, by what it said or else by how it ended.
+std::string reason_of(int status, const std::string& said) {
+  if (!said.empty()) return said;
+  if (WIFSIGNALED(status)) return fmt::format("it was ended by signal {}", WTERMSIG(status));
+  if (WEXITSTATUS(status) != 0) return fmt::format("exit code {}", WEXITSTATUS(status));
+  return "it drew nothing";
+}
+
 }  // namespace
 
 GnuplotOutcome run_gnuplot(const std::string& program, std::string_view script,
-                           std::chrono::milliseconds limit) {
+                           const GnuplotLimits& limits) {
   GnuplotOutcome outcome;
-  const auto deadline = Clock::now() + limit;
-  Channel input;
-  Channel output;
-  Channel errors;
-  pid_t child = 0;
-  const int error =
-      start(program, {input.theirs.value(), output.theirs.value(), errors.theirs.value()}, child);
-  if (error != 0) {
-    outcome.is_installed = false;
+  Child child;
+  if (const int error = child.start_patiently(program)) {
+    outcome.is_started = false;
     outcome.problem = error == ENOENT
                           ? fmt::format("{} is not installed, so there are no plots", program)
                           : fmt::format("{} cannot be started, so there are no plots: {}", program,
                                         errno_text(error));
     return outcome;
   }
-  for (Channel* channel : {&input, &output, &errors}) channel->theirs.close();
+  const Patience patience(limits);
   int status = 0;
-  const bool is_in_time = converse(input, output, errors, script, outcome, deadline) &&
-                          wait_for(child, status, deadline);
-  if (!is_in_time) {
-    ::kill(-child, SIGKILL);
-    while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  std::string exceeded = converse(child, script, outcome, patience);
+  if (exceeded.empty()) exceeded = wait_for(child, status, patience);
+  if (!exceeded.empty()) {
+    ::kill(-child.process, SIGKILL);
+    while (::waitpid(child.process, &status, 0) < 0 && errno == EINTR) {
     }
     outcome.output.clear();
     outcome.is_late = true;
-    outcome.problem = fmt::format("{} took longer than {} s and was ended", program,
-                                  static_cast<double>(limit.count()) / 1000);
+    outcome.problem = fmt::format("{} {} and was ended", program, exceeded);
     return outcome;
   }
   const std::string said = last_line(std::exchange(outcome.problem, {}));
   const bool is_well = WIFEXITED(status) && WEXITSTATUS(status) == 0 && !outcome.output.empty();
   if (!is_well) {
     outcome.output.clear();
-    // Status 127 is how some systems tell of a program that is not there.
-    outcome.is_installed = !(WIFEXITED(status) && WEXITSTATUS(status) == 127);
-    outcome.problem =
-        outcome.is_installed
-            ? fmt::format("{} failed: {}", program, said.empty() ? "it drew nothing" : said)
-            : fmt::format("{} is not installed, so there are no plots", program);
+    outcome.problem = fmt::format("{} failed: {}", program, reason_of(status, said));
   }
   return outcome;
 }

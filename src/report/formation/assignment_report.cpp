@@ -4,9 +4,11 @@
 #include <algorithm>
 
 #include "../../formats/relative_frame_text.hpp"
+#include "../../store/json_text.hpp"
 #include "../../store/json_values.hpp"
 #include "../../text/quantity_text.hpp"
 #include "../../text/terminal_text.hpp"
+#include "../study_checks.hpp"
 #include "answer_columns.hpp"
 #include "hamjet/report/relative_motion_report.hpp"
 #include "transfer_json.hpp"
@@ -138,7 +140,7 @@ Json transfers_json(const AssignmentResult& result) {
   for (const AssignedTransfer& assigned : result.transfers) {
     json.push_back({{"deputy", assigned.deputy},
                     {"slot", assigned.slot},
-                    {"transfer", transfer_point_json(assigned.transfer, result.scene.units)}});
+                    {"transfer", transfer_point_json(assigned.transfer, result.scene)}});
   }
   return json;
 }
@@ -175,7 +177,7 @@ std::string summary(const AssignmentResult& result) {
   json["flight_floor_m"] = json_number(result.flight_floor_m);
   json["seconds"] = {{"study", result.study_seconds}, {"proof", result.proof_seconds}};
   json["exit_code"] = exit_code(result);
-  return json.dump(2) + "\n";
+  return json_text(json) + "\n";
 }
 
 }  // namespace
@@ -187,7 +189,8 @@ std::string assignment_csv(const AssignmentResult& result) {
   Columns<AssignedTransfer> columns;
   columns.add("deputy", &AssignedTransfer::deputy);
   columns.add("slot", &AssignedTransfer::slot);
-  columns.add("time_canonical", [](Row row) { return row.transfer.time; });
+  columns.add("time_canonical",
+              [&](Row row) { return told_time(result.scene, row.transfer.time); });
   columns.add("time_s", [=](Row row) { return row.transfer.time * unit; });
   columns.add_if(has_kind, "kind", [](Row row) { return row.transfer.kind->name(); });
   columns.add_if(has_kind, "condition", [](Row row) { return row.transfer.condition; });
@@ -210,7 +213,8 @@ std::string costs_csv(const AssignmentResult& result) {
     for (std::size_t j = 0; j < result.costs[i].size(); ++j) {
       const AssignmentCost& cost = result.costs[i][j];
       text += fmt::format("{},{},", i, j);
-      text += cost.time ? fmt::format("{},{},{}\n", csv_number(times[*cost.time]),
+      text += cost.time ? fmt::format("{},{},{}\n",
+                                      csv_number(told_time(result.scene, times[*cost.time])),
                                       csv_number(times[*cost.time] * result.scene.units.time_s),
                                       csv_number(cost.total_change_m_s))
                         : ",,\n";
@@ -224,7 +228,8 @@ std::string pairs_csv(const AssignmentResult& result) {
   Columns<DeputyPair> columns;
   columns.add("deputy", &DeputyPair::first);
   columns.add("other_deputy", &DeputyPair::second);
-  columns.add("time_canonical", &DeputyPair::time);
+  columns.add("time_canonical",
+              [&](const DeputyPair& pair) { return told_time(result.scene, pair.time); });
   columns.add("time_s", [=](const DeputyPair& pair) { return pair.time * unit; });
   columns.add("least_separation_m", &DeputyPair::separation_m);
   return columns.csv(result.pairs);
@@ -240,6 +245,7 @@ StudyReport assignment_report(const AssignmentResult& result) {
   report.details = terminal_details(result);
   report.exit_code = exit_code(result);
   report.failure = failure_line(result);
+  add_checks(report, result.checks);
   return report;
 }
 

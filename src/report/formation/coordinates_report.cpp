@@ -3,12 +3,14 @@
 #include <algorithm>
 
 #include "../../formats/relative_frame_text.hpp"
+#include "../../store/json_text.hpp"
 #include "../../text/html_text.hpp"
 #include "../../text/quantity_text.hpp"
 #include "../../text/terminal_text.hpp"
 #include "../drawing/along_time_charts.hpp"
 #include "../drawing/chart_drawer.hpp"
 #include "../drawing/report_page.hpp"
+#include "../study_checks.hpp"
 #include "hamjet/report/relative_motion_report.hpp"
 #include "transfer_charts.hpp"
 #include "transfer_json.hpp"
@@ -204,11 +206,12 @@ StudyReport coordinates_report(const ValidityInCoordinates& all, const ReportOri
   ChartDrawer drawer(origin.gnuplot);
   report.files = {{"validity.csv", csv}, {"report.html", page_of(all, origin, drawer)}};
   report.drawing_problem = drawer.problem();
-  report.files.push_back({"summary.json", summary.dump(2) + "\n"});
+  report.files.push_back({"summary.json", json_text(summary) + "\n"});
   report.table = fmt::format("{}\n{}\nframe {}; reach after {}\n\n{}\n{}", scene.title,
                              verdict(all), frame_text(scene.validity->frame),
                              time_text(scene.validity->times.back() * scene.units.time_s),
                              aligned_table(table_rows(all)), aligned_table(limit_rows(all)));
+  add_checks(report, all.checks);
   return report;
 }
 

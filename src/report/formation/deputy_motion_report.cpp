@@ -3,16 +3,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 #include "../../formats/relative_frame_text.hpp"
 #include "../../store/columns.hpp"
+#include "../../store/json_text.hpp"
 #include "../../store/json_values.hpp"
+#include "../../studies/nominal/nominal_period.hpp"
 #include "../../text/html_text.hpp"
 #include "../../text/quantity_text.hpp"
 #include "../../text/terminal_text.hpp"
 #include "../../text/time_axis.hpp"
-#include "../drawing/along_time_charts.hpp"
 #include "../drawing/report_page.hpp"
+#include "../study_checks.hpp"
+#include "drift_view.hpp"
 #include "transfer_charts.hpp"
 #include "transfer_json.hpp"
 #include "transfer_view.hpp"
@@ -26,11 +31,26 @@ using MotionPoint = const DeputyMotionPoint&;
 /// A larger error than this share of the separation at the time is no answer.
 constexpr double resolved_share = 0.01;
 
-/// Rows of the terminal's table, besides that of the start.
-constexpr std::size_t shown_times = 8;
-
-double seconds_at(const DeputyMotion& motion, std::size_t point) {
-  return motion.points[point].time * motion.scene.units.time_s;
+/// How many rows the terminal's table has, besides that of the start: some eight, of which none
+/// comes at the place of the one before in its revolution.
+std::size_t shown_times(const DeputyMotion& motion) {
+  constexpr std::size_t usual = 8;
+  const std::optional<double> period = nominal_period(motion.scene);
+  if (!period || !(*period > 0)) return usual;
+  const double revolutions = std::abs(motion.points.back().time) / *period;
+  std::size_t best = usual;
+  double most = 0;
+  for (const std::size_t count : {usual, usual - 1, usual + 1, usual + 2, usual + 3}) {
+    const double turned = revolutions / static_cast<double>(count);
+    // Many rows in a revolution follow its shape.
+    constexpr double few = 0.3;
+    if (turned <= few) return count;
+    // Half a revolution later the along-track motion is at its other end again and again.
+    const double from_half = std::abs(2 * turned - std::round(2 * turned));
+    if (from_half > most) best = count;
+    most = std::max(most, from_half);
+  }
+  return best;
 }
 
 std::string error_text(const DeputyMotion& motion, double error_m) {
@@ -55,8 +75,9 @@ std::string terminal_table(const DeputyMotion& motion) {
   rows[0].emplace_back("error");
   rows[0].emplace_back("linear error");
   const std::size_t last = motion.points.size() - 1;
-  for (std::size_t k = 0; k <= shown_times; ++k) {
-    const std::size_t i = k * last / shown_times;
+  const std::size_t count = shown_times(motion);
+  for (std::size_t k = 0; k <= count; ++k) {
+    const std::size_t i = k * last / count;
     const DeputyMotionPoint& point = motion.points[i];
     rows.push_back({fmt::format("{:.4g}", seconds_at(motion, i) / axis.seconds)});
     for (const double x : point.state.position_m) rows.back().push_back(fmt::format("{:.1f}", x));
@@ -70,8 +91,11 @@ std::string terminal_table(const DeputyMotion& motion) {
     rows.back().push_back(error(point.errors_m.back()));
     rows.back().push_back(error(point.errors_m.front()));
   }
-  return fmt::format("{}\n{}\nframe {}; order {}\n\n{}", motion.scene.title,
-                     deputy_motion_verdict(motion),
+  const std::string elements = elements_text(motion.drift);
+  return fmt::format("{}\n{}\nat the start: velocity {} m/s{}\nframe {}; order {}\n\n{}",
+                     motion.scene.title, deputy_motion_verdict(motion),
+                     vector_text(motion.points.front().state.velocity_m_s, 4),
+                     elements.empty() ? "" : "; relative elements " + elements,
                      frame_text(motion.scene.deputy->frame) + coordinates_text(motion.coordinates),
                      motion.scene.order, aligned_table(rows));
 }
@@ -82,19 +106,25 @@ std::string page(const DeputyMotion& motion, const ReportOrigin& origin, ChartDr
   page.verdict = deputy_motion_verdict(motion);
   std::vector<Chart> paths = relative_trajectory_charts(motion.flown, motion.scene.units.time_s);
   for (Chart& chart : paths) fit(chart);
+  Chart along_time = deputy_motion_chart(motion);
+  fit(along_time);
+  page.first_figure = figure_html(along_time, drawer);
   Chart errors = deputy_motion_error_chart(motion);
   fit(errors);
-  page.first_figure = figure_html(errors, drawer);
   page.facts =
       origin_facts_html(origin) +
       fact_html("Scene", fmt::format("{}, order {}", motion.scene.name, motion.scene.order)) +
       fact_html("Frame",
                 frame_text(motion.scene.deputy->frame) + coordinates_text(motion.coordinates)) +
+      fact_html("Relative velocity",
+                vector_text(motion.points.front().state.velocity_m_s, 4) + " m/s at the start") +
+      fact_html("Relative elements (m)", elements_text(motion.drift)) +
       fact_html("Times", std::to_string(motion.points.size())) +
       fact_html("Flight floor", length_text(motion.flight_floor_m)) +
       fact_html("Time", duration_text(motion.propagation_seconds) + " for the jets");
-  page.sections =
-      "<section>\n<h2>Relative trajectory</h2>\n" + panels_html(paths, drawer) + "</section>\n";
+  page.sections = "<section>\n<h2>Relative trajectory</h2>\n" + panels_html(paths, drawer) +
+                  "</section>\n" + "<section>\n<h2>" + errors.title + "</h2>\n" +
+                  figure_html(errors, drawer) + "</section>\n";
   return page_html(page, drawer);
 }
 
@@ -120,11 +150,15 @@ std::string deputy_motion_verdict(const DeputyMotion& motion) {
   const std::string error = error_text(motion, motion.largest_error_m(order));
   std::string text = fmt::format(
       "Within {} the deputy is nearest to its chief after {}, {} away, and farthest after {}, {} "
-      "away; at the end it is {} away. Polynomials of order {} are never wrong by {}{}",
+      "away; at the end it is {} away. ",
       time(motion.points[last].time), time(nearest.time), place(nearest), time(farthest.time),
-      place(farthest), length_text(separation_m(motion.points[last].state)), order,
-      error.starts_with("less") ? "as much as " : "more than ",
-      error.starts_with("less") ? length_text(motion.flight_floor_m) : error);
+      place(farthest), length_text(separation_m(motion.points[last].state)));
+  const std::string drift =
+      drift_text(motion.drift, motion.points.front().state, motion.scene.deputy->frame);
+  if (!drift.empty()) text += drift + " ";
+  text += fmt::format("Polynomials of order {} are never wrong by {}{}", order,
+                      error.starts_with("less") ? "as much as " : "more than ",
+                      error.starts_with("less") ? length_text(motion.flight_floor_m) : error);
   if (order > 1) {
     text += fmt::format(", the linear theory by up to {}", length_text(motion.largest_error_m(1)));
   }
@@ -132,10 +166,12 @@ std::string deputy_motion_verdict(const DeputyMotion& motion) {
   if (!is_resolved(motion)) {
     text += fmt::format(
         " At some time that is more than a hundredth of the separation: the deputy is beyond what "
-        "order {} resolves there. A "
-        "higher jet.order or a shorter duration reaches it; `hamjet validity` says how far apart "
-        "the two may be.",
-        order);
+        "order {} resolves there. {}; `hamjet validity` says how far apart the two may be.",
+        order,
+        motion.coordinates.start == JetCoordinates::cartesian
+            ? "jet.coordinates = \"flow-box\" reach tens of times further, a higher jet.order or a "
+              "shorter duration somewhat"
+            : "A higher jet.order or a shorter duration reaches it");
   }
   return text;
 }
@@ -154,6 +190,7 @@ Json deputy_motion_json(const DeputyMotion& motion) {
   const DeputyMotionPoint& end = motion.points.back();
   const auto& [nearest, farthest] = motion.extremes;
   json["start"] = state_json(motion, start.time, start.state);
+  add_drift(json["start"], motion.drift, start.state);
   json["end"] = state_json(motion, end.time, end.state);
   json["nearest"] = state_json(motion, nearest.time, nearest.state);
   json["farthest"] = state_json(motion, farthest.time, farthest.state);
@@ -172,7 +209,8 @@ Json deputy_motion_json(const DeputyMotion& motion) {
 std::string deputy_motion_csv(const DeputyMotion& motion) {
   const double unit = motion.scene.units.time_s;
   Columns<DeputyMotionPoint> columns;
-  columns.add("time_canonical", &DeputyMotionPoint::time);
+  columns.add("time_canonical",
+              [&](MotionPoint point) { return told_time(motion.scene, point.time); });
   columns.add("time_s", [=](MotionPoint point) { return point.time * unit; });
   const auto letters = axis_letters(motion.scene.deputy->frame);
   for (std::size_t i = 0; i < letters.size(); ++i) {
@@ -193,45 +231,18 @@ std::string deputy_motion_csv(const DeputyMotion& motion) {
   return columns.csv(motion.points);
 }
 
-Chart deputy_motion_error_chart(const DeputyMotion& motion) {
-  const TimeAxis axis = time_axis(seconds_at(motion, motion.points.size() - 1));
-  Chart chart;
-  chart.name = "motion-error";
-  chart.title = "Errors of the polynomials along time";
-  chart.x.label = fmt::format("time ({})", axis.name);
-  add_revolutions(motion.scene, axis.seconds, chart.x);
-  chart.y = logarithmic_axis("position error", AxisUnit::metres);
-  chart.y.floor = motion.flight_floor_m;
-  chart.y.floor_name = "the rounding of the flights";
-  chart.reading = fmt::format(
-      "The distance between where the polynomial of each order has the deputy and where it flew "
-      "to, both relative to the chief. Flights are right to {}; an error below that says nothing.",
-      length_text(motion.flight_floor_m));
-  for (int order = 1; order <= motion.scene.order; ++order) {
-    ChartCurve curve;
-    curve.title = fmt::format("order {}", order);
-    curve.style = static_cast<std::size_t>(order - 1);
-    curve.has_markers = false;
-    for (std::size_t i = 1; i < motion.points.size(); ++i) {
-      curve.points.emplace_back(seconds_at(motion, i) / axis.seconds,
-                                motion.points[i].errors_m[static_cast<std::size_t>(order - 1)]);
-    }
-    chart.curves.push_back(std::move(curve));
-  }
-  return chart;
-}
-
 StudyReport deputy_motion_report(const DeputyMotion& motion, const ReportOrigin& origin) {
   StudyReport report;
   ChartDrawer drawer(origin.gnuplot);
   report.files = {{"motion.csv", deputy_motion_csv(motion)},
                   {"report.html", page(motion, origin, drawer)}};
   report.drawing_problem = drawer.problem();
-  report.files.push_back({"summary.json", deputy_motion_json(motion).dump(2) + "\n"});
+  report.files.push_back({"summary.json", json_text(deputy_motion_json(motion)) + "\n"});
   report.table = terminal_table(motion);
   report.details =
       fmt::format("{}; {} for the jets (flight floor {})\n", counted(motion.points.size(), "time"),
                   duration_text(motion.propagation_seconds), length_text(motion.flight_floor_m));
+  add_checks(report, motion.checks);
   return report;
 }
 

@@ -18,6 +18,14 @@ std::string deputy_motion_verdict(const DeputyMotion& motion);
 /// `motion.csv`: one row a time.
 std::string deputy_motion_csv(const DeputyMotion& motion);
 
+/// The time of a point in seconds.
+inline double seconds_at(const DeputyMotion& motion, std::size_t point) {
+  return motion.points[point].time * motion.scene.units.time_s;
+}
+
+/// The relative position and the separation along time, not fitted.
+Chart deputy_motion_chart(const DeputyMotion& motion);
+
 /// The polynomials' errors along time, not fitted.
 Chart deputy_motion_error_chart(const DeputyMotion& motion);
 

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <string_view>
 
 #include "../../formats/relative_frame_text.hpp"
 #include "../../store/columns.hpp"
@@ -28,6 +30,66 @@ const ImpulsePlan* plan_of(const TransferResult& result) {
 std::string end_text(const TransferResult& result, const ImpulsePlan& plan) {
   return fmt::format("{} and {:.2g} m/s", miss_text(plan.miss_m, result.flight_floor_m),
                      plan.velocity_miss_m_s);
+}
+
+/// What the linear theory about the chief said for the plan's time, if it is one of those that it
+/// was asked for.
+const LeastChange* linear_change_of(const TransferResult& result, const ImpulsePlan& plan) {
+  for (const LeastChange& one : result.optimal->by_time) {
+    if (one.time == plan.duration && one.change_m_s) return &one;
+  }
+  return nullptr;
+}
+
+std::string_view origin_name(PlanOrigin origin) {
+  switch (origin) {
+    case PlanOrigin::linear_theory:
+      return "linear-theory";
+    case PlanOrigin::two_impulses:
+      return "two-impulses";
+    case PlanOrigin::coasting:
+      return "coasting-start";
+    case PlanOrigin::waypoints:
+      return "waypoints";
+    case PlanOrigin::revolutions:
+      return "other-revolutions";
+  }
+  return "";
+}
+
+std::string origin_text(PlanOrigin origin) {
+  switch (origin) {
+    case PlanOrigin::linear_theory:
+      return "the linear theory about the chief";
+    case PlanOrigin::two_impulses:
+      return "the transfer of two";
+    case PlanOrigin::coasting:
+      return "the transfer that drifts first";
+    case PlanOrigin::waypoints:
+      return "the way through the waypoints";
+    case PlanOrigin::revolutions:
+      return "the transfer with other revolutions";
+  }
+  return "";
+}
+
+/// The times for which the solver failed, among which the least may be.
+std::string times_left_out_text(const TransferResult& result) {
+  const auto& by_time = result.optimal->by_time;
+  const auto is_unproved = [](const LeastChange& one) { return one.is_unproved; };
+  const auto first = std::find_if(by_time.begin(), by_time.end(), is_unproved);
+  if (first == by_time.end()) return "";
+  return fmt::format(" For {} the solver failed, and the least may be there: at {} {}.",
+                     counted(std::count_if(first, by_time.end(), is_unproved), "transfer time"),
+                     time_text(seconds(result, first->time)), first->failure);
+}
+
+/// A velocity of an impulse of this size. Below a tenth of a millimetre per second six decimals
+/// would leave too few digits, or none.
+std::string velocity_number(double x, double size) {
+  if (size < 1e-4 && size > 0) return fmt::format("{:.4e}", x);
+  const bool rounds_to_zero = std::abs(x) < 5e-7;  // and would keep its sign
+  return fmt::format("{:.6f}", rounds_to_zero ? 0.0 : x);
 }
 
 std::vector<std::string> axis_names(const TransferResult& result) {
@@ -73,12 +135,21 @@ std::string optimal_impulses_verdict(const TransferResult& result) {
                                  velocity_text(*result.scene.transfer->largest_impulse_m_s),
                                  std::abs(seconds(result, *plan.spacing)))
                    : "";
-  return fmt::format(
-      "With {} in {} the same takes {}, flown with a miss of {} ({} in the linear theory); to "
-      "first order about this plan no impulses{} cost less than {}.",
+  const LeastChange* linear = linear_change_of(result, plan);
+  std::string text = fmt::format(
+      "With {} in {} the same takes {}, flown with a miss of {}{}{}; ",
       counted(plan.impulses.size(), "impulse"), time_text(seconds(result, plan.duration)),
       velocity_text(plan.total_change_m_s()), end_text(result, plan),
-      velocity_text(plan.linear_change_m_s), which, velocity_text(plan.lower_bound_m_s));
+      linear == nullptr ? ""
+                        : fmt::format(" ({} in the linear theory about the chief)",
+                                      velocity_text(*linear->change_m_s)),
+      plan.origin == PlanOrigin::linear_theory ? "" : ", found from " + origin_text(plan.origin));
+  text += plan.lower_bound_m_s
+              ? fmt::format("to first order about this plan no impulses{} cost less than {}.",
+                            which, velocity_text(*plan.lower_bound_m_s))
+              : "whether others cost less is not known, for flights did not confirm the linear "
+                "theory about it.";
+  return text + times_left_out_text(result);
 }
 
 std::string impulse_lines(const TransferResult& result) {
@@ -103,9 +174,10 @@ std::string impulse_rows(const TransferResult& result, const std::vector<Impulse
   std::vector<std::vector<std::string>> rows = {{"at time (s)", "change (m/s)"}};
   for (std::string& name : axis_names(result)) rows[0].push_back(std::move(name));
   for (const Impulse& impulse : impulses) {
-    rows.push_back({fmt::format("{:.1f}", seconds(result, impulse.time)),
-                    fmt::format("{:.6f}", impulse.change_m_s.norm())});
-    for (const double x : impulse.change_m_s) rows.back().push_back(fmt::format("{:.6f}", x));
+    const double size = impulse.change_m_s.norm();
+    rows.push_back(
+        {fmt::format("{:.1f}", seconds(result, impulse.time)), velocity_number(size, size)});
+    for (const double x : impulse.change_m_s) rows.back().push_back(velocity_number(x, size));
   }
   std::istringstream table(aligned_table(rows));
   std::string text;
@@ -210,20 +282,26 @@ Json optimal_impulses_json(const TransferResult& result) {
                {"plan", nullptr}};
   for (const LeastChange& one : result.optimal->by_time) {
     json["least_by_time"].push_back({{"time_s", seconds(result, one.time)},
-                                     {"linear_change_m_s", json_number(one.change_m_s)}});
+                                     {"linear_change_m_s", json_number(one.change_m_s)},
+                                     {"flown_change_m_s", json_number(one.flown_m_s)},
+                                     {"failure", text_or_null(one.failure)},
+                                     {"solver_failed", one.is_unproved}});
   }
   const ImpulsePlan* plan = plan_of(result);
   if (plan == nullptr) return json;
-  json["plan"] = {{"duration_s", seconds(result, plan->duration)},
-                  {"impulses", impulses_json(result, plan->impulses)},
-                  {"total_change_m_s", json_number(plan->total_change_m_s())},
-                  {"linear_change_m_s", json_number(plan->linear_change_m_s)},
-                  {"lower_bound_m_s", json_number(plan->lower_bound_m_s)},
-                  {"spacing_s",
-                   plan->spacing ? Json(std::abs(seconds(result, *plan->spacing))) : Json(nullptr)},
-                  {"miss_m", json_number(plan->miss_m)},
-                  {"velocity_miss_m_s", json_number(plan->velocity_miss_m_s)},
-                  {"flights", plan->flights}};
+  const LeastChange* linear = linear_change_of(result, *plan);
+  json["plan"] = {
+      {"duration_s", seconds(result, plan->duration)},
+      {"impulses", impulses_json(result, plan->impulses)},
+      {"total_change_m_s", json_number(plan->total_change_m_s())},
+      {"linear_change_m_s", linear == nullptr ? Json(nullptr) : json_number(linear->change_m_s)},
+      {"found_from", origin_name(plan->origin)},
+      {"lower_bound_m_s", json_number(plan->lower_bound_m_s)},
+      {"spacing_s",
+       plan->spacing ? Json(std::abs(seconds(result, *plan->spacing))) : Json(nullptr)},
+      {"miss_m", json_number(plan->miss_m)},
+      {"velocity_miss_m_s", json_number(plan->velocity_miss_m_s)},
+      {"flights", plan->flights}};
   return json;
 }
 
@@ -235,7 +313,8 @@ std::string impulses_csv(const TransferResult& result) {
 std::string impulses_csv(const TransferResult& result, const std::vector<Impulse>& impulses) {
   const double unit = result.scene.units.time_s;
   Columns<Impulse> columns;
-  columns.add("time_canonical", &Impulse::time);
+  columns.add("time_canonical",
+              [&](const Impulse& impulse) { return told_time(result.scene, impulse.time); });
   columns.add("time_s", [=](const Impulse& impulse) { return impulse.time * unit; });
   Eigen::Index i = 0;
   for (const std::string_view axis : axis_columns(result.scene.transfer->frame)) {

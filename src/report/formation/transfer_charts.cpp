@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 #include "../../text/html_text.hpp"
@@ -140,13 +141,20 @@ Chart velocity_change_chart(const TransferResult& result) {
       result, "second impulse", 4,
       part([](const TransferAnswer& answer) { return answer.end_change_m_s.norm(); })));
   if (result.scene.order > 1) {
-    chart.curves.push_back(curve_over_time(
+    // Where it is as good it would only cover the line, and it lies behind that.
+    constexpr double as_good = 0.01;
+    ChartCurve linear = curve_over_time(
         result, "both, linear answer", 1, [](const TransferPoint& point) -> std::optional<double> {
-          const TransferAnswer* linear = answer_of_order(point, 1);
-          if (linear == nullptr) return std::nullopt;
-          return linear->total_change_m_s();
-        }));
-    show_beside_line(chart.curves.back());
+          const TransferAnswer* answer = answer_of_order(point, 1);
+          const TransferAnswer* shown = shown_answer(point);
+          if (answer == nullptr) return std::nullopt;
+          const double change = answer->total_change_m_s();
+          const bool is_as_good =
+              shown != nullptr && std::abs(change / shown->total_change_m_s() - 1) <= as_good;
+          return is_as_good ? std::nullopt : std::optional(change);
+        });
+    show_beside_line(linear);
+    chart.curves.insert(chart.curves.begin(), std::move(linear));
   }
   chart.curves.push_back(marks(result, "near a singularity", 7,
                                [](const TransferPoint& point) { return point.is_near_singular; }));
@@ -158,13 +166,25 @@ Chart velocity_change_chart(const TransferResult& result) {
                                }));
   if (result.optimal) {
     ChartCurve optimal;
-    optimal.title = "optimal impulses";
+    optimal.title = "optimal impulses, linear theory";
     optimal.style = 2;
     for (const LeastChange& one : result.optimal->by_time) {
-      optimal.points.emplace_back(one.time * time_unit(result), one.change_m_s);
+      if (!one.change_m_s) continue;
+      optimal.points.emplace_back(one.time * time_unit(result), *one.change_m_s);
     }
     chart.curves.push_back(std::move(optimal));
-    chart.notes.emplace_back("Optimal impulses are those of the linear theory.");
+    if (result.optimal->is_found()) {
+      ChartCurve plan;
+      plan.title = "optimal plan, flown";
+      plan.style = 3;
+      plan.has_line = false;
+      plan.points.emplace_back(result.optimal->plan->duration * time_unit(result),
+                               result.optimal->plan->total_change_m_s());
+      chart.curves.push_back(std::move(plan));
+    }
+    chart.notes.emplace_back(
+        "Optimal impulses along time are those of the linear theory about the "
+        "chief, which may not hold so far from it.");
   }
   if (const auto best = result.best_point()) {
     chart.rules.push_back({true, result.points[*best].time * time_unit(result), "least"});
@@ -172,7 +192,7 @@ Chart velocity_change_chart(const TransferResult& result) {
   chart.reading = fmt::format(
       "What leaving the start and stopping at the end costs together, for every transfer time: the "
       "magnitudes of both impulses and their sum, of the {}; hollow markers are the sum of the "
-      "linear answer, and lie on the line where it is as good. The vertical line is the least "
+      "linear answer where it differs by more than a hundredth. The vertical line is the least "
       "sum, among answers that come within the tolerance and are not near a singularity.{}",
       is_refined ? "answer that flying refined (where that failed, of the highest order)"
                  : fmt::format("polynomials of order {}", result.scene.order),

@@ -44,9 +44,10 @@ void add_refinement(TransferColumns& columns) {
 
 std::string transfers_csv(const TransferResult& result) {
   const double unit = result.scene.units.time_s;
+  const double length_km = result.scene.units.length_km;
   const auto has_kind = [](Point point) { return point.kind.has_value(); };
   TransferColumns columns;
-  columns.add("time_canonical", &TransferPoint::time);
+  columns.add("time_canonical", [&](Point point) { return told_time(result.scene, point.time); });
   columns.add("time_s", [=](Point point) { return point.time * unit; });
   columns.add_if(has_kind, "kind", [](Point point) { return point.kind->name(); });
   columns.add_if(has_kind, "condition", [](Point point) { return condition(point.condition); });
@@ -60,11 +61,16 @@ std::string transfers_csv(const TransferResult& result) {
   columns.add("answer", answer_name);
   columns.add("exceeds_impulse", &TransferPoint::exceeds_impulse);
   columns.add("keep_out_ratio", &TransferPoint::keep_out_ratio);
+  columns.add_if([](Point point) { return point.lowest.has_value(); }, "lowest_km",
+                 [=](Point point) { return *point.lowest * length_km; });
+  columns.add("below_surface", &TransferPoint::is_below_surface);
   add_answer_columns<TransferPoint>(columns, result.scene.transfer->frame,
                                     [](Point point) -> Point { return point; });
   add_orders(columns, result.scene.order);
   add_refinement(columns);
   columns.add("hamilton_jacobi_residual", &TransferPoint::hamilton_jacobi_residual);
+  columns.add_if([](Point point) { return point.drift.has_value(); }, "end_drift_m_per_revolution",
+                 [](Point point) { return point.drift->per_revolution_m; });
   columns.add("failure", failure_text);
   return columns.csv(result.points);
 }
@@ -74,7 +80,8 @@ std::string singular_times_csv(const TransferResult& result) {
   using Singular = const SingularTime&;
   Columns<SingularTime> columns;
   columns.add("kind", [](Singular singular) { return singular.kind.name(); });
-  columns.add("time_canonical", &SingularTime::time);
+  columns.add("time_canonical",
+              [&](Singular singular) { return told_time(result.scene, singular.time); });
   columns.add("time_s", [=](Singular singular) { return singular.time * unit; });
   columns.add("resolution_s", [=](Singular singular) { return singular.resolution * unit; });
   columns.add("smallest_ratio", &SingularTime::smallest_ratio);
@@ -98,7 +105,7 @@ std::string conditions_csv(const TransferResult& result) {
   for (const GeneratingFunctionKind& kind : conditions.kinds) text += "," + kind.name();
   text += "\n";
   for (std::size_t i = 0; i < conditions.times.size(); ++i) {
-    text += csv_number(conditions.times[i]) + "," +
+    text += csv_number(told_time(result.scene, conditions.times[i])) + "," +
             csv_number(conditions.times[i] * result.scene.units.time_s);
     for (const double value : conditions.values[i]) text += "," + condition(value);
     text += "\n";

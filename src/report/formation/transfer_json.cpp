@@ -3,6 +3,7 @@
 #include "../../formats/relative_frame_text.hpp"
 #include "../../scene/system_json.hpp"
 #include "../../store/json_values.hpp"
+#include "drift_view.hpp"
 #include "hamjet/version.hpp"
 #include "impulse_view.hpp"
 #include "transfer_view.hpp"
@@ -31,7 +32,8 @@ Json counts_json(const TransferCounts& counts) {
           {"beyond_tolerance_and_refined_away_from_singularities", counts.corrected_away},
           {"refinement_failed", counts.refinement_failed},
           {"impulse_too_large", counts.over_impulse},
-          {"through_keep_out", counts.kept_out}};
+          {"through_keep_out", counts.kept_out},
+          {"below_surface", counts.below_surface}};
 }
 
 Json misses_json(const TransferResult& result) {
@@ -57,10 +59,10 @@ Json windows_json(const TransferResult& result) {
   return json;
 }
 
-Json singular_time_json(const SingularTime& singular, const CanonicalUnits& units) {
-  return {{"time_canonical", singular.time},
-          {"time_s", singular.time * units.time_s},
-          {"resolution_s", singular.resolution * units.time_s},
+Json singular_time_json(const SingularTime& singular, const Scene& scene) {
+  return {{"time_canonical", told_time(scene, singular.time)},
+          {"time_s", singular.time * scene.units.time_s},
+          {"resolution_s", singular.resolution * scene.units.time_s},
           {"smallest_ratio", json_number(singular.smallest_ratio)},
           {"second_ratio", json_number(singular.second_ratio)},
           {"directions_lost", singular.directions_lost},
@@ -76,28 +78,32 @@ Json vector_json(const Eigen::Vector3d& vector) {
 }
 
 Json study_head_json(const Scene& scene, const std::string& study, const std::string& integrator) {
-  return {{"scene", scene.name},
-          {"title", scene.title},
-          {"version", version},
-          {"study", study},
-          {"model", model_name(scene.system.model)},
-          {"system", system_json(scene.system)},
-          {"units", {{"length_km", scene.units.length_km}, {"time_s", scene.units.time_s}}},
-          {"order", scene.order},
-          {"integrator", integrator}};
+  return {
+      {"scene", scene.name},
+      {"title", scene.title},
+      {"version", version},
+      {"study", study},
+      {"model", model_name(scene.system.model)},
+      {"system", system_json(scene.system)},
+      {"units", {{"length_km", told_units(scene).length_km}, {"time_s", told_units(scene).time_s}}},
+      {"order", scene.order},
+      {"integrator", integrator}};
 }
 
-Json transfer_point_json(const TransferPoint& point, const CanonicalUnits& units) {
+Json transfer_point_json(const TransferPoint& point, const Scene& scene) {
   const TransferAnswer* answer = shown_answer(point);
   const TransferAnswer* linear = answer_of_order(point, 1);
-  Json json = {{"time_canonical", point.time},
-               {"time_s", point.time * units.time_s},
+  Json json = {{"time_canonical", told_time(scene, point.time)},
+               {"time_s", point.time * scene.units.time_s},
                {"kind", point.kind ? Json(point.kind->name()) : Json(nullptr)},
                {"condition", point.kind ? json_number(point.condition) : Json(nullptr)},
                {"near_singular", point.is_near_singular},
                {"beyond_tolerance", point.is_beyond_tolerance},
                {"exceeds_impulse", point.exceeds_impulse},
                {"keep_out_ratio", json_number(point.keep_out_ratio)},
+               {"lowest_km",
+                point.lowest ? json_number(*point.lowest * scene.units.length_km) : Json(nullptr)},
+               {"below_surface", point.is_below_surface},
                {"answer", text_or_null(answer_name(point))},
                {"start_change_m_s", nullptr},
                {"end_change_m_s", nullptr},
@@ -116,6 +122,12 @@ Json transfer_point_json(const TransferPoint& point, const CanonicalUnits& units
   if (linear != nullptr) {
     json["linear_total_change_m_s"] = json_number(linear->total_change_m_s());
     json["linear_miss_m"] = json_number(linear->miss_m);
+  }
+  json["after_arrival"] = nullptr;
+  if (answer != nullptr) {
+    json["after_arrival"] = {{"position_m", vector_json(point.arrived.position_m)},
+                             {"velocity_m_s", vector_json(point.arrived.velocity_m_s)}};
+    add_drift(json["after_arrival"], point.drift, point.arrived);
   }
   for (const TransferAnswer& entry : point.answers) {
     json["miss_m_by_order"].push_back(entry.failure.empty() ? json_number(entry.miss_m)
@@ -156,12 +168,11 @@ Json transfer_summary_json(const TransferResult& result) {
   json["nominal_file"] = nominal_file_json(scene);
   json["verdict"] = transfer_verdict(result);
   const auto best = result.best_point();
-  json["best"] = best ? transfer_point_json(result.points[*best], scene.units) : Json(nullptr);
+  json["best"] = best ? transfer_point_json(result.points[*best], scene) : Json(nullptr);
   json["is_first_or_last_time"] =
       best && result.points.size() > 1 && (*best == 0 || *best + 1 == result.points.size());
-  json["least_between_listed_times"] = result.least_between
-                                           ? transfer_point_json(*result.least_between, scene.units)
-                                           : Json(nullptr);
+  json["least_between_listed_times"] =
+      result.least_between ? transfer_point_json(*result.least_between, scene) : Json(nullptr);
   json["times_between_listed"] = result.times_between;
   json["budget_windows"] = settings.budget_m_s ? windows_json(result) : Json(nullptr);
   json["primer_vector"] = primer_json(result);
@@ -173,7 +184,7 @@ Json transfer_summary_json(const TransferResult& result) {
   json["misses_away_from_singularities"] = misses_json(result);
   json["position_singular_times"] = Json::array();
   for (const SingularTime& singular : result.position_singularities()) {
-    json["position_singular_times"].push_back(singular_time_json(singular, scene.units));
+    json["position_singular_times"].push_back(singular_time_json(singular, scene));
   }
   json["flight_floor_m"] = json_number(result.flight_floor_m);
   json["chief_error_m"] = json_number(result.chief_error_m);

@@ -20,7 +20,7 @@ nlohmann::ordered_json study_head_json(const Scene& scene, const std::string& st
 void add_coordinates(nlohmann::ordered_json& json, const ChosenCoordinates& coordinates);
 
 /// A transfer's kind, velocity changes and misses; null where there is no answer.
-nlohmann::ordered_json transfer_point_json(const TransferPoint& point, const CanonicalUnits& units);
+nlohmann::ordered_json transfer_point_json(const TransferPoint& point, const Scene& scene);
 
 /// `summary.json` of a transfer study, without its end.
 nlohmann::ordered_json transfer_summary_json(const TransferResult& result);

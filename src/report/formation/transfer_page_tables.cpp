@@ -105,7 +105,7 @@ std::string singular_table_html(const TransferResult& result) {
       return fmt::format("({:+.6f}, {:+.6f}, {:+.6f})", direction[0], direction[1], direction[2]);
     };
     rows += "<tr>" + row_name_cell(singular_time_text(singular, result.scene.units.time_s, 6)) +
-            cell(fmt::format("{:.12g}", singular.time)) +
+            cell(fmt::format("{:.12g}", told_time(result.scene, singular.time))) +
             cell(singular.direction_rtn ? text(*singular.direction_rtn) : "no orbital plane") +
             cell(text(singular.direction)) + cell(fmt::format("{:.1e}", singular.smallest_ratio)) +
             cell(fmt::format("{:.1e}", singular.second_ratio)) + "</tr>\n";

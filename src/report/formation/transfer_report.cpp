@@ -3,9 +3,11 @@
 #include "../../formats/orbit_messages/orbit_ephemeris.hpp"
 #include "../../formats/output_formats.hpp"
 #include "../../formats/relative_frame_text.hpp"
+#include "../../store/json_text.hpp"
 #include "../../text/html_text.hpp"
 #include "../drawing/chart_drawer.hpp"
 #include "../drawing/study_figure.hpp"
+#include "../study_checks.hpp"
 #include "hamjet/report/relative_motion_report.hpp"
 #include "impulse_view.hpp"
 #include "transfer_charts.hpp"
@@ -136,10 +138,12 @@ StudyReport transfer_report(const TransferResult& result,
   }
   report.exit_code = exit_code(result);
   report.failure = transfer_failure(result);
-  report.files.push_back({"summary.json", transfer_report_json(result, validity).dump(2) + "\n"});
+  report.files.push_back(
+      {"summary.json", json_text(transfer_report_json(result, validity)) + "\n"});
   report.table = terminal_table(result);
   report.details = terminal_details(result);
   if (validity) report.table += "  validity         " + validity_verdict(*validity) + "\n";
+  add_checks(report, result.checks);
   return report;
 }
 

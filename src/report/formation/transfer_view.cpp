@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "../../text/html_text.hpp"
+#include "drift_view.hpp"
 #include "hamjet/error.hpp"
 #include "impulse_view.hpp"
 #include "waypoint_view.hpp"
@@ -76,6 +77,8 @@ TransferCounts count_points(const TransferResult& result) {
     counts.refinement_failed_away += has_failed_refinement && is_away;
     counts.over_impulse += point.is_proved() && point.exceeds_impulse;
     counts.kept_out += point.is_proved() && !point.exceeds_impulse && point.enters_keep_out();
+    counts.below_surface += point.is_proved() && !point.exceeds_impulse &&
+                            !point.enters_keep_out() && point.is_below_surface;
   }
   return counts;
 }
@@ -94,7 +97,8 @@ std::vector<TransferOutcome> transfer_outcomes(const TransferResult& result) {
        fmt::format("missing by more than {}, which flying did not correct", tolerance)},
       {counts.unanswered_away, "without an answer"},
       {counts.over_impulse, "with an impulse larger than largest_impulse_m_s"},
-      {counts.kept_out, "through the ellipsoid keep_out_m"}};
+      {counts.kept_out, "through the ellipsoid keep_out_m"},
+      {counts.below_surface, "below the surface on their way"}};
   std::erase_if(outcomes, [](const TransferOutcome& outcome) { return outcome.count == 0; });
   return outcomes;
 }
@@ -267,7 +271,10 @@ std::string transfer_verdict(const TransferResult& result) {
   if (linear != nullptr && result.scene.order > 1) {
     text += fmt::format(", with the linear answer by {}", length_text(linear->miss_m));
   }
-  return text + "." + edge_text(result, *best) + left_out_text(result) + between_text(result) +
+  text += ".";
+  const std::string drift = drift_text(point.drift, point.arrived, result.scene.transfer->frame);
+  if (!drift.empty()) text += " At its end: " + drift;
+  return text + edge_text(result, *best) + left_out_text(result) + between_text(result) +
          budget_text(result) + further;
 }
 
@@ -282,6 +289,9 @@ std::string transfer_failure(const TransferResult& result) {
   if (const std::string failure = optimal_impulses_failure(result); !failure.empty()) {
     return "optimal impulses: " + failure;
   }
+  if (result.optimal && !result.optimal->is_proved()) {
+    return "optimal impulses: the solver failed for a transfer time, and the least may be there";
+  }
   if (const std::string failure = waypoint_failure(result); !failure.empty()) {
     return "waypoints: " + failure;
   }
@@ -292,12 +302,15 @@ std::string transfer_failure(const TransferResult& result) {
     return "other revolutions: " + failure;
   }
   const TransferCounts counts = count_points(result);
-  if (counts.compared == 0 && counts.over_impulse + counts.kept_out > 0) {
+  const std::size_t forbidden = counts.over_impulse + counts.kept_out + counts.below_surface;
+  if (counts.compared == 0 && forbidden > 0) {
     return fmt::format(
         "no transfer is as the scene allows: of {} that are proved {} have an impulse larger than "
-        "largest_impulse_m_s, and {} go through the ellipsoid keep_out_m",
-        counts.over_impulse + counts.kept_out, counts.over_impulse, counts.kept_out);
+        "largest_impulse_m_s, {} go through the ellipsoid keep_out_m, and {} pass below the "
+        "surface",
+        forbidden, counts.over_impulse, counts.kept_out, counts.below_surface);
   }
+  if (has_failed(result.checks)) return "";
   return fmt::format(
       "strict: of {} transfer times away from singularities {} have no answer, {} miss by more "
       "than {}, and the refinement of {} failed",

@@ -36,8 +36,9 @@ struct TransferCounts {
   std::size_t refined = 0;
   std::size_t refinement_failed = 0;
   std::size_t refinement_failed_away = 0;
-  std::size_t over_impulse = 0;  ///< proved, but with an impulse larger than the scene allows
-  std::size_t kept_out = 0;      ///< proved, of allowed impulses, but through the ellipsoid
+  std::size_t over_impulse = 0;   ///< proved, but with an impulse larger than the scene allows
+  std::size_t kept_out = 0;       ///< proved, of allowed impulses, but through the ellipsoid
+  std::size_t below_surface = 0;  ///< the same, outside of it, but below the surface
 };
 TransferCounts count_points(const TransferResult& result);
 

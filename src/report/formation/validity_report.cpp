@@ -2,10 +2,12 @@
 
 #include "../../formats/relative_frame_text.hpp"
 #include "../../store/csv_values.hpp"
+#include "../../store/json_text.hpp"
 #include "../../store/json_values.hpp"
 #include "../../text/quantity_text.hpp"
 #include "../../text/terminal_text.hpp"
 #include "../drawing/chart_drawer.hpp"
+#include "../study_checks.hpp"
 #include "hamjet/report/relative_motion_report.hpp"
 #include "transfer_json.hpp"
 #include "transfer_page.hpp"
@@ -71,7 +73,7 @@ Json validity_json(const ValidityResult& result) {
       for (const auto& [name, value] : limit_members(entry.limit)) order[name] = cell_json(value);
       entries.push_back(std::move(order));
     }
-    points.push_back({{"time_canonical", point.time},
+    points.push_back({{"time_canonical", told_time(result.scene, point.time)},
                       {"time_s", point.time * result.scene.units.time_s},
                       {"orders", entries}});
   }
@@ -107,12 +109,12 @@ std::string validity_csv(const ValidityResult& result) {
   text += '\n';
   for (const ValidityPoint& point : result.points) {
     for (const ValidityEntry& entry : point.entries) {
-      text += fmt::format("{},{},{},{},{},{},{},{},{},{},{}", csv_number(point.time),
-                          csv_number(point.time * result.scene.units.time_s), entry.order,
-                          csv_number(entry.predicted_m), csv_number(entry.proved_m),
-                          csv_number(entry.miss_m), entry.is_at_limit, frame_name(frame),
-                          derivatives_name(frame), name_of(result.coordinates.start),
-                          name_of(result.coordinates.end));
+      text += fmt::format(
+          "{},{},{},{},{},{},{},{},{},{},{}", csv_number(told_time(result.scene, point.time)),
+          csv_number(point.time * result.scene.units.time_s), entry.order,
+          csv_number(entry.predicted_m), csv_number(entry.proved_m), csv_number(entry.miss_m),
+          entry.is_at_limit, frame_name(frame), derivatives_name(frame),
+          name_of(result.coordinates.start), name_of(result.coordinates.end));
       for (const auto& [name, value] : limit_members(entry.limit)) {
         text += "," + csv_field(csv_text(value));
       }
@@ -128,9 +130,10 @@ StudyReport validity_report(const ValidityResult& result, const ReportOrigin& or
   report.files = {{"validity.csv", validity_csv(result)},
                   {"report.html", validity_page(result, origin, drawer)}};
   report.drawing_problem = drawer.problem();
-  report.files.push_back({"summary.json", validity_report_json(result).dump(2) + "\n"});
+  report.files.push_back({"summary.json", json_text(validity_report_json(result)) + "\n"});
   report.table = terminal_table(result);
   report.details = terminal_details(result);
+  add_checks(report, result.checks);
   return report;
 }
 

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "../../scene/scene_sections.hpp"
+#include "../../store/json_text.hpp"
 #include "../../store/json_values.hpp"
 #include "../drawing/study_figure.hpp"
 #include "canonical_transformation_charts.hpp"
@@ -97,7 +98,7 @@ std::string summary_json(const CanonicalTransformationResult& result) {
                {"exit_code", exit_code(result)}};
   json["runs"] = Json::array();
   for (const CanonicalTransformationRun& run : result.runs) json["runs"].push_back(run_json(run));
-  return json.dump(2) + "\n";
+  return json_text(json) + "\n";
 }
 
 std::string number_or_dash(const std::optional<double>& value) {
@@ -110,19 +111,19 @@ std::string table(const CanonicalTransformationResult& result) {
       "{}\nmidpoint scheme in z and in Z = f_k(z), f_k = f composed k times; duration {:.10g} "
       "canonical, energy {:.6g}\n\n",
       study.title, study.duration, result.energy);
-  constexpr std::string_view layout =
-      "{:>10} {:>9} {:>14} {:>14} {:>11} {:>11} {:>11} {:>10}  {}\n";
-  text += fmt::format(layout, "step", "steps", "energy error", "energy error", "difference",
-                      "difference", "Hamilton-", "condition", "crosses");
-  text += fmt::format(layout, "", "", "in z", "in Z", "of errors", "of states", "Jacobi", "of A_k",
-                      "barrier");
+  // 80 characters, which a terminal has.
+  constexpr std::string_view layout = "{:>5} {:>6} {:>9} {:>9} {:>9} {:>9} {:>8} {:>8}  {}\n";
+  text += fmt::format(layout, "step", "steps", "energy", "energy", "differ.", "differ.", "Hamilton",
+                      "cond.", "crosses");
+  text += fmt::format(layout, "", "", "error z", "error Z", "of errors", "of states", "-Jacobi",
+                      "of A_k", "barrier");
   for (const CanonicalTransformationRun& run : result.runs) {
     if (!run.trajectory.empty()) {
       const std::string barrier =
           !run.crosses_barrier ? "-" : (*run.crosses_barrier ? "yes" : "no");
       text += fmt::format(layout, fmt::format("{:g}", run.requested_step), run.steps,
-                          fmt::format("{:.6e}", run.largest_energy_error),
-                          fmt::format("{:.6e}", run.largest_transformed_energy_error),
+                          fmt::format("{:.2e}", run.largest_energy_error),
+                          fmt::format("{:.2e}", run.largest_transformed_energy_error),
                           fmt::format("{:.1e}", run.largest_energy_difference),
                           fmt::format("{:.1e}", run.largest_state_difference),
                           number_or_dash(run.hamilton_jacobi_residual),

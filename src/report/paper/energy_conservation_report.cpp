@@ -4,6 +4,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "../../store/json_text.hpp"
 #include "../../store/json_values.hpp"
 #include "../drawing/study_figure.hpp"
 #include "energy_conservation_charts.hpp"
@@ -121,7 +122,7 @@ std::string summary_json(const EnergyConservationResult& result) {
       {"fixed_step", fixed_step_json(result.fixed_step)},
       {"failed_checks", result.failed_checks},
       {"exit_code", result.exit_code()}};
-  return json.dump(2) + "\n";
+  return json_text(json) + "\n";
 }
 
 std::string table(const EnergyConservationResult& result) {

@@ -3,6 +3,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "../../store/json_text.hpp"
 #include "../../store/json_values.hpp"
 #include "../../text/quantity_text.hpp"
 #include "../drawing/study_figure.hpp"
@@ -176,7 +177,7 @@ std::string summary(const OptimalControlResult& result) {
   }
   json["failed_checks"] = result.failed_checks;
   json["exit_code"] = result.exit_code();
-  return json.dump(2) + "\n";
+  return json_text(json) + "\n";
 }
 
 std::string error_text(const std::optional<double>& error) {

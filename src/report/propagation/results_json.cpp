@@ -3,9 +3,12 @@
 #include "../../formats/jet_description.hpp"
 #include "../../formats/results_names.hpp"
 #include "../../scene/system_json.hpp"
+#include "../../store/json_text.hpp"
 #include "../../store/json_values.hpp"
+#include "../../studies/checks/kept_tolerance.hpp"
 #include "../../studies/checks/run_warnings.hpp"
 #include "../../studies/reference.hpp"
+#include "../study_checks.hpp"
 #include "hamjet/report/results.hpp"
 #include "hamjet/version.hpp"
 #include "results_operations_json.hpp"
@@ -42,25 +45,30 @@ Json exactness_json(const PropagationResult& result, const KindResult& kind) {
           {"by_degree", kind.failure.empty() ? by_degree : Json(nullptr)}};
 }
 
-Json checks_json(const std::vector<SelfCheck>& checks) {
-  Json json = Json::array();
-  for (const SelfCheck& check : checks) {
-    json.push_back({{"name", name_of(check.name)},
-                    {"state", name_of(check.state)},
-                    {"value", or_null(check.value)},
-                    {"limit", or_null(check.limit)},
-                    {"seconds", check.seconds},
-                    {"text", check.text}});
-  }
-  return json;
-}
-
 /// Relative errors by degree, or null.
 Json by_degree_json(const std::optional<std::vector<double>>& errors) {
   if (!errors) return nullptr;
   Json json = Json::array();
   for (std::size_t d = 0; d < errors->size(); ++d) {
     json.push_back({{"degree", d}, {"relative", (*errors)[d]}});
+  }
+  return json;
+}
+
+/// What each degree keeps of the tolerance, and what keeps it from it; null where none is known.
+Json tolerance_json(const Scene& scene, const RunResult& run) {
+  const std::vector<KeptTolerance> by_degree = kept_tolerance(scene, run);
+  if (by_degree.empty()) return nullptr;
+  Json json = Json::array();
+  for (std::size_t d = 0; d < by_degree.size(); ++d) {
+    const KeptTolerance& one = by_degree[d];
+    const char* const limit = one.is_rounding ? "rounding" : "steps";
+    json.push_back({{"degree", d},
+                    {"allowed", one.asked},
+                    {"error", one.error},
+                    {"rounding", one.rounding},
+                    {"kept", one.is_kept()},
+                    {"kept_from_it_by", one.is_kept() ? Json(nullptr) : Json(limit)}});
   }
   return json;
 }
@@ -150,7 +158,8 @@ Json run_json(const PropagationResult& result, const RunResult& run) {
     for (const char* key :
          {"checks", "steps", "rejected_steps", "vector_field_evaluations", "nominal_evaluations",
           "wall_seconds", "nominal_final", "energy_error", "exactness", "symplecticity_by_degree",
-          "error_by_degree", "error_estimate_by_degree", "position_error_m", "operations"}) {
+          "error_by_degree", "error_estimate_by_degree", "tolerance_by_degree", "position_error_m",
+          "operations"}) {
       json[key] = nullptr;
     }
     return json;
@@ -170,6 +179,7 @@ Json run_json(const PropagationResult& result, const RunResult& run) {
   json["symplecticity_by_degree"] = symplecticity_json(run.symplecticity);
   json["error_by_degree"] = by_degree_json(run.error_by_degree);
   json["error_estimate_by_degree"] = by_degree_json(run.error_estimate.by_degree);
+  json["tolerance_by_degree"] = tolerance_json(result.scene, run);
   if (has_time_shift(run.statistics.left_out)) {
     json["time_shift_difference_by_degree"] = run.time_shift_difference.empty()
                                                   ? Json(nullptr)
@@ -233,7 +243,7 @@ std::string summary_json(const PropagationResult& result) {
   json["operations"] = operations_json(result);
   json["skipped"] = skipped_json(result);
   json["warnings"] = scene.warnings;
-  return json.dump(2) + "\n";
+  return json_text(json) + "\n";
 }
 
 }  // namespace hamjet::io

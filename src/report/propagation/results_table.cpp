@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "../../formats/results_names.hpp"
+#include "../../studies/checks/kept_tolerance.hpp"
 #include "../../studies/checks/run_warnings.hpp"
 #include "../../studies/reference.hpp"
 #include "../../text/quantity_text.hpp"
@@ -66,7 +67,11 @@ std::string verdict(const Scene& scene, const RunResult& run) {
   if (!near_singular_warning(scene, run).empty()) return "near singular";
   const bool is_incomplete = std::any_of(run.kinds.begin(), run.kinds.end(),
                                          [](const auto& kind) { return !kind.failure.empty(); });
-  return is_incomplete ? "incomplete" : "ok";
+  if (is_incomplete) return "incomplete";
+  const std::vector<KeptTolerance> tolerance = kept_tolerance(scene, run);
+  const std::size_t kept = degrees_kept(tolerance);
+  if (kept == tolerance.size()) return "ok";
+  return kept == 0 ? "tolerance not kept" : fmt::format("ok to degree {}", kept - 1);
 }
 
 /// The degrees whose exactness the table shows: the first and the last.
@@ -80,6 +85,10 @@ std::string residual_text(const KindResult& kind, std::size_t degree) {
   if (degree >= kind.by_degree.size()) return "";
   const ExactnessEntry& entry = kind.by_degree[degree];
   return size_text(entry.residual.absolute) + (is_at_floor(entry) ? "*" : "");
+}
+
+bool has_kinds(const PropagationResult& result) {
+  return result.scene.kinds && !result.scene.kinds->empty() && result.problem.is_full_jet;
 }
 
 Column error_column(const PropagationResult& result) {
@@ -101,12 +110,34 @@ Column estimate_column(const PropagationResult& result) {
           }};
 }
 
+Column symplecticity_column() {
+  return {"symplecticity",
+          "symplecticity: the largest scaled defect of the Poisson brackets over all degrees.",
+          largest_defect};
+}
+
+/// The exactness of the first kind at the highest degree; the other kinds and degrees stand among
+/// the further columns.
+Column exactness_column(const PropagationResult& result) {
+  const std::string& kind = result.scene.kinds->front();
+  const std::size_t degree = shown_degrees(result.scene).back();
+  return {fmt::format("{} exactness", kind),
+          fmt::format(
+              "{} exactness: the absolute exactness residual of degree {}{}", kind, degree,
+              result.reference ? "; * at its floor, where round-off hides the integrator." : "."),
+          [degree](const RunResult& run) { return residual_text(run.kinds.front(), degree); }};
+}
+
 std::vector<Column> main_columns(const PropagationResult& result) {
-  return {
+  std::vector<Column> columns = {
       {"time", "", [](const RunResult& run) { return duration_text(run.statistics.wall_seconds); }},
       result.reference ? error_column(result) : estimate_column(result),
-      {"verdict", "verdict: what the checks came to; ok says nothing of the size of the error.",
-       [&result](const RunResult& run) { return verdict(result.scene, run); }, true}};
+      symplecticity_column()};
+  if (has_kinds(result)) columns.push_back(exactness_column(result));
+  columns.push_back({"verdict",
+                     "verdict: what the checks came to; ok says nothing of the size of the error.",
+                     [&result](const RunResult& run) { return verdict(result.scene, run); }, true});
+  return columns;
 }
 
 /// What the main table leaves out.
@@ -119,13 +150,10 @@ std::vector<Column> further_columns(const PropagationResult& result) {
        [](const RunResult& run) {
          return run.position_error_m ? length_text(*run.position_error_m) : "";
        }},
-      {"symplecticity",
-       "symplecticity: the largest scaled defect of the Poisson brackets over all degrees.",
-       largest_defect},
       {"energy error", "energy error: the largest along the nominal, relative.",
        [](const RunResult& run) { return size_text(run.energy_error); }}};
   if (result.reference) columns.push_back(estimate_column(result));
-  if (!result.scene.kinds || !result.problem.is_full_jet) return columns;
+  if (!has_kinds(result)) return columns;
   for (std::size_t k = 0; k < result.scene.kinds->size(); ++k) {
     for (const std::size_t d : shown_degrees(result.scene)) {
       const std::string& kind = (*result.scene.kinds)[k];

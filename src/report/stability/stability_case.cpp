@@ -117,12 +117,13 @@ StabilityCase read_case(const std::filesystem::path& path) {
   const SceneDocument document = parse_document(text, printable_path(path), {});
   const TableReader root(document.table, "", document.source, &all_studies().front().top);
   const TableReader table = root.table("case");
-  StabilityCase subject{path.stem().string(),
-                        root.has("title") ? root.text("title") : default_title(file),
-                        table.text("group"),
-                        table.text("why"),
-                        read_expectation(table, text, file),
-                        Scene{}};
+  StabilityCase subject{
+      path.stem().string(),
+      root.has("title") ? printable(root.text("title"), std::string::npos) : default_title(file),
+      table.text("group"),
+      table.text("why"),
+      read_expectation(table, text, file),
+      Scene{}};
   try {
     subject.scene = parse_scene(text, file);
   } catch (const Error& error) {

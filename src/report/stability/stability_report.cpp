@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "../../store/csv_values.hpp"
+#include "../../store/json_text.hpp"
 #include "../../store/json_values.hpp"
 #include "../../text/html_text.hpp"
 #include "../drawing/chart_drawer.hpp"
@@ -121,7 +122,7 @@ StudyReport stability_report(const std::vector<StabilityResult>& results,
   }
   report.files = {{"stability.csv", stability_csv(results)},
                   {"stability.html", stability_page(results, origin, drawer)}};
-  report.json = list.dump(2) + "\n";
+  report.json = json_text(list) + "\n";
   report.drawing_problem = drawer.problem();
   report.table = stability_verdict(results) + "\n";
   if (!wrong.empty()) {
@@ -133,7 +134,7 @@ StudyReport stability_report(const std::vector<StabilityResult>& results,
                         {"verdict", stability_verdict(results)},
                         {"exit_code", report.exit_code},
                         {"cases", list}};
-  report.files.push_back({"summary.json", summary.dump(2) + "\n"});
+  report.files.push_back({"summary.json", json_text(summary) + "\n"});
   return report;
 }
 

@@ -13,6 +13,7 @@ std::vector<NumberArray> collision_arrays(const CollisionResult& result) {
   };
   add("probability", p.probability);
   add_list("interval", {p.lower, p.upper});
+  add("path_error_m", p.path_error);
   add("standard_error", p.standard_error);
   add("samples", static_cast<double>(p.samples));
   add("hits", static_cast<double>(p.hits));
@@ -29,6 +30,9 @@ std::vector<NumberArray> collision_arrays(const CollisionResult& result) {
     intervals.push_back(least.upper[k]);
   }
   arrays.push_back({"separation_intervals_m", {least.shares.size(), 2}, intervals});
+  const CollisionProbability& whole = probability_of_passage(result);
+  add("whole_passage_probability", whole.probability);
+  add_list("whole_passage_interval", {whole.lower, whole.upper});
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const UncertainApproach* const nearest = nearest_approach(result);
   add("approach_time_s", nearest ? nearest->time_s : none);

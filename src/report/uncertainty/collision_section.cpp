@@ -54,12 +54,14 @@ nlohmann::ordered_json collision_json(const CollisionResult& result) {
   const CollisionProbability& p = result.probability;
   nlohmann::ordered_json json = {{"radius_m", result.watch.radius_m},
                                  {"window_s", {result.from_s, result.to_s}},
+                                 {"window_widened", result.is_widened},
                                  {"event", name_in(collision_event_names, result.watch.event)},
                                  {"order", result.order},
                                  {"sampling", name_in(collision_sampling_names, p.sampling)},
                                  {"probability", p.probability},
                                  {"confidence", result.watch.confidence},
                                  {"interval", {p.lower, p.upper}},
+                                 {"path_error_m", p.path_error},
                                  {"standard_error", p.standard_error},
                                  {"samples", p.samples},
                                  {"hits", p.hits},
@@ -68,9 +70,21 @@ nlohmann::ordered_json collision_json(const CollisionResult& result) {
                                  {"standard_error_of_change", p.standard_error_of_change}};
   if (p.sampled_radius) json["sampled_radius_m"] = *p.sampled_radius;
   if (p.largest_difference) json["largest_difference_m"] = *p.largest_difference;
+  json["whole_passage"] = nullptr;
+  if (const auto& whole = result.of_whole_passage) {
+    json["whole_passage"] = {{"window_s", {result.whole_from_s, result.whole_to_s}},
+                             {"probability", whole->probability},
+                             {"interval", {whole->lower, whole->upper}},
+                             {"path_error_m", whole->path_error},
+                             {"standard_error", whole->standard_error}};
+  }
+  json["warnings"] = result.warnings;
   json["least_separation"] = {{"samples", result.separations.samples},
                               {"shares", result.separations.shares},
                               {"separations_m", result.separations.separations},
+                              {"errors_m", result.separations.errors},
+                              {"flights", result.separations.flights},
+                              {"flight_difference_m", result.separations.flight_difference},
                               {"lower_m", result.separations.lower},
                               {"upper_m", nlohmann::ordered_json::array()}};
   for (const double upper : result.separations.upper) {
@@ -112,12 +126,37 @@ std::string plane_text(const UncertainApproach& approach) {
   return text + "\n";
 }
 
+/// A time after the start, or before it.
+std::string moment_text(double seconds) {
+  return (seconds < 0 ? "-" : "") + duration_text(std::abs(seconds));
+}
+
+/// What one order less makes of the probability.
+std::string lower_order_text(const CollisionProbability& p, int order) {
+  if (!(p.standard_error_of_change > 0)) {
+    return fmt::format("  order {} decides alike on every sample that was compared\n", order - 1);
+  }
+  if (!(p.probability > 0)) {
+    return fmt::format("  by order {} it is {:.1e} +- {:.1e}\n", order - 1,
+                       p.change_from_lower_order, p.standard_error_of_change);
+  }
+  return fmt::format("  by order {} it is {:+.1e} +- {:.1e} of it more\n", order - 1,
+                     p.change_from_lower_order / p.probability,
+                     p.standard_error_of_change / p.probability);
+}
+
 std::string collision_table_text(const CollisionResult& result) {
   const CollisionProbability& p = result.probability;
   std::string text = fmt::format(
       "collision nearer than {:.6g} m, {} to {} after the start, polynomials of order {}\n",
-      result.watch.radius_m, duration_text(result.from_s), duration_text(result.to_s),
-      result.order);
+      result.watch.radius_m, moment_text(result.from_s), moment_text(result.to_s), result.order);
+  if (result.is_widened) {
+    text += fmt::format(
+        "  the window is wider than the scene, {:.9g} s to {:.9g} s, to hold the whole passage "
+        "that "
+        "an end of the scene lies in\n",
+        result.from_s, result.to_s);
+  }
   if (p.samples == 0) {
     text += "  probability 0: no path within 9 standard deviations comes near\n";
   } else {
@@ -127,22 +166,22 @@ std::string collision_table_text(const CollisionResult& result) {
     if (p.sampling != CollisionSampling::plain) {
       text += fmt::format(", as good as {:.2g} plain ones", p.equivalent_samples);
     }
-    text += "\n";
-    if (result.order > 1) {
-      text += p.standard_error_of_change > 0
-                  ? fmt::format("  by order {} it is {:+.1e} +- {:.1e} of it more\n",
-                                result.order - 1, p.change_from_lower_order / p.probability,
-                                p.standard_error_of_change / p.probability)
-                  : fmt::format("  order {} decides alike on every sample that was compared\n",
-                                result.order - 1);
-    }
+    text += fmt::format("\n  in it: distances along a path are right to {:.1e} m\n", p.path_error);
+    if (result.order > 1) text += lower_order_text(p, result.order);
+  }
+  if (const auto& whole = result.of_whole_passage) {
+    text +=
+        fmt::format("  of the whole passage {:.4e}, {:g} % from {:.4e} to {:.4e}\n",
+                    whole->probability, result.watch.confidence * 100, whole->lower, whole->upper);
   }
   text += "  least separation in the window:";
   for (std::size_t k = 0; k < result.separations.shares.size(); ++k) {
     text += fmt::format("{} {:g} % below {:.4g} m", k == 0 ? "" : ",",
                         result.separations.shares[k] * 100, result.separations.separations[k]);
   }
-  text += fmt::format(" ({} plain samples)\n", result.separations.samples);
+  text +=
+      fmt::format(" ({} plain samples, {} flights within {:.1e} m)\n", result.separations.samples,
+                  result.separations.flights, result.separations.flight_difference);
   if (result.approaches.empty()) text += "  the means have no closest approach in the window\n";
   for (const UncertainApproach& approach : result.approaches) {
     text += fmt::format(
@@ -192,6 +231,7 @@ UncertaintySection collision_section(const Scene& scene, const CollisionResult& 
       "The probability of coming nearer than {:g} m is {:.5g} ({:g} % from {:.5g} to "
       "{:.5g}).",
       result.watch.radius_m, p.probability, result.watch.confidence * 100, p.lower, p.upper);
+  section.warnings = result.warnings;
   section.table = collision_table_text(result);
   section.title = "Collision";
   if (p.probability > 0) section.charts.push_back(probability_chart(scene, result));

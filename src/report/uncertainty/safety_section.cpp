@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "../../store/csv_values.hpp"
 #include "../../store/json_values.hpp"
 #include "../../text/quantity_text.hpp"
@@ -20,10 +22,16 @@ std::string burn_text(const SafetyPair& pair) {
 
 std::string pair_text(const SafetyPair& pair) { return pair.first + " and " + pair.second; }
 
+/// Whether the flight with the deviation that is told does not touch the ellipsoid.
+bool is_in_doubt(const SafetyPair& pair) {
+  return pair.margin && pair.margin->deviations.value_or(0) > 0 && !pair.margin->is_confirmed();
+}
+
 std::string margin_text(const SafetyPair& pair) {
   if (pair.margin) {
-    return pair.margin->deviations ? fmt::format("{:.3g} sigma at {}", *pair.margin->deviations,
-                                                 duration_text(pair.margin->time))
+    return pair.margin->deviations ? fmt::format("{:.3g} sigma at {}{}", *pair.margin->deviations,
+                                                 duration_text(pair.margin->time),
+                                                 is_in_doubt(pair) ? ", in doubt" : "")
                                    : "any";
   }
   return pair.refusal.empty() ? "-" : "not found";
@@ -57,18 +65,40 @@ std::vector<std::string> failed_checks(const SafetyResult& result) {
     }
     if (!watch.least_deviations || pair.first != "chief") continue;
     // Without a deviation that leads into it the ellipsoid is free up to any.
-    if (pair.margin &&
+    if (pair.margin && !is_in_doubt(pair) &&
         (!pair.margin->deviations || *pair.margin->deviations >= *watch.least_deviations)) {
       continue;
     }
     failed.push_back(fmt::format(
         "{}: {}, must be {:g} sigma (uncertainty.safety.least_deviations)", whose,
         pair.margin
-            ? fmt::format("the ellipsoid stays free up to {:.4g} sigma", *pair.margin->deviations)
+            ? fmt::format("the ellipsoid stays free up to {:.4g} sigma{}", *pair.margin->deviations,
+                          is_in_doubt(pair) ? ", which its flight does not confirm" : "")
             : "how far the ellipsoid stays free was not found",
         *watch.least_deviations));
   }
   return failed;
+}
+
+/// A sentence for each pair whose numbers are not to be trusted; what a share of the burn does not
+/// change is said once.
+std::vector<std::string> warnings_of(const SafetyResult& result) {
+  std::vector<std::string> warnings;
+  const auto add = [&](const std::string& warning) {
+    if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) {
+      warnings.push_back(warning);
+    }
+  };
+  for (const SafetyPair& pair : result.pairs) {
+    if (pair.warning) add(pair_text(pair) + ": " + *pair.warning);
+    if (is_in_doubt(pair)) {
+      add(
+          fmt::format("{}: the flight with the {:.3g} sigma that are told comes to {:.3g} of the "
+                      "ellipsoid, not to its surface",
+                      pair_text(pair), *pair.margin->deviations, pair.margin->flown_ratio));
+    }
+  }
+  return warnings;
 }
 
 nlohmann::ordered_json pair_json(const SafetyPair& pair) {
@@ -79,6 +109,7 @@ nlohmann::ordered_json pair_json(const SafetyPair& pair) {
                                  {"mean_separation_m", pair.mean_separation_m},
                                  {"separation_m", s.separations[0]},
                                  {"separation_interval_m", {s.lower[0], json_number(s.upper[0])}},
+                                 {"separation_error_m", s.errors[0]},
                                  {"samples", s.samples},
                                  {"nearer", s.nearer},
                                  {"probability_nearer", nearer_share(pair)},
@@ -91,7 +122,8 @@ nlohmann::ordered_json pair_json(const SafetyPair& pair) {
     if (pair.margin->deviations) {
       margin = {{"deviations", *pair.margin->deviations},
                 {"time_s", pair.margin->time},
-                {"flown_ratio", pair.margin->flown_ratio}};
+                {"flown_ratio", pair.margin->flown_ratio},
+                {"in_doubt", is_in_doubt(pair)}};
     }
     json["keep_out"] = margin;
   } else if (!pair.refusal.empty()) {
@@ -112,6 +144,7 @@ nlohmann::ordered_json safety_json(const SafetyResult& result) {
   }
   if (const auto& least = result.watch.least_separation_m) json["least_separation_m"] = *least;
   if (const auto& least = result.watch.least_deviations) json["least_deviations"] = *least;
+  json["warnings"] = warnings_of(result);
   json["failed_checks"] = failed_checks(result);
   json["pairs"] = nlohmann::ordered_json::array();
   for (const SafetyPair& pair : result.pairs) json["pairs"].push_back(pair_json(pair));
@@ -232,6 +265,7 @@ UncertaintySection safety_section(const SafetyResult& result) {
   section.html =
       table_html("Least separations, and how large deviations may be", safety_rows(result));
   section.charts.push_back(separations_chart(result));
+  section.warnings = warnings_of(result);
   section.failed_checks = failed_checks(result);
   section.files.push_back({"safety.csv", safety_csv(result)});
   return section;

@@ -59,8 +59,7 @@ Chart ellipse_chart(const UncertaintyResult& result, const UncertaintyAt& at,
   if (state.flown) {
     ChartCurve points;
     points.title = "flown";
-    points.has_line = false;
-    points.style = 2;
+    points.is_cloud = true;
     const Eigen::Index step =
         std::max<Eigen::Index>(1, state.flown_states.cols() / most_drawn_samples);
     for (Eigen::Index k = 0; k < state.flown_states.cols(); k += step) {

@@ -86,7 +86,7 @@ Json uncertainty_json(const UncertaintyResult& result) {
   json["coordinates"] = name_of(result.coordinates);
   json["frame"] = frame_name(settings.frame);
   json["derivatives"] = text_or_null(std::string(derivatives_name(settings.frame)));
-  json["units"] = "m, m/s; canonical in other coordinates";
+  json["units"] = "m, m/s; in other coordinates canonical, by the chief's distance at the start";
   json["verdict"] = uncertainty_verdict(result);
   json["notes"] = uncertainty_notes(result);
   json["misleading_probability"] = misleading_probability;
@@ -96,7 +96,7 @@ Json uncertainty_json(const UncertaintyResult& result) {
   for (const UncertaintyAt& at : result.points) {
     Json states = Json::array();
     for (const UncertainState& state : at.states) states.push_back(state_json(result, at, state));
-    json["times"].push_back({{"time_canonical", at.time},
+    json["times"].push_back({{"time_canonical", told_time(result.scene, at.time)},
                              {"time_s", at.time * result.scene.units.time_s},
                              {"states", states}});
   }
@@ -118,13 +118,13 @@ std::string moments_csv(const UncertaintyResult& result) {
                            const std::string& order, std::size_t component,
                            const Cumulants& moments, const FlownMoments* flown) {
         const auto i = static_cast<Eigen::Index>(component);
-        text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}", csv_number(at.time),
-                            csv_number(at.time * result.scene.units.time_s), state.name,
-                            polynomials, family.told_in, order, family.components[component].name,
-                            family.components[component].unit, csv_number(moments.mean()[i]),
-                            csv_number(moments.standard_deviations()[i]),
-                            csv_number(moments.skewness()[i]),
-                            csv_number(moments.excess_kurtosis()[i]));
+        text += fmt::format(
+            "{},{},{},{},{},{},{},{},{},{},{},{}", csv_number(told_time(result.scene, at.time)),
+            csv_number(at.time * result.scene.units.time_s), state.name, polynomials,
+            family.told_in, order, family.components[component].name,
+            family.components[component].unit, csv_number(moments.mean()[i]),
+            csv_number(moments.standard_deviations()[i]), csv_number(moments.skewness()[i]),
+            csv_number(moments.excess_kurtosis()[i]));
         text += flown ? fmt::format(",{},{},{},{}\n", csv_number(flown->mean_error[i]),
                                     csv_number(flown->deviation_error[i]),
                                     csv_number(flown->skewness_error[i]),

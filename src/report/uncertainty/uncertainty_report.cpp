@@ -6,10 +6,12 @@
 #include <utility>
 
 #include "../../formats/relative_frame_text.hpp"
+#include "../../store/json_text.hpp"
 #include "../../text/html_text.hpp"
 #include "../../text/quantity_text.hpp"
 #include "../../text/terminal_text.hpp"
 #include "../drawing/report_page.hpp"
+#include "../study_checks.hpp"
 #include "hamjet/error.hpp"
 #include "uncertainty_view.hpp"
 
@@ -98,6 +100,14 @@ std::vector<std::vector<std::string>> coordinates_rows(const UncertaintyResult& 
   return rows;
 }
 
+std::vector<std::string> all_warnings(const std::vector<UncertaintySection>& sections) {
+  std::vector<std::string> warnings;
+  for (const UncertaintySection& section : sections) {
+    warnings.insert(warnings.end(), section.warnings.begin(), section.warnings.end());
+  }
+  return warnings;
+}
+
 std::vector<std::string> all_failed_checks(const std::vector<UncertaintySection>& sections) {
   std::vector<std::string> failed;
   for (const UncertaintySection& section : sections) {
@@ -110,10 +120,12 @@ std::string terminal_table(const UncertaintyResult& result,
                            const std::vector<UncertaintySection>& sections) {
   const UncertaintyAt& at = result.points.back();
   const UncertainState& state = judged_state(at);
-  std::string text = fmt::format("{}\n{}\n", result.scene.title, uncertainty_verdict(result));
+  std::string text = fmt::format("{}\n{}\n", result.scene.title, uncertainty_answer(result));
   for (const UncertaintySection& section : sections) {
     if (!section.verdict.empty()) text += section.verdict + "\n";
   }
+  text += uncertainty_judgement(result) + "\n";
+  for (const std::string& warning : all_warnings(sections)) text += "warning: " + warning + "\n";
   for (const std::string& failed : all_failed_checks(sections)) {
     text += "check failed: " + failed + "\n";
   }
@@ -139,9 +151,13 @@ std::string page(const UncertaintyResult& result, const ReportOrigin& origin,
   const UncertainState& judged = judged_state(last);
   ReportPage page;
   page.title = result.scene.title + ": uncertainty";
-  page.verdict = uncertainty_verdict(result);
+  page.verdict = uncertainty_answer(result);
   for (const UncertaintySection& section : sections) {
     if (!section.verdict.empty()) page.verdict += " " + section.verdict;
+  }
+  page.verdict += " " + uncertainty_judgement(result);
+  for (const std::string& warning : all_warnings(sections)) {
+    page.verdict += " Warning: " + warning + ".";
   }
   for (const std::string& failed : all_failed_checks(sections)) {
     page.verdict += " Check failed: " + failed + ".";
@@ -227,12 +243,13 @@ StudyReport uncertainty_report(const UncertaintyResult& result, const ReportOrig
   }
   summary["failed_checks"] = failed;
   summary["exit_code"] = exit_code;
-  report.files.push_back({"summary.json", summary.dump(2) + "\n"});
+  report.files.push_back({"summary.json", json_text(summary) + "\n"});
   report.table = terminal_table(result, sections);
   report.details =
       fmt::format("{}; {} for the jets, {} for the moments, {} to fly\n",
                   counted(result.points.size(), "time"), duration_text(result.propagation_seconds),
                   duration_text(result.moments_seconds), duration_text(result.flight_seconds));
+  add_checks(report, result.checks);
   return report;
 }
 

@@ -2,12 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "../../algebra/symmetric_eigenvalues.hpp"
 #include "../../formats/relative_frame_text.hpp"
+#include "../../text/quantity_text.hpp"
 #include "../../text/time_axis.hpp"
 
 namespace hamjet::io {
@@ -55,7 +56,8 @@ std::optional<Combination> worst_combination(const std::vector<Cumulants>& by_or
   // The columns of the axes are orthogonal.
   const Matrix<double> white =
       axes.colwise().squaredNorm().cwiseInverse().asDiagonal() * (axes.transpose() * full);
-  const Eigen::SelfAdjointEigenSolver<Matrix<double>> solver(white * white.transpose());
+  const auto solver =
+      symmetric_eigenvalues("uncertainty", Matrix<double>(white * white.transpose()));
   // Eigenvalues ascend; what the linear covariance is too wide in changes probabilities less.
   const Eigen::Index worst = linear.rank() - 1;
   const Vector<double> step = linear.axes() * solver.eigenvectors().col(worst);
@@ -166,17 +168,28 @@ double linear_error_of_component(const std::vector<Cumulants>& by_order) {
   return largest;
 }
 
-std::string uncertainty_verdict(const UncertaintyResult& result) {
+std::string uncertainty_answer(const UncertaintyResult& result) {
   const UncertaintyAt& at = result.points.back();
   const UncertainState& state = judged_state(at);
-  const std::string after = "After " + time_text(result, at);
+  const Vector<double> deviations = state.cartesian.back().standard_deviations();
+  const std::vector<StateComponent> components = state_components(result);
+  const auto along = [&](std::size_t i) {
+    return fmt::format("{} along {}", length_text(deviations[static_cast<Eigen::Index>(i)]),
+                       components[i].name);
+  };
+  return fmt::format(
+      "After {} the position of {} has the standard deviations {}, {} and {} by order {}.",
+      time_text(result, at), told_state(state), along(0), along(1), along(2), result.scene.order);
+}
+
+std::string uncertainty_judgement(const UncertaintyResult& result) {
+  const UncertainState& state = judged_state(result.points.back());
   const int order = result.scene.order;
   std::string text;
   if (order == 1) {
-    text = fmt::format(
-        "{} the covariance is known to first order alone, which cannot say how far it misleads; a "
-        "jet.order of 2 or more does.",
-        after);
+    text =
+        "The covariance is known to first order alone, which cannot say how far it misleads; a "
+        "jet.order of 2 or more does.";
   } else {
     const double error = linear_error_of_component(state.cartesian);
     const double of_all = linear_error_of_probability(state.cartesian);
@@ -192,9 +205,10 @@ std::string uncertainty_verdict(const UncertaintyResult& result) {
                           (misleads ? error : of_all) >= 1 ? "" : "up to ",
                           probability_text(misleads ? error : of_all));
     text = fmt::format(
-        "{} the linear covariance of {} {}; the standard deviation along {} is {:.4g} {} by order "
+        "By then the linear covariance of {} {}; the standard deviation along {} is {:.4g} {} by "
+        "order "
         "{}, and {:.4g} {} by the linear theory.",
-        after, told_state(state), judgement, component.name,
+        told_state(state), judgement, component.name,
         state.cartesian.back().standard_deviations()[worst], component.unit, order,
         state.cartesian.front().standard_deviations()[worst], component.unit);
     if (!state.charted.empty()) {
@@ -222,6 +236,10 @@ std::string uncertainty_verdict(const UncertaintyResult& result) {
         negentropy_text(compared.front().negentropy, compared.front().is_sure));
   }
   return text;
+}
+
+std::string uncertainty_verdict(const UncertaintyResult& result) {
+  return uncertainty_answer(result) + " " + uncertainty_judgement(result);
 }
 
 namespace {

@@ -59,8 +59,11 @@ double linear_error_of_probability(const std::vector<Cumulants>& by_order);
 /// The same of events about one component alone, the largest of the six.
 double linear_error_of_component(const std::vector<Cumulants>& by_order);
 
-/// The first that a reader sees: whether the linear covariance misleads, and in which coordinates
-/// the distribution stays Gaussian.
+/// The first that a reader sees: how well the position is known in the end.
+std::string uncertainty_answer(const UncertaintyResult& result);
+/// Whether the linear covariance misleads, and in which coordinates the distribution stays Gaussian.
+std::string uncertainty_judgement(const UncertaintyResult& result);
+/// Both, one after the other.
 std::string uncertainty_verdict(const UncertaintyResult& result);
 
 /// What a user must know beside the numbers, a sentence each: a covariance that was mended, noise

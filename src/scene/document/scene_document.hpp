@@ -39,6 +39,7 @@ SceneDocument make_document(toml::table tables, const std::string& name,
                             const std::vector<Override>& overrides, std::string_view implied = {});
 
 /// Reads the document; `file_name` names the scene. Throws as parse_study does.
-Study read_document(const SceneDocument& document, const std::string& file_name);
+Study read_document(const SceneDocument& document, const std::string& file_name,
+                    SceneUnits units = SceneUnits::told);
 
 }  // namespace hamjet::io

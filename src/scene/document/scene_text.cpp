@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "../../formats/orbit_messages/known_text.hpp"
 #include "../../store/text_file.hpp"
 #include "../../text/scene_message.hpp"
 #include "hamjet/error.hpp"
@@ -55,6 +56,14 @@ std::string read_scene_file(const std::filesystem::path& file) {
 std::string_view check_scene_text(std::string_view text, std::string_view source) {
   if (text.size() > largest_scene_bytes) throw_too_long(source, text.size());
   check_encoding(text, source);
+  if (const KnownText* const other = known_text(text)) {
+    throw_scene_error(
+        source,
+        fmt::format("no scene, got {}, {}{}", other->name, other->use,
+                    other->example.empty()
+                        ? ""
+                        : fmt::format("; must be a scene that names it, {}", other->example)));
+  }
   if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
   check_tokens(text, source);
   return text;

@@ -119,7 +119,40 @@ void add_tables(const std::vector<SceneKey>& keys, const std::string& path,
   }
 }
 
+/// The table at a path from the top; null if there is none.
+const TableDescription* table_at(std::string_view path) {
+  const TableDescription* table = &all_studies().front().top;
+  while (!path.empty()) {
+    const std::size_t dot = std::min(path.find('.'), path.size());
+    const SceneKey* const key = table->find(path.substr(0, dot));
+    if (key == nullptr || key->form.table == nullptr) return nullptr;
+    table = key->form.table;
+    path.remove_prefix(std::min(dot + 1, path.size()));
+  }
+  return table;
+}
+
 }  // namespace
+
+std::optional<std::string> section_on_keys(std::string_view name) {
+  while (name.starts_with('[')) name.remove_prefix(1);
+  while (name.ends_with(']')) name.remove_suffix(1);
+  if (name.empty()) return std::nullopt;
+  if (const TableDescription* const table = table_at(name)) {
+    const std::string note = table->note.empty() ? "" : fmt::format("{}\n\n", table->note);
+    return fmt::format("## `[{}]`\n\n{}{}", name, note, table_text(table->keys));
+  }
+  std::string text;
+  for (const std::string& path : paths_of_key(name)) {
+    const std::size_t dot = path.rfind('.');
+    const std::string parent = dot == std::string::npos ? "" : path.substr(0, dot);
+    std::vector<SceneKey> keys = table_at(parent)->keys;
+    std::erase_if(keys, [&](const SceneKey& key) { return key.name != name; });
+    text += fmt::format("{}## {}\n\n{}", text.empty() ? "" : "\n",
+                        parent.empty() ? "The top" : in_code("[" + parent + "]"), table_text(keys));
+  }
+  return text.empty() ? std::nullopt : std::optional(text);
+}
 
 std::string key_reference(const TableDescription& sweep_study) {
   std::string text(introduction);

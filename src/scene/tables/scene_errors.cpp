@@ -41,6 +41,12 @@ void SceneErrors::keep(const Error& handled) {
   if (!is_kept) kept_.push_back({message, handled.kind(), std::current_exception()});
 }
 
+void SceneErrors::warn(const std::string& line) {
+  if (std::find(warnings_.begin(), warnings_.end(), line) == warnings_.end()) {
+    warnings_.push_back(line);
+  }
+}
+
 bool SceneErrors::has_about(std::string_view head) const {
   return std::any_of(kept_.begin(), kept_.end(), [&](const Kept& kept) {
     const std::string_view message = kept.message;

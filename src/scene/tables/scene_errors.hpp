@@ -28,6 +28,10 @@ class SceneErrors {
   /// Whether there is an error whose message begins with `head: `.
   bool has_about(std::string_view head) const;
 
+  /// Keeps a line that warns of the scene and does not refuse it, once.
+  void warn(const std::string& line);
+  const std::vector<std::string>& warnings() const { return warnings_; }
+
   /// An unknown key may stand for this one, which is then not missing besides.
   void excuse_key(std::string_view table, std::string_view key);
   /// An unknown key may stand for any one that is missing, or for all.
@@ -52,6 +56,7 @@ class SceneErrors {
   using Names = std::set<std::string, std::less<>>;
 
   std::vector<Kept> kept_;
+  std::vector<std::string> warnings_;
   Names excused_keys_;
   Names excused_tables_;
   std::map<std::string, std::size_t, std::less<>> excuses_left_;

@@ -175,17 +175,20 @@ std::optional<bool> TableReader::boolean_if_any(std::string_view key) const {
   return boolean != nullptr ? std::optional(boolean->get()) : std::nullopt;
 }
 
+std::optional<std::string> TableReader::text_if_any(std::string_view key) const {
+  const auto* text = table_->get_as<std::string>(key);
+  return text != nullptr ? std::optional(text->get()) : std::nullopt;
+}
+
 bool TableReader::is_number(std::string_view key) const {
   const toml::node* node = table_->get(key);
   return node != nullptr && node->is_number();
 }
 
 std::string TableReader::text(std::string_view key) const {
-  const toml::node& node = required(key, "a string");
-  if (!node.is_string()) {
-    fail(key, fmt::format("wrong type, got {}, must be a string", found(key)));
-  }
-  return node.as_string()->get();
+  required(key, "a string");
+  if (auto text = text_if_any(key)) return *std::move(text);
+  fail(key, fmt::format("wrong type, got {}, must be a string", found(key)));
 }
 
 std::filesystem::path TableReader::path_beside_scene(std::string_view key) const {
@@ -224,13 +227,14 @@ std::vector<std::string> TableReader::texts(std::string_view key) const {
 
 std::size_t TableReader::choice(std::string_view key,
                                 const std::vector<std::string_view>& choices) const {
-  required(key, fmt::format("one of: {}", listed(choices)));
-  const std::string value = text(key);
-  const auto match = std::find(choices.begin(), choices.end(), value);
+  const std::string right = fmt::format("one of: {}", listed(choices));
+  required(key, right);
+  const auto value = text_if_any(key);
+  if (!value) fail(key, fmt::format("wrong type, got {}, must be {}", found(key), right));
+  const auto match = std::find(choices.begin(), choices.end(), *value);
   if (match == choices.end()) {
-    const auto near = nearest(value, choices);
-    fail(key, fmt::format("unknown value, got {}, must be one of: {}{}", in_quotes(value),
-                          listed(choices),
+    const auto near = nearest(*value, choices);
+    fail(key, fmt::format("unknown value, got {}, must be {}{}", in_quotes(*value), right,
                           near ? fmt::format(" (did you mean {}?)", printable(*near)) : ""));
   }
   return static_cast<std::size_t>(match - choices.begin());
@@ -292,6 +296,16 @@ void TableReader::fail_element(std::string_view key, std::size_t index,
   const std::string place = location_of((*array)[index]);
   throw_scene_error(message_head(*source_, place, fmt::format("{}.{}", dotted(key), index)),
                     problem);
+}
+
+void TableReader::warn(std::string_view key, std::string_view what) const {
+  if (errors_ != nullptr) errors_->warn(fmt::format("{}{}: {}", warning_head, head(key), what));
+}
+
+void TableReader::warn(std::string_view key, const std::vector<std::string>& all) const {
+  if (all.empty()) return;
+  const std::size_t others = all.size() - 1;
+  warn(key, others == 0 ? all[0] : fmt::format("{}, and {} more such", all[0], others));
 }
 
 std::string TableReader::head(std::string_view key) const {

@@ -97,6 +97,8 @@ class TableReader {
   std::optional<bool> boolean_if_any(std::string_view key) const;
   /// Whether the key is there and a number, finite or not.
   bool is_number(std::string_view key) const;
+  /// The key's value, if it is there and a string.
+  std::optional<std::string> text_if_any(std::string_view key) const;
   /// Required: a string.
   std::string text(std::string_view key) const;
   /// Required: the path of a file, relative to the folder of the scene.
@@ -133,6 +135,12 @@ class TableReader {
   /// Throws Error(scene) about an element of an array, or about the key where it has no array.
   [[noreturn]] void fail_element(std::string_view key, std::size_t index,
                                  const std::string& problem) const;
+
+  /// Adds `warning: head: what` to what is said of the scene, once.
+  void warn(std::string_view key, std::string_view what) const;
+
+  /// Warns of the first of several, and how many more there are; of none it says nothing.
+  void warn(std::string_view key, const std::vector<std::string>& all) const;
 
   /// `location: dotted key`, at the key's value if there is one, else at the table; for a value
   /// that an override gave see `message_head`. An empty key stands for the table itself.

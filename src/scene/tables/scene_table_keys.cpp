@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "hamjet/error.hpp"
+#include "key_unit.hpp"
 #include "scene_table.hpp"
 
 // Which keys a table may have, and what is said of others.
@@ -20,6 +21,25 @@ bool may_stand_for(std::string_view name, std::string_view key) {
   const auto stem = [](std::string_view text) { return text.substr(0, text.rfind('_')); };
   return key.starts_with(name) || name.starts_with(key) || stem(name) == stem(key) ||
          nearest(name, {key}).has_value();
+}
+
+/// What an unknown key should have been: one of these, in another unit or nearly so spelt, or else
+/// one of another table.
+std::string remedy_for(std::string_view name, const std::vector<std::string_view>& keys) {
+  for (const std::string_view key : keys) {
+    const bool is_other_unit =
+        !unit_of(name).empty() && !unit_of(key).empty() && without_unit(name) == without_unit(key);
+    if (is_other_unit) return fmt::format("must be {}, in {}", key, unit_of(key));
+  }
+  if (!nearest(name, keys)) {
+    const std::vector<std::string> paths = paths_of_key(name);
+    constexpr std::size_t few = 4;
+    if (paths.size() == 1) return fmt::format("must be {}", paths.front());
+    if (!paths.empty() && paths.size() <= few) {
+      return fmt::format("must be one of: {}", fmt::join(paths, ", "));
+    }
+  }
+  return suggestion(name, keys);
 }
 
 }  // namespace
@@ -78,8 +98,9 @@ void TableReader::fail_unknown(const toml::key& unknown, const KnownKeys& known)
   // An override's key may end with the name already.
   const std::string got = place.ends_with(name) ? "" : fmt::format("got {}, ", printable(name));
   const auto remedy = remedy_for_foreign_key(path_, name);
-  throw_scene_error(
-      head, fmt::format("unknown key, {}{}", got, remedy ? *remedy : suggestion(name, known.keys)));
+  throw_scene_error(head,
+                    fmt::format("unknown key, {}{}", got,
+                                remedy ? std::string(*remedy) : remedy_for(name, known.keys)));
 }
 
 }  // namespace hamjet::io

@@ -16,7 +16,23 @@ std::vector<std::string_view> names_where(const std::vector<SceneKey>& keys,
   return names;
 }
 
+void add_paths(const TableDescription& table, std::string_view name, const std::string& path,
+               std::vector<std::string>& found) {
+  for (const SceneKey& key : table.keys) {
+    const std::string here = path + std::string(key.name);
+    const bool is_new = std::find(found.begin(), found.end(), here) == found.end();
+    if (key.name == name && is_new) found.push_back(here);
+    if (key.form.table != nullptr) add_paths(*key.form.table, name, here + '.', found);
+  }
+}
+
 }  // namespace
+
+std::vector<std::string> paths_of_key(std::string_view name) {
+  std::vector<std::string> found;
+  add_paths(all_studies().front().top, name, "", found);
+  return found;
+}
 
 bool SceneKey::belongs_to(std::string_view owner) const {
   return owners.empty() || std::find(owners.begin(), owners.end(), owner) != owners.end();

@@ -170,6 +170,10 @@ struct StudyDescription {
   TableDescription top;
 };
 
+/// All keys of this name that scenes of the first study have, by their paths from the top:
+/// "jet.order".
+std::vector<std::string> paths_of_key(std::string_view name);
+
 /// All studies; the first is that of a scene without the key `study`.
 const std::vector<StudyDescription>& all_studies();
 

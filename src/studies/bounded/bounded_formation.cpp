@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "../../poincare/bounded_family.hpp"
+#include "../checks/flight_checks.hpp"
 #include "../formation/deputy_flows.hpp"
 #include "../formation/formation_problem.hpp"
 #include "../formation/single_transfer.hpp"
@@ -61,6 +62,7 @@ class BoundedStudy {
         result_.deputies.push_back(deputy_of(rule, size_m));
       }
     }
+    result_.checks = flight_checks(scene_, flights_of(scene_, family_.times().back(), false));
     if (settings_.box.half_widths_m) {
       result_.box = keep_in_box(scene_, state_in_box(), family_.nodal_period(), progress_);
     }

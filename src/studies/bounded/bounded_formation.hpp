@@ -7,6 +7,7 @@
 
 #include "box_control.hpp"
 #include "hamjet/detail/studies/progress.hpp"
+#include "hamjet/detail/studies/self_checks.hpp"
 #include "hamjet/relative_motion/deputy_coordinates.hpp"
 #include "hamjet/studies/scene.hpp"
 
@@ -49,6 +50,11 @@ struct BoundedDeputy {
   std::string failure;   ///< why there is none; all below is empty then
   double amplitude = 0;  ///< of the difference of the eccentricity vectors
   double size_m = 0;     ///< the largest distance over the first revolution
+  // The least and the largest of the sizes over one revolution each, from every look of the window
+  // on, and that from its end on.
+  double least_size_m = 0;
+  double largest_size_m = 0;
+  double last_size_m = 0;
   // Of the map and what is refined of it: the period of Kepler's ellipse over the chief's, less 1,
   // and H less the chief's, canonical.
   double energy = 0;
@@ -59,7 +65,16 @@ struct BoundedDeputy {
   std::vector<RelativeState> first;                 ///< RTN, over the first revolution
   std::vector<RelativeState> last;                  ///< over the last one
   std::vector<BoundedDrift> drifts;                 ///< over a tenth of the window, and over it
-  double lowest_m = 0;                              ///< least distance from the centre
+  /// Least distance from the centre over the same revolutions, between the looks too.
+  double lowest_m = 0;
+
+  /// Of the size that was asked for, by which the sizes may differ from it.
+  static constexpr double held_share = 0.25;
+  /// Whether its sizes are the one that was asked for, over the whole window.
+  bool is_held() const {
+    return failure.empty() && least_size_m >= (1 - held_share) * wanted_m &&
+           largest_size_m <= (1 + held_share) * wanted_m;
+  }
 };
 
 /// The deputies that stay with a scene's chief.
@@ -73,6 +88,7 @@ struct BoundedFormation {
   std::optional<BoxControl> box;        ///< where the scene has a table [bounded.box]
   double seconds = 0;                   ///< of all
   double flight_seconds = 0;
+  std::vector<SelfCheck> checks;  ///< of the chief's flight over the window
 };
 
 /// Finds, for each size of the scene's table [bounded], a deputy by each rule, and flies it beside

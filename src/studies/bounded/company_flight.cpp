@@ -1,14 +1,19 @@
 #include "company_flight.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
+#include "../../charts/plane_elements.hpp"
 #include "../../poincare/nodal_flight.hpp"
 #include "../exact_flow.hpp"
+#include "../flights/extreme_distance.hpp"
 #include "../formation/deputy_flows.hpp"
 #include "../formation/single_transfer.hpp"
+#include "hamjet/error.hpp"
 #include "hamjet/studies/propagation.hpp"
 #include "relative_orbit_extent.hpp"
 
@@ -69,12 +74,7 @@ void CompanyFlight::choose_times_of_orbit() {
       1 - (chief[q_place] * chief[q_place] + chief[p_place] * chief[p_place]) / (2 * chief[3]);
   const double e = std::sqrt((1 - ratio) * (1 + ratio));
   const double start = within_half_a_turn(chief[0] - std::atan2(-chief[q_place], chief[p_place]));
-  double anomaly = start + e * std::sin(start);
-  // Its error only moves the places.
-  constexpr int iterations = 20;
-  for (int i = 0; i < iterations; ++i) {
-    anomaly -= (anomaly - e * std::sin(anomaly) - start) / (1 - e * std::cos(anomaly));
-  }
+  const double anomaly = eccentric_longitude<double>(start, e, 0).angle;
   const auto mean = [&](int k) {
     const double E = anomaly + 2 * std::numbers::pi * k / points_of_orbit;
     return E - e * std::sin(E);
@@ -127,6 +127,14 @@ CompanyFlight::Passage CompanyFlight::passage_of(std::vector<double> state,
     if (secant > 0.3 * rate && secant < 3 * rate) rate = secant;
     angle = left;
   }
+  // Rounding leaves some 1e-14 of a revolution; a search that has not ended leaves more.
+  constexpr double not_found = 1e-10;
+  if (!(std::abs(angle) <= not_found)) {
+    throw Error(ErrorKind::numerical,
+                fmt::format("bounded: after {} steps of the secant method a deputy is still {:.2g} "
+                            "radians from its chief's mean argument of latitude",
+                            most_iterations, angle));
+  }
   passage.node = z[1] - chief[1];
   return passage;
 }
@@ -139,6 +147,8 @@ void CompanyFlight::fly(BoundedDeputy& deputy) const {
   Passage first;
   double node = 0;
   double angle = 0;
+  deputy.least_size_m = deputy.lowest_m = std::numeric_limits<double>::infinity();
+  deputy.largest_size_m = 0;
   for (std::size_t k = 0; k < times_.size(); ++k) {
     if (k > 0) state = flown_on(state, times_[k] - times_[k - 1]);
     const Passage passage = passage_of(state, chart.coordinates(six_numbers(chief_[k])));
@@ -149,16 +159,13 @@ void CompanyFlight::fly(BoundedDeputy& deputy) const {
     angle += within_half_a_turn(-mean_motion() * (passage.delay - first.delay) - angle);
     along.push_back(semi_major_axis_ * (angle + cosine_ * node));
     cross.push_back(semi_major_axis_ * sine() * node);
+    // The first part of the times is that of a tenth of the window.
+    if (k == 0 || k > in_tenth_.back()) add_revolution(chief_[k], state, deputy);
   }
   const std::vector<std::vector<double>> orbit = orbit_from(deputy.state);
   deputy.first = relative_orbit(chief_first_, orbit);
   deputy.last = relative_orbit(chief_last_, orbit_from(state));
   deputy.size_m = largest_distance_m(deputy.first);
-  deputy.lowest_m = std::numeric_limits<double>::infinity();
-  for (const auto& point : orbit) {
-    deputy.lowest_m =
-        std::min(deputy.lowest_m, std::hypot(point[0], point[1], point[2]) * units_.length_m);
-  }
   deputy.drifts = {drift_of(in_tenth_, along, cross), drift_of(in_window_, along, cross)};
   for (BoundedDrift& drift : deputy.drifts) {
     const double size = deputy.size_m / units_.length_m;
@@ -167,6 +174,20 @@ void CompanyFlight::fly(BoundedDeputy& deputy) const {
     drift.cross /= size;
     drift.range /= size;
   }
+}
+
+void CompanyFlight::add_revolution(const std::vector<double>& chief,
+                                   const std::vector<double>& state, BoundedDeputy& deputy) const {
+  ExtremeDistance farthest(ExtremeDistance::Kind::greatest);
+  ExtremeDistance lowest(ExtremeDistance::Kind::least);
+  fly_arcs(system_, {chief, state}, 0, nodal_period_, [&](const FlightArc& arc) {
+    farthest.add(arc, separation_along(arc, 0, 1));
+    lowest.add(arc, place_along(arc, 1));
+  });
+  deputy.last_size_m = farthest.distance() * units_.length_m;
+  deputy.least_size_m = std::min(deputy.least_size_m, deputy.last_size_m);
+  deputy.largest_size_m = std::max(deputy.largest_size_m, deputy.last_size_m);
+  deputy.lowest_m = std::min(deputy.lowest_m, lowest.distance() * units_.length_m);
 }
 
 /// The slope of least squares, a revolution, through the values at some of the times.

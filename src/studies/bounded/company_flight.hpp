@@ -45,6 +45,9 @@ class CompanyFlight {
   std::vector<std::vector<double>> orbit_from(const std::vector<double>& start) const;
   std::vector<RelativeState> relative_orbit(const std::vector<std::vector<double>>& chief,
                                             const std::vector<std::vector<double>>& deputy) const;
+  /// The size and the lowest point of the revolution that begins at these states.
+  void add_revolution(const std::vector<double>& chief, const std::vector<double>& state,
+                      BoundedDeputy& deputy) const;
   BoundedDrift drift_of(std::span<const std::size_t> places, const std::vector<double>& along,
                         const std::vector<double>& cross) const;
   double slope_of(std::span<const std::size_t> places, const std::vector<double>& values) const;

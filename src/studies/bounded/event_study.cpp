@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -11,6 +10,10 @@
 #include <span>
 #include <string>
 
+#include "../../algebra/other_units.hpp"
+#include "../../algebra/scalar_search.hpp"
+#include "../../integrators/momentum_unit.hpp"
+#include "../checks/flight_checks.hpp"
 #include "../exact_flow.hpp"
 #include "../formation/deputy_flows.hpp"
 #include "../formation/formation_problem.hpp"
@@ -106,8 +109,8 @@ class EventSearch {
   Place nearest(double from, double to, int sign) const {
     // Half of the digits: a minimum is flat.
     constexpr int bits = std::numeric_limits<double>::digits / 2;
-    const auto [time, least] = boost::math::tools::brent_find_minima(
-        [&](double t) { return sign * at(t); }, std::min(from, to), std::max(from, to), bits);
+    const auto [time, least] = minimum_between(
+        "event", [&](double t) { return sign * at(t); }, from, to, bits);
     return {time, sign * least};
   }
 
@@ -253,7 +256,8 @@ double rounding_at(const EventStudy& study) {
           study.map.state[i][1 + j] - motion * study.map.time[1 + j];
     }
   }
-  return rounding_of_flights(linear, study.scene.nominal, end, 0);
+  return rounding_of_flights(linear, study.scene.nominal, end,
+                             natural_momentum_exponent(true, study.scene.nominal));
 }
 
 }  // namespace
@@ -261,6 +265,20 @@ double rounding_at(const EventStudy& study) {
 std::vector<double> EventStudy::state() const {
   std::vector<double> result;
   for (const Series<double>& component : map.state) result.push_back(component[0]);
+  return result;
+}
+
+EventMap<double> EventStudy::told_map() const {
+  const CanonicalFactors told = told_factors(scene);
+  const auto factor_of = [&](std::size_t i) { return i < 3 ? told.length : told.momentum; };
+  std::vector<double> of_variables;
+  for (std::size_t i = 0; i < map.state.size(); ++i) of_variables.push_back(factor_of(i));
+  EventMap<double> result = map;
+  result.time = in_other_units<double>(std::move(result.time), told.time, of_variables);
+  for (std::size_t i = 0; i < map.state.size(); ++i) {
+    Series<double>& component = result.state[i];
+    component = in_other_units<double>(std::move(component), factor_of(i), of_variables);
+  }
   return result;
 }
 
@@ -322,6 +340,7 @@ EventStudy study_event(const Scene& scene, const ProgressCallback& progress) {
     }
     study.misses.push_back(flights.fly(amplitudes[k]));
   }
+  study.checks = flight_checks(scene, flights_of(scene, study.map.time[0], false));
   study.position_rounding_m = rounding_at(study) * scene.units.length_km * 1000;
   return study;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "hamjet/detail/studies/progress.hpp"
+#include "hamjet/detail/studies/self_checks.hpp"
 #include "hamjet/poincare/event_map.hpp"
 #include "hamjet/studies/scene.hpp"
 
@@ -26,12 +27,14 @@ struct EventMisses {
 struct EventStudy {
   Scene scene;
   EventMap<double> map;
-  double position_rounding_m = 0;   ///< of a flown position: a miss below says nothing
-  int flown = 0;                    ///< deputies of each amplitude
-  std::vector<EventMisses> misses;  ///< by amplitude, as in the scene
+  double position_rounding_m = 0;      ///< of a flown position: a miss below says nothing
+  int flown = 0;                       ///< deputies of each amplitude
+  std::vector<EventMisses> misses;     ///< by amplitude, as in the scene
+  std::vector<SelfCheck> checks = {};  ///< of the chief's flight to the event
 
   double time_s() const { return map.time[0] * scene.units.time_s; }
   std::vector<double> state() const;  ///< of the chief at the event, canonical
+  EventMap<double> told_map() const;  ///< in the units that the user is told, see told_units
 };
 
 /// The condition of a scene's event.

@@ -8,6 +8,7 @@
 
 #include "../../poincare/frozen_orbit.hpp"
 #include "../../poincare/rotation_normal_form.hpp"
+#include "../checks/flight_checks.hpp"
 #include "../formation/deputy_flows.hpp"
 #include "../formation/formation_problem.hpp"
 #include "../formation/single_transfer.hpp"
@@ -225,6 +226,9 @@ FrozenOrbitStudy study_frozen_orbit(const Scene& scene, const ProgressCallback& 
   const auto& d = frozen.derivative;
   study.area_defect = static_cast<double>(Extended(d[0] * d[3] - d[1] * d[2] - 1));
   study.iterations = frozen.iterations;
+  std::vector<CheckedFlight> flights = flights_of(scene, study.nodal_period, false);
+  flights.push_back({"the frozen orbit", study.state, study.nodal_period});
+  study.checks = flight_checks(scene, flights);
   try {
     add_normal_form(field, chief, progress, study);
   } catch (const Error& error) {

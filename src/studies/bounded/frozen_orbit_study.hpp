@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hamjet/detail/studies/progress.hpp"
+#include "hamjet/detail/studies/self_checks.hpp"
 #include "hamjet/studies/scene.hpp"
 
 namespace hamjet {
@@ -62,6 +63,8 @@ struct FrozenOrbitStudy {
   /// The largest amplitude at which an orbit is flown to within largest_miss of the normal form.
   double reach = 0;
   std::vector<FlownAmplitude> flown_amplitudes;  ///< ascending
+  std::vector<SelfCheck>
+      checks;  ///< of the chief's flight and the frozen orbit's, a revolution each
 
   static constexpr double largest_miss = 1e-3;
   /// The amplitude of an eccentricity as a length, metres: a times it.

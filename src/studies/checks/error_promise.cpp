@@ -61,6 +61,7 @@ PromisedErrors promised_errors(const Scene& scene, const RunResult& run) {
   for (std::size_t d = 0; d < promised.total.size(); ++d) {
     double floor = std::sqrt(1 + steps) * promised.total[d];
     if (d < measured.size()) floor = std::max(floor, measured[d]);
+    promised.rounding.push_back(floor);
     // A degree with fewer than three digits is not delivered, even where rounding is the reason.
     promised.total[d] =
         promised.of_tolerance + error_estimate_safety * std::min(10 * floor, largest_rounding);

@@ -15,8 +15,9 @@ FlowJet<Extended> comparable_jet(const Scene& scene, const RunResult& run);
 
 /// The estimated errors that a run with a tolerance may have; see self_checks, error-estimate.
 struct PromisedErrors {
-  double of_tolerance = 0;    ///< of each degree, for the tolerance alone
-  std::vector<double> total;  ///< by degree, for the tolerance and for rounding
+  double of_tolerance = 0;       ///< of each degree, for the tolerance alone
+  std::vector<double> rounding;  ///< by degree, about what rounding alone makes
+  std::vector<double> total;     ///< by degree, for the tolerance and for rounding
 };
 
 /// Precondition: the run has a tolerance and its jet.

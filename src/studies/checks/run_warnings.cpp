@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "../../algebra/raise_to.hpp"
+#include "kept_tolerance.hpp"
 
 namespace hamjet {
 namespace {
@@ -70,7 +71,8 @@ std::string no_digits_warning(const RunResult& run) {
 }
 
 std::vector<std::string> run_warnings(const Scene& scene, const RunResult& run) {
-  std::vector<std::string> warnings = {near_singular_warning(scene, run), no_digits_warning(run)};
+  std::vector<std::string> warnings = {near_singular_warning(scene, run), no_digits_warning(run),
+                                       tolerance_warning(scene, run)};
   std::erase(warnings, "");
   return warnings;
 }

@@ -18,7 +18,7 @@ std::string near_singular_warning(const Scene& scene, const RunResult& run);
 /// there.
 std::string no_digits_warning(const RunResult& run);
 
-/// All of these, for those who show them.
+/// All of these and tolerance_warning, for those who show them.
 std::vector<std::string> run_warnings(const Scene& scene, const RunResult& run);
 
 }  // namespace hamjet

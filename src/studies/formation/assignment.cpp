@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "../checks/flight_checks.hpp"
 #include "../exact_flow.hpp"
 #include "../jets_along_time.hpp"
 #include "../stopwatch.hpp"
@@ -45,6 +46,7 @@ class AssignmentStudy {
     const auto statistics =
         visit_jets(points_.jet_problem(), integrator, times,
                    [&](std::size_t index, const FlowJet<double>& jet) { find_costs(index, jet); });
+    result_.checks = flight_checks(scene_, flights_of(scene_, times.back(), false));
     choose();
     if (!result_.failure.empty()) return std::move(result_);
     // The chosen times once more, for the proofs; kinds are chosen as the first time.
@@ -240,9 +242,9 @@ int exit_code(const AssignmentResult& result) {
   const auto pair = nearest_pair(result);
   const auto& keep_apart = result.scene.assignment->keep_apart_m;
   const bool are_too_near = pair && keep_apart && pair->separation_m < *keep_apart;
-  const bool has_failed =
-      are_too_near || is_forbidden || (result.scene.transfer->strict && has_fault);
-  return has_failed ? static_cast<int>(ErrorKind::check_failed) : 0;
+  const bool is_failed = has_failed(result.checks) || are_too_near || is_forbidden ||
+                         (result.scene.transfer->strict && has_fault);
+  return is_failed ? static_cast<int>(ErrorKind::check_failed) : 0;
 }
 
 }  // namespace hamjet

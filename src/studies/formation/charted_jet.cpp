@@ -45,15 +45,21 @@ void integrate_flow_box(const Scene& scene, const RunResult& run, ChartedJet& re
   result.symplecticity = map.symplecticity();
 }
 
-/// The largest difference of two states, relative to the largest number of the second.
+/// The largest difference of two states, of positions relative to the largest position of the
+/// second, and of momenta likewise: in no unit of length is one of them lost beside the other.
 double relative_difference(std::span<const double> state, std::span<const double> other) {
-  double difference = 0;
-  double largest = 0;
-  for (std::size_t i = 0; i < state.size(); ++i) {
-    raise_to(difference, std::abs(state[i] - other[i]));
-    raise_to(largest, std::abs(other[i]));
+  double result = 0;
+  const std::size_t n = state.size() / 2;
+  for (const std::size_t first : {std::size_t{0}, n}) {
+    double difference = 0;
+    double largest = 0;
+    for (std::size_t i = first; i < first + n; ++i) {
+      raise_to(difference, std::abs(state[i] - other[i]));
+      raise_to(largest, std::abs(other[i]));
+    }
+    raise_to(result, difference / largest);
   }
-  return difference / largest;
+  return result;
 }
 
 /// A start moved by a unit in the last place of its largest position and momentum, so that all

@@ -3,15 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <numbers>
 #include <utility>
 #include <vector>
 
-#include "../../integrators/momentum_unit.hpp"
+#include "../../algebra/scalar_search.hpp"
+#include "../flights/paced_times.hpp"
 #include "hamjet/error.hpp"
 #include "impulses/impulse_search.hpp"
 #include "route.hpp"
@@ -51,48 +50,50 @@ Candidate least_for(const Route& route, const std::vector<Underway>& starts, dou
   if (!std::isfinite(least.change_m_s)) return least;
   const double first = starts[place > 0 ? place - 1 : 0].time;
   const double last = starts[std::min(place + 1, starts.size() - 1)].time;
-  std::uintmax_t most_steps = 40;
+  constexpr std::uintmax_t most_steps = 40;
   constexpr int bits = 26;  // the square root of rounding
-  const auto [part, change] = boost::math::tools::brent_find_minima(
+  const auto [part, change] = minimum_between(
+      "start times",
       [&](double share) {
         const Underway from = route.linear_coast_to(first + share * (last - first));
         // Finite, for parabolas go through it.
-        return std::min(change_m_s(route, from, time), 1e9 * least.change_m_s);
+        return std::min(1e9 * least.change_m_s, change_m_s(route, from, time));
       },
       0.0, 1.0, bits, most_steps);
   if (change < least.change_m_s) return {change, first + part * (last - first), time};
   return least;
 }
 
-std::vector<Underway> grid_of_starts(const Route& route, double longest, double circle) {
-  constexpr double in_revolution = 24;
-  constexpr double fewest = 8, most = 480;
-  const auto parts = static_cast<int>(
-      std::clamp(std::ceil(in_revolution * std::abs(longest) / circle), fewest, most));
+std::vector<Underway> grid_of_starts(const Scene& scene, const Route& route, double longest) {
+  constexpr IntervalCount wanted = {24, 8, 480};
   std::vector<Underway> starts;
-  for (int k = 0; k <= parts; ++k) starts.push_back(route.linear_coast_to(longest * k / parts));
+  for (const double time : paced_times(scene, longest, interval_count(scene, longest, wanted))) {
+    starts.push_back(route.linear_coast_to(time));
+  }
   return starts;
 }
 
 }  // namespace
 
+LinearFlow coasting_flow(const Scene& scene, const ComputedProblem& problem) {
+  const double last = scene.transfer->times.back();
+  try {
+    return LinearFlow(problem, last + std::copysign(*scene.transfer->longest_coast, last),
+                      checkpoints_per_revolution);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::too_large) throw;
+    throw Error(error.kind(), fmt::format("transfer.longest_coast_s: {}", error.what()));
+  }
+}
+
 CoastingTransfer coasting_transfer(const Scene& scene, const ComputedProblem& problem,
-                                   const ProgressCallback& progress) {
+                                   const LinearFlow& flow, const ProgressCallback& progress) {
   constexpr std::size_t most_times = 48;
   constexpr std::size_t most_flown = 12;
   const TransferSettings& settings = *scene.transfer;
   const double longest = std::copysign(*settings.longest_coast, settings.times.back());
-  const LinearFlow flow = [&] {
-    try {
-      return LinearFlow(problem, longest + settings.times.back(), checkpoints_per_revolution);
-    } catch (const Error& error) {
-      if (error.kind() != ErrorKind::too_large) throw;
-      throw Error(error.kind(), fmt::format("transfer.longest_coast_s: {}", error.what()));
-    }
-  }();
-  const double circle = 2 * std::numbers::pi * std::pow(initial_distance(scene.nominal), 1.5);
   Route route(scene, problem, flow);
-  const std::vector<Underway> starts = grid_of_starts(route, longest, circle);
+  const std::vector<Underway> starts = grid_of_starts(scene, route, longest);
   const std::vector<double> times = some_times(settings.times, most_times);
   std::vector<Candidate> candidates;
   for (std::size_t k = 0; k < times.size(); ++k) {

@@ -76,6 +76,17 @@ ChartName chart_of(JetCoordinates coordinates) {
   return chart_of(name_of(coordinates)).value_or(ChartName::cartesian);
 }
 
+std::unique_ptr<DeputyFlow> deputy_flow_of_jet(const FlowMap<double>& jet,
+                                               const SixNumbers<double>& start,
+                                               const CoordinatesAtEnds& coordinates) {
+  if (coordinates == JetCoordinates::cartesian) return cartesian_deputy_flow(jet);
+  SixNumbers<double> end;
+  for (std::size_t i = 0; i < end.size(); ++i) end[i] = jet.jet()[i][0];
+  const CanonicalChart<double> first(chart_of(coordinates.start), start, canonical_mu);
+  const CanonicalChart<double> last(chart_of(coordinates.end), end, canonical_mu);
+  return charted_deputy_flow(first, start, last, end, in_charts(jet, first, start, last));
+}
+
 DeputyFlowPropagation::DeputyFlowPropagation(const Scene& scene, const ComputedProblem& problem,
                                              const IntegratorSettings& settings,
                                              const CoordinatesAtEnds& coordinates)
@@ -109,14 +120,8 @@ std::unique_ptr<DeputyFlow> DeputyFlowPropagation::advance_to(double time) {
     });
   }
   const FlowMap<double>& jet = last_jet_.emplace(jets_->advance_to(time));
-  if (coordinates_ == JetCoordinates::cartesian) return cartesian_deputy_flow(jet);
-  SixNumbers<double> end;
-  for (std::size_t i = 0; i < end.size(); ++i) end[i] = jet.jet()[i][0];
-  return in_coordinates(coordinates_.end, when, [&] {
-    const CanonicalChart<double> first(chart_of(coordinates_.start), start_, canonical_mu);
-    const CanonicalChart<double> last(chart_of(coordinates_.end), end, canonical_mu);
-    return charted_deputy_flow(first, start_, last, end, in_charts(jet, first, start_, last));
-  });
+  return in_coordinates(coordinates_.end, when,
+                        [&] { return deputy_flow_of_jet(jet, start_, coordinates_); });
 }
 
 std::vector<Series<double>> DeputyFlowPropagation::end_coordinates() const {

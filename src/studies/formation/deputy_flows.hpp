@@ -26,6 +26,12 @@ GaussSettings gauss_settings_of(const IntegratorSettings& settings);
 /// The six numbers of an orbit's state.
 SixNumbers<double> six_numbers(std::span<const double> state);
 
+/// The flow in coordinates of both ends, which are no flow boxes, of a jet in positions and momenta
+/// about a start. Throws Error(numerical) where an end has not such coordinates.
+std::unique_ptr<DeputyFlow> deputy_flow_of_jet(const FlowMap<double>& jet,
+                                               const SixNumbers<double>& start,
+                                               const CoordinatesAtEnds& coordinates);
+
 /// What a scene's polynomials say of deputies, in some coordinates, from time to time.
 class DeputyFlowPropagation {
  public:

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "../exact_flow.hpp"
+#include "../checks/flight_checks.hpp"
+#include "../flights/paced_times.hpp"
+#include "../flights/relative_drift.hpp"
 #include "../formation_scale.hpp"
 #include "deputy_flows.hpp"
 #include "flown_trajectory.hpp"
@@ -45,8 +47,11 @@ DeputyMotion study_deputy_motion(const Scene& scene, const ProgressCallback& pro
   const int count = interval_count(scene, scene.duration, points_of_motion);
   const int parts = (interval_count(scene, scene.duration, drawn_path) + count - 1) / count;
   if (progress) progress("flight", 0);
-  result.flown = flown_trajectory(scene, deviation, frame, scene.duration, count, parts);
-  result.extremes = extreme_separations(scene, result.flown);
+  result.flown =
+      flown_trajectory(scene, deviation, frame, paced_times(scene, scene.duration, count * parts),
+                       static_cast<std::size_t>(parts));
+  result.extremes = extreme_separations(scene, deviation, frame, scene.duration);
+  result.drift = deputy_drift(scene);
   const auto orders = static_cast<std::size_t>(scene.order);
   result.points.push_back({0, scene.deputy->start, std::vector<double>(orders, 0.0), 0});
 
@@ -93,6 +98,7 @@ DeputyMotion study_deputy_motion(const Scene& scene, const ProgressCallback& pro
     result.flight_floor_m = std::max(result.flight_floor_m, point.flight_floor_m);
     result.points.push_back(std::move(point));
   }
+  result.checks = flight_checks(scene, flights_of(scene, scene.duration, true));
   result.propagation_seconds = propagation.statistics().wall_seconds;
   return result;
 }

@@ -20,14 +20,10 @@ struct ExtremeSeparations {
   SeparationAt farthest;
 };
 
-/// The extremes of a flown trajectory, between its times too: where the separation turns between
-/// two of them, the turn is found by flying on from the first. Of many turns those are tried that
-/// cubic interpolation of the squared separation has as the most extreme. Throws as exact_flow.
-ExtremeSeparations extreme_separations(const Scene& scene, const RelativeTrajectory& flown);
-
-/// The least of |(R/a, T/b, N/c)| along a flown trajectory, between its times too, likewise. The
-/// trajectory is in rotating RTN, and the semi-axes a, b, c in metres. Throws as exact_flow.
-double least_ratio(const Scene& scene, const RelativeTrajectory& flown,
-                   const Eigen::Vector3d& semi_axes_m);
+/// The extremes of a deputy that starts with this deviation from the scene's chief (canonical) and
+/// flies for a time without impulses; states in `frame`. No look between the steps of the flight is
+/// left out, see ExtremeDistance. Throws as fly_arcs.
+ExtremeSeparations extreme_separations(const Scene& scene, const std::vector<double>& deviation,
+                                       RelativeFrame frame, double time);
 
 }  // namespace hamjet

@@ -1,17 +1,13 @@
 #include "flown_trajectory.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
-#include "../../integrators/momentum_unit.hpp"
 #include "../exact_flow.hpp"
 #include "single_transfer.hpp"
 
 namespace hamjet {
 
 RelativeTrajectory flown_trajectory(const Scene& scene, const std::vector<double>& deviation,
-                                    RelativeFrame frame, double time, int count, int parts) {
+                                    RelativeFrame frame, const std::vector<double>& times,
+                                    std::size_t parts) {
   const SharedSystem system = make_system(scene);
   const MetricUnits units = metric_units(scene);
   RelativeTrajectory trajectory;
@@ -29,27 +25,19 @@ RelativeTrajectory flown_trajectory(const Scene& scene, const std::vector<double
   std::vector<double> deputy = chief;
   for (std::size_t i = 0; i < deputy.size(); ++i) deputy[i] += deviation[i];
   add(0, chief, deputy);
-  const double interval = time / count;
-  for (int k = 1; k <= count; ++k) {
+  for (std::size_t last = parts; last < times.size(); last += parts) {
     std::vector<double> chief_between = chief;
     std::vector<double> deputy_between = deputy;
-    for (int part = 1; part < parts; ++part) {
-      chief_between = exact_flow(system, chief_between, interval / parts);
-      deputy_between = exact_flow(system, deputy_between, interval / parts);
-      add(time * (k - 1) / count + interval * part / parts, chief_between, deputy_between);
+    for (std::size_t k = last - parts + 1; k < last; ++k) {
+      chief_between = exact_flow(system, chief_between, times[k] - times[k - 1]);
+      deputy_between = exact_flow(system, deputy_between, times[k] - times[k - 1]);
+      add(times[k], chief_between, deputy_between);
     }
-    chief = exact_flow(system, chief, interval);
-    deputy = exact_flow(system, deputy, interval);
-    add(time * k / count, chief, deputy);
+    chief = exact_flow(system, chief, times[last] - times[last - parts]);
+    deputy = exact_flow(system, deputy, times[last] - times[last - parts]);
+    add(times[last], chief, deputy);
   }
   return trajectory;
-}
-
-int interval_count(const Scene& scene, double time, const IntervalCount& wanted) {
-  const double revolution = 2 * std::numbers::pi * std::pow(initial_distance(scene.nominal), 1.5);
-  return static_cast<int>(
-      std::clamp(std::ceil(wanted.each_revolution * std::abs(time) / revolution),
-                 static_cast<double>(wanted.fewest), static_cast<double>(wanted.most)));
 }
 
 }  // namespace hamjet

@@ -1,20 +1,55 @@
 #include "keep_out.hpp"
 
-#include "extreme_separations.hpp"
-#include "flown_trajectory.hpp"
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "../checks/flight_checks.hpp"
+#include "../flights/extreme_distance.hpp"
+#include "single_transfer.hpp"
 
 namespace hamjet {
 
 double keep_out_ratio(const Scene& scene, const std::vector<double>& chief,
                       const std::vector<double>& deviation, double time) {
-  // Between two of them cubic interpolation finds where to look.
-  constexpr IntervalCount points_of_way = {32, 48, 2048};
-  Scene from_here = scene;
-  from_here.nominal = chief;
-  const RelativeTrajectory flown =
-      flown_trajectory(from_here, deviation, RelativeFrame::rtn_rotating, time,
-                       interval_count(from_here, time, points_of_way));
-  return least_ratio(from_here, flown, *scene.transfer->keep_out_m);
+  const Eigen::Vector3d semi_axes = *scene.transfer->keep_out_m / metric_units(scene).length_m;
+  std::vector<double> deputy = chief;
+  for (std::size_t i = 0; i < deputy.size(); ++i) deputy[i] += deviation[i];
+  ExtremeDistance least(ExtremeDistance::Kind::least);
+  fly_arcs(make_system(scene), {chief, deputy}, 0, time, [&](const FlightArc& arc) {
+    ArcCurve curve = rtn_separation_along(arc, 0, 1);
+    for (std::size_t i = 0; i < 3; ++i) curve[i] /= semi_axes[static_cast<Eigen::Index>(i)];
+    least.add(arc, curve);
+  });
+  return least.distance();
+}
+
+WayLimits::WayLimits(const Scene& scene)
+    : scene_(scene),
+      surface_(surface_limit(scene)),
+      ratio_(std::numeric_limits<double>::infinity()),
+      lowest_(ratio_) {}
+
+void WayLimits::fly(const std::vector<double>& chief, const std::vector<double>& deviation,
+                    double time) {
+  if (scene_.transfer->keep_out_m) {
+    ratio_ = std::min(ratio_, keep_out_ratio(scene_, chief, deviation, time));
+  }
+  if (surface_) {
+    std::vector<double> deputy = chief;
+    for (std::size_t i = 0; i < deputy.size(); ++i) deputy[i] += deviation[i];
+    lowest_ = std::min(lowest_, lowest_point(make_system(scene_), deputy, time).distance);
+  }
+}
+
+std::string WayLimits::forbidden() const {
+  if (ratio_ < 1) return fmt::format("its way comes to {:.3g} of the ellipsoid keep_out_m", ratio_);
+  if (surface_ && lowest_ < *surface_) {
+    return fmt::format("its way passes {:.6g} km below the surface",
+                       (*surface_ - lowest_) * scene_.units.length_km);
+  }
+  return "";
 }
 
 }  // namespace hamjet

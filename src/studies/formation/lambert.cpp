@@ -2,13 +2,12 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <boost/math/tools/minima.hpp>
-#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <utility>
+
+#include "../../algebra/scalar_search.hpp"
 
 namespace hamjet {
 namespace {
@@ -36,28 +35,25 @@ struct TimeEquation {
 /// Values of x beyond which an ellipse is a parabola, or falls through the centre.
 constexpr double outermost = 1 - 1e-9;
 
-/// The root of T(x) = time between two x at which it is on both sides; none if it is not.
-std::vector<double> root_between(const TimeEquation& equation, double time, double a, double b) {
+/// The root of T(x) = time between two x at which it is on both sides; none if it is not. Throws as
+/// root_between.
+std::vector<double> shape_between(const TimeEquation& equation, double time, double a, double b) {
   const auto difference = [&](double x) { return equation.time(x) - time; };
   const double at_a = difference(a), at_b = difference(b);
   if (!(at_a * at_b <= 0)) return {};
-  std::uintmax_t most_steps = 200;
-  const auto [low, high] = boost::math::tools::toms748_solve(
-      difference, a, b, at_a, at_b, boost::math::tools::eps_tolerance<double>(50), most_steps);
-  return {(low + high) / 2};
+  return {root_between("ellipses between two places", difference, {a, at_a}, {b, at_b}, 50)};
 }
 
 /// One root without a revolution, as the time falls with x; two with some, beside its minimum.
 std::vector<double> roots(const TimeEquation& equation, double time) {
-  if (equation.revolutions == 0) return root_between(equation, time, -outermost, outermost);
-  std::uintmax_t most_steps = 100;
+  if (equation.revolutions == 0) return shape_between(equation, time, -outermost, outermost);
   constexpr int bits = 26;
-  const double least =
-      boost::math::tools::brent_find_minima([&](double x) { return equation.time(x); }, -outermost,
-                                            outermost, bits, most_steps)
-          .first;
-  std::vector<double> found = root_between(equation, time, -outermost, least);
-  const std::vector<double> other = root_between(equation, time, least, outermost);
+  const double least = minimum_between(
+                           "ellipses between two places",
+                           [&](double x) { return equation.time(x); }, -outermost, outermost, bits)
+                           .place;
+  std::vector<double> found = shape_between(equation, time, -outermost, least);
+  const std::vector<double> other = shape_between(equation, time, least, outermost);
   found.insert(found.end(), other.begin(), other.end());
   return found;
 }

@@ -1,11 +1,12 @@
 #include "least_time.hpp"
 
 #include <algorithm>
-#include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <vector>
+
+#include "../../algebra/scalar_search.hpp"
 
 namespace hamjet {
 
@@ -83,12 +84,11 @@ class SpanMinimum {
     // Where there is no answer the change is as if it were large, but finite: parabolas go through
     // it.
     const double large = 2 * std::max(lowest, least_);
-    std::uintmax_t most_answers = 40;
+    constexpr std::uintmax_t most_answers = 40;
     constexpr int bits = 20;
-    const double ends[] = {inner_time(place - 1, parts), inner_time(place + 1, parts)};
-    boost::math::tools::brent_find_minima(
-        [&](double time) { return std::min(change_at(time), large); }, std::min(ends[0], ends[1]),
-        std::max(ends[0], ends[1]), bits, most_answers);
+    minimum_between(
+        "between the times", [&](double time) { return std::min(change_at(time), large); },
+        inner_time(place - 1, parts), inner_time(place + 1, parts), bits, most_answers);
     return found_;
   }
 

@@ -176,20 +176,14 @@ void Route::judge_limits(WaypointPlan& plan) const {
                                  impulse.time * scene_.units.time_s, size);
     return;
   }
-  if (!settings.keep_out_m) return;
-  double least = std::numeric_limits<double>::infinity();
+  WayLimits limits(scene_);
   const double begun = plan.legs.front().start;
-  if (begun != 0) {
-    least = keep_out_ratio(scene_, problem_.nominal, start().deviation, begun);
-  }
+  if (begun != 0) limits.fly(problem_.nominal, start().deviation, begun);
   for (std::size_t k = 0; k < plan.legs.size(); ++k) {
     const WaypointLeg& leg = plan.legs[k];
-    least = std::min(
-        least, keep_out_ratio(scene_, flow_.nominal(leg.start), ways_[k], leg.end - leg.start));
+    limits.fly(flow_.nominal(leg.start), ways_[k], leg.end - leg.start);
   }
-  if (least < 1) {
-    plan.forbidden = fmt::format("its way comes to {:.3g} of the ellipsoid keep_out_m", least);
-  }
+  plan.forbidden = limits.forbidden();
 }
 
 }  // namespace hamjet

@@ -8,7 +8,8 @@
 #include <utility>
 
 #include "../../integrators/momentum_unit.hpp"
-#include "../exact_flow.hpp"
+#include "../checks/flight_checks.hpp"
+#include "../flights/paced_times.hpp"
 #include "../jets_along_time.hpp"
 #include "../stopwatch.hpp"
 #include "budget_windows.hpp"
@@ -77,6 +78,10 @@ TransferResult study_transfer(const Scene& asked, const ProgressCallback& progre
   TransferResult result;
   result.scene = scene;
   const RelativeTransfer ends{settings.start, settings.end};
+  // A wait that is too long is refused before the work.
+  const ComputedProblem problem = make_problem(scene);
+  std::optional<LinearFlow> waiting;
+  if (settings.longest_coast) waiting = coasting_flow(scene, problem);
   TransferPoints points(scene, progress, result.seconds);
   result.conditions.kinds = points.kinds();
   result.coordinates = points.coordinates();
@@ -92,6 +97,7 @@ TransferResult study_transfer(const Scene& asked, const ProgressCallback& progre
     }
     const ChosenKind chosen = points.choose_kind(time, jet, {ends});
     result.points.push_back(points.answer(chosen, jet, ends));
+    points.add_drift(ends, result.points.back(), false);
     result.conditions.times.push_back(time);
     result.conditions.values.push_back(chosen.conditions);
   };
@@ -112,11 +118,9 @@ TransferResult study_transfer(const Scene& asked, const ProgressCallback& progre
   {
     const Stopwatch watch(result.seconds.impulses);
     if (const auto best = result.best_point()) {
+      points.add_drift(ends, result.points[*best], true);
       result.primer =
           primer_history(scene, points.problem(), points.linear_flow(), result.points[*best]);
-    }
-    if (settings.impulses == TransferImpulses::optimal) {
-      result.optimal = optimal_impulses(scene, points.problem(), points.linear_flow(), progress);
     }
   }
   if (!settings.waypoints.empty()) {
@@ -125,14 +129,20 @@ TransferResult study_transfer(const Scene& asked, const ProgressCallback& progre
   }
   if (settings.longest_coast) {
     const Stopwatch watch(result.seconds.impulses);
-    result.coasting = coasting_transfer(scene, points.problem(), progress);
+    result.coasting = coasting_transfer(scene, problem, *waiting, progress);
   }
   if (!settings.revolutions.empty()) {
     const Stopwatch watch(result.seconds.impulses);
     result.revolutions = other_revolutions(scene, points.problem(), points.linear_flow(), progress);
   }
+  if (settings.impulses == TransferImpulses::optimal) {
+    const Stopwatch watch(result.seconds.impulses);
+    result.optimal =
+        optimal_impulses(scene, points.problem(), points.linear_flow(), result, progress);
+  }
   result.hamilton_jacobi_floor = points.hamilton_jacobi_floor();
   result.singular_times = points.singular_times();
+  result.checks = flight_checks(scene, flights_of(scene, settings.times.back(), false));
   return result;
 }
 
@@ -154,7 +164,7 @@ int exit_code(const TransferResult& result) {
                            (result.coasting && result.coasting->plan) ||
                            (result.revolutions && result.revolutions->best);
   if (is_forbidden && !has_allowed) return static_cast<int>(ErrorKind::check_failed);
-  if (result.optimal && !result.optimal->is_found()) {
+  if (result.optimal && (!result.optimal->is_found() || !result.optimal->is_proved())) {
     return static_cast<int>(ErrorKind::check_failed);
   }
   const bool lacks_way = result.waypoints && !result.waypoints->best_plan;
@@ -162,7 +172,8 @@ int exit_code(const TransferResult& result) {
   if (lacks_way || lacks_revolutions || (result.coasting && !result.coasting->plan)) {
     return static_cast<int>(ErrorKind::check_failed);
   }
-  return result.scene.transfer->strict && has_fault ? static_cast<int>(ErrorKind::check_failed) : 0;
+  const bool is_failed = has_failed(result.checks) || (result.scene.transfer->strict && has_fault);
+  return is_failed ? static_cast<int>(ErrorKind::check_failed) : 0;
 }
 
 namespace {
@@ -179,25 +190,32 @@ bool has_orbital_plane(const std::vector<double>& chief) {
 
 }  // namespace
 
-RelativeTrajectory fly_relative(const TransferResult& result, std::size_t point, int count) {
+RelativeTrajectory fly_relative(const TransferResult& result, std::size_t point,
+                                const std::vector<double>& times) {
   const Scene& scene = result.scene;
-  const TransferPoint& transfer = result.points[point];
   const std::vector<double>& chief = scene.nominal;
   const MetricUnits units = metric_units(scene);
   const bool is_inertial =
       scene.transfer->frame == RelativeFrame::inertial && !has_orbital_plane(chief);
-  const auto fly = [&](const RelativeState& start, double time, int intervals) {
+  const auto fly = [&](const RelativeState& start, const std::vector<double>& to) {
     return flown_trajectory(scene, ChiefFrame(chief, units, scene.transfer->frame).deviation(start),
                             is_inertial ? RelativeFrame::inertial : RelativeFrame::rtn_rotating,
-                            time, intervals);
+                            to);
   };
   RelativeState start = scene.transfer->start;
+  const int intervals = interval_count(scene, scene.duration, drawn_path);
   std::vector<RelativeState> unchanged =
-      fly(start, scene.duration, interval_count(scene, scene.duration, drawn_path)).states;
-  start.velocity_m_s += transfer.best().start_change_m_s;
-  RelativeTrajectory trajectory = fly(start, transfer.time, count);
+      fly(start, paced_times(scene, scene.duration, intervals)).states;
+  start.velocity_m_s += result.points[point].best().start_change_m_s;
+  RelativeTrajectory trajectory = fly(start, times);
   trajectory.unchanged = std::move(unchanged);
   return trajectory;
+}
+
+RelativeTrajectory fly_relative(const TransferResult& result, std::size_t point) {
+  const double time = result.points[point].time;
+  const int intervals = interval_count(result.scene, time, drawn_path);
+  return fly_relative(result, point, paced_times(result.scene, time, intervals));
 }
 
 }  // namespace hamjet

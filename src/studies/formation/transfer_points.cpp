@@ -9,7 +9,9 @@
 #include <utility>
 
 #include "../../integrators/momentum_unit.hpp"
+#include "../checks/flight_checks.hpp"
 #include "../exact_flow.hpp"
+#include "../flights/relative_drift.hpp"
 #include "../random_direction.hpp"
 #include "../stopwatch.hpp"
 #include "formation_problem.hpp"
@@ -248,18 +250,38 @@ TransferPoint TransferPoints::answer(const ChosenKind& chosen, const FlowJet<dou
   return point;
 }
 
+void TransferPoints::add_drift(const RelativeTransfer& ends, TransferPoint& point,
+                               bool finds_holding) {
+  if (!point.has_answer()) return;
+  const std::vector<double>& chief = flown_chief(point.time);
+  const MetricUnits units = metric_units(scene_);
+  const std::vector<double> end = ends.end.deviation(chief, units, settings_.frame);
+  point.arrived = ChiefFrame(chief, units, settings_.frame).relative(end);
+  point.drift = relative_drift(scene_, chief, end, settings_.frame, finds_holding);
+}
+
 void TransferPoints::judge_limits(const RelativeTransfer& ends, TransferPoint& point) {
   const TransferAnswer& answer = point.best();
   if (settings_.largest_impulse_m_s) {
     point.exceeds_impulse = answer.largest_impulse_m_s() > *settings_.largest_impulse_m_s;
   }
-  if (!settings_.keep_out_m) return;
+  const std::optional<double> surface = surface_limit(scene_);
+  if (!settings_.keep_out_m && !surface) return;
   const Stopwatch watch(seconds_.proof);
   RelativeState start = ends.start;
   start.velocity_m_s += answer.start_change_m_s;
   const std::vector<double> deviation =
       ChiefFrame(problem_.nominal, metric_units(scene_), settings_.frame).deviation(start);
-  point.keep_out_ratio = keep_out_ratio(scene_, problem_.nominal, deviation, point.time);
+  if (surface) {
+    std::vector<double> deputy = problem_.nominal;
+    for (std::size_t i = 0; i < deputy.size(); ++i) deputy[i] += deviation[i];
+    point.lowest = lowest_point(problem_.system, deputy, point.time).distance;
+    point.is_below_surface = *point.lowest < *surface;
+  }
+  // A way through the centre need not be looked at further.
+  if (settings_.keep_out_m && point.lowest != 0.0) {
+    point.keep_out_ratio = keep_out_ratio(scene_, problem_.nominal, deviation, point.time);
+  }
 }
 
 void TransferPoints::measure_residual(const ChosenKind& chosen, const FlowJet<double>& jet,

@@ -56,6 +56,8 @@ class TransferPoints {
   /// needed.
   TransferPoint answer(const ChosenKind& chosen, const FlowJet<double>& jet,
                        const RelativeTransfer& ends);
+  /// Fills what the deputy does after its arrival, see relative_drift.
+  void add_drift(const RelativeTransfer& ends, TransferPoint& point, bool finds_holding);
   /// The flow in the scene's coordinates, where they are not Cartesian; null where they are. Times
   /// that move on cost least.
   const DeputyFlow* charted_flow(double time);

@@ -7,10 +7,12 @@
 #include <cmath>
 
 #include "../../integrators/taylor_flow.hpp"
+#include "../../uncertainty/cut_passage.hpp"
 #include "../../uncertainty/encounter_trajectories.hpp"
 #include "../../uncertainty/entry_sampler.hpp"
 #include "../formation/formation_problem.hpp"
 #include "../formation/single_transfer.hpp"
+#include "along_track_bend.hpp"
 #include "hamjet/algebra/composition.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/maps/map_evaluator.hpp"
@@ -24,6 +26,7 @@ constexpr std::size_t flown_deviations = 64;
 /// The least separation is told for these shares of the samples, of which the smallest has ten.
 constexpr std::array<double, 4> separation_shares = {0.001, 0.01, 0.05, 0.5};
 constexpr long separation_samples = 10000;
+constexpr long flown_separation_samples = 32;
 
 EncounterProblem encounter_problem(const Scene& scene, const CollisionWatch& watch,
                                    const MetricUnits& units) {
@@ -140,6 +143,8 @@ void fly(const EncounterProblem& problem, const ClosestApproach& approach, std::
       rate += flown[k][i] * flown[k][i + 3];
       speed += std::pow(flown[k][i + 3], 2);
     }
+    // A flight that ended in the centre is none that polynomials are right of.
+    if (!std::isfinite(square + rate) || !(speed > 0)) return;
     result.position_error_m = std::max(result.position_error_m, std::sqrt(square) * units.length_m);
     result.time_error_s = std::max(result.time_error_s, std::abs(rate) / speed * units.time_s);
   }
@@ -197,7 +202,30 @@ UncertainApproach uncertain_approach(const EncounterProblem& problem,
   return result;
 }
 
+/// In metres and seconds.
+CollisionProbability in_si(CollisionProbability probability, const MetricUnits& units) {
+  for (double& time : probability.times) time *= units.time_s;
+  probability.path_error *= units.length_m;
+  for (auto* radius : {&probability.sampled_radius, &probability.largest_difference}) {
+    if (*radius) **radius *= units.length_m;
+  }
+  return probability;
+}
+
+/// What is said of the whole passage where an edge of the scene's own window cuts it.
+std::string cut_warning(const CollisionResult& result) {
+  return fmt::format(
+      "an edge of the window {:.9g} s to {:.9g} s cuts a passage: of the whole of it, {:.9g} s to "
+      "{:.9g} s, the probability is {:.4e}, not {:.4e}",
+      result.from_s, result.to_s, result.whole_from_s, result.whole_to_s,
+      result.of_whole_passage->probability, result.probability.probability);
+}
+
 }  // namespace
+
+const CollisionProbability& probability_of_passage(const CollisionResult& result) {
+  return result.of_whole_passage ? *result.of_whole_passage : result.probability;
+}
 
 const UncertainApproach* nearest_approach(const CollisionResult& result) {
   const auto nearest = std::min_element(
@@ -215,7 +243,14 @@ CollisionResult study_collision(const Scene& scene, std::size_t threads,
   result.watch = *scene.uncertainty->collision;
   result.order = scene.order;
   const MetricUnits units = metric_units(scene);
-  const EncounterProblem problem = encounter_problem(scene, result.watch, units);
+  EncounterProblem problem = encounter_problem(scene, result.watch, units);
+  // Before a burn that ends at the start the flight is another one.
+  const std::optional<EncounterProblem> whole =
+      scene.uncertainty->burn && problem.from == 0 ? std::nullopt : with_whole_passages(problem);
+  if (whole && !result.watch.has_window) {
+    problem = *whole;
+    result.is_widened = true;
+  }
   result.from_s = problem.from * units.time_s;
   result.to_s = problem.to * units.time_s;
 
@@ -229,35 +264,43 @@ CollisionResult study_collision(const Scene& scene, std::size_t threads,
   if (progress) {
     settings.progress = [&](double fraction) { progress("collision", fraction); };
   }
-  result.probability = probability_of(problem, settings, result.watch);
-  for (double& time : result.probability.times) time *= units.time_s;
-  for (auto* radius :
-       {&result.probability.sampled_radius, &result.probability.largest_difference}) {
-    if (*radius) **radius *= units.length_m;
+  result.probability = in_si(probability_of(problem, settings, result.watch), units);
+  if (whole && !result.is_widened) {
+    result.of_whole_passage = in_si(probability_of(*whole, settings, result.watch), units);
+    result.whole_from_s = whole->from * units.time_s;
+    result.whole_to_s = whole->to * units.time_s;
+    result.warnings.push_back(cut_warning(result));
   }
   settings.samples = separation_samples;
   if (progress) {
     settings.progress = [&](double fraction) { progress("separations", fraction); };
   }
   result.separations =
-      least_separations(problem, settings, {separation_shares.begin(), separation_shares.end()});
+      least_separations(problem, settings, {separation_shares.begin(), separation_shares.end()},
+                        flown_separation_samples);
   result.separations.scale(units.length_m);
   // Series in twelve variables grow fast, and the third order is beyond what a deviation of the
   // time needs.
   constexpr int highest_order = 3;
-  EncounterProblem lower = problem;
+  EncounterProblem lower = whole.value_or(problem);
+  EncounterProblem first_order = lower;
   lower.order = std::min(problem.order, highest_order);
-  std::optional<EncounterTrajectories> linear;
+  first_order.order = 1;
+  const EncounterTrajectories linear(first_order);
   for (const ClosestApproach& approach : closest_approaches(lower)) {
     if (progress) progress("closest approaches", 0);
     result.approaches.push_back(
         uncertain_approach(lower, approach, scene.uncertainty->seed, units));
-    if (!linear) {
-      EncounterProblem first_order = problem;
-      first_order.order = 1;
-      linear.emplace(first_order);
-    }
-    result.approaches.back().spacecraft = both_at(lower, *linear, approach.time, units);
+    result.approaches.back().spacecraft = both_at(lower, linear, approach.time, units);
+  }
+  const UncertainApproach* const nearest = nearest_approach(result);
+  const EncounterDeviation of_collisions = nearest
+                                               ? deviation_of_meeting(linear.linear(nearest->time))
+                                               : EncounterDeviation(EncounterDeviation::Zero());
+  if (const auto warning =
+          along_track_warning(along_track_bend(problem, of_collisions), problem.radius,
+                              {"chief", "deputy"}, "the probability", units)) {
+    result.warnings.push_back(*warning);
   }
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   return result;

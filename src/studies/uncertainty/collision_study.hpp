@@ -47,14 +47,26 @@ struct UncertainApproach {
 /// The probability that chief and deputy come near each other, from their states at the start.
 struct CollisionResult {
   CollisionWatch watch;
-  double from_s = 0;
+  double from_s = 0;  ///< the window that was looked at
   double to_s = 0;
-  CollisionProbability probability;  ///< times in seconds, radii in metres
+  /// It is wider than from the start to the end of a scene that names no window: it holds the whole
+  /// of a passage that these cut.
+  bool is_widened = false;
+  CollisionProbability probability;  ///< times in seconds, lengths in metres
+  /// Where an edge of a window that the scene names cuts a passage: of the window that holds the
+  /// whole of it.
+  std::optional<CollisionProbability> of_whole_passage;
+  double whole_from_s = 0;
+  double whole_to_s = 0;
+  std::vector<std::string> warnings;  ///< why a number is not to be trusted, or is not of the whole
   std::vector<UncertainApproach> approaches;
   LeastSeparations separations;  ///< in metres
   int order = 0;
   double seconds = 0;
 };
+
+/// Of the whole passages: what an encounter as such has.
+const CollisionProbability& probability_of_passage(const CollisionResult& result);
 
 /// The approach at which the means are nearest; null where they have none in the window.
 const UncertainApproach* nearest_approach(const CollisionResult& result);

@@ -1,7 +1,8 @@
 #include "quadrature.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
+
+#include "../../algebra/symmetric_eigenvalues.hpp"
 
 namespace hamjet {
 
@@ -12,7 +13,7 @@ NormalQuadrature product_quadrature(const std::vector<int>& nodes) {
     for (int k = 1; k < n; ++k) {
       recurrence(k, k - 1) = recurrence(k - 1, k) = std::sqrt(static_cast<double>(k));
     }
-    const Eigen::SelfAdjointEigenSolver<Matrix<double>> solver(recurrence);
+    const auto solver = symmetric_eigenvalues("quadrature", recurrence);
     const Eigen::Index count = result.weights.size();
     NormalQuadrature next{Matrix<double>(result.points.rows() + 1, count * n),
                           Vector<double>(count * n)};

@@ -5,17 +5,20 @@
 #include <algorithm>
 #include <array>
 
+#include "../../uncertainty/flown_separations.hpp"
 #include "../formation/formation_problem.hpp"
 #include "../formation/single_transfer.hpp"
 #include "../stopwatch.hpp"
+#include "along_track_bend.hpp"
 #include "hamjet/error.hpp"
 #include "initial_states.hpp"
 
 namespace hamjet {
 namespace {
 
-/// Samples of each pair that are flown with the full equations.
-constexpr long flown_samples = 8;
+/// Samples of each pair that are flown with the full equations, and as many of those nearest to
+/// what is told.
+constexpr long flown_samples = 16;
 /// Quantiles of the distribution of least separations that are kept beside the one that is told.
 constexpr int quantiles = 50;
 
@@ -47,13 +50,13 @@ SafetyPair safety_of(const Scene& scene, const std::array<const InitialState*, 2
   for (int k = 0; k < quantiles; ++k) shares.push_back((k + 0.5) / quantiles);
   pair.separations = least_separations(problem, settings, shares, flown_samples);
   pair.separations.scale(units.length_m);
-  EncounterProblem means = problem;
-  for (UncertainSpacecraft& craft : means.spacecraft) craft.factor.setZero();
-  means.order = 1;
-  CollisionSettings once = settings;
-  once.samples = 1;
-  once.progress = {};
-  pair.mean_separation_m = least_separations(means, once, {0.5}).separations[0] * units.length_m;
+  pair.mean_separation_m = flown_separation_of_means(problem) * units.length_m;
+  // The rarest cases that are told lie some three standard deviations along the track.
+  constexpr double rare = 3;
+  AlongTrackBend bend = along_track_bend(problem, EncounterDeviation::Zero());
+  bend.bend *= rare * rare;
+  pair.warning = along_track_warning(bend, pair.separations.separations[0] / units.length_m,
+                                     {pair.first, pair.second}, "its least separation", units);
   if (watch.keep_out_m && pair.first == "chief") {
     try {
       pair.margin = keep_out_margin(problem, *watch.keep_out_m / units.length_m);

@@ -23,6 +23,7 @@ struct SafetyPair {
   LeastSeparations separations;
   std::optional<KeepOutMargin> margin;  ///< of a pair with the chief; time in seconds
   std::string refusal;                  ///< why the margin was not found
+  std::optional<std::string> warning;   ///< why its numbers are not to be trusted
 };
 
 /// The passive safety of a formation.

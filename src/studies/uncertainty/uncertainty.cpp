@@ -9,6 +9,7 @@
 
 #include "../../algebra/singular_values.hpp"
 #include "../../integrators/taylor_flow.hpp"
+#include "../checks/flight_checks.hpp"
 #include "../formation/deputy_flows.hpp"
 #include "../formation/formation_problem.hpp"
 #include "../formation/single_transfer.hpp"
@@ -22,6 +23,7 @@
 #include "moments_in_coordinates.hpp"
 #include "process_noise.hpp"
 #include "quadrature.hpp"
+#include "sample_memory.hpp"
 #include "standard_normals.hpp"
 
 namespace hamjet {
@@ -235,6 +237,7 @@ double divergence_from_linear(const std::vector<Cumulants>& by_order) {
 
 UncertaintyResult study_uncertainty(const Scene& scene, const ProgressCallback& progress) {
   require_formation_problem(scene, scene.uncertainty.has_value(), "uncertainty");
+  require_sample_memory(scene);
   const UncertaintySettings& settings = *scene.uncertainty;
   UncertaintyResult result;
   result.scene = scene;
@@ -334,6 +337,7 @@ UncertaintyResult study_uncertainty(const Scene& scene, const ProgressCallback& 
     jet_at_end = jet;
     noise_at_end = added;
   }
+  result.checks = flight_checks(scene, flights_of(scene, settings.times.back(), true));
   result.in_coordinates = moments_in_coordinates(scene, problem, integrator, starts, jet_at_end,
                                                  means, noise_at_end, progress);
   result.propagation_seconds =

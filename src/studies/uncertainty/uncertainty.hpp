@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hamjet/detail/studies/progress.hpp"
+#include "hamjet/detail/studies/self_checks.hpp"
 #include "hamjet/studies/scene.hpp"
 #include "hamjet/uncertainty/polynomial_moments.hpp"
 
@@ -70,6 +71,7 @@ struct UncertaintyResult {
   ChosenCoordinates coordinates;  ///< those of the end; not automatic
   std::vector<UncertaintyAt> points;
   std::vector<MomentsInCoordinates> in_coordinates;  ///< as `uncertainty.coordinates` asks
+  std::vector<SelfCheck> checks;                     ///< of the flights of chief and deputy
   double propagation_seconds = 0;
   double moments_seconds = 0;
   double flight_seconds = 0;

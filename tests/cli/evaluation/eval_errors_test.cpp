@@ -48,11 +48,24 @@ TEST_F(EvalErrors, MistakesOnTheCommandLine) {
   EXPECT_EQ(eval_one("kepler", "-1,2,3,0,0,0").size(), 6U);
 }
 
-TEST_F(EvalErrors, ATableThatIsTooLargeIsNotRead) {
+TEST_F(EvalErrors, ALineWithoutEndIsNotReadToItsEnd) {
   store("kepler", quick_scene());
   std::filesystem::resize_file(write("large.csv", rtn_header), std::uintmax_t{2} << 30);
   expect_error({"eval", "kepler", "--deviations", "large.csv"}, 6,
-               {"large.csv: cannot be read", "too large, got 2147483648 bytes"});
+               {"large.csv:1: a line of more than 65536 bytes", "must be a row of 6 numbers"});
+  std::filesystem::resize_file(write("long.csv", rtn_header + "\n1,2,3,4,5,6\n7"), 100'000'000);
+  expect_error({"eval", "kepler", "--deviations", "long.csv", "-o", "end.csv"}, 6,
+               {"long.csv:3: a line of more than 65536 bytes"});
+}
+
+TEST_F(EvalErrors, ADeviceIsNotRead) {
+  store("kepler", quick_scene());
+  options_.address_space = std::size_t{1} << 30;
+  expect_error({"eval", "kepler", "--deviations", "/dev/zero"}, 5,
+               {"/dev/zero: cannot be read: it is a device, must be a file or a pipe"});
+  expect_error({"eval", "/dev/zero", "--deviation", "1,2,3,0,0,0"}, 5, {"/dev/zero"});
+  options_.input = "/dev/zero";
+  expect_error({"eval", "kepler", "--deviations", "-"}, 6, {"standard input:1: a line of more"});
 }
 
 TEST_F(EvalErrors, BadTables) {
@@ -68,6 +81,8 @@ TEST_F(EvalErrors, BadTables) {
       {"R_m,T_m,N_m,vR_m_s,vT_m_s\n1,2,3,4,5\n", {":1: the column vN_m_s is missing"}},
       {"R_m,T_m,N_m,vR_m_s,vT_m_s,vT_m_s\n", {":1: the column vT_m_s is there twice"}},
       {"x_m,y_m,z_m,vx_m_s,vy_m_s,vz_m_s\n1,2,3,4,5,6\n", {":1: unknown column \"x_m\""}},
+      // What does not look like a column is nobody's business.
+      {"root:x:0:0:root,secret\n", {":1: unknown column 1; the columns must be"}},
       {rtn_header + "\n1,2,3,4,5,6\n1,2,3,4,5\n", {":3: has 5 columns, must have 6"}},
       {rtn_header + "\n1,2,3,4,5,6,7\n", {":2: has 7 columns"}},
       {rtn_header + "\n1,2,3,4,5,6\n\n1,2,3,4,5,6\n", {":3: has 1 columns"}},

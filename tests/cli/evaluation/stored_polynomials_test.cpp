@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numbers>
 
 #include "../command_test.hpp"
 #include "formats/hdf5/hdf5_jets.hpp"
@@ -217,6 +218,37 @@ TEST_F(StoredPolynomials, AreRefusedWithTheReason) {
   EXPECT_NE(in_one_line(compared.out).find("coordinates flow-box; hamjet run writes polynomials"),
             std::string::npos)
       << compared.out;
+}
+
+// A centre alone has no radius, and Kepler's flow in sections is a closed form: a deputy of another
+// period is, at the end, where its own ellipse has taken it (for small differences along the orbit,
+// -3 pi da a revolution from the place at which both were).
+TEST_F(StoredPolynomials, OfACentreAloneAreReadAgain) {
+  write("far.toml",
+        "[system]\nmodel = \"kepler\"\nmu_km3_s2 = 398600.4415\n[nominal]\na_km = 7000\ne = 0\n"
+        "i_deg = 50\nraan_deg = 0\nargp_deg = 0\nta_deg = 0\n[jet]\norder = 2\n"
+        "duration_orbits = 1\n");
+  run_in("flow-box", "boxes");
+  const auto of_another_period = [&](const std::string& file) {
+    const Json rows = Json::parse(succeed({"eval", file, "--frame", "relative-elements", "--to",
+                                           "RTN", "--deviation=10,0,0,0,0,0", "--json", "-q"})
+                                      .out)["rows"];
+    return rows[0]["T_m"].get<double>();
+  };
+  EXPECT_NEAR(of_another_period("boxes"), -30 * std::numbers::pi, 1e-3);
+  if (io::hdf5_available()) {
+    succeed({"convert", "boxes", "box.h5", "--coordinates", "flow-box"});
+    EXPECT_EQ(of_another_period("box.h5"), of_another_period("boxes"));
+  }
+  // Harmonics without a radius are of no field.
+  std::string summary = content(directory_ / "boxes/summary.json");
+  const std::string radius = "\"radius_canonical\": 0.0";
+  const std::size_t harmonics = summary.find("\"J\": [", summary.find(radius));
+  ASSERT_NE(harmonics, std::string::npos);
+  summary.replace(summary.find("0.0", harmonics), 3, "0.1");
+  write("boxes/summary.json", summary);
+  expect_error({"eval", "boxes", "--deviation=1,0,0,0,0,0"}, 5,
+               {"radius_canonical", "must be positive, or 0"});
 }
 
 // A damaged description of the sections is refused before anything is made of it.

@@ -3,6 +3,8 @@
 // names it and says which of these calls, counted from 1: "write:3", "malloc:200". Of those with a
 // descriptor the ones on files that were opened for writing alone are counted; a write that fails
 // has written half of what it should. "stall:3" is the third flush, which never ends.
+// HAMJET_NO_UNNAMED_FILES stands for a file system that has no files without a name, and
+// HAMJET_NO_EXCLUSIVE_RENAME for one that cannot rename without replacing.
 
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -65,8 +67,13 @@ int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*
 int open(const char* path, int flags, ...) {
   va_list arguments;
   va_start(arguments, flags);
-  const mode_t mode = (flags & O_CREAT) != 0 ? va_arg(arguments, mode_t) : 0;
+  const bool is_unnamed = (flags & O_TMPFILE) == O_TMPFILE;
+  const mode_t mode = (flags & O_CREAT) != 0 || is_unnamed ? va_arg(arguments, mode_t) : 0;
   va_end(arguments);
+  if (is_unnamed && std::getenv("HAMJET_NO_UNNAMED_FILES") != nullptr) {
+    errno = EOPNOTSUPP;
+    return -1;
+  }
   const bool is_output = (flags & O_ACCMODE) == O_WRONLY;
   if (is_output && must_fail("open")) return -1;
   const int descriptor = next<int (*)(const char*, int, mode_t)>("open")(path, flags, mode);
@@ -109,6 +116,15 @@ int close(int descriptor) {
 int rename(const char* from, const char* to) noexcept {
   if (must_fail("rename")) return -1;
   return next<int (*)(const char*, const char*)>("rename")(from, to);
+}
+
+int renameat2(int from_folder, const char* from, int to_folder, const char* to,
+              unsigned flags) noexcept {
+  if (flags != 0 && std::getenv("HAMJET_NO_EXCLUSIVE_RENAME") != nullptr) {
+    errno = EINVAL;
+    return -1;
+  }
+  return next<decltype(&renameat2)>("renameat2")(from_folder, from, to_folder, to, flags);
 }
 
 int mkdir(const char* path, mode_t mode) noexcept {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <sstream>
 
 #include "../command_test.hpp"
 #include "hamjet/formats/conjunction_data_message.hpp"
@@ -239,10 +240,109 @@ TEST_F(Collision, NamesTheKeyOfWhatCannotBeSampled) {
   expect_error({"uncertainty", "flat.toml"}, 3,
                {"flat.toml: uncertainty.collision.sampling: not possible for this encounter",
                 "\"plain\"", "certain in a direction"});
-  write("thin.toml", scene("radius_m = 1e-6\n", "[uncertainty.deputy]\nposition_m = [1, 1, 1]\n"));
-  expect_error({"uncertainty", "thin.toml"}, 6,
-               {"uncertainty.collision.radius_m: too small beside the window, got 1e-06"});
+  // 7000 km are told to a ten thousand millionth.
+  write("thin.toml", scene("radius_m = 6e-4\n", "[uncertainty.deputy]\nposition_m = [1, 1, 1]\n"));
+  expect_error({"check", "thin.toml"}, 3,
+               {"uncertainty.collision.radius_m: too small, got 0.0006, must be 0.0007 or more"});
   EXPECT_FALSE(std::filesystem::exists(directory_ / "out"));
+}
+
+/// Two that pass each other at right angles and the root of 2 of the speed, 4 m apart, so many
+/// seconds before the start; their positions are uncertain by 5, 30 and 5 m along R, T, N.
+std::string passing(double seconds_before, const std::string& collision) {
+  const double along = 7.5 * seconds_before;
+  return fmt::format(
+      "system = {{ model = \"kepler\", mu_km3_s2 = 398600.4418 }}\n"
+      "ephemeris = {{ epoch = \"2024-01-02T00:00:00\", time_system = \"UTC\", reference_frame = "
+      "\"EME2000\", center_name = \"EARTH\", object_name = \"A\", object_id = \"2024-001A\", "
+      "originator = \"TESTERS\" }}\n"
+      "nominal = {{ position_km = [7000, {0}, 0], velocity_km_s = [0, 7.5, 0] }}\n"
+      "deputy = {{ position_km = [7000.004, 0, {0}], velocity_km_s = [0, 0, 7.5] }}\n"
+      "jet = {{ order = 2, duration_s = 60 }}\n[uncertainty]\nsamples = 0\n"
+      "position_m = [5, 30, 5]\nvelocity_m_s = [0.03, 0.005, 0.005]\n[uncertainty.deputy]\n"
+      "position_m = [5, 30, 5]\nvelocity_m_s = [0.03, 0.005, 0.005]\n"
+      "[uncertainty.collision]\nradius_m = 10\nsamples = 20000\n{1}",
+      along, collision);
+}
+
+// Across the velocity the deviations are 7.07 m along R and sqrt(30^2 + 5^2) / sqrt(2) of each, so
+// 30.41 m of both, with the mean 4 m along R: of the disc of 10 m the integral is 0.16656 (scipy's
+// dblquad). The states are those of the closest approach or of 5 ms later.
+TEST_F(Collision, OfAStartWithinAPassageIsThatOfTheWholePassage) {
+  constexpr double expected = 0.16656;
+  for (const double late : {0.0, 0.005}) {
+    write("scene.toml", passing(late, ""));
+    const std::string out = in_one_line(succeed({"uncertainty", "scene.toml", "-o", "out"}).out);
+    EXPECT_NE(out.find("the window is wider than the scene"), std::string::npos) << out;
+    const Json collision = read_json(directory_ / "out/summary.json")["collision"];
+    EXPECT_EQ(collision["window_widened"], true);
+    EXPECT_LT(collision["window_s"][0], 0);
+    EXPECT_EQ(collision["window_s"][1], 60);
+    const double error = 4 * collision["standard_error"].get<double>() + 1e-4;
+    EXPECT_NEAR(collision["probability"].get<double>(), expected, error);
+    ASSERT_EQ(collision["approaches"].size(), 1U);
+    EXPECT_NEAR(collision["approaches"][0]["time_s"].get<double>(), -late, 1e-5);
+    EXPECT_EQ(collision["approaches"][0]["short_encounter"]["holds"], true);
+    EXPECT_TRUE(collision["warnings"].empty());
+    const io::ConjunctionDataMessage message =
+        io::read_cdm("encounter.cdm", content(directory_ / "out/encounter.cdm"));
+    EXPECT_NEAR(*message.collision_probability, expected, error);
+  }
+}
+
+TEST_F(Collision, WarnsOfAWindowThatCutsAPassage) {
+  constexpr double expected = 0.16656;
+  write("scene.toml", passing(0, "window_s = [0, 60]\n"));
+  const std::string out = in_one_line(succeed({"uncertainty", "scene.toml", "-o", "out"}).out);
+  EXPECT_NE(out.find("warning: an edge of the window 0 s to 60 s cuts a passage"),
+            std::string::npos)
+      << out;
+  EXPECT_NE(out.find("of the whole passage 1.6"), std::string::npos) << out;
+  EXPECT_NE(content(directory_ / "out/report.html").find("cuts a passage"), std::string::npos);
+  const Json collision = read_json(directory_ / "out/summary.json")["collision"];
+  EXPECT_EQ(collision["window_widened"], false);
+  EXPECT_EQ(collision["warnings"].size(), 1U);
+  EXPECT_LT(collision["probability"].get<double>(), 0.7 * expected);
+  const Json& whole = collision["whole_passage"];
+  const double error = 4 * whole["standard_error"].get<double>() + 1e-4;
+  EXPECT_NEAR(whole["probability"].get<double>(), expected, error);
+  const std::string text = content(directory_ / "out/encounter.cdm");
+  const io::ConjunctionDataMessage message = io::read_cdm("encounter.cdm", text);
+  EXPECT_NEAR(*message.collision_probability, expected, error);
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 254U) << line;
+}
+
+// A deputy that is uncertain by 100 km along a circle of 7000 km: (100 km)^2 / (2 * 7000 km) = 714
+// m beside 5 m across. 1 km bends by 7 cm, beside 10 m of the radius and 7 m across.
+TEST_F(Collision, WarnsOfDeviationsAlongTheTrackThatLeaveTheOrbit) {
+  for (const auto& [along, warns] : {std::pair{100000, true}, {1000, false}}) {
+    std::string text = passing(0, "");
+    const std::size_t place = text.rfind("[5, 30, 5]");
+    text.replace(place, 10, fmt::format("[5, {}, 5]", along));
+    write("scene.toml", text);
+    const std::string out = in_one_line(succeed({"uncertainty", "scene.toml", "-o", "out"}).out);
+    EXPECT_EQ(out.find("warning: the deputy is uncertain by 1e+05 m along its track") !=
+                  std::string::npos,
+              warns)
+        << out;
+    EXPECT_EQ(out.find("the probability is not to be trusted") != std::string::npos, warns);
+    EXPECT_EQ(
+        content(directory_ / "out/report.html").find("not to be trusted") != std::string::npos,
+        warns);
+    const Json collision = read_json(directory_ / "out/summary.json")["collision"];
+    EXPECT_EQ(collision["warnings"].empty(), !warns) << collision["warnings"];
+  }
+}
+
+TEST_F(Collision, TakesEveryConfidenceThatItsKeyAllows) {
+  for (const std::string confidence : {"0.5", "0.999999"}) {
+    write("scene.toml", passing(0, "confidence = " + confidence + "\n"));
+    succeed({"uncertainty", "scene.toml", "-o", "out"});
+    const Json collision = read_json(directory_ / "out/summary.json")["collision"];
+    EXPECT_LT(collision["interval"][0], collision["probability"]);
+    EXPECT_GT(collision["interval"][1], collision["probability"]);
+  }
 }
 
 }  // namespace

@@ -126,6 +126,39 @@ TEST_F(Safety, ChecksWhatTheSceneAsksFor) {
   EXPECT_EQ(deviations(1.1), 1);
 }
 
+// A relative ellipse of 1 km, about 2 km ahead, passes through the chief once in a revolution,
+// which nodes a revolution apart never see: in J2 it comes within 10 m of it.
+TEST_F(Safety, SeesWhatHappensWithinRevolutions) {
+  write(
+      "ellipse.toml",
+      "system = { model = \"zonal-gravity\", mu_km3_s2 = 398600.4415, radius_km = 6378.1363, J2 = "
+      "1.08262668355315e-3 }\nnominal = { a_km = 7000, e = 0.001, i_deg = 98, raan_deg = 10, "
+      "argp_deg = 0, ta_deg = 40 }\njet = { order = 2, duration_orbits = 2 }\n[deputy]\n"
+      "a_dlambda_m = 2000\na_dex_m = 766.0444431\na_dey_m = -642.7876097\n[uncertainty]\n"
+      "position_m = [0.05, 0.05, 0.05]\nsamples = 0\n[uncertainty.safety]\nkeep_apart_m = 1000\n"
+      "samples = 200\n");
+  succeed({"uncertainty", "ellipse.toml", "-o", "out"});
+  const Json pair = read_json(directory_ / "out/summary.json")["safety"]["pairs"][0];
+  EXPECT_LT(pair["mean_separation_m"].get<double>(), 10);
+  EXPECT_LT(pair["separation_interval_m"][0].get<double>(),
+            pair["mean_separation_m"].get<double>() + 1);
+  EXPECT_EQ(pair["nearer"], 200);
+}
+
+// 30 km along the track bend by (3 * 30 km)^2 / (2 * 7000 km) = 579 m in the rarest cases.
+TEST_F(Safety, WarnsOfDeviationsAlongTheTrackThatLeaveTheOrbit) {
+  std::string text = stopped;
+  text.replace(text.find("samples = 0"), 11,
+               "samples = 0\nposition_m = [1, 30000, 1]\nvelocity_m_s = [0, 0, 0]");
+  write("long.toml", text);
+  const std::string out = in_one_line(succeed({"uncertainty", "long.toml", "-o", "out"}).out);
+  EXPECT_NE(out.find("its least separation is not to be trusted"), std::string::npos) << out;
+  EXPECT_FALSE(read_json(directory_ / "out/summary.json")["safety"]["warnings"].empty());
+  write("stopped.toml", stopped);
+  succeed({"uncertainty", "stopped.toml", "-o", "out"});
+  EXPECT_TRUE(read_json(directory_ / "out/summary.json")["safety"]["warnings"].empty());
+}
+
 TEST_F(Safety, RefusesWhatDoesNotFit) {
   const auto refuse = [&](std::string scene, const std::string& from, const std::string& to,
                           const std::vector<std::string>& words) {
@@ -135,6 +168,8 @@ TEST_F(Safety, RefusesWhatDoesNotFit) {
   };
   refuse(stopped, "keep_apart_m = 50", "keep_apart_m = 80000",
          {"uncertainty.safety.keep_apart_m", "too large"});
+  refuse(stopped, "keep_apart_m = 50", "keep_apart_m = 5e-324",
+         {"uncertainty.safety.keep_apart_m", "too small", "must be 0.0007 or more"});
   refuse(stopped, "keep_apart_m = 50\n", "", {"uncertainty.safety.keep_apart_m", "missing"});
   refuse(stopped, "keep_apart_m = 50", "keep_apart_m = 50\nburn_shares = [0, 1.5]",
          {"uncertainty.safety.burn_shares.1", "out of range"});

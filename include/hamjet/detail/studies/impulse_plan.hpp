@@ -31,21 +31,30 @@ struct PrimerHistory {
   bool calls_for_impulse() const { return largest.magnitude > 1 + 1e-6; }
 };
 
-/// As many impulses, at such times, that their sum of magnitudes is the least of all with the same
-/// start, end and arrival.
+/// From which way a plan of impulses began.
+enum class PlanOrigin {
+  linear_theory,  ///< about the chief
+  two_impulses,   ///< of the transfer
+  coasting,       ///< a transfer whose first impulse waits
+  waypoints,
+  revolutions,  ///< other ones than the chief's
+};
+
+/// As many impulses, at such times, that their sum of magnitudes is the least that was found with
+/// the same start, end and arrival.
 struct ImpulsePlan {
-  double duration = 0;            ///< canonical
+  double duration = 0;  ///< canonical
+  PlanOrigin origin = PlanOrigin::linear_theory;
   std::vector<Impulse> impulses;  ///< flown; in the order of time
-  double linear_change_m_s = 0;   ///< the sum of the magnitudes in the linear theory
-  /// No impulses at any time do what these do for less, in the linear theory, in which these lead a
-  /// little off the end.
-  double lower_bound_m_s = 0;
+  /// No impulses in the same time do what these do for less, to first order about the way of these;
+  /// absent where flights did not confirm that the linear theory holds so far.
+  std::optional<double> lower_bound_m_s;
   /// Where the scene's largest impulse divides others: the time between those at which impulses
   /// may be, canonical. The bound is then that of such impulses, none above the largest.
   std::optional<double> spacing;
   /// Of that bound: at most 1, but where an impulse is as large as it may be.
   std::vector<PrimerMagnitude> primer;
-  int flights = 0;  ///< that corrected the linear answer
+  int flights = 0;  ///< that corrected the linear answers
   /// Where the deputy that flies the plan comes to, beside the wanted end.
   double miss_m = 0;
   double velocity_miss_m_s = 0;
@@ -55,20 +64,25 @@ struct ImpulsePlan {
   double total_change_m_s() const;
 };
 
-/// The least cost for one of the listed times, in the linear theory.
+/// The least cost for one of the listed times, in the linear theory about the chief.
 struct LeastChange {
-  double time = 0;  ///< canonical
-  double change_m_s = 0;
+  double time = 0;                   ///< canonical
+  std::optional<double> change_m_s;  ///< proved to be the least at the times of a coarse grid
+  std::optional<double> flown_m_s;   ///< the same impulses, corrected by flying; absent: not flown
+  std::string failure;               ///< not empty: there is none, and why
+  /// The solver's answer did not prove to be one: the least of all times may be that of this one.
+  bool is_unproved = false;
 };
 
 /// What `impulses = "optimal"` asks for.
 struct OptimalImpulses {
   std::vector<LeastChange> by_time;  ///< for some of the listed times, the last among them
-  /// Of the time of the least cost, the shortest of those that cost no more than a thousandth more.
-  std::optional<ImpulsePlan> plan;
-  std::string failure;  ///< not empty: there is no plan, and why
+  std::optional<ImpulsePlan> plan;   ///< the least that was flown
+  std::string failure;               ///< not empty: there is no plan, and why
 
   bool is_found() const { return plan && plan->failure.empty() && plan->forbidden.empty(); }
+  /// Whether no time was left out because the solver failed.
+  bool is_proved() const;
 };
 
 }  // namespace hamjet

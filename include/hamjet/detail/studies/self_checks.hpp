@@ -27,6 +27,12 @@ struct SelfCheck {
   std::string text;             ///< one sentence: what was found, or why nothing was
 };
 
+/// Whether one of them has failed.
+inline bool has_failed(const std::vector<SelfCheck>& checks) {
+  return std::any_of(checks.begin(), checks.end(),
+                     [](const SelfCheck& check) { return check.state == SelfCheckState::failed; });
+}
+
 /// The energy along a run's nominal, canonical units.
 struct EnergyAlongNominal {
   double initial = 0;

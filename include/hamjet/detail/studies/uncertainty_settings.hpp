@@ -38,6 +38,7 @@ struct CollisionWatch {
   double radius_m = 0;  ///< of both together
   double from = 0;      ///< the window, canonical
   double to = 0;
+  bool has_window = false;  ///< the scene names it
   CollisionEvent event = CollisionEvent::nearer;
   CollisionSampling sampling = CollisionSampling::automatic;
   int samples = 200000;

@@ -12,9 +12,12 @@ namespace hamjet {
 std::optional<PrimerHistory> primer_history(const Scene& scene, const ComputedProblem& problem,
                                             const LinearFlow& flow, const TransferPoint& point);
 
-/// The least impulses for some of the scene's transfer times on the linear flow, and the plan for
-/// the best of them, corrected by flying until it misses by the scene's `refined_miss_m`.
+/// The least impulses for some of the scene's transfer times in the linear theory about the chief,
+/// and the plan for the best of them, flown. Where that theory is seen not to hold, its impulses
+/// for the other times are flown too, and the plan begins from the least of these and of the ways
+/// that `others` found, so that it costs no more than any.
 OptimalImpulses optimal_impulses(const Scene& scene, const ComputedProblem& problem,
-                                 const LinearFlow& flow, const ProgressCallback& progress);
+                                 const LinearFlow& flow, const TransferResult& others,
+                                 const ProgressCallback& progress);
 
 }  // namespace hamjet

@@ -68,7 +68,7 @@ std::vector<PrimerMagnitude> primer_along(const ImpulseGrid& grid, const Vector6
 namespace {
 
 /// The grid with finer times about those at which the primer is a local maximum of almost 1.
-ImpulseGrid refined(const LinearFlow& flow, const ImpulseGrid& grid, const LeastImpulses& least,
+ImpulseGrid refined(const MatrixAt& at, const ImpulseGrid& grid, const LeastImpulses& least,
                     double nearness) {
   constexpr std::size_t most_maxima = 64;
   constexpr int parts = 7;
@@ -93,7 +93,7 @@ ImpulseGrid refined(const LinearFlow& flow, const ImpulseGrid& grid, const Least
     if (!gaps.contains(k)) continue;
     for (int i = 1; i < parts; ++i) {
       const double time = grid.times[k] + (grid.times[k + 1] - grid.times[k]) * i / parts;
-      finer.add(time, flow.at(time));
+      finer.add(time, at(time));
     }
   }
   return finer;
@@ -101,13 +101,13 @@ ImpulseGrid refined(const LinearFlow& flow, const ImpulseGrid& grid, const Least
 
 }  // namespace
 
-ImpulseOptimum search_impulses(const LinearFlow& flow, double duration, const Vector6& change) {
-  const ImpulseGrid coarse = impulse_grid(flow, duration);
+ImpulseOptimum search_impulses(const ImpulseGrid& coarse, const MatrixAt& at,
+                               const Vector6& change) {
   ImpulseOptimum optimum{coarse, least_impulses(coarse.effects, change), {}};
   // Between the times of a grid the primer may exceed 1, and so much less an impulse there would
   // cost: by 1e-3 for the coarse one, 1e-8 for the finest.
   for (const double nearness : {1e-2, 2e-4, 4e-6}) {
-    optimum.grid = refined(flow, optimum.grid, optimum.least, nearness);
+    optimum.grid = refined(at, optimum.grid, optimum.least, nearness);
     optimum.least = least_impulses(optimum.grid.effects, change);
   }
   optimum.primer = primer_along(coarse, optimum.least.costate);

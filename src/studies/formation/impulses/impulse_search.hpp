@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -65,9 +66,12 @@ struct ImpulseOptimum {
   std::vector<PrimerMagnitude> primer;
 };
 
-/// The least impulses until a time for a change of the deviation at the start, in the units of the
-/// flow, on a grid that is fine about them. Throws as least_impulses.
-ImpulseOptimum search_impulses(const LinearFlow& flow, double duration,
+/// The matrix of a linear flow from time 0 to a canonical time.
+using MatrixAt = std::function<Eigen::Matrix<double, 6, 6>(double)>;
+
+/// The least impulses for a change of the deviation at the start, in the units of the flow, on a
+/// grid that becomes fine about them. Throws as least_impulses.
+ImpulseOptimum search_impulses(const ImpulseGrid& coarse, const MatrixAt& at,
                                const Eigen::Matrix<double, 6, 1>& change);
 
 }  // namespace hamjet

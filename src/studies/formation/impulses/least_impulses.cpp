@@ -1,62 +1,22 @@
 #include "least_impulses.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
+#include "directed_impulses.hpp"
 #include "hamjet/error.hpp"
-#include "impulse_barriers.hpp"
 
 namespace hamjet {
-namespace {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
-
-/// Leaves of the impulses so many that none is a combination of the others: along each combination
-/// that changes nothing, to the side where the sum of the magnitudes does not grow, until one is 0.
-/// (Caratheodory's theorem.) One that becomes `most` before that is moved to `full`.
-void leave_out_combinations(const std::vector<ImpulseEffect>& effects,
-                            std::vector<ChosenImpulse>& impulses, double most,
-                            std::vector<ChosenImpulse>& full) {
-  while (impulses.size() > 1) {
-    const auto count = static_cast<Eigen::Index>(impulses.size());
-    Eigen::MatrixXd unit_effects(6, count);
-    for (Eigen::Index k = 0; k < count; ++k) {
-      const ChosenImpulse& impulse = impulses[static_cast<std::size_t>(k)];
-      unit_effects.col(k) = effects[impulse.time] * impulse.change.normalized();
-    }
-    const Eigen::JacobiSVD<Eigen::MatrixXd> decomposition(unit_effects, Eigen::ComputeFullV);
-    const Eigen::VectorXd& values = decomposition.singularValues();
-    const bool is_independent = count <= 6 && values[count - 1] > 1e-9 * values[0];
-    if (is_independent) return;
-    Eigen::VectorXd combination = decomposition.matrixV().col(count - 1);
-    if (combination.sum() > 0) combination = -combination;
-    double length = std::numeric_limits<double>::infinity();
-    Eigen::Index first = 0;
-    for (Eigen::Index k = 0; k < count; ++k) {
-      const double size = impulses[static_cast<std::size_t>(k)].change.norm();
-      const double until =
-          combination[k] < 0 ? size / -combination[k] : (most - size) / combination[k];
-      if (until < length) {
-        length = until;
-        first = k;
-      }
-    }
-    for (Eigen::Index k = 0; k < count; ++k) {
-      Eigen::Vector3d& change = impulses[static_cast<std::size_t>(k)].change;
-      change += change.normalized() * (length * combination[k]);
-    }
-    if (combination[first] > 0) full.push_back(impulses[static_cast<std::size_t>(first)]);
-    impulses.erase(impulses.begin() + first);
-  }
-}
-
-}  // namespace
 
 bool add_change(const std::vector<ImpulseEffect>& effects, std::vector<Eigen::Vector3d>& impulses,
                 const std::vector<double>& weights, const Vector6& change) {
@@ -76,6 +36,43 @@ bool add_change(const std::vector<ImpulseEffect>& effects, std::vector<Eigen::Ve
     impulses[k] += weights[k] * (effects[k].transpose() * multiplier);
   }
   return true;
+}
+
+namespace {
+
+constexpr double no_limit = std::numeric_limits<double>::infinity();
+
+/// Relative to `most`, impulses this near to it are at it.
+constexpr double nearness_to_limit = 1e-6;
+
+double sum_of(const std::vector<ChosenImpulse>& impulses) {
+  double sum = 0;
+  for (const ChosenImpulse& one : impulses) sum += one.change.norm();
+  return sum;
+}
+
+}  // namespace
+
+std::vector<ImpulseEffect> effects_below(const std::vector<ImpulseEffect>& effects,
+                                         const std::vector<Eigen::Vector3d>& impulses,
+                                         double most) {
+  std::vector<ImpulseEffect> below = effects;
+  for (std::size_t k = 0; k < effects.size(); ++k) {
+    if (impulses[k].norm() < most * (1 - nearness_to_limit)) continue;
+    const Eigen::Vector3d direction = impulses[k].normalized();
+    below[k] -= effects[k] * direction * direction.transpose();
+  }
+  return below;
+}
+
+std::vector<double> weights_below(std::vector<double> weights,
+                                  const std::vector<Eigen::Vector3d>& impulses, double most) {
+  for (std::size_t k = 0; k < weights.size(); ++k) {
+    const double room = 1 - impulses[k].norm() / most;
+    // One at the limit is turned, which makes it longer by a second order alone.
+    if (room > nearness_to_limit) weights[k] *= room;
+  }
+  return weights;
 }
 
 namespace {
@@ -106,145 +103,166 @@ struct EvenProblem {
     for (const ImpulseEffect& effect : given) effects.emplace_back(to_even * effect);
     size = (to_even * given_change).norm();
     change = to_even * given_change / size;
+    if (!change.allFinite()) {
+      throw Error(ErrorKind::numerical, "impulses: the change that they are to make is not finite");
+    }
   }
 
-  /// Lets the impulses, few of them, make the whole change, which the barrier leaves to a small
-  /// part. Few may reach some directions only; what is then missing is left.
+  std::vector<double> primer(const Vector6& costate) const {
+    std::vector<double> magnitudes;
+    for (const ImpulseEffect& effect : effects) {
+      magnitudes.push_back((effect.transpose() * costate).norm());
+    }
+    return magnitudes;
+  }
+
+  /// What all impulses cost at least, by any costate: over the size of the change.
+  double bound(const Vector6& costate, double most) const {
+    const std::vector<double> magnitudes = primer(costate);
+    const double value = change.dot(costate);
+    if (!std::isfinite(most)) {
+      return value / *std::max_element(magnitudes.begin(), magnitudes.end());
+    }
+    double above = 0;
+    for (const double magnitude : magnitudes) above += std::max(0.0, magnitude - 1);
+    return value - most * above;
+  }
+
+  /// How much of the change impulses below a limit make at most, by any costate.
+  double share(const Vector6& costate, double most) const {
+    const std::vector<double> magnitudes = primer(costate);
+    const double value = change.dot(costate);
+    return value > 0 ? most * std::accumulate(magnitudes.begin(), magnitudes.end(), 0.0) / value
+                     : std::numeric_limits<double>::infinity();
+  }
+
+  /// What the impulses leave of the change.
+  Vector6 missing(const std::vector<ChosenImpulse>& impulses) const {
+    Vector6 left = change;
+    for (const ChosenImpulse& one : impulses) left -= effects[one.time] * one.change;
+    return left;
+  }
+
+  /// Lets the impulses make the whole change, to which the solver's tolerance adds. Few may reach
+  /// some directions only; what is then missing is left.
   void complete(std::vector<ChosenImpulse>& found, double most) const {
-    std::sort(found.begin(), found.end(),
-              [](const ChosenImpulse& a, const ChosenImpulse& b) { return a.time < b.time; });
     std::vector<ImpulseEffect> used;
     std::vector<Eigen::Vector3d> impulses;
-    for (const ChosenImpulse& one : found) {
+    std::vector<double> weights;
+    for (ChosenImpulse& one : found) {
+      if (one.change.norm() > most) one.change *= most / one.change.norm();
       used.push_back(effects[one.time]);
       impulses.push_back(one.change);
+      weights.push_back(one.change.norm());
     }
-    // One that is turned at the limit grows by a second order, which a further round makes up for.
-    for (int round = 0; round < (std::isfinite(most) ? 3 : 1); ++round) {
-      std::vector<double> weights;
-      Vector6 missing = change;
-      for (std::size_t i = 0; i < used.size(); ++i) {
-        if (impulses[i].norm() > most) impulses[i] *= most / impulses[i].norm();
-        weights.push_back(impulses[i].norm());
-        missing -= used[i] * impulses[i];
-      }
-      add_change(effects_below(used, impulses, most), impulses,
-                 weights_below(weights, impulses, most), missing);
+    add_change(effects_below(used, impulses, most), impulses,
+               weights_below(weights, impulses, most), missing(found));
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      const double length = impulses[i].norm();
+      found[i].change = impulses[i] * (length > most ? most / length : 1);
     }
-    for (std::size_t i = 0; i < found.size(); ++i) found[i].change = impulses[i];
   }
 };
 
-constexpr double no_limit = std::numeric_limits<double>::infinity();
+/// Relative to its value: how near the cost is brought to its bound, and how near it must be.
+constexpr double wanted_gap = 1e-9;
+constexpr double largest_gap = 1e-7;
+constexpr double largest_residual = 1e-9;
+constexpr int most_rounds = 400;
 
-/// Relative to `most`, impulses this near to it are at it.
-constexpr double nearness_to_limit = 1e-6;
+/// Whether impulses below the limit make the change, and if not what limit they need at least.
+/// (Of the change's size.)
+std::optional<double> limit_needed(const EvenProblem& even, DirectedImpulses& program,
+                                   double most) {
+  double possible = no_limit;
+  for (int round = 0; round < most_rounds; ++round) {
+    if (program.solve_share() >= 1 - 1e-12) return std::nullopt;
+    possible = std::min(possible, even.share(program.costate(), most));
+    if (possible < 1) return most / possible;
+    if (!program.add_directions()) break;
+  }
+  throw UnprovedLeast(
+      "impulses: whether any below the limit suffice is within the rounding of the solver");
+}
+
+LimitedImpulses found_impulses(const std::vector<ImpulseEffect>& effects, const Vector6& change,
+                               double most) {
+  if (change.isZero(0)) return {LeastImpulses(), 0};
+  const EvenProblem even(effects, change);
+  const double limit = most / even.size;
+  DirectedImpulses program(even.effects, even.change, limit);
+  if (const auto needed = limit_needed(even, program, limit)) {
+    return {std::nullopt, even.size * *needed};
+  }
+  double bound = -no_limit;
+  Vector6 costate = Vector6::Zero();
+  std::vector<ChosenImpulse> found;
+  for (int round = 0; round < most_rounds; ++round) {
+    program.solve_sum();
+    const Vector6 y = program.costate();
+    if (const double proved = even.bound(y, limit); proved > bound) {
+      bound = proved;
+      costate = y;
+    }
+    found = program.impulses();
+    if (sum_of(found) - bound <= wanted_gap * bound || !program.add_directions()) break;
+  }
+  even.complete(found, limit);
+  if (!std::isfinite(most)) {
+    const std::vector<double> primer = even.primer(costate);
+    costate /= *std::max_element(primer.begin(), primer.end());
+  }
+  LeastImpulses least;
+  for (const ChosenImpulse& one : found) {
+    least.impulses.push_back({one.time, even.size * one.change});
+  }
+  least.cost = sum_of(least.impulses);
+  // The bound is below every cost but for rounding.
+  least.lower_bound = std::min(even.size * bound, least.cost);
+  least.costate = even.to_even.transpose() * costate;
+  require_least(effects, change, most, least);
+  return {std::move(least), 0};
+}
 
 }  // namespace
 
-std::vector<ImpulseEffect> effects_below(const std::vector<ImpulseEffect>& effects,
-                                         const std::vector<Eigen::Vector3d>& impulses,
-                                         double most) {
-  std::vector<ImpulseEffect> below = effects;
-  for (std::size_t k = 0; k < effects.size(); ++k) {
-    if (impulses[k].norm() < most * (1 - nearness_to_limit)) continue;
-    const Eigen::Vector3d direction = impulses[k].normalized();
-    below[k] -= effects[k] * direction * direction.transpose();
+void require_least(const std::vector<ImpulseEffect>& effects, const Vector6& change, double most,
+                   const LeastImpulses& least) {
+  const EvenProblem even(effects, change);
+  std::vector<ChosenImpulse> impulses = least.impulses;
+  double largest = 0;
+  for (ChosenImpulse& one : impulses) {
+    largest = std::max(largest, one.change.norm());
+    one.change /= even.size;
   }
-  return below;
-}
-
-std::vector<double> weights_below(std::vector<double> weights,
-                                  const std::vector<Eigen::Vector3d>& impulses, double most) {
-  for (std::size_t k = 0; k < weights.size(); ++k) {
-    const double room = 1 - impulses[k].norm() / most;
-    // One at the limit is turned, which makes it longer by a second order alone.
-    if (room > nearness_to_limit) weights[k] *= room;
+  const double residual = even.missing(impulses).norm();
+  if (!(residual <= largest_residual)) {
+    throw UnprovedLeast(
+        fmt::format("impulses: those that were found leave {:.2g} of the change", residual));
   }
-  return weights;
+  if (!(largest <= most * (1 + 1e-12))) {
+    throw UnprovedLeast("impulses: one that was found is above the limit");
+  }
+  const Vector6 costate = even.to_even.transpose().partialPivLu().solve(least.costate);
+  const double bound = even.bound(costate, most / even.size);
+  const double cost = sum_of(impulses);
+  const bool is_told = std::abs(least.cost / even.size - cost) <= 1e-12 * cost &&
+                       least.lower_bound / even.size <= bound * (1 + 1e-9);
+  if (!is_told || !(cost - bound <= largest_gap * cost)) {
+    throw UnprovedLeast(
+        fmt::format("impulses: those that were found are proved to be the least to {:.2g} "
+                    "of their sum only",
+                    (cost - bound) / cost));
+  }
 }
 
 LeastImpulses least_impulses(const std::vector<ImpulseEffect>& effects, const Vector6& change) {
-  LeastImpulses least;
-  if (change.isZero(0)) return least;
-  const EvenProblem even(effects, change);
-
-  // On the barrier's path the costs of both problems differ by less than mu times the number of
-  // times; the last mu leaves a relative gap of 1e-9.
-  const auto count = static_cast<double>(effects.size());
-  const BarrierProblem problem(even.effects, even.change);
-  Vector6 y = Vector6::Zero();
-  double mu = 1 / count;
-  problem.climb(y, mu);
-  while (mu * count > 1e-9 * even.change.dot(y)) {
-    mu /= 8;
-    problem.climb(y, mu);
-  }
-  double largest_primer = 0;
-  std::vector<ChosenImpulse> found;
-  double sum = 0;
-  for (std::size_t k = 0; k < effects.size(); ++k) {
-    const Eigen::Vector3d primer = even.effects[k].transpose() * y;
-    largest_primer = std::max(largest_primer, primer.norm());
-    found.push_back({k, 2 * mu / (1 - primer.squaredNorm()) * primer});
-    sum += found.back().change.norm();
-  }
-  std::erase_if(found, [&](const ChosenImpulse& one) { return !(one.change.norm() > 1e-6 * sum); });
-  std::vector<ChosenImpulse> full;
-  leave_out_combinations(even.effects, found, no_limit, full);
-  even.complete(found, no_limit);
-  for (const ChosenImpulse& one : found) {
-    least.impulses.push_back({one.time, even.size * one.change});
-    least.cost += least.impulses.back().change.norm();
-  }
-  // The dual value is below every cost but for rounding.
-  least.lower_bound = std::min(even.size * even.change.dot(y) / largest_primer, least.cost);
-  least.costate = even.to_even.transpose() * y / largest_primer;
-  return least;
+  return *found_impulses(effects, change, no_limit).least;
 }
 
-std::optional<LeastImpulses> least_impulses(const std::vector<ImpulseEffect>& effects,
-                                            const Vector6& change, double most) {
-  LeastImpulses least;
-  if (change.isZero(0)) return least;
-  const EvenProblem even(effects, change);
-  const double limit = most / even.size;
-  const auto count = static_cast<double>(effects.size());
-  LimitedBarrierProblem problem(even.effects, even.change, limit);
-  // Each time has three barriers: the cone's counts twice. Beyond this gap rounding leaves the
-  // path: impulses are quotients of mu and the room that is left.
-  constexpr double gap = 3e-8;
-  double mu = limit / 2;
-  problem.climb(mu);
-  while (problem.without_barrier() <= problem.greatest_cost() &&
-         3 * mu * count > gap * problem.without_barrier()) {
-    mu /= 8;
-    problem.climb(mu);
-  }
-  if (problem.without_barrier() > problem.greatest_cost()) return std::nullopt;
-  std::vector<ChosenImpulse> found;
-  std::vector<ChosenImpulse> full;
-  double sum = 0;
-  double bound = even.change.dot(problem.costate());
-  for (std::size_t k = 0; k < effects.size(); ++k) {
-    const Eigen::Vector3d impulse = problem.impulse(k, mu);
-    const bool is_full = impulse.norm() > limit * (1 - nearness_to_limit);
-    if (is_full) full.push_back({k, limit * impulse.normalized()});
-    if (!is_full) found.push_back({k, impulse});
-    sum += impulse.norm();
-    bound -= limit * std::max(0.0, (even.effects[k].transpose() * problem.costate()).norm() - 1);
-  }
-  std::erase_if(found, [&](const ChosenImpulse& one) { return !(one.change.norm() > 1e-6 * sum); });
-  leave_out_combinations(even.effects, found, limit, full);
-  found.insert(found.end(), full.begin(), full.end());
-  even.complete(found, limit);
-  for (const ChosenImpulse& one : found) {
-    least.impulses.push_back({one.time, even.size * one.change});
-    least.cost += least.impulses.back().change.norm();
-  }
-  least.lower_bound = std::min(even.size * bound, least.cost);
-  least.costate = even.to_even.transpose() * problem.costate();
-  return least;
+LimitedImpulses least_impulses(const std::vector<ImpulseEffect>& effects, const Vector6& change,
+                               double most) {
+  return found_impulses(effects, change, most);
 }
 
 }  // namespace hamjet

@@ -2,15 +2,23 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "hamjet/detail/algebra/eigen.hpp"
+#include "hamjet/error.hpp"
 
 namespace hamjet {
 
 /// What an impulse at a time does to the deviation at the start of a linear flow: the last three
 /// columns of the inverse of the flow's matrix to that time.
 using ImpulseEffect = Eigen::Matrix<double, 6, 3>;
+
+/// The solver of a linear program failed, or what it said was checked and is not the least.
+class UnprovedLeast : public Error {
+ public:
+  explicit UnprovedLeast(const std::string& message) : Error(ErrorKind::numerical, message) {}
+};
 
 /// An impulse at one of the given times.
 struct ChosenImpulse {
@@ -24,28 +32,44 @@ struct LeastImpulses {
   double cost = 0;                      ///< sum of their magnitudes
   /// No impulses at the given times make the change for less: the value of the dual problem.
   double lower_bound = 0;
-  /// The primer vector is effect^T times this; its magnitude is at most 1 at the given times, and 1
-  /// where there are impulses. (Lawden, Optimal Trajectories for Space Navigation, 1963.)
+  /// The primer vector is effect^T times this; without a limit of the impulses its magnitude is at
+  /// most 1 at the given times, and 1 where there are impulses. (Lawden, Optimal Trajectories for
+  /// Space Navigation, 1963.)
   Eigen::Matrix<double, 6, 1> costate = Eigen::Matrix<double, 6, 1>::Zero();
 };
 
 /// Least sum |v_k| with sum B_k v_k = change, by the dual problem, largest change . y with
-/// |B_k^T y| <= 1 for all k, whose six unknowns an interior-point method finds (Boyd and
-/// Vandenberghe, Convex Optimization, chapter 11). Throws Error(numerical) if the impulses cannot
-/// make every change, as at one time alone.
+/// |B_k^T y| <= 1 for all k. Each round of Kelley's cutting planes (Journal of the SIAM 8, 1960)
+/// solves a linear program whose impulses have given directions, and adds the directions B_k^T y of
+/// its multiplier y where they do more than they cost. Throws Error(numerical) if the impulses
+/// cannot make every change, as at one time alone, and as require_least.
 LeastImpulses least_impulses(const std::vector<ImpulseEffect>& effects,
                              const Eigen::Matrix<double, 6, 1>& change);
 
-/// The same with no impulse above `most`: least sum |v_k| with sum B_k v_k = change and
-/// |v_k| <= most, by the dual problem, largest
+/// The least impulses below a limit, or why there are none.
+struct LimitedImpulses {
+  std::optional<LeastImpulses> least;
+  /// Where there are none: a limit below this is too low.
+  double limit_needed = 0;
+};
+
+/// The same with no impulse above `most`, which is above 0: least sum |v_k| with sum B_k v_k =
+/// change and |v_k| <= most, by the dual problem, largest
 ///
 ///   change . y - most sum_k max(0, |B_k^T y| - 1),
 ///
 /// so that the primer vector exceeds 1 where an impulse is `most`. Those are beside at most six
-/// others. Absent if no such impulses make the change, which a y tells whose dual value is above
-/// all that they can cost. Throws as above.
-std::optional<LeastImpulses> least_impulses(const std::vector<ImpulseEffect>& effects,
-                                            const Eigen::Matrix<double, 6, 1>& change, double most);
+/// others. There are none below the limit where a y has change . y > most sum_k |B_k^T y|. Throws
+/// as above.
+LimitedImpulses least_impulses(const std::vector<ImpulseEffect>& effects,
+                               const Eigen::Matrix<double, 6, 1>& change, double most);
+
+/// What must be true of an answer, whoever found it: the impulses make the change to 1e-9, none is
+/// above `most`, and they cost no more than 1e-7 above what the costate proves to be a bound.
+/// Throws UnprovedLeast where it is not, also of numbers that are not finite.
+void require_least(const std::vector<ImpulseEffect>& effects,
+                   const Eigen::Matrix<double, 6, 1>& change, double most,
+                   const LeastImpulses& least);
 
 /// The effects of what may be added to impulses of at most `most`: those that are as large may only
 /// be turned.

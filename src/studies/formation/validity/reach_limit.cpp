@@ -26,10 +26,19 @@ Columns6 variables_by_coordinates(FlownDeputies& deputies, const Vector6& deputy
   return result;
 }
 
+/// By how much a change of one of the polynomials' values moves the chief's end, in its distance
+/// and speed.
+double relative_size(const DeputyFlow& flow, std::size_t value) {
+  const Eigen::Map<const Vector6> end(flow.chief_end().data());
+  const Vector6 moved = flow.exit_derivative().col(static_cast<Eigen::Index>(value));
+  return std::hypot(moved.head<3>().norm() / end.head<3>().norm(),
+                    moved.tail<3>().norm() / end.tail<3>().norm());
+}
+
 /// The derivative of the final deviation by the polynomials' values, at a deputy.
 Columns6 deviation_by_values(DeputyPredictor& predictor, const SixNumbers<double>& initial,
                              int order) {
-  constexpr double step = 1e-6;  // canonical
+  constexpr double share = 1e-6;  // of the chief's distance and speed
   const DeputyFlow& flow = predictor.flow();
   MonomialValues point(flow.polynomials()[0].space_pointer());
   point.set_point(predictor.variables(initial));
@@ -40,6 +49,7 @@ Columns6 deviation_by_values(DeputyPredictor& predictor, const SixNumbers<double
   Columns6 result(6, static_cast<Eigen::Index>(values.size()));
   for (std::size_t c = 0; c < values.size(); ++c) {
     const double value = values[c];
+    const double step = share / relative_size(flow, c);
     values[c] = value + step;
     const SixNumbers<double> ahead = predictor.leave(initial, values);
     values[c] = value - step;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "../../../integrators/momentum_unit.hpp"
+#include "../../checks/flight_checks.hpp"
 #include "../../formation_scale.hpp"
 #include "../../random_direction.hpp"
 #include "../../stopwatch.hpp"
@@ -318,14 +319,21 @@ class ValidityStudy {
 
 }  // namespace
 
+static std::vector<SelfCheck> checks_of_chief(const Scene& scene) {
+  return flight_checks(scene, flights_of(scene, scene.validity->times.back(), false));
+}
+
 ValidityResult study_validity(const Scene& scene, const ProgressCallback& progress) {
   require_formation_problem(scene, scene.validity.has_value(), "validity");
   if (scene.coordinates != JetCoordinates::automatic) {
-    return ValidityStudy(scene, progress).run(scene.coordinates);
+    ValidityResult result = ValidityStudy(scene, progress).run(scene.coordinates);
+    result.checks = checks_of_chief(scene);
+    return result;
   }
   const ValidityInCoordinates all = study_validity_in_all(scene, progress);
   ValidityResult result = all.furthest();
   result.coordinates = all.chosen();
+  result.checks = all.checks;
   return result;
 }
 
@@ -343,6 +351,7 @@ ValidityInCoordinates study_validity_in_all(const Scene& scene, const ProgressCa
       all.refused.push_back({coordinates, error.what()});
     }
   }
+  all.checks = checks_of_chief(scene);
   return all;
 }
 

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <utility>
+
+#include "hamjet/algebra/truncated_power_series.hpp"
+
+namespace hamjet {
+
+/// A series whose value and variables are told in other units. The factors take numbers into these;
+/// a coefficient is multiplied by the value's and divided by that of each variable, as often as it
+/// stands in the monomial. `of_variables` has one for each variable.
+template <class T>
+Series<T> in_other_units(Series<T> u, const T& of_value, std::span<const T> of_variables) {
+  const SeriesSpace& space = u.space();
+  for (std::size_t k = 0; k < space.size(); ++k) {
+    const auto exponents = space.exponents(k);
+    T factor = of_value;
+    for (std::size_t v = 0; v < of_variables.size(); ++v) {
+      for (int e = 0; e < exponents[v]; ++e) factor /= of_variables[v];
+    }
+    u[k] *= factor;
+  }
+  return u;
+}
+
+}  // namespace hamjet

@@ -1,0 +1,119 @@
+#include "flow_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "../algebra/raise_to.hpp"
+#include "../integrators/momentum_unit.hpp"
+#include "../studies/formation/deputy_flows.hpp"
+#include "../studies/integration.hpp"
+#include "hamjet/algebra/composition.hpp"
+#include "hamjet/charts/flow_box.hpp"
+#include "hamjet/integrators/error_estimate.hpp"
+#include "hamjet/integrators/gauss_collocation.hpp"
+
+namespace hamjet::cli {
+namespace {
+
+constexpr Eigen::Index positions = 3;
+
+Matrix<double> linear_values(const DeputyFlow& flow) { return linear_part(flow.polynomials()); }
+
+/// The same flow to first order, from an integration of its own.
+std::unique_ptr<DeputyFlow> independent_linear_flow(const Scene& scene,
+                                                    const ComputedProblem& problem,
+                                                    const CoordinatesAtEnds& coordinates,
+                                                    int stages) {
+  GaussSettings settings;
+  settings.stages = stages;
+  settings.tolerance = 4 * std::numeric_limits<double>::epsilon();
+  settings.controls_all_degrees = true;
+  const SixNumbers<double> start = six_numbers(problem.nominal);
+  if (coordinates == JetCoordinates::flow_box) {
+    const ZonalGravity field = orbit_field(scene);
+    FlowBoxPropagation<double> boxes(field, section_chart(start, canonical_mu), start, 1, settings);
+    return flow_box_deputy_flow(field, boxes.advance_to(scene.duration));
+  }
+  FlowProblem<double> linear = flow_problem<double>(problem, scene.duration);
+  linear.space = SeriesSpace::create(problem.variables.size(), 1);
+  linear.symmetry = FlowSymmetry::none;
+  IntegrationStatistics statistics;
+  return deputy_flow_of_jet(FlowMap<double>(integrate_gauss<double>(linear, settings, statistics)),
+                            start, coordinates);
+}
+
+double distance(const SixNumbers<double>& a, const SixNumbers<double>& b) {
+  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
+
+/// The largest number of a state, its momenta in units of 2^exponent.
+double largest_number(std::span<const double> state, int exponent) {
+  double largest = 0;
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    const int unit = i < state.size() / 2 ? 0 : exponent;
+    raise_to(largest, std::ldexp(std::abs(state[i]), -unit));
+  }
+  return largest;
+}
+
+}  // namespace
+
+FlowError FlowError::measured(const Scene& scene, const ComputedProblem& problem,
+                              const CoordinatesAtEnds& coordinates, const DeputyFlow& flow) {
+  FlowError result;
+  result.is_known_ = true;
+  const Matrix<double> values = linear_values(flow);
+  for (const int stages : {16, 15}) {
+    const auto other = independent_linear_flow(scene, problem, coordinates, stages);
+    raise_to(result.of_chief_,
+             error_estimate_safety * distance(other->chief_end(), flow.chief_end()));
+    const Matrix<double> error = error_estimate_safety * (values - linear_values(*other));
+    result.shown_.push_back(flow.exit_derivative().topRows(positions) * error *
+                            flow.entry_derivative());
+  }
+  return result;
+}
+
+FlowError FlowError::stated(const io::StoredJet& stored, const DeputyFlow& flow) {
+  FlowError result;
+  if (stored.error_by_degree.size() < 2) return result;
+  result.is_known_ = true;
+  result.of_chief_ = stated_chief_error(stored);
+  const double relative = stored.error_by_degree[1];
+  const Matrix<double> values = linear_values(flow);
+  if (stored.flow_box) {
+    const Matrix<double> error = Matrix<double>::Constant(values.rows(), values.cols(),
+                                                          relative * values.cwiseAbs().maxCoeff());
+    result.bound_ = flow.exit_derivative().topRows(positions).cwiseAbs() * error *
+                    flow.entry_derivative().cwiseAbs();
+    return result;
+  }
+  // Of other coordinates it is the error of the jet in positions and momenta.
+  const int exponent = stored.momentum_exponent();
+  const Matrix<double> linear = flow.exit_derivative() * values * flow.entry_derivative();
+  const double largest = in_momentum_unit<Matrix<double>>(linear, exponent).cwiseAbs().maxCoeff();
+  result.bound_ = Matrix<double>::Constant(positions, linear.cols(), relative * largest);
+  result.bound_.rightCols(positions) *= std::ldexp(1.0, -exponent);
+  return result;
+}
+
+double FlowError::of_deviation(const SixNumbers<double>& deviation) const {
+  const Eigen::Map<const Eigen::Matrix<double, 6, 1>> x(deviation.data());
+  double error = 0;
+  for (const Matrix<double>& one : shown_) raise_to(error, (one * x).norm());
+  if (bound_.size() > 0) raise_to(error, (bound_ * x.cwiseAbs()).norm());
+  return error;
+}
+
+double stated_chief_error(const io::StoredJet& stored) {
+  if (stored.error_by_degree.empty()) return 0;
+  const std::span<const double> end(stored.nominal_final);
+  // The error of a flow box is relative to its positions, that of a jet to all numbers.
+  const double size = stored.flow_box ? largest_number(end.first(end.size() / 2), 0)
+                                      : largest_number(end, stored.momentum_exponent());
+  return stored.error_by_degree[0] * size;
+}
+
+}  // namespace hamjet::cli

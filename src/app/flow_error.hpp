@@ -1,0 +1,46 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "hamjet/charts/deputy_flow.hpp"
+#include "hamjet/formats/stored_jet.hpp"
+#include "hamjet/studies/propagation.hpp"
+
+namespace hamjet::cli {
+
+/// What integrations have made wrong in a chief's flow, by which deputies are predicted: the end of
+/// the chief, and what the polynomials make of a deviation. Canonical, of positions.
+///
+/// Errors of higher degrees than the first are left out: where the degrees decay, they are below
+/// the first's or below what the missing degrees would add.
+class FlowError {
+ public:
+  /// Nothing is known, and nothing counted.
+  FlowError() = default;
+
+  /// What two independent integrations of the linear part show, by Gauss methods of 16 and 15
+  /// stages to the rounding of the numbers. Throws as the integrator and the coordinates.
+  static FlowError measured(const Scene& scene, const ComputedProblem& problem,
+                            const CoordinatesAtEnds& coordinates, const DeputyFlow& flow);
+  /// What results state of their coefficients by degree, as a bound; nothing where they do not.
+  static FlowError stated(const io::StoredJet& stored, const DeputyFlow& flow);
+
+  bool is_known() const { return is_known_; }
+  /// Of the chief's final position.
+  double of_chief() const { return of_chief_; }
+  /// Of a deputy's final position relative to the chief, by its initial deviation.
+  double of_deviation(const SixNumbers<double>& deviation) const;
+
+ private:
+  bool is_known_ = false;
+  double of_chief_ = 0;
+  std::vector<Matrix<double>> shown_;  ///< 3 x 6 each, of a deviation
+  Matrix<double> bound_;               ///< 3 x 6, of the magnitudes of a deviation; or none
+};
+
+/// A bound on the error of a stored chief's final position, from the error of degree 0 that the
+/// results state; 0 where they do not.
+double stated_chief_error(const io::StoredJet& stored);
+
+}  // namespace hamjet::cli

@@ -1,0 +1,114 @@
+#include "deviation_rows.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "../../app/refusal.hpp"
+#include "../../app/required_tables.hpp"
+#include "../../app/stored_chief.hpp"
+#include "../../store/text_file.hpp"
+#include "../../text/scene_message.hpp"
+#include "eval_source.hpp"
+#include "hamjet/error.hpp"
+#include "hamjet/relative_motion/chief_frame.hpp"
+
+namespace hamjet::cli {
+namespace {
+
+/// The row of the scene's deputy.
+std::vector<double> deputy_row(const EvalOptions& options, const io::StoredJet& stored,
+                               const EvalCoordinates& coordinates) {
+  const RunOptions named = scene_named(options, *options.deputy);
+  const std::string& file = *named.scene_file;
+  Scene scene;
+  try {
+    // As the jet is: stored, or integrated in the chief's own units.
+    scene = read_scene(named, is_of_scene(options) ? io::SceneUnits::chiefs : io::SceneUnits::told);
+  } catch (const Error& error) {
+    throw Error(error.kind(), fmt::format("--deputy: {}", error.what()));
+  }
+  require_deputy(scene, file);
+  if (!is_about_chief(stored, scene)) {
+    refuse_scene(file, "nominal",
+                 fmt::format("another orbit than that of the jet {}, must be the scene that it was "
+                             "made from",
+                             io::printable(stored.label)));
+  }
+  const ChiefFrame frame(scene.nominal, {scene.units.length_km * 1000, scene.units.time_s},
+                         scene.deputy->frame);
+  return coordinates.initial_row(frame.deviation(scene.deputy->start));
+}
+
+/// The row that the command line gives.
+std::vector<double> given_row(const std::string& text, const EvalCoordinates& coordinates) {
+  const std::vector<std::string_view>& columns = coordinates.initial_columns();
+  std::vector<std::string_view> fields;
+  io::split_line(text, fields);
+  if (fields.size() != columns.size()) {
+    refuse(fmt::format("--deviation: must be {} numbers between commas, {}, got {}", columns.size(),
+                       fmt::join(columns, ","), io::in_quotes(text)));
+  }
+  std::vector<double> row;
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    const auto number = io::finite_number(fields[i]);
+    if (!number) {
+      refuse(fmt::format("--deviation: {} must be a finite number, got {}", columns[i],
+                         io::in_quotes(fields[i])));
+    }
+    row.push_back(*number);
+  }
+  return row;
+}
+
+}  // namespace
+
+DeviationRows::DeviationRows(const EvalOptions& options, const io::StoredJet& stored,
+                             const EvalCoordinates& coordinates)
+    : options_(options), coordinates_(coordinates) {
+  if (options.deviations) {
+    input_ = *options.deviations == standard_input
+                 ? io::InputStream::standard_input()
+                 : io::InputStream(std::filesystem::path(*options.deviations));
+    rewind();
+    return;
+  }
+  std::vector<double> row = options.deputy ? deputy_row(options, stored, coordinates)
+                                           : given_row(*options.deviation, coordinates);
+  row_ = {row.size(), std::move(row)};
+}
+
+void DeviationRows::keep() {
+  if (input_) input_->keep();
+}
+
+void DeviationRows::rewind() {
+  is_at_end_ = false;
+  if (!input_) return;
+  if (reader_) input_->rewind();
+  reader_.emplace(input_->name(), coordinates_.initial_columns(),
+                  [this](std::span<char> bytes) { return input_->read(bytes); });
+}
+
+io::NumberTable DeviationRows::read(std::size_t most_rows) {
+  if (!input_) return std::exchange(is_at_end_, true) ? io::NumberTable{row_.columns, {}} : row_;
+  io::NumberTable part = reader_->read(most_rows);
+  // Half of an old file and half of a new one can look like a good file.
+  if (part.rows() == 0) input_->require_unchanged();
+  return part;
+}
+
+std::vector<double> DeviationRows::variables(const EvalCoordinates& coordinates,
+                                             const io::NumberTable& part, std::size_t row) const {
+  try {
+    return coordinates.variables(part.row(row));
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::usage) throw;
+    if (options_.deviation) refuse(fmt::format("--deviation: {}", error.what()));
+    if (options_.deputy) refuse_scene(*options_.deputy, "deputy", error.what());
+    throw Error(ErrorKind::input_output,
+                fmt::format("{}:{}: {}", input_->name(), part.line(row), error.what()));
+  }
+}
+
+}  // namespace hamjet::cli

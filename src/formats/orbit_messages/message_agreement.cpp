@@ -1,0 +1,178 @@
+#include "message_agreement.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "../../dynamics/celestial_bodies.hpp"
+
+namespace hamjet::io {
+namespace {
+
+/// Names that stand for none.
+constexpr std::array<std::string_view, 7> placeholders = {"",     "UNKNOWN", "NONE",     "N/A",
+                                                          "NULL", "DEPUTY",  "UNDEFINED"};
+
+/// Axes that move with precession or nutation, and are of the moment where no epoch is given.
+constexpr std::array<std::string_view, 4> frames_of_date = {"TOD", "MOD", "TEMEOFDATE", "CIRF"};
+
+/// Axes near those of J2000.
+constexpr std::array<std::string_view, 6> frames_of_J2000 = {"EME2000", "GCRF",  "ICRF",
+                                                             "ICRF1",   "ICRF2", "ICRF3"};
+constexpr double angle_of_frame_bias = 1.2e-7;
+constexpr double angle_of_precession = 0.03;
+
+/// The Earth's rate of rotation, rad/s (IERS Conventions (2010), table 1.2).
+constexpr double earth_rate = 7.292115e-5;
+
+std::string capitals(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](char c) {
+    return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  });
+  return text;
+}
+
+bool is_among(const auto& names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// The angle that may be between the axes of two inertial frames.
+double angle_between(const KnownState& one, const KnownState& other) {
+  const std::string_view a = name_of_axes(one.reference_frame);
+  const std::string_view b = name_of_axes(other.reference_frame);
+  if (a == b && one.reference_frame_epoch == other.reference_frame_epoch) return 0;
+  return is_among(frames_of_J2000, a) && is_among(frames_of_J2000, b) ? angle_of_frame_bias
+                                                                      : angle_of_precession;
+}
+
+/// A state of axes that rotate with the Earth in inertial ones with the same pole, turned about it
+/// until it lies as the other does.
+KnownState without_rotation(KnownState state, const KnownState& other) {
+  const Eigen::Vector3d rate(0, 0, earth_rate);
+  state.velocity_km_s += rate.cross(state.position_km);
+  const double off_pole = state.position_km.head<2>().norm() / state.position_km.norm();
+  const double speed_off_pole = state.velocity_km_s.head<2>().norm() / state.velocity_km_s.norm();
+  const auto turn = [](const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+    return std::atan2(to[1], to[0]) - std::atan2(from[1], from[0]);
+  };
+  const double angle = off_pole >= speed_off_pole ? turn(state.position_km, other.position_km)
+                                                  : turn(state.velocity_km_s, other.velocity_km_s);
+  const Eigen::Matrix3d rotation =
+      Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  state.position_km = rotation * state.position_km;
+  state.velocity_km_s = rotation * state.velocity_km_s;
+  return state;
+}
+
+}  // namespace
+
+std::vector<std::string> known_names(std::vector<std::string> names) {
+  std::vector<std::string> known;
+  for (std::string& name : names) {
+    if (!is_among(placeholders, capitals(name)) && !is_among(known, name)) {
+      known.push_back(std::move(name));
+    }
+  }
+  return known;
+}
+
+bool are_other_objects(const std::vector<std::string>& one, const std::vector<std::string>& other) {
+  if (one.empty() || other.empty()) return false;
+  return std::none_of(one.begin(), one.end(), [&](const std::string& name) {
+    return std::any_of(other.begin(), other.end(), [&](const std::string& of_other) {
+      return capitals(name) == capitals(of_other);
+    });
+  });
+}
+
+bool is_same_centre(const std::string& one, const std::string& other) {
+  return one == other || (body_named(one) != nullptr && body_named(one) == body_named(other));
+}
+
+std::string axes_text(const std::string& reference_frame, const std::string& epoch) {
+  if (!epoch.empty()) return fmt::format("{} of {}", reference_frame, epoch);
+  return is_among(frames_of_date, name_of_axes(reference_frame)) ? reference_frame + " of date"
+                                                                 : reference_frame;
+}
+
+bool is_same_axes(const EphemerisSettings& one, const EphemerisSettings& other) {
+  const std::string_view axes = name_of_axes(one.reference_frame);
+  if (axes != name_of_axes(other.reference_frame)) return false;
+  const auto epoch_of = [&](const EphemerisSettings& settings) {
+    const bool is_of_date =
+        settings.reference_frame_epoch.empty() && is_among(frames_of_date, axes);
+    return is_of_date ? parse_epoch(settings.epoch) : parse_epoch(settings.reference_frame_epoch);
+  };
+  return epoch_of(one) == epoch_of(other);
+}
+
+StateDifference difference_of_states(const KnownState& message, const KnownState& scene,
+                                     double position_deviation_km, double velocity_deviation_km_s) {
+  const bool is_rotating = message.reference_frame.starts_with("ITRF");
+  const KnownState given = is_rotating ? without_rotation(message, scene) : message;
+  const double angle = is_rotating ? angle_of_precession : angle_between(message, scene);
+  StateDifference difference;
+  // Between axes at an angle the lengths are compared too, which no angle changes.
+  const auto compare = [&](const Eigen::Vector3d& one, const Eigen::Vector3d& other,
+                           double tolerance, double& between, double& most) {
+    const double size = other.stableNorm();
+    const double of_lengths = std::abs(one.stableNorm() - size);
+    const double of_size = tolerance + rounding_of_states * size;
+    between = (one - other).stableNorm();
+    most = of_size + angle * size;
+    if (between <= most && of_lengths > of_size) {
+      between = of_lengths;
+      most = of_size;
+    }
+  };
+  compare(given.position_km, scene.position_km,
+          most_standard_deviations * position_deviation_km + message.position_error_km +
+              scene.position_error_km,
+          difference.position_km, difference.most_position_km);
+  compare(given.velocity_km_s, scene.velocity_km_s,
+          most_standard_deviations * velocity_deviation_km_s + message.velocity_error_km_s +
+              scene.velocity_error_km_s,
+          difference.velocity_km_s, difference.most_velocity_km_s);
+  return difference;
+}
+
+bool interpolate_state(std::span<const OrbitState> states, const Epoch& epoch, double mu_km3_s2,
+                       KnownState& result) {
+  const auto after = std::lower_bound(
+      states.begin(), states.end(), epoch,
+      [](const OrbitState& state, const Epoch& wanted) { return state.epoch < wanted; });
+  if (after == states.end()) return false;
+  const auto vector = [](const std::array<double, 3>& numbers) {
+    return Eigen::Vector3d(numbers.data());
+  };
+  result.position_km = vector(after->position_km);
+  result.velocity_km_s = vector(after->velocity_km_s);
+  result.position_error_km = result.velocity_error_km_s = 0;
+  if (after->epoch == epoch) return true;
+  if (after == states.begin()) return false;
+  const OrbitState& before = *(after - 1);
+  const auto seconds = [&](const Epoch& moment) {
+    return 86400.0 * static_cast<double>((moment.day - before.epoch.day).count()) +
+           1e-12 * static_cast<double>(moment.picoseconds - before.epoch.picoseconds);
+  };
+  const double h = seconds(after->epoch);
+  const double s = seconds(epoch) / h;
+  const Eigen::Vector3d q = vector(before.position_km), v = vector(before.velocity_km_s);
+  const Eigen::Vector3d step = result.position_km - q;
+  const Eigen::Vector3d end_velocity = result.velocity_km_s;
+  // q + s h v + s^2 (3 step - h (2 v + v1)) + s^3 (h (v + v1) - 2 step)
+  const Eigen::Vector3d second = 3 * step - h * (2 * v + end_velocity);
+  const Eigen::Vector3d third = h * (v + end_velocity) - 2 * step;
+  const double r = std::min(q.norm(), result.position_km.norm());
+  result.position_km = q + s * (h * v + s * (second + s * third));
+  result.velocity_km_s = v + s / h * (2 * second + 3 * s * third);
+  const double fourth_derivative = 10 * mu_km3_s2 * mu_km3_s2 / std::pow(r, 5);
+  result.position_error_km = fourth_derivative * std::pow(h, 4) / 384;
+  result.velocity_error_km_s = fourth_derivative * std::pow(h, 3) / (72 * std::sqrt(3.0));
+  return true;
+}
+
+}  // namespace hamjet::io

@@ -1,0 +1,160 @@
+#include "flight_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "../energy_error.hpp"
+#include "../flights/extreme_distance.hpp"
+#include "../formation/single_transfer.hpp"
+#include "../stopwatch.hpp"
+#include "hamjet/error.hpp"
+
+namespace hamjet {
+namespace {
+
+constexpr double largest_flown_energy_change = 1e-9;
+
+/// What one flight comes to.
+struct FlightOutcome {
+  LowestPoint lowest;
+  double energy_change = 0;  ///< relative
+};
+
+FlightOutcome outcome_of(const SharedSystem& system, const CheckedFlight& flight) {
+  ExtremeDistance least(ExtremeDistance::Kind::least);
+  EnergyError energy(*system, flight.start);
+  // Where terms cancel, what is left is no scale.
+  energy.value(extended(flight.start));
+  const double scale = std::max(std::abs(static_cast<double>(energy.initial())),
+                                energy.terms(extended(flight.start)) / 100);
+  FlightOutcome outcome;
+  fly_arcs(system, {flight.start}, 0, flight.time, [&](const FlightArc& arc) {
+    least.add(arc, place_along(arc, 0));
+    const Extended change = energy.value(extended(arc.state(0, 1))) - energy.initial();
+    const double size = std::abs(static_cast<double>(change)) / scale;
+    if (!(size <= outcome.energy_change)) outcome.energy_change = size;
+  });
+  outcome.lowest.distance = least.distance();
+  outcome.lowest.time = least.time();
+  return outcome;
+}
+
+void judge_energy(SelfCheck& check, const CheckedFlight& worst, double change) {
+  const double limit = check.limit.value_or(largest_flown_energy_change);
+  check.limit = limit;
+  if (std::isfinite(change)) check.value = change;
+  check.state = change <= limit ? SelfCheckState::passed : SelfCheckState::failed;
+  check.text =
+      fmt::format("the energy along the flight of {} changed by at most {:.2g} of its size",
+                  worst.name, change);
+}
+
+void judge_surface(SelfCheck& check, const Scene& scene, const CheckedFlight& worst,
+                   const LowestPoint& lowest) {
+  const bool is_own_limit = check.limit.has_value();
+  const double limit = check.limit.value_or(scene.system.radius_km);
+  const double distance = lowest.distance * scene.units.length_km;
+  check.limit = limit;
+  check.value = distance;
+  check.state = distance >= limit ? SelfCheckState::passed : SelfCheckState::failed;
+  check.text = fmt::format(
+      "{} {} {:.6g} km {} {}{} at t = {:.6g} s", worst.name, distance >= limit ? "stays" : "passes",
+      std::abs(distance - limit), distance >= limit ? "above" : "below",
+      is_own_limit ? fmt::format("the distance of {:.10g} km", limit) : "the surface",
+      distance >= limit ? ", lowest" : "", lowest.time * scene.units.time_s);
+}
+
+}  // namespace
+
+std::vector<CheckedFlight> flights_of(const Scene& scene, double time, bool with_deputy) {
+  std::vector<CheckedFlight> flights = {{"the chief", scene.nominal, time}};
+  if (with_deputy && scene.deputy) {
+    const std::vector<double> deviation =
+        ChiefFrame(scene.nominal, metric_units(scene), scene.deputy->frame)
+            .deviation(scene.deputy->start);
+    flights.push_back({"the deputy", scene.nominal, time});
+    for (std::size_t i = 0; i < deviation.size(); ++i) flights[1].start[i] += deviation[i];
+  }
+  return flights;
+}
+
+std::optional<double> surface_limit(const Scene& scene) {
+  const SelfCheckSetting& setting = scene.checks[SelfCheckName::surface];
+  if (!setting.is_on || !(scene.system.radius_km > 0)) return std::nullopt;
+  return setting.limit.value_or(scene.system.radius_km) / scene.units.length_km;
+}
+
+LowestPoint lowest_point(const SharedSystem& system, const std::vector<double>& start,
+                         double time) {
+  ExtremeDistance least(ExtremeDistance::Kind::least);
+  LowestPoint lowest;
+  try {
+    fly_arcs(system, {start}, 0, time,
+             [&](const FlightArc& arc) { least.add(arc, place_along(arc, 0)); });
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::numerical) throw;
+    lowest.failure = error.what();
+    return lowest;
+  }
+  lowest.distance = least.distance();
+  lowest.time = least.time();
+  return lowest;
+}
+
+std::vector<SelfCheck> flight_checks(const Scene& scene,
+                                     const std::vector<CheckedFlight>& flights) {
+  std::vector<SelfCheck> checks(2);
+  SelfCheck& energy = checks[0];
+  SelfCheck& surface = checks[1];
+  energy.name = SelfCheckName::energy;
+  surface.name = SelfCheckName::surface;
+  for (SelfCheck& check : checks) {
+    const SelfCheckSetting& setting = scene.checks[check.name];
+    check.limit = setting.limit;
+    check.state = setting.is_on ? SelfCheckState::passed : SelfCheckState::off;
+    if (!setting.is_on) check.text = "turned off in the scene";
+  }
+  if (surface.state != SelfCheckState::off && !(scene.system.radius_km > 0)) {
+    surface.state = SelfCheckState::not_applicable;
+    surface.limit.reset();
+    surface.text = "the model has no radius";
+  }
+  const auto is_on = [](const SelfCheck& check) { return check.state == SelfCheckState::passed; };
+  if (std::none_of(checks.begin(), checks.end(), is_on) || flights.empty()) return checks;
+  const Stopwatch watch(energy.seconds);
+  const SharedSystem system = make_system(scene);
+  const CheckedFlight* leaving = &flights.front();
+  const CheckedFlight* falling = &flights.front();
+  double change = 0;
+  LowestPoint lowest;
+  lowest.distance = std::numeric_limits<double>::infinity();
+  for (const CheckedFlight& flight : flights) {
+    try {
+      const FlightOutcome outcome = outcome_of(system, flight);
+      if (!(outcome.energy_change <= change)) {
+        change = outcome.energy_change;
+        leaving = &flight;
+      }
+      if (outcome.lowest.distance < lowest.distance) {
+        lowest = outcome.lowest;
+        falling = &flight;
+      }
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::numerical) throw;
+      for (SelfCheck& check : checks) {
+        if (!is_on(check)) continue;
+        check.state = SelfCheckState::failed;
+        check.text = fmt::format("{} cannot be followed: {}", flight.name, error.what());
+      }
+      return checks;
+    }
+  }
+  if (is_on(energy)) judge_energy(energy, *leaving, change);
+  if (is_on(surface)) judge_surface(surface, scene, *falling, lowest);
+  return checks;
+}
+
+}  // namespace hamjet

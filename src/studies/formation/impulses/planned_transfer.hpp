@@ -1,0 +1,110 @@
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "hamjet/relative_motion/chief_frame.hpp"
+#include "hamjet/studies/transfer.hpp"
+#include "impulse_search.hpp"
+
+namespace hamjet {
+
+/// Impulses that a linear theory chose.
+struct LinearImpulses {
+  TimedImpulses impulses;
+  bool is_spaced = false;  ///< they are at spaced times, none above the scene's limit
+};
+
+/// Impulses that were flown to the scene's end, or how far they came.
+struct FlownImpulses {
+  TimedImpulses impulses;
+  bool is_spaced = false;
+  int flights = 0;
+  double miss_m = 0;
+  double velocity_miss_m_s = 0;
+  std::string failure;  ///< not empty: they do not lead to the end, and why
+};
+
+/// One deputy's way from the scene's start to its end in a given time by any number of impulses.
+/// What it looks at must outlive it.
+class PlannedTransfer {
+ public:
+  PlannedTransfer(const Scene& scene, const ComputedProblem& problem, const LinearFlow& flow,
+                  double duration);
+
+  double duration() const { return duration_; }
+  /// A sum of magnitudes of impulses in m/s.
+  double metres_per_second(double sum) const;
+  /// Impulses of a plan in the units of the linear flow, those of no size left out.
+  TimedImpulses in_flow_units(const std::vector<Impulse>& impulses) const;
+
+  /// The least impulses of the linear theory about the chief, on a coarse grid or on one that is
+  /// fine about them. Throw as least_impulses, and Error(numerical) where those below the scene's
+  /// limit do not suffice.
+  LinearImpulses coarse() const;
+  LinearImpulses by_linear_theory() const;
+  /// The impulses changed until the deputy that flies them comes to the end. (Newton's method; its
+  /// linear flow is that about the chief until this does not hold, then that about the deputy.)
+  FlownImpulses corrected(const LinearImpulses& impulses) const;
+  /// A plan of flown impulses, made cheaper by the linear theory about its own way as long as
+  /// flights confirm that it is: its sum is never above the given one.
+  ImpulsePlan plan(const FlownImpulses& given) const;
+
+ private:
+  /// A linear flow, in which impulses are chosen and corrected.
+  struct Linearization {
+    MatrixAt at;
+    ImpulseGrid grid;
+    Eigen::Matrix<double, 6, 6> from_end;  ///< the flow from the end to the start
+  };
+  /// Impulses of the linear theory that make a change, and what proves them the least.
+  struct FoundImpulses {
+    ImpulseOptimum optimum;
+    TimedImpulses impulses;
+    bool is_spaced = false;
+  };
+  using Vector6 = Eigen::Matrix<double, 6, 1>;
+  /// Called with the time at which a leg of the flight begins, its duration, and the state then.
+  using OnLeg = std::function<void(double, double, const std::vector<double>&)>;
+
+  ChiefFrame frame(const std::vector<double>& chief) const;
+  Vector6 in_flow_units(const std::vector<double>& deviation) const;
+  std::vector<double> start_state() const;
+  Linearization about_chief() const;
+  Linearization about(const TimedImpulses& impulses) const;
+
+  Vector6 change_about_chief() const;
+  void improve(FlownImpulses& flown, ImpulsePlan& plan) const;
+  void tidy(FlownImpulses& flown, ImpulsePlan& plan) const;
+  FoundImpulses find(const Linearization& linear, const Vector6& change) const;
+  FoundImpulses within_limit(const Linearization& linear, ImpulseOptimum optimum,
+                             const Vector6& change) const;
+  TimedImpulses merged(const Linearization& linear, const ImpulseOptimum& optimum,
+                       const Vector6& change) const;
+  int spaces() const;
+  double spaced_time(int k) const;
+
+  std::vector<double> fly(const TimedImpulses& impulses, const OnLeg& on_leg = {}) const;
+  FlownImpulses corrected(Linearization linear, TimedImpulses impulses, bool is_spaced) const;
+  bool add_below_limit(const std::vector<ImpulseEffect>& effects,
+                       std::vector<Eigen::Vector3d>& changes, const std::vector<double>& weights,
+                       const Vector6& mend) const;
+  void add_trims(TimedImpulses& impulses, std::vector<double>& weights, bool is_spaced) const;
+  std::string forbidden_by_limits(const TimedImpulses& impulses) const;
+
+  const Scene& scene_;
+  const ComputedProblem& problem_;
+  const LinearFlow& flow_;
+  double duration_;
+  MetricUnits units_;
+  double momentum_unit_;
+  std::vector<double> chief_end_;
+  std::vector<double> start_;  ///< canonical (dq, dp)
+  std::vector<double> end_;
+  double most_ = std::numeric_limits<double>::infinity();  ///< that an impulse may be
+  double gap_ = 0;  ///< between impulses that the limit divides; canonical
+};
+
+}  // namespace hamjet

@@ -1,0 +1,63 @@
+#include "along_track_bend.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/QR>
+#include <cmath>
+
+namespace hamjet {
+
+bool AlongTrackBend::is_large_beside(double length) const {
+  constexpr double small = 0.1;
+  return bend > small * std::hypot(radial, length);
+}
+
+AlongTrackBend along_track_bend(const EncounterProblem& problem, const EncounterDeviation& about) {
+  AlongTrackBend result;
+  double radial_variance = 0;
+  for (std::size_t craft = 0; craft < 2; ++craft) {
+    const UncertainSpacecraft& spacecraft = problem.spacecraft[craft];
+    const Eigen::Map<const Eigen::Vector3d> position(spacecraft.state.data());
+    const Eigen::Map<const Eigen::Vector3d> velocity(spacecraft.state.data() + 3);
+    const double distance = position.norm();
+    const Eigen::Vector3d r = position / distance;
+    const Eigen::Vector3d t = (velocity - r * r.dot(velocity)).normalized();
+    const Eigen::Matrix<double, 1, 6> along = t.transpose() * spacecraft.factor.topRows(3);
+    const Eigen::Matrix<double, 1, 6> radial = r.transpose() * spacecraft.factor.topRows(3);
+    const double variance = along.squaredNorm();
+    const double at = along.dot(about.segment<6>(static_cast<Eigen::Index>(6 * craft)));
+    result.deviations[craft] = std::sqrt(variance);
+    result.bend += (at * at + variance) / (2 * distance);
+    const double common = variance > 0 ? std::pow(along.dot(radial), 2) / variance : 0;
+    radial_variance += std::max(0.0, radial.squaredNorm() - common);
+  }
+  result.radial = std::sqrt(radial_variance);
+  return result;
+}
+
+EncounterDeviation deviation_of_meeting(const LinearRelativeState& at_approach) {
+  const Eigen::Vector3d along = at_approach.mean.tail<3>().normalized();
+  Eigen::Matrix<double, 2, 3> plane;
+  plane.row(0) = along.unitOrthogonal().transpose();
+  plane.row(1) = along.cross(plane.row(0).transpose()).transpose();
+  const Eigen::Matrix<double, 2, 12> spread = plane * at_approach.by_deviation.topRows(3);
+  const Eigen::Vector2d miss = plane * at_approach.mean.head<3>();
+  return spread.completeOrthogonalDecomposition().solve(-miss);
+}
+
+std::optional<std::string> along_track_warning(const AlongTrackBend& bend, double length,
+                                               const std::array<std::string, 2>& names,
+                                               const std::string& what, const MetricUnits& units) {
+  if (!bend.is_large_beside(length)) return std::nullopt;
+  const std::size_t longer = bend.deviations[1] > bend.deviations[0] ? 1 : 0;
+  return fmt::format(
+      "the {} is uncertain by {:.3g} m along its track, where the orbit bends {:.3g} m away from "
+      "the straight line of a Gaussian in positions, beside {:.3g} m that are uncertain across it "
+      "and the {:.3g} m that are asked about: states are not so distributed, and {} is not to be "
+      "trusted",
+      names[longer], bend.deviations[longer] * units.length_m, bend.bend * units.length_m,
+      bend.radial * units.length_m, length * units.length_m, what);
+}
+
+}  // namespace hamjet

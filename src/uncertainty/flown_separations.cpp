@@ -1,0 +1,132 @@
+#include "flown_separations.hpp"
+
+#include <algorithm>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <cmath>
+#include <limits>
+
+#include "../integrators/taylor_flow.hpp"
+#include "hamjet/error.hpp"
+
+namespace hamjet {
+namespace {
+
+/// An expansion of order 24 reaches a part of a revolution; it is looked at so often.
+constexpr int looks_in_step = 16;
+constexpr std::size_t pairs_at_once = TaylorFlow::lanes / 2;
+/// A step that is shorter than this part of the window runs into a collision.
+constexpr double least_part = 1e-9;
+
+/// Of a pair at a time: the squared distance, and rho.v, which is half of its derivative.
+struct Look {
+  double square = 0;
+  double rate = 0;
+};
+
+class Pairs {
+ public:
+  Pairs(const EncounterProblem& problem, std::span<const EncounterDeviation> deviations)
+      : problem_(&problem), flow_(problem.system), count_(deviations.size()) {
+    for (const EncounterDeviation& xi : deviations) {
+      for (std::size_t craft = 0; craft < 2; ++craft) {
+        const auto start =
+            problem.spacecraft[craft].deviated(xi.segment<6>(static_cast<Eigen::Index>(6 * craft)));
+        states_.insert(states_.end(), start.begin(), start.end());
+      }
+    }
+    if (problem.from != 0) flow_.advance(states_, std::vector<double>(2 * count_, problem.from));
+  }
+
+  std::vector<double> least_squares() {
+    std::vector<double> least(count_, std::numeric_limits<double>::infinity());
+    std::vector<double> left(count_, problem_->to - problem_->from);
+    while (std::any_of(left.begin(), left.end(), [](double time) { return time > 0; })) {
+      // Lanes without a state of their own repeat the first, so that they are finite.
+      for (std::size_t lane = 0; lane < TaylorFlow::lanes; ++lane) {
+        flow_.set_state(lane, state(lane < 2 * count_ ? lane : 0));
+      }
+      flow_.expand();
+      for (std::size_t pair = 0; pair < count_; ++pair) {
+        if (left[pair] > 0) left[pair] -= advance(pair, left[pair], least[pair]);
+      }
+    }
+    return least;
+  }
+
+ private:
+  std::span<double> state(std::size_t lane) { return std::span(states_).subspan(6 * lane, 6); }
+
+  Look look(std::size_t pair, double time) const {
+    std::array<double, 6> first{};
+    std::array<double, 6> second{};
+    flow_.evaluate(2 * pair, time, first);
+    flow_.evaluate(2 * pair + 1, time, second);
+    Look result;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double rho = second[i] - first[i];
+      result.square += rho * rho;
+      result.rate += rho * (second[i + 3] - first[i + 3]);
+    }
+    return result;
+  }
+
+  /// Goes on as far as the expansions of both reach, and returns how far that was.
+  double advance(std::size_t pair, double left, double& least) {
+    const double step = std::min({flow_.reach(2 * pair), flow_.reach(2 * pair + 1), left});
+    if (!(step > least_part * (problem_->to - problem_->from))) {
+      throw Error(ErrorKind::numerical,
+                  "encounter: a flight with a random deviation ended in the centre; the covariance "
+                  "is too large for its orbit");
+    }
+    Look before = look(pair, 0);
+    least = std::min(least, before.square);
+    for (int k = 1; k <= looks_in_step; ++k) {
+      const double from = step * (k - 1) / looks_in_step;
+      const double to = k == looks_in_step ? step : step * k / looks_in_step;
+      const Look after = look(pair, to);
+      least = std::min(least, after.square);
+      if (before.rate < 0 && after.rate > 0) {
+        // The distance is flat at its least: half of the digits of the time are enough, and any
+        // time of the bracket is one of the flight.
+        std::uintmax_t iterations = 100;
+        const auto [low, high] = boost::math::tools::toms748_solve(
+            [&](double time) { return look(pair, time).rate; }, from, to, before.rate, after.rate,
+            boost::math::tools::eps_tolerance<double>(40), iterations);
+        least = std::min(least, look(pair, (low + high) / 2).square);
+      }
+      before = after;
+    }
+    for (const std::size_t lane : {2 * pair, 2 * pair + 1}) flow_.evaluate(lane, step, state(lane));
+    return step == left ? left : step;
+  }
+
+  const EncounterProblem* problem_;
+  TaylorFlow flow_;
+  std::size_t count_;
+  std::vector<double> states_;  ///< of each pair both, six numbers each
+};
+
+}  // namespace
+
+std::vector<double> flown_separations(const EncounterProblem& problem,
+                                      std::span<const EncounterDeviation> deviations) {
+  std::vector<double> result;
+  for (std::size_t first = 0; first < deviations.size(); first += pairs_at_once) {
+    const auto block =
+        deviations.subspan(first, std::min(pairs_at_once, deviations.size() - first));
+    for (const double square : Pairs(problem, block).least_squares()) {
+      if (!std::isfinite(square)) {
+        throw Error(ErrorKind::numerical, "encounter: the separation of a flight is not finite");
+      }
+      result.push_back(std::sqrt(square));
+    }
+  }
+  return result;
+}
+
+double flown_separation_of_means(const EncounterProblem& problem) {
+  const std::array<EncounterDeviation, 1> none = {EncounterDeviation::Zero()};
+  return flown_separations(problem, none)[0];
+}
+
+}  // namespace hamjet

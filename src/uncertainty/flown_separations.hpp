@@ -1,0 +1,22 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "hamjet/uncertainty/encounter.hpp"
+#include "relative_paths.hpp"
+
+namespace hamjet {
+
+/// The least separations in the window of spacecraft that start with these deviations, flown with
+/// the full equations of motion. They share neither polynomials nor nodes with RelativePaths: each
+/// flight is looked at along its own expansions in time, and its minima are the roots of rho.v that
+/// lie between the looks. In the units of the system. Throws Error(numerical) where a flight ends
+/// in the centre.
+std::vector<double> flown_separations(const EncounterProblem& problem,
+                                      std::span<const EncounterDeviation> deviations);
+
+/// The same of the means alone.
+double flown_separation_of_means(const EncounterProblem& problem);
+
+}  // namespace hamjet

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+namespace hamjet {
+
+/// Of samples that have an event: how many, the sum of their weights, and of the weights' squares.
+struct Hits {
+  long count = 0;
+  double x = 0;
+  double x_squared = 0;
+
+  void add(double weight) {
+    ++count;
+    x += weight;
+    x_squared += weight * weight;
+  }
+  void add(const Hits& other) {
+    count += other.count;
+    x += other.x;
+    x_squared += other.x_squared;
+  }
+  /// The mean of weights may come out above 1 by its error.
+  double probability(double samples) const { return std::min(1.0, x / samples); }
+  double variance(double samples) const {
+    return std::max(0.0, x_squared / samples - std::pow(probability(samples), 2));
+  }
+};
+
+}  // namespace hamjet

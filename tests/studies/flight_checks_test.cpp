@@ -1,0 +1,96 @@
+#include "studies/checks/flight_checks.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "formation_scenes.hpp"
+#include "hamjet/studies/transfer.hpp"
+
+namespace hamjet {
+namespace {
+
+/// From perigee at distance 1 = 7000 km, with a radius in kilometres.
+Scene chief(double eccentricity, double radius_km) {
+  Scene scene = kepler_chief(eccentricity, 7000, 1000, 1);
+  scene.system.radius_km = radius_km;
+  scene.canonical_radius = radius_km / 7000;
+  scene.duration = 10;
+  return scene;
+}
+
+const SelfCheck& surface(const std::vector<SelfCheck>& checks) { return checks.at(1); }
+
+// From apogee at 1, an ellipse comes down to (1 - e)/(1 + e) after half its period.
+TEST(FlightChecks, FindTheLowestPointOfEveryFlight) {
+  Scene scene = chief(0, 5000);
+  const double e = 0.5;
+  const std::vector<double> falling = {1, 0, 0, 0, std::sqrt(1 - e), 0};
+  const std::vector<SelfCheck> checks =
+      flight_checks(scene, {{"the chief", scene.nominal, 3}, {"the deputy", falling, -4}});
+  EXPECT_EQ(checks[0].name, SelfCheckName::energy);
+  EXPECT_EQ(checks[0].state, SelfCheckState::passed);
+  EXPECT_EQ(surface(checks).state, SelfCheckState::failed);
+  EXPECT_NEAR(*surface(checks).value, 7000 * (1 - e) / (1 + e), 1e-6);
+  const double half = std::numbers::pi * std::pow(1 + e, -1.5);
+  EXPECT_NE(surface(checks).text.find(fmt::format(
+                "the deputy passes 2666.67 km below the surface at t = {:.6g} s", -1000 * half)),
+            std::string::npos)
+      << surface(checks).text;
+  EXPECT_TRUE(has_failed(checks));
+  EXPECT_FALSE(has_failed(flight_checks(scene, {{"the chief", scene.nominal, 3}})));
+}
+
+TEST(FlightChecks, AreTheScenes) {
+  Scene scene = chief(0, 7500);
+  const std::vector<CheckedFlight> flights = flights_of(scene, 3, false);
+  EXPECT_TRUE(has_failed(flight_checks(scene, flights)));
+  scene.checks[SelfCheckName::surface].limit = 6900;
+  EXPECT_FALSE(has_failed(flight_checks(scene, flights)));
+  scene.checks[SelfCheckName::surface] = {false, std::nullopt};
+  EXPECT_EQ(surface(flight_checks(scene, flights)).state, SelfCheckState::off);
+  EXPECT_FALSE(surface_limit(scene).has_value());
+  scene.checks[SelfCheckName::energy].limit = 1e-30;
+  EXPECT_EQ(flight_checks(scene, flights)[0].state, SelfCheckState::failed);
+}
+
+TEST(FlightChecks, AFallIntoTheCentreFails) {
+  Scene scene = chief(0, 1000);
+  const std::vector<double> at_rest = {1, 0, 0, 0, 0, 0};
+  const std::vector<SelfCheck> checks = flight_checks(scene, {{"the deputy", at_rest, 3}});
+  EXPECT_EQ(surface(checks).state, SelfCheckState::failed);
+  EXPECT_NE(surface(checks).text.find("the deputy cannot be followed"), std::string::npos);
+}
+
+// Half an ellipse of 2 by 1 is a quarter of the distance of its ends above or below the chief's
+// circle at its middle (Fehse, Automated Rendezvous and Docking of Spacecraft, 2003, section 3.3).
+TEST(FlightChecks, ATransferBelowTheSurfaceIsMarked) {
+  Scene scene = kepler_chief(0, 7000, 1000, 2);
+  TransferSettings settings;
+  settings.start.position_m = {0, -1000, 0};
+  settings.end.position_m = {0, 1000, 0};
+  settings.times = {std::numbers::pi - 0.02};
+  settings.singular_margin = 1e-3;
+  scene.transfer = settings;
+  const auto study = [&](double radius_km) {
+    scene.system.radius_km = radius_km;
+    scene.canonical_radius = radius_km / 7000;
+    return study_transfer(scene);
+  };
+  const TransferResult high = study(6999.45);
+  ASSERT_TRUE(high.points[0].lowest.has_value());
+  EXPECT_EQ(exit_code(high), 0);
+  // Forward along the track the deputy goes below.
+  const TransferResult low = study(6999.6);
+  EXPECT_NEAR(*low.points[0].lowest * 7000, 6999.5, 0.02);
+  EXPECT_TRUE(low.points[0].is_below_surface);
+  EXPECT_FALSE(low.points[0].is_candidate());
+  EXPECT_EQ(exit_code(low), 1);
+  scene.checks[SelfCheckName::surface].is_on = false;
+  EXPECT_EQ(exit_code(study(6999.6)), 0);
+}
+
+}  // namespace
+}  // namespace hamjet
