@@ -5,7 +5,7 @@ import numpy as np
 import orbit
 from command import Refused, Run
 from drawing import Scene
-from flight import REAL
+from flight import REAL, coast_times
 from refusal import judge_refusal, says_below_surface
 from uncertain import (burn_covariance, draw_burn, draw_known, inertial_covariance, samples_of)
 
@@ -158,10 +158,8 @@ def linear_covariances(scene, time, chief):
     found = {"chief": carried(scene.chief, scene.chief_covariance)}
     if scene.density:
         # int Phi(T, s) G q G^T Phi(T, s)^T ds by Gauss's rule, a few nodes for each radian.
-        parts = max(2, int(12 * abs(scene.revolutions)) + int(20 * float(scene.e) * abs(
-            scene.revolutions)))
         nodes, weights = np.polynomial.legendre.leggauss(6)
-        edges = np.linspace(0, float(time), parts + 1)
+        edges = coast_times(scene.field, scene.chief, time, 2.5)
         times = np.concatenate([(a + b) / 2 + (b - a) / 2 * nodes for a, b in
                                 zip(edges, edges[1:])])
         weights = np.concatenate([abs(b - a) / 2 * weights for a, b in zip(edges, edges[1:])])
@@ -171,7 +169,7 @@ def linear_covariances(scene, time, chief):
             inverse = np.vstack([np.hstack([F[3:, 3:].T, -F[:3, 3:].T]),
                                  np.hstack([-F[3:, :3].T, F[:3, :3].T])])
             B = np.array(frame @ whole @ inverse, dtype=float)[:, 3:]
-            noise += w * scene.density * B @ B.T
+            noise += float(w) * scene.density * B @ B.T
         found["noise"] = noise
         found["chief"] = found["chief"] + noise
     return found

@@ -7,7 +7,7 @@ import os
 import numpy as np
 
 import orbit
-from command import Refused, Run, number
+from command import Refused, Run
 from drawing import Scene
 from flight import REAL
 from refusal import judge_refusal
@@ -126,7 +126,7 @@ def predictor(judgement, scene, folder, coordinates, end_coordinates):
                             f'jet.coordinates="{coordinates}"', "--threads", "1"])
         if done.code:
             raise RuntimeError(done.said)
-        return np.array([[number(r[c]) if r["support"] != "outside" else np.nan
+        return np.array([[float(r[c]) if r[c] and r["support"] != "outside" else np.nan
                           for c in ("x_m", "y_m", "z_m")] for r in done.table("", "e.csv")])
 
     return evaluate
