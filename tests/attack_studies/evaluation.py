@@ -188,8 +188,8 @@ def judge_row(judgement, scene, source, row, chief, true, growth, doubt, j):
         judgement.note("eval: miss over estimate", miss / (estimate + integration + rounding))
     judgement.checks += 1
     if miss > ESTIMATE * estimate + integration + rounding:
-        judgement.wrong(f"eval {source}, row {j}, {float(orbit.norm(scene.deviations[j][:3])):.4g} m "
-                        f"from the chief: misses by {float(miss):.4g} m, told {estimate:.3g} m "
+        apart = float(orbit.norm(scene.deviations[j][:3]))
+        judgement.wrong(f"eval {source}, row {j}, {apart:.4g} m from the chief: misses by {float(miss):.4g} m, told {estimate:.3g} m "
                         f"(integration {float(integration):.2g} m)")
         return 1
     # Velocities have no estimate; an error in place comes with one of as much times the rate of

@@ -48,7 +48,8 @@ def draw(source):
             scene.deputy_covariance = scene.deputy_covariance + added
     scene.density = 0.0
     if source.chance(0.15):
-        scene.density = (sigma * float(scene.rate)) ** 2 / float(scene.period) * source.uniform(0, 1)
+        speed = sigma * float(scene.rate)
+        scene.density = speed ** 2 / float(scene.period) * source.uniform(0, 1)
         table["acceleration_density_m2_s3"] = scene.density
     keys, scene.times = scene.times(2)
     table.update(keys)

@@ -54,8 +54,8 @@ def judge(judgement, scene, folder):
         judgement.require("inside the body is told", frozen["inside_body"]
                           == bool(lowest < scene.radius))
     # The chief's own constants.
-    judgement.within("energy, relative", float(energy(scene, state) / energy(scene, scene.chief)), 1,
-                     1e-11)
+    ratio = energy(scene, state) / energy(scene, scene.chief)
+    judgement.within("energy, relative", float(ratio), 1, 1e-11)
     whole = orbit.norm(np.cross(state[:3], state[3:]))
     judgement.within("momentum about the axis, of the whole",
                      float(momentum(state) / whole), float(momentum(scene.chief) / whole), 1e-11)

@@ -92,8 +92,8 @@ def judge_quantile(judgement, name, share, told, lower, upper, values, slack):
     low, _ = share_interval(below, count)
     judgement.checks += 1
     if low > share:
-        judgement.wrong(f"{name}: told {told:.6g} m (from {lower:.6g}) for {share}, of {count} flown "
-                        f"{below} are nearer")
+        judgement.wrong(f"{name}: told {told:.6g} m (from {lower:.6g}) for {share}, of {count} "
+                        f"flown {below} are nearer")
     if upper is not None:
         below = int(np.sum(values <= (upper + width) * (1 + slack)))
         _, high = share_interval(below, count)
