@@ -75,11 +75,9 @@ def attack(job):
 
 def studies_of(arguments):
     """The study of every scene, the same for a seed whatever is left out."""
-    names = list(STUDIES)
-    weights = np.array([STUDIES[name] for name in names], dtype=float)
     generator = np.random.default_rng([arguments.seed, 2 ** 31])
     # Every study comes in turn, as often as its weight says.
-    cycle = [name for name in names for _ in range(STUDIES[name])]
+    cycle = [name for name in STUDIES for _ in range(STUDIES[name])]
     order = []
     while len(order) < arguments.count:
         generator.shuffle(cycle)

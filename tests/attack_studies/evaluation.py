@@ -189,8 +189,9 @@ def judge_row(judgement, scene, source, row, chief, true, growth, doubt, j):
     judgement.checks += 1
     if miss > ESTIMATE * estimate + integration + rounding:
         apart = float(orbit.norm(scene.deviations[j][:3]))
-        judgement.wrong(f"eval {source}, row {j}, {apart:.4g} m from the chief: misses by {float(miss):.4g} m, told {estimate:.3g} m "
-                        f"(integration {float(integration):.2g} m)")
+        judgement.wrong(f"eval {source}, row {j}, {apart:.4g} m from the chief: misses by "
+                        f"{float(miss):.4g} m, told {estimate:.3g} m (integration "
+                        f"{float(integration):.2g} m)")
         return 1
     # Velocities have no estimate; an error in place comes with one of as much times the rate of
     # the motion, and those of the integration with that at the perigee.
