@@ -62,7 +62,7 @@ def judge(judgement, scene, folder):
     trace_less_2 = trace_of_return(scene, state, period)
     told = frozen["trace_less_2"]
     judgement.note("poincare: trace", abs(told / trace_less_2 - 1) if trace_less_2 else 0)
-    judgement.within("trace less 2", told, trace_less_2, 1e-3 * abs(told) + 1e-10)
+    judgement.within("trace less 2", told, trace_less_2, 1e-3 * abs(told) + 1e-9)
 
 
 def meridian(state):
