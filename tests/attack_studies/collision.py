@@ -128,8 +128,8 @@ def judge(judgement, scene, folder):
     if order == 1 or doubt > 0.3 * told["probability"] + 1e-3:
         judgement.mark(f"order {order} changes the probability by {doubt:.2g}")
     else:
-        judge_share(judgement, "probability", told["probability"], *told["interval"], (fewest, most),
-                    SAMPLES, slack=doubt)
+        judge_share(judgement, "probability", told["probability"], *told["interval"],
+                    (fewest, most), SAMPLES, slack=doubt)
         separation = told["least_separation"]
         for k, share in enumerate(separation["shares"]):
             judge_quantile(judgement, "least separation", share, separation["separations_m"][k],
