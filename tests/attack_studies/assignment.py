@@ -6,9 +6,9 @@ from scipy.optimize import linear_sum_assignment
 import orbit
 from command import Refused, Run, number
 from drawing import Scene
-from flight import REAL, coast_times
+from flight import REAL
 from refusal import judge_refusal
-from transfer import Flights
+from ways import Flights
 
 
 def draw(source):
@@ -20,7 +20,8 @@ def draw(source):
     table.update(keys)
     table["refine"] = source.chance(0.5)
     distance = source.logarithmic(50, 2e4)
-    assignment = scene.tables["assignment"] = {"time": source.one_of(["per-pair", "common"], [3, 1])}
+    assignment = scene.tables["assignment"] = {
+        "time": source.one_of(["per-pair", "common"], [3, 1])}
     if source.chance(0.3):
         assignment["keep_apart_m"] = distance * source.logarithmic(0.01, 1)
     if source.chance(0.2):
@@ -110,7 +111,7 @@ def judge_pairs(judgement, scene, flights, run, summary, ways):
             if not judgement.require(f"pair {key} is told", key in told):
                 continue
             # The page says 1e-6 of the distance from the chief.
-            away = max(orbit.norm(a[3][:3] - scene.chief[:3]), orbit.norm(b[3][:3] - scene.chief[:3]))
+            away = max(orbit.norm(w[3][:3] - scene.chief[:3]) for w in (a, b))
             judgement.within(f"deputies {a[0]} and {b[0]}: least separation (m)", told[key], least,
                              1e-5 * away + 10 * summary["flight_floor_m"] + 1e-3 * least)
     keep = scene.tables["assignment"].get("keep_apart_m")

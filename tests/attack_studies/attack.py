@@ -14,7 +14,6 @@ import os
 import shutil
 import sys
 import tempfile
-import time
 import traceback
 
 sys.dont_write_bytecode = True
@@ -34,13 +33,22 @@ STUDIES = {"motion": 5, "evaluation": 6, "transfer": 6, "validity": 3, "assignme
            "moments": 4, "collision": 3, "safety": 2, "event": 3, "poincare": 1, "bounded": 2}
 
 
+OUTCOMES = ("right", "marked", "wrong")
+
+
+def processor_seconds():
+    """Of this process and of the commands that it has run."""
+    times = os.times()
+    return times.user + times.system + times.children_user + times.children_system
+
+
 def attack(job):
     """Draws, runs and judges one scene."""
     study, seed, index, folder = job
     judgement = Judgement()
     work = os.path.join(folder, f"{index}-{study}")
     os.makedirs(work)
-    began = time.monotonic()
+    began = processor_seconds()
     text = ""
     try:
         module = importlib.import_module(study)
@@ -62,16 +70,14 @@ def attack(job):
     else:
         shutil.rmtree(work)
     return (study, index, outcome, judgement.faults, judgement.marks, judgement.notes,
-            judgement.checks, time.monotonic() - began)
+            judgement.checks, processor_seconds() - began)
 
 
 def studies_of(arguments):
     """The study of every scene, the same for a seed whatever is left out."""
-    names = list(STUDIES)
-    weights = np.array([STUDIES[name] for name in names], dtype=float)
     generator = np.random.default_rng([arguments.seed, 2 ** 31])
     # Every study comes in turn, as often as its weight says.
-    cycle = [name for name in names for _ in range(STUDIES[name])]
+    cycle = [name for name in STUDIES for _ in range(STUDIES[name])]
     order = []
     while len(order) < arguments.count:
         generator.shuffle(cycle)
@@ -100,6 +106,7 @@ def main():
             if study in wanted and arguments.scene in (None, index)]
     counts = collections.defaultdict(collections.Counter)
     statistics = collections.defaultdict(list)
+    spent = collections.Counter()
     checks = 0
     with concurrent.futures.ProcessPoolExecutor(arguments.jobs) as pool:
         for study, index, outcome, faults, marks, notes, made, seconds in pool.map(attack, jobs):
@@ -113,15 +120,18 @@ def main():
                     print("  " + fault)
             elif outcome == "marked" and arguments.marks:
                 print(f"marked scene {index} ({study}): {'; '.join(marks)[:400]}")
+            spent[study] += seconds
             if seconds > 20:
                 print(f"slow scene {index} ({study}): {seconds:.1f} s")
             sys.stdout.flush()
-    print(f"\n{'study':12}{'right':>8}{'marked':>8}{'wrong':>8}")
+    print(f"\n{'study':12}{'right':>8}{'marked':>8}{'wrong':>8}{'seconds':>9}")
     total = collections.Counter()
     for study, outcomes in sorted(counts.items()):
         total.update(outcomes)
-        print(f"{study:12}" + "".join(f"{outcomes[o]:8}" for o in ("right", "marked", "wrong")))
-    print(f"{'all':12}" + "".join(f"{total[o]:8}" for o in ("right", "marked", "wrong")))
+        print(f"{study:12}" + "".join(f"{outcomes[o]:8}" for o in OUTCOMES)
+              + f"{spent[study]:9.0f}")
+    print(f"{'all':12}" + "".join(f"{total[o]:8}" for o in OUTCOMES)
+          + f"{sum(spent.values()):9.0f}")
     print(f"{checks} comparisons; seed {arguments.seed}")
     for name, values in sorted(statistics.items()):
         print(f"  {name}: median {np.median(values):.3g}, largest {np.max(values):.3g} of "

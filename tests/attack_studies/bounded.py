@@ -5,7 +5,7 @@ import numpy as np
 import orbit
 from command import Refused, Run
 from drawing import Scene
-from flight import REAL
+from flight import REAL, coast_times
 from refusal import judge_refusal
 
 
@@ -87,7 +87,6 @@ def judge_deputy(judgement, scene, summary, deputy, period):
         judgement.within(f"{what}: start in the form {key} (m)", state[:3], start[:3],
                          1e-12 * size + 1e-14 * orbit.norm(start[:3]))
     # The first revolution, equal in eccentric anomaly there; here in looks a few times as dense.
-    from flight import coast_times
     times = coast_times(scene.field, scene.chief, period, 60)
     chief, flown = scene.field.fly(scene.chief, times), scene.field.fly(start, times)
     largest = np.max(orbit.norm((flown - chief)[:, :3]))

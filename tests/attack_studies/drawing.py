@@ -4,7 +4,7 @@ import math
 import numpy as np
 
 import orbit
-from flight import REAL, Field
+from flight import REAL, Field, coast_times
 
 # mu (km^3/s^2), radius (km), J2 to J6 of the order of the body's.
 BODIES = [
@@ -279,10 +279,5 @@ class Scene:
 
     def lowest(self):
         """Least distance of the chief from the centre within the duration."""
-        states = self.field.fly(self.chief, coast(self, 20))
+        states = self.field.fly(self.chief, coast_times(self.field, self.chief, self.duration, 20))
         return np.min(orbit.norm(states[:, :3]))
-
-
-def coast(scene, parts):
-    from flight import coast_times
-    return coast_times(scene.field, scene.chief, scene.duration, parts)

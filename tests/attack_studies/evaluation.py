@@ -139,14 +139,15 @@ def judge_rows(judgement, scene, folder, line, name, times):
     doubts = 10 * np.max(orbit.norm((ends - chiefs - others)[..., :3]), axis=0)
     inside = 0
     for k, (time, chief) in enumerate(zip(times, chiefs)):
-        growth, reach = linear_growth(scene, time), orbit.norm(scene.chief[:3])
+        growth = linear_growth(scene, time)
+        reach = max(orbit.norm(chief[:3]), orbit.norm(scene.chief[:3]))
         for j in range(len(scene.rows)):
             row = rows[k * len(scene.rows) + j]
             if "time_s" in row:
                 judgement.within("time of a row (s)", float(row["time_s"]), float(time),
                                  1e-11 * abs(time))
             inside += judge_row(judgement, scene, line[1], row, chief, ends[j, k],
-                                growth * size_of(scene, j), doubts[k] + 1e-18 * growth * reach, j)
+                                growth * size_of(scene, j), doubts[k] + 3e-18 * growth * reach, j)
     if inside == 0:
         judgement.mark("no row is inside")
 
@@ -188,9 +189,10 @@ def judge_row(judgement, scene, source, row, chief, true, growth, doubt, j):
         judgement.note("eval: miss over estimate", miss / (estimate + integration + rounding))
     judgement.checks += 1
     if miss > ESTIMATE * estimate + integration + rounding:
-        judgement.wrong(f"eval {source}, row {j}, {float(orbit.norm(scene.deviations[j][:3])):.4g} m "
-                        f"from the chief: misses by {float(miss):.4g} m, told {estimate:.3g} m "
-                        f"(integration {float(integration):.2g} m)")
+        apart = float(orbit.norm(scene.deviations[j][:3]))
+        judgement.wrong(f"eval {source}, row {j}, {apart:.4g} m from the chief: misses by "
+                        f"{float(miss):.4g} m, told {estimate:.3g} m (integration "
+                        f"{float(integration):.2g} m)")
         return 1
     # Velocities have no estimate; an error in place comes with one of as much times the rate of
     # the motion, and those of the integration with that at the perigee.

@@ -89,7 +89,8 @@ def events(scene):
     for k in range(len(times) - 1):
         if found[k] * found[k + 1] < 0:
             if is_wanted(scene, found[k], found[k + 1], sign):
-                roots.append(crossing(scene, states[k], REAL(0), times[k + 1] - times[k]) + times[k])
+                step = times[k + 1] - times[k]
+                roots.append(times[k] + crossing(scene, states[k], REAL(0), step))
         elif (0 < k and found[k] * found[k - 1] > 0 and abs(found[k]) < 1e-2 * size
               and abs(found[k]) < min(abs(found[k - 1]), abs(found[k + 1]))):
             doubtful = True

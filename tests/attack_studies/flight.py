@@ -81,14 +81,21 @@ class Field:
         return 2 * PI * np.sqrt(a * a * a / self.mu)
 
     def transition(self, start, time):
-        """d state(time) / d start by differences of the fourth order, of one time or many."""
+        """d state(time) / d start by differences of the fourth order, of one time or many. Their
+        steps are a share of what the flow stretches them to."""
         r = np.sqrt(np.dot(start[:3], start[:3]))
-        h = r * REAL(2e-5)
-        steps = np.array([h] * 3 + [h * np.sqrt(self.mu / r ** 3)] * 3, dtype=REAL)
-        change = np.diag(steps)
-        ends = self.fly(np.array([start + k * change for k in (1, -1, 2, -2)]), np.atleast_1d(time))
-        slopes = (8 * (ends[0] - ends[1]) - (ends[2] - ends[3])) / (12 * steps[:, None, None])
-        matrix = np.moveaxis(slopes, 0, -1)
+        scale = np.array([1] * 3 + [np.sqrt(self.mu / r ** 3)] * 3, dtype=REAL)
+        times = np.atleast_1d(time)
+
+        def slopes(h):
+            change = np.diag(h * scale)
+            ends = self.fly(np.array([start + k * change for k in (1, -1, 2, -2)]), times)
+            found = (8 * (ends[0] - ends[1]) - (ends[2] - ends[3])) / (
+                12 * h * scale[:, None, None])
+            return np.moveaxis(found, 0, -1)
+
+        rough = slopes(r * REAL(1e-7)) / scale[:, None] * scale
+        matrix = slopes(r * REAL(3e-4) / np.max(np.abs(rough)))
         return matrix if np.ndim(time) else matrix[0]
 
 

@@ -2,12 +2,10 @@
 import numpy as np
 
 import orbit
-from command import Run
+from command import Refused, Run
 from drawing import Scene
 from flight import REAL, coast_times
 from refusal import judge_refusal, says_below_surface
-
-LIMITS = {}
 
 
 def draw(source):
@@ -28,7 +26,6 @@ def relative(scene, times):
 
 def judge(judgement, scene, folder):
     run = Run(folder, ["motion", "scene.toml", "-o", "out"])
-    from command import Refused
     try:
         summary = run.summary("out")
     except Refused as refused:
@@ -49,8 +46,8 @@ def judge(judgement, scene, folder):
     judge_extremes(judgement, scene, summary, 10 * floor)
     if scene.highest and lowest < scene.radius * REAL(0.99999):
         if not says_below_surface(run, summary) and run.code == 0:
-            judgement.wrong(f"nothing is said of a chief {float(scene.radius - lowest):.4g} m below "
-                            "the surface")
+            depth = float(scene.radius - lowest)
+            judgement.wrong(f"nothing is said of a chief {depth:.4g} m below the surface")
         else:
             judgement.mark("below the surface")
     if run.code == 1:

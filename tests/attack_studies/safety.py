@@ -7,7 +7,7 @@ from drawing import Scene, rounded
 from flight import REAL, coast_times
 from refusal import judge_refusal
 from uncertain import (burn_covariance, draw_burn, draw_known, inertial_covariance, judge_quantile,
-                       judge_share, samples_of)
+                       samples_of, share_interval)
 
 SAMPLES = 800
 
@@ -129,14 +129,14 @@ def judge_pair(judgement, scene, told, pair, random):
     high = int(np.sum(least < keep * (1 + slack)))
     for hits, side in ((low, 0), (high, 1)):
         judgement.checks += 1
-        from uncertain import share_interval
         interval = share_interval(hits, SAMPLES)
         lower, upper = pair["probability_nearer_interval"]
         width = upper - lower
         if (side == 0 and interval[0] > upper + width) or (side == 1 and interval[1]
                                                            < lower - width):
-            judgement.wrong(f"{what}: nearer than {keep:.6g} m told {pair['probability_nearer']:.5g}"
-                            f" ({lower:.5g} to {upper:.5g}), {hits} of {SAMPLES} flown")
+            told_share = pair["probability_nearer"]
+            judgement.wrong(f"{what}: nearer than {keep:.6g} m told {told_share:.5g} "
+                            f"({lower:.5g} to {upper:.5g}), {hits} of {SAMPLES} flown")
     margin = pair.get("keep_out")
     if margin and margin["deviations"] is not None:
         judge_margin(judgement, scene, what, margin, states, covariances, begin, end, random)

@@ -73,15 +73,16 @@ def share_interval(hits, count):
 
 
 def judge_share(judgement, name, told, lower, upper, hits, count, slack=0.0):
-    """A told probability whose 95 % interval is widened by itself on both sides."""
-    low, high = share_interval(hits, count)
+    """A told probability whose 95 % interval is widened by itself on both sides; `hits` are the
+    fewest and the most that may count."""
+    low, high = share_interval(hits[0], count)[0], share_interval(hits[1], count)[1]
     width = upper - lower
     judgement.checks += 1
     if not (0 <= lower <= told <= upper <= 1):
         judgement.wrong(f"{name}: told {told}, interval {lower} to {upper}")
     elif lower - width - slack > high or upper + width + slack < low:
-        judgement.wrong(f"{name}: told {told:.5g} ({lower:.5g} to {upper:.5g}), {hits} of {count} "
-                        f"flown ({low:.5g} to {high:.5g})")
+        judgement.wrong(f"{name}: told {told:.5g} ({lower:.5g} to {upper:.5g}), {hits[0]} to "
+                        f"{hits[1]} of {count} flown ({low:.5g} to {high:.5g})")
 
 
 def judge_quantile(judgement, name, share, told, lower, upper, values, slack):
@@ -92,8 +93,8 @@ def judge_quantile(judgement, name, share, told, lower, upper, values, slack):
     low, _ = share_interval(below, count)
     judgement.checks += 1
     if low > share:
-        judgement.wrong(f"{name}: told {told:.6g} m (from {lower:.6g}) for {share}, of {count} flown "
-                        f"{below} are nearer")
+        judgement.wrong(f"{name}: told {told:.6g} m (from {lower:.6g}) for {share}, of {count} "
+                        f"flown {below} are nearer")
     if upper is not None:
         below = int(np.sum(values <= (upper + width) * (1 + slack)))
         _, high = share_interval(below, count)
