@@ -156,6 +156,8 @@ int dispatch(int argc, char** argv) {
   CLI::App* check = app.add_subcommand(
       "check", "read a scene and say what would be computed; nothing is written");
   add_scene_argument(*check, options);
+  check->add_flag("--time", options.has_time,
+                  "measure how long each command would take, for a second each at most");
   check->add_flag(
       "--json", options.json,
       "print it as JSON, with the names of summary.json; what is wrong too: file, line, "

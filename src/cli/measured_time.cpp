@@ -32,7 +32,7 @@ namespace hamjet::cli {
 namespace {
 
 /// Seconds that a study may take before it is ended.
-constexpr double longest = 0.25;
+constexpr double longest = 1;
 
 using Clock = std::chrono::steady_clock;
 

@@ -235,7 +235,9 @@ void check_flow_jet(const RunOptions& options, const std::string& file, const Sc
   text += fmt::format("  inversions   {}\n  reference    {}\n",
                       scene.kinds ? counted(scene.kinds->size(), "kind") : "none",
                       scene.reference ? "in extended precision" : "none");
-  text += fmt::format("  time         {}; pictures apart\n", measured_times(scene));
+  text += fmt::format("  time         {}\n", options.has_time
+                                                 ? measured_times(scene) + "; pictures apart"
+                                                 : "hamjet check --time measures it");
   print(io::fitted(text));
 }
 

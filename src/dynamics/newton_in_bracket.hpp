@@ -24,6 +24,8 @@ Extended root_in_bracket(const Function& miss_at, Extended low, Extended high, E
   constexpr int most_steps = 200;
   for (int i = 0; i < most_steps; ++i) {
     const MissAndSlope at = miss_at(guess);
+    // Halving would come to an end of the bracket and take it for the root.
+    if (!isfinite(at.miss)) break;
     (at.miss > 0 ? high : low) = guess;
     Extended next = guess - at.miss / at.slope;
     if (!(next >= low && next <= high)) next = (low + high) / 2;
@@ -34,9 +36,8 @@ Extended root_in_bracket(const Function& miss_at, Extended low, Extended high, E
     if (is_found) return guess;
   }
   throw Error(ErrorKind::numerical,
-              fmt::format("Kepler's equation: {} steps do not find the root between {:.6g} and "
-                          "{:.6g}",
-                          most_steps, static_cast<double>(low), static_cast<double>(high)));
+              fmt::format("Kepler's equation: no root is found between {:.6g} and {:.6g}",
+                          static_cast<double>(low), static_cast<double>(high)));
 }
 
 }  // namespace hamjet

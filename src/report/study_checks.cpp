@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "../store/json_text.hpp"
 #include "../store/json_values.hpp"
 #include "../text/html_text.hpp"
 #include "hamjet/error.hpp"
@@ -54,7 +55,7 @@ void add_checks(StudyReport& report, const std::vector<SelfCheck>& checks) {
   for (const std::string& line : failed) json["failed_checks"].push_back(line);
   json.erase("exit_code");  // the last of all
   json["exit_code"] = report.exit_code;
-  summary = json.dump(2) + "\n";
+  summary = json_text(json) + "\n";
 }
 
 }  // namespace hamjet::io

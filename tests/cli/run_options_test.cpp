@@ -25,10 +25,11 @@ TEST_F(RunOptions, TableHoldsTimeErrorAndVerdictAndTheRestIsAskedFor) {
     const std::size_t begin = result.out.find("\nintegrator ") + 1;
     return in_one_line(result.out.substr(begin, result.out.find('\n', begin) - begin));
   };
-  EXPECT_EQ(heading(succeed({"run", "small.toml"})), "integrator time relative error verdict");
+  EXPECT_EQ(heading(succeed({"run", "small.toml"})),
+            "integrator time relative error symplecticity F1 exactness verdict");
   // Without a reference the estimate takes its place, and there are no cells without a number.
   const CommandResult quick = succeed({"run", "quick.toml", "--verbose"});
-  EXPECT_EQ(heading(quick), "integrator time error estimate verdict");
+  EXPECT_EQ(heading(quick), "integrator time error estimate symplecticity F1 exactness verdict");
   EXPECT_EQ(in_one_line(quick.out).find(" - "), std::string::npos) << quick.out;
   EXPECT_EQ(quick.out.find("position error"), std::string::npos) << quick.out;
   const CommandResult all = succeed({"run", "small.toml", "--verbose"});

@@ -22,34 +22,37 @@ double shown(double value, double scale) { return std::abs(value) < 1e-9 * scale
 
 }  // namespace
 
-std::string vector_text(const Eigen::Vector3d& vector, int digits) {
-  const double scale = vector.norm();
+std::string vector_text(const Eigen::Vector3d& vector, int digits, double scale) {
+  scale = std::max(scale, vector.norm());
   return fmt::format("[{:.{}g}, {:.{}g}, {:.{}g}]", shown(vector[0], scale), digits,
                      shown(vector[1], scale), digits, shown(vector[2], scale), digits);
 }
 
 std::string drift_text(const std::optional<RelativeDrift>& drift, const RelativeState& state,
-                       RelativeFrame frame) {
+                       RelativeFrame frame, std::string_view where) {
   if (!drift) return "";
   const double per_revolution = std::abs(drift->per_revolution_m);
   const double held = std::max(drift->floor_m, held_share * state.position_m.norm());
   if (per_revolution <= held) {
-    return fmt::format("Left to itself it stays there: it drifts by {} a revolution.",
+    return fmt::format("Left to itself{} it stays there: it drifts by {} a revolution.", where,
                        drift->is_none() ? "less than " + length_text(drift->floor_m)
                                         : length_text(per_revolution));
   }
   std::string text = fmt::format(
-      "Left to itself it drifts {} a revolution {} along the track: its period is {:.3g} s {} than "
+      "Left to itself{} it drifts {} a revolution {} along the track: its period is {:.3g} s {} "
+      "than "
       "its chief's",
-      length_text(per_revolution), drift->per_revolution_m > 0 ? "forwards" : "backwards",
+      where, length_text(per_revolution), drift->per_revolution_m > 0 ? "forwards" : "backwards",
       std::abs(drift->period_difference_s), drift->period_difference_s > 0 ? "longer" : "shorter");
   if (drift->elements_m) {
-    text += fmt::format(" (a da is {:.4g} m, and without drift 0)", (*drift->elements_m)[0]);
+    text += fmt::format(" (a da is {:.4g} m, and without drift 0)",
+                        shown((*drift->elements_m)[0], state.position_m.norm()));
   }
   if (drift->holding_change_m_s) {
+    const Eigen::Vector3d holding = state.velocity_m_s + *drift->holding_change_m_s;
     text += fmt::format("; with velocity_m_s = {} ({}) in place of {} it would not",
-                        vector_text(state.velocity_m_s + *drift->holding_change_m_s, 7),
-                        frame_text(frame), vector_text(state.velocity_m_s, 7));
+                        vector_text(holding, 7, state.velocity_m_s.norm()), frame_text(frame),
+                        vector_text(state.velocity_m_s, 7, holding.norm()));
   }
   return text + ".";
 }
@@ -58,9 +61,11 @@ std::string elements_text(const std::optional<RelativeDrift>& drift) {
   if (!drift || !drift->elements_m) return "";
   std::string text;
   const auto& components = components_of(DeputyForm::relative_elements);
+  double scale = 0;
+  for (const double element : *drift->elements_m) scale = std::max(scale, std::abs(element));
   for (std::size_t i = 0; i < components.size(); ++i) {
-    text +=
-        fmt::format("{}{} {:.5g}", i == 0 ? "" : ", ", components[i].name, (*drift->elements_m)[i]);
+    text += fmt::format("{}{} {:.5g}", i == 0 ? "" : ", ", components[i].name,
+                        shown((*drift->elements_m)[i], scale));
   }
   return text;
 }

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "hamjet/detail/studies/relative_drift.hpp"
 #include "hamjet/relative_motion/chief_frame.hpp"
@@ -12,12 +13,14 @@
 namespace hamjet::io {
 
 /// A sentence about a deputy in this state, along the axes of the frame: what it drifts, and the
-/// velocity that would hold it. Empty where there is no drift to tell of.
+/// velocity that would hold it; `where` may add " at its end". Empty where there is no drift to
+/// tell of.
 std::string drift_text(const std::optional<RelativeDrift>& drift, const RelativeState& state,
-                       RelativeFrame frame);
+                       RelativeFrame frame, std::string_view where = "");
 
-/// Three numbers for people, "[0, 0.286157, 0]", as a scene takes them.
-std::string vector_text(const Eigen::Vector3d& vector, int digits);
+/// Three numbers for people, "[0, 0.286157, 0]", as a scene takes them; what is rounding beside the
+/// largest of them, and beside `scale`, is 0.
+std::string vector_text(const Eigen::Vector3d& vector, int digits, double scale = 0);
 
 /// The relative orbital elements by their names in scenes, "da_m -0.5, ..."; empty where there are
 /// none.

@@ -25,7 +25,7 @@ TEST_F(UncertaintyCommand, SaysWhetherTheLinearCovarianceMisleads) {
   write("wide.toml", scene(kilometre_a_second));
   const std::string out = in_one_line(succeed({"uncertainty", "wide.toml"}).out);
   for (const char* const words :
-       {"After 4.857 h the position of the chief has the standard deviations 1 km along R",
+       {"After 4.857 h the position of the chief has the standard deviations", "77.1 km along T",
         "By then the linear covariance of the chief misleads", "the standard deviation along",
         "frame RTN with inertial derivatives; order 2", "negentropy (cartesian, RTN)",
         "report: out/wide-uncertainty/report.html"}) {
