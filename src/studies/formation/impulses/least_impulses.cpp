@@ -244,10 +244,11 @@ void require_least(const std::vector<ImpulseEffect>& effects, const Vector6& cha
     throw UnprovedLeast("impulses: one that was found is above the limit");
   }
   const Vector6 costate = even.to_even.transpose().partialPivLu().solve(least.costate);
-  const double bound = even.bound(costate, most / even.size);
+  // Without a limit a costate proves as much at any scale, but is the primer vector's at one alone.
+  const double bound = std::min(even.bound(costate, most / even.size), even.change.dot(costate));
   const double cost = sum_of(impulses);
   const bool is_told = std::abs(least.cost / even.size - cost) <= 1e-12 * cost &&
-                       least.lower_bound / even.size <= bound * (1 + 1e-9);
+                       least.lower_bound / even.size <= bound * (1 + 1e-8);
   if (!is_told || !(cost - bound <= largest_gap * cost)) {
     throw UnprovedLeast(
         fmt::format("impulses: those that were found are proved to be the least to {:.2g} "
