@@ -179,9 +179,10 @@ EntrySampler::EntrySampler(const RelativePaths& paths, double radius, bool begin
   if (!is_empty()) {
     const double entering = std::exp(entering_.log_mass() - largest);
     share_entering_ = entering / (entering + std::exp(inside_.log_mass() - largest));
-    constexpr double half = 0.5;
+    // Few of them come back, and each does so with a weight that its share makes.
+    constexpr double share_of_late = 0.05;
     if (begin_counts_late && !entering_.is_empty()) {
-      share_entering_ = std::max(share_entering_, half);
+      share_entering_ = std::max(share_entering_, 1 - share_of_late);
     }
   }
 }

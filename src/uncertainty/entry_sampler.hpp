@@ -48,7 +48,7 @@ class RandomStream {
 class EntrySampler {
  public:
   /// `paths` must outlive it. Those that begin inside are drawn too: by their share of all or,
-  /// where they count only once they come back (`begin_counts_late`), by a half at most. Throws
+  /// where they count only once they come back (`begin_counts_late`), by a 20th at most. Throws
   /// Error(numerical) where the position is nearly certain in a direction: by the hundredth part of
   /// the radius.
   EntrySampler(const RelativePaths& paths, double radius, bool begin_counts_late);

@@ -107,7 +107,7 @@ TEST(CollisionIntervals, OfEntryCountsWhatComesBack) {
   problem.radius = radius;
   problem.spacecraft[1].factor.col(0) = test::RelativeOrbit::along_the_orbit(s);
   double expected = 0, of_begin_outside = 0;
-  constexpr int parts = 4000, looks = 2000;
+  constexpr int parts = 1000, looks = 700;
   for (int k = 0; k < parts; ++k) {
     const double x = -8 + 16 * (k + 0.5) / parts;
     bool was_outside = false, enters = false, begins_outside = false;

@@ -178,7 +178,8 @@ TEST(CollisionProbability, DoesNotBelieveTheWeightsOfAFewDraws) {
     ADD_FAILURE() << "entries were believed";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::usage);
-    EXPECT_NE(std::string(error.what()).find("a few of the drawn entries"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("a few of the drawn entries"), std::string::npos)
+        << error.what();
   }
 }
 

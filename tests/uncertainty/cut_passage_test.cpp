@@ -61,7 +61,7 @@ TEST(CutPassage, HasTheProbabilityOfAShortEncounter) {
   const ShortEncounter plane = short_encounter(*whole, approaches[0].time);
   EXPECT_TRUE(plane.holds());
   CollisionSettings settings;
-  settings.samples = 20'000;
+  settings.samples = 4000;
   const CollisionProbability of_whole = collision_probability(*whole, settings);
   EXPECT_NEAR(of_whole.probability, plane.alfano,
               4 * of_whole.standard_error + 1e-3 * plane.alfano);
