@@ -8,11 +8,13 @@
 #include "charts/secular_motion.hpp"
 #include "formation_scenes.hpp"
 #include "hamjet/error.hpp"
+#include "poincare/independent_flight.hpp"
 #include "report/bounded/bounded_report.hpp"
 #include "report/bounded/frozen_orbit_report.hpp"
 #include "studies/bounded/frozen_orbit_study.hpp"
 #include "studies/bounded/mean_element_deputies.hpp"
 #include "studies/bounded/relative_orbit_extent.hpp"
+#include "studies/formation/deputy_flows.hpp"
 
 namespace hamjet {
 namespace {
@@ -118,6 +120,58 @@ TEST(BoundedFormation, ADeputyBehindStaysInItsBox) {
     }
   }
   EXPECT_LT(std::abs(deputy.drifts.back().along), 1e-8);
+}
+
+// Both flown on by Boost.odeint in long double, with an acceleration written by hand, to the end of
+// the window and over a revolution more.
+TEST(BoundedFormation, SizesInTheWindowAreThoseOfAnIndependentFlight) {
+  Scene scene = oblate_circle(3, 0.05);
+  scene.bounded->sizes_m = {1e6};
+  scene.bounded->refine = false;
+  const BoundedFormation formation = study_bounded(scene);
+  const BoundedDeputy& deputy = deputy_by(formation, BoundedRule::mean_elements);
+  ZonalGravity field;
+  field.radius = scene.canonical_radius;
+  field.J[2] = scene.system.J[2];
+  field.J[3] = scene.system.J[3];
+  const test::IndependentFlight fly(field);
+  auto chief = test::long_state(six_numbers(scene.nominal));
+  auto at = test::long_state(six_numbers(deputy.state));
+  const long double window = formation.revolutions * formation.nodal_period;
+  chief = fly(chief, window);
+  at = fly(at, window);
+  constexpr int looks = 200;
+  double size = 0;
+  for (int k = 0; k < looks; ++k) {
+    size = std::max(size, static_cast<double>(
+                              std::hypot(at[0] - chief[0], at[1] - chief[1], at[2] - chief[2])));
+    chief = fly(chief, formation.nodal_period / looks);
+    at = fly(at, formation.nodal_period / looks);
+  }
+  EXPECT_NEAR(deputy.last_size_m, size * 7e6, 1e-3 * deputy.last_size_m);
+  EXPECT_LE(deputy.least_size_m, deputy.last_size_m);
+  EXPECT_GE(deputy.largest_size_m, deputy.last_size_m);
+  EXPECT_NEAR(deputy.size_m, 1e6, 1e3);
+}
+
+// A small drift alone does not make it the formation that was asked for.
+TEST(BoundedFormation, ASizeThatIsNotHeldIsMarked) {
+  BoundedFormation formation = study_bounded(oblate_circle(3));
+  EXPECT_NE(io::bounded_verdict(formation).find("Sizes are held to a quarter"), std::string::npos);
+  EXPECT_EQ(io::bounded_report(formation, {}).exit_code, 0);
+  for (BoundedDeputy& deputy : formation.deputies) {
+    if (deputy.rule != BoundedRule::refined) continue;
+    EXPECT_TRUE(deputy.is_held());
+    deputy.largest_size_m = 3 * deputy.wanted_m;
+    EXPECT_FALSE(deputy.is_held());
+  }
+  EXPECT_NE(io::bounded_verdict(formation).find(
+                "NOT HELD are the sizes of 1 of 2 deputies: of 10 km that was asked for"),
+            std::string::npos)
+      << io::bounded_verdict(formation);
+  const io::StudyReport report = io::bounded_report(formation, {});
+  EXPECT_EQ(report.exit_code, 1);
+  EXPECT_NE(report.table.find("NOT HELD"), std::string::npos);
 }
 
 // Schaub and Alfriend's rule makes Brouwer's rates equal to first order: what is left of the

@@ -22,7 +22,7 @@ struct PlaneState {
 };
 PlaneState on_ellipse(Real e, Real angle, Real time) {
   Real E = time;
-  for (int i = 0; i < 60; ++i) E -= (E - e * std::sin(E) - time) / (1 - e * std::cos(E));
+  for (int i = 0; i < 20; ++i) E -= (E - e * std::sin(E) - time) / (1 - e * std::cos(E));
   const Real b = std::sqrt(1 - e * e), rate = 1 / (1 - e * std::cos(E));
   const Real x = std::cos(E) - e, y = b * std::sin(E);
   const Real vx = -std::sin(E) * rate, vy = b * std::cos(E) * rate;
@@ -49,18 +49,34 @@ struct Passage {
     const PlaneState a = chief(time), b = deputy(time);
     return std::hypot(b.x - a.x, b.y - a.y);
   }
-  /// By a look at every 20000th of a revolution in the eccentric anomaly, of a closed form.
+  /// By looks at every 1000th of a revolution in the eccentric anomaly, of a closed form, and by
+  /// thirds of what is left about the best of them.
   Real extreme(Real time, bool is_least) const {
-    Real best = separation(0);
-    const int looks = 20000;
-    for (int k = 0; k <= looks; ++k) {
-      const Real E = apogee + 2 * apogee * k / looks * (time < 0 ? -1 : 1);
-      const Real at = E - e * std::sin(E) - apogee;
-      if (std::abs(at) > std::abs(time)) break;
-      const Real here = separation(at);
-      best = is_least ? std::min(best, here) : std::max(best, here);
+    const Real direction = time < 0 ? -1 : 1, sign = is_least ? 1 : -1;
+    const auto value = [&](Real turned) {
+      const Real E = apogee + direction * turned;
+      return sign * separation(E - e * std::sin(E) - apogee);
+    };
+    // Kepler's equation for the flight's end; from apogee on the mean anomaly grows by x + e sin x.
+    Real end = std::abs(time);
+    for (int i = 0; i < 20; ++i) {
+      end -= (end + e * std::sin(end) - std::abs(time)) / (1 + e * std::cos(end));
     }
-    return best;
+    const Real step = end / 1000;
+    Real best = 0;
+    for (int k = 1; k <= 1000; ++k) {
+      if (value(k * step) < value(best)) best = k * step;
+    }
+    Real low = std::max(best - step, Real(0)), high = std::min(best + step, end);
+    for (int i = 0; i < 100; ++i) {
+      const Real third = (high - low) / 3;
+      if (value(low + third) < value(high - third)) {
+        high -= third;
+      } else {
+        low += third;
+      }
+    }
+    return sign * std::min(value(best), value((low + high) / 2));
   }
   std::vector<double> deviation() const {
     std::vector<double> z = state_of(deputy(0));

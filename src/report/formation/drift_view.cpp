@@ -17,8 +17,10 @@ namespace {
 /// A drift of less than this share of the separation a revolution holds its place.
 constexpr double held_share = 1e-4;
 
-/// Rounding of a flown velocity is not shown.
-double shown(double value, double scale) { return std::abs(value) < 1e-9 * scale ? 0 : value; }
+/// What is nothing but rounding beside the others, or beside a millimetre, is not shown.
+double shown(double value, double scale) {
+  return std::abs(value) < 1e-9 * std::max(scale, 1e-3) ? 0 : value;
+}
 
 }  // namespace
 
@@ -40,8 +42,7 @@ std::string drift_text(const std::optional<RelativeDrift>& drift, const Relative
   }
   std::string text = fmt::format(
       "Left to itself{} it drifts {} a revolution {} along the track: its period is {:.3g} s {} "
-      "than "
-      "its chief's",
+      "than that of its chief",
       where, length_text(per_revolution), drift->per_revolution_m > 0 ? "forwards" : "backwards",
       std::abs(drift->period_difference_s), drift->period_difference_s > 0 ? "longer" : "shorter");
   if (drift->elements_m) {
