@@ -100,7 +100,7 @@ TEST_F(CheckJson, SaysWhatHasNoPlace) {
   EXPECT_TRUE(option["file"].is_null());
   EXPECT_EQ(option["key"], "jet.ordre");
   EXPECT_NE(option["message"].get<std::string>().find("did you mean order?"), std::string::npos);
-  options_.address_space = 75'000'000;
+  options_.address_space = 65'000'000;
   const Json large =
       wrong({"check", "quick.toml", "--json", "--set", "jet.order=10"}, 6)["errors"][0];
   EXPECT_TRUE(large["file"].is_null());

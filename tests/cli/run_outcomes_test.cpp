@@ -121,13 +121,15 @@ TEST_F(Outcomes, EndlessDurationIsRefusedSoon) {
   }
 }
 
-TEST_F(Outcomes, FailedRunLeavesNoOldResultOfItself) {
+TEST_F(Outcomes, FailedRunKeepsEarlierResults) {
   run("quick.toml", {fall, "jet.duration_canonical=0.5"});
   EXPECT_TRUE(exists("midpoint/jet.csv"));
-  // From 0.5 to 2 the midpoint run and the other one fail: their old files would be mistaken.
-  run("quick.toml", {fall, "jet.duration_canonical=2"}, 4);
-  EXPECT_FALSE(exists("midpoint"));
-  EXPECT_FALSE(exists("gauss8"));
+  // From 0.5 to 2 both runs fail: what was good stays, and its summary with it.
+  const CommandResult failed = hamjet(
+      with_overrides({"run", "quick.toml", "-o", "results"}, {fall, "jet.duration_canonical=2"}));
+  EXPECT_EQ(failed.exit_code, 4);
+  EXPECT_TRUE(exists("midpoint/jet.csv"));
+  EXPECT_TRUE(exists("gauss8/jet.csv"));
 }
 
 TEST_F(Outcomes, DurationZeroIsTheIdentity) {

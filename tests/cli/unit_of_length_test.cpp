@@ -205,7 +205,11 @@ tolerance = 1e-13
   for (const char* length_km : {"0.001", "1", "123", "1000", "4567", "7e4", "1e6", "1.5e8"}) {
     SCOPED_TRACE(length_km);
     write("scene.toml", scene + "[units]\nlength_km = " + length_km);
-    succeed({"run", "scene.toml", "-o", std::string("unit") + length_km, "-q"});
+    const CommandResult result =
+        hamjet({"run", "scene.toml", "-o", std::string("unit") + length_km, "-q"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_NE(in_one_line(result.err).find("what keeps it from it is rounding"), std::string::npos)
+        << result.err;
   }
 }
 

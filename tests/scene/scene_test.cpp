@@ -261,7 +261,7 @@ TEST(SceneOverride, TakesForAStringWhatIsNotToml) {
   };
   EXPECT_EQ(title("two words"), "two words");
   EXPECT_EQ(title("\"quoted\""), "quoted");
-  EXPECT_EQ(title("a\"b\\c\nd"), "a\"b\\c\nd");
+  EXPECT_EQ(title("a\"b\\c\nd"), "a\"b\\c\\x0ad");
   EXPECT_EQ(title("\"\""), "");
 }
 

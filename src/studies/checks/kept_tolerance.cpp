@@ -37,6 +37,10 @@ std::string tolerance_warning(const Scene& scene, const RunResult& run) {
     if (!(by_degree[d].error <= by_degree[worst].error)) worst = d;
   }
   const KeptTolerance& one = by_degree[worst];
+  // An estimate may be as many times too high: only what is surely not kept is worth a warning; the
+  // table and summary.json have it in any case.
+  constexpr double surely = 10;
+  if (!run.error_by_degree && one.error <= surely * one.asked) return "";
   const std::string keeping = kept == 0   ? "degree 0 does not keep it"
                               : kept == 1 ? "degree 0 alone keeps it"
                                           : fmt::format("degrees 0 to {} keep it", kept - 1);
