@@ -12,6 +12,7 @@
 #include "../studies/integration.hpp"
 #include "hamjet/algebra/composition.hpp"
 #include "hamjet/charts/flow_box.hpp"
+#include "hamjet/error.hpp"
 #include "hamjet/integrators/error_estimate.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
 
@@ -105,6 +106,38 @@ FlowError FlowError::stated(const io::StoredJet& stored, const DeputyFlow& flow)
   const double largest = in_momentum_unit<Matrix<double>>(linear, exponent).cwiseAbs().maxCoeff();
   result.bound_ = Matrix<double>::Constant(positions, linear.cols(), relative * largest);
   result.bound_.rightCols(positions) *= std::ldexp(1.0, -exponent);
+  return result;
+}
+
+std::vector<double> FlowError::numbers() const {
+  std::vector<double> result = {is_known_ ? 1.0 : 0.0, of_chief_, bound_.size() > 0 ? 1.0 : 0.0};
+  const auto add = [&](const Matrix<double>& matrix) {
+    result.insert(result.end(), matrix.data(), matrix.data() + matrix.size());
+  };
+  if (bound_.size() > 0) add(bound_);
+  for (const Matrix<double>& matrix : shown_) add(matrix);
+  return result;
+}
+
+FlowError FlowError::of_numbers(std::span<const double> numbers) {
+  constexpr std::size_t head = 3;
+  constexpr std::size_t size = 18;
+  if (numbers.size() < head || (numbers.size() - head) % size != 0) {
+    throw Error(ErrorKind::usage, "flow error: these numbers are none");
+  }
+  FlowError result;
+  result.is_known_ = numbers[0] != 0;
+  result.of_chief_ = numbers[1];
+  bool is_bound = numbers[2] != 0;
+  for (std::size_t at = head; at < numbers.size(); at += size) {
+    const Matrix<double> matrix = Eigen::Map<const Matrix<double>>(numbers.data() + at, 3, 6);
+    if (is_bound) {
+      result.bound_ = matrix;
+    } else {
+      result.shown_.push_back(matrix);
+    }
+    is_bound = false;
+  }
   return result;
 }
 

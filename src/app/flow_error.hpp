@@ -26,6 +26,10 @@ class FlowError {
   /// What results state of their coefficients by degree, as a bound; nothing where they do not.
   static FlowError stated(const io::StoredJet& stored, const DeputyFlow& flow);
 
+  /// All that it holds, and the same from there.
+  std::vector<double> numbers() const;
+  static FlowError of_numbers(std::span<const double> numbers);
+
   bool is_known() const { return is_known_; }
   /// Of the chief's final position.
   double of_chief() const { return of_chief_; }

@@ -71,6 +71,10 @@ std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
                           option_suggestion(commands.empty() ? app : *commands[0], *option));
   } else if (!unknown.empty() && commands.empty()) {
     problem = unknown_command(app, unknown[0]);
+  } else if (!unknown.empty() && unknown[0].ends_with(".toml")) {
+    problem =
+        fmt::format("{} stands before the command, must be: hamjet {} {}",
+                    io::printable(unknown[0]), commands[0]->get_name(), io::printable(unknown[0]));
   } else if (!unknown.empty()) {
     problem = fmt::format("unexpected argument {}", io::printable(unknown[0]));
   }

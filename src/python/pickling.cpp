@@ -220,11 +220,12 @@ std::shared_ptr<Jet> restored_jet(const JetState& state, const py::object& coeff
 }
 
 PolynomialsStudy restored_polynomials(const JetState& state, const py::object& coefficients,
-                                      double rounding_m) {
+                                      double rounding_m, const Numbers& error) {
   const io::StoredJet stored = restored(state, coefficients);
   if (!is_orbit(stored.model) || stored.variables.size() != 6) refuse_state();
   cli::EvaluatedScene evaluated = cli::evaluated_jet(stored);
   evaluated.rounding_m = rounding_m;
+  evaluated.error = cli::FlowError::of_numbers(error);
   return PolynomialsStudy(std::move(evaluated));
 }
 
@@ -276,8 +277,9 @@ py::tuple reduced(const Jet& jet) {
 
 py::tuple reduced(const PolynomialsStudy& study) {
   const io::StoredJet stored = cli::stored_polynomials(study.evaluated());
-  return call_of("_restored_polynomials", py::make_tuple(state_of(stored), coefficients_of(stored),
-                                                         study.evaluated().rounding_m));
+  return call_of("_restored_polynomials",
+                 py::make_tuple(state_of(stored), coefficients_of(stored),
+                                study.evaluated().rounding_m, study.evaluated().error.numbers()));
 }
 
 py::tuple reduced(const InvertedJet& function) {

@@ -42,10 +42,10 @@ void PrintTo(const StudyCase& study, std::ostream* out) { *out << study.name; }
 
 const std::vector<StudyCase> all_cases = {
     {"Motion", "motion", "[deputy]\nposition_m = [10, -2000, 30]\nvelocity_m_s = [0.1, 0, 0.2]\n"},
-    {"Validity", "validity", "[validity]\ntolerance_m = 1\ncount = 1\nsamples = 4\n"},
+    {"Validity", "validity", "[validity]\ntolerance_m = 1\ncount = 1\nsamples = 10\n"},
     {"ValidityOfFlowBoxes",
      "validity",
-     "[validity]\ntolerance_m = 1\ncount = 1\nsamples = 4\n",
+     "[validity]\ntolerance_m = 1\ncount = 1\nsamples = 10\n",
      {"--set", "jet.coordinates=\"flow-box\""}},
     {"Transfer", "transfer",
      "[transfer]\ntimes_s = [1500, 4000]\n[transfer.start]\nposition_m = [0, -2000, 0]\n"
@@ -67,9 +67,9 @@ const std::vector<StudyCase> all_cases = {
     {"Event", "poincare",
      "[event]\nsurface = \"distance\"\ndistance_km = 12000\namplitudes_m = [100, 1000]\n"},
     {"FrozenOrbit", "poincare", ""},
-    {"Bounded", "bounded", "[bounded]\nsizes_km = [2]\nrevolutions = 3\n"},
+    {"Bounded", "bounded", "[bounded]\nsizes_km = [2]\nrevolutions = 10\n"},
     {"Box", "bounded",
-     "[bounded]\nsizes_km = [2]\nrevolutions = 3\n[bounded.box]\nhalf_widths_m = [400, 800, 400]\n"
+     "[bounded]\nsizes_km = [2]\nrevolutions = 10\n[bounded.box]\nhalf_widths_m = [400, 800, 400]\n"
      "days = 0.5\n"},
     {"Eval", "eval", "", {"--deviation", "10,-2000,30,0.1,-0.2,0.3"}},
     {"EvalOfFlowBoxes",

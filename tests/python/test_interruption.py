@@ -28,7 +28,8 @@ WORKS = {
     "run": "hamjet.run(LONG)",
     "invert": "jet.invert_partially('F1')",
     "evaluate": "jet.evaluate(points, out=points)",
-    "transfer": "hamjet.transfer({**LONG, 'transfer': {'frame': 'RTN', 'count': 100, "
+    "transfer": "hamjet.transfer({**LONG, 'jet': {'order': 5, 'duration_canonical': 2400.0}, "
+                "'transfer': {'frame': 'RTN', 'count': 100, "
                 "'start': {'position_m': [0, -1000, 0]}, 'end': {'position_m': [0, -1, 0]}}})",
 }
 
