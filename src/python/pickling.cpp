@@ -220,7 +220,7 @@ std::shared_ptr<Jet> restored_jet(const JetState& state, const py::object& coeff
 }
 
 PolynomialsStudy restored_polynomials(const JetState& state, const py::object& coefficients,
-                                      double rounding_m, const Numbers& error) {
+                                      double rounding_m, const std::vector<double>& error) {
   const io::StoredJet stored = restored(state, coefficients);
   if (!is_orbit(stored.model) || stored.variables.size() != 6) refuse_state();
   cli::EvaluatedScene evaluated = cli::evaluated_jet(stored);
