@@ -14,6 +14,9 @@ constexpr double nothing = -std::numeric_limits<double>::infinity();
 /// The share of what a box may hold at most that is added to what was seen of it, so that no point
 /// has a weight of more than a hundred.
 constexpr double share_of_bound = 0.01;
+/// The same where none of the points sees anything, as of grazing entries at the edge of boxes in
+/// which all others leave.
+constexpr double share_of_unseen = 0.25;
 /// How much further things are taken to spread in a box than is seen. At 1 probabilities of slow
 /// encounters come out too low by up to 1e-2, at 2 and 4 by no more than their standard errors.
 constexpr double spread_factor = 2;
@@ -119,7 +122,7 @@ BoxDensity::Node BoxDensity::made(const Box& box, const Density& density) {
   double mean = 0;
   for (const NormalFactor& factor : factors) mean += std::exp(factor.log_value() - bound) / 9;
   node.log_mean = bound + std::log(mean);
-  node.log_even = bound + std::log(share_of_bound);
+  node.log_even = bound + std::log(mean > 0 ? share_of_bound : share_of_unseen);
   // Halved across the direction in which the density changes most.
   double steepest = -1;
   for (std::size_t i = 0; i < 3; ++i) {
