@@ -54,14 +54,14 @@ headers=$({
 [ "$(grep -c '^/usr/include/c++/' <<<"$headers")" -gt 100 ] || fail "the headers were not seen"
 system=$(grep '^/usr/' <<<"$headers" | grep -vE \
   -e '^/usr/lib/gcc/' \
-  -e '^/usr/include/(c\+\+|eigen3|boost|fmt|toml\+\+|nlohmann|CLI|linux|asm-generic)/' \
+  -e '^/usr/include/(c\+\+|eigen3|boost|fmt|toml\+\+|nlohmann|CLI|coin|linux|asm-generic)/' \
   -e '^/usr/include/[a-z0-9_]+-linux-gnu/(asm|bits|c\+\+|gnu|sys)/' \
   -e '^/usr/include/[a-z0-9_-]+\.h$' || true)
 [ -z "$system" ] || fail "these headers are of something optional:"$'\n'"$system"
 
 # Libraries.
 libraries=$(readelf -d hamjet | sed -n 's/.*(NEEDED).*\[\(.*\)\]/\1/p')
-others=$(grep -vE '^(lib(fmt|tomlplusplus|stdc\+\+|m|gcc_s|c|asan|ubsan)\.so|ld-linux)' \
+others=$(grep -vE '^(lib(fmt|tomlplusplus|Clp|stdc\+\+|m|gcc_s|c|asan|ubsan)\.so|ld-linux)' \
   <<<"$libraries" || true)
 [ -z "$others" ] || fail "the program loads something optional: $others"
 

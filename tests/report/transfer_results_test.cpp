@@ -296,7 +296,8 @@ TEST(TransferTable, ImpulsesHaveDigitsOfAnySize) {
   const auto table = [&] {
     return transfer_report(result, {}, {}, sample_transfer_origin()).table;
   };
-  EXPECT_NE(table().find("0.300000    0.300000    0.000000"), std::string::npos) << table();
+  EXPECT_NE(table().find(" 0.300000 "), std::string::npos) << table();
+  EXPECT_EQ(table().find("-0.000000"), std::string::npos) << table();
   EXPECT_NE(table().find("1.2500e-07  -2.5000e-10"), std::string::npos) << table();
   // Without a bound none is told, and a time at which the solver failed is.
   EXPECT_EQ(table().find("no impulses cost less"), std::string::npos) << table();
