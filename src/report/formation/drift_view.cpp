@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "../../formats/relative_frame_text.hpp"
 #include "../../store/json_values.hpp"
@@ -20,6 +21,12 @@ constexpr double held_share = 1e-4;
 /// What is nothing but rounding beside the others, or beside a millimetre, is not shown.
 double shown(double value, double scale) {
   return std::abs(value) < 1e-9 * std::max(scale, 1e-3) ? 0 : value;
+}
+
+/// Whether the osculating semi-major axes tell the drift: J2 lets others drift, too.
+bool is_of_axes(const RelativeDrift& drift) {
+  const double of_axes = -3 * std::numbers::pi * (*drift.elements_m)[0];
+  return std::abs(drift.per_revolution_m - of_axes) < 0.05 * std::abs(drift.per_revolution_m);
 }
 
 }  // namespace
@@ -45,7 +52,7 @@ std::string drift_text(const std::optional<RelativeDrift>& drift, const Relative
       "than that of its chief",
       where, length_text(per_revolution), drift->per_revolution_m > 0 ? "forwards" : "backwards",
       std::abs(drift->period_difference_s), drift->period_difference_s > 0 ? "longer" : "shorter");
-  if (drift->elements_m) {
+  if (drift->elements_m && is_of_axes(*drift)) {
     text += fmt::format(" (a da is {:.4g} m, and without drift 0)",
                         shown((*drift->elements_m)[0], state.position_m.norm()));
   }
@@ -61,9 +68,9 @@ std::string drift_text(const std::optional<RelativeDrift>& drift, const Relative
 std::string elements_text(const std::optional<RelativeDrift>& drift) {
   if (!drift || !drift->elements_m) return "";
   std::string text;
-  const auto& components = components_of(DeputyForm::relative_elements);
   double scale = 0;
   for (const double element : *drift->elements_m) scale = std::max(scale, std::abs(element));
+  const auto& components = components_of(DeputyForm::relative_elements);
   for (std::size_t i = 0; i < components.size(); ++i) {
     text += fmt::format("{}{} {:.5g}", i == 0 ? "" : ", ", components[i].name,
                         shown((*drift->elements_m)[i], scale));
