@@ -134,19 +134,20 @@ def judge_samples(judgement, name, state, mine, noise, family):
     if len(orders) < 2:
         return
     last, before = orders[-1], orders[-2]
+    told = np.array(last["standard_deviations"])
+    changes = np.abs(told - before["standard_deviations"])
+    shifts = np.abs(np.subtract(last["mean"], before["mean"]))
+    # Where orders still change the moments, what they leave out is as large, and each polynomial's
+    # moments are no more than its own.
+    if np.any(changes > 0.05 * told) or np.any(shifts > 0.05 * told):
+        return
     for i in range(6):
-        told = last["standard_deviations"][i]
-        change = abs(told - before["standard_deviations"][i])
-        shift = abs(last["mean"][i] - before["mean"][i])
-        # Where orders still change the moments, what they leave out is as large, and each
-        # polynomial's moments are no more than its own.
-        if change > 0.05 * told or shift > 0.05 * told:
-            continue
         judgement.within(f"{name}: mean of {family['components'][i]}, order {len(orders)}",
                          last["mean"][i], mean[i],
-                         SCATTERS * mean_scatter[i] + 3 * shift + 1e-3 * told)
+                         SCATTERS * mean_scatter[i] + 3 * shifts[i] + 1e-3 * told[i])
         judgement.within(f"{name}: deviation of {family['components'][i]}, order {len(orders)}",
-                         told, s_with[i], SCATTERS * s_scatter[i] + 3 * change + 1e-2 * s_with[i])
+                         told[i], s_with[i],
+                         SCATTERS * s_scatter[i] + 3 * changes[i] + 1e-2 * s_with[i])
 
 
 def linear_covariances(scene, time, chief):
@@ -181,7 +182,7 @@ def judge_linear(judgement, name, order, mine):
         return
     s = np.sqrt(np.diag(mine))
     # What the flow keeps small beside what it stretches has the differences' rounding.
-    s = np.concatenate([np.hypot(part, 1e-7 * np.max(part)) for part in (s[:3], s[3:])])
+    s = np.concatenate([np.hypot(part, 1e-6 * np.max(part)) for part in (s[:3], s[3:])])
     told = np.array(order["covariance"])
     difference = np.abs(told - mine) / np.outer(s, s)
     worst = np.unravel_index(np.argmax(difference), (6, 6))
