@@ -12,8 +12,9 @@ namespace hamjet {
 namespace {
 
 constexpr double largest_rounding = 1e-3;  ///< relative rounding of a usable degree
-/// How many times the measured floor an estimate of rounding may be: of one orbit of e = 0.9 in
-/// eight units of length it was 0.6 to 45 times, which differ by nothing but their last digits.
+/// How many times the measured floor an estimate of rounding may be. Of one orbit of e = 0.9 in
+/// eight units of length it was 0.6 to 45 times; a wider sample has not been taken, and no theory
+/// gives the number.
 constexpr double rounding_scatter = 50;
 
 /// How often a run's tolerance may count: once a period of the linearised motion for Gauss, whose
