@@ -22,10 +22,13 @@ template <class Function>
 Extended root_in_bracket(const Function& miss_at, Extended low, Extended high, Extended guess) {
   // Halving alone gains a bit a step; Newton's steps need some ten.
   constexpr int most_steps = 200;
+  Extended last_miss = 0, at_guess = guess;
   for (int i = 0; i < most_steps; ++i) {
     const MissAndSlope at = miss_at(guess);
     // Halving would come to an end of the bracket and take it for the root.
+    last_miss = at.miss;
     if (!isfinite(at.miss)) break;
+    at_guess = guess;
     (at.miss > 0 ? high : low) = guess;
     Extended next = guess - at.miss / at.slope;
     if (!(next >= low && next <= high)) next = (low + high) / 2;
@@ -35,6 +38,10 @@ Extended root_in_bracket(const Function& miss_at, Extended low, Extended high, E
     guess = next;
     if (is_found) return guess;
   }
+  // Where the slope is small, rounding of the function moves the place to and fro by more than
+  // that. It is a sum of three terms no larger than about the place, each rounded a few times.
+  const Extended rounding = 16 * std::numeric_limits<Extended>::epsilon() * (1 + abs(at_guess));
+  if (abs(last_miss) <= rounding) return at_guess;
   throw Error(ErrorKind::numerical,
               fmt::format("Kepler's equation: no root is found between {:.6g} and {:.6g}",
                           static_cast<double>(low), static_cast<double>(high)));

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <random>
 
 #include "dynamics/newton_in_bracket.hpp"
 #include "hamjet/dynamics/mean_elements.hpp"
@@ -17,6 +18,22 @@ TEST(SolverFailures, ABracketOfNoNumbersHasNoRoot) {
   };
   expect_error(ErrorKind::numerical, "no root is found",
                [&] { root_in_bracket(no_number, Extended(0), Extended(1), Extended(0.5)); });
+}
+
+// Kepler's equation itself. At these eccentricities the slope at perigee is as small as 0.01, and
+// rounding of the function is more in the place; a search that refuses it refuses real orbits.
+TEST(SolverFailures, RoundingWhereTheSlopeIsSmallIsNoFailure) {
+  std::mt19937_64 generator(7);
+  std::uniform_real_distribution<double> of_anomaly(-3.2, 3.2), of_eccentricity(0.9, 0.99);
+  for (int k = 0; k < 5000; ++k) {
+    const Extended e = of_eccentricity(generator);
+    const Extended mean = of_anomaly(generator);
+    const auto miss = [&](const Extended& E) -> MissAndSlope {
+      return {E - e * sin(E) - mean, 1 - e * cos(E)};
+    };
+    const Extended E = root_in_bracket(miss, mean - e, mean + e, mean);
+    EXPECT_LE(abs(miss(E).miss), 16 * std::numeric_limits<Extended>::epsilon() * (1 + abs(E)));
+  }
 }
 
 // A J2 of half the body makes the difference of mean and osculating elements larger than they are.
