@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "../algebra/state_sums.hpp"
 #include "../text/scene_message.hpp"
 #include "hamjet/error.hpp"
 #include "scene_covariance_file.hpp"
@@ -171,8 +172,7 @@ KnownState state_of_owner(const Scene& scene, const Nominal& nominal,
   std::vector<double> canonical = nominal.state;
   if (deputy) {
     const ChiefFrame frame(nominal.state, {units.length_km * 1000, units.time_s}, deputy->frame);
-    const std::vector<double> deviation = frame.deviation(deputy->start);
-    for (std::size_t i = 0; i < 6; ++i) canonical[i] += deviation[i];
+    canonical = state_sum(std::move(canonical), frame.deviation(deputy->start));
   }
   state.position_km = Eigen::Vector3d(canonical.data()) * units.length_km;
   state.velocity_km_s = Eigen::Vector3d(canonical.data() + 3) * (units.length_km / units.time_s);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "../../algebra/state_sums.hpp"
 #include "../../integrators/taylor_flow.hpp"
 #include "../exact_flow.hpp"
 #include "../formation/single_transfer.hpp"
@@ -56,14 +57,14 @@ class Company {
   }
   /// The reference's deviation from the chief.
   std::vector<double> reference() const {
-    if (settings_->reference == BoxReference::member) return difference(state(2), chief());
+    if (settings_->reference == BoxReference::member) return state_difference(state(2), chief());
     return frame().deviation({settings_->position_m, Eigen::Vector3d::Zero()});
   }
-  std::vector<double> deviation() const { return difference(deputy(), chief()); }
+  std::vector<double> deviation() const { return state_difference(deputy(), chief()); }
   ChiefFrame frame() const { return {chief(), units_, RelativeFrame::rtn_rotating}; }
   Eigen::Vector3d place_m() const { return frame().relative(deviation()).position_m; }
   Eigen::Vector3d from_reference_m() const {
-    return frame().relative(difference(deviation(), reference())).position_m;
+    return frame().relative(state_difference(deviation(), reference())).position_m;
   }
   /// The largest of the distances from the reference, in parts of the box.
   double part() const {
@@ -74,10 +75,6 @@ class Company {
   std::vector<double> state(std::size_t lane) const {
     const auto first = states_.begin() + static_cast<std::ptrdiff_t>(lane * numbers_of_state);
     return {first, first + numbers_of_state};
-  }
-  static std::vector<double> difference(std::vector<double> a, const std::vector<double>& b) {
-    for (std::size_t i = 0; i < a.size(); ++i) a[i] -= b[i];
-    return a;
   }
 
   const BoxSettings* settings_;

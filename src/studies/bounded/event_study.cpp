@@ -12,6 +12,7 @@
 
 #include "../../algebra/other_units.hpp"
 #include "../../algebra/scalar_search.hpp"
+#include "../../algebra/state_sums.hpp"
 #include "../../integrators/momentum_unit.hpp"
 #include "../checks/flight_checks.hpp"
 #include "../exact_flow.hpp"
@@ -215,8 +216,7 @@ class EventFlights {
   }
 
   Miss miss(const State& deviation, bool is_linear) const {
-    State start = scene_.nominal;
-    for (std::size_t i = 0; i < start.size(); ++i) start[i] += deviation[i];
+    const State start = state_sum(scene_.nominal, deviation);
     const double time = predicted(map_.time, deviation, is_linear);
     // Beyond their reach polynomials give any time, up to one that would take days to fly.
     const double chiefs = map_.time[0];

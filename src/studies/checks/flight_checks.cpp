@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "../../algebra/state_sums.hpp"
 #include "../energy_error.hpp"
 #include "../flights/extreme_distance.hpp"
 #include "../formation/single_transfer.hpp"
@@ -75,8 +76,7 @@ std::vector<CheckedFlight> flights_of(const Scene& scene, double time, bool with
     const std::vector<double> deviation =
         ChiefFrame(scene.nominal, metric_units(scene), scene.deputy->frame)
             .deviation(scene.deputy->start);
-    flights.push_back({"the deputy", scene.nominal, time});
-    for (std::size_t i = 0; i < deviation.size(); ++i) flights[1].start[i] += deviation[i];
+    flights.push_back({"the deputy", state_sum(scene.nominal, deviation), time});
   }
   return flights;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "../../algebra/state_sums.hpp"
 #include "../exact_flow.hpp"
 #include "../formation/deputy_flows.hpp"
 #include "../formation/single_transfer.hpp"
@@ -106,8 +107,7 @@ std::optional<RelativeDrift> relative_drift(const Scene& scene, const std::vecto
   constexpr double rounding = 1e-11;
   const MetricUnits units = metric_units(scene);
   const SharedSystem system = make_system(scene);
-  std::vector<double> deputy = chief;
-  for (std::size_t i = 0; i < deputy.size(); ++i) deputy[i] += deviation[i];
+  const std::vector<double> deputy = state_sum(chief, deviation);
   RelativeDrift drift;
   try {
     const Meridian meridian(system, chief);

@@ -1,5 +1,6 @@
 #include "extreme_separations.hpp"
 
+#include "../../algebra/state_sums.hpp"
 #include "../flights/extreme_distance.hpp"
 #include "single_transfer.hpp"
 
@@ -10,8 +11,7 @@ double separation_m(const RelativeState& state) { return state.position_m.norm()
 ExtremeSeparations extreme_separations(const Scene& scene, const std::vector<double>& deviation,
                                        RelativeFrame frame, double time) {
   const MetricUnits units = metric_units(scene);
-  std::vector<double> deputy = scene.nominal;
-  for (std::size_t i = 0; i < deputy.size(); ++i) deputy[i] += deviation[i];
+  const std::vector<double> deputy = state_sum(scene.nominal, deviation);
   ExtremeDistance least(ExtremeDistance::Kind::least);
   ExtremeDistance greatest(ExtremeDistance::Kind::greatest);
   ExtremeSeparations found;
@@ -20,8 +20,7 @@ ExtremeSeparations extreme_separations(const Scene& scene, const std::vector<dou
     const auto look = [&](ExtremeDistance& extreme, SeparationAt& at) {
       if (!extreme.add(arc, curve)) return;
       const std::vector<double> chief = arc.state(0, extreme.share());
-      std::vector<double> difference = arc.state(1, extreme.share());
-      for (std::size_t i = 0; i < difference.size(); ++i) difference[i] -= chief[i];
+      const std::vector<double> difference = state_difference(arc.state(1, extreme.share()), chief);
       at = {extreme.time(), ChiefFrame(chief, units, frame).relative(difference)};
     };
     look(least, found.nearest);

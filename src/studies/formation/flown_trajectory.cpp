@@ -1,5 +1,6 @@
 #include "flown_trajectory.hpp"
 
+#include "../../algebra/state_sums.hpp"
 #include "../exact_flow.hpp"
 #include "single_transfer.hpp"
 
@@ -22,8 +23,7 @@ RelativeTrajectory flown_trajectory(const Scene& scene, const std::vector<double
     trajectory.states.push_back(ChiefFrame(chief, units, frame).relative(difference));
   };
   std::vector<double> chief = scene.nominal;
-  std::vector<double> deputy = chief;
-  for (std::size_t i = 0; i < deputy.size(); ++i) deputy[i] += deviation[i];
+  std::vector<double> deputy = state_sum(chief, deviation);
   add(0, chief, deputy);
   for (std::size_t last = parts; last < times.size(); last += parts) {
     std::vector<double> chief_between = chief;

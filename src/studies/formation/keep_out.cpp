@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "../../algebra/state_sums.hpp"
 #include "../checks/flight_checks.hpp"
 #include "../flights/extreme_distance.hpp"
 #include "single_transfer.hpp"
@@ -14,9 +15,8 @@ namespace hamjet {
 double keep_out_ratio(const Scene& scene, const std::vector<double>& chief,
                       const std::vector<double>& deviation, double time) {
   const Eigen::Vector3d semi_axes = *scene.transfer->keep_out_m / metric_units(scene).length_m;
-  std::vector<double> deputy = chief;
-  for (std::size_t i = 0; i < deputy.size(); ++i) deputy[i] += deviation[i];
   ExtremeDistance least(ExtremeDistance::Kind::least);
+  const std::vector<double> deputy = state_sum(chief, deviation);
   fly_arcs(make_system(scene), {chief, deputy}, 0, time, [&](const FlightArc& arc) {
     ArcCurve curve = rtn_separation_along(arc, 0, 1);
     for (std::size_t i = 0; i < 3; ++i) curve[i] /= semi_axes[static_cast<Eigen::Index>(i)];
@@ -37,8 +37,7 @@ void WayLimits::fly(const std::vector<double>& chief, const std::vector<double>&
     ratio_ = std::min(ratio_, keep_out_ratio(scene_, chief, deviation, time));
   }
   if (surface_) {
-    std::vector<double> deputy = chief;
-    for (std::size_t i = 0; i < deputy.size(); ++i) deputy[i] += deviation[i];
+    const std::vector<double> deputy = state_sum(chief, deviation);
     lowest_ = std::min(lowest_, lowest_point(make_system(scene_), deputy, time).distance);
   }
 }

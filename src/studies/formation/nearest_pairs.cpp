@@ -3,18 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../../algebra/state_sums.hpp"
 #include "../flights/extreme_distance.hpp"
 #include "single_transfer.hpp"
 
 namespace hamjet {
-namespace {
-
-std::vector<double> sum_of(std::vector<double> a, const std::vector<double>& b) {
-  for (std::size_t i = 0; i < a.size(); ++i) a[i] += b[i];
-  return a;
-}
-
-}  // namespace
 
 std::vector<DeputyPair> nearest_of_pairs(const Scene& scene,
                                          const std::vector<AssignedTransfer>& transfers) {
@@ -31,7 +24,7 @@ std::vector<DeputyPair> nearest_of_pairs(const Scene& scene,
     flown.push_back(&assigned);
     RelativeState start = scene.assignment->deputies[assigned.deputy];
     start.velocity_m_s += assigned.transfer.best().start_change_m_s;
-    states.push_back(sum_of(scene.nominal, frame(scene.nominal).deviation(start)));
+    states.push_back(state_sum(scene.nominal, frame(scene.nominal).deviation(start)));
     arrivals.push_back(assigned.transfer.time);
   }
   if (flown.size() < 2) return {};
@@ -64,7 +57,7 @@ std::vector<DeputyPair> nearest_of_pairs(const Scene& scene,
       if (flown[i]->transfer.time != arrival) continue;
       const RelativeState change = {Eigen::Vector3d::Zero(),
                                     flown[i]->transfer.best().end_change_m_s};
-      states[i] = sum_of(std::move(states[i]), frame(states.back()).deviation(change));
+      states[i] = state_sum(std::move(states[i]), frame(states.back()).deviation(change));
     }
   }
   for (std::size_t pair = 0; pair < pairs.size(); ++pair) {

@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "../../algebra/state_sums.hpp"
 #include "../../integrators/momentum_unit.hpp"
 #include "../exact_flow.hpp"
 #include "hamjet/error.hpp"
@@ -21,11 +22,6 @@ namespace {
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
-
-std::vector<double> difference(std::vector<double> a, const std::vector<double>& b) {
-  for (std::size_t i = 0; i < a.size(); ++i) a[i] -= b[i];
-  return a;
-}
 
 }  // namespace
 
@@ -44,10 +40,8 @@ Underway Route::start() const { return {0, frame(0).deviation(scene_.transfer->s
 
 Underway Route::coast_to(double time) const {
   if (time == 0) return start();
-  std::vector<double> state = problem_.nominal;
-  const std::vector<double> deviation = start().deviation;
-  for (std::size_t i = 0; i < state.size(); ++i) state[i] += deviation[i];
-  return {time, difference(exact_flow(problem_.system, state, time), flow_.nominal(time))};
+  const std::vector<double> state = state_sum(problem_.nominal, start().deviation);
+  return {time, state_difference(exact_flow(problem_.system, state, time), flow_.nominal(time))};
 }
 
 Underway Route::linear_coast_to(double time) const {
@@ -125,7 +119,7 @@ Underway Route::fly_from_guess(const Underway& from, double time, const std::vec
         fmt::format("the leg from {:.6g} s to {:.6g} s was not found: {}",
                     from.time * scene_.units.time_s, time * scene_.units.time_s, flight.failure));
   }
-  ways_.push_back(difference(flight.start, chief));
+  ways_.push_back(state_difference(flight.start, chief));
   add_impulse(plan, from.time, ways_.back(), from.deviation);
   WaypointLeg leg;
   leg.start = from.time;
@@ -133,7 +127,7 @@ Underway Route::fly_from_guess(const Underway& from, double time, const std::vec
   leg.flights = flight.flights;
   leg.miss_m = flight.miss * units_.length_m;
   plan.legs.push_back(leg);
-  return {time, difference(flight.end, chief_then)};
+  return {time, state_difference(flight.end, chief_then)};
 }
 
 void Route::finish(const Underway& there, WaypointPlan& plan, bool has_primer) const {

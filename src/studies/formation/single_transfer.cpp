@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "../../algebra/state_sums.hpp"
 #include "../../integrators/momentum_unit.hpp"
 #include "../exact_flow.hpp"
 #include "hamjet/error.hpp"
@@ -104,9 +105,7 @@ std::vector<double> SingleTransfer::deputy(const std::vector<double>& initial_mo
 }
 
 std::vector<double> SingleTransfer::fly(const std::vector<double>& initial_momentum) const {
-  std::vector<double> flown = exact_flow(problem_.system, deputy(initial_momentum), time_);
-  for (std::size_t i = 0; i < flown.size(); ++i) flown[i] -= chief_end_[i];
-  return flown;
+  return state_difference(exact_flow(problem_.system, deputy(initial_momentum), time_), chief_end_);
 }
 
 double SingleTransfer::miss_m(const std::vector<double>& flown) const {

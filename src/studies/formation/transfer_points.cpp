@@ -8,6 +8,7 @@
 #include <random>
 #include <utility>
 
+#include "../../algebra/state_sums.hpp"
 #include "../../integrators/momentum_unit.hpp"
 #include "../checks/flight_checks.hpp"
 #include "../exact_flow.hpp"
@@ -273,8 +274,7 @@ void TransferPoints::judge_limits(const RelativeTransfer& ends, TransferPoint& p
   const std::vector<double> deviation =
       ChiefFrame(problem_.nominal, metric_units(scene_), settings_.frame).deviation(start);
   if (surface) {
-    std::vector<double> deputy = problem_.nominal;
-    for (std::size_t i = 0; i < deputy.size(); ++i) deputy[i] += deviation[i];
+    const std::vector<double> deputy = state_sum(problem_.nominal, deviation);
     point.lowest = lowest_point(problem_.system, deputy, point.time).distance;
     point.is_below_surface = *point.lowest < *surface;
   }

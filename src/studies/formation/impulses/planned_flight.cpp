@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "../../../algebra/state_sums.hpp"
 #include "../../exact_flow.hpp"
 #include "../keep_out.hpp"
 #include "hamjet/error.hpp"
@@ -15,9 +16,7 @@
 namespace hamjet {
 
 std::vector<double> PlannedTransfer::start_state() const {
-  std::vector<double> state = problem_.nominal;
-  for (std::size_t i = 0; i < state.size(); ++i) state[i] += start_[i];
-  return state;
+  return state_sum(problem_.nominal, start_);
 }
 
 /// The deviation from the chief at the end of a deputy that flies the impulses.
@@ -37,8 +36,7 @@ std::vector<double> PlannedTransfer::fly(const TimedImpulses& impulses, const On
     }
   }
   fly_to(duration_);
-  for (std::size_t i = 0; i < 6; ++i) state[i] -= chief_end_[i];
-  return state;
+  return state_difference(std::move(state), chief_end_);
 }
 
 FlownImpulses PlannedTransfer::corrected(const LinearImpulses& impulses) const {
@@ -68,8 +66,7 @@ FlownImpulses PlannedTransfer::corrected(Linearization linear, TimedImpulses imp
     while (flown.flights < most_flights) {
       ++flown.flights;
       const std::vector<double> end = fly(flown.impulses);
-      std::vector<double> missing(6);
-      for (std::size_t i = 0; i < 6; ++i) missing[i] = end_[i] - end[i];
+      const std::vector<double> missing = state_difference(end_, end);
       const double miss = std::hypot(missing[0], missing[1], missing[2]);
       const double velocity_miss = std::hypot(missing[3], missing[4], missing[5]);
       flown.miss_m = miss * units_.length_m;
@@ -148,9 +145,7 @@ std::string PlannedTransfer::forbidden_by_limits(const TimedImpulses& impulses) 
   WayLimits limits(scene_);
   fly(impulses, [&](double time, double duration, const std::vector<double>& state) {
     const std::vector<double> chief = flow_.nominal(time);
-    std::vector<double> deviation = state;
-    for (std::size_t i = 0; i < 6; ++i) deviation[i] -= chief[i];
-    limits.fly(chief, deviation, duration);
+    limits.fly(chief, state_difference(state, chief), duration);
   });
   return limits.forbidden();
 }
