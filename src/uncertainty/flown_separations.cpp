@@ -1,10 +1,10 @@
 #include "flown_separations.hpp"
 
 #include <algorithm>
-#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <limits>
 
+#include "../algebra/scalar_search.hpp"
 #include "../integrators/taylor_flow.hpp"
 #include "hamjet/error.hpp"
 
@@ -88,11 +88,11 @@ class Pairs {
       if (before.rate < 0 && after.rate > 0) {
         // The distance is flat at its least: half of the digits of the time are enough, and any
         // time of the bracket is one of the flight.
-        std::uintmax_t iterations = 100;
-        const auto [low, high] = boost::math::tools::toms748_solve(
-            [&](double time) { return look(pair, time).rate; }, from, to, before.rate, after.rate,
-            boost::math::tools::eps_tolerance<double>(40), iterations);
-        least = std::min(least, look(pair, (low + high) / 2).square);
+        constexpr int bits = 40;
+        const double time = root_between(
+            "encounter", [&](double at) { return look(pair, at).rate; }, {from, before.rate},
+            {to, after.rate}, bits);
+        least = std::min(least, look(pair, time).square);
       }
       before = after;
     }
