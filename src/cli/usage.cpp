@@ -71,7 +71,8 @@ std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
                           option_suggestion(commands.empty() ? app : *commands[0], *option));
   } else if (!unknown.empty() && commands.empty()) {
     problem = unknown_command(app, unknown[0]);
-  } else if (!unknown.empty() && unknown[0].ends_with(".toml")) {
+  } else if (!unknown.empty() && unknown[0].ends_with(".toml") &&
+             error.get_exit_code() == static_cast<int>(CLI::ExitCodes::RequiredError)) {
     problem =
         fmt::format("{} stands before the command, must be: hamjet {} {}",
                     io::printable(unknown[0]), commands[0]->get_name(), io::printable(unknown[0]));

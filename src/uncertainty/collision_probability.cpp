@@ -39,8 +39,6 @@ constexpr double few_draws = 0.1;
 constexpr std::size_t pilot_blocks = 32;
 /// Flights of those draws that come nearest to the radius.
 constexpr std::size_t flown_draws = 64;
-/// Draws that nowhere come nearer than so many radii are as good as any further ones.
-constexpr double farthest_told = 2;
 /// Plain draws reach some four standard deviations, what may be left out begins at nine: quadratic
 /// terms grow by the square of it.
 constexpr double growth_to_farthest = 6;
@@ -95,7 +93,6 @@ class Estimate {
   double flight_difference() const;
   /// A block of random numbers of its own, and the least distances of its paths.
   void draw_pilot(RandomStream& random, Block& samples, std::vector<double>& least) const;
-  EncounterDeviation deviation_of(const Block& samples, std::size_t sample) const;
 
   const EncounterProblem* problem_;
   const CollisionSettings* settings_;
@@ -161,14 +158,6 @@ void Estimate::judge(const Block& samples, std::size_t count, bool with_lower_or
   }
 }
 
-EncounterDeviation Estimate::deviation_of(const Block& samples, std::size_t sample) const {
-  EncounterDeviation deviation;
-  for (std::size_t i = 0; i < encounter_variables; ++i) {
-    deviation[static_cast<Eigen::Index>(i)] = samples.points[i * samples_in_block + sample];
-  }
-  return deviation;
-}
-
 void Estimate::draw_pilot(RandomStream& random, Block& samples, std::vector<double>& least) const {
   SampledPath path(paths_->times().size());
   std::vector<double> states(6 * path.size() * samples_in_block);
@@ -191,7 +180,7 @@ double Estimate::largest_difference() const {
   for (std::size_t k = 0; k < pilot_blocks; ++k) {
     draw_pilot(random, samples, least);
     for (std::size_t j = 0; j < samples_in_block; ++j) {
-      take_linear_path(*paths_, deviation_of(samples, j), path);
+      take_linear_path(*paths_, deviation_of(samples.points, j), path);
       differences.emplace_back(std::abs(least[j] - least_distance(*paths_, path)),
                                samples.weights[j]);
       sum += samples.weights[j];
@@ -221,26 +210,22 @@ double Estimate::flight_difference() const {
   for (std::size_t k = 0; k < pilot_blocks; ++k) {
     draw_pilot(random, samples, least);
     for (std::size_t j = 0; j < samples_in_block; ++j) {
-      candidates.push_back({least[j], samples.weights[j], deviation_of(samples, j)});
+      candidates.push_back({least[j], samples.weights[j], deviation_of(samples.points, j)});
       sum += samples.weights[j];
     }
   }
   const double least_weight = negligible_weight * sum / static_cast<double>(candidates.size());
   std::erase_if(candidates, [&](const Candidate& c) { return !(c.weight > least_weight); });
+  std::vector<double> separations;
+  for (const Candidate& one : candidates) separations.push_back(one.least);
   const double radius = problem_->radius;
-  const std::size_t count = std::min(flown_draws, candidates.size());
-  std::partial_sort(candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(count),
-                    candidates.end(), [&](const Candidate& one, const Candidate& other) {
-                      return std::abs(one.least - radius) < std::abs(other.least - radius);
-                    });
+  const std::vector<std::size_t> nearest = nearest_to(radius, separations, flown_draws);
   std::vector<EncounterDeviation> deviations;
-  for (std::size_t k = 0; k < count; ++k) deviations.push_back(candidates[k].deviation);
+  for (const std::size_t place : nearest) deviations.push_back(candidates[place].deviation);
   const std::vector<double> flown = flown_separations(*problem_, deviations);
   double largest = 0;
-  for (std::size_t k = 0; k < count; ++k) {
-    const double farthest = farthest_told * radius;
-    largest = std::max(
-        largest, std::abs(std::min(flown[k], farthest) - std::min(candidates[k].least, farthest)));
+  for (std::size_t k = 0; k < flown.size(); ++k) {
+    largest = std::max(largest, difference_near(radius, separations[nearest[k]], flown[k]));
   }
   return largest;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "../algebra/scalar_search.hpp"
 #include "../integrators/taylor_flow.hpp"
@@ -127,6 +128,24 @@ std::vector<double> flown_separations(const EncounterProblem& problem,
 double flown_separation_of_means(const EncounterProblem& problem) {
   const std::array<EncounterDeviation, 1> none = {EncounterDeviation::Zero()};
   return flown_separations(problem, none)[0];
+}
+
+std::vector<std::size_t> nearest_to(double wanted, std::span<const double> separations,
+                                    std::size_t count) {
+  std::vector<std::size_t> places(separations.size());
+  std::iota(places.begin(), places.end(), std::size_t{0});
+  const auto end =
+      places.begin() + static_cast<std::ptrdiff_t>(std::min(count, separations.size()));
+  std::partial_sort(places.begin(), end, places.end(), [&](std::size_t one, std::size_t other) {
+    return std::abs(separations[one] - wanted) < std::abs(separations[other] - wanted);
+  });
+  places.erase(end, places.end());
+  return places;
+}
+
+double difference_near(double wanted, double told, double flown) {
+  const double farthest = farthest_told * wanted;
+  return std::abs(std::min(flown, farthest) - std::min(told, farthest));
 }
 
 }  // namespace hamjet

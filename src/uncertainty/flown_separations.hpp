@@ -19,4 +19,16 @@ std::vector<double> flown_separations(const EncounterProblem& problem,
 /// The same of the means alone.
 double flown_separation_of_means(const EncounterProblem& problem);
 
+/// What is so many times a separation away is as good as anything further.
+constexpr double farthest_told = 2;
+
+/// The places of so many of the separations, or all, that are nearest to one that matters, the
+/// nearest first: where flights are compared.
+std::vector<std::size_t> nearest_to(double wanted, std::span<const double> separations,
+                                    std::size_t count);
+
+/// By how much a flight differs from what was told of it, as far as it matters to a separation:
+/// farthest_told.
+double difference_near(double wanted, double told, double flown);
+
 }  // namespace hamjet

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <set>
 
 #include "../integrators/concurrent_tasks.hpp"
@@ -34,28 +33,17 @@ std::vector<double> deviations_of(std::uint64_t seed, std::size_t number) {
 }
 
 /// The deviations of one sample.
-EncounterDeviation deviation_of(std::uint64_t seed, std::size_t sample) {
-  const std::vector<double> points = deviations_of(seed, sample / samples_in_block);
-  EncounterDeviation xi;
-  for (std::size_t i = 0; i < encounter_variables; ++i) {
-    xi[static_cast<Eigen::Index>(i)] = points[i * samples_in_block + sample % samples_in_block];
-  }
-  return xi;
+EncounterDeviation drawn_deviation(std::uint64_t seed, std::size_t sample) {
+  return deviation_of(deviations_of(seed, sample / samples_in_block), sample % samples_in_block);
 }
 
 /// The samples that are flown: the first ones, and those nearest to what is told first.
 std::vector<std::size_t> flown_samples(const std::vector<double>& least, double told,
                                        long flights) {
-  const auto count = std::min(static_cast<std::size_t>(flights), least.size());
-  std::vector<std::size_t> nearest(least.size());
-  std::iota(nearest.begin(), nearest.end(), std::size_t{0});
-  std::partial_sort(nearest.begin(), nearest.begin() + static_cast<std::ptrdiff_t>(count),
-                    nearest.end(), [&](std::size_t one, std::size_t other) {
-                      return std::abs(least[one] - told) < std::abs(least[other] - told);
-                    });
-  std::set<std::size_t> samples(nearest.begin(),
-                                nearest.begin() + static_cast<std::ptrdiff_t>(count));
-  for (std::size_t k = 0; k < count; ++k) samples.insert(k);
+  const std::vector<std::size_t> nearest =
+      nearest_to(told, least, static_cast<std::size_t>(flights));
+  std::set<std::size_t> samples(nearest.begin(), nearest.end());
+  for (std::size_t k = 0; k < nearest.size(); ++k) samples.insert(k);
   return {samples.begin(), samples.end()};
 }
 
@@ -72,13 +60,11 @@ struct Flown {
 };
 
 /// By how much flights differ from what was told of them, at most, as far as it can move a quantile
-/// of this size: what is twice as far away by both does not.
+/// of this size.
 double difference_at(const std::vector<Flown>& flights, double quantile) {
   double largest = 0;
   for (const Flown& flight : flights) {
-    const double farthest = 2 * quantile;
-    largest = std::max(
-        largest, std::abs(std::min(flight.flown, farthest) - std::min(flight.told, farthest)));
+    largest = std::max(largest, difference_near(quantile, flight.told, flight.flown));
   }
   return largest;
 }
@@ -161,7 +147,7 @@ LeastSeparations least_separations(const EncounterProblem& problem,
     const std::vector<std::size_t> samples =
         flown_samples(least, quantile_of(sorted, shares.front()), flights);
     std::vector<EncounterDeviation> deviations;
-    for (const std::size_t k : samples) deviations.push_back(deviation_of(settings.seed, k));
+    for (const std::size_t k : samples) deviations.push_back(drawn_deviation(settings.seed, k));
     const std::vector<double> flown = flown_separations(problem, deviations);
     for (std::size_t k = 0; k < flown.size(); ++k) {
       all_flown.push_back({least[samples[k]], flown[k]});

@@ -7,6 +7,14 @@
 
 namespace hamjet {
 
+EncounterDeviation deviation_of(std::span<const double> points, std::size_t sample) {
+  EncounterDeviation xi;
+  for (std::size_t i = 0; i < encounter_variables; ++i) {
+    xi[static_cast<Eigen::Index>(i)] = points[i * samples_in_block + sample];
+  }
+  return xi;
+}
+
 void take_path(std::span<const double> states, std::size_t count, std::size_t sample,
                SampledPath& path) {
   for (std::size_t node = 0; node < path.size(); ++node) {

@@ -18,6 +18,9 @@ inline std::size_t in_block(std::size_t count, std::size_t first) {
   return first < count ? std::min(samples_in_block, count - first) : 0;
 }
 
+/// The deviation of one sample of a block, a structure of arrays.
+EncounterDeviation deviation_of(std::span<const double> points, std::size_t sample);
+
 /// A relative path: position and velocity at each node.
 using SampledPath = std::vector<std::array<double, 6>>;
 

@@ -159,6 +159,7 @@ TEST_F(Usage, MistakesOnTheCommandLine) {
       {{"run", "small.toml", "--josn"}, {"unknown option --josn", "did you mean --json?"}},
       {{"run", "small.toml", "--outptu=x"}, {"--outptu=x", "did you mean --output?"}},
       {{"run", "small.toml", "other.toml"}, {"unexpected argument other.toml"}},
+      {{"small.toml", "run"}, {"small.toml stands before the command", "hamjet run small.toml"}},
       {{"run"}, {"scene"}},
       {{"run", "small.toml", "-o"}, {"--output"}},
       {{"run", "small.toml", "-o", "a", "-o", "b"}, {"--output"}},
