@@ -118,7 +118,7 @@ TEST(ControlFailures, SparseEquationsWithoutTheControlAreSingular) {
   guess.states.assign(5, half);
   guess.costates.assign(5, half);
   guess.controls.assign(4, half);
-  expect_error(ErrorKind::numerical, "discretise then optimise",
+  expect_error(ErrorKind::numerical, "equations are singular",
                [&] { solve_karush_kuhn_tucker(problem, Discretization::stormer, 0.25, guess); });
 }
 
