@@ -153,9 +153,13 @@ def judge_approaches(judgement, scene, told, begin, end):
                          1e-6 * distance + 1e-3)
         judgement.within("speed at an approach (m/s)", approach["speed_m_s"], speed,
                          1e-6 * speed + 1e-6)
-        # Where a time is wrong by dt the distance still falls.
+        # Where a time is wrong by dt the distance still falls; at rest the acceleration turns it.
+        step = 1e-4 * scene.period
+        after, before = [scene.field.to(scene.deputy_state, t) - scene.field.to(scene.chief, t)
+                         for t in (time + step, time - step)]
+        bend = speed ** 2 + orbit.dot(apart[:3], after[3:] - before[3:]) / (2 * step)
         judgement.at_most("time from the closest approach (s)",
-                          abs(orbit.dot(apart[:3], apart[3:])) / speed ** 2,
+                          abs(orbit.dot(apart[:3], apart[3:]) / bend),
                           1e-6 * float(scene.period) + 1e-3)
         plane = approach.get("short_encounter")
         if plane and plane["holds"]:
