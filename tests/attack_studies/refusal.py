@@ -4,6 +4,8 @@ import re
 
 import numpy as np
 
+from command import Refused
+
 
 def is_eccentric(scene):
     return scene.e > 0.4
@@ -36,6 +38,19 @@ def judge_refusal(judgement, scene, refused, more=()):
                 judgement.mark(f"refused, exit code {refused.code}: {first_line(refused.text)}")
                 return
     judgement.wrong(f"refused, exit code {refused.code}: {first_line(refused.text)}")
+
+
+def results(judgement, scene, run, more=()):
+    """summary.json of a run that wrote to out; None where it refused, which is judged. An exit code
+    beside results is marked."""
+    try:
+        summary = run.summary("out")
+    except Refused as refused:
+        judge_refusal(judgement, scene, refused, more)
+        return None
+    if run.code:
+        judgement.mark(f"exit code {run.code}: {run.said.strip()[:200]}")
+    return summary
 
 
 def first_line(text):
