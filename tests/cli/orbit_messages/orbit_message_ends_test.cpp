@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "command_test.hpp"
+#include "../command_test.hpp"
 #include "formats/xml/orbit_message_xml.hpp"
 #include "hamjet/formats/orbit_message.hpp"
 
