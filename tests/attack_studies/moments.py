@@ -6,7 +6,7 @@ import orbit
 from command import Run
 from drawing import Scene
 from flight import REAL, coast_times
-from refusal import results, says_below_surface
+from refusal import judge_surface, results
 from uncertain import (burn_covariance, draw_burn, draw_known, inertial_covariance, samples_of)
 
 SAMPLES = 1200
@@ -64,11 +64,7 @@ def judge(judgement, scene, folder):
     summary = results(judgement, scene, run)
     if summary is None:
         return
-    if scene.highest and scene.lowest() < scene.radius * REAL(0.99999):
-        if run.code or says_below_surface(run, summary):
-            judgement.mark("below the surface")
-        else:
-            judgement.wrong("nothing is said of a chief below the surface")
+    judge_surface(judgement, scene, run, summary)
     random = np.random.default_rng(scene.draw.integer(0, 2 ** 31))
     starts = {"chief": scene.chief + samples_of(random, scene.chief_covariance, SAMPLES)}
     if scene.deputy_state is not None:

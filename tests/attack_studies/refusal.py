@@ -5,6 +5,7 @@ import re
 import numpy as np
 
 from command import Refused
+from flight import REAL
 
 
 def is_eccentric(scene):
@@ -62,3 +63,11 @@ def says_below_surface(run, summary):
     words = run.printed + run.said + str(summary.get("verdict", "")) + str(
         summary.get("notes", "")) + str(summary.get("warnings", ""))
     return re.search(r"surface|below the|inside the body|ground", words) is not None
+
+
+def judge_surface(judgement, scene, run, summary):
+    if scene.highest and scene.lowest() < scene.radius * REAL(0.99999):
+        if run.code or says_below_surface(run, summary):
+            judgement.mark("below the surface")
+        else:
+            judgement.wrong("nothing is said of a chief below the surface")

@@ -7,7 +7,7 @@ from command import Run, number
 from drawing import Scene
 from flight import REAL
 from plans import judge_coasting, judge_legs, judge_optimal, judge_revolutions
-from refusal import results, says_below_surface
+from refusal import judge_surface, results
 from ways import Flights, least_ratio
 
 
@@ -143,14 +143,6 @@ def judge(judgement, scene, folder):
     if not points and not plan:
         judgement.mark("no time has an answer")
     judge_surface(judgement, scene, run, summary)
-
-
-def judge_surface(judgement, scene, run, summary):
-    if scene.highest and scene.lowest() < scene.radius * REAL(0.99999):
-        if run.code or says_below_surface(run, summary):
-            judgement.mark("below the surface")
-        else:
-            judgement.wrong("nothing is said of a chief below the surface")
 
 
 def judge_point(judgement, scene, flights, point, floor):
