@@ -3,10 +3,10 @@ pairs that are flown, closest approaches of the means, and the formula for short
 import numpy as np
 
 import orbit
-from command import Refused, Run
+from command import Run
 from drawing import Scene, rounded
 from flight import REAL
-from refusal import judge_refusal
+from refusal import results
 from uncertain import (draw_known, inertial_covariance, judge_quantile, judge_share, samples_of)
 
 SAMPLES = 1500
@@ -89,13 +89,9 @@ def write_deputy(scene, deputy):
 
 def judge(judgement, scene, folder):
     run = Run(folder, ["uncertainty", "scene.toml", "-o", "out"], limit=120)
-    try:
-        summary = run.summary("out")
-    except Refused as refused:
-        judge_refusal(judgement, scene, refused)
+    summary = results(judgement, scene, run)
+    if summary is None:
         return
-    if run.code:
-        judgement.mark(f"exit code {run.code}: {run.said.strip()[:200]}")
     told = summary["collision"]
     random = np.random.default_rng(scene.draw.integer(0, 2 ** 31))
     chief = scene.chief + samples_of(random, scene.chief_covariance, SAMPLES)

@@ -338,11 +338,11 @@ class ValidityStudy {
   ValidityResult result_;
 };
 
-}  // namespace
-
-static std::vector<SelfCheck> checks_of_chief(const Scene& scene) {
+std::vector<SelfCheck> checks_of_chief(const Scene& scene) {
   return flight_checks(scene, flights_of(scene, scene.validity->times.back(), false));
 }
+
+}  // namespace
 
 ValidityResult study_validity(const Scene& scene, const ProgressCallback& progress) {
   require_formation_problem(scene, scene.validity.has_value(), "validity");
