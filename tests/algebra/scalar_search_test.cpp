@@ -111,6 +111,22 @@ TEST(MatrixEigenvalues, AreThoseOfAnOscillator) {
   EXPECT_NEAR(std::abs(values[0] + values[1]), 0, 1e-15);
 }
 
+// Those of the field beside Kepler's circle, sqrt(2) and 1, and two more that are 1: their sizes
+// hold a QR iteration up in some arithmetics.
+TEST(MatrixEigenvalues, OfOneSizeAreFound) {
+  Matrix<double> field = Matrix<double>::Zero(6, 6);
+  field.topRightCorner(3, 3).setIdentity();
+  field.bottomLeftCorner(3, 3).diagonal() << 2, -1, -1;
+  double largest = 0;
+  double sum = 0;
+  for (const auto& value : matrix_eigenvalues("test", field)) {
+    largest = std::max(largest, std::abs(value));
+    sum += std::abs(value);
+  }
+  EXPECT_NEAR(largest, std::sqrt(2.0), 1e-14);
+  EXPECT_NEAR(sum, 2 * std::sqrt(2.0) + 4, 1e-7);  // double ones are known to half the digits
+}
+
 // Eigen's own are then what the memory held.
 TEST(SingularValues, ThoseOfNoNumbersAreNone) {
   const Vector<double> values = singular_values(with_no_number());
