@@ -156,7 +156,7 @@ TEST(SolverFailures, NoiseThatDoesNotSettle) {
 TEST(SolverFailures, NoReachIsProvedBelowRounding) {
   Scene scene = kepler_chief(0.3, 7000, 806.8, 2);
   scene.validity = ValiditySettings();
-  scene.validity->tolerance_m = 1e-13;
+  scene.validity->tolerance_m = 1e-9;
   scene.validity->times = {3.0};
   scene.validity->samples = 5;
   for (const ValidityEntry& entry : study_validity(scene).points.back().entries) {
