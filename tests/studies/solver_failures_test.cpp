@@ -159,7 +159,9 @@ TEST(SolverFailures, NoReachIsProvedBelowRounding) {
   scene.validity->tolerance_m = 1e-9;
   scene.validity->times = {3.0};
   scene.validity->samples = 5;
-  for (const ValidityEntry& entry : study_validity(scene).points.back().entries) {
+  const ValidityResult result = study_validity(scene);
+  ASSERT_FALSE(result.points.back().entries.empty());
+  for (const ValidityEntry& entry : result.points.back().entries) {
     EXPECT_EQ(entry.proved_m, 0) << entry.order;
   }
 }
