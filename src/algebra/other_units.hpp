@@ -25,4 +25,13 @@ Series<T> in_other_units(Series<T> u, const T& of_value, std::span<const T> of_v
   return u;
 }
 
+/// The same of a map, in place: each of its values has a factor of its own.
+template <class T>
+void tell_in_other_units(std::span<Series<T>> map, std::span<const T> of_values,
+                         std::span<const T> of_variables) {
+  for (std::size_t i = 0; i < map.size(); ++i) {
+    map[i] = in_other_units<T>(std::move(map[i]), of_values[i], of_variables);
+  }
+}
+
 }  // namespace hamjet

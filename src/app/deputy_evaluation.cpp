@@ -227,12 +227,11 @@ bool DeputyEvaluation::is_nearly_straight(const SixNumbers<double>& initial,
 MissEstimate DeputyEvaluation::estimate(const DeputyPrediction& prediction) const {
   const io::StoredJet& chief = scene_.chief;
   const double length_m = chief.units.length_km * 1000;
-  const double momentum_unit = std::ldexp(1.0, chief.momentum_exponent());
   SixNumbers<double> lower = prediction.deviation;
   for (std::size_t i = 0; i < 6; ++i) lower[i] -= prediction.last[i] + prediction.last_but_one[i];
   const auto norms = [&](const SixNumbers<double>& z) {
     const double position = std::hypot(z[0], z[1], z[2]);
-    const double momentum = std::hypot(z[3], z[4], z[5]) / momentum_unit;
+    const double momentum = std::hypot(z[3], z[4], z[5]) / momentum_unit_;
     return DegreeShares::Norms{std::hypot(position, momentum), position * length_m};
   };
   const TruncationEstimate truncation = estimate_truncation(

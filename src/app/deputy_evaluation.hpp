@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <span>
@@ -28,8 +29,8 @@ struct EvaluatedScene {
   double rounding_m = 0;  ///< of a deputy's final position, at a flight's floor
   FlowError error;        ///< of the integration
   double seconds = 0;     ///< of the integration; 0 of a stored jet
-  std::vector<SelfCheck>
-      checks;  ///< of the chief's flight; none of a stored jet, which has its own
+  /// Of the chief's flight; none of a stored jet, which has its own.
+  std::vector<SelfCheck> checks;
 };
 
 /// Integrates the polynomials of a scene about an orbit in all six variables. Throws Error(scene)
@@ -51,7 +52,10 @@ class DeputyEvaluation {
   /// No digit depends on the number of threads.
   DeputyEvaluation(const EvaluatedScene& scene, int degree,
                    std::size_t threads = usable_processors())
-      : scene_(scene), degree_(degree), threads_(threads) {}
+      : scene_(scene),
+        momentum_unit_(std::ldexp(1.0, scene.chief.momentum_exponent())),
+        degree_(degree),
+        threads_(threads) {}
 
   /// Adds a canonical deviation of six numbers.
   void add(const std::vector<double>& deviation);
@@ -103,6 +107,7 @@ class DeputyEvaluation {
                                const SixNumbers<double>& two_below) const;
 
   const EvaluatedScene& scene_;
+  double momentum_unit_;
   int degree_;
   std::size_t threads_;
   std::vector<Worker> workers_;

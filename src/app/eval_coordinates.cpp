@@ -120,6 +120,8 @@ EvalCoordinates::EvalCoordinates(const io::StoredJet& stored, const EvalFrames& 
   // In canonical units of an orbit mu is 1.
   initial_.emplace(stored.nominal_initial, units, 1, initial);
   final_.emplace(stored.nominal_final, units, 1, final);
+  const auto& chief = stored.nominal_final;
+  chief_distance_ = std::hypot(chief[0], chief[1], chief[2]);
 }
 
 double EvalCoordinates::told_factor(std::size_t component) const {
@@ -179,9 +181,7 @@ double EvalCoordinates::turned_m(std::span<const double> components, double chie
   for (std::size_t c = 0; c < components.size() && stored_.components[c] < 3; ++c) {
     separation = std::hypot(separation, components[c]);
   }
-  const auto& chief = stored_.nominal_final;
-  const double distance = std::hypot(chief[0], chief[1], chief[2]);
-  return chief_error / distance * separation * stored_.units.length_km * 1000;
+  return chief_error / chief_distance_ * separation * stored_.units.length_km * 1000;
 }
 
 std::vector<double> EvalCoordinates::final_state(std::span<const double> components) const {

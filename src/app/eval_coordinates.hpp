@@ -69,6 +69,7 @@ class EvalCoordinates {
   std::optional<DeputyCoordinates> initial_;  ///< absent: canonical
   std::optional<DeputyCoordinates> final_;
   bool has_axes_of_chief_ = false;  ///< the final numbers, of positions
+  double chief_distance_ = 0;       ///< from the centre at the end, of an orbit
 };
 
 }  // namespace hamjet::cli

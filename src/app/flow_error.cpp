@@ -46,6 +46,16 @@ std::unique_ptr<DeputyFlow> independent_linear_flow(const Scene& scene,
                             start, coordinates);
 }
 
+/// The length of rows times x. It is summed in one order, column by column, whatever the compiler
+/// makes of small matrices, so that its digits stay.
+double length_of_product(const Eigen::Matrix<double, 3, 6>& rows, const SixNumbers<double>& x) {
+  double sums[3] = {0, 0, 0};
+  for (Eigen::Index j = 0; j < 6; ++j) {
+    for (Eigen::Index i = 0; i < 3; ++i) sums[i] += rows(i, j) * x[static_cast<std::size_t>(j)];
+  }
+  return std::sqrt(sums[0] * sums[0] + sums[1] * sums[1] + sums[2] * sums[2]);
+}
+
 double distance(const SixNumbers<double>& a, const SixNumbers<double>& b) {
   return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
@@ -104,24 +114,24 @@ FlowError FlowError::stated(const io::StoredJet& stored, const DeputyFlow& flow)
   const int exponent = stored.momentum_exponent();
   const Matrix<double> linear = flow.exit_derivative() * values * flow.entry_derivative();
   const double largest = in_momentum_unit<Matrix<double>>(linear, exponent).cwiseAbs().maxCoeff();
-  result.bound_ = Matrix<double>::Constant(positions, linear.cols(), relative * largest);
-  result.bound_.rightCols(positions) *= std::ldexp(1.0, -exponent);
+  result.bound_ = PositionRows::Constant(relative * largest);
+  result.bound_->rightCols(positions) *= std::ldexp(1.0, -exponent);
   return result;
 }
 
 std::vector<double> FlowError::numbers() const {
-  std::vector<double> result = {is_known_ ? 1.0 : 0.0, of_chief_, bound_.size() > 0 ? 1.0 : 0.0};
-  const auto add = [&](const Matrix<double>& matrix) {
-    result.insert(result.end(), matrix.data(), matrix.data() + matrix.size());
+  std::vector<double> result = {is_known_ ? 1.0 : 0.0, of_chief_, bound_ ? 1.0 : 0.0};
+  const auto add = [&](const PositionRows& rows) {
+    result.insert(result.end(), rows.data(), rows.data() + rows.size());
   };
-  if (bound_.size() > 0) add(bound_);
-  for (const Matrix<double>& matrix : shown_) add(matrix);
+  if (bound_) add(*bound_);
+  for (const PositionRows& rows : shown_) add(rows);
   return result;
 }
 
 FlowError FlowError::of_numbers(std::span<const double> numbers) {
   constexpr std::size_t head = 3;
-  constexpr std::size_t size = 18;
+  constexpr std::size_t size = PositionRows::SizeAtCompileTime;
   if (numbers.size() < head || (numbers.size() - head) % size != 0) {
     throw Error(ErrorKind::usage, "flow error: these numbers are none");
   }
@@ -130,11 +140,11 @@ FlowError FlowError::of_numbers(std::span<const double> numbers) {
   result.of_chief_ = numbers[1];
   bool is_bound = numbers[2] != 0;
   for (std::size_t at = head; at < numbers.size(); at += size) {
-    const Matrix<double> matrix = Eigen::Map<const Matrix<double>>(numbers.data() + at, 3, 6);
+    const PositionRows rows(numbers.data() + at);
     if (is_bound) {
-      result.bound_ = matrix;
+      result.bound_ = rows;
     } else {
-      result.shown_.push_back(matrix);
+      result.shown_.push_back(rows);
     }
     is_bound = false;
   }
@@ -142,10 +152,13 @@ FlowError FlowError::of_numbers(std::span<const double> numbers) {
 }
 
 double FlowError::of_deviation(const SixNumbers<double>& deviation) const {
-  const Eigen::Map<const Eigen::Matrix<double, 6, 1>> x(deviation.data());
   double error = 0;
-  for (const Matrix<double>& one : shown_) raise_to(error, (one * x).norm());
-  if (bound_.size() > 0) raise_to(error, (bound_ * x.cwiseAbs()).norm());
+  for (const PositionRows& rows : shown_) raise_to(error, length_of_product(rows, deviation));
+  if (bound_) {
+    SixNumbers<double> magnitudes = deviation;
+    for (double& x : magnitudes) x = std::abs(x);
+    raise_to(error, length_of_product(*bound_, magnitudes));
+  }
   return error;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -37,10 +39,13 @@ class FlowError {
   double of_deviation(const SixNumbers<double>& deviation) const;
 
  private:
+  /// Of a position by the six numbers of a deviation.
+  using PositionRows = Eigen::Matrix<double, 3, 6>;
+
   bool is_known_ = false;
   double of_chief_ = 0;
-  std::vector<Matrix<double>> shown_;  ///< 3 x 6 each, of a deviation
-  Matrix<double> bound_;               ///< 3 x 6, of the magnitudes of a deviation; or none
+  std::vector<PositionRows> shown_;    ///< of a deviation
+  std::optional<PositionRows> bound_;  ///< of the magnitudes of a deviation
 };
 
 /// A bound on the error of a stored chief's final position, from the error of degree 0 that the

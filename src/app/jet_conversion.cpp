@@ -6,7 +6,6 @@
 #include <cmath>
 #include <utility>
 
-#include "../algebra/other_units.hpp"
 #include "../charts/coordinate_units.hpp"
 #include "../integrators/momentum_unit.hpp"
 #include "../studies/exact_flow.hpp"
@@ -40,15 +39,10 @@ std::vector<double> difference_by_degree(const FlowJet<Extended>& jet, const io:
   const auto units = [&](JetCoordinates end) {
     return coordinate_units(chart_of(end), distance, canonical_mu);
   };
-  std::vector<Extended> of_variables;
-  for (const double unit : units(coordinates.start)) of_variables.push_back(1 / Extended(unit));
+  const std::array<double, 6> of_variables = units(coordinates.start);
   const std::array<double, 6> of_values = units(coordinates.end);
-  const auto comparable = [&](FlowJet<Extended> one) {
-    for (std::size_t i = 0; i < one.size(); ++i) {
-      one[i] =
-          in_other_units<Extended>(std::move(one[i]), 1 / Extended(of_values[i]), of_variables);
-    }
-    return one;
+  const auto comparable = [&](const FlowJet<Extended>& one) {
+    return in_units(one, of_values, of_variables);
   };
   return relative_error_by_degree(comparable(jet), comparable(stored.jet));
 }

@@ -50,15 +50,14 @@ FlowJet<double> jet_in_units_of(const Scene& scene, const io::StoredJet& stored)
   const Extended length = Extended(stored.units.length_km) / scene.units.length_km;
   const Extended momentum = length * scene.units.time_s / stored.units.time_s;
   const std::size_t n = stored.nominal_initial.size() / 2;
-  std::vector<Extended> of_variables;
-  for (const std::size_t v : stored.variables) of_variables.push_back(v < n ? length : momentum);
-  FlowJet<double> jet;
-  for (std::size_t c = 0; c < stored.jet.size(); ++c) {
-    const Extended& of_value = stored.components[c] < n ? length : momentum;
-    jet.push_back(convert_map<double>(
-        FlowJet<Extended>{in_other_units<Extended>(stored.jet[c], of_value, of_variables)})[0]);
-  }
-  return jet;
+  const auto factors = [&](const std::vector<std::size_t>& places) {
+    std::vector<Extended> result;
+    for (const std::size_t place : places) result.push_back(place < n ? length : momentum);
+    return result;
+  };
+  FlowJet<Extended> jet = stored.jet;
+  tell_in_other_units<Extended>(jet, factors(stored.components), factors(stored.variables));
+  return convert_map<double>(jet);
 }
 
 }  // namespace hamjet::cli

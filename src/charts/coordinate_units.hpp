@@ -3,9 +3,13 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <vector>
 
+#include "../algebra/other_units.hpp"
+#include "hamjet/algebra/extended.hpp"
 #include "hamjet/charts/canonical_chart.hpp"
+#include "hamjet/integrators/flow_problem.hpp"
 
 namespace hamjet {
 
@@ -31,8 +35,20 @@ inline std::array<double, 6> coordinate_units(ChartName chart, double distance, 
   return {distance, distance, distance, momentum, momentum, momentum};
 }
 
-/// The same of a flow box's polynomials, whose sections are of a chart: the coefficients of one
-/// degree can be compared once variables and values are in these.
+/// A map whose values and variables are told in these units.
+inline FlowJet<Extended> in_units(FlowJet<Extended> map, std::span<const double> of_values,
+                                  std::span<const double> of_variables) {
+  const auto factors = [](std::span<const double> units) {
+    std::vector<Extended> inverses;
+    for (const double unit : units) inverses.push_back(1 / Extended(unit));
+    return inverses;
+  };
+  tell_in_other_units<Extended>(map, factors(of_values), factors(of_variables));
+  return map;
+}
+
+/// The chief's own units of a flow box's polynomials, whose sections are of a chart: the
+/// coefficients of one degree can be compared once variables and values are in these.
 struct FlowBoxUnits {
   FlowBoxUnits(ChartName section, double distance, double mu) {
     const std::array<double, 6> units = coordinate_units(section, distance, mu);

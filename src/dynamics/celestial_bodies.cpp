@@ -5,6 +5,8 @@
 #include <cmath>
 #include <string>
 
+#include "../text/letter_case.hpp"
+
 namespace hamjet {
 namespace {
 
@@ -30,14 +32,11 @@ std::span<const CelestialBody> celestial_bodies() { return bodies; }
 
 const CelestialBody* body_named(std::string_view name) {
   constexpr std::string_view barycentre = " BARYCENTER";
-  std::string capitals(name);
-  std::transform(capitals.begin(), capitals.end(), capitals.begin(), [](char c) {
-    return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-  });
-  if (capitals.ends_with(barycentre) && !capitals.starts_with("EARTH")) {
-    capitals.resize(capitals.size() - barycentre.size());
+  std::string wanted = io::capitals(std::string(name));
+  if (wanted.ends_with(barycentre) && !wanted.starts_with("EARTH")) {
+    wanted.resize(wanted.size() - barycentre.size());
   }
-  return find([&](const CelestialBody& body) { return body.name == capitals; });
+  return find([&](const CelestialBody& body) { return body.name == wanted; });
 }
 
 const CelestialBody* body_with_mu(double mu_km3_s2) {

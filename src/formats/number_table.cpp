@@ -87,18 +87,21 @@ std::vector<std::size_t> places(const std::string& name,
 std::optional<double> finite_number(std::string_view text) {
   text = without_blanks(text);
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
-  // Fortran writes the exponent of double precision behind a D.
-  std::string with_e;
-  const std::size_t mark = text.find_first_of("Dd");
-  if (mark != std::string_view::npos && text.size() <= longest_number) {
-    with_e = text;
-    with_e[mark] = 'e';
-    text = with_e;
-  }
   double number = 0;
-  const char* const end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, number);
-  if (error != std::errc() || rest != end || !std::isfinite(number)) return std::nullopt;
+  const auto read = [&number](std::string_view whole) {
+    const auto [rest, error] = std::from_chars(whole.data(), whole.data() + whole.size(), number);
+    if (error != std::errc()) return std::size_t{0};
+    return static_cast<std::size_t>(rest - whole.data());
+  };
+  std::size_t end = read(text);
+  // Fortran writes the exponent of double precision behind a D.
+  const bool has_d = end > 0 && end < text.size() && (text[end] == 'D' || text[end] == 'd');
+  if (has_d && text.size() <= longest_number) {
+    std::string with_e(text);
+    with_e[end] = 'e';
+    end = read(with_e);
+  }
+  if (end == 0 || end != text.size() || !std::isfinite(number)) return std::nullopt;
   return number;
 }
 

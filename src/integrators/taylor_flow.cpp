@@ -9,7 +9,7 @@
 namespace hamjet {
 
 /// The share of the whole that the last two powers may have, which need not go on falling evenly.
-static constexpr double least_share = 0.25 * std::numeric_limits<double>::epsilon();
+constexpr double least_share = 0.25 * std::numeric_limits<double>::epsilon();
 
 TaylorFlow::TaylorFlow(SharedSystem system)
     : system_(std::move(system)), field_(system_->vector_field, order) {}

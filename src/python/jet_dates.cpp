@@ -28,12 +28,6 @@ std::optional<io::Epoch> end_of(const io::StoredJet& jet) {
   return io::later(*start, Extended(jet.duration) * Extended(jet.units.time_s));
 }
 
-double seconds_between(const io::Epoch& a, const io::Epoch& b) {
-  const auto days = static_cast<double>((a.day - b.day).count());
-  const auto rest = static_cast<double>(a.picoseconds - b.picoseconds);
-  return 86400 * days + rest / static_cast<double>(picoseconds_a_second);
-}
-
 /// What dates and places are in, in words.
 std::string frame_text(const EphemerisSettings& settings) {
   return fmt::format("{} about {} in {}", settings.reference_frame, settings.center_name,
@@ -52,7 +46,7 @@ void require_dates_meeting(const io::StoredJet& first, const io::StoredJet& seco
   }
   const auto end = end_of(first);
   const auto start = io::parse_epoch(second.ephemeris->epoch);
-  if (!end || !start || std::abs(seconds_between(*end, *start)) <= largest_gap_s) return;
+  if (!end || !start || std::abs(io::seconds_between(*end, *start)) <= largest_gap_s) return;
   refuse(fmt::format("compose: the second jet starts at {}, must start when the first ends, {}",
                      io::format_epoch(*start), io::format_epoch(*end)));
 }

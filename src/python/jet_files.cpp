@@ -56,12 +56,12 @@ std::filesystem::path path_of(const py::object& given) {
       .cast<std::filesystem::path>();
 }
 
-/// Throws unless the file can be written, and replaced where it is there.
 [[noreturn]] void throw_existing(const std::filesystem::path& file) {
   throw ExistingFile(file,
                      io::printable_path(file) + ": is there; overwrite=True would replace it");
 }
 
+/// Throws unless the file can be written, and replaced where it is there.
 void require_new(const std::filesystem::path& file, bool may_replace) {
   std::error_code ignored;
   const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";

@@ -85,12 +85,6 @@ std::vector<EphemerisSegment> wanted_segments(const TableReader& nominal,
   return segments;
 }
 
-/// Seconds from one moment to another, near enough to find the nearest.
-double seconds_between(const Epoch& a, const Epoch& b) {
-  return 86400.0 * static_cast<double>((b.day - a.day).count()) +
-         1e-12 * static_cast<double>(b.picoseconds - a.picoseconds);
-}
-
 /// The state of the wanted epoch, or the first one; only among those that are not there for
 /// interpolation alone.
 ChosenState choose_state(const TableReader& nominal, const std::vector<EphemerisSegment>& segments,

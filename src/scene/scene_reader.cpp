@@ -112,12 +112,10 @@ Scene read_flow_jet(const TableReader& root, SceneUnits units) {
   read_table("event", [&](const auto& table) { scene.event = read_event(table, scene); });
   const bool has_deputy = read_table("deputy", [&](const auto& table) {
     scene.deputy = read_deputy(table, scene, nominal, has_collision(root));
-    nominal.deputy_message = settings_of_orbit_file(table);
   });
   if (!has_deputy || root.is_misspelt("deputy")) return scene;
-  read_table("uncertainty", [&](const auto& table) {
-    scene.uncertainty = read_uncertainty(table, scene, nominal);
-  });
+  read_table("uncertainty",
+             [&](const auto&) { scene.uncertainty = read_uncertainty(root, scene, nominal); });
   const bool has_transfer = root.attempt([&] {
     if (!root.has("transfer")) return;
     // An assignment gives the ends itself.

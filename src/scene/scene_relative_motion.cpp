@@ -7,6 +7,7 @@
 #include <string>
 
 #include "../formats/relative_frame_text.hpp"
+#include "../text/letter_case.hpp"
 #include "../text/quantity_text.hpp"
 #include "../text/scene_message.hpp"
 #include "hamjet/relative_motion/deputy_coordinates.hpp"
@@ -37,13 +38,6 @@ std::vector<double> equal_parts(const TableReader& table, int count, double dura
   std::vector<double> times;
   for (int i = 1; i <= count; ++i) times.push_back(i == count ? duration : duration * i / count);
   return times;
-}
-
-std::string lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  });
-  return text;
 }
 
 }  // namespace

@@ -83,8 +83,6 @@ struct Nominal {
   double time_of_canonical(double given) const;
   /// The other way.
   double told_time(double time) const;
-  std::optional<EphemerisSettings>
-      deputy_message;  ///< what the deputy's message says, if it has one
 };
 
 /// Table `[units]`: the canonical unit of length, `length_km`. Throws Error(scene) for a model that
@@ -234,9 +232,11 @@ CollisionWatch read_collision(const TableReader& collision, const Scene& scene);
 SafetyWatch read_safety(const TableReader& safety, const Scene& scene, const Nominal& nominal,
                         bool has_burn);
 
-/// Table `[uncertainty]` of a scene whose table `[deputy]` has been read, if it has one.
-UncertaintySettings read_uncertainty(const TableReader& uncertainty, const Scene& scene,
+/// Table `[uncertainty]` of a scene whose table `[deputy]` has been read, if it has one; `root` is
+/// the whole scene, of which a covariance from a message needs what the deputy's message says.
+UncertaintySettings read_uncertainty(const TableReader& root, const Scene& scene,
                                      const Nominal& nominal);
+
 /// Table `[bounded]`, checked against what `scene` already holds.
 BoundedSettings read_bounded(const TableReader& bounded, const Scene& scene);
 

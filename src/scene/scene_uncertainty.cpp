@@ -163,16 +163,16 @@ bool has_covariance(const TableReader& table) {
   });
 }
 
-/// The state of the chief, or of the deputy if it is there, with the names that the scene and its
-/// messages have for it.
-KnownState state_of_owner(const Scene& scene, const Nominal& nominal,
-                          const std::optional<DeputySettings>& deputy) {
+/// The state of the chief, or of the deputy whose table is given, with the names that the scene and
+/// its messages have for it.
+KnownState state_of_owner(const Scene& scene, const Nominal& nominal, const TableReader* deputy) {
   KnownState state;
   const CanonicalUnits units = canonical_units(nominal.scale);
   std::vector<double> canonical = nominal.state;
-  if (deputy) {
-    const ChiefFrame frame(nominal.state, {units.length_km * 1000, units.time_s}, deputy->frame);
-    canonical = state_sum(std::move(canonical), frame.deviation(deputy->start));
+  if (deputy != nullptr) {
+    const ChiefFrame frame(nominal.state, {units.length_km * 1000, units.time_s},
+                           scene.deputy->frame);
+    canonical = state_sum(std::move(canonical), frame.deviation(scene.deputy->start));
   }
   state.position_km = Eigen::Vector3d(canonical.data()) * units.length_km;
   state.velocity_km_s = Eigen::Vector3d(canonical.data() + 3) * (units.length_km / units.time_s);
@@ -180,10 +180,13 @@ KnownState state_of_owner(const Scene& scene, const Nominal& nominal,
   const auto add = [&](const EphemerisSettings& settings) {
     names.insert(names.end(), {settings.object_name, settings.object_id});
   };
-  if (deputy && nominal.deputy_message) add(*nominal.deputy_message);
-  if (!deputy && nominal.file) add(nominal.file->ephemeris);
+  if (deputy != nullptr) {
+    if (const auto message = settings_of_orbit_file(*deputy)) add(*message);
+  } else if (nominal.file) {
+    add(nominal.file->ephemeris);
+  }
   if (scene.ephemeris) {
-    if (deputy) {
+    if (deputy != nullptr) {
       names.insert(names.end(), {scene.ephemeris->deputy_name, scene.ephemeris->deputy_id});
     } else {
       add(*scene.ephemeris);
@@ -196,10 +199,10 @@ KnownState state_of_owner(const Scene& scene, const Nominal& nominal,
   return state;
 }
 
-/// `deputy` is the one whose uncertainty is read, or none for the chief's.
+/// `deputy` is the table of the deputy whose uncertainty is read, or null for the chief's.
 StateUncertainty read_state_uncertainty(const TableReader& table, const TableReader& fallback,
                                         const Scene& scene, const Nominal& nominal,
-                                        const std::optional<DeputySettings>& deputy) {
+                                        const TableReader* deputy) {
   StateUncertainty state;
   state.frame = read_covariance_frame(table, fallback);
   const Limits limits = limits_of(nominal);
@@ -209,7 +212,8 @@ StateUncertainty read_state_uncertainty(const TableReader& table, const TableRea
         table.fail(key, "numbers beside a file, got both, must be one of them");
       }
     }
-    const CovarianceOwner owner = {deputy ? "deputy" : "chief", deputy ? "OBJECT2" : "OBJECT1",
+    const CovarianceOwner owner = {deputy != nullptr ? "deputy" : "chief",
+                                   deputy != nullptr ? "OBJECT2" : "OBJECT1",
                                    state_of_owner(scene, nominal, deputy)};
     return read_covariance_file(table, nominal, owner);
   }
@@ -301,8 +305,9 @@ const TableDescription& uncertainty_table() {
   return table;
 }
 
-UncertaintySettings read_uncertainty(const TableReader& uncertainty, const Scene& scene,
+UncertaintySettings read_uncertainty(const TableReader& root, const Scene& scene,
                                      const Nominal& nominal) {
+  const TableReader uncertainty = root.table("uncertainty");
   uncertainty.check_keys();
   require_relative_motion(uncertainty, scene);
   UncertaintySettings settings;
@@ -313,13 +318,14 @@ UncertaintySettings read_uncertainty(const TableReader& uncertainty, const Scene
     if (!scene.deputy) {
       deputy.fail("", "of a scene without a deputy, got no table [deputy], must have one");
     }
-    settings.deputy = read_state_uncertainty(deputy, uncertainty, scene, nominal, scene.deputy);
+    const TableReader owner = root.table("deputy");
+    settings.deputy = read_state_uncertainty(deputy, uncertainty, scene, nominal, &owner);
   }
   if (uncertainty.has("burn")) {
     settings.burn = read_burn(uncertainty.table("burn"), uncertainty, nominal);
   }
   if (has_covariance(uncertainty) || (!settings.deputy && !settings.burn)) {
-    settings.chief = read_state_uncertainty(uncertainty, uncertainty, scene, nominal, std::nullopt);
+    settings.chief = read_state_uncertainty(uncertainty, uncertainty, scene, nominal, nullptr);
   }
   if (uncertainty.has("collision")) {
     settings.collision = read_collision(uncertainty.table("collision"), scene);

@@ -49,11 +49,7 @@ void add_entries_below(const fs::path& folder, std::vector<fs::path>& entries) {
 Descriptor::Descriptor(const fs::path& path, int flags, mode_t mode)
     : value_(::open(path.c_str(), flags | O_CLOEXEC, mode)) {}
 
-Descriptor Descriptor::duplicate(int of) {
-  Descriptor result;
-  result.value_ = ::fcntl(of, F_DUPFD_CLOEXEC, 0);
-  return result;
-}
+Descriptor Descriptor::duplicate(int of) { return Descriptor(::fcntl(of, F_DUPFD_CLOEXEC, 0)); }
 
 bool Descriptor::close() { return !is_open() || ::close(std::exchange(value_, -1)) == 0; }
 

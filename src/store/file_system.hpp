@@ -21,6 +21,8 @@ class Descriptor {
   /// Opens a file; the descriptor is -1, with errno set, if that fails. New files may be read by
   /// all, as far as the umask allows, unless told otherwise. Children do not inherit it.
   Descriptor(const std::filesystem::path& path, int flags, mode_t mode = 0644);
+  /// Takes over one that is open.
+  explicit Descriptor(int value) : value_(value) {}
   /// Another descriptor of the same open file; -1, with errno set, if that fails.
   static Descriptor duplicate(int of);
   ~Descriptor() { close(); }

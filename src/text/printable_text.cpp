@@ -14,7 +14,7 @@ struct CodeRange {
   char32_t last;
 };
 
-/// The categories Cc and Cf of Unicode 15.1, and the separators of lines and paragraphs.
+/// The categories Cc and Cf of Unicode 15.1, and the separators of lines and paragraphs; ascending.
 constexpr CodeRange unprintable[] = {
     {0x0, 0x1f},        {0x7f, 0x9f},       {0xad, 0xad},       {0x600, 0x605},
     {0x61c, 0x61c},     {0x6dd, 0x6dd},     {0x70f, 0x70f},     {0x890, 0x891},
@@ -34,9 +34,10 @@ char32_t character(std::string_view sequence) {
 
 bool is_unprintable(std::string_view sequence) {
   const char32_t code = character(sequence);
-  return std::any_of(std::begin(unprintable), std::end(unprintable), [&](const CodeRange& range) {
-    return code >= range.first && code <= range.last;
-  });
+  const auto range =
+      std::lower_bound(std::begin(unprintable), std::end(unprintable), code,
+                       [](const CodeRange& one, char32_t wanted) { return one.last < wanted; });
+  return range != std::end(unprintable) && code >= range->first;
 }
 
 /// The sequence at the beginning of a text; a byte that is not UTF-8 alone.

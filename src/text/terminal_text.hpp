@@ -13,9 +13,9 @@ inline constexpr std::size_t terminal_width = 80;
 /// The places that a text takes: bytes that continue a character of UTF-8 take none.
 std::size_t text_width(std::string_view text);
 
-/// The text in printable form, with lines that are too long broken between words. What follows begins under the value
-/// of a line "  name    value", else under the line's own beginning. A longer word stays whole, for
-/// it may be a path, and so does a number with its unit.
+/// The text in printable form, with lines that are too long broken between words. What follows
+/// begins under the value of a line "  name    value", else under the line's own beginning. A
+/// longer word stays whole, for it may be a path, and so does a number with its unit.
 std::string fitted(std::string_view given, std::size_t width = terminal_width);
 
 /// Rows with the headings first, under each other: the first column to the left, the others to the

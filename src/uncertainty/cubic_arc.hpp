@@ -3,25 +3,10 @@
 #include <array>
 #include <vector>
 
+#include "../algebra/hermite_cubic.hpp"
 #include "relative_paths.hpp"
 
 namespace hamjet {
-
-/// Factors of (position, velocity) at the start and at the end of an interval in the cubic through
-/// them, and in its derivative.
-struct HermiteWeights {
-  std::array<double, 4> position;
-  std::array<double, 4> velocity;
-};
-
-/// At the part s, from 0 to 1, of an interval of a length:
-///
-///   (1 + 2 s) (1 - s)^2,  s (1 - s)^2 h,  s^2 (3 - 2 s),  s^2 (s - 1) h .
-inline HermiteWeights hermite_weights(double length, double s) {
-  const double r = 1 - s;
-  return {{(1 + 2 * s) * r * r, s * r * r * length, s * s * (3 - 2 * s), -s * s * r * length},
-          {-6 * s * r / length, r * (1 - 3 * s), 6 * s * r / length, s * (3 * s - 2)}};
-}
 
 /// The cubic between two linear states, an interval of a length apart.
 LinearRelativeState between(const LinearRelativeState& start, const LinearRelativeState& end,

@@ -4,10 +4,10 @@ import numpy as np
 from scipy.optimize import linear_sum_assignment
 
 import orbit
-from command import Refused, Run, number
+from command import Run, number
 from drawing import Scene
 from flight import REAL
-from refusal import judge_refusal
+from refusal import results
 from ways import Flights
 
 
@@ -42,13 +42,9 @@ def draw(source):
 
 def judge(judgement, scene, folder):
     run = Run(folder, ["assign", "scene.toml", "-o", "out"], limit=90)
-    try:
-        summary = run.summary("out")
-    except Refused as refused:
-        judge_refusal(judgement, scene, refused)
+    summary = results(judgement, scene, run)
+    if summary is None:
         return
-    if run.code:
-        judgement.mark(f"exit code {run.code}: {run.said.strip()[:200]}")
     costs = np.full((len(scene.starts), len(scene.ends)), np.inf)
     for row in run.table("out", "costs.csv"):
         if row["total_change_m_s"]:

@@ -3,10 +3,10 @@ compared; a box is flown through its told impulses."""
 import numpy as np
 
 import orbit
-from command import Refused, Run
+from command import Run
 from drawing import Scene
 from flight import REAL, coast_times
-from refusal import judge_refusal
+from refusal import results
 
 
 def draw(source):
@@ -51,13 +51,9 @@ def judge(judgement, scene, folder):
             (r"cross_track and along_track alone", lambda s: True),
             (r"no amplitude|no orbit|eccentricity|none of the sizes", lambda s: True),
             (r"starts outside|no return of these|too small", lambda s: scene.has_box)]
-    try:
-        summary = run.summary("out")
-    except Refused as refused:
-        judge_refusal(judgement, scene, refused, true)
+    summary = results(judgement, scene, run, true)
+    if summary is None:
         return
-    if run.code:
-        judgement.mark(f"exit code {run.code}: {run.said.strip()[:200]}")
     period = REAL(summary["nodal_period_s"])
     for deputy in summary["deputies"]:
         if deputy["failure"]:

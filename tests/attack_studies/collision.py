@@ -3,10 +3,10 @@ pairs that are flown, closest approaches of the means, and the formula for short
 import numpy as np
 
 import orbit
-from command import Refused, Run
+from command import Run
 from drawing import Scene, rounded
 from flight import REAL
-from refusal import judge_refusal
+from refusal import results
 from uncertain import (draw_known, inertial_covariance, judge_quantile, judge_share, samples_of)
 
 SAMPLES = 1500
@@ -89,13 +89,9 @@ def write_deputy(scene, deputy):
 
 def judge(judgement, scene, folder):
     run = Run(folder, ["uncertainty", "scene.toml", "-o", "out"], limit=120)
-    try:
-        summary = run.summary("out")
-    except Refused as refused:
-        judge_refusal(judgement, scene, refused)
+    summary = results(judgement, scene, run)
+    if summary is None:
         return
-    if run.code:
-        judgement.mark(f"exit code {run.code}: {run.said.strip()[:200]}")
     told = summary["collision"]
     random = np.random.default_rng(scene.draw.integer(0, 2 ** 31))
     chief = scene.chief + samples_of(random, scene.chief_covariance, SAMPLES)
@@ -153,9 +149,13 @@ def judge_approaches(judgement, scene, told, begin, end):
                          1e-6 * distance + 1e-3)
         judgement.within("speed at an approach (m/s)", approach["speed_m_s"], speed,
                          1e-6 * speed + 1e-6)
-        # Where a time is wrong by dt the distance still falls.
+        # Where a time is wrong by dt the distance still falls; at rest the acceleration turns it.
+        step = 1e-4 * scene.period
+        after, before = [scene.field.to(scene.deputy_state, t) - scene.field.to(scene.chief, t)
+                         for t in (time + step, time - step)]
+        bend = speed ** 2 + orbit.dot(apart[:3], after[3:] - before[3:]) / (2 * step)
         judgement.at_most("time from the closest approach (s)",
-                          abs(orbit.dot(apart[:3], apart[3:])) / speed ** 2,
+                          abs(orbit.dot(apart[:3], apart[3:]) / bend),
                           1e-6 * float(scene.period) + 1e-3)
         plane = approach.get("short_encounter")
         if plane and plane["holds"]:

@@ -6,10 +6,10 @@ import os
 import numpy as np
 
 import orbit
-from command import Refused, Run
+from command import Run
 from drawing import Scene
 from flight import REAL, coast_times
-from refusal import judge_refusal
+from refusal import results
 
 
 def draw(source):
@@ -101,15 +101,11 @@ def judge(judgement, scene, folder):
     run = Run(folder, ["poincare", "scene.toml", "-o", "out"])
     roots, doubtful = events(scene)
     number = scene.tables["event"].get("number", 1)
-    try:
-        summary = run.summary("out")
-    except Refused as refused:
-        few = len(roots) < number or doubtful
-        judge_refusal(judgement, scene, refused, [(r"no such event", lambda s: few),
-                                                  (r"tangent|touches|grazes", lambda s: doubtful)])
+    few = len(roots) < number or doubtful
+    summary = results(judgement, scene, run, [(r"no such event", lambda s: few),
+                                              (r"tangent|touches|grazes", lambda s: doubtful)])
+    if summary is None:
         return
-    if run.code:
-        judgement.mark(f"exit code {run.code}: {run.said.strip()[:200]}")
     time = REAL(summary["time_s"])
     state = scene.chief_at(time)
     rounding = summary["position_rounding_m"]

@@ -3,10 +3,10 @@ against the linear flow."""
 import numpy as np
 
 import orbit
-from command import Refused, Run
+from command import Run
 from drawing import Scene
 from flight import REAL, coast_times
-from refusal import judge_refusal, says_below_surface
+from refusal import judge_surface, results
 from uncertain import (burn_covariance, draw_burn, draw_known, inertial_covariance, samples_of)
 
 SAMPLES = 1200
@@ -61,18 +61,10 @@ def draw(source):
 
 def judge(judgement, scene, folder):
     run = Run(folder, ["uncertainty", "scene.toml", "-o", "out"], limit=90)
-    try:
-        summary = run.summary("out")
-    except Refused as refused:
-        judge_refusal(judgement, scene, refused)
+    summary = results(judgement, scene, run)
+    if summary is None:
         return
-    if run.code:
-        judgement.mark(f"exit code {run.code}: {run.said.strip()[:200]}")
-    if scene.highest and scene.lowest() < scene.radius * REAL(0.99999):
-        if run.code or says_below_surface(run, summary):
-            judgement.mark("below the surface")
-        else:
-            judgement.wrong("nothing is said of a chief below the surface")
+    judge_surface(judgement, scene, run, summary)
     random = np.random.default_rng(scene.draw.integer(0, 2 ** 31))
     starts = {"chief": scene.chief + samples_of(random, scene.chief_covariance, SAMPLES)}
     if scene.deputy_state is not None:

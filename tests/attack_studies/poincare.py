@@ -3,10 +3,10 @@ by differences of flights."""
 import numpy as np
 
 import orbit
-from command import Refused, Run
+from command import Run
 from drawing import Scene
 from flight import REAL
-from refusal import judge_refusal
+from refusal import results
 
 
 def draw(source):
@@ -21,15 +21,11 @@ def is_kepler(scene):
 
 def judge(judgement, scene, folder):
     run = Run(folder, ["poincare", "scene.toml", "-o", "out"], limit=120)
-    try:
-        summary = run.summary("out")
-    except Refused as refused:
-        judge_refusal(judgement, scene, refused, [
-            (r"frozen|J2|zonal|kepler", is_kepler),
-            (r"frozen orbit: none|not found|divisor|node", lambda s: True)])
+    summary = results(judgement, scene, run, [
+        (r"frozen|J2|zonal|kepler", is_kepler),
+        (r"frozen orbit: none|not found|divisor|node", lambda s: True)])
+    if summary is None:
         return
-    if run.code:
-        judgement.mark(f"exit code {run.code}: {run.said.strip()[:200]}")
     frozen = summary["frozen_orbit"]
     units = np.array([scene.length] * 3 + [scene.length / scene.time_unit] * 3)
     # The state is told in doubles.

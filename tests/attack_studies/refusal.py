@@ -4,6 +4,9 @@ import re
 
 import numpy as np
 
+from command import Refused
+from flight import REAL
+
 
 def is_eccentric(scene):
     return scene.e > 0.4
@@ -38,6 +41,19 @@ def judge_refusal(judgement, scene, refused, more=()):
     judgement.wrong(f"refused, exit code {refused.code}: {first_line(refused.text)}")
 
 
+def results(judgement, scene, run, more=()):
+    """summary.json of a run that wrote to out; None where it refused, which is judged. An exit code
+    beside results is marked."""
+    try:
+        summary = run.summary("out")
+    except Refused as refused:
+        judge_refusal(judgement, scene, refused, more)
+        return None
+    if run.code:
+        judgement.mark(f"exit code {run.code}: {run.said.strip()[:200]}")
+    return summary
+
+
 def first_line(text):
     lines = [line for line in text.splitlines() if "error" in line] or text.splitlines() or [""]
     return lines[0][:300]
@@ -47,3 +63,11 @@ def says_below_surface(run, summary):
     words = run.printed + run.said + str(summary.get("verdict", "")) + str(
         summary.get("notes", "")) + str(summary.get("warnings", ""))
     return re.search(r"surface|below the|inside the body|ground", words) is not None
+
+
+def judge_surface(judgement, scene, run, summary):
+    if scene.highest and scene.lowest() < scene.radius * REAL(0.99999):
+        if run.code or says_below_surface(run, summary):
+            judgement.mark("below the surface")
+        else:
+            judgement.wrong("nothing is said of a chief below the surface")

@@ -2,10 +2,10 @@
 import numpy as np
 
 import orbit
-from command import Refused, Run
+from command import Run
 from drawing import Scene, rounded
 from flight import REAL, coast_times
-from refusal import judge_refusal
+from refusal import results
 from uncertain import (burn_covariance, draw_burn, draw_known, inertial_covariance, judge_quantile,
                        samples_of, share_interval)
 
@@ -84,13 +84,9 @@ def spacecraft(scene, name, share):
 
 def judge(judgement, scene, folder):
     run = Run(folder, ["uncertainty", "scene.toml", "-o", "out"], limit=120)
-    try:
-        summary = run.summary("out")
-    except Refused as refused:
-        judge_refusal(judgement, scene, refused)
+    summary = results(judgement, scene, run)
+    if summary is None:
         return
-    if run.code:
-        judgement.mark(f"exit code {run.code}: {run.said.strip()[:200]}")
     told = summary["safety"]
     random = np.random.default_rng(scene.draw.integer(0, 2 ** 31))
     names = list(scene.spacecraft)

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "../poincare/independent_flight.hpp"
-#include "circle_transfers.hpp"
+#include "impulses/circle_transfers.hpp"
 #include "formation_scenes.hpp"
 #include "hamjet/error.hpp"
 #include "studies/exact_flow.hpp"

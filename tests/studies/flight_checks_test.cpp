@@ -66,16 +66,9 @@ TEST(FlightChecks, AFallIntoTheCentreFails) {
   EXPECT_NE(surface(checks).text.find("the deputy cannot be followed"), std::string::npos);
 }
 
-// Half an ellipse of 2 by 1 is a quarter of the distance of its ends above or below the chief's
-// circle at its middle (Fehse, Automated Rendezvous and Docking of Spacecraft, 2003, section 3.3).
+// At its middle it is half a kilometre above or below the chief's circle.
 TEST(FlightChecks, ATransferBelowTheSurfaceIsMarked) {
-  Scene scene = kepler_chief(0, 7000, 1000, 2);
-  TransferSettings settings;
-  settings.start.position_m = {0, -1000, 0};
-  settings.end.position_m = {0, 1000, 0};
-  settings.times = {std::numbers::pi - 0.02};
-  settings.singular_margin = 1e-3;
-  scene.transfer = settings;
+  Scene scene = half_revolution_along_the_track();
   const auto study = [&](double radius_km) {
     scene.system.radius_km = radius_km;
     scene.canonical_radius = radius_km / 7000;

@@ -46,6 +46,20 @@ inline Scene kepler_chief(double eccentricity, double length_km, double time_s, 
   return scene;
 }
 
+/// Nearly half a revolution of a circle, from 1 km behind its chief to 1 km before it: half an
+/// ellipse of 2 by 1, which at the middle is a quarter of the distance of its ends above or below
+/// the chief (Fehse, Automated Rendezvous and Docking of Spacecraft, 2003, section 3.3).
+inline Scene half_revolution_along_the_track() {
+  Scene scene = kepler_chief(0, 7000, 1000, 2);
+  TransferSettings settings;
+  settings.start.position_m = {0, -1000, 0};
+  settings.end.position_m = {0, 1000, 0};
+  settings.times = {std::numbers::pi - 0.02};
+  settings.singular_margin = 1e-3;
+  scene.transfer = settings;
+  return scene;
+}
+
 /// A revolution of the orbit with e = 0.3, the paper's without its zonal harmonics.
 inline const double paper_period = 2 * std::numbers::pi * std::pow(0.7, -1.5);
 

@@ -140,13 +140,7 @@ TEST(Transfer, TheLeastBetweenTheListedTimesIsThatOfAFinerList) {
 // ellipse of 2 by 1 whose ends are x apart along the orbit, so that it is x / 4 above or below at
 // the middle.
 TEST(Transfer, MarksWhatTheSceneDoesNotAllow) {
-  Scene scene = kepler_chief(0, 7000, 1000, 2);
-  TransferSettings settings;
-  settings.start.position_m = {0, -1000, 0};
-  settings.end.position_m = {0, 1000, 0};
-  settings.times = {std::numbers::pi - 0.02};
-  settings.singular_margin = 1e-3;
-  scene.transfer = settings;
+  Scene scene = half_revolution_along_the_track();
   const double impulse = 2000 / (4 * scene.units.time_s);
   const auto point = [&] { return study_transfer(scene).points[0]; };
   EXPECT_NEAR(point().best().start_change_m_s.norm(), impulse, 0.02 * impulse);

@@ -129,6 +129,31 @@ ReachLimit limit_of(Scene scene, JetCoordinates coordinates, double time, double
   return entry.limit.value_or(ReachLimit{});
 }
 
+// From the perigee a deputy escapes first if it is farther out and faster along the chief's
+// velocity: ((v + s n)^2) / 2 = 1 / (1 + s), where a flow box, exact of Kepler's bound orbits,
+// ends.
+TEST(Validity, AFlowBoxEndsWhereADeputyEscapes) {
+  const double eccentricity = 0.74;
+  Scene scene = kepler_chief(eccentricity, 7000, std::sqrt(7000.0 * 7000 * 7000 / 398600.4405), 1);
+  const double mean_motion = std::pow(1 - eccentricity, 1.5);
+  scene.coordinates = JetCoordinates::flow_box;
+  ValiditySettings validity;
+  validity.tolerance_m = 7;
+  validity.times = {4 * std::numbers::pi / mean_motion};
+  validity.samples = 20;
+  validity.frame = RelativeFrame::rtn_inertial;
+  scene.validity = validity;
+  const double v = std::sqrt(1 + eccentricity);
+  double escape = 0;
+  for (double step = 0.1; step > 1e-6; step /= 2) {
+    const double s = escape + step;
+    if ((v + s * mean_motion) * (v + s * mean_motion) / 2 < 1 / (1 + s)) escape = s;
+  }
+  const double proved_m = study_validity(scene).points[0].entries[0].proved_m;
+  EXPECT_LT(proved_m, escape * 7e6);
+  EXPECT_GT(proved_m, 0.9 * escape * 7e6);
+}
+
 // In Poincare's elements Kepler's flow shifts the mean longitude by t L^-3 and nothing else: what
 // order k neglects is of degree k + 1 in L alone.
 TEST(ReachLimit, OfKeplersFlowInElementsIsTheMeanMotion) {

@@ -38,6 +38,9 @@ struct CanonicalFactors {
   double length = 1;
   double time = 1;
   double momentum = 1;  ///< of a mass of 1: a velocity
+
+  /// An action, as an angular momentum is one, in these numbers.
+  double told_action(double canonical) const { return canonical * length * momentum; }
 };
 
 /// Table `[reference]`.

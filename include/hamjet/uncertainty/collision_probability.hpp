@@ -56,9 +56,9 @@ struct CollisionProbability {
 /// By random samples of the polynomials, in the window, each path judged between the times too.
 /// Plain samples have the interval of Clopper and Pearson, weighted ones that of the normal
 /// distribution. Throws as validate, integrate_gauss, Error(numerical) where a flight ends in the
-/// centre, and Error(usage) for less than 1000 samples
-/// or a confidence below 0.5 or not below 1, and where entries are asked for that cannot be drawn:
-/// where EntrySampler has none, or linear paths say too little of true ones.
+/// centre, and Error(usage) for less than 1000 samples or a confidence below 0.5 or not below 1,
+/// and where entries are asked for that cannot be drawn: where EntrySampler has none, or linear
+/// paths say too little of true ones.
 CollisionProbability collision_probability(const EncounterProblem& problem,
                                            const CollisionSettings& settings);
 

@@ -149,20 +149,22 @@ void report(const EvalCoordinates& coordinates, const std::vector<EvalSource>& j
   // What it costs is of interest where there is much of it; --json has it in any case.
   constexpr std::size_t many = 1000;
   const bool has_cost = output.rows() >= many;
-  if (has_cost)
+  if (has_cost) {
     print_note(fmt::format(
         "points {}, evaluation alone {:.3g} s, {:.3g} ns a point, {} multiply-adds a point, "
         "{:.3g} multiply-adds a second",
         output.rows(), work.seconds, work.seconds / points * 1e9, work.multiply_adds_per_point,
         work.multiply_adds_per_second()));
+  }
   if (jet.scene) {
-    if (has_cost)
+    if (has_cost) {
       print_note(fmt::format(
           "{} coordinates, {}; of a point's time {:.3g} ns are the polynomials, with the lower "
           "degrees that estimates need, and {:.3g} ns the coordinates at both ends",
           name_of(jet.coordinates()),
           jet.scene->seconds > 0 ? "integrated in " + duration_text(jet.scene->seconds) : "stored",
           (work.seconds - work.chart_seconds) / points * 1e9, work.chart_seconds / points * 1e9));
+    }
     const std::string choice = io::choice_text(jet.coordinates());
     if (!choice.empty()) {
       print_note(fmt::format("{} coordinates, {}", name_of(jet.coordinates()), choice));

@@ -7,7 +7,9 @@
 #include <array>
 #include <cmath>
 
+#include "../../algebra/hermite_cubic.hpp"
 #include "../../dynamics/celestial_bodies.hpp"
+#include "../../text/letter_case.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -27,13 +29,6 @@ constexpr double angle_of_precession = 0.03;
 
 /// The Earth's rate of rotation, rad/s (IERS Conventions (2010), table 1.2).
 constexpr double earth_rate = 7.292115e-5;
-
-std::string capitals(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](char c) {
-    return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-  });
-  return text;
-}
 
 bool is_among(const auto& names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
@@ -154,21 +149,16 @@ bool interpolate_state(std::span<const OrbitState> states, const Epoch& epoch, d
   if (after->epoch == epoch) return true;
   if (after == states.begin()) return false;
   const OrbitState& before = *(after - 1);
-  const auto seconds = [&](const Epoch& moment) {
-    return 86400.0 * static_cast<double>((moment.day - before.epoch.day).count()) +
-           1e-12 * static_cast<double>(moment.picoseconds - before.epoch.picoseconds);
-  };
-  const double h = seconds(after->epoch);
-  const double s = seconds(epoch) / h;
+  const double h = seconds_between(before.epoch, after->epoch);
+  const HermiteWeights weights = hermite_weights(h, seconds_between(before.epoch, epoch) / h);
   const Eigen::Vector3d q = vector(before.position_km), v = vector(before.velocity_km_s);
-  const Eigen::Vector3d step = result.position_km - q;
-  const Eigen::Vector3d end_velocity = result.velocity_km_s;
-  // q + s h v + s^2 (3 step - h (2 v + v1)) + s^3 (h (v + v1) - 2 step)
-  const Eigen::Vector3d second = 3 * step - h * (2 * v + end_velocity);
-  const Eigen::Vector3d third = h * (v + end_velocity) - 2 * step;
-  const double r = std::min(q.norm(), result.position_km.norm());
-  result.position_km = q + s * (h * v + s * (second + s * third));
-  result.velocity_km_s = v + s / h * (2 * second + 3 * s * third);
+  const Eigen::Vector3d end = result.position_km, end_velocity = result.velocity_km_s;
+  const auto cubic = [&](const std::array<double, 4>& w) -> Eigen::Vector3d {
+    return w[0] * q + w[1] * v + w[2] * end + w[3] * end_velocity;
+  };
+  const double r = std::min(q.norm(), end.norm());
+  result.position_km = cubic(weights.position);
+  result.velocity_km_s = cubic(weights.velocity);
   const double fourth_derivative = 10 * mu_km3_s2 * mu_km3_s2 / std::pow(r, 5);
   result.position_error_km = fourth_derivative * std::pow(h, 4) / 384;
   result.velocity_error_km_s = fourth_derivative * std::pow(h, 3) / (72 * std::sqrt(3.0));

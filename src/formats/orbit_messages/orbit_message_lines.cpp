@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "../../text/letter_case.hpp"
 #include "../../text/scene_message.hpp"
 #include "../number_table.hpp"
 #include "hamjet/error.hpp"
@@ -211,11 +212,7 @@ std::optional<double> MessageBlock::unused_number(std::string_view keyword, std:
 }
 
 std::string MessageBlock::capitals(std::string_view keyword) const {
-  std::string result = text(keyword);
-  std::transform(result.begin(), result.end(), result.begin(), [](char c) {
-    return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-  });
-  return result;
+  return io::capitals(text(keyword));
 }
 
 OrbitMetadata MessageBlock::metadata() const {

@@ -26,10 +26,10 @@ bool is_xml_built();
 /// reads this one with the same checks. `kind` is the message that is wanted, "oem", "opm" or
 /// "cdm": of a combined message (ndm) the one of this kind is taken, and of several OEM all
 /// segments together. Of a message of another kind the statement of its version is all there is.
-/// Throws Error(input_output), `name:line: element: problem`, for
-/// what is no XML, for another root, for elements where the standard has none of that name or that
-/// are out of the order that it has, and in the states and covariances of an OEM for units other
-/// than the standard's; and in a build without XML for everything.
+/// Throws Error(input_output), `name:line: element: problem`, for what is no XML, for another root,
+/// for elements where the standard has none of that name or that are out of the order that it has,
+/// and in the states and covariances of an OEM for units other than the standard's; and in a build
+/// without XML for everything.
 std::vector<XmlStatement> statements_of_xml(const std::string& name, std::string_view text,
                                             std::string_view kind);
 

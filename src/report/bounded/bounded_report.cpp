@@ -175,10 +175,8 @@ std::string page(const BoundedFormation& formation, const ReportOrigin& origin,
   return page_html(page, drawer);
 }
 
-}  // namespace
-
 /// How the sizes of the deputies that are offered compare with those that were asked for.
-static std::string sizes_text(const BoundedFormation& formation) {
+std::string sizes_text(const BoundedFormation& formation) {
   const BoundedDeputy* worst = nullptr;
   std::size_t offered = 0, held = 0;
   const auto miss = [](const BoundedDeputy& deputy) {
@@ -204,6 +202,8 @@ static std::string sizes_text(const BoundedFormation& formation) {
           ? fmt::format(", at its end {}", length_text(worst->last_size_m))
           : "");
 }
+
+}  // namespace
 
 std::string bounded_verdict(const BoundedFormation& formation) {
   double worst = 0;
@@ -278,9 +278,8 @@ std::string bounded_csv(const BoundedFormation& formation) {
   }
   columns.add_if(has_map, "period_difference", &BoundedDeputy::energy);
   const CanonicalFactors told = told_factors(formation.scene);
-  columns.add_if(has_map, "momentum_difference_canonical", [=](const BoundedDeputy& deputy) {
-    return deputy.momentum * told.length * told.momentum;
-  });
+  columns.add_if(has_map, "momentum_difference_canonical",
+                 [=](const BoundedDeputy& deputy) { return told.told_action(deputy.momentum); });
   columns.add_if(has_map, "refinements", &BoundedDeputy::refinements);
   columns.add_if(is_there, "lowest_m", &BoundedDeputy::lowest_m);
   for (std::size_t f = 0; f < BoundedDeputy{}.forms.size(); ++f) {

@@ -126,9 +126,8 @@ std::string frozen_orbit_csv(const FrozenOrbitStudy& study) {
   columns.add("node_deg_per_revolution",
               [](const LibrationCircle& circle) { return circle.mean_node * degrees; });
   const CanonicalFactors told = told_factors(study.scene);
-  columns.add("action_canonical", [=](const LibrationCircle& circle) {
-    return circle.action * told.length * told.momentum;
-  });
+  columns.add("action_canonical",
+              [=](const LibrationCircle& circle) { return told.told_action(circle.action); });
   columns.add("miss", &LibrationCircle::miss);
   return columns.csv(study.circles);
 }
@@ -168,7 +167,7 @@ Json frozen_orbit_json(const FrozenOrbitStudy& study) {
          {"rotation_number", circle.rotation_number},
          {"mean_nodal_period_s", circle.mean_period * study.scene.units.time_s},
          {"node_deg_per_revolution", circle.mean_node * degrees},
-         {"action_canonical", circle.action * told.length * told.momentum},
+         {"action_canonical", told.told_action(circle.action)},
          {"miss", json_number(circle.miss)}});
   }
   json["exit_code"] = 0;

@@ -17,6 +17,7 @@
 #include <thread>
 #include <utility>
 
+#include "../../store/file_system.hpp"
 #include "../../store/held_signals.hpp"
 
 extern char** environ;  // NOLINT(readability-redundant-declaration): POSIX has it in no header
@@ -27,26 +28,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 std::string errno_text(int error) { return std::strerror(error); }  // NOLINT(concurrency-mt-unsafe)
-
-class Descriptor {
- public:
-  Descriptor() = default;
-  explicit Descriptor(int value) : value_(value) {}
-  Descriptor(Descriptor&& other) noexcept : value_(std::exchange(other.value_, -1)) {}
-  Descriptor& operator=(Descriptor&& other) noexcept {
-    std::swap(value_, other.value_);
-    return *this;
-  }
-  ~Descriptor() { close(); }
-  int value() const { return value_; }
-  bool is_open() const { return value_ >= 0; }
-  void close() {
-    if (value_ >= 0) ::close(std::exchange(value_, -1));
-  }
-
- private:
-  int value_ = -1;
-};
 
 /// A channel to a child. A pair of sockets and not a pipe: writing to a child that has ended must
 /// not raise SIGPIPE in this process.

@@ -28,6 +28,9 @@ nlohmann::ordered_json plane_json(const ShortEncounter& plane) {
 }
 
 nlohmann::ordered_json approach_json(const UncertainApproach& approach, double radius_m) {
+  const auto of_flights = [&](double error) {
+    return approach.flights > 0 ? nlohmann::ordered_json(error) : nlohmann::ordered_json();
+  };
   nlohmann::ordered_json json = {{"time_s", approach.time_s},
                                  {"distance_m", approach.distance_m},
                                  {"speed_m_s", approach.speed_m_s},
@@ -35,8 +38,8 @@ nlohmann::ordered_json approach_json(const UncertainApproach& approach, double r
                                  {"distance_deviation_m", approach.distance_deviation_m},
                                  {"flights", approach.flights},
                                  {"polynomials_hold", approach.holds(radius_m)},
-                                 {"position_error_m", approach.position_error_m},
-                                 {"time_error_s", approach.time_error_s}};
+                                 {"position_error_m", of_flights(approach.position_error_m)},
+                                 {"time_error_s", of_flights(approach.time_error_s)}};
   if (approach.plane) {
     json["short_encounter"] = plane_json(*approach.plane);
   } else {

@@ -100,20 +100,14 @@ std::vector<std::vector<std::string>> coordinates_rows(const UncertaintyResult& 
   return rows;
 }
 
-std::vector<std::string> all_warnings(const std::vector<UncertaintySection>& sections) {
-  std::vector<std::string> warnings;
+/// What the sections have in one of their lists, in order.
+std::vector<std::string> all_of(const std::vector<UncertaintySection>& sections,
+                                std::vector<std::string> UncertaintySection::*list) {
+  std::vector<std::string> all;
   for (const UncertaintySection& section : sections) {
-    warnings.insert(warnings.end(), section.warnings.begin(), section.warnings.end());
+    all.insert(all.end(), (section.*list).begin(), (section.*list).end());
   }
-  return warnings;
-}
-
-std::vector<std::string> all_failed_checks(const std::vector<UncertaintySection>& sections) {
-  std::vector<std::string> failed;
-  for (const UncertaintySection& section : sections) {
-    failed.insert(failed.end(), section.failed_checks.begin(), section.failed_checks.end());
-  }
-  return failed;
+  return all;
 }
 
 std::string terminal_table(const UncertaintyResult& result,
@@ -125,8 +119,9 @@ std::string terminal_table(const UncertaintyResult& result,
     if (!section.verdict.empty()) text += section.verdict + "\n";
   }
   text += uncertainty_judgement(result) + "\n";
-  for (const std::string& warning : all_warnings(sections)) text += "warning: " + warning + "\n";
-  for (const std::string& failed : all_failed_checks(sections)) {
+  for (const std::string& warning : all_of(sections, &UncertaintySection::warnings))
+    text += "warning: " + warning + "\n";
+  for (const std::string& failed : all_of(sections, &UncertaintySection::failed_checks)) {
     text += "check failed: " + failed + "\n";
   }
   text += fmt::format(
@@ -156,10 +151,10 @@ std::string page(const UncertaintyResult& result, const ReportOrigin& origin,
     if (!section.verdict.empty()) page.verdict += " " + section.verdict;
   }
   page.verdict += " " + uncertainty_judgement(result);
-  for (const std::string& warning : all_warnings(sections)) {
+  for (const std::string& warning : all_of(sections, &UncertaintySection::warnings)) {
     page.verdict += " Warning: " + warning + ".";
   }
-  for (const std::string& failed : all_failed_checks(sections)) {
+  for (const std::string& failed : all_of(sections, &UncertaintySection::failed_checks)) {
     page.verdict += " Check failed: " + failed + ".";
   }
   Chart first = ellipse_chart(result, last, judged, 1, 0);
@@ -234,7 +229,7 @@ StudyReport uncertainty_report(const UncertaintyResult& result, const ReportOrig
   auto exit_code = summary["exit_code"];
   summary.erase("exit_code");
   for (const UncertaintySection& section : sections) summary[section.key] = section.json;
-  const std::vector<std::string> failed = all_failed_checks(sections);
+  const std::vector<std::string> failed = all_of(sections, &UncertaintySection::failed_checks);
   if (!failed.empty()) {
     report.exit_code = static_cast<int>(ErrorKind::check_failed);
     report.failure = "a check that the scene asks for failed: " + failed.front();

@@ -61,7 +61,8 @@ double linear_error_of_component(const std::vector<Cumulants>& by_order);
 
 /// The first that a reader sees: how well the position is known in the end.
 std::string uncertainty_answer(const UncertaintyResult& result);
-/// Whether the linear covariance misleads, and in which coordinates the distribution stays Gaussian.
+/// Whether the linear covariance misleads, and in which coordinates the distribution stays
+/// Gaussian.
 std::string uncertainty_judgement(const UncertaintyResult& result);
 /// Both, one after the other.
 std::string uncertainty_verdict(const UncertaintyResult& result);

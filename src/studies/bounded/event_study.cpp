@@ -270,15 +270,11 @@ std::vector<double> EventStudy::state() const {
 
 EventMap<double> EventStudy::told_map() const {
   const CanonicalFactors told = told_factors(scene);
-  const auto factor_of = [&](std::size_t i) { return i < 3 ? told.length : told.momentum; };
-  std::vector<double> of_variables;
-  for (std::size_t i = 0; i < map.state.size(); ++i) of_variables.push_back(factor_of(i));
+  std::vector<double> of_state(6, told.length);
+  std::fill(of_state.begin() + 3, of_state.end(), told.momentum);
   EventMap<double> result = map;
-  result.time = in_other_units<double>(std::move(result.time), told.time, of_variables);
-  for (std::size_t i = 0; i < map.state.size(); ++i) {
-    Series<double>& component = result.state[i];
-    component = in_other_units<double>(std::move(component), factor_of(i), of_variables);
-  }
+  result.time = in_other_units<double>(std::move(result.time), told.time, of_state);
+  tell_in_other_units<double>(result.state, of_state, of_state);
   return result;
 }
 

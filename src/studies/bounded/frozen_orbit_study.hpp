@@ -63,8 +63,8 @@ struct FrozenOrbitStudy {
   /// The largest amplitude at which an orbit is flown to within largest_miss of the normal form.
   double reach = 0;
   std::vector<FlownAmplitude> flown_amplitudes;  ///< ascending
-  std::vector<SelfCheck>
-      checks;  ///< of the chief's flight and the frozen orbit's, a revolution each
+  /// Of the chief's flight and the frozen orbit's, a revolution each.
+  std::vector<SelfCheck> checks;
 
   static constexpr double largest_miss = 1e-3;
   /// The amplitude of an eccentricity as a length, metres: a times it.

@@ -24,7 +24,9 @@ std::vector<KeptTolerance> kept_tolerance(const Scene& scene, const RunResult& r
 std::size_t degrees_kept(const std::vector<KeptTolerance>& by_degree);
 
 /// Which degrees keep the tolerance and what keeps the others from it, in words; empty where all
-/// do.
+/// do. An error that is estimated, not measured against a reference, must be more than 10 times
+/// what the tolerance allows: estimates may be so many times too high, and only what is surely not
+/// kept is worth a warning.
 std::string tolerance_warning(const Scene& scene, const RunResult& run);
 
 }  // namespace hamjet

@@ -26,9 +26,8 @@ struct FlightArc {
 double value_at(const Series<double>& series, double share);
 
 /// Flies the states (q, p) over a time, which may be negative, by Taylor's method in steps that all
-/// of them can take, and tells each; the flight's clock shows `start` at first. A
-/// time of 0 is one arc. Returns the states
-/// at the end. Throws Error(numerical) where one runs into a collision.
+/// of them can take, and tells each; the flight's clock shows `start` at first. A time of 0 is one
+/// arc. Returns the states at the end. Throws Error(numerical) where one runs into a collision.
 std::vector<std::vector<double>> fly_arcs(const SharedSystem& system,
                                           std::vector<std::vector<double>> states, double start,
                                           double time,

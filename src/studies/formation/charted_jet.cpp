@@ -7,7 +7,6 @@
 #include <span>
 #include <utility>
 
-#include "../../algebra/other_units.hpp"
 #include "../../algebra/raise_to.hpp"
 #include "../../charts/coordinate_units.hpp"
 #include "../../integrators/momentum_unit.hpp"
@@ -37,13 +36,7 @@ FlowBoxMap<double> integrated_flow_box(const Scene& scene, const SixNumbers<doub
 FlowJet<Extended> comparable_flow_box(const Scene& scene, ChartName section,
                                       const FlowJet<Extended>& jet) {
   const FlowBoxUnits units(section, initial_distance(scene.nominal), orbit_field(scene).mu);
-  std::vector<Extended> of_variables;
-  for (const double unit : units.variables) of_variables.push_back(1 / Extended(unit));
-  FlowJet<Extended> result;
-  for (std::size_t i = 0; i < jet.size(); ++i) {
-    result.push_back(in_other_units<Extended>(jet[i], 1 / Extended(units.values[i]), of_variables));
-  }
-  return result;
+  return in_units(jet, units.values, units.variables);
 }
 
 FlowJet<Extended> values_of_flow_box(const FlowBoxMap<double>& map) {

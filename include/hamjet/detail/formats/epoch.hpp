@@ -40,6 +40,12 @@ std::string format_epoch(const Epoch& epoch);
 /// 400 s. No value outside of the years 1 to 9999. `epoch` must not be within a leap second.
 std::optional<Epoch> later(const Epoch& epoch, const Extended& seconds);
 
+/// Seconds from one moment to another, to binary64, every day with 86 400 s.
+inline double seconds_between(const Epoch& first, const Epoch& last) {
+  return 86400.0 * static_cast<double>((last.day - first.day).count()) +
+         1e-12 * static_cast<double>(last.picoseconds - first.picoseconds);
+}
+
 /// Days of UTC that ended with a leap second, ascending: all from the introduction of leap seconds
 /// in 1972 to the last one known here, at the end of 2016. Source: IERS Bulletin C.
 const std::vector<std::chrono::sys_days>& days_with_leap_second();

@@ -142,13 +142,11 @@ LinearImpulses PlannedTransfer::coarse() const {
   const Linearization linear = about_chief();
   const Vector6 change = change_about_chief();
   const ImpulseOptimum optimum{linear.grid, least_impulses(linear.grid.effects, change), {}};
-  const FoundImpulses found = within_limit(linear, optimum, change);
-  return {found.impulses, found.is_spaced};
+  return within_limit(linear, optimum, change);
 }
 
 LinearImpulses PlannedTransfer::by_linear_theory() const {
-  const FoundImpulses found = find(about_chief(), change_about_chief());
-  return {found.impulses, found.is_spaced};
+  return find(about_chief(), change_about_chief());
 }
 
 Vector6 PlannedTransfer::change_about_chief() const {
@@ -166,7 +164,7 @@ PlannedTransfer::FoundImpulses PlannedTransfer::within_limit(const Linearization
                                                              ImpulseOptimum optimum,
                                                              const Vector6& change) const {
   TimedImpulses impulses = merged(linear, optimum, change);
-  if (impulses.largest() <= most_) return {std::move(optimum), std::move(impulses), false};
+  if (impulses.largest() <= most_) return {{std::move(impulses)}, std::move(optimum)};
   ImpulseGrid grid;
   for (int k = 0; k <= spaces(); ++k) grid.add(spaced_time(k), linear.at(spaced_time(k)));
   const LimitedImpulses limited = least_impulses(grid.effects, change, most_);
@@ -178,7 +176,8 @@ PlannedTransfer::FoundImpulses PlannedTransfer::within_limit(const Linearization
                     metres_per_second(most_), std::abs(duration_) / spaces() * scene_.units.time_s,
                     duration_ * scene_.units.time_s, metres_per_second(limited.limit_needed)));
   }
-  FoundImpulses found{{grid, *limited.least, primer_along(grid, limited.least->costate)}, {}, true};
+  FoundImpulses found{{{}, true},
+                      {grid, *limited.least, primer_along(grid, limited.least->costate)}};
   for (const ChosenImpulse& impulse : limited.least->impulses) {
     found.impulses.times.push_back(grid.times[impulse.time]);
     found.impulses.changes.push_back(impulse.change);

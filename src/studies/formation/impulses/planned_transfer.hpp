@@ -34,7 +34,6 @@ class PlannedTransfer {
   PlannedTransfer(const Scene& scene, const ComputedProblem& problem, const LinearFlow& flow,
                   double duration);
 
-  double duration() const { return duration_; }
   /// A sum of magnitudes of impulses in m/s.
   double metres_per_second(double sum) const;
   /// Impulses of a plan in the units of the linear flow, those of no size left out.
@@ -60,10 +59,8 @@ class PlannedTransfer {
     Eigen::Matrix<double, 6, 6> from_end;  ///< the flow from the end to the start
   };
   /// Impulses of the linear theory that make a change, and what proves them the least.
-  struct FoundImpulses {
+  struct FoundImpulses : LinearImpulses {
     ImpulseOptimum optimum;
-    TimedImpulses impulses;
-    bool is_spaced = false;
   };
   using Vector6 = Eigen::Matrix<double, 6, 1>;
   /// Called with the time at which a leg of the flight begins, its duration, and the state then.

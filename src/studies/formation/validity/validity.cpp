@@ -14,6 +14,7 @@
 #include "../single_transfer.hpp"
 #include "flown_deputies.hpp"
 #include "hamjet/detail/algebra/monomial_values.hpp"
+#include "hamjet/detail/dynamics/differentiable_function.hpp"
 #include "hamjet/error.hpp"
 #include "reach_limit.hpp"
 
@@ -75,6 +76,26 @@ class ValidityStudy {
       }
       samples_.push_back(coordinates);
     }
+    // Polynomials in elements may be exact of every bound orbit: those end where a deputy escapes
+    // or falls, which is found along the energy alone.
+    const Vector6 energy = direction_of_energy();
+    samples_.push_back(energy);
+    samples_.push_back(-energy);
+  }
+
+  /// The coordinates of separation 1 in which the Hamiltonian grows most: its gradient is
+  /// (-dp/dt, dq/dt).
+  Vector6 direction_of_energy() const {
+    DifferentiableFunction<double> field(problem_.system->vector_field);
+    field.evaluate(problem_.nominal);
+    const Vector<double> rates = field.values();
+    Vector6 gradient;
+    gradient << -rates.tail<3>(), rates.head<3>();
+    Vector6 coordinates = axes_.transpose() * gradient;
+    for (const Eigen::Index first : {Eigen::Index{0}, Eigen::Index{3}}) {
+      coordinates.segment<3>(first).normalize();
+    }
+    return coordinates;
   }
 
   /// What the degrees of the polynomials add to the final position, to first order in the
@@ -317,11 +338,11 @@ class ValidityStudy {
   ValidityResult result_;
 };
 
-}  // namespace
-
-static std::vector<SelfCheck> checks_of_chief(const Scene& scene) {
+std::vector<SelfCheck> checks_of_chief(const Scene& scene) {
   return flight_checks(scene, flights_of(scene, scene.validity->times.back(), false));
 }
+
+}  // namespace
 
 ValidityResult study_validity(const Scene& scene, const ProgressCallback& progress) {
   require_formation_problem(scene, scene.validity.has_value(), "validity");

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "formation_scenes.hpp"
+#include "../formation_scenes.hpp"
 #include "hamjet/studies/transfer.hpp"
 #include "studies/formation/impulses/least_impulses.hpp"
 

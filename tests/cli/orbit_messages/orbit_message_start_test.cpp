@@ -1,169 +1,17 @@
 #include <cmath>
-#include <cstdlib>
 
-#include "command_test.hpp"
-#include "formats/orbit_message_samples.hpp"
+#include "orbit_message_test.hpp"
 
-// Orbit messages in and out, as a user meets them. What is written is checked by a reader written
-// from the standard in another language (check_oem.py); what is read comes from the standard and
-// from another program.
+// Scenes that start from orbit messages.
 
 namespace hamjet::test {
 namespace {
-
-constexpr const char* python = "/usr/bin/python3";
-
-constexpr const char* dated = R"([output]
-formats = ["oem"]
-[ephemeris]
-epoch = "2026-02-28T23:59:50.5"
-time_system = "TAI"
-reference_frame = "TOD"
-center_name = "EARTH"
-object_name = "CHIEF"
-)";
-
-/// The first states of tests/samples/real/LEO_60s.oem in the repository bradsease/oem, commit
-/// 3ab31b2: a low orbit from a program with a full force model, a state a minute.
-constexpr const char* low_orbit = R"(CCSDS_OEM_VERS = 2.0
-
-COMMENT Orbit data are consistent with planetary ephemeris DE-430
-
-CREATION_DATE  = 2020-06-01T00:32:46
-ORIGINATOR     = Test
-
-META_START
-OBJECT_NAME          = TEST_OBJ
-OBJECT_ID            = 0000-000A
-CENTER_NAME          = Earth
-REF_FRAME            = ICRF
-TIME_SYSTEM          = UTC
-START_TIME           = 2020-06-01T12:00:00.000000
-USEABLE_START_TIME   = 2020-06-01T12:00:00.000000
-USEABLE_STOP_TIME    = 2020-06-01T13:00:00.000000
-STOP_TIME            = 2020-06-01T13:00:00.000000
-INTERPOLATION        = Lagrange
-INTERPOLATION_DEGREE = 7
-META_STOP
-
-2020-06-01T12:00:00.000000  -4.706641952872011e+03  -2.918623186846944e+03   3.932995817738559e+03   6.077667602389965e-01  -6.470290930680426e+00  -4.059846290755485e+00
-2020-06-01T12:01:00.000000  -4.659443185713036e+03  -3.299871874607716e+03   3.680574084331019e+03   9.649363656794152e-01  -6.233151071975111e+00  -4.351015833932221e+00
-2020-06-01T12:02:00.000000  -4.590937743703589e+03  -3.666030848199918e+03   3.411273695970938e+03   1.317718313079672e+00  -5.967490649721602e+00  -4.622251514385893e+00
-)";
-
-/// A scene whose nominal starts from a message; `nominal` are the keys of its table.
-std::string from_message(const std::string& nominal) {
-  return "schema = 1\ntitle = \"from a message\"\n[system]\nmodel = \"zonal-gravity\"\n"
-         "mu_km3_s2 = 398600.4415\nradius_km = 6378.1363\nJ2 = 1.08262668355315e-3\n[nominal]\n" +
-         nominal +
-         "[jet]\norder = 1\nduration_s = 60\n[[integrator]]\nlabel = \"gauss8\"\n"
-         "method = \"gauss\"\ntolerance = 1e-13\n";
-}
-
-class OrbitMessages : public CommandTest {
- protected:
-  OrbitMessages() {
-    write("dated.toml", quick_scene() + dated);
-    write("low.oem", low_orbit);
-    write("standard.oem", io::standard_oem);
-    write("standard.opm", io::standard_opm);
-  }
-
-  /// The states of a message as the independent reader prints them: object, seconds since the first
-  /// epoch, six numbers.
-  Table checked(const std::filesystem::path& message) const {
-    const std::string checker = std::string(HAMJET_SOURCE_DIR) + "/tests/cli/check_oem.py";
-    const std::filesystem::path output = directory_ / "checked.csv";
-    const std::string command = std::string(python) + " '" + checker + "' '" +
-                                (directory_ / message).string() + "' >'" + output.string() + "'";
-    EXPECT_EQ(std::system(command.c_str()), 0) << content(directory_ / message);
-    return read_table(output);
-  }
-};
 
 /// The standard's parameters without its elements, which are not those of its state and warned of.
 std::string state_alone() {
   std::string text = io::standard_opm;
   const std::size_t first = text.find("SEMI_MAJOR_AXIS");
   return text.erase(first, text.find("GM  ") - first);
-}
-
-/// A fraction as Python prints it.
-double fraction(const std::string& text) {
-  const std::size_t slash = text.find('/');
-  const double numerator = std::stod(text.substr(0, slash));
-  return slash == std::string::npos ? numerator : numerator / std::stod(text.substr(slash + 1));
-}
-
-bool has_python() { return std::filesystem::exists(python); }
-
-TEST_F(OrbitMessages, TheNominalIsWrittenAsItStandsInTheCsv) {
-  if (!has_python()) GTEST_SKIP() << "no " << python;
-  succeed({"run", "dated.toml", "-q"});
-  const Json summary = read_json(directory_ / "out/dated/summary.json");
-  const double length = summary["units"]["length_km"];
-  const double speed = length / summary["units"]["time_s"].get<double>();
-  for (const std::string label : {"gauss8", "midpoint"}) {
-    const Table states = checked("out/dated/" + label + "/nominal.oem");
-    const Table nominal = read_table(directory_ / ("out/dated/" + label + "/nominal.csv"));
-    ASSERT_EQ(states.rows.size(), nominal.rows.size());
-    ASSERT_GT(states.rows.size(), 2U);
-    for (std::size_t i = 0; i < states.rows.size(); ++i) {
-      EXPECT_EQ(states.rows[i][0], "CHIEF");
-      EXPECT_NEAR(fraction(states.rows[i][1]), std::stod(nominal.rows[i][1]), 2e-12);
-      for (std::size_t k = 0; k < 6; ++k) {
-        const double expected = std::stod(nominal.rows[i][2 + k]) * (k < 3 ? length : speed);
-        EXPECT_NEAR(std::stod(states.rows[i][2 + k]), expected, 1e-15 * std::abs(expected));
-      }
-    }
-  }
-  const std::string text = content(directory_ / "out/dated/gauss8/nominal.oem");
-  EXPECT_EQ(text.rfind("CCSDS_OEM_VERS = 2.0\n", 0), 0U);
-  EXPECT_NE(text.find("\nTIME_SYSTEM = TAI\nSTART_TIME = 2026-02-28T23:59:50.500000000000\n"),
-            std::string::npos);
-  EXPECT_NE(text.find("\n2026-03-01T00:"), std::string::npos);
-  EXPECT_NE(text.find("Accuracy: not measured"), std::string::npos);
-}
-
-TEST_F(OrbitMessages, BackwardsInTimeTheStatesAreInOrder) {
-  if (!has_python()) GTEST_SKIP() << "no " << python;
-  succeed({"run", "dated.toml", "-q", "--set", "jet.duration_canonical=-1", "--set",
-           "ephemeris.oem_version=3.0"});
-  EXPECT_GT(checked("out/dated/gauss8/nominal.oem").rows.size(), 2U);
-  const std::string text = content(directory_ / "out/dated/gauss8/nominal.oem");
-  EXPECT_EQ(text.rfind("CCSDS_OEM_VERS = 3.0\n", 0), 0U);
-  EXPECT_NE(text.find("STOP_TIME = 2026-02-28T23:59:50.500000000000\n"), std::string::npos);
-}
-
-TEST_F(OrbitMessages, ARunGoesOnFromWhereAnotherEnded) {
-  succeed({"run", "dated.toml", "-q"});
-  const Json first = read_json(directory_ / "out/dated/summary.json");
-  const std::string message = content(directory_ / "out/dated/gauss8/nominal.oem");
-  const std::size_t stop = message.find("\nSTOP_TIME = ") + 13;
-  const std::string epoch = message.substr(stop, message.find('\n', stop) - stop);
-  std::string scene = content(directory_ / "dated.toml");
-  const std::size_t begin = scene.find("a_km"), end = scene.find("[jet]");
-  scene.replace(begin, end - begin,
-                "oem_file = \"out/dated/gauss8/nominal.oem\"\nepoch = \"" + epoch + "\"\n");
-  scene = scene.substr(0, scene.find("[ephemeris]"));
-  scene = changed(
-      scene, "duration_canonical = 1",
-      "duration_canonical = -1\n[units]\nlength_km = " + first["units"]["length_km"].dump());
-  write("back.toml", scene);
-  succeed({"run", "back.toml", "-q"});
-  const Json second = read_json(directory_ / "out/back/summary.json");
-  EXPECT_EQ(second["nominal_file"]["format"], "OEM 2.0");
-  EXPECT_EQ(second["nominal_file"]["path"], "out/dated/gauss8/nominal.oem");
-  EXPECT_EQ(second["ephemeris"]["epoch"], epoch);
-  EXPECT_EQ(second["ephemeris"]["time_system"], "TAI");
-  EXPECT_EQ(second["ephemeris"]["object_name"], "CHIEF");
-  for (std::size_t i = 0; i < 6; ++i) {
-    // Out and back; the message has 16 digits.
-    const double x = first["runs"][0]["nominal_final"][i];
-    EXPECT_NEAR(second["nominal_initial"][i].get<double>(), x, 1e-15 * (1 + std::abs(x)));
-    EXPECT_NEAR(second["runs"][0]["nominal_final"][i].get<double>(),
-                first["nominal_initial"][i].get<double>(), 1e-12);
-  }
 }
 
 TEST_F(OrbitMessages, TheOrbitOfAnotherProgramIsFollowed) {
@@ -224,30 +72,6 @@ TEST_F(OrbitMessages, TheStandardsParametersAreAStart) {
   EXPECT_EQ(summary["nominal_file"]["unused"],
             Json({"Keplerian elements", "spacecraft parameters"}));
   EXPECT_EQ(summary["ephemeris"]["object_name"], "EUTELSAT W4");
-}
-
-TEST_F(OrbitMessages, ChiefAndDeputyOfATransfer) {
-  if (!has_python()) GTEST_SKIP() << "no " << python;
-  const std::string shipped = std::string(HAMJET_SOURCE_DIR) + "/data/scenes/orbit-messages.toml";
-  succeed({"transfer", shipped, "-q", "-o", "out", "--set", "transfer.count=3"});
-  const Table chief = checked("out/chief.oem");
-  const Table deputy = checked("out/deputy.oem");
-  ASSERT_EQ(chief.rows.size(), deputy.rows.size());
-  EXPECT_EQ(chief.rows[0][0], "EUTELSAT W4");
-  EXPECT_EQ(deputy.rows[0][0], "INSPECTOR");
-  const auto distance_m = [&](std::size_t row) {
-    double sum = 0;
-    for (std::size_t k = 2; k < 5; ++k) {
-      sum += std::pow(std::stod(deputy.rows[row][k]) - std::stod(chief.rows[row][k]), 2);
-    }
-    return 1000 * std::sqrt(sum);
-  };
-  // The ends that the scene asks for; 16 digits of 42 000 km are some 1e-8 m.
-  EXPECT_NEAR(distance_m(0), 20000, 1e-6);
-  EXPECT_NEAR(distance_m(chief.rows.size() - 1), 500, 1e-2);
-  const Json summary = read_json(directory_ / "out/summary.json");
-  EXPECT_NEAR(fraction(chief.rows.back()[1]), summary["best"]["time_s"], 1e-9);
-  EXPECT_EQ(summary["nominal_file"]["path"], "eutelsat-w4.opm");
 }
 
 TEST_F(OrbitMessages, ADamagedFileIsOneLineAndExitCode5) {
@@ -361,54 +185,6 @@ TEST_F(OrbitMessages, TheStateMustBeThere) {
          {"nominal.object: missing, got a file of 2 objects", "1996-062B, 1996-062A"});
   refuse("oem_file = \"two.oem\"\nobject = \"MARS GLOBAL SURVEYOR\"\n",
          {"nominal.object: the name of 2 objects", "1996-062B, 1996-062A"});
-}
-
-TEST_F(OrbitMessages, TheTablesOutputAndEphemeris) {
-  const auto refuse = [&](const std::string& from, const std::string& to,
-                          const std::vector<std::string>& words) {
-    write("bad.toml", quick_scene() + changed(dated, from, to));
-    expect_error({"check", "bad.toml"}, 3, words);
-  };
-  refuse("\"oem\"", "\"oen\"",
-         {"output.formats.0: unknown format, got \"oen\", did you mean oem?"});
-  refuse("\"oem\"", "3", {"output.formats.0: wrong type"});
-  refuse("formats", "format", {"output.format: unknown key", "did you mean formats?"});
-  refuse("2026-02-28", "2026-02-29", {"ephemeris.epoch: no moment of the calendar"});
-  refuse("TAI", "UT1", {"ephemeris.time_system: unknown value", "UTC, TAI, TT, GPS, TDB"});
-  refuse("TOD", "ITRF2000", {"ephemeris.reference_frame: a frame that rotates"});
-  refuse("CHIEF", "CHIEF\\n", {"ephemeris.object_name: no text of an orbit message"});
-  refuse("center_name = \"EARTH\"\n", "", {"ephemeris.center_name: missing"});
-  refuse("center_name = \"EARTH\"", "center_name = \"Moon\"",
-         {"ephemeris.center_name: another centre than the scene's, got \"Moon\" and "
-          "system.mu_km3_s2 = 398600.4",
-          "or mu near 4902.8"});
-  write("unknown.toml", quick_scene() + changed(dated, "\"EARTH\"", "\"TERRA\""));
-  const CommandResult unknown = hamjet({"check", "unknown.toml"});
-  EXPECT_EQ(unknown.exit_code, 0);
-  EXPECT_NE(unwrapped(unknown.err).find("ephemeris.center_name: \"TERRA\" is none of the Sun"),
-            std::string::npos)
-      << unknown.err;
-  refuse("[ephemeris]", "[ephemeris]\noem_version = 1.0",
-         {"ephemeris.oem_version: unknown version"});
-  refuse("2026-02-28T23:59:50.5\"\ntime_system = \"TAI\"",
-         "2016-12-31T23:59:50.5\"\ntime_system = \"UTC\"",
-         {"ephemeris.epoch: a span across the leap second at the end of 2016-12-31"});
-  refuse("2026-02-28T23:59:50.5\"\ntime_system = \"TAI\"",
-         "2016-12-31T23:59:60.5\"\ntime_system = \"UTC\"",
-         {"ephemeris.epoch: within a leap second"});
-  refuse("2026-02-28T23:59:50.5\"\ntime_system = \"TAI\"",
-         "1971-12-31T23:59:50.5\"\ntime_system = \"UTC\"", {"ephemeris.epoch: before 1972"});
-  refuse("2026-02-28", "9999-12-31", {"ephemeris.epoch: a span that leaves the calendar"});
-  write("bad.toml", quick_scene() + "[output]\nformats = [\"oem\"]\n");
-  expect_error({"check", "bad.toml"}, 3, {"output.formats: \"oem\" without a date"});
-  // Across a leap second in a system that has none.
-  write("good.toml", quick_scene() + changed(dated, "2026-02-28", "2016-12-31"));
-  succeed({"check", "good.toml"});
-  write("bad.toml",
-        from_message("oem_file = \"low.oem\"\n") + "[ephemeris]\nreference_frame = \"TOD\"\n");
-  expect_error({"check", "bad.toml"}, 3,
-               {"ephemeris.reference_frame: not that of the nominal's file, got \"TOD\", must be "
-                "\"ICRF\" or left out"});
 }
 
 // What is no scene is named, with the way to use it, and not taken for damaged TOML.

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "command_test.hpp"
+#include "../command_test.hpp"
 
 // Scenes with one mistake each, for the rows of the table at the head of bad_input_test.cpp that
 // the tests there leave open. Lines are those of small_scene, counted by hand.

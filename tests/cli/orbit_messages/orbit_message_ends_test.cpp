@@ -1,23 +1,15 @@
 #include <cmath>
 
-#include "command_test.hpp"
 #include "formats/xml/orbit_message_xml.hpp"
 #include "hamjet/formats/orbit_message.hpp"
+#include "orbit_message_test.hpp"
 
 // The two ends of a nominal as Orbit Parameter Messages.
 
 namespace hamjet::test {
 namespace {
 
-constexpr const char* dated_ends = R"([output]
-formats = ["opm"]
-[ephemeris]
-epoch = "2026-02-28T23:59:50.5"
-time_system = "TAI"
-reference_frame = "TOD"
-center_name = "EARTH"
-object_name = "CHIEF"
-)";
+const std::string dated_ends = changed(dated, "[\"oem\"]", "[\"opm\"]");
 
 /// A scene whose nominal starts from a message.
 std::string from_its_end(const std::string& file) {

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <random>
 
+#include "../formation_scenes.hpp"
 #include "circle_transfers.hpp"
-#include "formation_scenes.hpp"
 #include "hamjet/studies/transfer.hpp"
 #include "studies/formation/impulses/least_impulses.hpp"
 

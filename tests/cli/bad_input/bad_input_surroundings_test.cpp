@@ -2,7 +2,7 @@
 
 #include <csignal>
 
-#include "command_test.hpp"
+#include "../command_test.hpp"
 
 // Bad surroundings: memory, arithmetic, hostile names, a directory that nothing can be written to.
 // Rows of the table at the head of bad_input_test.cpp.
@@ -169,7 +169,8 @@ TEST_F(Surroundings, TitlesAreTextInPagesAndTables) {
   EXPECT_EQ(page.find("<script"), string::npos);
   EXPECT_NE(page.find("&lt;script&gt;alert(1)&lt;/script&gt;&amp;amp;"), string::npos);
   const Json json = read_json(directory_ / "out/hostile/compare.json");
-  EXPECT_EQ(json["scene"]["title"], "</title><script>alert(1)</script>&amp;\\xe2\\x80\\xa8=1+1,\"x\"");
+  EXPECT_EQ(json["scene"]["title"],
+            "</title><script>alert(1)</script>&amp;\\xe2\\x80\\xa8=1+1,\"x\"");
 }
 
 // Row 64. A label, which is what a user names in tables, cannot begin with what a spreadsheet takes
