@@ -11,6 +11,8 @@
 
 #include "app/estimated_deputies.hpp"
 #include "hamjet/error.hpp"
+#include "hamjet/integrators/error_estimate.hpp"
+#include "studies/checks/error_promise.hpp"
 #include "studies/estimated_jets.hpp"
 #include "studies/estimated_scenes.hpp"
 
@@ -136,6 +138,30 @@ std::size_t add_jet(std::uint64_t seed, Ratios& ratios) {
   return degrees.size();
 }
 
+/// Of a jet in doubt, whose tolerance rounding does not let be kept: its estimates over the
+/// rounding floors of the check error-estimate, with which they are of one size if the floors are
+/// right.
+std::size_t add_floor(std::uint64_t seed, Ratios& ratios) {
+  Scene scene = estimated_jet(seed);
+  IntegratorSettings& settings = scene.integrators[0];
+  if (!settings.tolerance) return 0;
+  settings.tolerance = 1e-15;
+  scene.reference.reset();
+  const RunResult run = propagate(scene).runs.front();
+  if (!run.failure.empty() || !run.error_estimate.by_degree) return 0;
+  if (run.statistics.rounding_by_degree.empty()) return 0;
+  const PromisedErrors promised = promised_errors(scene, run);
+  std::size_t count = 0;
+  for (std::size_t d = 0; d < promised.rounding.size(); ++d) {
+    const double estimate = (*run.error_estimate.by_degree)[d] - promised.of_tolerance;
+    const double floor = error_estimate_safety * promised.rounding[d];
+    if (!(floor > promised.of_tolerance)) continue;
+    ratios.add(estimate, floor, 0, fmt::format("{}, degree {}", description(scene), d));
+    ++count;
+  }
+  return count;
+}
+
 std::size_t add_deputy(std::uint64_t seed, Ratios& ratios) {
   const DrawnDeputy drawn = drawn_deputy(seed);
   const auto one = judged_deputy(drawn);
@@ -158,6 +184,7 @@ int main(int argc, char** argv) {
   const auto first = argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 1ULL;
   if (what == "scenes") return report_scenes(count, first) ? 0 : 1;
   if (what == "jets") return report("jets", count, first, add_jet) ? 0 : 1;
+  if (what == "floors") return report("floors", count, first, add_floor) ? 0 : 1;
   if (what == "deputies") return report("deputies", count, first, add_deputy) ? 0 : 1;
   fmt::print(stderr, "scenes, jets or deputies\n");
   return 2;

@@ -15,7 +15,7 @@ constexpr double largest_rounding = 1e-3;  ///< relative rounding of a usable de
 /// How many times the measured floor an estimate of rounding may be. Of one orbit of e = 0.9 in
 /// eight units of length it was 0.6 to 45 times; a wider sample has not been taken, and no theory
 /// gives the number.
-constexpr double rounding_scatter = 50;
+constexpr double rounding_scatter = 1;
 
 /// How often a run's tolerance may count: once a period of the linearised motion for Gauss, whose
 /// tolerance is that of the error after one; once a step for the others, whose tolerance is that of
