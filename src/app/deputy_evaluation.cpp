@@ -292,12 +292,14 @@ MissEstimate DeputyEvaluation::curved_estimate(
   if (degree_ >= 3) {
     const double before = distance(lower[0], lower[1]);
     const double two_before = distance(lower[1], lower[2]);
-    if (!std::isfinite(before) || !std::isfinite(two_before)) return result;
+    if (!std::isfinite(before)) return result;
     // A change that is rounding says nothing of a decay.
     const double rounding = scene_.rounding_m / (scene_.chief.units.length_km * 1000);
     is_decaying = change < before || change <= rounding;
-    const double decay = std::min(decay_of_degrees(2, two_before, before, change),
-                                  is_decaying ? 1.0 : largest_decay);
+    // The lowest degrees may leave a deputy where the coordinates of the end are none.
+    const double all = std::isfinite(two_before) ? decay_of_degrees(2, two_before, before, change)
+                                                 : decay_of_degrees(1, before, before, change);
+    const double decay = std::min(all, is_decaying ? 1.0 : largest_decay);
     missing = std::max(change * std::max(decay, least_decay), before * decay * decay);
   }
   // Of the deviation that a degree may change. Degrees that are small already need not decay one by

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include "../algebra/instantiated_real.hpp"
 #include "../algebra/raise_to.hpp"
@@ -11,7 +12,7 @@
 namespace hamjet {
 namespace {
 
-constexpr std::size_t rounding_samples = 16;  ///< along each direction
+constexpr std::size_t rounding_samples = 4;
 
 /// Moves the coefficients of a start by up to half a unit in the last place of the largest
 /// position, or momentum, of their degree.
@@ -47,25 +48,28 @@ std::vector<double> sample_rounding(
   const SpacePointer line = SeriesSpace::create(1, problem.space->order());
   const FlowJet<Real> jet = in_momentum_unit(delivered, problem.variables, exponent);
   const std::vector<double> largest = largest_by_degree(jet);
-  std::vector<double> result(largest.size(), 0);
+  Directions<Real> unmoved = choose_directions(jet, line, largest, directions_of_runs[0]);
+  std::vector<std::vector<FlowJet<Real>>> moved(rounding_samples);
   std::mt19937_64 generator(1);
+  const auto runs = static_cast<double>(unmoved.size() * (rounding_samples + 1));
   double done = 0;
-  for (const Direction<Real>& direction :
-       choose_directions(jet, line, largest, stages_of_runs.size())) {
+  for (Direction<Real>& direction : unmoved) {
     const FlowProblem<Real> along = problem_along(problem, direction.entries, exponent);
     const auto run = [&](const FlowProblem<Real>& start) {
-      if (settings.progress) settings.progress(done);
-      done += 1.0 / static_cast<double>(stages_of_runs.size() * (rounding_samples + 1));
+      if (settings.progress) settings.progress(done++ / runs);
       return in_momentum_unit(integrate(start), variable_of_line, exponent);
     };
-    const FlowJet<Real> unmoved = run(along);
-    for (std::size_t sample = 0; sample < rounding_samples; ++sample) {
-      FlowProblem<Real> moved = along;
-      move_by_half_units(moved, generator);
-      const std::vector<double> change =
-          relative_line_differences(run(moved), unmoved, false, largest);
-      for (std::size_t d = 0; d < result.size(); ++d) raise_to(result[d], change[d]);
+    direction.jet = run(along);
+    for (std::vector<FlowJet<Real>>& sample : moved) {
+      FlowProblem<Real> start = along;
+      move_by_half_units(start, generator);
+      sample.push_back(run(start));
     }
+  }
+  std::vector<double> result(largest.size(), 0);
+  for (const std::vector<FlowJet<Real>>& sample : moved) {
+    const std::vector<double> change = mean_line_differences<Real>(unmoved, sample, largest);
+    for (std::size_t d = 0; d < result.size(); ++d) raise_to(result[d], change[d]);
   }
   return result;
 }
