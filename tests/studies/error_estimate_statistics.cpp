@@ -17,11 +17,12 @@
 #include "studies/estimated_scenes.hpp"
 
 // How often an estimate is below the true error, and how often far above it, over random inputs:
-//   error_estimate_statistics [scenes|jets|deputies] [count] [first seed]
+//   error_estimate_statistics [scenes|jets|floors|deputies] [count] [first seed]
 // `scenes` are of all models and methods, `jets` of Gauss about orbits, `deputies` in all
-// coordinates and frames. Exit code 1 if an estimate is below a tenth of the error in more than 1 %
-// of them, or below a thirtieth in any (of scenes, whose coarse steps resolve nothing, below a
-// hundredth).
+// coordinates and frames; `floors` compares estimates of jets that rounding limits with what the
+// check error-estimate takes rounding for. Exit code 1 if an estimate is below a tenth of the error
+// in more than 1 % of them, or below a thirtieth in any (of scenes, whose coarse steps resolve
+// nothing, below a hundredth).
 
 namespace hamjet::test {
 namespace {
@@ -186,6 +187,6 @@ int main(int argc, char** argv) {
   if (what == "jets") return report("jets", count, first, add_jet) ? 0 : 1;
   if (what == "floors") return report("floors", count, first, add_floor) ? 0 : 1;
   if (what == "deputies") return report("deputies", count, first, add_deputy) ? 0 : 1;
-  fmt::print(stderr, "scenes, jets or deputies\n");
+  fmt::print(stderr, "scenes, jets, floors or deputies\n");
   return 2;
 }
