@@ -3,6 +3,7 @@
 #include <array>
 #include <boost/math/constants/constants.hpp>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
