@@ -140,9 +140,9 @@ JudgedDeputy told(const DrawnDeputy& drawn, const io::StoredJet& chief, Evaluati
   JudgedDeputy judged;
   judged.coordinates = name_of(chief.coordinates);
   evaluation.run([&](const std::vector<double>& deviation, cli::MissEstimate estimate) {
-    estimate.integration_m += coordinates.turned_m(deviation, evaluation.chief_error());
+    const auto end = coordinates.final_state(deviation, evaluation.chief_error(), estimate);
     judged.estimate = estimate;
-    judged.error_m = true_miss_m(drawn, coordinates.final_state(deviation));
+    judged.error_m = true_miss_m(drawn, end);
   });
   return judged;
 }

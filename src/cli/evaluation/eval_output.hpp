@@ -32,6 +32,7 @@ class EvalOutput {
   /// The rows, or null where there are too many.
   nlohmann::ordered_json json_rows() const;
   std::size_t rows() const { return rows_; }
+  /// Rows with numbers, not inside.
   std::size_t outside() const { return outside_; }
   std::size_t unknown() const { return unknown_; }
   /// Rows whose final state has no numbers of the form asked for.
