@@ -1,5 +1,6 @@
 #include <Eigen/SVD>
 
+#include "hamjet/error.hpp"
 #include "singular_values.hpp"
 
 namespace hamjet {
@@ -7,6 +8,11 @@ namespace hamjet {
 SingularValueDecomposition decompose_by_singular_values(const Matrix<double>& matrix) {
   const Eigen::JacobiSVD<Matrix<double>> decomposition(matrix,
                                                        Eigen::ComputeFullU | Eigen::ComputeFullV);
+  // Without success Eigen leaves its values as the memory was.
+  if (decomposition.info() != Eigen::Success) {
+    throw Error(ErrorKind::numerical,
+                "singular values: an entry of the matrix is no finite number");
+  }
   return {decomposition.matrixU(), decomposition.singularValues(), decomposition.matrixV()};
 }
 

@@ -1,6 +1,7 @@
 #include "singular_values.hpp"
 
 #include <Eigen/SVD>
+#include <limits>
 
 #include "hamjet/algebra/extended.hpp"
 #include "hamjet/error.hpp"
@@ -17,7 +18,12 @@ Vector<T> singular_values(const Matrix<T>& matrix) {
   if (matrix.rows() != matrix.cols()) {
     throw Error(ErrorKind::usage, "singular values: the matrix must be square");
   }
-  return Eigen::JacobiSVD<Matrix<T>, Eigen::NoQRPreconditioner>(matrix).singularValues();
+  const Eigen::JacobiSVD<Matrix<T>, Eigen::NoQRPreconditioner> decomposition(matrix);
+  // Without success Eigen leaves its values as the memory was.
+  if (decomposition.info() != Eigen::Success) {
+    return Vector<T>::Constant(matrix.rows(), std::numeric_limits<T>::quiet_NaN());
+  }
+  return decomposition.singularValues();
 }
 
 template Vector<InstantiatedReal> singular_values(const Matrix<InstantiatedReal>&);

@@ -4,13 +4,13 @@
 
 namespace hamjet {
 
-/// Singular values of a square matrix, the largest first; T is double or Extended. Throws
-/// Error(usage) if the matrix is not square.
+/// Singular values of a square matrix, the largest first; T is double or Extended. All are NaN if
+/// an entry is no finite number. Throws Error(usage) if the matrix is not square.
 template <class T>
 Vector<T> singular_values(const Matrix<T>& matrix);
 
 /// The decomposition A = left diag(values) right^T with square orthogonal `left` and `right`, the
-/// largest value first.
+/// largest value first. Throws Error(numerical) if an entry is no finite number.
 struct SingularValueDecomposition {
   Matrix<double> left;
   Vector<double> values;

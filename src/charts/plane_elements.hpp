@@ -50,7 +50,7 @@ struct EccentricLongitude {
 ///
 ///   F - k sin F + h cos F = lambda ,   k^2 + h^2 < 1 ,
 ///
-/// by Newton's method inside the bracket lambda - e, lambda + e.
+/// by Newton's method inside the bracket lambda - e, lambda + e. NaN if it is not found.
 template <class Real>
 EccentricLongitude<Real> eccentric_longitude(const Real& lambda, const Real& k, const Real& h) {
   using std::sqrt;
@@ -78,8 +78,8 @@ EccentricLongitude<Real> eccentric_longitude(const Real& lambda, const Real& k, 
       return {f, s + c * change, c - s * change};
     }
   }
-  const auto [s, c] = sine_and_cosine(f);
-  return {f, s, c};
+  const Real none = std::numeric_limits<Real>::quiet_NaN();
+  return {none, none, none};
 }
 
 /// Of series: Newton's method from the constant terms doubles the degrees that are right.

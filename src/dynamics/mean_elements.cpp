@@ -120,18 +120,18 @@ CartesianState moved(const CartesianState& state, const CartesianState& mean,
   return result;
 }
 
-/// The largest relative difference of positions and of velocities.
+/// The relative difference of positions and that of velocities, together; a sum, so that what is no
+/// number stays.
 Extended difference(const CartesianState& a, const CartesianState& b) {
   const auto relative = [](const auto& x, const auto& y) {
     Extended distance = 0, size = 0;
     for (std::size_t i = 0; i < 3; ++i) {
-      distance = std::max(distance, Extended(abs(x[i] - y[i])));
-      size = std::max(size, Extended(abs(x[i])));
+      distance += abs(x[i] - y[i]);
+      size += abs(x[i]);
     }
     return Extended(distance / size);
   };
-  return std::max(relative(a.position_km, b.position_km),
-                  relative(a.velocity_km_s, b.velocity_km_s));
+  return relative(a.position_km, b.position_km) + relative(a.velocity_km_s, b.velocity_km_s);
 }
 
 }  // namespace

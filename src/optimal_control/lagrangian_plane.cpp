@@ -27,7 +27,8 @@ std::vector<double> LagrangianPlane::phases() const {
   const Eigen::MatrixXcd w =
       frame_.bottomRows(n).cast<Complex>() + Complex(0, 1) * frame_.topRows(n).cast<Complex>();
   const Eigen::ComplexEigenSolver<Eigen::MatrixXcd> solver(w * w.transpose(), false);
-  if (solver.info() != Eigen::Success) {
+  // Of a matrix of one number the solver tells success whatever it is.
+  if (solver.info() != Eigen::Success || !frame_.allFinite()) {
     throw Error(ErrorKind::numerical,
                 "second variation: the eigenvalues of the Lagrangian plane are not found");
   }

@@ -58,6 +58,8 @@ FrozenOrbit<Real> find_frozen_orbit(const ZonalGravity& field, const SixNumbers<
                                    slope(flight.p, q_variable), slope(flight.p, p_variable)};
     const Real miss_q = flight.q[0] - z[q_place];
     const Real miss_p = flight.p[0] - z[p_place];
+    // What is no number is no smallest residual.
+    if (!(abs(miss_q) + abs(miss_p) < std::numeric_limits<Real>::max())) break;
     const Real residual = std::max(Real(abs(miss_q)), Real(abs(miss_p)));
     // The root is approached until rounding moves it to and fro.
     if (residual < least) {

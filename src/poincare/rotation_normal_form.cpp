@@ -241,7 +241,7 @@ std::optional<RotationNormalForm::Place> RotationNormalForm::place_of(
     const double miss_q = evaluate<double>(q, point) - wanted[0];
     const double miss_p = evaluate<double>(p, point) - wanted[1];
     const double radius = std::hypot(point[q_variable], point[p_variable]);
-    if (!(std::hypot(miss_q, miss_p) > 1e-13 * size)) {
+    if (std::hypot(miss_q, miss_p) <= 1e-13 * size) {
       return Place{{radius, 0, 0}, std::atan2(point[p_variable], point[q_variable])};
     }
     std::array<double, 4> d;

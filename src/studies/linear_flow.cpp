@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,6 +7,7 @@
 #include <numeric>
 #include <span>
 
+#include "../algebra/matrix_eigenvalues.hpp"
 #include "../integrators/momentum_unit.hpp"
 #include "exact_flow.hpp"
 #include "hamjet/detail/studies/singular_times.hpp"
@@ -116,7 +116,7 @@ double LinearFlow::checkpoint_distance(const std::vector<double>& state,
   // Positions and momenta that are of a size leave the eigenvalues their digits.
   const Matrix<double> linear =
       in_momentum_unit<Matrix<double>>(linear_part(slope), problem_->momentum_exponent);
-  const double rate = linear.eigenvalues().cwiseAbs().maxCoeff();
+  const double rate = matrix_eigenvalues("linear flow", linear).cwiseAbs().maxCoeff();
   return 2 * std::numbers::sqrt2 * std::numbers::pi / (rate * per_revolution);
 }
 

@@ -35,8 +35,12 @@ double signed_smallest(const Matrix<double>& block) {
   return std::copysign(decomposition.singularValues()[block.rows() - 1], sign);
 }
 
-/// The function whose zeros are the singular times, see find_singular_times.
+/// The function whose zeros are the singular times, see find_singular_times. Throws
+/// Error(numerical) if the flow's matrix is not finite.
 double watched_value(const StateTransition& flow, const GeneratingFunctionKind& kind) {
+  if (!flow.allFinite()) {
+    throw Error(ErrorKind::numerical, "singular times: the flow's matrix is not finite");
+  }
   const Matrix<double> block = inverted_block(flow, kind);
   const double value =
       block.rows() == 3 ? signed_smallest<3>(block) : signed_smallest<Eigen::Dynamic>(block);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../algebra/scalar_search.hpp"
 #include "../charts/carried_states.hpp"
 #include "../charts/time_scaled_system.hpp"
 #include "encounter_trajectories.hpp"
@@ -25,14 +26,16 @@ std::vector<double> minima_of(const EncounterTrajectories& means) {
   double before = means.approach_rate(times.front());
   for (std::size_t k = 1; k < times.size(); ++k) {
     const double rate = means.approach_rate(times[k]);
+    // No change of sign would show a minimum beside what is no number.
+    if (!std::isfinite(rate)) {
+      throw Error(ErrorKind::numerical,
+                  "closest approach: the distance of the means is not finite");
+    }
     if (before < 0 && rate >= 0) {
-      double low = times[k - 1];
-      double high = times[k];
-      for (int i = 0; i < 60 && high - low > 1e-15 * means.to(); ++i) {
-        const double middle = (low + high) / 2;
-        (means.approach_rate(middle) < 0 ? low : high) = middle;
-      }
-      minima.push_back((low + high) / 2);
+      constexpr int bits = 51;
+      minima.push_back(root_between(
+          "closest approach", [&](double time) { return means.approach_rate(time); },
+          {times[k - 1], before}, {times[k], rate}, bits));
     }
     before = rate;
   }
@@ -72,6 +75,10 @@ ClosestApproach approach_at(const EncounterProblem& problem, const EncounterTraj
   };
   // Newton's method with the derivative of the means, d(rho.v)/dt: a degree an iteration.
   const double slope = means.approach_rate_slope(time);
+  if (!(slope > 0)) {
+    throw Error(ErrorKind::numerical,
+                "closest approach: the distance is flat there, so that its time is no series");
+  }
   const SharedSystem crossing = time_scaled_first_order(*problem.system);
   for (int degree = 1; degree <= problem.order; ++degree) {
     Series<double> step = product(relative(), 0, 3) / -slope;

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "../algebra/scalar_search.hpp"
+#include "hamjet/error.hpp"
 
 namespace hamjet {
 namespace {
@@ -54,6 +56,10 @@ SquaredDistance::SquaredDistance(const std::array<double, 6>& start,
         (2 * dot(b1, b3) + 3 * dot(b2, b2)) / 5,
         dot(b2, b3),
         dot(b3, b3)};
+  // What is no number would be nowhere within a distance.
+  if (!std::isfinite(std::accumulate(c_.begin(), c_.end(), 0.0))) {
+    throw Error(ErrorKind::numerical, "encounter: the path of a spacecraft is not finite");
+  }
 }
 
 double SquaredDistance::lower_bound() const { return *std::min_element(c_.begin(), c_.end()); }

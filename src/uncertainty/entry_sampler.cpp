@@ -168,7 +168,8 @@ EntrySampler::EntrySampler(const RelativePaths& paths, double radius, bool begin
     const auto axes = paths.linear(node).by_deviation.topRows(3);
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(axes * axes.transpose(),
                                                                 Eigen::EigenvaluesOnly);
-    if (!(std::sqrt(std::max(0.0, solver.eigenvalues()[0])) > narrowest * radius)) {
+    if (solver.info() != Eigen::Success ||
+        !(std::sqrt(std::max(0.0, solver.eigenvalues()[0])) > narrowest * radius)) {
       throw Error(ErrorKind::numerical,
                   "collision: the relative position is nearly certain in a direction, by the "
                   "radius, so that entries have no density that boxes could follow; plain "

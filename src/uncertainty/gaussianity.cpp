@@ -17,6 +17,9 @@ double sum_of_squares(const std::vector<double>& numbers) {
   return sum;
 }
 
+/// 0 for what rounding has made negative; what is no number stays.
+double not_negative(double number) { return number < 0 ? 0 : number; }
+
 }  // namespace
 
 double Cumulants::mardia_skewness() const { return sum_of_squares(third_); }
@@ -51,7 +54,7 @@ double Cumulants::negentropy() const {
   const double leading = sum_of_squares(third_) / 12 + sum_of_squares(fourth_) / 48;
   if (leading < small || !gaussian_log_volume_) return leading;
   const std::optional<double> volume = log_volume();
-  return volume ? std::max(0.0, *volume - *gaussian_log_volume_) : leading;
+  return volume ? not_negative(*volume - *gaussian_log_volume_) : leading;
 }
 
 double divergence_from_gaussian(const Cumulants& distribution, const Cumulants& gaussian) {
@@ -83,7 +86,7 @@ double divergence_from_gaussian(const Cumulants& distribution, const Cumulants& 
       0.5 * (spread.squaredNorm() + inside.col(0).squaredNorm() -
              static_cast<double>(gaussian.rank())) -
       std::log(std::abs(Eigen::PartialPivLU<Matrix<double>>(spread).determinant()));
-  return std::max(0.0, between) + distribution.negentropy();
+  return not_negative(between) + distribution.negentropy();
 }
 
 double largest_error_of_probability(double divergence) {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "../algebra/scalar_search.hpp"
 #include "../integrators/taylor_flow.hpp"
 #include "encounter_trajectories.hpp"
 #include "hamjet/algebra/calculus.hpp"
@@ -18,9 +19,7 @@ namespace {
 using Position = Eigen::Vector3d;
 using Jacobian = Eigen::Matrix<double, 3, 12>;
 
-/// Minima of the linear theory's length are sought to this part of the time between two looks, and
-/// so many of the lowest are followed by the polynomials.
-constexpr double accuracy_of_minima = 1e-3;
+/// So many of the lowest minima of the linear theory's length are followed by the polynomials.
 constexpr std::size_t most_minima = 6;
 constexpr int most_iterations = 60;
 /// An expansion in time reaches a part of a revolution; it is looked at so often.
@@ -32,15 +31,18 @@ constexpr double never = std::numeric_limits<double>::infinity();
 ///
 ///   sum b_i^2 / (1 + l s_i^2)^2 = 1 .
 std::optional<EncounterDeviation> shortest(const Position& a, const Jacobian& m) {
-  if (a.norm() <= 1) return EncounterDeviation(EncounterDeviation::Zero());
   const Eigen::JacobiSVD<Eigen::MatrixXd> parts(m, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  if (parts.info() != Eigen::Success || !a.allFinite()) {
+    throw Error(ErrorKind::numerical, "keep-out: the relative position is not finite");
+  }
   const Eigen::VectorXd s = parts.singularValues();
   const Eigen::VectorXd b = parts.matrixU().transpose() * a;
-  const auto length = [&](double l) {
-    double sum = 0;
+  const auto excess = [&](double l) {
+    double sum = -1;
     for (Eigen::Index i = 0; i < 3; ++i) sum += std::pow(b[i] / (1 + l * s[i] * s[i]), 2);
     return sum;
   };
+  if (excess(0) <= 0) return EncounterDeviation(EncounterDeviation::Zero());
   // Directions below the rounding of the others reach nothing.
   const double least = 1e-13 * s[0];
   double rest = 0;
@@ -48,41 +50,16 @@ std::optional<EncounterDeviation> shortest(const Position& a, const Jacobian& m)
   if (rest >= 1 || s[0] == 0) return std::nullopt;
   double low = 0;
   double high = 1 / (s[0] * s[0]);
-  while (length(high) > 1 && std::isfinite(high)) high *= 4;
+  while (excess(high) > 0 && std::isfinite(high)) {
+    low = high;
+    high *= 4;
+  }
   if (!std::isfinite(high)) return std::nullopt;
-  for (int k = 0; k < 200 && high - low > 1e-15 * high; ++k) {
-    const double middle = (low + high) / 2;
-    (length(middle) > 1 ? low : high) = middle;
-  }
+  constexpr int bits = 50;
+  const double l = root_between("keep-out", excess, {low, excess(low)}, {high, excess(high)}, bits);
   Eigen::VectorXd eta(3);
-  for (Eigen::Index i = 0; i < 3; ++i) eta[i] = -high * s[i] * b[i] / (1 + high * s[i] * s[i]);
+  for (Eigen::Index i = 0; i < 3; ++i) eta[i] = -l * s[i] * b[i] / (1 + l * s[i] * s[i]);
   return EncounterDeviation(parts.matrixV() * eta);
-}
-
-/// Looks at a function at times that close in on a minimum between `from` and `to`, by golden
-/// sections, until these are `accuracy` apart.
-template <class Function>
-void look_for_minimum(double from, double to, double accuracy, Function&& look) {
-  const double section = (std::sqrt(5.0) - 1) / 2;
-  double left = to - section * (to - from);
-  double right = from + section * (to - from);
-  double of_left = look(left);
-  double of_right = look(right);
-  while (to - from > accuracy) {
-    if (of_left < of_right) {
-      to = right;
-      right = left;
-      of_right = of_left;
-      left = to - section * (to - from);
-      of_left = look(left);
-    } else {
-      from = left;
-      left = right;
-      of_left = of_right;
-      right = from + section * (to - from);
-      of_right = look(right);
-    }
-  }
 }
 
 /// The relative position in the ellipsoid's own measure, and its derivatives by the twelve numbers.
@@ -184,7 +161,8 @@ class Ellipsoid {
         const std::size_t after = std::min(k + 1, ratios.size() - 1);
         if (ratios[k] > ratios[before] || ratios[k] > ratios[after]) continue;
         // The ratio is flat at its least.
-        look_for_minimum(time_of(before), time_of(after), 1e-6 * step, ratio_at);
+        constexpr int bits = 20;
+        minimum_between("keep-out", ratio_at, time_of(before), time_of(after), bits);
       }
       evaluate_at(step);
       left = step == left ? 0 : left - step;
@@ -249,15 +227,21 @@ std::vector<Candidate> linear_minima(const EncounterProblem& problem, const Elli
     // Paths may cross the ellipsoid between two looks: which minima are lowest is told by
     // themselves, not by the nearest looks.
     Candidate minimum{lengths[k], times[before], times[k], times[after]};
-    look_for_minimum(minimum.from, minimum.to, accuracy_of_minima * (minimum.to - minimum.from),
-                     [&](double time) {
-                       const double length = ellipsoid.linear_length(linear, time);
-                       if (length < minimum.length) {
-                         minimum.length = length;
-                         minimum.time = time;
-                       }
-                       return length;
-                     });
+    // To a thousandth of the time between two looks; finite, for parabolas go through it.
+    constexpr int bits = 11;
+    const double large = 10 * (1 + minimum.length);
+    minimum_between(
+        "keep-out",
+        [&](double share) {
+          const double time = minimum.from + share * (minimum.to - minimum.from);
+          const double length = ellipsoid.linear_length(linear, time);
+          if (length < minimum.length) {
+            minimum.length = length;
+            minimum.time = time;
+          }
+          return std::min(length, large);
+        },
+        0, 1, bits);
     minima.push_back(minimum);
   }
   std::sort(minima.begin(), minima.end(),
@@ -284,8 +268,11 @@ KeepOutMargin followed(const Ellipsoid& ellipsoid, const Candidate& candidate) {
   look(candidate.to);
   xi = margin.deviation;
   // The length is flat at its least: half the digits of the time are enough.
-  look_for_minimum(candidate.from, candidate.to,
-                   1e-8 * std::max(std::abs(candidate.from), std::abs(candidate.to)), look);
+  constexpr int bits = 26;
+  const double large = 10 * (1 + candidate.length);
+  minimum_between(
+      "keep-out", [&](double time) { return std::min(look(time), large); }, candidate.from,
+      candidate.to, bits);
   if (*margin.deviations == never) margin.deviations.reset();
   return margin;
 }

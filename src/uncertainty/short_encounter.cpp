@@ -1,4 +1,5 @@
-#include <Eigen/Eigenvalues>
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
@@ -7,6 +8,7 @@
 #include <numbers>
 #include <vector>
 
+#include "../algebra/symmetric_eigenvalues.hpp"
 #include "encounter_trajectories.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/uncertainty/closest_approach.hpp"
@@ -135,8 +137,8 @@ ShortEncounter short_encounter(const EncounterProblem& problem, double time_of_c
   Eigen::Matrix<double, 3, 2> plane;
   plane.col(0) = along.unitOrthogonal();
   plane.col(1) = along.cross(plane.col(0));
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> principal(plane.transpose() * covariance *
-                                                                 plane);
+  const auto principal = symmetric_eigenvalues(
+      "short encounter", Eigen::Matrix2d(plane.transpose() * covariance * plane));
   const Eigen::Matrix<double, 3, 2> axes = plane * principal.eigenvectors();
   const Eigen::Vector2d offset = axes.transpose() * state.mean.head<3>();
   for (Eigen::Index i = 0; i < 2; ++i) {
@@ -153,6 +155,16 @@ ShortEncounter short_encounter(const EncounterProblem& problem, double time_of_c
   result.foster = foster(e);
   result.alfano = alfano(e);
   result.chan = chan(e);
+  // The same integral along circles and along lines: neither quadrature tells what it misses.
+  constexpr double largest_difference = 1e-4;
+  if (!(std::abs(result.foster - result.alfano) <=
+        largest_difference * std::max(result.foster, result.alfano))) {
+    throw Error(
+        ErrorKind::numerical,
+        fmt::format("short encounter: the density is too flat to be integrated, {:.3g} along "
+                    "directions and {:.3g} along lines",
+                    result.foster, result.alfano));
+  }
 
   const double spread = std::sqrt(std::max(0.0, along.dot(covariance * along)));
   result.passage = (problem.radius + 3 * spread) / result.speed;

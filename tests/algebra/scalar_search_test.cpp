@@ -6,6 +6,8 @@
 #include <limits>
 #include <string>
 
+#include "algebra/matrix_eigenvalues.hpp"
+#include "algebra/singular_values.hpp"
 #include "algebra/symmetric_eigenvalues.hpp"
 #include "hamjet/detail/algebra/matrix.hpp"
 
@@ -85,6 +87,38 @@ TEST(ScalarSearch, AMinimumOfNoNumberIsNone) {
 TEST(SymmetricEigenvalues, ThoseOfNoNumbersAreNone) {
   const Matrix<double> matrix = Matrix<double>::Constant(2, 2, nan);
   EXPECT_NE(refusal([&] { symmetric_eigenvalues("spread", matrix); }).find("spread: "),
+            std::string::npos);
+}
+
+/// A matrix of ones and a single entry that is no number.
+Matrix<double> with_no_number() {
+  Matrix<double> matrix = Matrix<double>::Constant(4, 4, 1);
+  matrix(2, 1) = nan;
+  return matrix;
+}
+
+TEST(MatrixEigenvalues, ThoseOfNoNumbersAreNone) {
+  EXPECT_NE(refusal([&] { matrix_eigenvalues("step", with_no_number()); }).find("step: "),
+            std::string::npos);
+}
+
+// Closed form: [[0, 1], [-4, 0]] has 2 i and -2 i.
+TEST(MatrixEigenvalues, AreThoseOfAnOscillator) {
+  Matrix<double> matrix(2, 2);
+  matrix << 0, 1, -4, 0;
+  const auto values = matrix_eigenvalues("test", matrix);
+  EXPECT_NEAR(std::abs(values[0].imag()), 2, 1e-15);
+  EXPECT_NEAR(std::abs(values[0] + values[1]), 0, 1e-15);
+}
+
+// Eigen's own are then what the memory held.
+TEST(SingularValues, ThoseOfNoNumbersAreNone) {
+  const Vector<double> values = singular_values(with_no_number());
+  for (const double value : values) EXPECT_TRUE(std::isnan(value));
+}
+
+TEST(SingularValues, ADecompositionOfNoNumbersIsNone) {
+  EXPECT_NE(refusal([&] { decompose_by_singular_values(with_no_number()); }).find("no finite"),
             std::string::npos);
 }
 

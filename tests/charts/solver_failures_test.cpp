@@ -1,6 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
 #include "../support/errors.hpp"
+#include "charts/plane_elements.hpp"
 #include "hamjet/charts/flow_box.hpp"
 #include "hamjet/charts/flow_section.hpp"
 #include "orbits.hpp"
@@ -14,6 +18,12 @@ TEST(SolverFailures, ASectionHasNoStateOfAnEnergyFarFromTheChiefs) {
   const FlowSection<double> section(orbit.field, ChartName::nodal, orbit.start);
   expect_error(ErrorKind::numerical,
                "section:", [&] { section.state(-1e3 * section.energy(), section.chief()); });
+}
+
+TEST(SolverFailures, KeplersEquationInChartsOfNoNumberHasNoRoot) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(std::isnan(eccentric_longitude<double>(nan, 0.1, 0.2).angle));
+  EXPECT_TRUE(std::isnan(eccentric_longitude<double>(1, nan, 0.2).sine));
 }
 
 // At the chief's own energy and coordinates the state is the chief's, to rounding.

@@ -31,6 +31,13 @@ TEST(AffineSymplecticMap, DefectIsTheDeterminantMinusOneInThePlane) {
 }
 
 // A reflection of the momentum preserves volume up to sign but is not symplectic: A J A^T = -J.
+// A hundred times the identity: Newton's step from there is no nearer, and what is left is refused.
+TEST(AffineSymplecticMap, TheNearestOfWhatIsFarIsRefused) {
+  const Matrix<double> far = 100 * Matrix<double>::Identity(4, 4);
+  test::expect_error(ErrorKind::usage, "not symplectic",
+                     [&] { AffineSymplecticMap<double> map(nearest_symplectic(far)); });
+}
+
 TEST(AffineSymplecticMap, RefusesWhatIsNotSymplectic) {
   expect_error(ErrorKind::usage, "the largest entry of A J A^T - J is 2",
                [] { AffineSymplecticMap<double> map(matrix2(1, 0, 0, -1)); });

@@ -2,6 +2,7 @@
 
 #include "control_problems.hpp"
 #include "optimal_control/karush_kuhn_tucker.hpp"
+#include "optimal_control/lagrangian_plane.hpp"
 #include "optimal_control/reduced_hamiltonian.hpp"
 #include "support/errors.hpp"
 
@@ -94,6 +95,40 @@ TEST(ControlFailures, StationarityThatDoesNotFixTheControlIsAnError) {
   DiscreteMaximumPrinciple map(problem, Discretization::stormer, 0.1);
   expect_error(ErrorKind::numerical, "discrete maximum principle",
                [&] { map.advance(Eigen::Vector2d(1, 1), Eigen::VectorXd::Zero(1)); });
+}
+
+/// A state that nothing moves and a control that costs nothing.
+struct Idle {
+  template <class T>
+  T running_cost(std::span<const T> x, std::span<const T> u) const {
+    return x[0] * x[0] + u[0] * T(0);
+  }
+  template <class T>
+  std::vector<T> dynamics(std::span<const T> x, std::span<const T> u) const {
+    return {x[0] * T(0) + u[0] * T(0)};
+  }
+};
+
+// No equation holds the controls: columns of zeros.
+TEST(ControlFailures, SparseEquationsWithoutTheControlAreSingular) {
+  const auto problem = make_optimal_control_problem(
+      "idle", 1, 1, Idle{}, fixed_state(std::vector{0.}), fixed_state(std::vector{1.}));
+  DiscreteTrajectory guess;
+  const Eigen::VectorXd half = Eigen::VectorXd::Constant(1, 0.5);
+  guess.states.assign(5, half);
+  guess.costates.assign(5, half);
+  guess.controls.assign(4, half);
+  expect_error(ErrorKind::numerical, "equations are singular",
+               [&] { solve_karush_kuhn_tucker(problem, Discretization::stormer, 0.25, guess); });
+}
+
+// Of one and of two degrees of freedom: of a matrix of one number Eigen tells success in any case.
+TEST(ControlFailures, PhasesOfNoNumbersAreAnError) {
+  for (const Eigen::Index n : {1, 2}) {
+    LagrangianPlane plane(n);
+    plane.advance(Eigen::MatrixXd::Constant(2 * n, 2 * n, std::nan("")));
+    expect_error(ErrorKind::numerical, "second variation", [&] { plane.phases(); });
+  }
 }
 
 // Without conditions the loop's solutions form a family, and the finite-dimensional equations are

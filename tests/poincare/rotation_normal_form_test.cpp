@@ -62,6 +62,14 @@ TEST(RotationNormalForm, HasTheRotationNumberOfALinearReturn) {
   }
 }
 
+// A place at which the polynomials overflow is on none of the circles; one near the fixed point is
+// on one of them.
+TEST(RotationNormalForm, HasNoPlaceFarAway) {
+  const RotationNormalForm form(turned(0.2, 3));
+  EXPECT_TRUE(form.place_of({0.01, 0.02}));
+  for (const double far : {1e120, 1e200}) EXPECT_FALSE(form.place_of({far, -far})) << far;
+}
+
 TEST(RotationNormalForm, RefusesAnUnstableReturn) {
   NodalFlight<double> flight = turned(0.2, 2);
   flight.q = flight.q * 0 + Series<double>::variable(flight.q.space_pointer(), q_variable) * 2;

@@ -84,7 +84,15 @@ class EventSearch {
     return settings;
   }
 
-  double at(double time) const { return value_at(condition_, nominal_of(trajectory_.at(time))); }
+  double at(double time) const {
+    const double value = value_at(condition_, nominal_of(trajectory_.at(time)));
+    // No change of sign would show an event beside what is no number.
+    if (std::isnan(value)) {
+      throw Error(ErrorKind::numerical,
+                  fmt::format("event: its condition is no number at {:.10g} canonical", time));
+    }
+    return value;
+  }
 
   struct Place {
     double time;

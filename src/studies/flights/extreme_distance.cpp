@@ -114,6 +114,10 @@ bool ExtremeDistance::add(const FlightArc& arc, const ArcCurve& curve) {
     scale += std::abs(c);
     c *= sign_;
   }
+  // Nothing bounds what is no number, and its parts would be halved to the end.
+  if (!std::isfinite(scale)) {
+    throw Error(ErrorKind::numerical, "distance: a flight's polynomial in time is not finite");
+  }
   bool is_here = keep_better(arc, curve, 0);
   is_here = keep_better(arc, curve, 1) || is_here;
   std::vector<std::pair<double, double>> parts = {{0.5, 0.5}};  // middle and half length

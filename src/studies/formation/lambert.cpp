@@ -36,11 +36,11 @@ struct TimeEquation {
 constexpr double outermost = 1 - 1e-9;
 
 /// The root of T(x) = time between two x at which it is on both sides; none if it is not. Throws as
-/// root_between.
+/// root_between, also where a side is no number.
 std::vector<double> shape_between(const TimeEquation& equation, double time, double a, double b) {
   const auto difference = [&](double x) { return equation.time(x) - time; };
   const double at_a = difference(a), at_b = difference(b);
-  if (!(at_a * at_b <= 0)) return {};
+  if (at_a * at_b > 0) return {};
   return {root_between("ellipses between two places", difference, {a, at_a}, {b, at_b}, 50)};
 }
 

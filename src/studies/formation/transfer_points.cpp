@@ -8,6 +8,7 @@
 #include <random>
 #include <utility>
 
+#include "../../algebra/raise_to.hpp"
 #include "../../algebra/state_sums.hpp"
 #include "../../integrators/momentum_unit.hpp"
 #include "../checks/flight_checks.hpp"
@@ -148,7 +149,7 @@ std::vector<double> TransferPoints::expansion_parameters(
     for (std::size_t k = 0; k < kinds_.size(); ++k) {
       const Eigen::Matrix3d difference =
           inverted_block(in_momentum_unit(changed, exponent) - comparable, kinds_[k]);
-      parameters[k] = std::max(parameters[k], blocks[k].solve(difference).norm());
+      raise_to(parameters[k], blocks[k].solve(difference).norm());
     }
   }
   return parameters;

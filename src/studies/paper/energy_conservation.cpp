@@ -40,7 +40,7 @@ std::optional<double> predicted_time(const EnergyConservationStudy& study,
     for (int k = 0; k < iterations; ++k) {
       const double here = value(time);
       const double change = here * (time - before) / (here - value_before);
-      if (here == 0 || !(std::abs(change) > 1e-12 * (std::abs(time) + std::abs(last_step)))) {
+      if (here == 0 || std::abs(change) <= 1e-12 * (std::abs(time) + std::abs(last_step))) {
         return time;
       }
       before = std::exchange(time, time - change);

@@ -2,12 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <vector>
 
+#include "../../algebra/matrix_eigenvalues.hpp"
 #include "hamjet/algebra/composition.hpp"
 #include "hamjet/dynamics/relative_hamiltonian.hpp"
 #include "hamjet/error.hpp"
@@ -34,7 +35,7 @@ class StabilityLimit {
   StabilityLimit(const DynamicalSystem& system, const LinearSteps& steps) : steps_(steps) {
     const Matrix<double> field = jacobian_matrix(system.vector_field);
     scale_momenta(field);
-    const auto eigenvalues = scaled(field).eigenvalues().eval();
+    const auto eigenvalues = matrix_eigenvalues("stability", scaled(field));
     for (const auto& lambda : eigenvalues) {
       frequency_ = std::max(frequency_, std::abs(lambda.imag()));
       growth_rate_ = std::max(growth_rate_, std::abs(lambda.real()));
@@ -45,9 +46,12 @@ class StabilityLimit {
 
   double frequency() const { return frequency_; }
 
-  /// Growth of an amplitude in one step, relative to that of the flow.
+  /// Growth of an amplitude in one step, relative to that of the flow; infinite where the step's
+  /// matrix is not finite.
   double growth(double step) const {
-    const auto eigenvalues = scaled(steps_.matrix(step)).eigenvalues().eval();
+    const Matrix<double> matrix = scaled(steps_.matrix(step));
+    if (!matrix.allFinite()) return std::numeric_limits<double>::infinity();
+    const auto eigenvalues = matrix_eigenvalues("stability", matrix);
     double radius = 0;
     for (const auto& lambda : eigenvalues) radius = std::max(radius, std::abs(lambda));
     return radius / std::exp(growth_rate_ * std::abs(step));

@@ -10,7 +10,8 @@ namespace hamjet {
 
 bool AlongTrackBend::is_large_beside(double length) const {
   constexpr double small = 0.1;
-  return bend > small * std::hypot(radial, length);
+  // What is no number is warned of.
+  return !(bend <= small * std::hypot(radial, length));
 }
 
 AlongTrackBend along_track_bend(const EncounterProblem& problem, const EncounterDeviation& about) {

@@ -52,10 +52,10 @@ Covariance ProcessNoise::at(double time) const {
     Covariance next = by_intervals(time, count);
     const Vector<double> s = next.standard_deviations();
     const Matrix<double> change = next.matrix() - last.matrix();
-    const double worst = (s.cwiseInverse().asDiagonal() * change * s.cwiseInverse().asDiagonal())
-                             .cwiseAbs()
-                             .maxCoeff();
-    if (worst < agreement) return next;
+    const Matrix<double> relative =
+        s.cwiseInverse().asDiagonal() * change * s.cwiseInverse().asDiagonal();
+    // The largest entry does not show one that is no number.
+    if (relative.allFinite() && relative.cwiseAbs().maxCoeff() < agreement) return next;
     last = std::move(next);
   }
   throw Error(ErrorKind::numerical,

@@ -30,7 +30,7 @@ bool add_change(const std::vector<ImpulseEffect>& effects, std::vector<Eigen::Ve
   const Matrix6 scaled = scale.asDiagonal() * reach * scale.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Matrix6> solver(scaled);
   const double smallest = solver.eigenvalues()[0];
-  if (!(smallest > 1e-12)) return false;
+  if (solver.info() != Eigen::Success || !(smallest > 1e-12)) return false;
   const Vector6 multiplier = scale.asDiagonal() * scaled.ldlt().solve(scale.asDiagonal() * change);
   for (std::size_t k = 0; k < effects.size(); ++k) {
     impulses[k] += weights[k] * (effects[k].transpose() * multiplier);
@@ -92,7 +92,8 @@ struct EvenProblem {
     const Vector6 scale = reach.diagonal().cwiseSqrt().cwiseInverse();
     const Matrix6 scaled = scale.asDiagonal() * reach * scale.asDiagonal();
     const Eigen::SelfAdjointEigenSolver<Matrix6> spread(scaled);
-    if (!scale.allFinite() || !(spread.eigenvalues()[0] > 1e-14)) {
+    if (!scale.allFinite() || spread.info() != Eigen::Success ||
+        !(spread.eigenvalues()[0] > 1e-14)) {
       throw Error(ErrorKind::numerical,
                   "impulses: at these times they do not reach every deviation; a longer transfer "
                   "time is needed");
