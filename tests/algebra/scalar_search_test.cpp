@@ -111,6 +111,22 @@ TEST(MatrixEigenvalues, AreThoseOfAnOscillator) {
   EXPECT_NEAR(std::abs(values[0] + values[1]), 0, 1e-15);
 }
 
+// Closed form: of the motion beside a circle they are 2^(1/2), -2^(1/2), and twice i and -i, where
+// Eigen's shifts go round in circles at one place of some thousands.
+TEST(MatrixEigenvalues, AreFoundBesideACircle) {
+  for (int k = 0; k < 30000; ++k) {
+    const double angle = k / 4700.0;
+    const Eigen::Vector3d place(std::cos(angle), std::sin(angle), 0);
+    Matrix<double> matrix = Matrix<double>::Zero(6, 6);
+    matrix.topRightCorner(3, 3).setIdentity();
+    matrix.bottomLeftCorner(3, 3) = 3 * place * place.transpose() - Eigen::Matrix3d::Identity();
+    const auto values = matrix_eigenvalues("circle", matrix);
+    EXPECT_NEAR(values.cwiseAbs().maxCoeff(), std::sqrt(2.0), 1e-12) << angle;
+    EXPECT_NEAR(values.cwiseAbs().minCoeff(), 1, 1e-7)
+        << angle;  // double ones keep half the digits
+  }
+}
+
 // Eigen's own are then what the memory held.
 TEST(SingularValues, ThoseOfNoNumbersAreNone) {
   const Vector<double> values = singular_values(with_no_number());

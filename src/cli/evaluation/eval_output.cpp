@@ -51,14 +51,12 @@ void EvalOutput::add(double time_s, const std::vector<double>& state,
     if (std::isfinite(x)) fmt::format_to(write, "{}", is_outside ? size_alone(x) : x);
     fmt::format_to(write, ",");
   }
-  const bool is_undefined =
-      std::any_of(state.begin(), state.end(), [](double x) { return std::isnan(x); });
+  undefined_ += std::any_of(state.begin(), state.end(), [](double x) { return std::isnan(x); });
   if (is_inside) fmt::format_to(write, "{:.3g}", estimate.miss_m());
   fmt::format_to(write, ",{}\n", support_name(estimate.support));
   if (is_inside) largest_miss_ = std::max(largest_miss_.value_or(0), estimate.miss_m());
-  undefined_ += is_undefined ? 1 : 0;
-  outside_ += is_outside && !is_undefined ? 1 : 0;
-  unknown_ += estimate.support == Support::unknown && !is_undefined ? 1 : 0;
+  outside_ += is_outside ? 1 : 0;
+  unknown_ += estimate.support == Support::unknown ? 1 : 0;
   if (csv_.size() >= bytes_in_a_piece) finish();
   if (rows_ > most_json_rows) return;
   Json row;

@@ -328,8 +328,9 @@ TEST_F(Eval, MarksWhatTheSeriesDoesNotSupport) {
 // A kilometre a second more than the speed of escape, minutes after the start: the polynomials
 // hold, but no elements are of a hyperbola, and no miss is told of numbers that are not there.
 TEST_F(Eval, AFormThatADeputyHasNotIsNotInside) {
-  store("circular", circular_scene, {"--set", "jet.duration_canonical=0.06"});
-  std::vector<std::string> arguments = {"circular", "--deviation", "0,0,0,0,4200,0",
+  store("inclined", circular_scene,
+        {"--set", "jet.duration_canonical=0.06", "--set", "nominal.velocity_km_s=[0, 6, 3.6]"});
+  std::vector<std::string> arguments = {"inclined", "--deviation", "0,0,0,0,4200,0",
                                         "--derivatives", "inertial"};
   EXPECT_EQ(eval_json(arguments)["rows"][0]["support"], "inside");
   arguments.insert(arguments.end(), {"--to", "relative-elements"});
