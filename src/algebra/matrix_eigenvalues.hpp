@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
-#include <cmath>
 #include <string_view>
 
 #include "hamjet/detail/algebra/matrix.hpp"
@@ -14,25 +13,21 @@ namespace hamjet {
 /// Eigenvalues of a square matrix that need not be symmetric. `what` names it in messages. Throws
 /// Error(numerical) if an entry is no finite number, or if the iteration does not end.
 inline Eigen::VectorXcd matrix_eigenvalues(std::string_view what, const Matrix<double>& matrix) {
-  Eigen::MatrixXd turned = matrix;
-  Eigen::EigenSolver<Eigen::MatrixXd> solver;
-  // Of a matrix with eigenvalues of one size, such as the field's beside a circle, the iteration
-  // may go round in a circle. It does not in axes that a reflection has turned.
-  constexpr int most_trials = 4;
-  for (int trial = 0; trial < most_trials && turned.allFinite(); ++trial) {
-    solver.compute(turned, false);
-    // Without success Eigen leaves its values as the memory was.
-    if (solver.info() == Eigen::Success) return solver.eigenvalues();
-    Eigen::VectorXd normal(turned.rows());
-    for (Eigen::Index i = 0; i < normal.size(); ++i) {
-      normal[i] = std::sin(static_cast<double>(trial + 1 + i * i));
-    }
-    normal.normalize();
-    turned -= 2 * normal * (normal.transpose() * turned).eval();
-    turned -= 2 * (turned * normal).eval() * normal.transpose();
+  Eigen::EigenSolver<Eigen::MatrixXd> solver(matrix, false);
+  // Eigen's shifts may go round in circles on matrices of much symmetry, as those of circular
+  // orbits; a reflection at a plane without any leaves the eigenvalues and takes that away.
+  if (solver.info() == Eigen::NoConvergence) {
+    const Eigen::Index n = matrix.rows();
+    const Eigen::VectorXd v = Eigen::VectorXd::LinSpaced(n, 1, static_cast<double>(n)).normalized();
+    const Eigen::MatrixXd mirror = Eigen::MatrixXd::Identity(n, n) - 2 * v * v.transpose();
+    solver.compute(mirror * matrix * mirror, false);
   }
-  throw Error(ErrorKind::numerical,
-              fmt::format("{}: the eigenvalues of a matrix are not found", what));
+  // Without success Eigen leaves its values as the memory was.
+  if (solver.info() != Eigen::Success || !solver.eigenvalues().allFinite()) {
+    throw Error(ErrorKind::numerical,
+                fmt::format("{}: the eigenvalues of a matrix are not found", what));
+  }
+  return solver.eigenvalues();
 }
 
 }  // namespace hamjet

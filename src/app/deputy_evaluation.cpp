@@ -15,8 +15,19 @@
 #include "hamjet/charts/flow_box_states.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/studies/validity.hpp"
+#include "prediction_rounding.hpp"
 
 namespace hamjet::cli {
+
+namespace {
+
+/// A deputy's, of a chief's start, where a flight's floor is known: the two are independent.
+void set_rounding(EvaluatedScene& scene, const SixNumbers<double>& start, double of_flights) {
+  scene.rounding_m = std::hypot(of_flights, rounding_of_predictions(*scene.flow, start)) *
+                     scene.chief.units.length_km * 1000;
+}
+
+}  // namespace
 
 EvaluatedScene evaluated_scene(const Scene& scene) {
   require_formation_problem(scene, true, "jet");
@@ -40,11 +51,11 @@ EvaluatedScene evaluated_scene(const Scene& scene) {
       result.stored_end.assign(box->end->origin().begin(), box->end->origin().end());
     }
   }
-  result.rounding_m = rounding_of_flights(problem, scene.duration) * metric_units(scene).length_m;
   chief.scene = scene.name;
   chief.label = integrator.label;
   chief.model = scene.system.model;
   chief.units = scene.units;
+  set_rounding(result, six_numbers(scene.nominal), rounding_of_flights(problem, scene.duration));
   result.told = told_factors(scene);
   chief.duration = scene.duration;
   chief.nominal_initial = scene.nominal;
@@ -79,9 +90,9 @@ EvaluatedScene evaluated_jet(const io::StoredJet& stored) {
   result.stored_end = stored.nominal_final;
   const SixNumbers<double> start = six_numbers(stored.nominal_initial);
   const SixNumbers<double> end = six_numbers(stored.nominal_final);
-  const auto set_rounding = [&](const Matrix<double>& linear) {
-    result.rounding_m = rounding_of_flights(linear, start, end, stored.momentum_exponent()) *
-                        stored.units.length_km * 1000;
+  const auto set_rounding_of = [&](const Matrix<double>& linear) {
+    set_rounding(result, start,
+                 rounding_of_flights(linear, start, end, stored.momentum_exponent()));
   };
   if (stored.flow_box) {
     const FlowBoxMap<double> map = flow_box_map(stored);
@@ -89,7 +100,7 @@ EvaluatedScene evaluated_jet(const io::StoredJet& stored) {
     // What deviations are counted from, as where a scene is integrated.
     result.chief.nominal_final.assign(result.flow->chief_end().begin(),
                                       result.flow->chief_end().end());
-    set_rounding(linear_part_of(stored.flow_box->field, map));
+    set_rounding_of(linear_part_of(stored.flow_box->field, map));
     result.error = FlowError::stated(stored, *result.flow);
     return result;
   }
@@ -102,8 +113,8 @@ EvaluatedScene evaluated_jet(const io::StoredJet& stored) {
     result.flow = charted_deputy_flow(first, start, last, end, map);
   }
   // The linear part in positions and momenta is that of the jet, whatever it is written in.
-  set_rounding(result.flow->exit_derivative() * linear_part(without_constants(map.jet())) *
-               result.flow->entry_derivative());
+  set_rounding_of(result.flow->exit_derivative() * linear_part(without_constants(map.jet())) *
+                  result.flow->entry_derivative());
   result.error = FlowError::stated(stored, *result.flow);
   return result;
 }
@@ -150,10 +161,6 @@ void DeputyEvaluation::predict(std::span<const SixNumbers<double>> initial, Work
   const auto predictions = std::span(worker.predictions).subspan(start);
   worker.predictor.predict(initial, degree_, predictions);
   worker.estimates.resize(start + initial.size());
-  const auto without = [](SixNumbers<double> z, const SixNumbers<double>& share) {
-    for (std::size_t i = 0; i < z.size(); ++i) z[i] -= share[i];
-    return z;
-  };
   std::vector<std::size_t> bent;
   for (std::size_t k = 0; k < initial.size(); ++k) {
     const DeputyPrediction& found = predictions[k];
@@ -164,18 +171,19 @@ void DeputyEvaluation::predict(std::span<const SixNumbers<double>> initial, Work
     } else if (degree_ > 1 && !is_nearly_straight(initial[k], found)) {
       bent.push_back(k);
     } else {
-      const SixNumbers<double> below = without(found.deviation, found.last);
-      told =
-          curved_estimate(initial[k], found.deviation, below, without(below, found.last_but_one));
+      std::array<SixNumbers<double>, 3> lower;
+      for (std::size_t h = 0; h < lower.size(); ++h) {
+        lower[h] = h == 0 ? found.deviation : lower[h - 1];
+        for (std::size_t i = 0; i < 6; ++i) lower[h][i] -= found.highest[h][i];
+      }
+      told = curved_estimate(initial[k], found.deviation, lower);
     }
   }
-  std::vector<SixNumbers<double>> below(bent.size());
-  std::vector<SixNumbers<double>> two_below(bent.size());
-  worker.predictor.predict_lower(bent, below, two_below);
+  std::vector<std::array<SixNumbers<double>, 3>> lower(bent.size());
+  worker.predictor.predict_lower(bent, lower);
   for (std::size_t j = 0; j < bent.size(); ++j) {
     const std::size_t k = bent[j];
-    worker.estimates[start + k] =
-        curved_estimate(initial[k], predictions[k].deviation, below[j], two_below[j]);
+    worker.estimates[start + k] = curved_estimate(initial[k], predictions[k].deviation, lower[j]);
   }
 }
 
@@ -219,8 +227,8 @@ bool DeputyEvaluation::is_nearly_straight(const SixNumbers<double>& initial,
   constexpr double largest_extent = 0.03;  // of the deviation in the chief's distance
   const auto length = [](const SixNumbers<double>& z) { return std::hypot(z[0], z[1], z[2]); };
   const double size = std::max(length(initial), length(found.deviation));
-  return length(found.last) <= largest_share * size &&
-         length(found.last_but_one) <= largest_share * size &&
+  return length(found.highest[0]) <= largest_share * size &&
+         length(found.highest[1]) <= largest_share * size &&
          size <= largest_extent * length(scene_.flow->chief_end());
 }
 
@@ -228,14 +236,15 @@ MissEstimate DeputyEvaluation::estimate(const DeputyPrediction& prediction) cons
   const io::StoredJet& chief = scene_.chief;
   const double length_m = chief.units.length_km * 1000;
   SixNumbers<double> lower = prediction.deviation;
-  for (std::size_t i = 0; i < 6; ++i) lower[i] -= prediction.last[i] + prediction.last_but_one[i];
+  const auto& [last, last_but_one, last_but_two] = prediction.highest;
+  for (std::size_t i = 0; i < 6; ++i) lower[i] -= last[i] + last_but_one[i];
   const auto norms = [&](const SixNumbers<double>& z) {
     const double position = std::hypot(z[0], z[1], z[2]);
     const double momentum = std::hypot(z[3], z[4], z[5]) / momentum_unit_;
     return DegreeShares::Norms{std::hypot(position, momentum), position * length_m};
   };
-  const TruncationEstimate truncation = estimate_truncation(
-      degree_, {norms(lower), norms(prediction.last_but_one), norms(prediction.last)});
+  const TruncationEstimate truncation =
+      estimate_truncation(degree_, {norms(lower), norms(last_but_one), norms(last)});
   return {truncation.support, truncation.miss, 0};
 }
 
@@ -261,13 +270,12 @@ void DeputyEvaluation::add_errors(const SixNumbers<double>& initial,
   told.integration_m += speed(found) / speed(chief) * chief_error() * length_m;
 }
 
-MissEstimate DeputyEvaluation::curved_estimate(const SixNumbers<double>& initial,
-                                               const SixNumbers<double>& found,
-                                               const SixNumbers<double>& below,
-                                               const SixNumbers<double>& two_below) const {
+MissEstimate DeputyEvaluation::curved_estimate(
+    const SixNumbers<double>& initial, const SixNumbers<double>& found,
+    const std::array<SixNumbers<double>, 3>& lower) const {
   using Support = TruncationEstimate::Support;
-  constexpr double least_ratio = 0.5;  // of the changes of two degrees that is relied upon
-  constexpr double largest_ratio = 2;
+  constexpr double least_decay = 0.5;  // of the changes of two degrees that is relied upon
+  constexpr double largest_decay = 2;
   const auto distance = [](const SixNumbers<double>& a, const SixNumbers<double>& b) {
     return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
   };
@@ -275,26 +283,29 @@ MissEstimate DeputyEvaluation::curved_estimate(const SixNumbers<double>& initial
   MissEstimate result{Support::unknown, 0, 0};
   add_errors(initial, found, result);
   if (degree_ < 2) return result;
-  const double change = distance(found, below);
+  const double change = distance(found, lower[0]);
   if (!std::isfinite(change)) return result;
   const double size = std::max(distance(initial, none), distance(found, none));
-  double ratio = 1;
+  double missing = change;
   bool is_decaying = false;
   if (degree_ >= 3) {
-    const double change_below = distance(below, two_below);
-    // A change that is rounding says nothing of a decay; two degrees that change nothing have no
-    // ratio, and need none.
+    const double before = distance(lower[0], lower[1]);
+    const double two_before = distance(lower[1], lower[2]);
+    if (!std::isfinite(before)) return result;
+    // A change that is rounding says nothing of a decay.
     const double rounding = scene_.rounding_m / (scene_.chief.units.length_km * 1000);
-    is_decaying = change < change_below || change <= rounding;
-    constexpr double least_change = std::numeric_limits<double>::min();
-    ratio = std::clamp(change / std::max(change_below, least_change), least_ratio,
-                       is_decaying ? 1.0 : largest_ratio);
+    is_decaying = change < before || change <= rounding;
+    // The lowest degrees may leave a deputy where the coordinates of the end are none.
+    const double all = std::isfinite(two_before) ? decay_of_degrees(2, two_before, before, change)
+                                                 : decay_of_degrees(1, before, before, change);
+    const double decay = std::min(all, is_decaying ? 1.0 : largest_decay);
+    missing = std::max(change * std::max(decay, least_decay), before * decay * decay);
   }
   // Of the deviation that a degree may change. Degrees that are small already need not decay one by
   // one, for the lower may vanish by chance; less is relied upon then.
   const double largest_share = is_decaying ? 0.1 : 1e-4;
   result.support = change <= largest_share * size ? Support::inside : Support::outside;
-  result.truncation_m = change * ratio * scene_.chief.units.length_km * 1000;
+  result.truncation_m = missing * scene_.chief.units.length_km * 1000;
   return result;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <memory>
@@ -26,9 +27,10 @@ struct EvaluatedScene {
   /// The chief's final state as a jet is stored with it. Of flow boxes the section at the end goes
   /// through it, and deviations are counted from what it is in the section's chart and back.
   std::vector<double> stored_end;
-  double rounding_m = 0;  ///< of a deputy's final position, at a flight's floor
-  FlowError error;        ///< of the integration
-  double seconds = 0;     ///< of the integration; 0 of a stored jet
+  /// Of a deputy's final position: a flight's floor and what its prediction rounds.
+  double rounding_m = 0;
+  FlowError error;     ///< of the integration
+  double seconds = 0;  ///< of the integration; 0 of a stored jet
   /// Of the chief's flight; none of a stored jet, which has its own.
   std::vector<SelfCheck> checks;
 };
@@ -97,14 +99,16 @@ class DeputyEvaluation {
   /// derivatives at the chief to tell, to some percent; else the lower degrees go through the
   /// curved ends themselves.
   bool is_nearly_straight(const SixNumbers<double>& initial, const DeputyPrediction& found) const;
-  /// In other coordinates, of deviations at the start and, by the highest degree and by one and two
-  /// less, at the end: what the highest degree changes, times its ratio to what the one below
-  /// changes, at least a half. Order 2 has no such ratio and states the change itself; order 1 is
-  /// unknown. Outside where a change is more than a tenth of the deviation; where changes do not
-  /// fall, and of order 2, where it is more than 1e-4 of it.
+  /// In other coordinates, of deviations at the start and, by the highest degree N and by one to
+  /// three less, at the end: c_k being what degree k changes, degree N + 1 is taken to change
+  ///
+  ///   max( c_N max(q, 1/2), c_(N-1) q^2 ) ,
+  ///
+  /// q the decay of c_(N-2) to c_N, at most 1, or 2 where c_N is above c_(N-1). Order 2 has no such
+  /// decay and states c_2 itself; order 1 is unknown. Outside where c_N is more than a tenth of the
+  /// deviation; where changes do not fall, and of order 2, where it is more than 1e-4 of it.
   MissEstimate curved_estimate(const SixNumbers<double>& initial, const SixNumbers<double>& found,
-                               const SixNumbers<double>& below,
-                               const SixNumbers<double>& two_below) const;
+                               const std::array<SixNumbers<double>, 3>& lower) const;
 
   const EvaluatedScene& scene_;
   double momentum_unit_;

@@ -184,7 +184,9 @@ double EvalCoordinates::turned_m(std::span<const double> components, double chie
   return chief_error / chief_distance_ * separation * stored_.units.length_km * 1000;
 }
 
-std::vector<double> EvalCoordinates::final_state(std::span<const double> components) const {
+std::vector<double> EvalCoordinates::final_state(std::span<const double> components,
+                                                 double chief_error, MissEstimate& miss) const {
+  miss.integration_m += turned_m(components, chief_error);
   if (!final_) {
     std::vector<double> numbers;
     for (std::size_t c = 0; c < components.size(); ++c) {
@@ -200,6 +202,7 @@ std::vector<double> EvalCoordinates::final_state(std::span<const double> compone
   } catch (const Error& error) {
     // Beyond the polynomial's reach it may give what is no orbit of a deputy at all.
     if (error.kind() != ErrorKind::numerical) throw;
+    if (miss.is_inside()) miss.support = TruncationEstimate::Support::unknown;
     return std::vector<double>(full.size(), std::numeric_limits<double>::quiet_NaN());
   }
 }

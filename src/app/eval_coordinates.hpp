@@ -9,6 +9,7 @@
 #include "argument_words.hpp"
 #include "hamjet/formats/stored_jet.hpp"
 #include "hamjet/relative_motion/deputy_coordinates.hpp"
+#include "jet_evaluation.hpp"
 
 namespace hamjet::cli {
 
@@ -51,13 +52,15 @@ class EvalCoordinates {
   /// The jet's variables of a deviation. Throws Error(usage) if the deviation has other components
   /// too, of which the jet says nothing, or is none of a deputy.
   std::vector<double> variables(std::span<const double> deviation) const;
-  /// By how much a final position turns with its axes, in metres, where they are the chief's and
-  /// its final position is wrong by so much, canonical.
-  double turned_m(std::span<const double> components, double chief_error) const;
-  /// The final state of the jet's components; NaN where that has not what the form needs.
-  std::vector<double> final_state(std::span<const double> components) const;
+  /// The final state of the jet's components. The miss is made larger by what the chief's error,
+  /// canonical, turns the axes by. Where the state has not what the form needs it is NaN, and not
+  /// inside.
+  std::vector<double> final_state(std::span<const double> components, double chief_error,
+                                  MissEstimate& miss) const;
 
  private:
+  /// By how much a final position turns with its axes, in metres, where they are the chief's.
+  double turned_m(std::span<const double> components, double chief_error) const;
   /// By what a component of the state is multiplied to be told.
   double told_factor(std::size_t component) const;
 

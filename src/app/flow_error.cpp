@@ -82,8 +82,9 @@ FlowError FlowError::measured(const Scene& scene, const ComputedProblem& problem
     raise_to(result.of_chief_,
              error_estimate_safety * distance(other->chief_end(), flow.chief_end()));
     const Matrix<double> error = error_estimate_safety * (values - linear_values(*other));
-    result.shown_.push_back(flow.exit_derivative().topRows(positions) * error *
-                            flow.entry_derivative());
+    const Matrix<double> shown =
+        flow.exit_derivative().topRows(positions) * error * flow.entry_derivative();
+    result.shown_.push_back(shown);
   }
   return result;
 }
@@ -106,8 +107,9 @@ FlowError FlowError::stated(const io::StoredJet& stored, const DeputyFlow& flow)
     const Matrix<double> unit =
         column(units.values) * column(units.variables).cwiseInverse().transpose();
     const Matrix<double> error = relative * values.cwiseQuotient(unit).cwiseAbs().maxCoeff() * unit;
-    result.bound_ = flow.exit_derivative().topRows(positions).cwiseAbs() * error *
-                    flow.entry_derivative().cwiseAbs();
+    const Matrix<double> bound = flow.exit_derivative().topRows(positions).cwiseAbs() * error *
+                                 flow.entry_derivative().cwiseAbs();
+    result.bound_ = bound;
     return result;
   }
   // Of other coordinates it is the error of the jet in positions and momenta.

@@ -98,7 +98,11 @@ void DeputyPredictor::predict(std::span<const SixNumbers<double>> initial,
       const auto degree = static_cast<std::size_t>(degrees[d]);
       const IntegrationClock clock;
       const MapEvaluator& evaluator = flow_.evaluators_[degree - 1];
-      evaluator.evaluate(points_, {results_[0], results_[1], results_[2]});
+      evaluator.evaluate(points_, {results_[0], results_[1], results_[2], results_[3]});
+      // Degree 0 is what deviations are counted from.
+      for (std::size_t h = degree; h < 3; ++h) {
+        std::fill(results_[h + 1].begin(), results_[h + 1].end(), 0);
+      }
       polynomial_seconds_ += clock.seconds();
       multiply_adds_ += static_cast<double>(count * evaluator.multiply_adds_per_point());
       const auto found = predictions.subspan(d * initial.size() + first, count);
@@ -113,13 +117,11 @@ void DeputyPredictor::predict(std::span<const SixNumbers<double>> initial,
                         std::span(numbers).first(some * values), std::span(finals).first(some));
         for (std::size_t k = 0; k < some; ++k) {
           DeputyPrediction& prediction = found[j + k];
-          prediction = {finals[k], {}, {}};
-          for (std::size_t c = 0; c < values; ++c) {
-            const double last = results_[1][c * count + j + k];
-            const double last_but_one = results_[2][c * count + j + k];
-            for (std::size_t i = 0; i < 6; ++i) {
-              prediction.last[i] += exit[c][i] * last;
-              prediction.last_but_one[i] += exit[c][i] * last_but_one;
+          prediction = {finals[k], {}};
+          for (std::size_t h = 0; h < prediction.highest.size(); ++h) {
+            for (std::size_t c = 0; c < values; ++c) {
+              const double share = results_[h + 1][c * count + j + k];
+              for (std::size_t i = 0; i < 6; ++i) prediction.highest[h][i] += exit[c][i] * share;
             }
           }
         }
@@ -129,33 +131,29 @@ void DeputyPredictor::predict(std::span<const SixNumbers<double>> initial,
 }
 
 void DeputyPredictor::predict_lower(std::span<const std::size_t> deputies,
-                                    std::span<SixNumbers<double>> below,
-                                    std::span<SixNumbers<double>> two_below) {
+                                    std::span<std::array<SixNumbers<double>, 3>> lower) {
   constexpr std::size_t block = DeputyFlow::block;
   const std::size_t values = flow_.polynomials().size();
   std::array<double, DeputyFlow::widest * block> numbers;
   std::array<SixNumbers<double>, block> carried;
+  std::array<SixNumbers<double>, block> finals;
   for (std::size_t j = 0; j < deputies.size(); j += block) {
     const std::size_t some = std::min(block, deputies.size() - j);
     for (std::size_t k = 0; k < some; ++k) carried[k] = carried_[deputies[j + k]];
-    const auto leave = [&](std::span<SixNumbers<double>> finals) {
-      passage_->leave(std::span(carried).first(some), std::span(numbers).first(some * values),
-                      finals.subspan(j, some));
-    };
     // What the degrees share is in all of them, so that the highest are taken off.
-    for (std::size_t k = 0; k < some; ++k) {
-      for (std::size_t c = 0; c < values; ++c) {
-        const std::size_t place = c * count_ + deputies[j + k];
-        numbers[k * values + c] = results_[0][place] - results_[1][place];
+    for (std::size_t h = 0; h < lower[j].size(); ++h) {
+      for (std::size_t k = 0; k < some; ++k) {
+        for (std::size_t c = 0; c < values; ++c) {
+          const std::size_t place = c * count_ + deputies[j + k];
+          double& number = numbers[k * values + c];
+          if (h == 0) number = results_[0][place];
+          number -= results_[h + 1][place];
+        }
       }
+      passage_->leave(std::span(carried).first(some), std::span(numbers).first(some * values),
+                      std::span(finals).first(some));
+      for (std::size_t k = 0; k < some; ++k) lower[j + k][h] = finals[k];
     }
-    leave(below);
-    for (std::size_t k = 0; k < some; ++k) {
-      for (std::size_t c = 0; c < values; ++c) {
-        numbers[k * values + c] -= results_[2][c * count_ + deputies[j + k]];
-      }
-    }
-    leave(two_below);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <type_traits>
 #include <utility>
 
@@ -188,7 +189,7 @@ void MapEvaluator::evaluate(std::span<const double> points, const MapValues& res
     return result.empty() || result.size() == count * components_;
   };
   if (points.size() != count * variables_ || !fits(results.values) || !fits(results.last) ||
-      !fits(results.last_but_one)) {
+      !fits(results.last_but_one) || !fits(results.last_but_two)) {
     throw Error(ErrorKind::usage, "map evaluator: the sizes of points and values do not fit");
   }
   const auto degrees = static_cast<std::size_t>(degree_) + 1;
@@ -215,9 +216,11 @@ void MapEvaluator::evaluate(std::span<const double> points, const MapValues& res
           for (std::size_t d = degrees - 1; d-- > 0;) sum += share(d, c);
           store(sum, &results.values[place], here);
         }
-        if (!results.last.empty()) store(share(degrees - 1, c), &results.last[place], here);
-        if (!results.last_but_one.empty()) {
-          store(degrees > 1 ? share(degrees - 2, c) : Block(), &results.last_but_one[place], here);
+        const std::span<double> highest[] = {results.last, results.last_but_one,
+                                             results.last_but_two};
+        for (std::size_t k = 0; k < std::size(highest); ++k) {
+          if (highest[k].empty()) continue;
+          store(degrees > k ? share(degrees - 1 - k, c) : Block(), &highest[k][place], here);
         }
       }
     }

@@ -26,16 +26,20 @@ double continued(double last, double last_but_one, double q) {
 
 }  // namespace
 
+double decay_of_degrees(int steps, double leading, double last_but_one, double last) {
+  double decay = mean_decay(leading, last, steps);
+  if (steps > 1) decay = std::max(decay, mean_decay(leading, last_but_one, steps - 1));
+  const bool is_gap = steps > 1 && last_but_one <= last * decay;
+  return is_gap ? decay : std::max(decay, last / last_but_one);
+}
+
 TruncationEstimate estimate_truncation(int degree, const DegreeShares& shares) {
   const auto& [lower, before, last] = shares;
   const bool is_usable = degree >= 2 && is_finite(lower) && is_finite(before) && is_finite(last);
   if (!is_usable) return {Support::unknown, infinity};
   if (last.state == 0 && before.state == 0) return {Support::inside, 0};
   const double leading = degree == 2 ? before.state : lower.state;
-  double decay = mean_decay(leading, last.state, degree - 1);
-  if (degree > 2) decay = std::max(decay, mean_decay(leading, before.state, degree - 2));
-  const bool is_gap = degree > 2 && before.state <= last.state * decay;
-  if (!is_gap) decay = std::max(decay, last.state / before.state);
+  const double decay = decay_of_degrees(degree - 1, leading, before.state, last.state);
   const bool decays = decay < 1 && continued(last.state, before.state, decay) < leading;
   if (!decays) return {Support::outside, infinity};
   return {Support::inside, continued(last.position, before.position, decay)};

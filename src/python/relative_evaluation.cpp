@@ -35,8 +35,8 @@ void carry(const cli::EvalCoordinates& frame, Evaluation& evaluation, const doub
       throw Error(error.kind(), fmt::format("row {}: {}", row, error.what()));
     }
     if (evaluation.pending() < Evaluation::most_points && row + 1 < count) continue;
-    evaluation.run([&](const std::vector<double>& deviation, const cli::MissEstimate& estimate) {
-      const auto state = frame.final_state(deviation);
+    evaluation.run([&](const std::vector<double>& deviation, cli::MissEstimate estimate) {
+      const auto state = frame.final_state(deviation, evaluation.chief_error(), estimate);
       std::copy(state.begin(), state.end(), results.states + done * columns);
       results.miss_m[done] =
           estimate.is_inside() ? estimate.miss_m() : std::numeric_limits<double>::quiet_NaN();

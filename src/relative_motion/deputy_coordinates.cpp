@@ -111,11 +111,15 @@ constexpr std::array<DeputyComponent, 6> element_difference_components = {{
     {"draan_deg", "element-differences: difference of the nodes"},
 }};
 
-Numbers as_extended(std::span<const double> numbers, const char* what) {
+void require_six(std::span<const double> numbers, const char* what) {
   if (numbers.size() != 6) {
     throw Error(ErrorKind::usage, std::string("deputy coordinates: the ") + what +
                                       " must have 6 numbers, (q, p) of an orbit");
   }
+}
+
+Numbers as_extended(std::span<const double> numbers, const char* what) {
+  require_six(numbers, what);
   Numbers result;
   for (std::size_t i = 0; i < 6; ++i) result[i] = numbers[i];
   return result;
@@ -166,7 +170,7 @@ DeputyCoordinates::DeputyCoordinates(std::span<const double> chief, const Metric
 }
 
 std::array<double, 6> DeputyCoordinates::deviation(std::span<const double> coordinates) const {
-  const Numbers given = as_extended(coordinates, "coordinates");
+  require_six(coordinates, "coordinates");
   std::array<double, 6> result{};
   if (!is_nonlinear(form_)) {
     const auto& c = coordinates;
@@ -174,6 +178,7 @@ std::array<double, 6> DeputyCoordinates::deviation(std::span<const double> coord
     std::copy(found.begin(), found.end(), result.begin());
     return result;
   }
+  const Numbers given = as_extended(coordinates, "coordinates");
   const Numbers deputy = form_ == DeputyForm::curvilinear ? deputy_from_curvilinear(given)
                                                           : deputy_from_elements(given);
   for (std::size_t i = 0; i < 6; ++i) result[i] = convert<double>(Extended(deputy[i] - chief_[i]));

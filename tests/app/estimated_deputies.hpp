@@ -1,30 +1,27 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "app/deputy_evaluation.hpp"
+#include "app/deputy_states.hpp"
 #include "app/eval_coordinates.hpp"
 #include "app/jet_evaluation.hpp"
 #include "formats/jet_description.hpp"
 #include "hamjet/error.hpp"
-#include "poincare/independent_flight.hpp"
 #include "studies/estimated_jets.hpp"
-#include "support/kepler_ellipse.hpp"
 
 // Random deputies, in all coordinates of polynomials and frames of positions and in any units,
-// whose estimated misses are compared with true ones: on ellipses from their closed form, about
-// oblate bodies from flights in long double through an acceleration that is written by hand. Frames
-// are written by hand too.
+// whose estimated misses are compared with true ones; see deputy_states.hpp.
 
 namespace hamjet::test {
-
-using Numbers = std::array<Extended, 6>;
 
 struct DrawnDeputy {
   Scene scene;
@@ -33,94 +30,63 @@ struct DrawnDeputy {
   std::array<double, 6> row{};  ///< the deviation in the frame, metres and m/s
 };
 
-/// Axes R, T, N by rows, of a state.
-inline std::array<std::array<Extended, 3>, 3> axes_of(const Numbers& z) {
-  const Extended r = sqrt(z[0] * z[0] + z[1] * z[1] + z[2] * z[2]);
-  std::array<Extended, 3> h = {z[1] * z[5] - z[2] * z[4], z[2] * z[3] - z[0] * z[5],
-                               z[0] * z[4] - z[1] * z[3]};
-  const Extended size = sqrt(h[0] * h[0] + h[1] * h[1] + h[2] * h[2]);
-  for (Extended& x : h) x /= size;
-  const std::array<Extended, 3> radial = {z[0] / r, z[1] / r, z[2] / r};
-  const std::array<Extended, 3> along = {h[1] * radial[2] - h[2] * radial[1],
-                                         h[2] * radial[0] - h[0] * radial[2],
-                                         h[0] * radial[1] - h[1] * radial[0]};
-  return {radial, along, h};
+/// Whose numbers a frame's words mean.
+inline DeputyFrame frame_of(const cli::EvalFrames& frames, const std::string& name) {
+  return {name, frames.derivatives.value_or("rotating") == "rotating"};
 }
 
-/// |r x v| / r^2 of a state.
-inline Extended rate_of(const Numbers& z) {
-  const Extended x = z[1] * z[5] - z[2] * z[4];
-  const Extended y = z[2] * z[3] - z[0] * z[5];
-  const Extended w = z[0] * z[4] - z[1] * z[3];
-  return sqrt(x * x + y * y + w * w) / (z[0] * z[0] + z[1] * z[1] + z[2] * z[2]);
-}
-
-inline bool is_in_axes_of_chief(const cli::EvalFrames& frames) { return frames.frame == "RTN"; }
-
-/// The deputy's state at the start, from the row.
-inline Numbers deputy_at_start(const DrawnDeputy& drawn, const Numbers& chief) {
-  const Extended length_m = Extended(drawn.scene.units.length_km) * 1000;
-  const Extended speed_m_s = length_m / Extended(drawn.scene.units.time_s);
-  Numbers x;
-  for (std::size_t i = 0; i < 6; ++i) x[i] = drawn.row[i] / (i < 3 ? length_m : speed_m_s);
-  Numbers z = chief;
-  if (!is_in_axes_of_chief(drawn.frames)) {
-    for (std::size_t i = 0; i < 6; ++i) z[i] += x[i];
-    return z;
-  }
-  if (drawn.frames.derivatives == "rotating") {
-    const Extended rate = rate_of(chief);
-    x[3] -= rate * x[1];
-    x[4] += rate * x[0];
-  }
-  const auto axes = axes_of(chief);
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      z[i] += axes[k][i] * x[k];
-      z[i + 3] += axes[k][i] * x[k + 3];
-    }
-  }
-  return z;
-}
-
-/// Where a state comes to; flown in units of the start's distance.
-inline Numbers true_end(const Scene& scene, const Numbers& z) {
-  if (scene.system.model == SystemModel::kepler) {
-    return along_ellipse(z, Extended(scene.duration));
-  }
-  const double r = std::hypot(scene.nominal[0], scene.nominal[1], scene.nominal[2]);
-  const auto length = static_cast<long double>(r);
-  const long double speed = 1 / std::sqrt(length);
-  ZonalGravity field{1, 0, scene.system.J};
-  field.radius = scene.canonical_radius / r;
-  IndependentFlight::State state;
-  for (std::size_t i = 0; i < 6; ++i) {
-    state[i] = static_cast<long double>(z[i]) / (i < 3 ? length : speed);
-  }
-  state = IndependentFlight(field, 2e-18L)(
-      state, static_cast<long double>(scene.duration) / (length * std::sqrt(length)));
-  Numbers end;
-  for (std::size_t i = 0; i < 6; ++i) end[i] = Extended(state[i] * (i < 3 ? length : speed));
-  return end;
-}
-
-/// The final position in the frame, metres.
-inline std::array<double, 3> true_position(const DrawnDeputy& drawn) {
+/// How far a final row is from where the deputy comes to, metres.
+inline double true_miss_m(const DrawnDeputy& drawn, std::span<const double> row) {
   Numbers chief;
   for (std::size_t i = 0; i < 6; ++i) chief[i] = drawn.scene.nominal[i];
-  const Numbers end = true_end(drawn.scene, deputy_at_start(drawn, chief));
-  const Numbers chief_end = true_end(drawn.scene, chief);
-  const auto axes = axes_of(chief_end);
-  std::array<double, 3> result{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    Extended sum = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Extended unit = is_in_axes_of_chief(drawn.frames) ? axes[k][i] : Extended(i == k);
-      sum += unit * (end[i] - chief_end[i]);
-    }
-    result[k] = static_cast<double>(sum * Extended(drawn.scene.units.length_km) * 1000);
+  const auto state_of = [&](const Numbers& about, const std::string& frame,
+                            std::span<const double> numbers) {
+    return deputy_state(frame_of(drawn.frames, frame), drawn.scene.units, about, numbers);
+  };
+  const Numbers deputy = state_of(chief, drawn.frames.frame, drawn.row);
+  const Numbers end = true_end(drawn.scene, deputy);
+  const Numbers told = state_of(true_end(drawn.scene, chief), drawn.frames.final_frame(), row);
+  const Place miss = combined(1, position_of(told), -1, position_of(end));
+  return convert<double>(sqrt(dot(miss, miss))) * drawn.scene.units.length_km * 1000;
+}
+
+/// A draw of words for frames; `row` is a deviation along inertial axes and becomes the deputy's
+/// numbers in the frame.
+inline void draw_frames(Draw& draw, DrawnDeputy& drawn) {
+  constexpr const char* all[] = {"RTN",
+                                 "RTN",
+                                 "inertial",
+                                 "curvilinear",
+                                 "canonical",
+                                 "relative-elements",
+                                 "element-differences"};
+  cli::EvalFrames& frames = drawn.frames;
+  frames.frame = draw.of(all);
+  if (frames.frame != "canonical" && draw.one_in(2)) {
+    do {
+      frames.to = draw.of(all);
+    } while (*frames.to == "canonical");
   }
-  return result;
+  if (frames.frame == "RTN" || frames.final_frame() == "RTN") {
+    frames.derivatives = draw.one_in(2) ? "rotating" : "inertial";
+  }
+  // What a frame makes of the deviation is a draw too: any numbers are a deputy's.
+  io::StoredJet chief;
+  chief.model = drawn.scene.system.model;
+  chief.units = drawn.scene.units;
+  chief.nominal_initial = chief.nominal_final = drawn.scene.nominal;
+  chief.variables = chief.components = drawn.scene.variables;
+  const double length_m = drawn.scene.units.length_km * 1000;
+  std::array<double, 6> canonical = drawn.row;
+  for (std::size_t i = 0; i < 6; ++i) {
+    canonical[i] /= i < 3 ? length_m : length_m / drawn.scene.units.time_s;
+  }
+  try {
+    const auto row = cli::EvalCoordinates(chief, frames).initial_row(canonical);
+    std::copy_n(row.begin(), 6, drawn.row.begin());
+  } catch (const Error&) {  // not of every deviation
+    frames = {"inertial", {}, {}};
+  }
 }
 
 /// The deputy of a seed.
@@ -143,9 +109,6 @@ inline DrawnDeputy drawn_deputy(std::uint64_t seed) {
   draw_gauss(draw, scene, period, false);
   if (draw.one_in(2)) scene.integrators[0].tolerance = 1e-13;
   drawn.is_stored = draw.one_in(3) && scene.coordinates != JetCoordinates::automatic;
-  const int frame = draw.whole(0, 2);
-  drawn.frames.frame = frame == 2 ? "inertial" : "RTN";
-  if (frame != 2) drawn.frames.derivatives = frame == 0 ? "rotating" : "inertial";
   const double length_m = scene.units.length_km * 1000;
   const double r = std::hypot(scene.nominal[0], scene.nominal[1], scene.nominal[2]) * length_m;
   const double v = std::hypot(scene.nominal[3], scene.nominal[4], scene.nominal[5]) * length_m /
@@ -157,6 +120,7 @@ inline DrawnDeputy drawn_deputy(std::uint64_t seed) {
     if (i < 3 && kind != 1) drawn.row[i] = r * x;
     if (i >= 3 && kind != 0) drawn.row[i] = v * x;
   }
+  draw_frames(draw, drawn);
   return drawn;
 }
 
@@ -176,11 +140,9 @@ JudgedDeputy told(const DrawnDeputy& drawn, const io::StoredJet& chief, Evaluati
   JudgedDeputy judged;
   judged.coordinates = name_of(chief.coordinates);
   evaluation.run([&](const std::vector<double>& deviation, cli::MissEstimate estimate) {
-    estimate.integration_m += coordinates.turned_m(deviation, evaluation.chief_error());
+    const auto end = coordinates.final_state(deviation, evaluation.chief_error(), estimate);
     judged.estimate = estimate;
-    const std::vector<double> row = coordinates.final_state(deviation);
-    const std::array<double, 3> right = true_position(drawn);
-    judged.error_m = std::hypot(row[0] - right[0], row[1] - right[1], row[2] - right[2]);
+    judged.error_m = true_miss_m(drawn, end);
   });
   return judged;
 }
@@ -200,8 +162,8 @@ inline std::optional<io::StoredJet> stored_of(const Scene& scene) {
   return stored;
 }
 
-/// A deputy's miss beside the estimate; none where an end has not such coordinates, or where no
-/// estimate is made: beyond the polynomials' reach.
+/// A deputy's miss beside the estimate; none where an end has not such coordinates, where no
+/// estimate is made: beyond the polynomials' reach, or where the truth cannot be followed.
 inline std::optional<JudgedDeputy> judged_deputy(const DrawnDeputy& drawn) {
   std::optional<JudgedDeputy> judged;
   try {
@@ -224,7 +186,9 @@ inline std::optional<JudgedDeputy> judged_deputy(const DrawnDeputy& drawn) {
     if (error.kind() == ErrorKind::usage) throw;
     return std::nullopt;
   }
-  if (!judged || !judged->estimate.is_inside()) return std::nullopt;
+  if (!judged || !judged->estimate.is_inside() || !std::isfinite(judged->error_m)) {
+    return std::nullopt;
+  }
   return judged;
 }
 
@@ -232,7 +196,8 @@ inline std::optional<JudgedDeputy> judged_deputy(const DrawnDeputy& drawn) {
 inline std::string description(const DrawnDeputy& drawn, const JudgedDeputy& judged) {
   return drawn.scene.name + ": " + std::string(model_name(drawn.scene.system.model)) + ", order " +
          std::to_string(drawn.scene.order) + ", " + judged.coordinates +
-         (drawn.is_stored ? " stored, " : ", ") + drawn.frames.frame + " " +
+         (drawn.is_stored ? " stored, " : ", ") + drawn.frames.frame +
+         (drawn.frames.to ? " to " + *drawn.frames.to : "") + " " +
          drawn.frames.derivatives.value_or("");
 }
 

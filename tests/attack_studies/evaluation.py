@@ -133,10 +133,10 @@ def judge_rows(judgement, scene, folder, line, name, times):
         return
     chiefs = scene.field.fly(scene.chief, times)
     ends = scene.field.fly(scene.deputies, times)
-    # Flights have errors too, of which another step control tells.
+    # Flights have errors too, some tens of what another step control changes.
     others = (scene.field.fly(scene.deputies, times, 8 * TOLERANCE)
               - scene.field.fly(scene.chief, times, 8 * TOLERANCE))
-    doubts = 10 * np.max(orbit.norm((ends - chiefs - others)[..., :3]), axis=0)
+    doubts = 40 * np.max(orbit.norm((ends - chiefs - others)[..., :3]), axis=0)
     inside = 0
     for k, (time, chief) in enumerate(zip(times, chiefs)):
         growth = linear_growth(scene, time)

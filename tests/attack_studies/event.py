@@ -114,9 +114,11 @@ def judge(judgement, scene, folder):
         judgement.mark("the chief is near the surface without crossing it")
     elif judgement.require(f"{len(roots)} events, but number {number} is told",
                            len(roots) >= number):
-        # A time to the integration's tolerance of 1e-14 of the motion.
+        # A time to the integration's tolerance of 1e-14 of the motion. Near a circle an apsis is
+        # where a radial velocity of e times the whole one turns.
+        turning = scene.e if scene.tables["event"]["surface"] == "apsis" else 1
         judgement.within("time of the event (s)", float(time), float(roots[number - 1]),
-                         1e-11 * abs(float(time)) + 30 * rounding / float(speed)
+                         1e-11 * abs(float(time)) + 30 * rounding / float(speed * turning)
                          + 1e-12 * float(scene.period))
     units = np.array([scene.length] * 3 + [scene.length / scene.time_unit] * 3)
     told = np.array(summary["state_canonical"], dtype=REAL) * units

@@ -235,7 +235,7 @@ TEST(FlowBox, PredictsManyAsEach) {
     const DeputyPrediction one = flow->predict(deviations[k], 2);
     for (std::size_t i = 0; i < 6; ++i) {
       EXPECT_NEAR(all[k].deviation[i], one.deviation[i], 1e-13);
-      EXPECT_NEAR(all[k].last[i], one.last[i], 1e-13);
+      EXPECT_NEAR(all[k].highest[0][i], one.highest[0][i], 1e-13);
     }
   }
   EXPECT_THROW(flow->predict(deviations[0], 4), Error);

@@ -41,6 +41,10 @@ TEST_F(Advice, HelpKnowsTablesAndKeys) {
   EXPECT_EQ(scene_first.exit_code, 2);
   EXPECT_NE(in_one_line(scene_first.err).find("hamjet motion slip.toml"), std::string::npos)
       << scene_first.err;
+  const CommandResult scene_alone = hamjet({"slip.toml"});
+  EXPECT_EQ(scene_alone.exit_code, 2);
+  EXPECT_NE(in_one_line(scene_alone.err).find("hamjet run slip.toml"), std::string::npos)
+      << scene_alone.err;
 }
 
 // A study that takes longer than what is measured tells so; what ends within it has a time.

@@ -41,7 +41,8 @@ class Figure : public CommandTest {
 
 TEST_F(Figure, ShowsTheResidualAndMarksTheTimesWithoutF1) {
   if (!has_gnuplot()) GTEST_SKIP() << "no gnuplot";
-  succeed({"run", "oscillator.toml", "-o", "o", "-q"});
+  const std::string said = succeed({"run", "oscillator.toml", "-o", "o"}).out;
+  EXPECT_NE(said.find("figure: o/figure.svg\n"), std::string::npos) << said;
   const std::string figure = content(out("figure.svg"));
   EXPECT_TRUE(figure.starts_with("<svg"));
   EXPECT_NE(figure.find("exactness residual"), std::string::npos);

@@ -68,6 +68,22 @@ TEST_F(Memory, DoesNotGrowWithTheRowsOfATable) {
 #endif
 }
 
+// Samples take six numbers of eight bytes each at least, of ten million 480 MB.
+TEST_F(Memory, OfSamplesIsKnownBeforeTheyAreFlown) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "the address sanitizer reserves more than any limit";
+#else
+  write("many.toml", "[system]\nmodel = \"kepler\"\nmu_km3_s2 = 398600.4415\n" + orbit_elements +
+                         "[jet]\norder = 1\nduration_s = 60\n[uncertainty]\n"
+                         "position_m = [1, 1, 1]\nsamples = 10000000\n");
+  const Json told = Json::parse(succeed({"check", "many.toml", "--json"}).out);
+  EXPECT_GT(told["uncertainty_memory_bytes"].get<double>(), 480e6);
+  options_.address_space = 200'000'000;
+  expect_error({"uncertainty", "many.toml"}, 6,
+               {"uncertainty.samples: 10000000 at", "MB are free; fewer samples"});
+#endif
+}
+
 TEST_F(Memory, Order8IntegrationAlone) { expect_peak_below(200'000'000, 8, "null"); }
 TEST_F(Memory, Order8WithF1) { expect_peak_below(200'000'000, 8, "{kinds=[\"F1\"]}"); }
 TEST_F(Memory, Order10IntegrationAlone) { expect_peak_below(1'000'000'000, 10, "null"); }

@@ -121,6 +121,20 @@ TEST_F(Outcomes, EndlessDurationIsRefusedSoon) {
   }
 }
 
+// Rounding leaves degree 4 some 1e-7 of itself, far more than the tolerance allows.
+TEST_F(Outcomes, TheVerdictSaysWhichDegreesKeepTheTolerance) {
+  write("tight.toml",
+        "[system]\nmodel = \"zonal-gravity\"\nmu_km3_s2 = 398600.4415\nradius_km = 6378.1363\n"
+        "J2 = 1.0826e-3\nJ3 = -2.53e-6\n[nominal]\na_km = 60000\ne = 0.88\ni_deg = 50\n"
+        "raan_deg = 0\nargp_deg = 30\nta_deg = 0\n[jet]\norder = 4\nduration_orbits = 4.5\n"
+        "[[integrator]]\nlabel = \"g\"\nmethod = \"gauss\"\ntolerance = 1e-13\n");
+  const CommandResult result = hamjet({"run", "tight.toml", "-o", "tight"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("  ok to degree "), std::string::npos) << result.out;
+  EXPECT_NE(in_one_line(result.out).find("what keeps it from it is rounding"), std::string::npos)
+      << result.out;
+}
+
 TEST_F(Outcomes, FailedRunKeepsEarlierResults) {
   run("quick.toml", {fall, "jet.duration_canonical=0.5"});
   EXPECT_TRUE(exists("midpoint/jet.csv"));

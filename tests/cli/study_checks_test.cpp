@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "command_test.hpp"
 
@@ -58,6 +60,26 @@ TEST_F(StudyChecks, AChiefBelowTheSurfaceFailsEveryStudy) {
   }
 }
 
+// Down to 7100 km times 0.8.
+TEST_F(StudyChecks, SoDoAssignmentsUncertaintiesAndLongMotions) {
+  const auto scene = [](const std::string& tables) {
+    return "[system]\nmodel = \"zonal-gravity\"\nmu_km3_s2 = 398600.4415\nradius_km = "
+           "6378.1363\nJ2 = 1.0826e-3\n[nominal]\na_km = 7100\ne = 0.2\ni_deg = 50\nraan_deg = "
+           "0\nargp_deg = 30\nta_deg = 180\n[jet]\norder = 2\nduration_orbits = 1\n" +
+           tables;
+  };
+  write("assign.toml", scene("[transfer]\ntimes_orbits = 0.8\n[assignment]\n[[assignment.deputy]]\n"
+                             "position_m = [0, -1000, 0]\n[[assignment.slot]]\n"
+                             "position_m = [0, -100, 0]\n"));
+  write("uncertainty.toml", scene("[uncertainty]\nposition_m = [1, 1, 1]\nsamples = 0\n"));
+  write("poincare.toml", scene("[event]\nsurface = \"apsis\"\ndirection = \"falling\"\n"
+                               "amplitudes_m = [10]\n"));
+  write("bounded.toml", scene("[bounded]\nsizes_km = [1]\nrevolutions = 10\n"));
+  for (const std::string command : {"assign", "uncertainty", "poincare", "bounded"}) {
+    expect_failed(command, command + ".toml", "the chief passes ");
+  }
+}
+
 TEST_F(StudyChecks, AnEvaluatedSceneIsCheckedToo) {
   write("low.toml", low_scene(0.2));
   const CommandResult result = hamjet({"eval", "low.toml", "--deputy", "low.toml"});
@@ -112,6 +134,24 @@ TEST_F(StudyChecks, DriftIsToldWithItsCure) {
   EXPECT_NEAR(table.number(0, "end_drift_m_per_revolution"), drift, 2e-4 * -drift);
   EXPECT_NE(content(directory_ / "out/two-motion/report.html").find("drifts 3.77 km"),
             std::string::npos);
+}
+
+// Of eight revolutions eight rows would have the deputy at one place of its ellipse of 1000 m.
+TEST_F(StudyChecks, RowsOfAMotionAreAtSeveralPlacesOfItsRevolution) {
+  write("ellipse.toml",
+        "[system]\nmodel = \"kepler\"\nmu_km3_s2 = 398600.4415\n[nominal]\na_km = 7000\ne = 0\n"
+        "i_deg = 50\nraan_deg = 0\nu_deg = 0\n[jet]\norder = 1\nduration_orbits = 8\n"
+        "[deputy]\na_dex_m = 1000\n");
+  std::istringstream lines(hamjet({"motion", "ellipse.toml"}).out);
+  double least = 0, greatest = -1000;
+  for (std::string line; std::getline(lines, line);) {
+    double time = 0, radial = 0;
+    if (!(std::istringstream(line) >> time >> radial)) continue;
+    least = std::min(least, radial);
+    greatest = std::max(greatest, radial);
+  }
+  EXPECT_LT(least, -900);
+  EXPECT_GT(greatest, 500);
 }
 
 // All that a study of formations does works backwards in time.

@@ -43,6 +43,18 @@ TEST(TruncationEstimate, OfAGeometricSeriesIsItsRemainder) {
   }
 }
 
+// Of 0.3^k, where one of the degrees vanishes by chance, or is a thousandth of what it should be.
+TEST(TruncationEstimate, DecayIsNotDecidedByOneSmallDegree) {
+  constexpr double x = 0.3;
+  for (const double part : {1.0, 1e-3, 0.0}) {
+    EXPECT_NEAR(decay_of_degrees(2, x, x * x, part * x * x * x), x, 1e-12) << part;
+  }
+  EXPECT_NEAR(decay_of_degrees(2, x, 0, x * x * x), x, 1e-12);
+  EXPECT_NEAR(decay_of_degrees(2, x, 1e-3 * x * x, x * x * x), x, 1e-12);
+  EXPECT_EQ(decay_of_degrees(2, x, 0, 0), 0);
+  EXPECT_NEAR(decay_of_degrees(1, x, x, x * x), x, 1e-12);
+}
+
 TEST(TruncationEstimate, OfTheExponentialSeriesIsAboveItsRemainder) {
   // The ratios fall, x / k, so that the last one is more than those to come.
   for (const double x : {0.01, 0.1, 0.5}) {

@@ -148,7 +148,7 @@ TEST(BoundedFamily, IsTheSameInAnyUnitOfLength) {
   const BoundedFamily family(orbit.field, orbit.start, 1, 4, integration_tolerance);
   const double pair = 1e-3;
   const auto member = family.member(0.6 * pair, 0.8 * pair, 1);
-  for (const double unit : {1e-5, 1e7}) {
+  for (const double unit : {1e-5, 1e10}) {
     const double root = std::sqrt(unit);
     ZonalGravity field = orbit.field;
     field.radius *= unit;

@@ -171,7 +171,12 @@ def test_a_miss_is_what_the_last_degrees_add(coordinates, size_m, tolerance):
                             for degree in (3, 2, 1))
     change, below = (np.linalg.norm((a.states - b.states)[:, :3], axis=1)
                      for a, b in ((third, second), (second, first)))
-    expected = change * np.maximum(change / below, 0.5)
+    linear = np.linalg.norm(first.states[:, :3], axis=1)
+    mean = np.maximum(np.sqrt(change / linear), below / linear)
+    # Degree 2 alone that is small is a gap, over which the mean decay goes on.
+    decay = np.where(below <= change * mean, mean, np.maximum(mean, change / below))
+    decay = np.minimum(decay, np.where(change < below, 1, 2))
+    expected = np.maximum(change * np.maximum(decay, 0.5), below * decay ** 2)
     inside = (third.support == "inside") & (expected > 1e-4)  # above rounding
     if size_m > 1e5:
         distances = np.linalg.norm(third.states[:, :3], axis=1)

@@ -266,6 +266,15 @@ TEST(CovarianceFile, BetweenTheStatesOfAnEphemerisTheStateIsInterpolated) {
   EXPECT_NO_THROW(scene_beside(header + ephemeris("A"), scene(30, "")));
   // A fiftieth of a second along the orbit is 150 m.
   expect_refused_beside(header + ephemeris("A"), scene(30.02, ""), {"another state", "151 m"});
+  // Behind the last state there is none to compare with, which is said.
+  std::string late = header + ephemeris("A");
+  late.replace(late.find("00:00:30"), 8, "00:01:30");
+  std::string late_scene = scene(90, "");
+  late_scene.replace(late_scene.find("00:00:30"), 8, "00:01:30");
+  const std::vector<std::string> warnings = scene_beside(late, late_scene).warnings;
+  EXPECT_TRUE(std::any_of(warnings.begin(), warnings.end(), [](const std::string& text) {
+    return text.find("was not compared with the chief's state") != std::string::npos;
+  })) << ::testing::PrintToString(warnings);
   // Of two objects that of the chief's name is meant, and without a name none.
   const std::string two = header + ephemeris("A") + ephemeris("B");
   EXPECT_NO_THROW(scene_beside(two, scene(30, "object_name = \"B\"\n")));

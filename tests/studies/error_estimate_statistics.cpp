@@ -4,21 +4,25 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "app/estimated_deputies.hpp"
 #include "hamjet/error.hpp"
+#include "hamjet/integrators/error_estimate.hpp"
+#include "studies/checks/error_promise.hpp"
 #include "studies/estimated_jets.hpp"
 #include "studies/estimated_scenes.hpp"
 
 // How often an estimate is below the true error, and how often far above it, over random inputs:
-//   error_estimate_statistics [scenes|jets|deputies] [count] [first seed]
+//   error_estimate_statistics [scenes|jets|floors|deputies] [count] [first seed]
 // `scenes` are of all models and methods, `jets` of Gauss about orbits, `deputies` in all
-// coordinates and frames. Exit code 1 if an estimate is below a tenth of the error in more than 1 %
-// of them, or below a thirtieth in any (of scenes, whose coarse steps resolve nothing, below a
-// hundredth).
+// coordinates and frames; `floors` compares estimates of jets that rounding limits with what the
+// check error-estimate takes rounding for. Exit code 1 if an estimate is below a tenth of the error
+// in more than 1 % of them, or below a thirtieth in any (of scenes, whose coarse steps resolve
+// nothing, below a hundredth).
 
 namespace hamjet::test {
 namespace {
@@ -34,8 +38,10 @@ class Ratios {
   /// that.
   void add(double error, double estimate, double rounding, const std::string& what) {
     ratios_.push_back(error / estimate);
-    const bool is_high = estimate > 100 * std::max(error, rounding);
-    too_high_ += is_high ? 1 : 0;
+    const double excess = estimate / std::max(error, rounding);
+    const bool is_high = excess > 100;
+    high_ += excess > 10 ? 1 : 0;
+    very_high_ += is_high ? 1 : 0;
     if (error > 5 * estimate) {
       fmt::print("{}: error {:.2e}, estimate {:.2e}, ratio {:.3g}\n", what, error, estimate,
                  error / estimate);
@@ -53,16 +59,19 @@ class Ratios {
     };
     fmt::print(
         "error / estimate of {}: 1 % {:.2g}, median {:.2g}, 90 % {:.2g}, 99 % {:.2g}, largest "
-        "{:.3g}\ntoo low by more than 10: {}, 30: {}, 100: {}; too high by more than 100: {}\n",
+        "{:.3g}\ntoo low by more than 10: {}, 30: {}, 100: {}; too high by more than 10: {}, 100: "
+        "{}\n",
         ratios_.size(), quantile(ratios_, 0.01), quantile(ratios_, 0.5), quantile(ratios_, 0.9),
-        quantile(ratios_, 0.99), ratios_.back(), above(10), above(30), above(100), too_high_);
+        quantile(ratios_, 0.99), ratios_.back(), above(10), above(30), above(100), high_,
+        very_high_);
     return static_cast<double>(above(10)) <= 0.01 * static_cast<double>(ratios_.size()) &&
            above(most) == 0;
   }
 
  private:
   std::vector<double> ratios_;
-  int too_high_ = 0;
+  int high_ = 0;
+  int very_high_ = 0;
   bool shows_high_ = std::getenv("HAMJET_SHOW_HIGH") != nullptr;
 };
 
@@ -104,43 +113,66 @@ bool report_scenes(int count, std::uint64_t first) {
   return ratios.print(100);
 }
 
-bool report_jets(int count, std::uint64_t first) {
+/// Draws from the first seed on until so many are judged: `add` takes a seed and adds the ratios of
+/// its draw, none where it cannot be judged, and tells their number.
+bool report(const char* what, int count, std::uint64_t first,
+            const std::function<std::size_t(std::uint64_t, Ratios&)>& add) {
   Ratios ratios;
   int judged = 0;
   std::uint64_t seed = first;
   for (; judged < count; ++seed) {
-    const Scene scene = estimated_jet(seed);
     std::fflush(stdout);
-    const auto degrees = judged_degrees_of_jet(scene);
-    judged += degrees.empty() ? 0 : 1;
-    for (const JudgedDegree& one : degrees) {
-      ratios.add(one.error, one.estimate, rounding_of(scene.precision),
-                 fmt::format("{}, degree {}, {} steps at {:.0e}", description(scene), one.degree,
-                             scene.duration, scene.integrators[0].tolerance.value_or(0)));
-    }
+    judged += add(seed, ratios) > 0 ? 1 : 0;
   }
-  fmt::print("{} jets, seeds {} to {}\n", judged, first, seed - 1);
+  fmt::print("{} {}, seeds {} to {}\n", judged, what, first, seed - 1);
   return ratios.print(30);
 }
 
-bool report_deputies(int count, std::uint64_t first) {
-  Ratios ratios;
-  int judged = 0;
-  std::uint64_t seed = first;
-  for (; judged < count; ++seed) {
-    const DrawnDeputy drawn = drawn_deputy(seed);
-    std::fflush(stdout);
-    const auto one = judged_deputy(drawn);
-    if (!one) continue;
-    ++judged;
-    const auto& told = one->estimate;
-    ratios.add(one->error_m, told.miss_m(), 1e-9,
-               fmt::format("{} (truncation {:.2e}, rounding {:.2e}, integration {:.2e})",
-                           description(drawn, *one), told.truncation_m, told.rounding_m,
-                           told.integration_m));
+std::size_t add_jet(std::uint64_t seed, Ratios& ratios) {
+  const Scene scene = estimated_jet(seed);
+  const auto degrees = judged_degrees_of_jet(scene);
+  for (const JudgedDegree& one : degrees) {
+    ratios.add(one.error, one.estimate, rounding_of(scene.precision),
+               fmt::format("{}, degree {}, {} steps at {:.0e}", description(scene), one.degree,
+                           scene.duration, scene.integrators[0].tolerance.value_or(0)));
   }
-  fmt::print("{} deputies, seeds {} to {}\n", judged, first, seed - 1);
-  return ratios.print(30);
+  return degrees.size();
+}
+
+/// Of a jet in doubt, whose tolerance rounding does not let be kept: its estimates over the
+/// rounding floors of the check error-estimate, with which they are of one size if the floors are
+/// right.
+std::size_t add_floor(std::uint64_t seed, Ratios& ratios) {
+  Scene scene = estimated_jet(seed);
+  IntegratorSettings& settings = scene.integrators[0];
+  if (!settings.tolerance) return 0;
+  settings.tolerance = 1e-15;
+  scene.reference.reset();
+  const RunResult run = propagate(scene).runs.front();
+  if (!run.failure.empty() || !run.error_estimate.by_degree) return 0;
+  if (run.statistics.rounding_by_degree.empty()) return 0;
+  const PromisedErrors promised = promised_errors(scene, run);
+  std::size_t count = 0;
+  for (std::size_t d = 0; d < promised.rounding.size(); ++d) {
+    const double estimate = (*run.error_estimate.by_degree)[d] - promised.of_tolerance;
+    const double floor = error_estimate_safety * promised.rounding[d];
+    if (!(floor > promised.of_tolerance)) continue;
+    ratios.add(estimate, floor, 0, fmt::format("{}, degree {}", description(scene), d));
+    ++count;
+  }
+  return count;
+}
+
+std::size_t add_deputy(std::uint64_t seed, Ratios& ratios) {
+  const DrawnDeputy drawn = drawn_deputy(seed);
+  const auto one = judged_deputy(drawn);
+  if (!one) return 0;
+  const cli::MissEstimate& told = one->estimate;
+  ratios.add(one->error_m, told.miss_m(), 1e-9,
+             fmt::format("{} (truncation {:.2e}, rounding {:.2e}, integration {:.2e})",
+                         description(drawn, *one), told.truncation_m, told.rounding_m,
+                         told.integration_m));
+  return 1;
 }
 
 }  // namespace
@@ -152,8 +184,9 @@ int main(int argc, char** argv) {
   const int count = argc > 2 ? std::atoi(argv[2]) : 300;
   const auto first = argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 1ULL;
   if (what == "scenes") return report_scenes(count, first) ? 0 : 1;
-  if (what == "jets") return report_jets(count, first) ? 0 : 1;
-  if (what == "deputies") return report_deputies(count, first) ? 0 : 1;
-  fmt::print(stderr, "scenes, jets or deputies\n");
+  if (what == "jets") return report("jets", count, first, add_jet) ? 0 : 1;
+  if (what == "floors") return report("floors", count, first, add_floor) ? 0 : 1;
+  if (what == "deputies") return report("deputies", count, first, add_deputy) ? 0 : 1;
+  fmt::print(stderr, "scenes, jets, floors or deputies\n");
   return 2;
 }

@@ -8,6 +8,8 @@
 
 #include "formation_scenes.hpp"
 #include "hamjet/studies/transfer.hpp"
+#include "studies/formation/keep_out.hpp"
+#include "studies/formation/single_transfer.hpp"
 
 namespace hamjet {
 namespace {
@@ -81,6 +83,14 @@ TEST(FlightChecks, ATransferBelowTheSurfaceIsMarked) {
   EXPECT_TRUE(low.points[0].is_below_surface);
   EXPECT_FALSE(low.points[0].is_candidate());
   EXPECT_EQ(exit_code(low), 1);
+  // So is the way of a plan.
+  RelativeState start = scene.transfer->start;
+  start.velocity_m_s += low.points[0].best().start_change_m_s;
+  WayLimits way(scene);
+  way.fly(scene.nominal,
+          ChiefFrame(scene.nominal, metric_units(scene), scene.transfer->frame).deviation(start),
+          scene.transfer->times[0]);
+  EXPECT_NE(way.forbidden().find("km below the surface"), std::string::npos) << way.forbidden();
   scene.checks[SelfCheckName::surface].is_on = false;
   EXPECT_EQ(exit_code(study(6999.6)), 0);
 }

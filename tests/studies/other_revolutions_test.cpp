@@ -156,6 +156,27 @@ TEST(OtherRevolutions, AreFlownInTheWholeField) {
   EXPECT_GT(best.plan.total_change_m_s(), 100);  // a period a third longer or a quarter shorter
 }
 
+// A revolution more than a chief of less than one needs an ellipse far below the surface, from
+// which Newton's method in the field of J2 comes back to the way beside the chief: it has too few.
+TEST(OtherRevolutions, AreAsManyAsTheyAreToldToBe) {
+  Scene scene = paper_chief(3);
+  scene.nominal = {1, 0, 0, 0, 0.6, std::sqrt(1.23 - 0.36)};  // e = 0.23, from perigee
+  const double period = 2 * std::numbers::pi * std::pow(1 - 0.23, -1.5);
+  TransferSettings settings;
+  settings.start.position_m = {130, -1000, 230};
+  settings.times = {0.93 * period, 0.95 * period, 0.97 * period};
+  settings.revolutions = {1, -1};
+  scene.transfer = settings;
+  const TransferResult result = study_transfer(scene);
+  ASSERT_TRUE(result.revolutions.has_value());
+  ASSERT_FALSE(result.revolutions->transfers.empty());
+  for (const RevolutionTransfer& one : result.revolutions->transfers) {
+    if (!one.failure.empty()) continue;
+    // Beside the chief a metre a second or so suffices; a period half as long takes a kilometre.
+    EXPECT_GT(one.plan.total_change_m_s(), 500) << one.time << " " << one.difference;
+  }
+}
+
 TEST(OtherRevolutions, ThatAreNotThereAreSaid) {
   Scene scene = kepler_chief(0, 7000, std::sqrt(std::pow(7000.0, 3) / 398600.4415), 2);
   TransferSettings settings;

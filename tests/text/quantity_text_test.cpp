@@ -13,6 +13,8 @@ TEST(QuantityText, HasThreeDigitsAndAPrefix) {
   EXPECT_EQ(length_text(999), "999 m");
   EXPECT_EQ(memory_text(1.2e6), "1.2 MB");
   EXPECT_EQ(length_text(0), "0 m");
+  // Rounding of metres, and no length of atoms.
+  EXPECT_EQ(length_text(2.65e-16), "2.65e-16 m");
 }
 
 // What rounds up to a thousand has the next prefix.

@@ -20,13 +20,16 @@ CollisionSettings samples(long count) {
 }
 
 // A relative ellipse that passes through the chief itself three quarters of a turn after the start,
-// across a normal component of deviation s sin t: its least distance is |s| there, to the part 1e-6
-// of second order. The window of whole and half turns has nodes at which the motion repeats.
+// across a normal component of deviation s sin t: its least distance is |s| there, to the part
+// e^2/s of second order, of which the square counts. The energy is the chief's, so that the motion
+// repeats to rounding at the nodes of windows of whole turns.
 TEST(CollisionIntervals, SeesEncountersInWindowsOfWholeTurns) {
-  constexpr double e = 1e-6, s = 5e-9, pi = std::numbers::pi;
+  constexpr double e = 1e-4, s = 5e-7, pi = std::numbers::pi;
   const double expected = std::erf(2 / std::sqrt(2.0));
   for (const double window : {2 * pi, 4 * pi, 5 * pi, 8 * pi}) {
     EncounterProblem problem = test::RelativeOrbit{e, 0, 0, 2 * e}.problem(window, 2);
+    std::vector<double>& deputy = problem.spacecraft[1].state;
+    deputy[4] = std::sqrt(2 / std::hypot(deputy[0], deputy[1]) - 1 - deputy[3] * deputy[3]);
     problem.radius = 2 * s;
     problem.spacecraft[1].factor(5, 5) = s;
     const CollisionProbability result = collision_probability(problem, samples(10'000));

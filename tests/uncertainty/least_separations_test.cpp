@@ -123,6 +123,22 @@ TEST(LeastSeparations, AreSeenInWindowsOfWholeTurns) {
   }
 }
 
+// On an ellipse of 2 e by e the least separation is e, halfway between two nodes of the sixteenths
+// of a turn that begin at pi/16. What the cubic makes of it there is within its error.
+TEST(LeastSeparations, HoldWhatInterpolationLeaves) {
+  constexpr double e = 1e-6;
+  EncounterProblem problem = test::RelativeOrbit{e, 0, 0, 0}.problem(5, 1);
+  problem.from = std::numbers::pi / 16;
+  problem.radius = 2 * e;
+  CollisionSettings settings;
+  settings.samples = 1;
+  const LeastSeparations least = least_separations(problem, settings, {0.5}, 0);
+  const double miss = std::abs(least.separations[0] - e);
+  EXPECT_GT(miss, 1e-6 * e);
+  EXPECT_LE(miss, least.errors[0]);
+  EXPECT_LT(least.errors[0], 2e-3 * e);
+}
+
 // A deputy at (1, y), as fast and in the same direction as its chief on the unit circle, has 1/a =
 // 2 / sqrt(1 + y^2) - 1, so that after a turn it is late by 3 pi y^2, and not further ahead than 1
 // / (12 pi) = 0.0265 for any y. About y = 0.02 a linear flow takes y + d to 0.0162 + 0.623 d: one

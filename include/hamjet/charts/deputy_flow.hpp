@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <span>
@@ -15,10 +16,9 @@ namespace hamjet {
 /// What polynomials say of one deputy at the end; canonical.
 struct DeputyPrediction {
   SixNumbers<double> deviation;  ///< from the chief, (dq, dp)
-  /// What the two highest degrees add to the deviation, to first order where the coordinates are
-  /// curved.
-  SixNumbers<double> last;
-  SixNumbers<double> last_but_one;
+  /// What the highest degree adds to the deviation, the one below it and the next, to first order
+  /// where the coordinates are curved; zero below degree 1.
+  std::array<SixNumbers<double>, 3> highest;
 };
 
 /// A chief's flow of one duration as a function from a deputy's initial deviation to its final one:
@@ -117,11 +117,11 @@ class DeputyPredictor {
   SixNumbers<double> leave(const SixNumbers<double>& initial, std::span<const double> values);
   /// Deputies that are predicted at once; of more the first so many are done first.
   static constexpr std::size_t most_at_once = 4096;  // few enough to stay in the cache
-  /// The final deviations by one degree less and by two, out of the coordinates of the end, of some
-  /// deputies of the last call of predict, by their numbers in it. Precondition: it had no more
-  /// than most_at_once and one degree, which is more than 1.
-  void predict_lower(std::span<const std::size_t> deputies, std::span<SixNumbers<double>> below,
-                     std::span<SixNumbers<double>> two_below);
+  /// The final deviations by one, two and three degrees less (by no degrees below 1), out of the
+  /// coordinates of the end, of some deputies of the last call of predict, by their numbers in it.
+  /// Precondition: it had no more than most_at_once and one degree.
+  void predict_lower(std::span<const std::size_t> deputies,
+                     std::span<std::array<SixNumbers<double>, 3>> lower);
 
   /// Seconds that the polynomials of all predictions took, without the ways into their variables
   /// and out of their values.
@@ -135,7 +135,7 @@ class DeputyPredictor {
   std::size_t count_ = 0;  ///< of the deputies that are at work
   std::vector<SixNumbers<double>> carried_;
   std::vector<double> points_;
-  std::vector<double> results_[3];
+  std::array<std::vector<double>, 4> results_;  ///< the values, and the shares of the highest
   double polynomial_seconds_ = 0;
   double multiply_adds_ = 0;
 };

@@ -77,12 +77,12 @@ std::vector<std::vector<double>> estimate_errors(const FlowProblem<Real>& proble
                                                  const ErrorEstimateSettings& settings = {});
 
 /// By degree, what estimate_error makes of rounding alone: the delivered jet's own integration,
-/// `integrate`, along the first two of those directions, from 16 starts each whose coefficients are
-/// moved by up to half a unit in the last place of the largest position, or momentum, of their
-/// degree; the largest difference from the start that is not moved, in the scale of the estimate
-/// but without its factor of safety. A moved start has all later roundings drawn anew, so that this
-/// is a sample of 32 draws where one would be no bound. Throws as estimate_error does, and what
-/// `integrate` throws.
+/// `integrate`, along those eight directions, from four starts each whose coefficients are moved by
+/// up to half a unit in the last place of the largest position, or momentum, of their degree; the
+/// largest of the four root mean squares of the differences from the start that is not moved, in
+/// the scale of the estimate but without its factor of safety. A moved start has all later
+/// roundings drawn anew, so that each is a draw of what the estimate sees of rounding; truncation
+/// is the same in all. Throws as estimate_error does, and what `integrate` throws.
 template <class Real>
 std::vector<double> sample_rounding(
     const FlowProblem<Real>& problem, const FlowJet<Real>& jet,

@@ -12,9 +12,10 @@ namespace hamjet {
 /// Where an evaluation puts its results, each with as many numbers as components times points, or
 /// none where a result is not wanted; laid out as MapEvaluator says.
 struct MapValues {
-  std::span<double> values;        ///< sum over all degrees 0..N
-  std::span<double> last;          ///< the share of degree N, part of `values`
-  std::span<double> last_but_one;  ///< the share of degree N-1 (0 for N = 0), part of `values`
+  std::span<double> values;             ///< sum over all degrees 0..N
+  std::span<double> last;               ///< the share of degree N, part of `values`
+  std::span<double> last_but_one;       ///< the share of degree N-1 (0 for N = 0), part of `values`
+  std::span<double> last_but_two = {};  ///< the share of degree N-2 (0 for N < 2), likewise
 };
 
 /// A polynomial map in double precision, prepared for the evaluation at many points.
@@ -29,7 +30,7 @@ struct MapValues {
 ///
 /// one multiplication a monomial, and one multiply-add a monomial and component; those of degree N
 /// are used at once and not stored. The degrees are summed separately, the highest first, so that
-/// small terms are not lost and the last two come at no extra cost. Points are taken a block at a
+/// small terms are not lost and the last three come at no extra cost. Points are taken a block at a
 /// time, one to a lane of a Pack; a lane never sees another's numbers, so that a NaN stays with its
 /// point.
 ///

@@ -193,7 +193,7 @@ void report(const EvalCoordinates& coordinates, const std::vector<EvalSource>& j
     print_note(fmt::format("{} of {} marked unknown: {}", output.unknown(),
                            counted(output.rows(), "row"),
                            is_linear ? "degree 1 alone has no decay to judge by"
-                                     : "their numbers are beyond double precision"));
+                                     : "they have no numbers, or some beyond double precision"));
   }
 }
 
@@ -209,8 +209,8 @@ void carry(const EvalCoordinates& coordinates, double time_s, DeviationRows& dev
       evaluation.add(deviations.variables(coordinates, part, row));
     }
     evaluation.run([&](const std::vector<double>& deviation, MissEstimate estimate) {
-      estimate.integration_m += coordinates.turned_m(deviation, evaluation.chief_error());
-      output.add(time_s, coordinates.final_state(deviation), estimate);
+      const auto state = coordinates.final_state(deviation, evaluation.chief_error(), estimate);
+      output.add(time_s, state, estimate);
     });
   }
 }
@@ -285,7 +285,7 @@ int eval(const EvalOptions& given) {
     print_error(fmt::format("a check failed: {}: {}", name_of(check.name), check.text));
     code = static_cast<int>(ErrorKind::check_failed);
   }
-  const std::size_t not_inside = std::max(output.outside() + output.unknown(), output.undefined());
+  const std::size_t not_inside = output.outside() + output.unknown();
   if (!options.strict || not_inside == 0) return code;
   print_error(fmt::format("--strict: {} of {} not inside the polynomial's reach", not_inside,
                           counted(output.rows(), "row")));

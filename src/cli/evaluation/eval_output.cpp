@@ -55,7 +55,7 @@ void EvalOutput::add(double time_s, const std::vector<double>& state,
   if (is_inside) fmt::format_to(write, "{:.3g}", estimate.miss_m());
   fmt::format_to(write, ",{}\n", support_name(estimate.support));
   if (is_inside) largest_miss_ = std::max(largest_miss_.value_or(0), estimate.miss_m());
-  outside_ += estimate.support == Support::outside ? 1 : 0;
+  outside_ += is_outside ? 1 : 0;
   unknown_ += estimate.support == Support::unknown ? 1 : 0;
   if (csv_.size() >= bytes_in_a_piece) finish();
   if (rows_ > most_json_rows) return;

@@ -34,7 +34,7 @@ class EvalOutput {
   std::size_t rows() const { return rows_; }
   std::size_t outside() const { return outside_; }
   std::size_t unknown() const { return unknown_; }
-  /// Rows whose final state has no numbers of the form asked for.
+  /// Of the rows that are not inside, those whose final state has no numbers of the form asked for.
   std::size_t undefined() const { return undefined_; }
   /// The largest estimate of the miss, in metres, among the rows inside; none without such rows.
   std::optional<double> largest_miss() const { return largest_miss_; }

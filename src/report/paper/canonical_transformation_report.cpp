@@ -135,8 +135,8 @@ std::string table(const CanonicalTransformationResult& result) {
   }
   text +=
       "\nlargest magnitudes over all steps, canonical: the energy error, the difference of the "
-      "energy errors in z and\nin Z, that of f_k^-1(Z_k) and z_k, the residual of the discrete "
-      "Hamilton-Jacobi equation with the generating\nfunction of the first or second kind that is "
+      "energy errors in z and in Z, that of f_k^-1(Z_k) and z_k, the residual of the discrete "
+      "Hamilton-Jacobi equation with the generating function of the first or second kind that is "
       "better conditioned. Round-off grows with the condition of A_k (Frobenius norm; 2 for a "
       "rotation).\n";
   return text;

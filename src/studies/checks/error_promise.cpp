@@ -12,10 +12,10 @@ namespace hamjet {
 namespace {
 
 constexpr double largest_rounding = 1e-3;  ///< relative rounding of a usable degree
-/// How many times the measured floor an estimate of rounding may be. Of one orbit of e = 0.9 in
-/// eight units of length it was 0.6 to 45 times; a wider sample has not been taken, and no theory
-/// gives the number.
-constexpr double rounding_scatter = 50;
+/// How many times the measured floor an estimate of rounding may be. Of 1033 degrees of 260 random
+/// jets that rounding limits (error_estimate_statistics floors) it was above ten times in 1.7 %,
+/// above twenty in 0.2 %; 1.4 times in the median.
+constexpr double rounding_scatter = 20;
 
 /// How often a run's tolerance may count: once a period of the linearised motion for Gauss, whose
 /// tolerance is that of the error after one; once a step for the others, whose tolerance is that of

@@ -1,5 +1,7 @@
 #include "other_revolutions.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -7,6 +9,8 @@
 #include <numbers>
 #include <utility>
 
+#include "../../algebra/state_sums.hpp"
+#include "../flights/flight_arcs.hpp"
 #include "hamjet/error.hpp"
 #include "lambert.hpp"
 #include "route.hpp"
@@ -20,9 +24,21 @@ constexpr double turn = 2 * std::numbers::pi;
 Eigen::Vector3d angular_momentum(const std::vector<double>& state) {
   return position_of(state).cross(momentum_of(state));
 }
-std::vector<double> sum(std::vector<double> a, const std::vector<double>& b) {
-  for (std::size_t i = 0; i < a.size(); ++i) a[i] += b[i];
-  return a;
+
+/// The angle between two positions of one motion, less than half a revolution apart.
+double angle_between(const std::vector<double>& a, const std::vector<double>& b) {
+  const double cosine = position_of(a).normalized().dot(position_of(b).normalized());
+  return std::acos(std::clamp(cosine, -1.0, 1.0));
+}
+
+/// The angle that a state turns through in a time, flown; no step of a flight is half a revolution.
+double turned_angle(const SharedSystem& system, const std::vector<double>& state, double time) {
+  double angle = 0;
+  fly_arcs(system, {state}, 0, time, [&](const FlightArc& arc) {
+    const std::vector<double> middle = arc.state(0, 0.5);
+    angle += angle_between(arc.state(0, 0), middle) + angle_between(middle, arc.state(0, 1));
+  });
+  return angle;
 }
 
 /// The angle that the chief turns through until each checkpoint of the flow, along its motion.
@@ -31,8 +47,7 @@ std::vector<double> turned_angles(const LinearFlow& flow) {
   std::vector<double> last = flow.nominal(0);
   for (std::size_t k = 1; k < flow.times().size(); ++k) {
     const std::vector<double> state = flow.nominal(flow.times()[k]);
-    const double cosine = position_of(last).normalized().dot(position_of(state).normalized());
-    angles.push_back(angles.back() + std::acos(std::clamp(cosine, -1.0, 1.0)));
+    angles.push_back(angles.back() + angle_between(last, state));
     last = state;
   }
   return angles;
@@ -41,16 +56,18 @@ std::vector<double> turned_angles(const LinearFlow& flow) {
 /// The transfers of one time.
 class TransfersOfTime {
  public:
-  TransfersOfTime(const Route& route, const LinearFlow& flow, double time, double chief_angle)
-      : from_(route.start()),
+  TransfersOfTime(const SharedSystem& system, const Route& route, const LinearFlow& flow,
+                  double time, double chief_angle)
+      : system_(system),
+        chief_(flow.nominal(0)),
+        from_(route.start()),
         time_(time),
         wanted_(route.end(time)),
-        first_(sum(flow.nominal(0), from_.deviation)),
-        last_(sum(flow.nominal(time), wanted_)),
-        sense_((time > 0 ? 1 : -1) * angular_momentum(flow.nominal(0))) {
-    const double angle = angle_about(position_of(first_), position_of(last_), sense_);
-    own_ = static_cast<int>(std::lround((chief_angle - angle) / turn));
-  }
+        first_(state_sum(chief_, from_.deviation)),
+        last_(state_sum(flow.nominal(time), wanted_)),
+        sense_((time > 0 ? 1 : -1) * angular_momentum(chief_)),
+        angle_(angle_about(position_of(first_), position_of(last_), sense_)),
+        own_(static_cast<int>(std::lround((chief_angle - angle_) / turn))) {}
 
   /// Adds the transfers that make so many revolutions more than the chief.
   void add(Route& route, int difference, std::vector<RevolutionTransfer>& transfers) const {
@@ -91,6 +108,15 @@ class TransfersOfTime {
     try {
       const Underway there =
           route.fly_from_guess(from_, time_, wanted_, std::move(guess), transfer.plan);
+      // Newton's method may have come to a way with another number of revolutions.
+      const double wanted = own_ + transfer.difference + angle_ / turn;
+      const double found = turned_angle(system_, state_sum(chief_, route.begun()), time_) / turn;
+      if (std::abs(found - wanted) > 0.5) {
+        throw Error(ErrorKind::numerical,
+                    fmt::format("from the ellipse of {:.2f} revolutions no way of as many was "
+                                "found, but one of {:.2f}",
+                                wanted, found));
+      }
       // The linear flow about the chief says nothing of a way so far from it.
       route.finish(there, transfer.plan, false);
     } catch (const Error& error) {
@@ -100,13 +126,16 @@ class TransfersOfTime {
     }
   }
 
+  const SharedSystem& system_;
+  std::vector<double> chief_;  ///< at the start
   Underway from_;
   double time_;
   std::vector<double> wanted_;  ///< deviation at the end
   std::vector<double> first_;   ///< states of the deputy: before the first impulse, at the end
   std::vector<double> last_;
   Eigen::Vector3d sense_;  ///< of the motion, as time goes by
-  int own_ = 0;            ///< whole revolutions of the deputy beside its chief
+  double angle_;           ///< from the first position to the last, less than a revolution
+  int own_;                ///< whole revolutions of the deputy beside its chief
 };
 
 }  // namespace
@@ -123,7 +152,10 @@ OtherRevolutions other_revolutions(const Scene& scene, const ComputedProblem& pr
     }
     const double time = settings.times[k];
     try {
-      const TransfersOfTime transfers(route, flow, time, angles[flow.checkpoint_before(time)]);
+      const std::size_t before = flow.checkpoint_before(time);
+      const double chief_angle =
+          angles[before] + angle_between(flow.nominal(flow.times()[before]), flow.nominal(time));
+      const TransfersOfTime transfers(problem.system, route, flow, time, chief_angle);
       for (const int difference : settings.revolutions) {
         transfers.add(route, difference, result.transfers);
       }

@@ -50,6 +50,8 @@ class Route {
   /// Adds the impulse at the end, and what the whole plan allows to say, of the legs' primer
   /// vectors if `has_primer`.
   void finish(const Underway& there, WaypointPlan& plan, bool has_primer = true) const;
+  /// The deviation from the chief at the start of the last leg, the impulse made.
+  const std::vector<double>& begun() const { return ways_.back(); }
   /// Forgets the legs behind the first ones.
   void keep_legs(std::size_t count) { ways_.resize(count); }
 

@@ -325,6 +325,23 @@ TEST_F(Eval, MarksWhatTheSeriesDoesNotSupport) {
   }
 }
 
+// A kilometre a second more than the speed of escape, minutes after the start: the polynomials
+// hold, but no elements are of a hyperbola, and no miss is told of numbers that are not there.
+TEST_F(Eval, AFormThatADeputyHasNotIsNotInside) {
+  store("inclined", circular_scene,
+        {"--set", "jet.duration_canonical=0.06", "--set", "nominal.velocity_km_s=[0, 6, 3.6]"});
+  std::vector<std::string> arguments = {"inclined", "--deviation", "0,0,0,0,4200,0",
+                                        "--derivatives", "inertial"};
+  EXPECT_EQ(eval_json(arguments)["rows"][0]["support"], "inside");
+  arguments.insert(arguments.end(), {"--to", "relative-elements"});
+  const Json json = eval_json(arguments);
+  const Json& row = json["rows"][0];
+  EXPECT_EQ(json["undefined"], 1);
+  EXPECT_TRUE(row["a_da_m"].is_null());
+  EXPECT_EQ(row["support"], "unknown");
+  EXPECT_TRUE(row["miss_estimate_m"].is_null());
+}
+
 TEST_F(Eval, APlaneTakesDeviationsInItAlone) {
   store("plane", circular_scene, {"--set", "jet.variables=[\"x\",\"y\",\"px\",\"py\"]"});
   store("space", circular_scene);

@@ -230,6 +230,21 @@ TEST(ImpulsePlan, FarAwayIsNotDearerThanOtherWays) {
   }
 }
 
+// A deputy x below drifts by 3/2 x a unit of angle towards its chief. No listed time lets it come
+// so far, but a start that waits does: then n x / 2 takes it from circle to circle (Hohmann).
+TEST(ImpulsePlan, IsNotDearerThanAStartThatDrifts) {
+  const double below = 10, behind = 350;
+  Scene scene = metres_from_circle({{-below, -behind, 0}, {0, 1.5 * below, 0}}, 3);
+  scene.transfer->times = {2.8, 3};
+  scene.transfer->longest_coast = 25;
+  const TransferResult result = study_transfer(scene);
+  ASSERT_TRUE(result.coasting && result.coasting->plan.has_value());
+  ASSERT_TRUE(result.optimal->is_found()) << result.optimal->failure;
+  EXPECT_LE(result.optimal->plan->total_change_m_s(),
+            result.coasting->plan->total_change_m_s() * (1 + 1e-6));
+  EXPECT_NEAR(total_of(result), below / 2, 0.1 * below / 2);
+}
+
 // Half a revolution apart two impulses reach no change of every kind; those that correct the flight
 // are left out where it does not need them, and no two are seconds apart.
 TEST(ImpulsePlan, HasNoImpulsesOfNoUse) {

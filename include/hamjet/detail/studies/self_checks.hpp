@@ -106,11 +106,11 @@ struct InversionQuality {
 /// error-estimate: the estimated error of the degree that exceeds its limit most, see
 /// estimate_error. Limit with a tolerance: error_estimate_safety times the sum of 100 tolerance n,
 /// n being the periods of the linearised motion (IntegrationStatistics::periods) for Gauss and the
-/// steps for other methods, at least 1; and of fifty rounding floors, at most 1e-3, a rounding floor
-/// being the larger of what shorter steps did not take away (rounding_by_degree, of 32 draws where
-/// one would fail the run) and sqrt(1 + steps) times what half-ulp changes of the start change in
-/// the degree. Fixed steps promise nothing, and have a limit only where the scene sets one, for all
-/// degrees; where a degree has not one right digit the text says so.
+/// steps for other methods, at least 1; and of twenty rounding floors, at most 1e-3, a rounding
+/// floor being the larger of what shorter steps did not take away (rounding_by_degree, of four
+/// draws where one would fail the run) and sqrt(1 + steps) times what half-ulp changes of the start
+/// change in the degree. Fixed steps promise nothing, and have a limit only where the scene sets
+/// one, for all degrees; where a degree has not one right digit the text says so.
 std::vector<SelfCheck> self_checks(const Scene& scene, const RunResult& run);
 
 }  // namespace hamjet

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "../../exact_flow.hpp"
+#include "hamjet/detail/dynamics/differentiable_function.hpp"
 #include "hamjet/error.hpp"
 
 namespace hamjet {
@@ -22,6 +23,20 @@ Matrix6 ellipsoid_axes(std::span<const double> chief, RelativeFrame frame,
     axes.col(static_cast<Eigen::Index>(i)) = Eigen::Map<const Vector6>(deviation.data());
   }
   return axes;
+}
+
+Vector6 direction_of_energy(const DynamicalSystem& system, std::span<const double> chief,
+                            const Matrix6& axes) {
+  DifferentiableFunction<double> field(system.vector_field);
+  field.evaluate(chief);
+  const Vector<double> rates = field.values();
+  Vector6 gradient;  // of the Hamiltonian: (-dp/dt, dq/dt)
+  gradient << -rates.tail<3>(), rates.head<3>();
+  Vector6 coordinates = axes.transpose() * gradient;
+  for (const Eigen::Index first : {Eigen::Index{0}, Eigen::Index{3}}) {
+    coordinates.segment<3>(first).normalize();
+  }
+  return coordinates;
 }
 
 SixNumbers<double> FlownDeputies::deviation(const Vector6& coordinates) const {

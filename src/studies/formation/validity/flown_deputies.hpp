@@ -19,6 +19,11 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 Matrix6 ellipsoid_axes(std::span<const double> chief, RelativeFrame frame,
                        std::span<const double> semi_axes, double velocity);
 
+/// The unit coordinates, of position and of velocity, in which the Hamiltonian grows most from the
+/// chief on.
+Vector6 direction_of_energy(const DynamicalSystem& system, std::span<const double> chief,
+                            const Matrix6& axes);
+
 /// Deputies of one chief, flown to one time with the full equations, beside what polynomials say
 /// of them. Deputies are told by coordinates along the columns of `axes`.
 class FlownDeputies {

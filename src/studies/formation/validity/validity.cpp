@@ -14,7 +14,6 @@
 #include "../single_transfer.hpp"
 #include "flown_deputies.hpp"
 #include "hamjet/detail/algebra/monomial_values.hpp"
-#include "hamjet/detail/dynamics/differentiable_function.hpp"
 #include "hamjet/error.hpp"
 #include "reach_limit.hpp"
 
@@ -78,24 +77,9 @@ class ValidityStudy {
     }
     // Polynomials in elements may be exact of every bound orbit: those end where a deputy escapes
     // or falls, which is found along the energy alone.
-    const Vector6 energy = direction_of_energy();
+    const Vector6 energy = direction_of_energy(*problem_.system, problem_.nominal, axes_);
     samples_.push_back(energy);
     samples_.push_back(-energy);
-  }
-
-  /// The coordinates of separation 1 in which the Hamiltonian grows most: its gradient is
-  /// (-dp/dt, dq/dt).
-  Vector6 direction_of_energy() const {
-    DifferentiableFunction<double> field(problem_.system->vector_field);
-    field.evaluate(problem_.nominal);
-    const Vector<double> rates = field.values();
-    Vector6 gradient;
-    gradient << -rates.tail<3>(), rates.head<3>();
-    Vector6 coordinates = axes_.transpose() * gradient;
-    for (const Eigen::Index first : {Eigen::Index{0}, Eigen::Index{3}}) {
-      coordinates.segment<3>(first).normalize();
-    }
-    return coordinates;
   }
 
   /// What the degrees of the polynomials add to the final position, to first order in the

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "../algebra/raise_to.hpp"
+#include "hamjet/integrators/error_estimate.hpp"
+#include "jet_directions.hpp"
+
+// What independent runs along lines show of a jet's error, degree by degree.
+
+namespace hamjet {
+
+template <class Real>
+constexpr double rounding_unit() {
+  return static_cast<double>(std::numeric_limits<Real>::epsilon());
+}
+
+/// By degree, the largest difference of two univariate jets.
+template <class Real>
+std::vector<double> line_differences(const FlowJet<Real>& a, const FlowJet<Real>& b) {
+  std::vector<double> result(a[0].size(), 0);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    for (std::size_t d = 0; d < result.size(); ++d) {
+      const double difference = std::abs(static_cast<double>(Real(a[i][d] - b[i][d])));
+      raise_to(result[d], difference);
+    }
+  }
+  return result;
+}
+
+/// By degree, the larger of `result` and the error that a known line shows, relative to what the
+/// coefficients are along it: they may add up there, and their errors with them.
+template <class Real>
+void include_known(std::vector<double>& result, const Direction<Real>& direction,
+                   const FlowJet<Real>& run, const std::vector<double>& largest) {
+  const std::vector<double> shown = line_differences(direction.jet, run);
+  const std::vector<double> along = largest_by_degree(run);
+  for (std::size_t d = 0; d < result.size(); ++d) {
+    const double scale = along[d] > 0 ? along[d] : largest[d];
+    if (scale == 0) continue;
+    raise_to(result[d], std::max(rounding_unit<Real>(), error_estimate_safety * shown[d] / scale));
+  }
+}
+
+/// All runs have the same nominal, so that its difference between two of them is error too.
+template <class Real>
+void include_nominals(std::vector<double>& result, const FlowJet<Real>& a, const FlowJet<Real>& b,
+                      double largest) {
+  if (largest == 0) return;
+  raise_to(result[0], error_estimate_safety * line_differences(a, b)[0] / largest);
+}
+
+/// By degree, the differences of a jet and lines along its directions: the root mean square over
+/// them, for one may be blind to an error and another sum up much that is small, relative to the
+/// smaller of that of the lines and the jet's largest coefficient.
+template <class Real>
+std::vector<double> mean_line_differences(std::span<const Direction<Real>> directions,
+                                          const std::vector<FlowJet<Real>>& lines,
+                                          const std::vector<double>& largest) {
+  std::vector<double> error(largest.size(), 0);
+  std::vector<double> along(largest.size(), 0);
+  for (std::size_t j = 0; j < directions.size(); ++j) {
+    const std::vector<double> difference = line_differences(directions[j].jet, lines[j]);
+    const std::vector<double> size = largest_by_degree(lines[j]);
+    for (std::size_t d = 0; d < error.size(); ++d) {
+      error[d] = std::hypot(error[d], difference[d]);
+      along[d] = std::hypot(along[d], size[d]);
+    }
+  }
+  const double root = std::sqrt(static_cast<double>(directions.size()));
+  for (std::size_t d = 0; d < error.size(); ++d) {
+    const double mean = along[d] / root;
+    const double scale =
+        mean > 0 && largest[d] > 0 ? std::min(mean, largest[d]) : std::max(mean, largest[d]);
+    error[d] = scale == 0 ? 0 : error[d] / root / scale;
+  }
+  return error;
+}
+
+/// By degree, the larger of `result` and the error that a run shows along its directions.
+template <class Real>
+void include_lines(std::vector<double>& result, std::span<const Direction<Real>> directions,
+                   const std::vector<FlowJet<Real>>& lines, const std::vector<double>& largest) {
+  const std::vector<double> shown = mean_line_differences<Real>(directions, lines, largest);
+  for (std::size_t d = 0; d < result.size(); ++d) {
+    bool is_empty = largest[d] == 0;
+    for (const FlowJet<Real>& line : lines) is_empty = is_empty && largest_by_degree(line)[d] == 0;
+    if (is_empty) continue;
+    raise_to(result[d], std::max(rounding_unit<Real>(), error_estimate_safety * shown[d]));
+  }
+}
+
+}  // namespace hamjet

@@ -1,0 +1,138 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "hamjet/error.hpp"
+#include "hamjet/integrators/error_estimate.hpp"
+#include "hamjet/integrators/gauss_collocation.hpp"
+#include "jet_directions.hpp"
+#include "line_restriction.hpp"
+#include "lines_side_by_side.hpp"
+#include "momentum_unit.hpp"
+
+// The independent runs of an error estimate: the flow along lines of initial deviations, as series
+// in one variable.
+
+namespace hamjet {
+
+/// Stages of the runs along directions; other stages make other steps.
+inline constexpr std::array<int, 2> stages_of_runs = {16, 15};
+/// Directions of each run. An error of a high degree d is about (g.x)^d, with g what the steps
+/// resolve worst: it is seen along few directions, and two of many steps' errors, none of few.
+inline constexpr std::array<std::size_t, 2> directions_of_runs = {8, 2};
+
+/// A line's variable has no unit of momentum.
+inline constexpr std::array<std::size_t, 1> variable_of_line = {0};
+
+template <class Real>
+using Directions = std::vector<Direction<Real>>;
+
+/// Throws Error(usage) unless a jet is one of the problem's flow.
+template <class Real>
+void require_jet_of(const FlowProblem<Real>& problem, const FlowJet<Real>& jet) {
+  if (jet.size() != problem.system->dimension()) {
+    throw Error(ErrorKind::usage, "error estimate: the jet has another number of components");
+  }
+  for (const Series<Real>& component : jet) require_same_space(component.space(), *problem.space);
+}
+
+/// The problem along a direction, which is in the estimate's unit of momentum.
+template <class Real>
+FlowProblem<Real> problem_along(const FlowProblem<Real>& problem,
+                                const std::vector<Real>& direction, int exponent) {
+  const SpacePointer line = SeriesSpace::create(1, problem.space->order());
+  const std::size_t n = problem.system->degrees_of_freedom;
+  std::vector<Real> entries = direction;
+  for (std::size_t v = 0; v < entries.size(); ++v) {
+    if (problem.variables[v] >= n) entries[v] *= Real(std::ldexp(1.0, exponent));
+  }
+  return {problem.system,
+          line,
+          {0},
+          problem.initial_state,
+          problem.duration,
+          restrict_to_line(starting_jet(problem), entries, line)};
+}
+
+/// The problem along several directions, side by side.
+template <class Real>
+FlowProblem<Real> problem_along(const FlowProblem<Real>& problem,
+                                std::span<const Direction<Real>> directions, int exponent) {
+  std::vector<FlowJet<Real>> starts;
+  FlowProblem<Real> all;
+  for (const Direction<Real>& direction : directions) {
+    all = problem_along(problem, direction.entries, exponent);
+    starts.push_back(*all.initial_jet);
+  }
+  all.initial_jet = side_by_side(starts);
+  all.space = (*all.initial_jet)[0].space_pointer();
+  all.variables.assign(directions.size(), 0);
+  return all;
+}
+
+/// How the run along a direction is integrated.
+template <class Real>
+GaussSettings settings_of_run(std::size_t number, const ErrorEstimateSettings& settings) {
+  GaussSettings gauss;
+  gauss.stages = stages_of_runs[number];
+  gauss.tolerance = settings.tolerance.value_or(4 * rounding_unit<Real>());
+  gauss.controls_all_degrees = true;
+  return gauss;
+}
+
+/// Counts the steps of the run along a direction.
+template <class Real>
+StepObserver<Real> observer_of_run(const Real& duration, std::size_t number,
+                                   const ErrorEstimateSettings& settings) {
+  return [&settings, duration, number, steps = 0L](const Real& time, const FlowJet<Real>&) mutable {
+    if (++steps > settings.most_steps) {
+      throw Error(ErrorKind::too_large,
+                  fmt::format("error estimate: the independent run would take more than {} "
+                              "steps",
+                              settings.most_steps));
+    }
+    if (!settings.progress) return;
+    const double done = static_cast<double>(Real(time / duration));
+    settings.progress((static_cast<double>(number) + done) /
+                      static_cast<double>(stages_of_runs.size()));
+  };
+}
+
+/// The jets along the directions that such a run has come to, in the estimate's unit of momentum.
+template <class Real>
+std::vector<FlowJet<Real>> lines_of_run(const FlowJet<Real>& run,
+                                        const ErrorEstimateSettings& settings) {
+  std::vector<FlowJet<Real>> lines = line_by_line(run);
+  for (FlowJet<Real>& line : lines) {
+    line = in_momentum_unit(std::move(line), variable_of_line, settings.momentum_exponent);
+  }
+  return lines;
+}
+
+template <class Real>
+std::vector<FlowJet<Real>> run_along(const FlowProblem<Real>& problem,
+                                     std::span<const Direction<Real>> directions,
+                                     std::size_t number, const ErrorEstimateSettings& settings) {
+  IntegrationStatistics statistics;
+  return lines_of_run<Real>(
+      integrate_gauss<Real>(problem_along(problem, directions, settings.momentum_exponent),
+                            settings_of_run<Real>(number, settings), statistics,
+                            observer_of_run<Real>(problem.duration, number, settings)),
+      settings);
+}
+
+/// The directions of a run, of those that were drawn.
+template <class Real>
+std::span<const Direction<Real>> directions_of_run(const Directions<Real>& drawn,
+                                                   std::size_t number) {
+  return std::span(drawn).first(directions_of_runs[number]);
+}
+
+}  // namespace hamjet
