@@ -21,7 +21,8 @@ namespace hamjet::cli {
 
 namespace {
 
-/// A deputy's, of a chief's start, where a flight's floor is known: the two are independent.
+/// Sets the rounding of a deputy's final position: that of flights, which is given, and that of
+/// predictions about the chief's start are independent.
 void set_rounding(EvaluatedScene& scene, const SixNumbers<double>& start, double of_flights) {
   scene.rounding_m = std::hypot(of_flights, rounding_of_predictions(*scene.flow, start)) *
                      scene.chief.units.length_km * 1000;
@@ -284,7 +285,7 @@ MissEstimate DeputyEvaluation::curved_estimate(
   add_errors(initial, found, result);
   if (degree_ < 2) return result;
   const double change = distance(found, lower[0]);
-  if (!std::isfinite(change)) return result;
+  if (!std::isfinite(change) || !std::isfinite(scene_.rounding_m)) return result;
   const double size = std::max(distance(initial, none), distance(found, none));
   double missing = change;
   bool is_decaying = false;

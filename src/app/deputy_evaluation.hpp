@@ -27,7 +27,7 @@ struct EvaluatedScene {
   /// The chief's final state as a jet is stored with it. Of flow boxes the section at the end goes
   /// through it, and deviations are counted from what it is in the section's chart and back.
   std::vector<double> stored_end;
-  /// Of a deputy's final position: a flight's floor and what its prediction rounds.
+  /// The rounding of a deputy's final position: a flight's floor and what a prediction rounds.
   double rounding_m = 0;
   FlowError error;     ///< of the integration
   double seconds = 0;  ///< of the integration; 0 of a stored jet

@@ -39,7 +39,7 @@ class FlowError {
   double of_deviation(const SixNumbers<double>& deviation) const;
 
  private:
-  /// Of a position by the six numbers of a deviation.
+  /// The derivatives of a position by the six numbers of a deviation.
   using PositionRows = Eigen::Matrix<double, 3, 6>;
 
   bool is_known_ = false;

@@ -31,7 +31,8 @@ double rounding_of_predictions(const DeputyFlow& flow, const SixNumbers<double>&
       squares += std::pow(predictions[k].deviation[i] + predictions[k + 1].deviation[i], 2);
     }
   }
-  // Of a rounding that all share, b, and one of each, s, the sum of two has 4 b^2 + 2 s^2.
+  // Where all predictions share a rounding b, and each has one of its own, s, the square of a
+  // pair's sum is 4 b^2 + 2 s^2 on average: half of it is at least b^2 + s^2.
   const double rounding = std::sqrt(squares / (2 * pairs));
   return std::isfinite(rounding) ? rounding : std::numeric_limits<double>::infinity();
 }

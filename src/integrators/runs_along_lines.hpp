@@ -25,7 +25,8 @@ namespace hamjet {
 /// Stages of the runs along directions; other stages make other steps.
 inline constexpr std::array<int, 2> stages_of_runs = {16, 15};
 /// Directions of each run. An error of a high degree d is about (g.x)^d, with g what the steps
-/// resolve worst: it is seen along few directions, and two of many steps' errors, none of few.
+/// resolve worst, and is seen along few directions: of many steps two directions see it, but of few
+/// steps they may not.
 inline constexpr std::array<std::size_t, 2> directions_of_runs = {8, 2};
 
 /// A line's variable has no unit of momentum.
@@ -77,7 +78,7 @@ FlowProblem<Real> problem_along(const FlowProblem<Real>& problem,
   return all;
 }
 
-/// How the run along a direction is integrated.
+/// How one of the runs, along all of its directions at once, is integrated.
 template <class Real>
 GaussSettings settings_of_run(std::size_t number, const ErrorEstimateSettings& settings) {
   GaussSettings gauss;
@@ -87,7 +88,7 @@ GaussSettings settings_of_run(std::size_t number, const ErrorEstimateSettings& s
   return gauss;
 }
 
-/// Counts the steps of the run along a direction.
+/// Counts the steps of one of the runs.
 template <class Real>
 StepObserver<Real> observer_of_run(const Real& duration, std::size_t number,
                                    const ErrorEstimateSettings& settings) {

@@ -23,8 +23,8 @@ constexpr int highest_order = 6;
 std::vector<double> minima_of(const EncounterTrajectories& means) {
   const std::vector<double> times = means.times_of_looks();
   std::vector<double> minima;
-  double before = means.approach_rate(times.front());
-  for (std::size_t k = 1; k < times.size(); ++k) {
+  double before = 0;  // no minimum is at the first look
+  for (std::size_t k = 0; k < times.size(); ++k) {
     const double rate = means.approach_rate(times[k]);
     // No change of sign would show a minimum beside what is no number.
     if (!std::isfinite(rate)) {

@@ -161,8 +161,8 @@ ShortEncounter short_encounter(const EncounterProblem& problem, double time_of_c
         largest_difference * std::max(result.foster, result.alfano))) {
     throw Error(
         ErrorKind::numerical,
-        fmt::format("short encounter: the density is too flat to be integrated, {:.3g} along "
-                    "directions and {:.3g} along lines",
+        fmt::format("short encounter: two quadratures of the density disagree, {:.3g} along "
+                    "directions and {:.3g} along lines; it is too flat",
                     result.foster, result.alfano));
   }
 

@@ -30,7 +30,7 @@ struct DrawnDeputy {
   std::array<double, 6> row{};  ///< the deviation in the frame, metres and m/s
 };
 
-/// Whose numbers a frame's words mean.
+/// The form of a deputy's numbers that the words of a frame mean.
 inline DeputyFrame frame_of(const cli::EvalFrames& frames, const std::string& name) {
   return {name, frames.derivatives.value_or("rotating") == "rotating"};
 }

@@ -30,7 +30,6 @@ TEST(AffineSymplecticMap, DefectIsTheDeterminantMinusOneInThePlane) {
   EXPECT_EQ(symplecticity_defect(matrix2(0, 0, 0, 0)).absolute, 1);
 }
 
-// A reflection of the momentum preserves volume up to sign but is not symplectic: A J A^T = -J.
 // A hundred times the identity: Newton's step from there is no nearer, and what is left is refused.
 TEST(AffineSymplecticMap, TheNearestOfWhatIsFarIsRefused) {
   const Matrix<double> far = 100 * Matrix<double>::Identity(4, 4);
@@ -38,6 +37,7 @@ TEST(AffineSymplecticMap, TheNearestOfWhatIsFarIsRefused) {
                      [&] { AffineSymplecticMap<double> map(nearest_symplectic(far)); });
 }
 
+// A reflection of the momentum preserves volume up to sign but is not symplectic: A J A^T = -J.
 TEST(AffineSymplecticMap, RefusesWhatIsNotSymplectic) {
   expect_error(ErrorKind::usage, "the largest entry of A J A^T - J is 2",
                [] { AffineSymplecticMap<double> map(matrix2(1, 0, 0, -1)); });

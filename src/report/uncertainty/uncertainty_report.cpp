@@ -119,8 +119,9 @@ std::string terminal_table(const UncertaintyResult& result,
     if (!section.verdict.empty()) text += section.verdict + "\n";
   }
   text += uncertainty_judgement(result) + "\n";
-  for (const std::string& warning : all_of(sections, &UncertaintySection::warnings))
+  for (const std::string& warning : all_of(sections, &UncertaintySection::warnings)) {
     text += "warning: " + warning + "\n";
+  }
   for (const std::string& failed : all_of(sections, &UncertaintySection::failed_checks)) {
     text += "check failed: " + failed + "\n";
   }
