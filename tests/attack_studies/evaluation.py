@@ -146,8 +146,9 @@ def judge_rows(judgement, scene, folder, line, name, times):
             if "time_s" in row:
                 judgement.within("time of a row (s)", float(row["time_s"]), float(time),
                                  1e-11 * abs(time))
+            doubt = doubts[k] + TOLERANCE * growth * reach
             inside += judge_row(judgement, scene, line[1], row, chief, ends[j, k],
-                                growth * size_of(scene, j), doubts[k] + 3e-18 * growth * reach, j)
+                                growth * size_of(scene, j), doubt, j)
     if inside == 0:
         judgement.mark("no row is inside")
 

@@ -142,6 +142,9 @@ def judge_pair(judgement, scene, told, pair, random):
 def judge_margin(judgement, scene, what, margin, states, covariances, begin, end, random):
     """No deviations clearly shorter than the told ones may touch the ellipsoid."""
     axes = np.array(scene.tables["uncertainty"]["safety"]["keep_out_m"], dtype=REAL)
+    if margin["deviations"] == 0:
+        judgement.at_most(f"{what}: the means are inside, their ratio", margin["flown_ratio"], 1)
+        return
     if abs(margin["flown_ratio"] - 1) > 0.05:
         if judgement.require(f"{what}: its deviations come to {margin['flown_ratio']:.3g} of the "
                              "ellipsoid, and nothing says so", "in doubt" in scene.printed):
