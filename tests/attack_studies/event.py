@@ -86,6 +86,8 @@ def events(scene):
     sign = -1 if scene.duration < 0 else 1
     roots = []
     doubtful = abs(found[0]) < 1e-9 * size or abs(found[-1]) < 1e-6 * size
+    # An orbit in the plane does not cross it, whatever its heights round to.
+    doubtful |= bool(size < 1e-12 * orbit.norm(scene.chief[:3]))
     for k in range(len(times) - 1):
         if found[k] * found[k + 1] < 0:
             if is_wanted(scene, found[k], found[k + 1], sign):
@@ -116,7 +118,8 @@ def judge(judgement, scene, folder):
                            len(roots) >= number):
         # A time to the integration's tolerance of 1e-14 of the motion. Near a circle an apsis is
         # where a radial velocity of e times the whole one turns.
-        turning = scene.e if scene.tables["event"]["surface"] == "apsis" else 1
+        turning = (orbit.eccentricity(scene.mu, scene.chief)
+                   if scene.tables["event"]["surface"] == "apsis" else 1)
         judgement.within("time of the event (s)", float(time), float(roots[number - 1]),
                          1e-11 * abs(float(time)) + 30 * rounding / float(speed * turning)
                          + 1e-12 * float(scene.period))

@@ -73,10 +73,23 @@ def elements_of(mu, state):
             "node": np.arctan2(h[0], -h[1]), "theta": theta, "u": w + E - e * np.sin(E)}
 
 
-def perigee(mu, state):
+def eccentricity(mu, state):
     x, v = state[:3], state[3:]
-    h = np.cross(x, v)
-    return dot(h, h) / mu / (1 + norm(np.cross(v, h) / mu - x / norm(x)))
+    return norm(np.cross(v, np.cross(x, v)) / mu - x / norm(x))
+
+
+def perigee(mu, state):
+    h = np.cross(state[:3], state[3:])
+    return dot(h, h) / mu / (1 + eccentricity(mu, state))
+
+
+def anomalies(mu, state):
+    """a, e, true and mean anomaly."""
+    x, v = state[:3], state[3:]
+    r, e = norm(x), eccentricity(mu, state)
+    a = 1 / (2 / r - dot(v, v) / mu)
+    E = np.arctan2(dot(x, v) / np.sqrt(mu * a), 1 - r / a)
+    return a, e, true_of_eccentric(E, e), E - e * np.sin(E)
 
 
 def state_of_nonsingular(mu, a, q1, q2, i, node, theta=None, u=None):

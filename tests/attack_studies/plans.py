@@ -212,9 +212,8 @@ def judge_revolutions(judgement, flights, one):
 
 
 def turns(mu, state, time):
-    k = orbit.elements_of(mu, state)
-    e, w = np.hypot(k["q1"], k["q2"]), np.arctan2(k["q2"], k["q1"])
-    mean = k["u"] - w + np.sqrt(mu / k["a"] ** 3) * time
+    a, e, start, mean = orbit.anomalies(mu, state)
+    mean = mean + np.sqrt(mu / a ** 3) * time
     nu = orbit.true_of_eccentric(orbit.eccentric_anomaly(mean, e), e)
     # The true anomaly is the mean one's turn, give or take less than half of one.
-    return float(mean + orbit.wrapped(nu - mean) - (k["theta"] - w)) / (2 * np.pi)
+    return float(mean + orbit.wrapped(nu - mean) - start) / (2 * np.pi)
