@@ -1,5 +1,6 @@
 # include_directions.cmake sees every way in which a file can include one of a layer above its own,
 # and takes includes downward, within a layer and of other libraries for good. In DIRECTORY.
+include(${CMAKE_CURRENT_LIST_DIR}/expect_verdict.cmake)
 set(tree ${DIRECTORY}/tree)
 file(REMOVE_RECURSE ${tree})
 foreach(file include/hamjet/error.hpp include/hamjet/maps/exactness.hpp src/maps/order.hpp
@@ -9,16 +10,9 @@ endforeach()
 
 function(expect file line expected)
   file(WRITE ${tree}/${file} "// A comment of #include \"nothing.hpp\"\n${line}\n")
-  execute_process(COMMAND ${CMAKE_COMMAND} -DSOURCE_DIR=${tree} -DGENERATED=
-      -P ${CMAKE_CURRENT_LIST_DIR}/include_directions.cmake
-    RESULT_VARIABLE code ERROR_VARIABLE errors OUTPUT_QUIET)
+  expect_verdict(include_directions.cmake "${file}: ${line}" "${expected}" -DSOURCE_DIR=${tree}
+    -DGENERATED=)
   file(REMOVE ${tree}/${file})
-  string(REGEX REPLACE "[ \n]+" " " errors "${errors}")
-  if(expected STREQUAL "" AND NOT code EQUAL 0)
-    message(SEND_ERROR "${file}: ${line}: must be good, got: ${errors}")
-  elseif(NOT expected STREQUAL "" AND (code EQUAL 0 OR NOT errors MATCHES "${expected}"))
-    message(SEND_ERROR "${file}: ${line}: must be wrong (${expected}), got: ${errors}")
-  endif()
 endfunction()
 
 expect(include/hamjet/algebra/a.hpp "#include \"hamjet/maps/exactness.hpp\"" "includes upward")

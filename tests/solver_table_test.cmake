@@ -1,5 +1,6 @@
 # solver_table.cmake sees a row that is not true of the files and a solver that stands in no row. In
 # DIRECTORY.
+include(${CMAKE_CURRENT_LIST_DIR}/expect_verdict.cmake)
 set(tree ${DIRECTORY}/tree)
 file(REMOVE_RECURSE ${tree})
 file(WRITE ${tree}/src/search/root.hpp "root_between(")
@@ -9,15 +10,7 @@ file(WRITE ${tree}/tests/a_test.cpp "TEST(Search, Fails) {}\nTEST_F(Other,\n  Fa
 function(expect rows expected)
   file(WRITE ${tree}/tests/README.md "# Page\n\n## Solvers, and who sees that they fail\n\nWords.\n\n"
     "| solver | where | when | who | test |\n|---|---|---|---|---|\n${rows}\n\n## Next\n\n| a | b |\n")
-  execute_process(COMMAND ${CMAKE_COMMAND} -DSOURCE_DIR=${tree}
-      -P ${CMAKE_CURRENT_LIST_DIR}/solver_table.cmake
-    RESULT_VARIABLE code ERROR_VARIABLE errors OUTPUT_QUIET)
-  string(REGEX REPLACE "[ \n]+" " " errors "${errors}")
-  if(expected STREQUAL "" AND NOT code EQUAL 0)
-    message(SEND_ERROR "must be good: ${rows}\ngot: ${errors}")
-  elseif(NOT expected STREQUAL "" AND (code EQUAL 0 OR NOT errors MATCHES "${expected}"))
-    message(SEND_ERROR "must be wrong (${expected}): ${rows}\ngot: ${errors}")
-  endif()
+  expect_verdict(solver_table.cmake "${rows}" "${expected}" -DSOURCE_DIR=${tree})
 endfunction()
 
 expect("| root | `search/root.hpp` | error | main | `Search.Fails` |" "")

@@ -1,10 +1,11 @@
 #include "prediction_rounding.hpp"
 
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <random>
 #include <vector>
+
+#include "../algebra/signed_fraction.hpp"
 
 namespace hamjet::cli {
 
@@ -18,8 +19,7 @@ double rounding_of_predictions(const DeputyFlow& flow, const SixNumbers<double>&
   std::vector<SixNumbers<double>> deviations(2 * pairs);
   for (std::size_t k = 0; k < deviations.size(); k += 2) {
     for (std::size_t i = 0; i < 6; ++i) {
-      const double fraction = static_cast<double>(generator() >> 11) * 0x1p-52 - 1;  // in [-1, 1)
-      deviations[k][i] = fraction * (i < 3 ? position : velocity);
+      deviations[k][i] = signed_fraction(generator) * (i < 3 ? position : velocity);
       deviations[k + 1][i] = -deviations[k][i];
     }
   }

@@ -25,8 +25,8 @@ Extended root_in_bracket(const Function& miss_at, Extended low, Extended high, E
   Extended last_miss = 0, at_guess = guess;
   for (int i = 0; i < most_steps; ++i) {
     const MissAndSlope at = miss_at(guess);
-    // Halving would come to an end of the bracket and take it for the root.
     last_miss = at.miss;
+    // Halving would come to an end of the bracket and take it for the root.
     if (!isfinite(at.miss)) break;
     at_guess = guess;
     (at.miss > 0 ? high : low) = guess;

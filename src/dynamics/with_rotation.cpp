@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <random>
 #include <utility>
 #include <vector>
 
+#include "../algebra/signed_fraction.hpp"
 #include "hamjet/detail/dynamics/slice_evaluator.hpp"
 #include "hamjet/dynamics/dynamical_system.hpp"
 #include "hamjet/error.hpp"
@@ -85,9 +85,7 @@ DynamicalSystem with_rotation(DynamicalSystem system,
   const Extended allowed = 1e4 * std::numeric_limits<Extended>::epsilon();
   const Extended angle = 1;
   std::mt19937_64 random(20261123);
-  const auto draw = [&] {
-    return Extended(static_cast<std::int64_t>(random() >> 11U)) * 0x1p-52 - 1;
-  };
+  const auto draw = [&] { return Extended(signed_fraction(random)); };
   int points = 0;
   for (int i = 0; i < most_points && points < wanted_points; ++i) {
     Numbers z(2 * n);

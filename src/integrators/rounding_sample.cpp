@@ -5,6 +5,7 @@
 
 #include "../algebra/instantiated_real.hpp"
 #include "../algebra/raise_to.hpp"
+#include "../algebra/signed_fraction.hpp"
 #include "hamjet/integrators/error_estimate.hpp"
 #include "line_errors.hpp"
 #include "runs_along_lines.hpp"
@@ -27,8 +28,7 @@ void move_by_half_units(FlowProblem<Real>& along, std::mt19937_64& generator) {
         raise_to(largest, std::abs(static_cast<double>(start[i][d])));
       }
       for (std::size_t i = first; i < first + n; ++i) {
-        const double fraction = static_cast<double>(generator() >> 11) * 0x1p-52 - 1;  // in [-1, 1)
-        start[i][d] += Real(fraction * largest * rounding_unit<Real>() / 2);
+        start[i][d] += Real(signed_fraction(generator) * largest * rounding_unit<Real>() / 2);
       }
     }
   }

@@ -22,6 +22,10 @@ constexpr CodeRange unprintable[] = {
     {0x2060, 0x2064},   {0x2066, 0x206f},   {0xfeff, 0xfeff},   {0xfff9, 0xfffb},
     {0x110bd, 0x110bd}, {0x110cd, 0x110cd}, {0x13430, 0x1343f}, {0x1bca0, 0x1bca3},
     {0x1d173, 0x1d17a}, {0xe0001, 0xe0001}, {0xe0020, 0xe007f}};
+static_assert(std::is_sorted(std::begin(unprintable), std::end(unprintable),
+                             [](const CodeRange& one, const CodeRange& next) {
+                               return one.last < next.first;
+                             }));
 
 /// The character of one well-formed UTF-8 sequence.
 char32_t character(std::string_view sequence) {

@@ -15,12 +15,11 @@ RelativeTrajectory flown_trajectory(const Scene& scene, const std::vector<double
   trajectory.frame = frame;
   const auto add = [&](double at, const std::vector<double>& chief,
                        const std::vector<double>& deputy) {
-    std::vector<double> difference;
-    for (std::size_t i = 0; i < deputy.size(); ++i) difference.push_back(deputy[i] - chief[i]);
     trajectory.times.push_back(at);
     trajectory.chief.push_back(chief);
     trajectory.deputy.push_back(deputy);
-    trajectory.states.push_back(ChiefFrame(chief, units, frame).relative(difference));
+    trajectory.states.push_back(
+        ChiefFrame(chief, units, frame).relative(state_difference(deputy, chief)));
   };
   std::vector<double> chief = scene.nominal;
   std::vector<double> deputy = state_sum(chief, deviation);
