@@ -9,7 +9,7 @@
 #include "../report/formation/deputy_motion_report.hpp"
 #include "../report/formation/transfer_json.hpp"
 #include "../report/formation/transfer_view.hpp"
-#include "../report/formation/validity_json.hpp"
+#include "../report/formation/validity_table.hpp"
 #include "../report/paper/paper_reports.hpp"
 #include "../report/study_checks.hpp"
 #include "../scene/study_reader.hpp"
