@@ -19,8 +19,6 @@ std::string transfers_csv(const TransferResult& result);
 std::string singular_times_csv(const TransferResult& result);
 /// `conditions.csv`: one row a transfer time, one column a kind; "inf" where it is singular.
 std::string conditions_csv(const TransferResult& result);
-/// `validity.csv`: one row a time and order.
-std::string validity_csv(const ValidityResult& result);
 /// `assignment.csv`: one row a deputy with its slot and transfer.
 std::string assignment_csv(const AssignmentResult& result);
 /// `costs.csv`: one row a deputy and slot.

@@ -18,6 +18,7 @@
 #include "../interruptible.hpp"
 #include "../written_set.hpp"
 #include "hamjet/detail/report/study_report.hpp"
+#include "table_arrays.hpp"
 
 // What the bindings of studies of more than one spacecraft have in common.
 
@@ -86,6 +87,24 @@ struct Table {
     return array_of(std::move(numbers), std::move(shape));
   }
 };
+
+/// Binds what the studies have in common; `tables` gives the tables of a result, the study's own
+/// first.
+template <class Result>
+py::class_<Studied<Result>> bind_study(py::module_& module, const char* name,
+                                       std::vector<io::TableView> (*tables)(const Result&)) {
+  return py::class_<Studied<Result>>(module, name)
+      .def_property_readonly("summary",
+                             [](const Studied<Result>& s) { return s.report().summary(); })
+      .def_property_readonly("failure", [](const Studied<Result>& s) { return s.report().failure; })
+      .def("columns",
+           [tables](const Studied<Result>& s) { return columns_of_tables(tables(*s.result())); })
+      .def("rows",
+           [tables](const Studied<Result>& s) { return rows_of_tables(tables(*s.result())); })
+      .def("write", [](const Studied<Result>& s, const std::filesystem::path& directory) {
+        write_set(s.report(), directory);
+      });
+}
 
 /// Binds what the studies have in common; `csv` and `arrays` make the table's text and the arrays
 /// of a result.

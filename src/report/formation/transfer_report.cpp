@@ -14,7 +14,7 @@
 #include "transfer_json.hpp"
 #include "transfer_page.hpp"
 #include "transfer_view.hpp"
-#include "validity_json.hpp"
+#include "validity_table.hpp"
 #include "validity_view.hpp"
 #include "waypoint_view.hpp"
 
@@ -121,7 +121,7 @@ StudyReport transfer_report(const TransferResult& result,
                   {"conditions.csv", conditions_csv(result)}};
   if (result.optimal) report.files.push_back({"impulses.csv", impulses_csv(result)});
   if (result.waypoints) report.files.push_back({"waypoints.csv", waypoints_csv(result)});
-  if (validity) report.files.push_back({"validity.csv", validity_csv(*validity)});
+  if (validity) report.files.push_back({"validity.csv", table_csv(validity_table(*validity))});
   const OutputSettings& output = result.scene.output;
   const bool has_messages = output.has(oem_format.name) || output.has(oem_xml_format.name);
   if (has_messages && trajectory) {
