@@ -122,12 +122,6 @@ CLI::App* add_sweep_command(CLI::App& app, hamjet::cli::RunOptions& run,
   sweep->add_flag("--merge", options.merge,
                   "compute nothing: the table of the rows that are there; with -o alone, of the "
                   "study in that directory");
-  sweep->add_option("--emit", options.emit, "write a job script: slurm or parallel")
-      ->check(CLI::IsMember({"slurm", "parallel"}));
-  sweep
-      ->add_option("--tasks", options.tasks,
-                   "parts in the job script (default: 32 to 1000, of about 50 items)")
-      ->type_name("N");
   return sweep;
 }
 
@@ -274,7 +268,7 @@ int dispatch(int argc, char** argv) {
     return hamjet::cli::init(start);
   }
   if (*list) return hamjet::cli::list(what);
-  if (*completion) return hamjet::cli::completion(app, shell);
+  if (*completion) return hamjet::cli::completion(app);
   if (*eval) return hamjet::cli::eval(evaluation);
   if (*convert) return hamjet::cli::convert(conversion);
   if (*check) return hamjet::cli::check(options);

@@ -5,15 +5,12 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <system_error>
 
 #include "../app/processors.hpp"
 #include "../app/refusal.hpp"
 #include "../store/text_file.hpp"
-#include "../store/whole_file.hpp"
 #include "../sweep/sweep_report.hpp"
 #include "../text/scene_message.hpp"
-#include "../text/shell_text.hpp"
 #include "hamjet/error.hpp"
 #include "process/interruption.hpp"
 #include "process/standard_streams.hpp"
@@ -39,18 +36,14 @@ void check_options(const RunOptions& run, const SweepOptions& options) {
     refuse(options.merge ? "sweep --merge: needs the study, or the directory with -o"
                          : "sweep: needs a study (TOML); see hamjet sweep --help");
   }
-  if (options.merge && (options.shard || options.resume || options.emit || options.threads)) {
+  if (options.merge && (options.shard || options.resume || options.threads)) {
     refuse(
-        "sweep --merge: makes the table of what is there; leave out --shard, --resume, "
-        "--threads and --emit");
+        "sweep --merge: makes the table of what is there; leave out --shard, --resume "
+        "and --threads");
   }
-  if (options.emit && (options.shard || options.resume)) {
-    refuse("sweep --emit: writes a job script; leave out --shard and --resume");
+  if (run.json && options.shard) {
+    refuse("sweep --json: prints the summary of the table; leave out --shard");
   }
-  if (run.json && (options.shard || options.emit)) {
-    refuse("sweep --json: prints the summary of the table; leave out --shard and --emit");
-  }
-  if (options.tasks && !options.emit) refuse("sweep --tasks: must stand beside --emit");
   const auto check_range = [](const char* name, const std::optional<long>& value, long most) {
     if (value && (*value < 1 || *value > most)) {
       refuse(fmt::format("{}: out of range, got {}, must be an integer from 1 to {}", name, *value,
@@ -58,7 +51,6 @@ void check_options(const RunOptions& run, const SweepOptions& options) {
     }
   };
   check_range("--threads", options.threads, most_threads);
-  check_range("--tasks", options.tasks, static_cast<long>(io::most_sweep_items));
 }
 
 /// Writes table, map and summary of the rows that are there.
@@ -83,39 +75,6 @@ int merge(const RunOptions& run, const io::SweepStudy& study, const io::SweepDir
 std::size_t threads_of(const SweepOptions& options) {
   if (options.threads) return static_cast<std::size_t>(*options.threads);
   return usable_processors();
-}
-
-fs::path this_program() {
-  std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  return error ? fs::path("hamjet") : program;
-}
-
-int emit(const RunOptions& run, const SweepOptions& options, const io::SweepStudy& study) {
-  // Few items in a task, so that many run at a time; not so few that starting them takes the time.
-  constexpr std::size_t items_in_a_task = 50;
-  constexpr std::size_t fewest_tasks = 32;
-  constexpr std::size_t most_tasks = 1000;  // of an array, as Slurm is set up by default
-  const std::size_t items = study.items.size();
-  const std::size_t usual =
-      std::clamp((items + items_in_a_task - 1) / items_in_a_task, fewest_tasks, most_tasks);
-  const std::size_t tasks =
-      std::min(options.tasks ? static_cast<std::size_t>(*options.tasks) : usual, items);
-  const std::size_t threads = options.threads ? threads_of(options) : 1;
-  const fs::path directory = fs::absolute(output_path(run, study.name)).lexically_normal();
-  const io::SweepDirectory frozen(directory, study);
-  const io::SweepScriptPaths paths{this_program().string(),
-                                   fs::absolute(*options.study).lexically_normal().string(),
-                                   directory.string()};
-  const bool is_slurm = *options.emit == "slurm";
-  const fs::path script = directory / (is_slurm ? "sweep.sbatch" : "sweep-parallel");
-  io::write_whole_file(script, is_slurm ? io::slurm_script(study, paths, tasks, threads)
-                                        : io::parallel_script(study, paths, tasks, threads));
-  if (!run.quiet) {
-    print(fmt::format("{} {}\n", is_slurm ? "sbatch" : "bash",
-                      io::printable(io::in_shell_quotes(script.string()), std::string::npos)));
-  }
-  return 0;
 }
 
 /// The items that are still to be computed: with --resume the items without a row that is whole,
@@ -209,7 +168,6 @@ int sweep(const RunOptions& run, const SweepOptions& options) {
     return merge(run, study, io::SweepDirectory(path, study));
   }
   io::check_sweep_items(study);
-  if (options.emit) return emit(run, options, study);
   return run_items(run, options, study);
 }
 

@@ -14,8 +14,6 @@ struct SweepOptions {
   std::optional<std::string> shard;  ///< "k/n"
   bool resume = false;
   bool merge = false;
-  std::optional<std::string> emit;  ///< "slurm" or "parallel"
-  std::optional<long> tasks;        ///< of the job script
 };
 
 /// `hamjet sweep`: the items of a study on this machine's cores, or a part of them; the table; or a

@@ -26,18 +26,4 @@ std::string sweep_csv(const SweepStudy& study, const SweepRows& rows);
 /// or have failed.
 StudyReport sweep_report(const SweepStudy& study, const SweepRows& rows);
 
-/// Where the script of a batch system finds things: absolute paths.
-struct SweepScriptPaths {
-  std::string program;
-  std::string study;
-  std::string directory;
-};
-
-/// A job script for an array of `tasks` jobs in Slurm, each on `threads` cores.
-std::string slurm_script(const SweepStudy& study, const SweepScriptPaths& paths, std::size_t tasks,
-                         std::size_t threads);
-/// A script that runs `tasks` jobs by GNU parallel, then merges.
-std::string parallel_script(const SweepStudy& study, const SweepScriptPaths& paths,
-                            std::size_t tasks, std::size_t threads);
-
 }  // namespace hamjet::io

@@ -213,7 +213,6 @@ TEST_F(Sweep, BadCommandLinesAndStudiesAreOneLine) {
   }
   expect_error({"sweep", "study.toml", "--threads", "0"}, 2, {"--threads", "from 1 to"});
   expect_error({"sweep", "study.toml", "--merge", "--resume"}, 2, {"--merge"});
-  expect_error({"sweep", "study.toml", "--tasks", "3"}, 2, {"--emit"});
   expect_error({"sweep", "missing.toml"}, 5, {"missing.toml"});
   expect_error({"sweep", "quick.toml"}, 3, {"quick.toml:1:1: sweep: missing"});
   write("study.toml", changed(study, "nominal.e\"\nf", "nominal.ee\"\nf"));
@@ -224,47 +223,6 @@ TEST_F(Sweep, BadCommandLinesAndStudiesAreOneLine) {
   const CommandResult result = hamjet({"sweep", "study.toml", "-q"});
   EXPECT_EQ(result.exit_code, 3);
   EXPECT_NE(result.err.find("column.1.value: leads nowhere"), std::string::npos) << result.err;
-}
-
-TEST_F(Sweep, JobScriptsRunTheParts) {
-  const std::string whole = expected();
-  const CommandResult slurm =
-      succeed({"sweep", "study.toml", "-o", "a folder", "--emit", "slurm", "--tasks", "3"});
-  const fs::path script = directory_ / "a folder/sweep.sbatch";
-  EXPECT_EQ(slurm.out, fmt::format("sbatch '{}'\n", script.string()));
-  EXPECT_NE(content(script).find("#SBATCH --array=1-3\n"), std::string::npos);
-  // As Slurm starts it: from any directory, with the number of the task.
-  for (int task = 1; task <= 3; ++task) {
-    const std::string command =
-        fmt::format("cd / && SLURM_ARRAY_TASK_ID={} bash '{}'", task, script.string());
-    EXPECT_EQ(std::system(command.c_str()), 0);
-  }
-  succeed({"sweep", "--merge", "-q", "-o", "a folder"});
-  EXPECT_EQ(table("a folder"), whole);
-}
-
-TEST_F(Sweep, AScriptForParallelKeepsBracesInItsPaths) {
-  const std::string whole = expected();
-  // As GNU parallel does it: in every word of the command, {} is the argument, {#} the number of
-  // the job, and the words are one line for a shell.
-  const std::string name = "{} by {#}";
-  fs::create_directory(directory_ / "bin");
-  write("bin/parallel", R"(#!/bin/bash
-while [[ $1 == --* ]]; do shift 2; done
-job=0
-while read -r argument; do
-  job=$((job + 1))
-  line=${*//'{}'/$argument}
-  bash -c "${line//'{#}'/$job}"
-done
-)");
-  fs::permissions(directory_ / "bin/parallel", fs::perms::owner_all);
-  succeed({"sweep", "study.toml", "-o", name, "--emit", "parallel", "--tasks", "2"});
-  const std::string command =
-      fmt::format("PATH='{}':\"$PATH\" bash '{}' >/dev/null", (directory_ / "bin").string(),
-                  (directory_ / name / "sweep-parallel").string());
-  EXPECT_EQ(std::system(command.c_str()), 0);
-  EXPECT_EQ(table(name), whole);
 }
 
 // gnuplot would lose the map of the first, a spreadsheet would take the others for formulas.

@@ -14,8 +14,7 @@ done
 for needed in bin/hamjet include/hamjet/version.hpp include/hamjet/instruction_set.hpp \
   include/hamjet/maps/exactness.hpp share/hamjet/scenes/paper/earth-orbit.toml \
   share/hamjet/examples/two-satellites/two-satellites.toml share/hamjet/gravity/EGM96-zonals.gfc \
-  share/bash-completion/completions/hamjet share/zsh/site-functions/_hamjet \
-  share/fish/vendor_completions.d/hamjet.fish; do
+  share/bash-completion/completions/hamjet; do
   [ -e "$prefix/$needed" ] || { echo "not installed: $needed"; status=1; }
 done
 exit $status

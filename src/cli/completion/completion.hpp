@@ -8,7 +8,7 @@
 
 namespace hamjet::cli {
 
-// Scripts with which shells complete the program's command lines, from the description of its
+// A script with which bash completes the program's command lines, from the description of its
 // commands. What an argument is completed with follows from its type there:
 //
 //   {a,b}           one of these words, as CLI::IsMember says too
@@ -21,12 +21,10 @@ namespace hamjet::cli {
 // and with nothing for any other type.
 
 std::string bash_completion(const std::vector<CompletionCommand>& commands);
-std::string zsh_completion(const std::vector<CompletionCommand>& commands);
-std::string fish_completion(const std::vector<CompletionCommand>& commands);
 
 CLI::App* add_completion_command(CLI::App& app, std::string& shell);
 
-/// Prints the script for this shell, one of those of the command's help; returns the exit code.
-int completion(const CLI::App& app, const std::string& shell);
+/// Prints the script; returns the exit code.
+int completion(const CLI::App& app);
 
 }  // namespace hamjet::cli

@@ -16,14 +16,11 @@ CompletionOption described(const CLI::Option& option) {
   for (const std::string& name : option.get_snames()) result.names.push_back("-" + name);
   for (const std::string& name : option.get_lnames()) result.names.push_back("--" + name);
   result.type = type_of(option);
-  result.help = option.get_description();
-  result.is_repeatable = option.get_expected_max() > 1;
   return result;
 }
 
 CompletionCommand described(const CLI::App& command, const std::string& name) {
-  const std::string help = command.get_description();
-  CompletionCommand result{name, help.substr(0, help.find('\n')), {}, {}};
+  CompletionCommand result{name, {}, {}};
   for (const CLI::Option* option : command.get_options()) {
     (option->get_positional() ? result.positionals : result.options).push_back(described(*option));
   }
@@ -38,17 +35,6 @@ std::vector<CompletionCommand> completion_commands(const CLI::App& app) {
     commands.push_back(described(*child, child->get_name()));
   }
   return commands;
-}
-
-std::vector<std::string> words_of_type(const std::string& type) {
-  std::vector<std::string> words;
-  if (!type.starts_with('{')) return words;
-  for (std::size_t begin = 1; begin < type.size();) {
-    const std::size_t end = type.find_first_of(",}", begin);
-    words.push_back(type.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return words;
 }
 
 }  // namespace hamjet::cli

@@ -10,22 +10,16 @@ namespace hamjet::cli {
 struct CompletionOption {
   std::vector<std::string> names;  ///< with their hyphens; none of a positional
   std::string type;                ///< see completion.hpp; empty for a flag
-  std::string help;
-  bool is_repeatable = false;
 };
 
 /// A command, or the program itself, whose name is empty.
 struct CompletionCommand {
   std::string name;
-  std::string help;  ///< one line
   std::vector<CompletionOption> options;
   std::vector<CompletionOption> positionals;
 };
 
 /// The program and then its commands, from their description for --help.
 std::vector<CompletionCommand> completion_commands(const CLI::App& app);
-
-/// The words of a type that is an enumeration in braces; none for any other type.
-std::vector<std::string> words_of_type(const std::string& type);
 
 }  // namespace hamjet::cli
