@@ -2,7 +2,6 @@
 
 #include <cstdint>
 
-#include "../../app/required_tables.hpp"
 #include "../../formats/relative_frame_text.hpp"
 #include "../../report/formation/assignment_tables.hpp"
 #include "../../report/formation/deputy_motion_report.hpp"
@@ -20,36 +19,22 @@ namespace hamjet::python {
 namespace {
 
 Studied<TransferResult> study_transfers(const GivenScene& given, const py::object& progress) {
-  const Scene checked = unsplit(given, "hamjet transfer");
-  cli::require_transfer(checked, given.file);
-  return interruptibly(progress, [scene = checked,
-                                  file = given.file](const ProgressCallback& report) {
-    TransferResult result = cli::study_of(file, [&] { return study_transfer(scene, report); });
-    std::optional<ValidityResult> validity;
-    if (scene.validity) validity = study_validity(scene, report);
-    return Studied<TransferResult>(std::move(result), [validity](const TransferResult& studied) {
-      std::optional<RelativeTrajectory> trajectory;
-      if (const auto best = studied.best_point()) trajectory = fly_relative(studied, *best);
-      return io::transfer_report(studied, trajectory, validity, origin());
-    });
-  });
+  const auto study = [](const Scene& scene, const ProgressCallback& report) {
+    return study_transfer(scene, report);
+  };
+  return studied(given, progress, "transfer", study, &io::flown_transfer_report);
 }
 
 Studied<DeputyMotion> study_motion(const GivenScene& given, const py::object& progress) {
-  return studied<DeputyMotion>(
-      given, progress, "hamjet motion", &cli::require_deputy, &study_deputy_motion,
-      [](const DeputyMotion& motion) { return io::deputy_motion_report(motion, origin()); });
+  return studied(given, progress, "deputy", &study_deputy_motion, &io::deputy_motion_report);
 }
 
 Studied<AssignmentResult> assign(const GivenScene& given, const py::object& progress) {
-  return studied<AssignmentResult>(given, progress, "hamjet assign", &cli::require_assignment,
-                                   &study_assignment, &io::assignment_report);
+  return studied(given, progress, "assignment", &study_assignment, &io::assignment_report);
 }
 
 Studied<ValidityResult> study_separations(const GivenScene& given, const py::object& progress) {
-  return studied<ValidityResult>(
-      given, progress, "hamjet validity", &cli::require_validity, &study_validity,
-      [](const ValidityResult& result) { return io::validity_report(result, origin()); });
+  return studied(given, progress, "validity", &study_validity, &io::validity_report);
 }
 
 /// One point's best answer, flown: (times in s, states (count + 1, 6) along R, T, N in m and m/s).

@@ -256,7 +256,7 @@ std::vector<TableView> assignment_tables(const AssignmentResult& result) {
   return {assignment_table(result), costs_table(result), pairs_table(result)};
 }
 
-StudyReport assignment_report(const AssignmentResult& result) {
+StudyReport assignment_report(const AssignmentResult& result, const ReportOrigin& /*origin*/) {
   StudyReport report;
   report.files = {{"assignment.csv", table_csv(assignment_table(result))},
                   {"costs.csv", table_csv(costs_table(result))},

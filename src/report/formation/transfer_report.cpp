@@ -136,7 +136,7 @@ StudyReport transfer_report(const TransferResult& result,
       {"report.html", transfer_page(result, trajectory, validity, origin, drawer)});
   report.drawing_problem = drawer.problem();
   if (trajectory && !report.drawing_problem) {
-    add_figure(report, {rendezvous_chart(*trajectory)});
+    add_figure(report, {rendezvous_chart(*trajectory)}, origin.gnuplot);
   }
   report.exit_code = exit_code(result);
   report.failure = transfer_failure(result);
@@ -147,6 +147,12 @@ StudyReport transfer_report(const TransferResult& result,
   if (validity) report.table += "  validity         " + validity_verdict(*validity) + "\n";
   add_checks(report, result.checks);
   return report;
+}
+
+StudyReport flown_transfer_report(const TransferResult& result, const ReportOrigin& origin) {
+  std::optional<RelativeTrajectory> trajectory;
+  if (const auto best = result.best_point()) trajectory = fly_relative(result, *best);
+  return transfer_report(result, trajectory, result.validity, origin);
 }
 
 }  // namespace hamjet::io

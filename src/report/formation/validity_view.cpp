@@ -54,6 +54,12 @@ std::vector<std::string> limit_cells(const ReachLimit& limit) {
 std::string reach_limit_text(const ValidityResult& result) {
   if (result.points.empty()) return "";
   const ValidityEntry& entry = result.points.back().entries.back();
+  if (entry.is_at_wall) {
+    return fmt::format(
+        "order {} is limited at {} by a wall: a little further some deputies escape, fall or leave "
+        "the coordinates",
+        entry.order, length_text(entry.proved_m));
+  }
   if (!entry.limit) return "";
   const std::vector<std::string> cells = limit_cells(*entry.limit);
   return fmt::format(
