@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "formation/assignment_tables.hpp"
+#include "formation/deputy_motion_report.hpp"
+#include "formation/transfer_tables.hpp"
 #include "formation/validity_table.hpp"
 
 namespace hamjet::io {
@@ -15,11 +18,33 @@ Scene declaring_scene() {
   return scene;
 }
 
-TableView declared_validity() {
+ValidityResult declared_validity() {
   ValidityResult result;
   result.scene = declaring_scene();
   result.scene.validity.emplace();
-  return validity_table(result);
+  return result;
+}
+
+TransferResult declared_transfers() {
+  TransferResult result;
+  result.scene = declaring_scene();
+  result.scene.transfer.emplace().times = {1};
+  return result;
+}
+
+DeputyMotion declared_motion() {
+  DeputyMotion motion;
+  motion.scene = declaring_scene();
+  motion.scene.deputy.emplace();
+  motion.points.push_back({0, {}, {0, 0}, 0});
+  return motion;
+}
+
+AssignmentResult declared_assignment() {
+  AssignmentResult result;
+  result.scene = declared_transfers().scene;
+  result.scene.assignment.emplace();
+  return result;
 }
 
 /// The column's names in CSV, where it is there.
@@ -40,7 +65,15 @@ std::string cells_text(const TableView& table, const TableColumn& column) {
 
 }  // namespace
 
-std::vector<TableView> declared_tables() { return {declared_validity()}; }
+std::vector<TableView> declared_tables() {
+  std::vector<TableView> all;
+  for (std::vector<TableView> tables :
+       {deputy_motion_tables(declared_motion()), transfer_tables(declared_transfers()),
+        assignment_tables(declared_assignment()), validity_tables(declared_validity())}) {
+    for (TableView& table : tables) all.push_back(std::move(table));
+  }
+  return all;
+}
 
 std::string columns_page() {
   std::string text =

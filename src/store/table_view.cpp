@@ -39,7 +39,9 @@ Json nested_json(std::span<const CellValue> values, std::span<const std::size_t>
 
 Json cell_json(const TableColumn& column, std::size_t cell) {
   const std::vector<CellValue>& values = column.cells[cell];
-  return values.empty() ? Json(nullptr) : nested_json(values, column.lengths);
+  const bool is_array_of_none = column.lengths == std::vector<std::size_t>{0};
+  if (values.empty() && !is_array_of_none) return nullptr;
+  return nested_json(values, column.lengths);
 }
 
 /// The members of a level's cell, and behind them the array of the next level.
@@ -47,7 +49,7 @@ void add_level(const TableView& table, std::size_t level, std::size_t cell, Json
   for (const TableColumn& column : table.columns) {
     if (column.level == level && column.is_in_json) json[column.name] = cell_json(column, cell);
   }
-  if (level == table.dimensions.size() || table.dimensions[level].name.empty()) return;
+  if (level == table.dimensions.size() || !table.has_rows_in_json) return;
   Json& rows = json[table.dimensions[level].name] = Json::array();
   for (std::size_t i = 0; i < table.dimensions[level].length; ++i) {
     Json row;

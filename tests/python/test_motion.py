@@ -36,15 +36,15 @@ def motion_on_circles():
 def test_motion_is_that_of_the_command(tmp_path):
     expected = table_of_command(tmp_path, "motion", SATELLITES, [], "motion.csv")
     motion = hamjet.motion(SATELLITES)
-    assert motion.frame == "RTN with rotating derivatives"
+    assert (motion.frame, motion.derivatives) == ("RTN", "rotating")
     for i, axis in enumerate("RTN"):
         assert (motion.position_m[:, i] == numbers(expected[f"{axis}_m"])).all()
         assert (motion.velocity_m_s[:, i] == numbers(expected[f"v{axis}_m_s"])).all()
-    assert (motion.times_s == numbers(expected["time_s"])).all()
+    assert (motion.time_s == numbers(expected["time_s"])).all()
     assert (motion.separation_m == numbers(expected["separation_m"])).all()
-    assert motion.error_by_order_m.shape == (len(motion.times_s), 4)
+    assert motion.error_m_by_order.shape == (len(motion.time_s), 4)
     for order in range(1, 5):
-        assert (motion.error_by_order_m[:, order - 1]
+        assert (motion.error_m_by_order[:, order - 1]
                 == numbers(expected[f"error_m_order_{order}"])).all()
     assert {name: list(column) for name, column in motion.table.items()} == {
         name: list(numbers(fields)) for name, fields in expected.items()}
@@ -62,8 +62,8 @@ def test_circles_of_one_size_are_those_of_kepler(circles):
     phase, tilt = np.radians([PHASE_DEG, TILT_DEG])
     rate = np.sqrt(MU_KM3_S2 / RADIUS_KM**3)
     size_m = RADIUS_KM * 1000
-    assert np.isclose(circles.times_s[-1], 1.5 * 2 * np.pi / rate, rtol=1e-13, atol=0)
-    chief = rate * circles.times_s
+    assert np.isclose(circles.time_s[-1], 1.5 * 2 * np.pi / rate, rtol=1e-13, atol=0)
+    chief = rate * circles.time_s
     deputy = chief + phase
     place = size_m * np.array([np.cos(deputy), np.sin(deputy) * np.cos(tilt),
                                np.sin(deputy) * np.sin(tilt)])
@@ -81,7 +81,7 @@ def test_circles_of_one_size_are_those_of_kepler(circles):
     assert np.abs(circles.velocity_m_s - turning.T).max() < 1e-9
     assert np.abs(circles.separation_m - np.linalg.norm(expected, axis=0)).max() < 1e-6
     # Each order more takes some thousandth, the separation over the radius, of the error.
-    assert (circles.error_by_order_m[-1, 1:] < 0.01 * circles.error_by_order_m[-1, :-1]).all()
+    assert (circles.error_m_by_order[-1, 1:] < 0.01 * circles.error_m_by_order[-1, :-1]).all()
 
 
 def test_circles_are_nearest_and_farthest_where_kepler_has_them(circles):
@@ -136,9 +136,9 @@ def test_scenes_without_a_motion_are_refused_as_by_the_command(tmp_path, file, o
 @pytest.mark.parametrize("length_km", [0.001, 149597870.7])
 def test_motion_is_the_same_in_any_unit_of_length(circles, length_km):
     other = hamjet.motion({**CIRCLES, "units": {"length_km": length_km}})
-    assert (other.times_s == circles.times_s).all()
+    assert (other.time_s == circles.time_s).all()
     assert (other.position_m == circles.position_m).all()
-    assert (other.error_by_order_m == circles.error_by_order_m).all()
+    assert (other.error_m_by_order == circles.error_m_by_order).all()
     jet = hamjet.run({**CIRCLES, "units": {"length_km": length_km}}).runs["gauss8"].jet
     assert jet.units.length_km == length_km
     assert np.linalg.norm(jet.nominal_initial[:3]) * length_km == pytest.approx(RADIUS_KM)

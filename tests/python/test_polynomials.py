@@ -92,13 +92,13 @@ def test_reach_is_that_of_validity(boxes):
 def test_studies_take_coordinates():
     plain, boxes = hamjet.motion(SCENE), hamjet.motion(SCENE, coordinates="flow-box")
     assert boxes.summary["coordinates"] == "flow-box"
-    assert boxes.error_by_order_m.max() < 0.01 < 1 < plain.error_by_order_m.max()
+    assert boxes.error_m_by_order.max() < 0.01 < 1 < plain.error_m_by_order.max()
     transfer = SCENE + """[transfer]
 times_s = [2500]
 end = { position_m = [0, -50000, 0] }
 """
     found = hamjet.transfer(transfer, coordinates="flow-box")
-    assert found.summary["coordinates"] == "flow-box" and found.kinds == (None,)
+    assert found.summary["coordinates"] == "flow-box" and found.kind == (None,)
     assert found.miss_m[0] < 1e-3
 
 

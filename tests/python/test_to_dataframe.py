@@ -47,7 +47,7 @@ def test_frames_are_the_files_of_relative_motion(tmp_path, transfers, validity):
         expect_columns(result.to_dataframe(),
                        (tmp_path / name / f"{name}.csv").read_text(encoding="utf-8"))
     frame = transfers.to_dataframe()
-    assert (frame["time_s"] == transfers.times_s).all() and frame.index[transfers.best] >= 0
+    assert (frame["time_s"] == transfers.time_s).all() and frame.index[transfers.best] >= 0
     assert list(validity.to_dataframe()["order"]) == [1, 2] * 3
 
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "../../src/report/formation/assignment_tables.hpp"
 #include "../../src/report/formation/validity_table.hpp"
 #include "../../src/report/formation/validity_view.hpp"
 #include "report_tables.hpp"
@@ -114,14 +115,14 @@ TEST(ValidityReport, NamesTheFrameInEveryFile) {
 
 TEST(AssignmentReport, HoldsTheNumbersOfTheResult) {
   const AssignmentResult result = sample_assignment();
-  const Table costs = parse(costs_csv(result));
+  const Table costs = parse(table_csv(costs_table(result)));
   ASSERT_EQ(costs.rows.size(), 4U);
   EXPECT_EQ(costs.number(1, "total_change_m_s"), 1.0 / 3);
   EXPECT_EQ(costs.number(2, "time_canonical"), 6);
   EXPECT_EQ(costs.number(2, "time_s"), 6 * 927.6);
   EXPECT_EQ(costs.at(3, "time_s"), "");
   EXPECT_EQ(costs.at(3, "total_change_m_s"), "");
-  const Table table = parse(assignment_csv(result));
+  const Table table = parse(table_csv(assignment_table(result)));
   ASSERT_EQ(table.rows.size(), 2U);
   const TransferPoint& point = result.transfers[1].transfer;
   EXPECT_EQ(table.at(1, "deputy"), "1");
@@ -147,7 +148,7 @@ TEST(AssignmentReport, WithoutAnAssignmentNothingIsMadeUp) {
   result.transfers.clear();
   result.total_change_m_s = 0;
   result.failure = "deputy 1 has no answer for any slot, at any time";
-  EXPECT_TRUE(parse(assignment_csv(result)).rows.empty());
+  EXPECT_TRUE(parse(table_csv(assignment_table(result))).rows.empty());
   const StudyReport report = assignment_report(result);
   Json json;
   summary_of(report, json);

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "../../src/report/formation/transfer_tables.hpp"
 #include "../../src/report/formation/transfer_view.hpp"
 #include "report_tables.hpp"
 #include "transfer_samples.hpp"
@@ -18,7 +19,7 @@ using namespace report_tables;
 
 TEST(TransferCsv, HoldsTheNumbersOfTheResult) {
   const TransferResult result = sample_transfer();
-  const Table table = parse(transfers_csv(result));
+  const Table table = parse(table_csv(transfers_table(result)));
   ASSERT_EQ(table.rows.size(), 6U);
   for (const std::size_t i : {std::size_t{0}, std::size_t{1}, std::size_t{5}}) {
     const TransferPoint& point = result.points[i];
@@ -51,7 +52,7 @@ TEST(TransferCsv, HoldsTheNumbersOfTheResult) {
 }
 
 TEST(TransferCsv, WhatWasNotComputedIsEmpty) {
-  const Table table = parse(transfers_csv(sample_transfer()));
+  const Table table = parse(table_csv(transfers_table(sample_transfer())));
   EXPECT_EQ(table.at(1, "linear_total_change_m_s"), "");
   EXPECT_EQ(table.at(1, "miss_m_order_1"), "");
   EXPECT_EQ(table.at(1, "failure"), "order 1: no convergence, \"really\", after 20");
@@ -76,14 +77,14 @@ TEST(TransferCsv, WhatWasNotComputedIsEmpty) {
 
 TEST(TransferCsv, ColumnsNameTheAxesOfTheFrame) {
   TransferResult result = sample_transfer();
-  EXPECT_NE(transfers_csv(result).find(",end_change_n_m_s,"), std::string::npos);
+  EXPECT_NE(table_csv(transfers_table(result)).find(",end_change_n_m_s,"), std::string::npos);
   result.scene.transfer->frame = RelativeFrame::inertial;
-  EXPECT_NE(transfers_csv(result).find(",end_change_z_m_s,"), std::string::npos);
+  EXPECT_NE(table_csv(transfers_table(result)).find(",end_change_z_m_s,"), std::string::npos);
 }
 
 TEST(TransferCsv, SingularTimesAndConditions) {
   const TransferResult result = sample_transfer();
-  const Table singular = parse(singular_times_csv(result));
+  const Table singular = parse(table_csv(singular_times_table(result)));
   ASSERT_EQ(singular.rows.size(), 3U);
   EXPECT_EQ(singular.at(2, "kind"), "qqq-ppp");
   EXPECT_EQ(singular.number(0, "time_canonical"), 3.01);
@@ -94,7 +95,7 @@ TEST(TransferCsv, SingularTimesAndConditions) {
   EXPECT_EQ(singular.number(0, "direction_inertial_y"), 0.6);
   EXPECT_EQ(singular.number(0, "direction_inertial_z"), -0.8);
   EXPECT_EQ(singular.number(0, "direction_n"), 1);
-  const Table conditions = parse(conditions_csv(result));
+  const Table conditions = parse(table_csv(conditions_table(result)));
   ASSERT_EQ(conditions.rows.size(), 6U);
   EXPECT_EQ(conditions.columns.size(), 66U);
   EXPECT_EQ(conditions.number(1, "qqq-qqq"), 10.0 / 3);

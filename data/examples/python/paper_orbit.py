@@ -120,13 +120,13 @@ transfers = hamjet.transfer({
 best = transfers.best
 assert best is not None
 print(f"least: {transfers.total_change_m_s[best]:.2f} m/s in "
-      f"{transfers.times_s[best] / 60:.0f} min, misses by {transfers.miss_m[best]:.1e} m, "
-      f"with the linear answer by {transfers.miss_by_order_m[best, 0]:.0f} m")
+      f"{transfers.time_s[best] / 60:.0f} min, misses by {transfers.miss_m[best]:.1e} m, "
+      f"with the linear answer by {transfers.miss_m_by_order[best, 0]:.0f} m")
 
 figure, (left, right) = plt.subplots(1, 2, figsize=(11, 4))
 away = ~transfers.near_singular
-left.semilogy(transfers.times_s[away] / 60, transfers.total_change_m_s[away], ".-")
-left.plot(transfers.times_s[best] / 60, transfers.total_change_m_s[best], "o")
+left.semilogy(transfers.time_s[away] / 60, transfers.total_change_m_s[away], ".-")
+left.plot(transfers.time_s[best] / 60, transfers.total_change_m_s[best], "o")
 left.set(xlabel="transfer time (min)", ylabel="velocity change (m/s)")
 times, states = transfers.trajectory(best)
 right.plot(states[:, 1] / 1000, states[:, 0] / 1000)

@@ -13,19 +13,6 @@
 
 namespace hamjet::io {
 
-/// `transfers.csv`: one row a transfer time.
-std::string transfers_csv(const TransferResult& result);
-/// `singular_times.csv`: one row a kind and time at which the kind does not exist.
-std::string singular_times_csv(const TransferResult& result);
-/// `conditions.csv`: one row a transfer time, one column a kind; "inf" where it is singular.
-std::string conditions_csv(const TransferResult& result);
-/// `assignment.csv`: one row a deputy with its slot and transfer.
-std::string assignment_csv(const AssignmentResult& result);
-/// `costs.csv`: one row a deputy and slot.
-std::string costs_csv(const AssignmentResult& result);
-/// The least separation of each pair of deputies on their ways.
-std::string pairs_csv(const AssignmentResult& result);
-
 /// The files of `hamjet transfer`: the CSV files, `report.html`, `summary.json`. `trajectory` is
 /// that of the best point, if there is one; `validity` is there if the scene asks for it.
 StudyReport transfer_report(const TransferResult& result,

@@ -22,7 +22,7 @@ def _axes(given: Any) -> Any:
 
 def draw_motion(motion: Motion, axes: Any) -> Any:
     axes = _axes(axes)
-    hours = motion.times_s / _SECONDS_PER_HOUR
+    hours = motion.time_s / _SECONDS_PER_HOUR
     axes.plot(hours, motion.separation_m, ".-", label="separation")
     for name, at in (("nearest", motion.nearest), ("farthest", motion.farthest)):
         axes.plot(at.time_s / _SECONDS_PER_HOUR, at.separation_m, "o", label=name)
@@ -33,7 +33,7 @@ def draw_motion(motion: Motion, axes: Any) -> Any:
 
 def draw_transfers(transfers: Transfers, axes: Any) -> Any:
     axes = _axes(axes)
-    hours = transfers.times_s / _SECONDS_PER_HOUR
+    hours = transfers.time_s / _SECONDS_PER_HOUR
     # Near a singularity the changes are large and say nothing, and a line across would hide it.
     shown = np.where(transfers.near_singular, np.nan, transfers.total_change_m_s)
     axes.semilogy(hours, shown, ".-", label="away from singularities")
@@ -43,7 +43,10 @@ def draw_transfers(transfers: Transfers, axes: Any) -> Any:
     if transfers.best is not None:
         axes.semilogy(hours[transfers.best], transfers.total_change_m_s[transfers.best], "o",
                       label="least")
-    for time_s in transfers.singular_times_s:
+    singular = transfers.singular_times
+    for kind, time_s in zip(singular.kind, singular.time_s):
+        if kind != "qqq-qqq":  # F1's: positions cannot be commanded
+            continue
         axes.axvline(time_s / _SECONDS_PER_HOUR, color="gray", linestyle=":", linewidth=0.8)
     axes.set(xlabel="transfer time (h)", ylabel="velocity change (m/s)")
     axes.legend()

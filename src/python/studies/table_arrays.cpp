@@ -66,7 +66,8 @@ py::object array_of_values(const io::TableColumn& column, const std::vector<Cell
 
 py::object column_object(const io::TableView& table, const io::TableColumn& column) {
   if (column.level == 0 && !column.is_array()) {
-    const CellValue& value = column.cells.front().front();
+    const std::vector<CellValue>& cell = column.cells.front();
+    const CellValue value = cell.empty() ? CellValue() : cell.front();
     // An absent number is NaN, as it is in arrays.
     return column.kind == CellKind::number ? py::float_(number_of(value)) : object_of(value);
   }

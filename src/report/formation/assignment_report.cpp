@@ -9,9 +9,11 @@
 #include "../../text/quantity_text.hpp"
 #include "../../text/terminal_text.hpp"
 #include "../study_checks.hpp"
-#include "answer_columns.hpp"
+#include "assignment_tables.hpp"
+#include "frame_columns.hpp"
 #include "hamjet/report/relative_motion_report.hpp"
 #include "transfer_json.hpp"
+#include "transfer_tables.hpp"
 #include "transfer_view.hpp"
 
 namespace hamjet::io {
@@ -149,23 +151,15 @@ std::string summary(const AssignmentResult& result) {
   const TransferSettings& settings = *result.scene.transfer;
   const bool is_assigned = !result.transfers.empty();
   Json json = study_head_json(result.scene, "assignment", result.integrator);
-  add_coordinates(json, result.coordinates);
-  json["frame"] = frame_name(settings.frame);
-  json["derivatives"] = text_or_null(std::string(derivatives_name(settings.frame)));
-  json["axes"] = axis_letters(settings.frame);
+  json.update(table_json(assignment_table(result)));
+  add_chosen_by(json, result.coordinates);
   json["kind"] = uses_kind(result) ? Json(settings.kind) : Json(nullptr);
   json["tolerance_m"] = settings.tolerance_m;
   json["deputies"] = result.scene.assignment->deputies.size();
   json["slots"] = result.scene.assignment->slots.size();
   json["time"] = time_choice(result);
-  json["common_time_s"] = nullptr;
-  if (result.common_time) {
-    json["common_time_s"] = settings.times[*result.common_time] * result.scene.units.time_s;
-  }
   json["transfers"] = transfers_json(result);
   json["total_change_m_s"] = is_assigned ? json_number(result.total_change_m_s) : Json(nullptr);
-  json["deputies_without_slot"] = is_assigned ? Json(deputies_left(result)) : Json(nullptr);
-  json["slots_without_deputy"] = is_assigned ? Json(slots_left(result)) : Json(nullptr);
   json["keep_apart_m"] = json_number(result.scene.assignment->keep_apart_m);
   json["nearest_pair"] = nullptr;
   if (const auto pair = nearest_pair(result)) {
@@ -174,72 +168,99 @@ std::string summary(const AssignmentResult& result) {
                             {"separation_m", json_number(pair->separation_m)}};
   }
   json["failure"] = text_or_null(result.failure);
-  json["flight_floor_m"] = json_number(result.flight_floor_m);
   json["seconds"] = {{"study", result.study_seconds}, {"proof", result.proof_seconds}};
-  json["exit_code"] = exit_code(result);
   return json_text(json) + "\n";
 }
 
 }  // namespace
 
-std::string assignment_csv(const AssignmentResult& result) {
-  using Row = const AssignedTransfer&;
-  const double unit = result.scene.units.time_s;
-  const auto has_kind = [](Row row) { return row.transfer.kind.has_value(); };
-  Columns<AssignedTransfer> columns;
-  columns.add("deputy", &AssignedTransfer::deputy);
-  columns.add("slot", &AssignedTransfer::slot);
-  columns.add("time_canonical",
-              [&](Row row) { return told_time(result.scene, row.transfer.time); });
-  columns.add("time_s", [=](Row row) { return row.transfer.time * unit; });
-  columns.add_if(has_kind, "kind", [](Row row) { return row.transfer.kind->name(); });
-  columns.add_if(has_kind, "condition", [](Row row) { return row.transfer.condition; });
-  columns.add("near_singular", [](Row row) { return row.transfer.is_near_singular; });
-  columns.add("beyond_tolerance", [](Row row) { return row.transfer.is_beyond_tolerance; });
-  columns.add("answer", [](Row row) { return answer_name(row.transfer); });
-  add_answer_columns<AssignedTransfer>(
-      columns, result.scene.transfer->frame,
-      [](Row row) -> const TransferPoint& { return row.transfer; });
-  columns.add_if([](Row row) { return shown_answer(row.transfer) != nullptr; }, "miss_m",
-                 [](Row row) { return shown_answer(row.transfer)->miss_m; });
-  columns.add("failure", [](Row row) { return failure_text(row.transfer); });
-  return columns.csv(result.transfers);
+TableView assignment_table(const AssignmentResult& result) {
+  const Scene& scene = result.scene;
+  const bool is_assigned = !result.transfers.empty();
+  const auto if_assigned = [&](auto left) {
+    return is_assigned ? std::optional(left(result)) : std::nullopt;
+  };
+  ResultTable<AssignedTransfer> table("assignment", "", {"transfers"},
+                                      "The transfer of each deputy that has a slot.");
+  table.leave_rows_out_of_json();
+  table.add("deputy", "", "which, from 0", &AssignedTransfer::deputy).is_in_json = false;
+  table.add("slot", "", "where it goes, from 0", &AssignedTransfer::slot).is_in_json = false;
+  table.add_columns(transfer_columns(scene), &AssignedTransfer::transfer);
+  table.keep_in_csv({"deputy", "slot", "time_canonical", "time_s", "kind", "condition",
+                     "near_singular", "beyond_tolerance", "answer", "start_change_m_s",
+                     "end_change_m_s", "total_change_m_s", "miss_m", "failure"});
+  add_frame(table, scene.transfer->frame, result.coordinates);
+  const auto& common = result.common_time;
+  table.add_scalar(
+      "common_time_s", "s", "of all transfers, where the scene asks for one",
+      common ? std::optional(scene.transfer->times[*common] * scene.units.time_s) : std::nullopt);
+  table.add_scalars("deputies_without_slot", "", "which, from 0", if_assigned(deputies_left));
+  table.add_scalars("slots_without_deputy", "", "which, from 0", if_assigned(slots_left));
+  table.add_scalar("flight_floor_m", "m", "misses below this say nothing", result.flight_floor_m);
+  table
+      .add_scalar("not_assigned", "", "why there is no assignment; nothing if there is one",
+                  result.failure)
+      .is_in_json = false;  // there it is the failure of the whole
+  table.add_scalar("exit_code", "", "of the command", static_cast<int>(exit_code(result)));
+  TableView view = std::move(table).view(result.transfers, {result.transfers.size()});
+  for (std::size_t i = 0; i < result.transfers.size(); ++i) {
+    view.places_of_rows.emplace_back(i, fmt::format("/transfers/{}/transfer", i));
+  }
+  return view;
 }
 
-std::string costs_csv(const AssignmentResult& result) {
-  const std::vector<double>& times = result.scene.transfer->times;
-  std::string text = "deputy,slot,time_canonical,time_s,total_change_m_s\n";
+TableView costs_table(const AssignmentResult& result) {
+  struct Row {
+    std::size_t deputy, slot;
+    AssignmentCost cost;
+  };
+  const Scene& scene = result.scene;
+  const std::vector<double>& times = scene.transfer->times;
+  const auto has_time = [](const Row& row) { return row.cost.time.has_value(); };
+  ResultTable<Row> table("costs", "", {"deputies", "slots"},
+                         "The least velocity change of each deputy to each slot.");
+  table.leave_rows_out_of_json();
+  table.add("deputy", "", "which, from 0", &Row::deputy);
+  table.add("slot", "", "which, from 0", &Row::slot);
+  table.add_if(has_time, "time_canonical", "", "of the transfer, in the canonical unit of time",
+               [&](const Row& row) { return told_time(scene, times[*row.cost.time]); });
+  table.add_if(has_time, "time_s", "s", "of the transfer",
+               [&](const Row& row) { return times[*row.cost.time] * scene.units.time_s; });
+  table.add_if(has_time, "total_change_m_s", "m/s", "the sum of both magnitudes",
+               [](const Row& row) { return row.cost.total_change_m_s; });
+  std::vector<Row> rows;
   for (std::size_t i = 0; i < result.costs.size(); ++i) {
     for (std::size_t j = 0; j < result.costs[i].size(); ++j) {
-      const AssignmentCost& cost = result.costs[i][j];
-      text += fmt::format("{},{},", i, j);
-      text += cost.time ? fmt::format("{},{},{}\n",
-                                      csv_number(told_time(result.scene, times[*cost.time])),
-                                      csv_number(times[*cost.time] * result.scene.units.time_s),
-                                      csv_number(cost.total_change_m_s))
-                        : ",,\n";
+      rows.push_back({i, j, result.costs[i][j]});
     }
   }
-  return text;
+  const std::size_t slots = result.costs.empty() ? 0 : result.costs.front().size();
+  return std::move(table).view(rows, {result.costs.size(), slots});
 }
 
-std::string pairs_csv(const AssignmentResult& result) {
+TableView pairs_table(const AssignmentResult& result) {
   const double unit = result.scene.units.time_s;
-  Columns<DeputyPair> columns;
-  columns.add("deputy", &DeputyPair::first);
-  columns.add("other_deputy", &DeputyPair::second);
-  columns.add("time_canonical",
-              [&](const DeputyPair& pair) { return told_time(result.scene, pair.time); });
-  columns.add("time_s", [=](const DeputyPair& pair) { return pair.time * unit; });
-  columns.add("least_separation_m", &DeputyPair::separation_m);
-  return columns.csv(result.pairs);
+  ResultTable<DeputyPair> table("pairs", "", {"pairs"},
+                                "How near two deputies come to each other while they fly.");
+  table.leave_rows_out_of_json();
+  table.add("deputy", "", "of the pair, from 0", &DeputyPair::first);
+  table.add("other_deputy", "", "of the pair, from 0", &DeputyPair::second);
+  table.add("time_canonical", "", "then, in the scene's canonical unit of time",
+            [&](const DeputyPair& pair) { return told_time(result.scene, pair.time); });
+  table.add("time_s", "s", "then", [=](const DeputyPair& pair) { return pair.time * unit; });
+  table.add("least_separation_m", "m", "of the two", &DeputyPair::separation_m);
+  return std::move(table).view(result.pairs, {result.pairs.size()});
+}
+
+std::vector<TableView> assignment_tables(const AssignmentResult& result) {
+  return {assignment_table(result), costs_table(result), pairs_table(result)};
 }
 
 StudyReport assignment_report(const AssignmentResult& result, const ReportOrigin& /*origin*/) {
   StudyReport report;
-  report.files = {{"assignment.csv", assignment_csv(result)},
-                  {"costs.csv", costs_csv(result)},
-                  {"pairs.csv", pairs_csv(result)},
+  report.files = {{"assignment.csv", table_csv(assignment_table(result))},
+                  {"costs.csv", table_csv(costs_table(result))},
+                  {"pairs.csv", table_csv(pairs_table(result))},
                   {"summary.json", summary(result)}};
   report.table = terminal_table(result);
   report.details = terminal_details(result);

@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "../../formats/relative_frame_text.hpp"
-#include "../../store/columns.hpp"
 #include "../../store/json_text.hpp"
 #include "../../store/json_values.hpp"
 #include "../../studies/nominal/nominal_period.hpp"
@@ -18,6 +17,7 @@
 #include "../drawing/report_page.hpp"
 #include "../study_checks.hpp"
 #include "drift_view.hpp"
+#include "frame_columns.hpp"
 #include "transfer_charts.hpp"
 #include "transfer_json.hpp"
 #include "transfer_view.hpp"
@@ -177,64 +177,69 @@ std::string deputy_motion_verdict(const DeputyMotion& motion) {
 }
 
 Json deputy_motion_json(const DeputyMotion& motion) {
-  const RelativeFrame frame = motion.scene.deputy->frame;
   Json json = study_head_json(motion.scene, "motion", motion.integrator);
-  add_coordinates(json, motion.coordinates);
-  json["frame"] = frame_name(frame);
-  json["derivatives"] = text_or_null(std::string(derivatives_name(frame)));
-  json["axes"] = axis_letters(frame);
-  json["verdict"] = deputy_motion_verdict(motion);
-  json["duration_s"] = seconds_at(motion, motion.points.size() - 1);
-  json["times"] = motion.points.size();
-  const DeputyMotionPoint& start = motion.points.front();
-  const DeputyMotionPoint& end = motion.points.back();
+  const TableView table = deputy_motion_table(motion);
+  json.update(table_json(table));
+  add_chosen_by(json, motion.coordinates);
   const auto& [nearest, farthest] = motion.extremes;
-  json["start"] = state_json(motion, start.time, start.state);
-  add_drift(json["start"], motion.drift, start.state);
-  json["end"] = state_json(motion, end.time, end.state);
+  json["start"] = row_json(table, 0);
+  add_drift(json["start"], motion.drift, motion.points.front().state);
+  json["end"] = row_json(table, motion.points.size() - 1);
   json["nearest"] = state_json(motion, nearest.time, nearest.state);
   json["farthest"] = state_json(motion, farthest.time, farthest.state);
-  json["largest_error_m"] = json_number(motion.largest_error_m(motion.scene.order));
-  json["largest_error_m_by_order"] = Json::array();
-  for (int order = 1; order <= motion.scene.order; ++order) {
-    json["largest_error_m_by_order"].push_back(json_number(motion.largest_error_m(order)));
-  }
-  json["is_resolved"] = is_resolved(motion);
-  json["flight_floor_m"] = json_number(motion.flight_floor_m);
   json["seconds"] = {{"propagation", motion.propagation_seconds}};
-  json["exit_code"] = 0;
   return json;
 }
 
-std::string deputy_motion_csv(const DeputyMotion& motion) {
+TableView deputy_motion_table(const DeputyMotion& motion) {
   const double unit = motion.scene.units.time_s;
-  Columns<DeputyMotionPoint> columns;
-  columns.add("time_canonical",
-              [&](MotionPoint point) { return told_time(motion.scene, point.time); });
-  columns.add("time_s", [=](MotionPoint point) { return point.time * unit; });
-  const auto letters = axis_letters(motion.scene.deputy->frame);
-  for (std::size_t i = 0; i < letters.size(); ++i) {
-    const auto axis = static_cast<Eigen::Index>(i);
-    columns.add(fmt::format("{}_m", letters[i]),
-                [=](MotionPoint point) { return point.state.position_m[axis]; });
+  const RelativeFrame frame = motion.scene.deputy->frame;
+  std::vector<std::string> places, velocities, errors;
+  for (const std::string_view letter : axis_letters(frame)) {
+    places.push_back(fmt::format("{}_m", letter));
+    velocities.push_back(fmt::format("v{}_m_s", letter));
   }
-  for (std::size_t i = 0; i < letters.size(); ++i) {
-    const auto axis = static_cast<Eigen::Index>(i);
-    columns.add(fmt::format("v{}_m_s", letters[i]),
-                [=](MotionPoint point) { return point.state.velocity_m_s[axis]; });
+  std::vector<double> largest_errors_m;
+  for (int order = 1; order <= motion.scene.order; ++order) {
+    errors.push_back(fmt::format("error_m_order_{}", order));
+    largest_errors_m.push_back(motion.largest_error_m(order));
   }
-  columns.add("separation_m", [](MotionPoint point) { return separation_m(point.state); });
-  for (std::size_t k = 0; k < motion.points.front().errors_m.size(); ++k) {
-    columns.add(fmt::format("error_m_order_{}", k + 1),
-                [=](MotionPoint point) { return point.errors_m[k]; });
-  }
-  return columns.csv(motion.points);
+  ResultTable<DeputyMotionPoint> table("motion", "", {"times"},
+                                       "Where the deputy is beside its chief, as it flew.");
+  table.leave_rows_out_of_json();
+  table.add("time_canonical", "", "since the start, in the scene's canonical unit of time",
+            [&](MotionPoint point) { return told_time(motion.scene, point.time); });
+  table.add("time_s", "s", "since the start", [=](MotionPoint point) { return point.time * unit; });
+  table.add_array("position_m", places, "m", "relative to the chief, along the frame's axes",
+                  [](MotionPoint point) { return point.state.position_m; });
+  table.add_array("velocity_m_s", velocities, "m/s", "likewise",
+                  [](MotionPoint point) { return point.state.velocity_m_s; });
+  table.add("separation_m", "m", "the distance of the two",
+            [](MotionPoint point) { return separation_m(point.state); });
+  table.add_array("error_m_by_order", errors, "m",
+                  "from there to where the polynomials of the orders 1 to N have the deputy",
+                  &DeputyMotionPoint::errors_m);
+  add_frame(table, frame, motion.coordinates);
+  table.add_scalar("verdict", "", "how near, how far and how wrong", deputy_motion_verdict(motion));
+  table.add_scalar("duration_s", "s", "of the motion", motion.points.back().time * unit);
+  table.add_scalar("times", "", "how many there are", motion.points.size());
+  table.add_scalar("largest_error_m", "m", "of the highest order", largest_errors_m.back());
+  table.add_scalars("largest_error_m_by_order", "m", "over all times, of the orders 1 to N",
+                    largest_errors_m);
+  table.add_scalar("is_resolved", "",
+                   "whether the highest order is right to a hundredth of the separation",
+                   is_resolved(motion));
+  table.add_scalar("flight_floor_m", "m", "errors below this say nothing", motion.flight_floor_m);
+  table.add_scalar("exit_code", "", "of the command", 0);
+  TableView view = std::move(table).view(motion.points, {motion.points.size()});
+  view.places_of_rows = {{0, "/start"}, {motion.points.size() - 1, "/end"}};
+  return view;
 }
 
 StudyReport deputy_motion_report(const DeputyMotion& motion, const ReportOrigin& origin) {
   StudyReport report;
   ChartDrawer drawer(origin.gnuplot);
-  report.files = {{"motion.csv", deputy_motion_csv(motion)},
+  report.files = {{"motion.csv", table_csv(deputy_motion_table(motion))},
                   {"report.html", page(motion, origin, drawer)}};
   report.drawing_problem = drawer.problem();
   report.files.push_back({"summary.json", json_text(deputy_motion_json(motion)) + "\n"});

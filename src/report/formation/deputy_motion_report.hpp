@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "../../store/table_view.hpp"
 #include "../../studies/formation/deputy_motion.hpp"
 #include "../drawing/chart.hpp"
 #include "hamjet/detail/report/report_origin.hpp"
@@ -16,7 +17,10 @@ namespace hamjet::io {
 std::string deputy_motion_verdict(const DeputyMotion& motion);
 
 /// `motion.csv`: one row a time.
-std::string deputy_motion_csv(const DeputyMotion& motion);
+TableView deputy_motion_table(const DeputyMotion& motion);
+inline std::vector<TableView> deputy_motion_tables(const DeputyMotion& motion) {
+  return {deputy_motion_table(motion)};
+}
 
 /// The time of a point in seconds.
 inline double seconds_at(const DeputyMotion& motion, std::size_t point) {

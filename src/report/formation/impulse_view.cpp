@@ -8,7 +8,6 @@
 #include <string_view>
 
 #include "../../formats/relative_frame_text.hpp"
-#include "../../store/columns.hpp"
 #include "../../store/json_values.hpp"
 #include "../../text/html_text.hpp"
 #include "../../text/quantity_text.hpp"
@@ -16,6 +15,7 @@
 #include "../drawing/along_time_charts.hpp"
 #include "../drawing/report_page.hpp"
 #include "transfer_json.hpp"
+#include "transfer_tables.hpp"
 #include "transfer_view.hpp"
 
 namespace hamjet::io {
@@ -266,27 +266,14 @@ Json primer_json(const TransferResult& result) {
 }
 
 Json impulses_json(const TransferResult& result, const std::vector<Impulse>& impulses) {
-  Json json = Json::array();
-  for (const Impulse& impulse : impulses) {
-    json.push_back({{"time_s", seconds(result, impulse.time)},
-                    {"change_m_s", vector_json(impulse.change_m_s)},
-                    {"magnitude_m_s", json_number(impulse.change_m_s.norm())}});
-  }
-  return json;
+  return table_json(impulses_table("", "", "", result.scene, impulses))["impulses"];
 }
 
 Json optimal_impulses_json(const TransferResult& result) {
   if (!result.optimal) return nullptr;
   Json json = {{"failure", text_or_null(optimal_impulses_failure(result))},
-               {"least_by_time", Json::array()},
+               {"least_by_time", table_json(least_by_time_table(result))["least_by_time"]},
                {"plan", nullptr}};
-  for (const LeastChange& one : result.optimal->by_time) {
-    json["least_by_time"].push_back({{"time_s", seconds(result, one.time)},
-                                     {"linear_change_m_s", json_number(one.change_m_s)},
-                                     {"flown_change_m_s", json_number(one.flown_m_s)},
-                                     {"failure", text_or_null(one.failure)},
-                                     {"solver_failed", one.is_unproved}});
-  }
   const ImpulsePlan* plan = plan_of(result);
   if (plan == nullptr) return json;
   const LeastChange* linear = linear_change_of(result, *plan);
@@ -303,27 +290,6 @@ Json optimal_impulses_json(const TransferResult& result) {
       {"velocity_miss_m_s", json_number(plan->velocity_miss_m_s)},
       {"flights", plan->flights}};
   return json;
-}
-
-std::string impulses_csv(const TransferResult& result) {
-  const ImpulsePlan* plan = plan_of(result);
-  return impulses_csv(result, plan == nullptr ? std::vector<Impulse>() : plan->impulses);
-}
-
-std::string impulses_csv(const TransferResult& result, const std::vector<Impulse>& impulses) {
-  const double unit = result.scene.units.time_s;
-  Columns<Impulse> columns;
-  columns.add("time_canonical",
-              [&](const Impulse& impulse) { return told_time(result.scene, impulse.time); });
-  columns.add("time_s", [=](const Impulse& impulse) { return impulse.time * unit; });
-  Eigen::Index i = 0;
-  for (const std::string_view axis : axis_columns(result.scene.transfer->frame)) {
-    columns.add(fmt::format("change_{}_m_s", axis),
-                [i](const Impulse& impulse) { return impulse.change_m_s[i]; });
-    ++i;
-  }
-  columns.add("magnitude_m_s", [](const Impulse& impulse) { return impulse.change_m_s.norm(); });
-  return columns.csv(impulses);
 }
 
 }  // namespace hamjet::io

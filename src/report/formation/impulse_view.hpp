@@ -27,15 +27,11 @@ Chart primer_chart(const TransferResult& result);
 
 nlohmann::ordered_json primer_json(const TransferResult& result);
 nlohmann::ordered_json optimal_impulses_json(const TransferResult& result);
-/// `impulses.csv`: one row an impulse of the plan.
-std::string impulses_csv(const TransferResult& result);
-
-/// Impulses of any plan as lines of the terminal's table, as a table of a page, in JSON and in CSV.
+/// Impulses of any plan as lines of the terminal's table, as a table of a page, and in JSON.
 std::string impulse_rows(const TransferResult& result, const std::vector<Impulse>& impulses);
 std::string impulse_rows_html(const TransferResult& result, const std::vector<Impulse>& impulses,
                               const std::string& caption);
 nlohmann::ordered_json impulses_json(const TransferResult& result,
                                      const std::vector<Impulse>& impulses);
-std::string impulses_csv(const TransferResult& result, const std::vector<Impulse>& impulses);
 
 }  // namespace hamjet::io

@@ -16,8 +16,8 @@ nlohmann::ordered_json vector_json(const Eigen::Vector3d& vector);
 nlohmann::ordered_json study_head_json(const Scene& scene, const std::string& study,
                                        const std::string& integrator);
 
-/// The keys of the polynomials' coordinates: `coordinates` and `end_coordinates`, as in a scene.
-void add_coordinates(nlohmann::ordered_json& json, const ChosenCoordinates& coordinates);
+/// Why coordinates that were measured are what they are: `chosen_by_reach_m`.
+void add_chosen_by(nlohmann::ordered_json& json, const ChosenCoordinates& coordinates);
 
 /// A transfer's kind, velocity changes and misses; null where there is no answer.
 nlohmann::ordered_json transfer_point_json(const TransferPoint& point, const Scene& scene);

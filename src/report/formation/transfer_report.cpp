@@ -13,6 +13,7 @@
 #include "transfer_charts.hpp"
 #include "transfer_json.hpp"
 #include "transfer_page.hpp"
+#include "transfer_tables.hpp"
 #include "transfer_view.hpp"
 #include "validity_table.hpp"
 #include "validity_view.hpp"
@@ -107,7 +108,6 @@ nlohmann::ordered_json transfer_report_json(const TransferResult& result,
                                             const std::optional<ValidityResult>& validity) {
   nlohmann::ordered_json summary = transfer_summary_json(result);
   summary["validity"] = validity ? validity_json(*validity) : nlohmann::ordered_json(nullptr);
-  summary["exit_code"] = exit_code(result);
   return summary;
 }
 
@@ -116,11 +116,13 @@ StudyReport transfer_report(const TransferResult& result,
                             const std::optional<ValidityResult>& validity,
                             const ReportOrigin& origin) {
   StudyReport report;
-  report.files = {{"transfers.csv", transfers_csv(result)},
-                  {"singular_times.csv", singular_times_csv(result)},
-                  {"conditions.csv", conditions_csv(result)}};
-  if (result.optimal) report.files.push_back({"impulses.csv", impulses_csv(result)});
-  if (result.waypoints) report.files.push_back({"waypoints.csv", waypoints_csv(result)});
+  report.files = {{"transfers.csv", table_csv(transfers_table(result))},
+                  {"singular_times.csv", table_csv(singular_times_table(result))},
+                  {"conditions.csv", table_csv(conditions_table(result))}};
+  if (result.optimal)
+    report.files.push_back({"impulses.csv", table_csv(optimal_impulses_table(result))});
+  if (result.waypoints)
+    report.files.push_back({"waypoints.csv", table_csv(waypoint_impulses_table(result))});
   if (validity) report.files.push_back({"validity.csv", table_csv(validity_table(*validity))});
   const OutputSettings& output = result.scene.output;
   const bool has_messages = output.has(oem_format.name) || output.has(oem_xml_format.name);

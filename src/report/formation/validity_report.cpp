@@ -126,7 +126,7 @@ TableView validity_table(const ValidityResult& result) {
 
 Json validity_json(const ValidityResult& result) {
   Json json = table_json(validity_table(result));
-  add_coordinates(json, result.coordinates);
+  add_chosen_by(json, result.coordinates);
   json["seconds"] = {{"propagation", result.propagation_seconds}, {"proof", result.proof_seconds}};
   return json;
 }

@@ -11,6 +11,7 @@
 #include "../../text/html_text.hpp"
 #include "../../text/quantity_text.hpp"
 #include "impulse_view.hpp"
+#include "transfer_tables.hpp"
 #include "transfer_view.hpp"
 
 namespace hamjet::io {
@@ -123,13 +124,8 @@ std::string waypoint_section_html(const TransferResult& result) {
 Json waypoints_json(const TransferResult& result) {
   if (!result.waypoints) return nullptr;
   Json json = {{"failure", text_or_null(waypoint_failure(result))},
-               {"total_by_time", Json::array()},
+               {"total_by_time", table_json(total_by_time_table(result))["total_by_time"]},
                {"plan", nullptr}};
-  for (const WaypointPlan& plan : result.waypoints->plans) {
-    json["total_by_time"].push_back({{"time_s", seconds(result, plan.duration)},
-                                     {"total_change_m_s", json_number(plan.total_change_m_s())},
-                                     {"forbidden", text_or_null(plan.forbidden)}});
-  }
   if (const WaypointPlan* plan = best_of(result)) json["plan"] = plan_json(result, *plan);
   return json;
 }
@@ -262,11 +258,6 @@ Json revolutions_json(const TransferResult& result) {
          {"plan", one.failure.empty() ? plan_json(result, one.plan) : Json(nullptr)}});
   }
   return json;
-}
-
-std::string waypoints_csv(const TransferResult& result) {
-  const WaypointPlan* plan = best_of(result);
-  return impulses_csv(result, plan == nullptr ? std::vector<Impulse>() : plan->impulses);
 }
 
 }  // namespace hamjet::io

@@ -34,7 +34,4 @@ std::string revolutions_lines(const TransferResult& result);
 std::string revolutions_section_html(const TransferResult& result);
 nlohmann::ordered_json revolutions_json(const TransferResult& result);
 
-/// `waypoints.csv`: one row an impulse of the least of them.
-std::string waypoints_csv(const TransferResult& result);
-
 }  // namespace hamjet::io

@@ -1,0 +1,357 @@
+#include "transfer_tables.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include "../../formats/relative_frame_text.hpp"
+#include "frame_columns.hpp"
+#include "transfer_view.hpp"
+
+namespace hamjet::io {
+namespace {
+
+using Point = const TransferPoint&;
+using Change = Eigen::Vector3d TransferAnswer::*;
+
+/// A condition, which may be infinite; none where it was not found, which is NaN.
+std::optional<double> condition(double value) {
+  return std::isnan(value) ? std::nullopt : std::optional(value);
+}
+
+std::optional<double> times(const std::optional<double>& value, double unit) {
+  return value ? std::optional(*value * unit) : std::nullopt;
+}
+
+/// What `value` makes of an answer, none where there is none.
+template <class Value>
+auto of_answer(const TransferAnswer* answer, Value value) {
+  return answer != nullptr ? std::optional(std::invoke(value, *answer)) : std::nullopt;
+}
+
+template <class Value>
+auto of_shown(Value value) {
+  return [value](Point point) { return of_answer(shown_answer(point), value); };
+}
+
+/// The names of a vector's components along the frame's axes, as in "start_change_r_m_s".
+std::vector<std::string> axis_parts(RelativeFrame frame, std::string_view before,
+                                    std::string_view after) {
+  std::vector<std::string> names;
+  for (const std::string_view axis : axis_columns(frame)) {
+    names.push_back(fmt::format("{}{}{}", before, axis, after));
+  }
+  return names;
+}
+
+/// A column for each polynomial order, 1 to N.
+template <class Value>
+TableColumn& add_by_order(ResultTable<TransferPoint>& table, const Scene& scene, std::string name,
+                          std::string unit, std::string meaning, Value value) {
+  std::vector<std::string> parts;
+  for (int order = 1; order <= scene.order; ++order) {
+    parts.push_back(fmt::format("miss_m_order_{}", order));
+  }
+  return table.add_array(std::move(name), std::move(parts), std::move(unit), std::move(meaning),
+                         [most = scene.order, value](Point point) {
+                           std::vector<std::optional<double>> values;
+                           for (int order = 1; order <= most; ++order) {
+                             value(answer_of_order(point, order), values);
+                           }
+                           return values;
+                         });
+}
+
+void add_change_by_order(ResultTable<TransferPoint>& table, const Scene& scene, std::string name,
+                         std::string meaning, Change change) {
+  TableColumn& column = add_by_order(
+      table, scene, std::move(name), "m/s", std::move(meaning),
+      [change](const TransferAnswer* answer, std::vector<std::optional<double>>& values) {
+        for (const Eigen::Index i : {0, 1, 2}) {
+          values.push_back(
+              of_answer(answer, [&](const TransferAnswer& a) { return (a.*change)[i]; }));
+        }
+      });
+  column.lengths = {static_cast<std::size_t>(scene.order), 3};
+  column.is_in_csv = column.is_in_json = false;
+}
+
+void add_orders(ResultTable<TransferPoint>& table, const Scene& scene) {
+  const auto of_linear = [](auto value) {
+    return [value](Point point) { return of_answer(answer_of_order(point, 1), value); };
+  };
+  table.add("linear_total_change_m_s", "m/s", "the same of order 1",
+            of_linear(&TransferAnswer::total_change_m_s));
+  table.add("linear_miss_m", "m", "the miss of order 1", of_linear(&TransferAnswer::miss_m))
+      .is_in_csv = false;
+  add_by_order(table, scene, "miss_m_by_order", "m", "the misses of the orders 1 to N",
+               [](const TransferAnswer* answer, std::vector<std::optional<double>>& values) {
+                 values.push_back(of_answer(answer, &TransferAnswer::miss_m));
+               });
+  add_change_by_order(table, scene, "start_change_m_s_by_order",
+                      "the change at the start, of the orders 1 to N",
+                      &TransferAnswer::start_change_m_s);
+  add_change_by_order(table, scene, "end_change_m_s_by_order",
+                      "the change at the end, of the orders 1 to N",
+                      &TransferAnswer::end_change_m_s);
+}
+
+void add_refinement(ResultTable<TransferPoint>& table) {
+  const auto of_refined = [](auto value) {
+    return [value](Point point) {
+      return of_answer(point.is_refined() ? &*point.refined : nullptr, value);
+    };
+  };
+  table.add("refined_total_change_m_s", "m/s", "of the answer that flying corrected",
+            of_refined(&TransferAnswer::total_change_m_s));
+  table.add("refined_miss_m", "m", "its miss", of_refined(&TransferAnswer::miss_m));
+  table.add_if([](Point point) { return point.refined.has_value(); }, "refinement_flights", "",
+               "that the correction took", &TransferPoint::refinement_flights);
+}
+
+/// What holds for the whole study.
+void add_scalars(ResultTable<TransferPoint>& table, const TransferResult& result) {
+  const auto best = result.best_point();
+  const std::size_t last = result.points.size() - 1;
+  add_frame(table, result.scene.transfer->frame, result.coordinates);
+  table.add_scalar("verdict", "", "the outcome in words", transfer_verdict(result));
+  table
+      .add_scalar("best", "",
+                  "index of the least change among those that count: within the tolerance, away "
+                  "from singularities, and as the scene allows; nothing without one",
+                  best)
+      .is_in_json = false;  // summary.json has the row itself there
+  table.add_scalar("is_first_or_last_time", "", "whether the least is at an end of the times",
+                   best && last > 0 && (*best == 0 || *best == last));
+  table.add_scalar("times_between_listed", "", "further times that were answered",
+                   result.times_between);
+  table.add_scalar("flight_floor_m", "m", "misses below this say nothing", result.flight_floor_m);
+  table.add_scalar("chief_error_m", "m", "of the jet's chief from the flown one at the last time",
+                   result.chief_error_m);
+  table.add_scalar("largest_hamilton_jacobi_residual", "", "of all times",
+                   largest_hamilton_jacobi_residual(result));
+  table.add_scalar("hamilton_jacobi_floor", "", "its rounding floor", result.hamilton_jacobi_floor);
+  table.add_scalar("steps", "", "of the integration", result.statistics.steps);
+  table.add_scalar("exit_code", "", "of the command", static_cast<int>(exit_code(result)));
+}
+
+}  // namespace
+
+ResultTable<TransferPoint> transfer_columns(const Scene& scene) {
+  const double unit = scene.units.time_s;
+  const double length_km = scene.units.length_km;
+  const RelativeFrame frame = scene.transfer->frame;
+  const auto has_kind = [](Point point) { return point.kind.has_value(); };
+  ResultTable<TransferPoint> table("transfers", "", {"times"},
+                                   "Velocity changes of two impulses, one row a transfer time.");
+  table.leave_rows_out_of_json();
+  table.add("time_canonical", "", "of the transfer, in the scene's canonical unit of time",
+            [&scene](Point point) { return told_time(scene, point.time); });
+  table.add("time_s", "s", "of the transfer", [=](Point point) { return point.time * unit; });
+  table.add_if(
+      has_kind, "kind", "",
+      "the generating function used; nothing where no kind exists, or in other coordinates",
+      [](Point point) { return point.kind->name(); });
+  table.add("condition", "", "of its linear part",
+            [](Point point) { return point.kind ? condition(point.condition) : std::nullopt; });
+  table.add("position_condition", "", "of F1's: infinite where positions cannot be commanded",
+            [](Point point) { return condition(point.position_condition); });
+  table.add("singular_distance_s", "s", "to the nearest singularity of F1; nothing without one",
+            [=](Point point) { return times(point.singular_distance, unit); });
+  table.add("near_singular", "", "whether it is nearer to a singularity than the scene's margin",
+            &TransferPoint::is_near_singular);
+  table.add("beyond_tolerance", "", "whether the highest order misses by more than the tolerance",
+            &TransferPoint::is_beyond_tolerance);
+  table.add("answer", "", "which answer stands behind: refined, or of which order", answer_name);
+  table.add("exceeds_impulse", "", "whether an impulse is above the scene's largest_impulse_m_s",
+            &TransferPoint::exceeds_impulse);
+  table.add("keep_out_ratio", "",
+            "the least of |(R/a, T/b, N/c)| on the way: below 1 it enters the scene's keep_out_m",
+            &TransferPoint::keep_out_ratio);
+  table.add("lowest_km", "km", "the least distance from the centre on the way",
+            [=](Point point) { return times(point.lowest, length_km); });
+  table.add("below_surface", "", "whether that is less than the check of the surface allows",
+            &TransferPoint::is_below_surface);
+  table.add_array("start_change_m_s", axis_parts(frame, "start_change_", "_m_s"), "m/s",
+                  "the velocity change at the start, along the frame's axes",
+                  of_shown(&TransferAnswer::start_change_m_s));
+  table.add_array("end_change_m_s", axis_parts(frame, "end_change_", "_m_s"), "m/s",
+                  "the velocity change at the end, along the frame's axes",
+                  of_shown(&TransferAnswer::end_change_m_s));
+  table.add("total_change_m_s", "m/s", "the sum of both magnitudes",
+            of_shown(&TransferAnswer::total_change_m_s));
+  table
+      .add("miss_m", "m", "the distance of the deputy, flown, from the wanted place",
+           of_shown(&TransferAnswer::miss_m))
+      .is_in_csv = false;
+  add_orders(table, scene);
+  add_refinement(table);
+  table.add("hamilton_jacobi_residual", "", "the worst scaled residual over all degrees",
+            &TransferPoint::hamilton_jacobi_residual);
+  table.add("end_drift_m_per_revolution", "m a revolution",
+            "along the track, if nothing is done after the arrival", [](Point point) {
+              return point.drift ? std::optional(point.drift->per_revolution_m) : std::nullopt;
+            });
+  table.add("failure", "", "what failed", failure_text);
+  return table;
+}
+
+TableView transfers_table(const TransferResult& result) {
+  ResultTable<TransferPoint> table = transfer_columns(result.scene);
+  add_scalars(table, result);
+  TableView view = std::move(table).view(result.points, {result.points.size()});
+  if (const auto best = result.best_point()) view.places_of_rows = {{*best, "/best"}};
+  return view;
+}
+
+TableView singular_times_table(const TransferResult& result) {
+  using Singular = const SingularTime&;
+  const double unit = result.scene.units.time_s;
+  ResultTable<SingularTime> table("singular_times", "", {"singular_times"},
+                                  "Times at which a generating function does not exist.");
+  table.leave_rows_out_of_json();
+  table.add("kind", "", "of generating function; qqq-qqq is F1",
+            [](Singular singular) { return singular.kind.name(); });
+  table.add("time_canonical", "", "since the start, in the scene's canonical unit of time",
+            [&](Singular singular) { return told_time(result.scene, singular.time); });
+  table.add("time_s", "s", "since the start",
+            [=](Singular singular) { return singular.time * unit; });
+  table.add("resolution_s", "s", "the time is known no better",
+            [=](Singular singular) { return singular.resolution * unit; });
+  table.add("smallest_ratio", "", "the smallest singular value over the largest",
+            &SingularTime::smallest_ratio);
+  table.add("second_ratio", "", "the second smallest singular value over the largest",
+            &SingularTime::second_ratio);
+  table.add("directions_lost", "", "singular values that rounding cannot tell from zero",
+            &SingularTime::directions_lost);
+  table.add_array("direction_inertial",
+                  {"direction_inertial_x", "direction_inertial_y", "direction_inertial_z"}, "",
+                  "the unit vector, inertial, that is not commanded; of F1, of the final position",
+                  &SingularTime::direction);
+  table.add_array("direction_rtn", {"direction_r", "direction_t", "direction_n"}, "",
+                  "the same along the chief's R, T, N then", &SingularTime::direction_rtn);
+  TableView view = std::move(table).view(result.singular_times, {result.singular_times.size()});
+  const std::string f1 = parse_kind("F1", 3).name();
+  for (std::size_t i = 0; i < result.singular_times.size(); ++i) {
+    if (result.singular_times[i].kind.name() != f1) continue;
+    view.places_of_rows.emplace_back(
+        i, fmt::format("/position_singular_times/{}", view.places_of_rows.size()));
+  }
+  return view;
+}
+
+TableView conditions_table(const TransferResult& result) {
+  const KindConditions& conditions = result.conditions;
+  std::vector<std::string> kinds;
+  for (const GeneratingFunctionKind& kind : conditions.kinds) kinds.push_back(kind.name());
+  ResultTable<std::size_t> table("conditions", "", {"times"},
+                                 "Conditions of the linear parts of all kinds of generating "
+                                 "functions along time.");
+  table.leave_rows_out_of_json();
+  table.add("time_canonical", "", "since the start, in the scene's canonical unit of time",
+            [&](std::size_t i) { return told_time(result.scene, conditions.times[i]); });
+  table.add("time_s", "s", "since the start",
+            [&](std::size_t i) { return conditions.times[i] * result.scene.units.time_s; });
+  table.add_array("condition", kinds, "", "of each kind; infinite where it is singular",
+                  [&](std::size_t i) {
+                    std::vector<std::optional<double>> values;
+                    for (const double value : conditions.values[i]) {
+                      values.push_back(condition(value));
+                    }
+                    return values;
+                  });
+  table.add_scalars("kinds", "", "their names", kinds).is_in_json = false;
+  std::vector<std::size_t> rows(conditions.times.size());
+  std::iota(rows.begin(), rows.end(), std::size_t{0});
+  return std::move(table).view(rows, {rows.size()});
+}
+
+TableView budget_windows_table(const TransferResult& result) {
+  using Window = const BudgetWindow&;
+  const double unit = result.scene.units.time_s;
+  ResultTable<BudgetWindow> table("budget_windows", "", {"budget_windows"},
+                                  "Spans of transfer times that take no more than the budget.");
+  table.add("first_s", "s", "where it begins", [=](Window window) { return window.first * unit; });
+  table.add("last_s", "s", "where it ends", [=](Window window) { return window.last * unit; });
+  table.add("begins_at_first_time", "", "whether it begins before the times searched",
+            &BudgetWindow::begins_before);
+  table.add("ends_at_last_time", "", "whether it ends after the times searched",
+            &BudgetWindow::ends_after);
+  table.keep_in_csv({});
+  return std::move(table).view(result.budget_windows, {result.budget_windows.size()});
+}
+
+TableView impulses_table(const std::string& name, const std::string& place,
+                         const std::string& meaning, const Scene& scene,
+                         const std::vector<Impulse>& impulses) {
+  const double unit = scene.units.time_s;
+  ResultTable<Impulse> table(name, place, {"impulses"}, meaning);
+  table.add("time_canonical", "", "since the start, in the scene's canonical unit of time",
+            [&](const Impulse& impulse) { return told_time(scene, impulse.time); });
+  table.add("time_s", "s", "since the start",
+            [=](const Impulse& impulse) { return impulse.time * unit; });
+  table.add_array("change_m_s", axis_parts(scene.transfer->frame, "change_", "_m_s"), "m/s",
+                  "the velocity change, along the frame's axes then", &Impulse::change_m_s);
+  table.add("magnitude_m_s", "m/s", "its magnitude",
+            [](const Impulse& impulse) { return impulse.change_m_s.norm(); });
+  return std::move(table).view(impulses, {impulses.size()});
+}
+
+TableView optimal_impulses_table(const TransferResult& result) {
+  const auto& optimal = result.optimal;
+  return impulses_table(
+      "impulses", "/optimal_impulses/plan", "The impulses of the optimal plan, as flown.",
+      result.scene, optimal && optimal->plan ? optimal->plan->impulses : std::vector<Impulse>());
+}
+
+TableView waypoint_impulses_table(const TransferResult& result) {
+  const auto& waypoints = result.waypoints;
+  return impulses_table(
+      "waypoints", "/waypoints/plan",
+      "The impulses of the least way through the waypoints, as flown.", result.scene,
+      waypoints && waypoints->best_plan ? waypoints->plans[*waypoints->best_plan].impulses
+                                        : std::vector<Impulse>());
+}
+
+TableView least_by_time_table(const TransferResult& result) {
+  using Least = const LeastChange&;
+  const double unit = result.scene.units.time_s;
+  ResultTable<LeastChange> table("least_by_time", "/optimal_impulses", {"least_by_time"},
+                                 "What optimal impulses cost in some of the transfer times.");
+  table.add("time_s", "s", "of the transfer", [=](Least one) { return one.time * unit; });
+  table.add("linear_change_m_s", "m/s", "the least in the linear theory about the chief",
+            &LeastChange::change_m_s);
+  table.add("flown_change_m_s", "m/s", "of the same impulses, corrected by flying",
+            &LeastChange::flown_m_s);
+  table.add("failure", "", "why there is none", &LeastChange::failure);
+  table.add("solver_failed", "", "whether the least may be less than this",
+            &LeastChange::is_unproved);
+  table.keep_in_csv({});
+  const auto rows = result.optimal ? result.optimal->by_time : std::vector<LeastChange>();
+  return std::move(table).view(rows, {rows.size()});
+}
+
+TableView total_by_time_table(const TransferResult& result) {
+  using Plan = const WaypointPlan&;
+  const double unit = result.scene.units.time_s;
+  ResultTable<WaypointPlan> table("total_by_time", "/waypoints", {"total_by_time"},
+                                  "What the way through the waypoints costs by transfer time.");
+  table.add("time_s", "s", "of the whole way", [=](Plan plan) { return plan.duration * unit; });
+  table.add("total_change_m_s", "m/s", "the sum of the magnitudes of its impulses",
+            &WaypointPlan::total_change_m_s);
+  table.add("forbidden", "", "what of it the scene does not allow", &WaypointPlan::forbidden);
+  table.keep_in_csv({});
+  const auto rows = result.waypoints ? result.waypoints->plans : std::vector<WaypointPlan>();
+  return std::move(table).view(rows, {rows.size()});
+}
+
+std::vector<TableView> transfer_tables(const TransferResult& result) {
+  return {transfers_table(result),         singular_times_table(result),
+          conditions_table(result),        budget_windows_table(result),
+          optimal_impulses_table(result),  least_by_time_table(result),
+          waypoint_impulses_table(result), total_by_time_table(result)};
+}
+
+}  // namespace hamjet::io

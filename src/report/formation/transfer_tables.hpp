@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "../../store/result_table.hpp"
+#include "hamjet/studies/transfer.hpp"
+
+namespace hamjet::io {
+
+/// The columns of one transfer, along the axes of the scene's frame.
+ResultTable<TransferPoint> transfer_columns(const Scene& scene);
+
+/// All tables of a transfer study: `transfers` with one row a transfer time, whose columns without
+/// dimension are those of the whole result; `singular_times` with one a kind and time at which the
+/// kind does not exist; `conditions` of all kinds along time; `budget_windows`; `impulses` of the
+/// optimal plan and `least_by_time`, what these cost in other times; `waypoints`, impulses of the
+/// best way through them, and `total_by_time`.
+std::vector<TableView> transfer_tables(const TransferResult& result);
+
+TableView transfers_table(const TransferResult& result);
+TableView singular_times_table(const TransferResult& result);
+TableView conditions_table(const TransferResult& result);
+TableView budget_windows_table(const TransferResult& result);
+TableView optimal_impulses_table(const TransferResult& result);
+TableView least_by_time_table(const TransferResult& result);
+TableView waypoint_impulses_table(const TransferResult& result);
+TableView total_by_time_table(const TransferResult& result);
+
+/// The impulses of a plan, whose object in summary.json is at `place`.
+TableView impulses_table(const std::string& name, const std::string& place,
+                         const std::string& meaning, const Scene& scene,
+                         const std::vector<Impulse>& impulses);
+
+}  // namespace hamjet::io
