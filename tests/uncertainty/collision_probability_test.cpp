@@ -92,7 +92,7 @@ void expect_weighted_and_plain_samples_agree(const std::vector<int>& cases, long
 }
 
 TEST(CollisionProbability, WeightedAndPlainSamplesAgree) {
-  expect_weighted_and_plain_samples_agree({9}, 8000);
+  expect_weighted_and_plain_samples_agree({9}, 4000);
 }
 
 TEST(CollisionProbabilityAtLength, WeightedAndPlainSamplesAgree) {
@@ -270,7 +270,7 @@ TEST(CollisionProbability, TakesAsManySamplesAsAreAskedFor) {
 
 TEST(CollisionProbability, DoesNotDependOnThreads) {
   const EncounterProblem problem = exact_velocities(3, 1);
-  CollisionSettings s = settings(20'000);
+  CollisionSettings s = settings(9000);
   s.threads = 1;
   const CollisionProbability one = collision_probability(problem, s);
   s.threads = 3;
