@@ -192,7 +192,9 @@ TEST(FlowBox, KeepsItsHighDegreesOnAnEccentricOrbit) {
   const FlowBoxMap<double> map = map_of(orbit, time, 4);
   SixNumbers<Extended> start;
   for (std::size_t i = 0; i < 6; ++i) start[i] = orbit.start[i];
-  FlowBoxPropagation<Extended> propagation(orbit.field, ChartName::nodal, start, 4, gauss(1e-18));
+  GaussSettings fine = gauss(1e-14);
+  fine.stages = 16;
+  FlowBoxPropagation<Extended> propagation(orbit.field, ChartName::nodal, start, 4, fine);
   const FlowBoxMap<Extended> exact = propagation.advance_to(Extended(time));
   const SeriesSpace& space = map.time.space();
   std::vector<double> errors;

@@ -317,7 +317,10 @@ TEST_F(TransferCommand, AStoredJetNeedsNoTimeOfTheScene) {
   expect_error({"transfer", "circle.toml", "--jet", "jets"}, 3, {"transfer: missing"});
 }
 
-TEST_F(TransferCommand, OnShippedScenesTheLeastIsThatOfAListTenTimesAsFine) {
+using TransferCommandAtLength = TransferCommand;
+
+// TheLeastBetweenTheListedTimesIsThatOfAFinerList of the study is the short form.
+TEST_F(TransferCommandAtLength, OnShippedScenesTheLeastIsThatOfAListTenTimesAsFine) {
   for (const std::string scene : {"scenes/transfer-earth-orbit", "scenes/transfer-sun-synchronous",
                                   "examples/two-satellites/two-satellites"}) {
     const std::string file = std::string(HAMJET_SOURCE_DIR) + "/data/" + scene + ".toml";

@@ -213,7 +213,7 @@ TEST(ArcSplitting, OfOtherSystems) {
   }
 }
 
-/// At every degree at most ten times the unsplit run's own error, against extended precision, or
+/// At every degree at most ten times the unsplit run's own error, against double-double numbers, or
 /// what rounding alone makes of a degree.
 void expect_loses_nothing(const Flow<double>& flow, const std::vector<std::size_t>& numbers) {
   const auto problem = test::problem_of(flow);
@@ -223,7 +223,7 @@ void expect_loses_nothing(const Flow<double>& flow, const std::vector<std::size_
                             Extended(flow.duration),
                             flow.order,
                             flow.variables};
-  const auto exact = test::run_gauss(exact_flow, adaptive(16, 1e-18));
+  const auto exact = test::reference_jet(exact_flow, adaptive(16, 1e-18));
   const auto whole = unsplit(problem, settings);
   for (const std::size_t arcs : numbers) {
     ArcStatistics statistics;

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
-#include "hamjet/algebra/composition.hpp"
 #include "hamjet/detail/algebra/double_double.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
 #include "support/errors.hpp"
@@ -17,16 +15,7 @@
 namespace hamjet {
 namespace {
 
-template <class Real>
-FlowJet<Extended> jet_in(const test::Flow<Extended>& flow, const GaussSettings& settings,
-                         FlowSymmetry symmetry = FlowSymmetry::none) {
-  test::Flow<Real> converted{flow.system, {}, convert<Real>(flow.duration), flow.order, {}};
-  for (const Extended& x : flow.start) converted.start.push_back(convert<Real>(x));
-  FlowProblem<Real> problem = test::problem_of(converted);
-  problem.symmetry = symmetry;
-  IntegrationStatistics statistics;
-  return convert_map<Extended>(integrate_gauss<Real>(problem, settings, statistics));
-}
+using test::jet_in;
 
 double worst_error(const FlowJet<Extended>& jet, const FlowJet<Extended>& exact) {
   double worst = 0;

@@ -11,7 +11,7 @@
 #include "support/flow.hpp"
 
 // The tolerance of a Gauss method is the relative error of every degree of the jet. Expected values
-// are jets in extended precision with other stages and steps.
+// are jets in double-double numbers with other stages and steps.
 
 namespace hamjet {
 namespace {
@@ -64,14 +64,14 @@ test::Flow<Real> flow_on(const Orbit& orbit, int highest_zonal, int order) {
 
 /// What a tolerance promises: at most 100 tolerances a revolution at every degree, and ten floors.
 /// A floor is the largest error of jets by other numbers of stages, whose truncation is promised to
-/// be as small, so that what they have in common with this one is rounding; in extended precision
-/// there is none, and the promise holds alone.
+/// be as small, so that what they have in common with this one is rounding; in double-double
+/// numbers there is next to none, and the promise holds alone.
 void expect_errors_within(const Orbit& orbit, int highest_zonal, int order,
                           const GaussSettings& settings, bool is_rounding_sampled = false) {
   const auto extended = flow_on<Extended>(orbit, highest_zonal, order);
   const auto flow = flow_on<double>(orbit, highest_zonal, order);
   const auto exact =
-      test::run_gauss(extended, test::adaptive(settings.stages == 14 ? 16 : 14, 1e-17));
+      test::reference_jet(extended, test::adaptive(settings.stages == 14 ? 16 : 14, 1e-17));
   std::vector<FlowJet<double>> others;
   for (const int stages : {5, 6, 7, 9, 10, 11, 12, 13}) {
     if (!is_rounding_sampled) break;
@@ -79,7 +79,7 @@ void expect_errors_within(const Orbit& orbit, int highest_zonal, int order,
   }
   const auto jet = test::run_gauss(flow, settings);
   const auto unrounded =
-      is_rounding_sampled ? test::run_gauss(extended, settings) : FlowJet<Extended>{};
+      is_rounding_sampled ? test::reference_jet(extended, settings) : FlowJet<Extended>{};
   const double promised = 100 * *settings.tolerance * std::max(1.0, orbit.revolutions);
   for (int d = 0; d <= order; ++d) {
     double floor = 0;
@@ -88,7 +88,7 @@ void expect_errors_within(const Orbit& orbit, int highest_zonal, int order,
         << "e = " << orbit.e << ", degree " << d << ", tolerance " << *settings.tolerance;
     if (is_rounding_sampled) {
       EXPECT_LE(test::relative_error(unrounded, exact, d), promised)
-          << "e = " << orbit.e << ", degree " << d << ", extended precision";
+          << "e = " << orbit.e << ", degree " << d << ", double-double";
     }
   }
 }
@@ -130,7 +130,7 @@ TEST(GaussTolerance, TakesNoErrorOfCoarseStepsForRounding) {
   const auto jet = test::run_gauss(flow, test::adaptive(3, 1e-2), &coarse);
   for (const double error : coarse.rounding_by_degree) EXPECT_LE(error, 1e-2);
   const auto extended = flow_on<Extended>({140000, 0.95, 63, 90, 2.5}, 0, 4);
-  const auto exact = test::run_gauss(extended, test::adaptive(14, 1e-17));
+  const auto exact = test::reference_jet(extended, test::adaptive(14, 1e-17));
   for (int d = 0; d <= 4; ++d) EXPECT_LE(test::relative_error(jet, exact, d), 100 * 1e-2 * 2.5);
 }
 

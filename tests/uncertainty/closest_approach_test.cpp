@@ -107,7 +107,9 @@ struct Ellipse {
     const double mean = anomaly + time / std::sqrt(a * a * a);
     double angle = mean + e * std::sin(mean);
     for (int k = 0; k < 60; ++k) {
-      angle -= (angle - e * std::sin(angle) - mean) / (1 - e * std::cos(angle));
+      const double change = (angle - e * std::sin(angle) - mean) / (1 - e * std::cos(angle));
+      angle -= change;
+      if (std::abs(change) < 1e-9) break;  // the next would be the square of it
     }
     const double b = std::sqrt(1 - e * e), rate = 1 / std::sqrt(a) / (1 - e * std::cos(angle));
     Eigen::Matrix<double, 6, 1> result;
