@@ -116,8 +116,8 @@ struct EnergyConservingResult {
 ///
 /// for the 2n + 1 unknowns (z_(k+1), h) by Newton's method, to round-off: E is conserved to a few
 /// units in the last place. To leading order the step size varies as |c|^(-1/2) for Störmer and
-/// |c|^(-1/3) for midpoint, c being StepCondition, and there is no step across a sign change of c:
-/// the integration stops there. h itself is known to about 4 eps / (h^2 c) only for midpoint.
+/// |c|^(-1/3) for midpoint, where c is StepCondition. No step can cross a sign change of c; the
+/// integration stops there. For midpoint, h itself is determined only to about 4 eps / (h^2 c).
 ///
 /// The root that is taken is always the one that continues the last step size. For Störmer it is
 /// the smaller root of a quadratic; for midpoint it is the root at which H(z_m(h)) - E falls or

@@ -97,8 +97,8 @@ IntegratorSettings settings_of_step(IntegratorSettings settings, const RunPoint&
   return settings;
 }
 
-/// Whether a map ends where the run does: implicit equations of a step that is far too long have
-/// several solutions, and which one is found depends on the steps before.
+/// Whether a map ends where the run does. The implicit equations of a step that is far too long
+/// have several solutions, and which one is found depends on earlier steps.
 bool meets(const VectorXd& end, const RunPoint& from, const RunPoint& to) {
   const Eigen::Index n = end.size() / 2;
   const auto is_near = [](const auto& a, const auto& b, const auto& other) {

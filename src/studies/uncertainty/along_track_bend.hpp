@@ -11,6 +11,10 @@ namespace hamjet {
 
 /// A Gaussian in positions spreads along a straight line, and the orbit bends away from this line
 /// by
+///
+///   T^2 / (2 r)
+///
+/// at a deviation T along the track, where r is the distance from the centre.
 struct AlongTrackBend {
   std::array<double, 2> deviations{};  ///< standard deviations along the track, for both spacecraft
   /// The bend at the given deviations plus their standard deviations, for both spacecraft together.
