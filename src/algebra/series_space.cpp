@@ -144,8 +144,8 @@ class SeriesSpace::ScheduleBuilder {
   const SeriesSpace& space_;
   std::size_t blocked_;
   std::size_t outer_;
-  std::vector<int>
-      exponents_;  ///< exponents of the outer variables in the block that is being added
+  /// Exponents of the outer variables in the block that is being added.
+  std::vector<int> exponents_;
   std::vector<int> part_;
   std::vector<int> rest_;
 };

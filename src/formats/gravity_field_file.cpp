@@ -244,8 +244,8 @@ class Reader {
   std::vector<std::string_view> words_;
   std::map<std::string, HeaderLine, std::less<>> header_;
   bool is_normalized_ = true;
-  std::map<int, GravityCoefficient>
-      coefficients_;  ///< C(1,0) and the coefficients that are asked for
+  /// C(1,0) and the coefficients that are asked for.
+  std::map<int, GravityCoefficient> coefficients_;
   GravityField field_;
 };
 

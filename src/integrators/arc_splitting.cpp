@@ -301,8 +301,8 @@ class ArcSplitting {
   ArcStatistics& arc_statistics_;
   const ArcProgress& progress_;
   std::vector<std::size_t> cuts_;  ///< checkpoints; the first one is at the start
-  std::vector<std::unique_ptr<CutCoordinates<Real>>>
-      coordinates_;  ///< coordinates of each arc except the first
+  /// Coordinates of each arc except the first.
+  std::vector<std::unique_ptr<CutCoordinates<Real>>> coordinates_;
 };
 
 void validate_arcs(const std::optional<std::size_t>& arcs, std::size_t threads) {

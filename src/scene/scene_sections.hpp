@@ -70,8 +70,8 @@ struct Nominal {
   CanonicalScale scale;       ///< units of all canonical numbers of the scene
   CanonicalScale told;        ///< units of the canonical numbers that the user gives and reads
   std::vector<double> state;  ///< (q, p), canonical, 2n numbers
-  std::optional<Extended>
-      period_s;  ///< period of the osculating Kepler ellipse, if the orbit is one
+  /// Period of the osculating Kepler ellipse, if the orbit is one.
+  std::optional<Extended> period_s;
   std::optional<NominalFile> file;  ///< file from which it was read
   /// For an orbit, the data with which deputies' own orbits are compared: the state before it is
   /// rounded, its centre, and its date.

@@ -13,8 +13,8 @@ struct PlacedMessage {
   std::optional<std::string> file;
   std::optional<std::size_t> line;
   std::optional<std::size_t> column;
-  std::optional<std::string>
-      key;              ///< dotted key of the scene or of `--set`, or a keyword of another file
+  /// Dotted key of the scene or of `--set`, or a keyword of another file.
+  std::optional<std::string> key;
   std::string problem;  ///< the rest of the message
 };
 

@@ -69,8 +69,8 @@ TEST(Exactness, OfAnExactFormVanishesAndOfOthersIsKnown) {
 }
 
 TEST(Exactness, OfMidpointAndGaussOnThePaperOrbitMeetsTheStatedBounds) {
-  // Issue 2: at most 1e-11 absolute at degree 0, at most 1e-10 at degree 1, for F1; inverted in
-  // extended precision, so that what is seen is the integrator's.
+  // The stated bounds for F1 are 1e-11 at degree 0 and 1e-10 at degree 1, both absolute. The jet is
+  // inverted in extended precision, so that the residual is the integrator's.
   const double t = test::paper_orbit().duration;
   for (const auto& settings :
        {test::fixed_step(1, 0.01), test::fixed_step(2, 0.01), test::adaptive()}) {

@@ -140,8 +140,8 @@ class DeputyPredictor {
   std::size_t count_ = 0;  ///< number of deputies of the current call
   std::vector<SixNumbers<double>> carried_;
   std::vector<double> points_;
-  std::array<std::vector<double>, 4>
-      results_;  ///< the values, and the shares of the three highest degrees
+  /// The values, and the shares of the three highest degrees.
+  std::array<std::vector<double>, 4> results_;
   double polynomial_seconds_ = 0;
   double multiply_adds_ = 0;
 };

@@ -26,8 +26,8 @@ struct GravityField {
   double radius_km = 0;
   int max_degree = 0;
   ZonalCoefficients J;  ///< coefficients that were asked for, not normalised, J_n = -C_n0
-  std::optional<Epoch>
-      epoch;  ///< epoch at which coefficients that vary with time were taken; absent if none does
+  /// Epoch at which coefficients that vary with time were taken; absent if none does.
+  std::optional<Epoch> epoch;
   /// The distance along the axis from the origin to the centre of mass, towards positive z: sqrt(3)
   /// R C10 with the normalised C(1,0). Absent if C(1,0) varies with time and there is no epoch.
   std::optional<double> origin_offset_km = 0;

@@ -18,8 +18,8 @@ struct GaussProfile {
 /// Settings of a Gauss collocation method.
 struct GaussSettings {
   int stages = 8;  ///< 1 (the implicit midpoint rule) to 16; the order is 2 stages
-  std::optional<double>
-      step;  ///< for fixed steps: the duration is divided into equal steps not longer than this
+  /// For fixed steps: the duration is divided into equal steps not longer than this.
+  std::optional<double> step;
   /// For adaptive steps: the allowed relative error of every degree of the jet, per period of the
   /// motion.
   std::optional<double> tolerance;

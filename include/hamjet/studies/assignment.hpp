@@ -11,8 +11,8 @@ namespace hamjet {
 
 /// The cheapest transfer of one deputy to one slot.
 struct AssignmentCost {
-  std::optional<std::size_t>
-      time;  ///< index into the transfer times; absent if no time has an answer
+  /// Index into the transfer times; absent if no time has an answer.
+  std::optional<std::size_t> time;
   double total_change_m_s = 0;
 };
 
@@ -36,10 +36,10 @@ struct AssignmentResult {
   Scene scene;  ///< with `transfer` and `assignment`
   std::string integrator;
   ChosenCoordinates coordinates;  ///< coordinates of the polynomials; not automatic
-  std::vector<std::vector<AssignmentCost>>
-      costs;  ///< [deputy][slot], each at its best time (or at the common time)
-  std::optional<std::size_t>
-      common_time;  ///< index of the time, if the scene asks for a common one
+  /// [deputy][slot], each at its best time (or at the common time).
+  std::vector<std::vector<AssignmentCost>> costs;
+  /// Index of the time, if the scene asks for a common one.
+  std::optional<std::size_t> common_time;
   std::vector<AssignedTransfer> transfers;  ///< in the order of the deputies that have a transfer
   /// For each pair of deputies that fly, while both fly; see AssignmentSettings::keep_apart_m.
   std::vector<DeputyPair> pairs;
@@ -47,8 +47,8 @@ struct AssignmentResult {
   double flight_floor_m = 0;
   double study_seconds = 0;
   double proof_seconds = 0;
-  std::vector<SelfCheck>
-      checks;           ///< checks of the chief's flight; transfers have marks of their own
+  /// Checks of the chief's flight; transfers have marks of their own.
+  std::vector<SelfCheck> checks;
   std::string failure;  ///< if not empty, the reason why some deputies or slots have no transfer
 };
 

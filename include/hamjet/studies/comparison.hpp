@@ -43,8 +43,8 @@ struct ComparedRun {
   /// failed.
   std::vector<double> error_estimate_by_degree;
   double error_at_formation_m = 0;  ///< see ComparisonResult::separation_points
-  std::vector<ExactnessEntry>
-      exactness;  ///< exactness of ComparisonResult::kind; empty if there is no kind
+  /// Exactness of ComparisonResult::kind; empty if there is no kind.
+  std::vector<ExactnessEntry> exactness;
   std::string exactness_failure;  ///< if not empty, the reason why the kind does not exist for this
                                   ///< run's map
   std::vector<SymplecticityDefect> symplecticity;  ///< by degree; degree 0 is the linear part
@@ -64,8 +64,8 @@ struct ConvergenceFit {
   int degree = 0;
   double slope = 0;
   double expected = 0;  ///< order predicted by theory
-  std::vector<std::string>
-      labels;  ///< labels of the runs in the fit, which lie above the rounding floor
+  /// Labels of the runs in the fit, which lie above the rounding floor.
+  std::vector<std::string> labels;
   /// Step (canonical) and relative error of the runs in the fit, the finest first.
   std::vector<std::pair<double, double>> points = {};
   /// Whether the runs were made for the fit, in extended precision, with smaller steps than double

@@ -82,16 +82,16 @@ struct ChartedJet {
 struct RunResult {
   IntegratorSettings settings;
   IntegrationStatistics statistics;
-  std::vector<std::string>
-      failed_checks;  ///< checks of the scene and self-checks that failed, one line each
+  /// Checks of the scene and self-checks that failed, one line each.
+  std::vector<std::string> failed_checks;
   std::vector<SelfCheck> checks;  ///< all self-checks; empty if the run failed
   std::string failure;            ///< if not empty, the reason why there is no result
   /// The computed components of the flow's jet, as exact copies in extended precision.
   FlowJet<Extended> jet;
   std::vector<double> nominal_final;
   std::vector<JetAtTime> jets;  ///< jets at the scene's `jet_times`
-  std::optional<ChartedJet>
-      charted;  ///< if polynomials in the scene's coordinates can be written, see charted_jet
+  /// If polynomials in the scene's coordinates can be written, see charted_jet.
+  std::optional<ChartedJet> charted;
   double energy_error = 0;  ///< the largest magnitude along the nominal
   EnergyAlongNominal energy;
   AnalysisCounts counts;
@@ -100,8 +100,8 @@ struct RunResult {
   std::optional<InversionQuality> inversion;  ///< if a map was inverted and composed
   std::vector<NominalPoint> nominal;
   std::vector<KindResult> kinds;
-  std::vector<SymplecticityDefect>
-      symplecticity;  ///< empty if the jet is not expanded in all variables
+  /// Empty if the jet is not expanded in all variables.
+  std::vector<SymplecticityDefect> symplecticity;
   std::optional<std::vector<double>> error_by_degree;  ///< see relative_error_by_degree
   JetErrorEstimate error_estimate;
   /// By degree, the effect of leaving out a shift in time (FlowSymmetry): the relative difference,
@@ -138,8 +138,8 @@ struct RelativeHamiltonianResult {
 
 /// The part of a scene's problem that is computed.
 struct ComputedProblem {
-  std::vector<std::size_t>
-      degrees_of_freedom;  ///< degrees of freedom that are kept; the others vanish identically
+  /// Degrees of freedom that are kept; the others vanish identically.
+  std::vector<std::size_t> degrees_of_freedom;
   std::vector<std::size_t> components;  ///< index in the model's state of each component computed
   std::vector<std::size_t> variables;   ///< index among the components of each variable
   SpacePointer space;

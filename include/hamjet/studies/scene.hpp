@@ -131,8 +131,8 @@ struct Scene {
   /// `jet.coordinates` and `jet.end_coordinates`: coordinates of the polynomials that predict
   /// deputies.
   CoordinatesAtEnds coordinates;
-  std::vector<std::size_t>
-      variables;  ///< indices into (q, p) of the variables of the expansion, ascending
+  /// Indices into (q, p) of the variables of the expansion, ascending.
+  std::vector<std::size_t> variables;
   /// `jet.times_...`: canonical times before the duration, moving away from 0, at which runs have
   /// their jets too; all runs must be of Gauss and in one arc. If empty, there are jets at the
   /// duration alone.
@@ -149,8 +149,8 @@ struct Scene {
   std::vector<double> relative_hamiltonian_times;
   SelfCheckSettings checks;
   ComparisonSettings comparison;
-  std::optional<FigureSettings>
-      figure;  ///< absent if there is no figure and nothing is observed along time
+  /// Absent if there is no figure and nothing is observed along time.
+  std::optional<FigureSettings> figure;
   std::optional<DeputySettings> deputy;
   std::optional<TransferSettings> transfer;
   std::optional<ValiditySettings> validity;

@@ -13,6 +13,7 @@
 #include "hamjet/detail/studies/singular_times.hpp"
 #include "hamjet/detail/studies/waypoint_plan.hpp"
 #include "hamjet/studies/propagation.hpp"
+#include "hamjet/studies/validity.hpp"
 
 namespace hamjet {
 
@@ -118,8 +119,8 @@ struct TransferResult {
   ChosenCoordinates coordinates;  ///< coordinates of the polynomials; not automatic
   IntegrationStatistics statistics;
   std::vector<TransferPoint> points;  ///< one for each transfer time
-  std::vector<SingularTime>
-      singular_times;  ///< singular times of all 64 kinds, in order of kind and time
+  /// Singular times of all 64 kinds, in order of kind and time.
+  std::vector<SingularTime> singular_times;
   KindConditions conditions;
   /// Rounding floor of the flown positions in metres: rounding grown with the linear flow to the
   /// last time. Misses below this mean nothing.
@@ -143,11 +144,12 @@ struct TransferResult {
   std::optional<OptimalImpulses> optimal;      ///< if the scene asks for optimal impulses
   std::optional<WaypointTransfers> waypoints;  ///< if the scene has waypoints
   std::optional<CoastingTransfer> coasting;    ///< if the scene asks for a coasting start
-  std::optional<OtherRevolutions>
-      revolutions;  ///< if the scene asks for other numbers of revolutions
+  /// If the scene asks for other numbers of revolutions.
+  std::optional<OtherRevolutions> revolutions;
+  std::optional<ValidityResult> validity;  ///< if the scene has `[validity]`
   TransferSeconds seconds;
-  std::vector<SelfCheck>
-      checks;  ///< checks of the chief's flight; transfers have marks of their own
+  /// Checks of the chief's flight; transfers have marks of their own.
+  std::vector<SelfCheck> checks;
 
   /// Index of the point with the least total velocity change among answers that are within the
   /// tolerance, originally or refined, and not near a singularity; absent if there is none.
@@ -163,11 +165,11 @@ struct EarlierJet {
   FlowJet<double> jet;
 };
 
-/// The study of table `[transfer]`. Jets at all times come from one propagation, and kinds,
-/// singular times and answers come from these jets. Each answer is proved by flying. The integrator
-/// is the scene's first symplectic one. Throws Error(scene) if the scene has no `[transfer]`, is no
-/// orbit, or has no symplectic integrator; Error(too_large), Error(numerical) as make_problem and
-/// the integrator do.
+/// The study of table `[transfer]`, and of `[validity]` if the scene has it. Jets at all times come
+/// from one propagation, and kinds, singular times and answers come from these jets. Each answer is
+/// proved by flying. The integrator is the scene's first symplectic one. Throws Error(scene) if the
+/// scene has no `[transfer]`, is no orbit, or has no symplectic integrator; Error(too_large),
+/// Error(numerical) as make_problem and the integrator do.
 ///
 /// With an earlier jet there is a single transfer time, that of the jet, and its order replaces the
 /// scene's; no jet is propagated. Throws Error(scene) if the flown chief of the scene does not

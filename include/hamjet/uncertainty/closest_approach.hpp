@@ -40,8 +40,8 @@ struct ShortEncounter {
   double speed = 0;                ///< relative speed of the means
   std::array<double, 2> offset{};  ///< means in the plane across the velocity, along the principal
                                    ///< axes of the covariance there
-  std::array<double, 2>
-      deviation{};  ///< standard deviations of the relative position along these axes
+  /// Standard deviations of the relative position along these axes.
+  std::array<double, 2> deviation{};
   /// The probability by the double integral over the disc in polar coordinates (J. L. Foster and H.
   /// S. Estes, NASA JSC-25898, 1992).
   double foster = 0;

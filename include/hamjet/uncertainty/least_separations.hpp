@@ -11,8 +11,8 @@ namespace hamjet {
 /// the polynomials.
 struct LeastSeparations {
   std::vector<double> shares;  ///< the fractions of the samples for which quantiles were asked
-  std::vector<double>
-      separations;  ///< the quantiles: this fraction of the samples comes nearer than this
+  /// The quantiles: this fraction of the samples comes nearer than this.
+  std::vector<double> separations;
   /// The error of each quantile apart from sampling: the largest error of the cubics between the
   /// nodes of the paths, plus the largest difference from flights that can move the quantile.
   std::vector<double> errors;

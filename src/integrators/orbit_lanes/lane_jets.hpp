@@ -360,8 +360,8 @@ class LaneJets {
   bool is_eliminated_ = false;  ///< columns are eliminated, because an iteration did not contract
   Orbits growth_{0.0};          ///< growth of the entries in that elimination
   Orbits failed_{0.0};
-  std::vector<std::array<std::size_t, 2>>
-      pairs_;  ///< the two variables of each monomial of degree 2
+  /// The two variables of each monomial of degree 2.
+  std::vector<std::array<std::size_t, 2>> pairs_;
 };
 
 }  // namespace hamjet

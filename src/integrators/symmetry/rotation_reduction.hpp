@@ -78,8 +78,8 @@ class RotationReduction {
   std::vector<std::size_t> passive_places_;  ///< places of the other variables
   std::size_t section_;                      ///< place in `rotated_` of the first coordinate of y
   Numbers scales_;                           ///< scales of the rotated coordinates
-  std::vector<Numbers>
-      basis_;  ///< basis of the scaled sigma, orthonormal; one vector less than rotated coordinates
+  /// Basis of the scaled sigma, orthonormal; one vector less than rotated coordinates.
+  std::vector<Numbers> basis_;
   SpacePointer whole_space_;
   SpacePointer rotated_space_;  ///< space of the rotated deltas
   SpacePointer sigma_space_;

@@ -164,8 +164,8 @@ const TableDescription& validity_table();
 /// The keys with which every scene and every sweep begins: `schema` and `title`.
 const std::vector<SceneKey>& head_keys();
 
-/// A study's name, and the tables and keys at the top of its scenes.
-struct StudyDescription {
+/// A study's name and the tables and keys at the top of its scenes.
+struct StudyTables {
   std::string_view name;
   TableDescription top;
 };
@@ -174,6 +174,6 @@ struct StudyDescription {
 std::vector<std::string> paths_of_key(std::string_view name);
 
 /// All studies; the first one is that of a scene without the key `study`.
-const std::vector<StudyDescription>& all_studies();
+const std::vector<StudyTables>& all_studies();
 
 }  // namespace hamjet::io

@@ -16,8 +16,8 @@ namespace hamjet {
 struct DeputyMotionPoint {
   double time = 0;      ///< in canonical units
   RelativeState state;  ///< flown state
-  std::vector<double>
-      errors_m;  ///< distance of the polynomials of orders 1..N from the flown position
+  /// Distance of the polynomials of orders 1..N from the flown position.
+  std::vector<double> errors_m;
   /// Rounding of the flights up to here, which continue from time to time; errors below it mean
   /// nothing.
   double flight_floor_m = 0;

@@ -72,8 +72,8 @@ class Route {
   const LinearFlow& flow_;
   MetricUnits units_;
   double momentum_unit_;
-  std::vector<std::vector<double>>
-      ways_;  ///< deviations at the starts of the legs, after the impulses
+  /// Deviations at the starts of the legs, after the impulses.
+  std::vector<std::vector<double>> ways_;
 };
 
 }  // namespace hamjet

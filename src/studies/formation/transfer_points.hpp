@@ -109,8 +109,8 @@ class TransferPoints {
   double chief_time_ = 0;
   std::vector<double> flown_chief_;  ///< at the time of the last flight
   ChosenCoordinates coordinates_;
-  std::optional<DeputyFlowPropagation>
-      propagation_;                           ///< propagation of the flows in other coordinates
+  /// Propagation of the flows in other coordinates.
+  std::optional<DeputyFlowPropagation> propagation_;
   double propagated_ = 0;                     ///< its present time
   std::unique_ptr<DeputyFlow> charted_flow_;  ///< flow at that time
   std::vector<SingularTime> singular_times_;

@@ -38,16 +38,16 @@ struct OptimalControlStudy {
   Discretization discretization = Discretization::stormer;
   double duration = 1;     ///< positive
   std::size_t steps = 64;  ///< number of equal steps
-  std::vector<std::size_t>
-      refinements;            ///< numbers of steps for the test of convergence; may be empty
-  std::vector<double> start;  ///< n numbers
+  /// Numbers of steps for the test of convergence; may be empty.
+  std::vector<std::size_t> refinements;
+  std::vector<double> start;               ///< n numbers
   std::vector<std::optional<double>> end;  ///< n components; a component without a value is free
   std::vector<double> costate_guess;       ///< n numbers; if empty, guessed_costate is used
   std::size_t shooting_intervals = 1;
   std::optional<double> require_cost_error;  ///< if given, a check: largest relative error against
                                              ///< the discrete closed form
-  std::optional<double>
-      require_equivalence;  ///< if given, a check: largest relative difference of the two routes
+  /// If given, a check: largest relative difference of the two routes.
+  std::optional<double> require_equivalence;
 };
 
 /// The recorded problem with the study's end conditions.
@@ -77,8 +77,8 @@ struct ControlConvergencePoint {
 /// The slope of log error against log step.
 struct ControlConvergenceFit {
   double order = 0;
-  std::vector<std::size_t>
-      steps;  ///< numbers of steps of the points used: the finest ones, above the rounding floor
+  /// Numbers of steps of the points used: the finest ones, above the rounding floor.
+  std::vector<std::size_t> steps;
 };
 
 /// Both routes through the paper's diagram: discretise then optimise (Karush-Kuhn-Tucker), and

@@ -56,8 +56,8 @@ class RoundingSample {
                  const std::function<void(double)>& progress);
 
   std::mt19937_64 generator_{20};
-  std::vector<std::vector<double>>
-      states_;  ///< for each member, its state where it was last followed
+  /// For each member, its state where it was last followed.
+  std::vector<std::vector<double>> states_;
   RoundingFloor floor_;
 };
 

@@ -32,8 +32,8 @@ struct GrowthExpectation {
   /// Number of values, at 1, 1/2, 1/4, ... of the duration; used if no times are given.
   int checkpoints = 8;
   std::vector<double> times;  ///< in canonical units, away from 0; each must be the end of a step
-  std::vector<Extended>
-      states;  ///< true nominal at these times, 2n numbers each; if empty, it is computed
+  /// True nominal at these times, 2n numbers each; if empty, it is computed.
+  std::vector<Extended> states;
   /// Number of starts, each moved by one more ulp from the scene's start in every component. Errors
   /// are the root mean square over them, because a fit to a single sample would be as random as its
   /// round-off.

@@ -61,8 +61,8 @@ struct CollisionResult {
   std::optional<CollisionProbability> of_whole_passage;
   double whole_from_s = 0;
   double whole_to_s = 0;
-  std::vector<std::string>
-      warnings;  ///< reasons why a number is not reliable, or does not cover the whole passage
+  /// Reasons why a number is not reliable, or does not cover the whole passage.
+  std::vector<std::string> warnings;
   std::vector<UncertainApproach> approaches;
   LeastSeparations separations;  ///< in metres
   int order = 0;

@@ -34,8 +34,8 @@ class MonomialValues {
   SpacePointer space_;
   std::vector<std::size_t> parent_;    ///< by monomial: the monomial with one factor less
   std::vector<std::size_t> variable_;  ///< by monomial: the variable of that factor
-  std::vector<std::size_t>
-      lowered_;  ///< [monomial][variable]: the monomial with that exponent less one, if not 0
+  /// [monomial][variable]: the monomial with that exponent less one, if not 0.
+  std::vector<std::size_t> lowered_;
   std::vector<double> values_;
 };
 

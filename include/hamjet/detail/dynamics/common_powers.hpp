@@ -31,8 +31,8 @@ struct PowerPlan {
   explicit PowerPlan(const OperationList& list);
 
   std::vector<Group> groups;
-  std::vector<std::optional<Member>>
-      members;  ///< by value; empty for a value that is not such a power
+  /// By value; empty for a value that is not such a power.
+  std::vector<std::optional<Member>> members;
 };
 
 /// The values of the powers of a list and their derivatives. T and Real are as in SliceEvaluator.

@@ -161,8 +161,8 @@ class SlicePropagation {
   /// be finite either.
   struct Group {
     std::vector<std::size_t> outputs;
-    std::vector<std::size_t>
-        values;  ///< values on which these outputs depend, without the inputs, the later ones first
+    /// Values on which these outputs depend, without the inputs, the later ones first.
+    std::vector<std::size_t> values;
     std::vector<std::size_t> sums;  ///< the nonlinear operations among these values
     std::size_t first_weight =
         0;  ///< index of the first weight; there is one for each sum and output

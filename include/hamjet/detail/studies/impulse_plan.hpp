@@ -70,8 +70,8 @@ struct ImpulsePlan {
 struct LeastChange {
   double time = 0;                   ///< in canonical units
   std::optional<double> change_m_s;  ///< least cost, proved at the times of a coarse grid
-  std::optional<double>
-      flown_m_s;  ///< cost of the same impulses after correction by flying; absent if not flown
+  /// Cost of the same impulses after correction by flying; absent if not flown.
+  std::optional<double> flown_m_s;
   std::string failure;  ///< if not empty, the reason why there is no least cost
   /// The solver's answer was not proved to be the least, so that the true least of all times may
   /// belong to this time.

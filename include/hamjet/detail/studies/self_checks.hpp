@@ -21,8 +21,8 @@ std::string_view name_of(SelfCheckState state);
 struct SelfCheck {
   SelfCheckName name = SelfCheckName::finite;
   SelfCheckState state = SelfCheckState::off;
-  std::optional<double>
-      value;  ///< no value if the check has no number, or a number that is not finite
+  /// No value if the check has no number, or a number that is not finite.
+  std::optional<double> value;
   std::optional<double> limit;  ///< a value above the limit fails (for surface: below it)
   double seconds = 0;           ///< time of the check, including measurements during the run
   std::string text;             ///< one sentence: the finding, or the reason why there is none
@@ -55,8 +55,8 @@ struct LowestPoint {
 
 /// The estimated error of a run's jet; see estimate_error.
 struct JetErrorEstimate {
-  std::optional<std::vector<double>>
-      by_degree;        ///< no value if the estimate was turned off or failed
+  /// No value if the estimate was turned off or failed.
+  std::optional<std::vector<double>> by_degree;
   std::string failure;  ///< if not empty, the reason why there is no estimate
   double seconds = 0;   ///< time of the estimate
 

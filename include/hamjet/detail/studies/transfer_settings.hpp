@@ -160,8 +160,8 @@ struct AssignmentSettings {
   std::vector<RelativeState> deputies;
   std::vector<ArrivalState> slots;
   AssignmentTime time = AssignmentTime::per_pair;
-  std::optional<double>
-      keep_apart_m;  ///< least distance that deputies must keep from each other on their ways
+  /// Least distance that deputies must keep from each other on their ways.
+  std::optional<double> keep_apart_m;
 };
 
 }  // namespace hamjet

@@ -51,8 +51,8 @@ struct SafetyWatch {
   double keep_apart_m = 0;
   double from = 0;  ///< start of the window, in canonical units
   double to = 0;
-  std::optional<Eigen::Vector3d>
-      keep_out_m;  ///< semi-axes along R, T, N of an ellipsoid about the chief
+  /// Semi-axes along R, T, N of an ellipsoid about the chief.
+  std::optional<Eigen::Vector3d> keep_out_m;
   /// Fractions of the burn that are completed; [1] without a burn.
   std::vector<double> burn_shares = {0, 1};
   std::vector<RelativeState> deputies;  ///< further deputies, in the frame of the scene's deputy
@@ -73,8 +73,8 @@ struct UncertaintySettings {
   RelativeFrame frame = RelativeFrame::rtn_inertial;  ///< frame of the results, at the chief
   std::optional<StateUncertainty> chief;              ///< absent if the state is known exactly
   std::optional<StateUncertainty> deputy;
-  std::optional<BurnUncertainty>
-      burn;                   ///< burn of the deputy, or of the chief in a scene without one
+  /// Burn of the deputy, or of the chief in a scene without one.
+  std::optional<BurnUncertainty> burn;
   std::vector<double> times;  ///< in canonical units, moving away from 0; none is 0
   double acceleration_density_m2_s3 =
       0;  ///< power spectral density of white noise in the acceleration, for each axis; 0 for none

@@ -42,8 +42,8 @@ struct WaypointTransfers {
 /// The result of `longest_coast_s`: a transfer with two impulses of which the first waits while the
 /// deputy drifts.
 struct CoastingTransfer {
-  std::optional<WaypointPlan>
-      plan;             ///< the cheapest flown plan; its only leg begins after the wait
+  /// The cheapest flown plan; its only leg begins after the wait.
+  std::optional<WaypointPlan> plan;
   std::string failure;  ///< if not empty, the reason why there is no plan
 };
 

@@ -43,8 +43,8 @@ class DirectedImpulses {
   bool is_limited_;
   double unit_;      ///< unit of the impulses
   double cost_ = 1;  ///< cost of an impulse; 0 while the share is maximised
-  std::vector<ChosenImpulse>
-      directions_;  ///< directions of the columns that follow that of the share
+  /// Directions of the columns that follow that of the share.
+  std::vector<ChosenImpulse> directions_;
   LinearProgram program_;
 };
 
