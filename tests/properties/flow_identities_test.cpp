@@ -4,8 +4,9 @@
 #include "properties/random_flows.hpp"
 #include "support/map.hpp"
 
-// What holds of every Hamiltonian flow, coefficient by coefficient, and needs no reference: on
-// random flows. Differences are compared with the sum of the magnitudes of the terms that cancel.
+// Identities that hold for every Hamiltonian flow, coefficient by coefficient, and need no
+// reference; they are tested on random flows. Differences are compared with the sum of the
+// magnitudes of the terms that cancel.
 
 namespace hamjet {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-// Properties that hold whatever the numbers are, on random ones: rapidcheck.
+// Properties that hold for all numbers are tested on random numbers by rapidcheck.
 
 namespace hamjet::test {
 
